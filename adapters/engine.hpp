@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adapters/job.hpp"
+#include "io/trajectory.hpp"
+
+/// An engine adapter is five functions, SI in and out, one executable each (contracts: engine protocol).
+namespace tripoint {
+
+struct EngineInfo {
+  std::string name, version, build;
+  std::string library_path;  ///< of the engine's own library; its hash is taken by serve()
+  std::vector<std::string> capabilities;  ///< e.g. rigid-free-flight, gravity, merge, split, heat, contact, prescribed
+  std::vector<std::string> presets{"default"};
+  std::map<std::string, std::string> settings;  ///< settings that change results -> what they mean and their default
+  bool deterministic = true;
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  [[nodiscard]] virtual EngineInfo info() const = 0;
+  [[nodiscard]] virtual std::string refusal(const Job&) const = 0;  ///< why not; empty = can. A report row, not an error
+  virtual void load(const Job&, const InitialState&) = 0;           ///< @throws EngineError with the engine's own words
+  virtual void advance_to(double time) = 0;                         ///< [s] @throws Diverged, EngineError
+  [[nodiscard]] virtual Snapshot observe() const = 0;               ///< SI, world frame, particles by id
+  [[nodiscard]] virtual Readback readback() const = 0;              ///< what the engine itself holds, read from it
+  /// Fills steps, counters and extra of the result at the end of a run.
+  virtual void account(Result&) const {}
+};
+
+using MakeEngine = std::unique_ptr<Engine> (*)();
+
+/// The whole executable: --info, --check JOB, --run JOB by the contracts. `int main(int c, char** v) { return serve(c, v, make); }`
+int serve(int argc, char** argv, MakeEngine make);
+
+}  // namespace tripoint

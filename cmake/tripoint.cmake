@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# A target a room: tripoint_room(NAME SOURCES a.cpp ... PUBLIC deps PRIVATE deps) makes tripoint_NAME and tripoint::NAME.
+add_library(tripoint_warnings INTERFACE)
+add_library(tripoint::warnings ALIAS tripoint_warnings)
+target_compile_options(tripoint_warnings INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wno-sign-conversion
+  $<$<BOOL:${TRIPOINT_WERROR}>:-Werror>)
+
+function(tripoint_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(tripoint_${name} STATIC ${ROOM_SOURCES})
+  add_library(tripoint::${name} ALIAS tripoint_${name})
+  target_include_directories(tripoint_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+  target_link_libraries(tripoint_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE} tripoint::warnings)
+endfunction()
+
+# An engine executable: build/libexec/tripoint/engine-NAME
+function(tripoint_engine name)
+  cmake_parse_arguments(ENGINE "" "" "SOURCES;PRIVATE" ${ARGN})
+  add_executable(engine-${name} ${ENGINE_SOURCES})
+  target_include_directories(engine-${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+  target_link_libraries(engine-${name} PRIVATE ${ENGINE_PRIVATE} tripoint::warnings)
+  set_target_properties(engine-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/libexec/tripoint)
+endfunction()
+
+# A test program of one room: tripoint_test(NAME SOURCES a_test.cpp ... PRIVATE deps); every TEST becomes a ctest.
+function(tripoint_test name)
+  cmake_parse_arguments(T "" "" "SOURCES;PRIVATE" ${ARGN})
+  add_executable(test-${name} ${T_SOURCES})
+  target_include_directories(test-${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(test-${name} PRIVATE ${T_PRIVATE} tripoint::warnings GTest::gtest_main)
+  set_target_properties(test-${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  gtest_discover_tests(test-${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${name})
+endfunction()

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace tripoint {
+
+/// A place in a text file; line and column count from 1, 0 = unknown.
+struct SourcePlace {
+  std::string file;
+  int line = 0, column = 0;
+};
+
+/// "file:line:column", without the parts that are unknown.
+inline std::string to_string(const SourcePlace& p) {
+  std::string text = p.file;
+  if (p.line > 0) text += ":" + std::to_string(p.line);
+  if (p.line > 0 && p.column > 0) text += ":" + std::to_string(p.column);
+  return text;
+}
+
+/// Bad input or usage (exit code 2): says where, what was wrong and what to write instead.
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(const std::string& what) : std::runtime_error(what) {}
+  InputError(const SourcePlace& place, const std::string& what)
+      : std::runtime_error(to_string(place) + ": " + what), place_(place) {}
+  [[nodiscard]] const SourcePlace& place() const noexcept { return place_; }
+
+ private:
+  SourcePlace place_;
+};
+
+/// An engine failed by no fault of the job: carries the engine's own words.
+class EngineError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A run blew up (exit code 7).
+class Diverged : public std::runtime_error {
+ public:
+  Diverged(long particle, long body, std::string field, std::string stage, double time, const std::string& what)
+      : std::runtime_error(what), particle(particle), body(body), field(std::move(field)), stage(std::move(stage)), time(time) {}
+  long particle;  ///< id, -1 if it is no single particle
+  long body;      ///< row of the body, -1 for none
+  std::string field, stage;
+  double time;  ///< [s]
+};
+
+}  // namespace tripoint

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/defect.hpp"
+#include "scene/scene.hpp"
+
+namespace tripoint {
+
+struct PlannedField {
+  std::string name, unit, per;  ///< per: particle, bond or body
+  std::string owner;            ///< effect
+  std::size_t bytes = 0;        ///< for each particle, bond or body
+};
+struct PlannedEffect {
+  std::string name, why;
+  std::string mode;  ///< corrected, paper, or the terms that differ
+};
+/// What a scene simulates and stores: the union of what its effects own.
+struct Plan {
+  std::vector<PlannedEffect> effects;
+  std::vector<PlannedField> fields;
+  std::size_t bytes_per_particle = 0;
+};
+/// @throws InputError naming effect and field when a field is read and owned by none, or owned by two
+[[nodiscard]] Plan plan(const Scene&);
+
+/// Every defect that the physical terms register, of both modes (also listed by the production build).
+[[nodiscard]] std::vector<DefectEntry> registered_defects();
+
+}  // namespace tripoint

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/quaternion.hpp"
+#include "core/vec3.hpp"
+#include "scene/initial_state.hpp"
+
+/// Trajectories as H5MD 1.1 (contracts: layout, units, checksums). The only room that knows HDF5.
+namespace tripoint {
+
+/// One solid body at one time; a dead or unborn body is all NaN.
+struct BodyState {
+  Vec3 position, velocity, angular_velocity;  ///< [m], [m/s], [rad/s] world frame
+  Quaternion orientation;
+  double mass = 0.0;   ///< [kg]
+  Vec3 force, torque;  ///< from all others [N], [N m]
+};
+
+/// What an engine shows at one time: SI, world frame, row = particle id. Optional columns are empty where they do not exist.
+struct Snapshot {
+  double time = 0.0;
+  long step = 0;
+  std::vector<Vec3> position, velocity;
+  std::vector<double> temperature, temperature_error, density, pressure, liquid_fraction;
+  std::vector<int> id, phase, body, material;  ///< id -1 = not alive (and NaN values)
+  std::vector<double> mass;
+  std::vector<BodyState> bodies;  ///< one row for each solid body that ever existed so far
+  double total_mass = 0.0;
+  Vec3 momentum, angular_momentum;        ///< about the origin
+  std::map<std::string, double> energy;   ///< TERM of the ledger -> [J]
+};
+
+/// A whole trajectory in memory: frames in order of time. Frames may have unequal row counts only by inflow (later ones longer).
+struct Trajectory {
+  std::vector<Snapshot> frames;
+};
+
+/// Appends frames to trajectory.h5; every frame is flushed before append() returns, and then announced as written by `frames()`.
+class TrajectoryWriter {
+ public:
+  /// @param body_rows greatest number of bodies the run may have (rows that do not exist yet are NaN)
+  explicit TrajectoryWriter(const std::string& path);
+  ~TrajectoryWriter();
+  TrajectoryWriter(const TrajectoryWriter&) = delete;
+  TrajectoryWriter& operator=(const TrajectoryWriter&) = delete;
+  /// @throws EngineError when the disk is full or the file cannot be written
+  void append(const Snapshot&);
+  [[nodiscard]] long frames() const;
+  void close();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads trajectory.h5. @throws InputError naming file and what is missing, torn or of the wrong shape; sizes are bounded before reading.
+[[nodiscard]] Trajectory read_trajectory(const std::string& path);
+/// Reads a small engine's trajectory.csv (contracts): rows of particles or, with the column `body`, of bodies.
+/// Masses, phases and materials come from `initial`.
+[[nodiscard]] Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial, std::size_t bodies);
+
+/// particles.h5: one frame, time 0, of what the harness sampled.
+void write_particles(const std::string& path, const InitialState&);
+[[nodiscard]] InitialState read_particles(const std::string& path);
+
+/// trajectory.xdmf beside trajectory.h5, for ParaView.
+void write_xdmf(const std::string& folder, const Trajectory&);
+
+/// FNV-1a over the bits of positions, velocities, temperatures and bodies, as 16 hex digits.
+[[nodiscard]] std::string state_hash(const Snapshot&);
+
+}  // namespace tripoint

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/initial_state.hpp"
+#include "scene/scene.hpp"
+
+namespace tripoint {
+
+/// One key of a case as it was resolved: from the file, or a default with its reason. Feeds `explain`.
+struct Decision {
+  std::string key, value, reason;
+  bool given = false;  ///< the file says it
+  SourcePlace place;
+};
+
+struct CaseReading {
+  Case value;
+  std::vector<Decision> decisions;
+};
+
+/// Reads and checks a case file; every default is filled in, every number is SI.
+/// @param set "a.b=VALUE" replacements as of --set, applied before the checks
+/// @throws InputError with file, line, column, what was wrong and the nearest known key or word
+[[nodiscard]] CaseReading read_case(const std::string& path, const std::vector<std::string>& set = {});
+
+/// What one run of a case changes of its scene.
+struct RunChoice {
+  std::optional<Mode> mode;
+  std::optional<double> spacing, time_step, support_ratio, jitter;
+  std::optional<std::uint64_t> seed;
+};
+
+/// The scene of one run: modes resolved for every term, support ratio by its default rule where the file gives none.
+[[nodiscard]] Scene scene_for(const Case&, const RunChoice&);
+
+/// An effect that a scene calls for, and why.
+struct CalledEffect {
+  std::string name;  ///< fluid elastic plastic fracture rigid heat phase surface
+  std::string why;
+};
+[[nodiscard]] std::vector<CalledEffect> called_effects(const Scene&);
+
+/// Particles of the scene on its lattice, row = id, bodies in order. @throws InputError (no particles, mesh not closed, ...)
+[[nodiscard]] InitialState sample(const Scene&);
+
+/// Row in /particles/bodies of each [[body]]; -1 for a liquid.
+[[nodiscard]] std::vector<int> body_rows(const Scene&);
+
+/// Mass, centre, principal moments (ascending) and axes of the given particles; moments at round-off become 0.
+[[nodiscard]] MassProperties mass_properties(const std::vector<Vec3>& position, const std::vector<double>& mass);
+
+/// One finding of the pre-flight check.
+struct Finding {
+  bool error = false;  ///< else a warning
+  std::string what;    ///< with what to do
+  SourcePlace place;
+};
+/// Overlaps, bodies under-resolved or of wrong mass, a time step above a bound: without running anything.
+[[nodiscard]] std::vector<Finding> preflight(const Case&, const Scene&, const InitialState&);
+
+/// Motion of a fixed or prescribed body by its keyframes (position linear, rotation slerp), velocity their derivative.
+struct PrescribedState {
+  Vec3 position, velocity, angular_velocity;
+  Quaternion rotation;
+};
+/// @param centre the body's centre of mass at time 0 [m]
+[[nodiscard]] PrescribedState prescribed_state(const std::vector<Keyframe>&, const Vec3& centre, const Vec3& velocity, const Vec3& angular_velocity, double time);
+
+/// JSON Schema of the case file, and its reference page in Markdown: both from the one key table.
+[[nodiscard]] std::string case_schema();
+[[nodiscard]] std::string case_reference_page();
+/// Text of a new case file that runs on defaults.
+[[nodiscard]] std::string new_case_text(const std::string& id);
+
+/// Folder of cases, material library and assets: share/tripoint beside the executable's folder.
+[[nodiscard]] std::string share_folder();
+
+}  // namespace tripoint

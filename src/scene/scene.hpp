@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "core/quaternion.hpp"
+#include "core/vec3.hpp"
+
+/// The checked scene: what a case file says, in SI, with every default filled in. No physics.
+namespace tripoint {
+
+enum class Phase : int { liquid = 0, elastic = 1, rigid = 2 };
+enum class Motion { free, fixed, prescribed };
+enum class Mode { corrected, paper };
+/// The terms of the model that exist in a paper and a corrected form, `modes.TERM` of a case file.
+enum class Term { kernel, pressure, density, state, viscosity, walls, elastic, hourglass, heat, phase, rotation, time };
+inline constexpr std::size_t term_count = 12;
+
+[[nodiscard]] std::string_view to_string(Phase);
+[[nodiscard]] std::string_view to_string(Motion);
+[[nodiscard]] std::string_view to_string(Mode);
+[[nodiscard]] std::string_view to_string(Term);
+/// Inverse of to_string. @throws InputError naming the allowed words
+[[nodiscard]] Phase phase_from(std::string_view);
+[[nodiscard]] Motion motion_from(std::string_view);
+[[nodiscard]] Mode mode_from(std::string_view);
+[[nodiscard]] Term term_from(std::string_view);
+
+struct Material {
+  std::string name;
+  double density = 0.0;                                     ///< rest density [kg/m3]
+  double viscosity = 0.0;                                   ///< dynamic [Pa s]
+  std::optional<double> stiffness;                          ///< k [m2/s2]
+  std::optional<double> young_modulus, poisson_ratio;       ///< [Pa], [1]
+  std::optional<double> conductivity, heat_capacity;        ///< [W/m/K], [J/kg/K]
+  std::optional<double> t_melt, t_solid, latent_heat;       ///< [K], [K], [J/kg]
+  std::string solid = "elastic";                            ///< what it is when solid: elastic | rigid
+  bool softens = false;
+  std::optional<double> elastic_limit, plastic_limit;       ///< strain [1]
+  std::optional<double> fracture_stretch;                   ///< corrected: |r|/|x| [1]
+  std::optional<double> fracture_distance;                  ///< paper: [spacings]
+};
+
+/// A region of space. Recursive kinds hold their parts in `of`: union (all), difference (of[0] minus of[1]).
+struct Shape {
+  enum class Kind { box, sphere, cylinder, half_space, unite, difference, mesh } kind = Kind::box;
+  Vec3 min, max;                ///< box [m]
+  Vec3 centre;                  ///< sphere [m]
+  Vec3 base, axis{0, 0, 1};     ///< cylinder: centre of its foot [m], unit axis
+  double length = 0.0;          ///< cylinder [m]
+  double radius = 0.0;          ///< sphere, cylinder [m]
+  Vec3 point, normal{0, 0, 1};  ///< half_space: inside where (r - point).normal <= 0
+  std::vector<Shape> of;
+  std::string file;             ///< mesh: absolute path after reading
+  double scale = 1.0;           ///< mesh
+};
+
+/// Temperature as a function of place [K].
+struct TemperatureField {
+  enum class Kind { constant, cosine, step, expression } kind = Kind::constant;
+  double value = 0.0;                             ///< constant
+  double mean = 0.0, amplitude = 0.0, phase = 0.0;  ///< cosine: mean + amplitude cos(k.r + phase)
+  Vec3 wave_vector;                               ///< [rad/m]
+  Vec3 point, normal{1, 0, 0};                    ///< step: behind where (r - point).normal < 0
+  double behind = 0.0, ahead = 0.0;
+  std::string expression;                         ///< of x, y, z [m]
+};
+
+/// Velocity as a function of place [m/s].
+struct VelocityField {
+  enum class Kind { constant, cosine, linear, taylor_green, expression } kind = Kind::constant;
+  Vec3 value;                          ///< constant
+  Vec3 mean, amplitude, wave_vector;   ///< cosine
+  double phase = 0.0;
+  Vec3 centre;                         ///< linear: gradient (r - centre); row i = component i
+  std::array<Vec3, 3> gradient{};      ///< [1/s]
+  double speed = 0.0, wavelength = 0.0;  ///< taylor_green in x, y
+  std::array<std::string, 3> expression;
+};
+
+struct Keyframe {
+  double time = 0.0;  ///< [s]
+  Vec3 position;      ///< of the centre of mass [m]
+  Quaternion rotation;
+};
+
+struct Body {
+  std::string name, material;
+  Phase phase = Phase::liquid;
+  Shape shape;
+  VelocityField velocity;
+  Vec3 angular_velocity;  ///< world frame, about the centre of mass [rad/s]
+  std::optional<TemperatureField> temperature;
+  bool temperature_held = false;
+  Motion motion = Motion::free;
+  std::vector<Keyframe> keyframes;
+  bool free_slip = false;
+  bool joins = false;
+  std::vector<std::string> joined_to;
+  SourcePlace place;
+};
+
+struct Event {
+  enum class Kind { merge, split, release, heat, hold, grip } kind = Kind::merge;
+  double time = 0.0;
+  std::string name;
+  std::vector<std::string> bodies;
+  std::optional<Shape> region;
+  std::optional<double> temperature, until;
+  std::vector<Keyframe> keyframes;
+  SourcePlace place;
+};
+
+struct Inflow {
+  std::string material;
+  Shape shape;
+  Vec3 velocity;
+  std::optional<double> temperature;
+  double start = 0.0, stop = 0.0;
+  std::optional<double> rate;  ///< [m3/s]
+};
+
+struct Scene {
+  double end_time = 0.0;  ///< [s]
+  Vec3 gravity;           ///< [m/s2]
+  double spacing = 0.0;   ///< dx [m]
+  double support_ratio = 2.6;  ///< h/dx
+  Mode mode = Mode::corrected;
+  std::array<Mode, term_count> modes{};  ///< resolved for every term
+  std::array<std::optional<Mode>, term_count> modes_given{};  ///< as the case file says, term by term
+  bool support_ratio_given = false;
+  std::optional<double> time_step;       ///< empty = auto [s]
+  std::uint64_t seed = 1;
+  double jitter = 0.0;  ///< [spacings]
+  std::optional<Vec3> min, max;  ///< domain; needed where a direction is periodic [m]
+  std::array<bool, 3> periodic{};
+  double output_interval = 0.0;  ///< [s]
+  std::string viscosity_form = "central";
+  bool transport_velocity = false, clamp = true;
+  double merge_distance = 1.5;  ///< [spacings]
+  double hourglass = 1.0, contact_viscosity = 0.0;
+  std::vector<Material> materials;
+  std::vector<Body> bodies;
+  std::vector<Event> events;
+  std::vector<Inflow> inflows;
+
+  [[nodiscard]] Mode mode_of(Term t) const { return modes[static_cast<std::size_t>(t)]; }
+  /// @throws InputError when no material (body) of that name is there
+  [[nodiscard]] const Material& material(std::string_view name) const;
+  [[nodiscard]] const Body& body(std::string_view name) const;
+};
+
+/// A value of a case file whose keys are free (function arguments, engine settings).
+using Setting = std::variant<bool, double, std::string, std::vector<double>>;
+using Settings = std::map<std::string, Setting>;
+
+struct EngineChoice {
+  std::string name;
+  bool required = false;
+  std::vector<std::string> presets;  ///< one row of the results each; empty = "default"
+  Settings settings;
+};
+
+struct ReferenceChoice {
+  std::string kind = "analytic";  ///< analytic discrete_exact mms self engine experiment invariant bound
+  std::string function;
+  std::string file;
+  std::string source;  ///< book, paper or derivation, printed in the report
+  Settings args;
+  double uncertainty = 0.0;  ///< standard uncertainty of the reference, in the metric's unit
+};
+
+struct MetricChoice {
+  std::string name, quantity, norm = "max", body, at = "end";
+  std::array<double, 2> window{0.0, 0.0};  ///< [s]; {0, 0} = all
+  double scale = 1.0;                      ///< error is divided by it
+  std::string unit;                        ///< of the scaled value, for people
+  std::optional<ReferenceChoice> reference;  ///< overrides the case's
+  SourcePlace place;
+};
+
+struct Study {
+  std::string axis;             ///< spacing time_step support_ratio walkers iterations
+  std::vector<double> levels;   ///< coarse to fine
+  double jitter = 0.0;
+  int seeds = 1;
+  std::string engine, mode;     ///< empty = all
+  std::string expect;           ///< class, empty = not judged
+  std::optional<double> order;  ///< formal
+  std::string metric;           ///< empty = every metric
+  SourcePlace place;
+};
+
+struct Gate {
+  std::string metric;  ///< a metric's name, or NAME.order
+  std::string engine, mode, preset;  ///< empty = all
+  std::optional<double> limit, at_least;
+  std::optional<std::array<double, 2>> band;
+  std::optional<double> level;  ///< of the study's axis; empty = every run
+  std::string reason, by, date;
+  SourcePlace place;
+};
+
+struct Defect {
+  std::string name;
+  double size = 0.0;
+  std::vector<std::string> killed_by;
+  SourcePlace place;
+};
+
+struct Case {
+  std::string id, title, requirement, claims, kind = "verification";
+  std::vector<std::string> profiles{"commit"}, tags;
+  std::string expect = "pass";  ///< pass | diverges | defect
+  std::vector<Mode> modes{Mode::corrected};
+  Scene scene;
+  std::vector<EngineChoice> engines;
+  ReferenceChoice reference;
+  std::vector<MetricChoice> metrics;
+  std::vector<Study> studies;
+  std::vector<Gate> gates;
+  std::vector<Defect> defects;
+  std::vector<std::string> harmless;
+  std::string file;  ///< the path it was read from
+};
+
+}  // namespace tripoint

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "adapters/job.hpp"
+#include "io/trajectory.hpp"
+#include "scene/scene.hpp"
+#include "validation/references/reference.hpp"
+
+namespace tripoint {
+
+/// Standard uncertainties, in the metric's scaled unit.
+struct Uncertainty {
+  double numerical = 0.0, statistical = 0.0, input = 0.0, data = 0.0;
+  [[nodiscard]] double combined() const;  ///< root sum of squares
+};
+
+/// One metric of one run. A value that is not finite never passes.
+struct MetricValue {
+  double value = 0.0;  ///< scaled; NaN where it could not be formed
+  Uncertainty uncertainty;
+  std::string note;  ///< why it could not be formed, or where the worst place is
+  std::vector<double> times, series;  ///< the error in time, where the norm is over time
+};
+
+/// Compares a trajectory with its reference by the metric's quantity and norm.
+/// @throws InputError for an unknown quantity or norm; a trajectory that does not fit (count, ids, times, units) gives NaN and a note.
+[[nodiscard]] MetricValue evaluate(const MetricChoice&, const Job&, const InitialState&, const Trajectory&, const Reference&);
+
+/// Refuses what cannot be judged: times missing to 1e-9 of the end, permuted ids, non-finite values, frozen frames, changed masses.
+/// @return empty when sound, else what is wrong ("time not reached", "ids are permuted", ...)
+[[nodiscard]] std::string audit(const Job&, const InitialState&, const Trajectory&);
+
+/// Names that `quantity` and `norm` may take, with units and meaning, for the schema.
+struct MetricWord {
+  std::string name, unit, meaning;
+};
+[[nodiscard]] const std::vector<MetricWord>& metric_quantities();
+[[nodiscard]] const std::vector<MetricWord>& metric_norms();
+
+}  // namespace tripoint

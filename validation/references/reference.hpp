@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "adapters/job.hpp"
+#include "io/trajectory.hpp"
+
+namespace tripoint {
+
+/// Truth, as far as it is known: what an exact (or exactly discrete) solution says of this job's particles and bodies.
+class Reference {
+ public:
+  virtual ~Reference() = default;
+  /// The solution at a time: positions and velocities of particles and bodies, temperatures; columns that it does not know are empty.
+  [[nodiscard]] virtual Snapshot at(double time) const = 0;
+  /// A number it knows by name: decay_rate [1/s], event_time [s], energy_ratio ...; empty when it does not.
+  [[nodiscard]] virtual std::optional<double> number(std::string_view quantity) const { (void)quantity; return {}; }
+};
+
+/// One argument of a reference function, for the schema and the reference page.
+struct ReferenceArgument {
+  std::string name, unit, meaning;  ///< the meaning says the default taken from the scene
+};
+struct ReferenceFunction {
+  std::string name, kind, source, meaning;
+  std::vector<ReferenceArgument> args;
+};
+[[nodiscard]] const std::vector<ReferenceFunction>& reference_functions();
+
+/// @throws InputError for an unknown function (with the nearest known one) or a scene that it does not fit
+[[nodiscard]] std::unique_ptr<Reference> make_reference(const ReferenceChoice&, const Job&, const InitialState&);
+
+}  // namespace tripoint
