@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+/// One function a command: adds its subcommand to the program, and sets the exit code when it was called (contracts: exit codes).
+namespace tripoint {
+
+void add_run(CLI::App& app, int& exit_code);
+void add_validate(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
+void add_compare(CLI::App& app, int& exit_code);
+void add_report(CLI::App& app, int& exit_code);
+void add_converge(CLI::App& app, int& exit_code);
+void add_gate(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
+void add_explain(CLI::App& app, int& exit_code);
+void add_list(CLI::App& app, int& exit_code);
+void add_new(CLI::App& app, int& exit_code);
+void add_schema(CLI::App& app, int& exit_code);
+void add_engines(CLI::App& app, int& exit_code);
+void add_engine(CLI::App& app, int& exit_code);
+
+}  // namespace tripoint
