@@ -17,6 +17,8 @@ struct EngineInfo {
   std::vector<std::string> presets{"default"};
   std::map<std::string, std::string> settings;  ///< settings that change results -> what they mean and their default
   bool deterministic = true;
+  bool available = true;  ///< false: the engine's library is missing; --info still answers, with the reason
+  std::string reason;     ///< why it is not available
 };
 
 class Engine {
