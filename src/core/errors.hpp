@@ -40,8 +40,8 @@ class EngineError : public std::runtime_error {
 /// A run blew up (exit code 7).
 class Diverged : public std::runtime_error {
  public:
-  Diverged(long particle, long body, std::string field, std::string stage, double time, const std::string& what)
-      : std::runtime_error(what), particle(particle), body(body), field(std::move(field)), stage(std::move(stage)), time(time) {}
+  Diverged(long id, long row, std::string what_field, std::string at_stage, double when, const std::string& what)
+      : std::runtime_error(what), particle(id), body(row), field(std::move(what_field)), stage(std::move(at_stage)), time(when) {}
   long particle;  ///< id, -1 if it is no single particle
   long body;      ///< row of the body, -1 for none
   std::string field, stage;

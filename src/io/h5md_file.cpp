@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/h5md_file.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/errors.hpp"
+
+namespace tripoint::h5 {
+namespace {
+
+constexpr std::size_t greatest_elements = std::size_t{1} << 31;  // 16 GiB of doubles: a file that claims more is refused
+
+hid_t native(Type type) {
+  return type == Type::float64 ? H5T_NATIVE_DOUBLE : type == Type::int32 ? H5T_NATIVE_INT32 : H5T_NATIVE_INT64;
+}
+
+void set_fill_value(hid_t properties, Type type) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const long long none = -1;
+  if (type == Type::float64) check(H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &nan), "fill value");
+  else check(H5Pset_fill_value(properties, H5T_NATIVE_LLONG, &none), "fill value");
+}
+
+/// A dataset of this very file: neither a link out of it nor raw data kept elsewhere.
+Handle open_own_dataset(hid_t file, const std::string& path, const std::string& name_of_file) {
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    const std::string part = path.substr(0, end);
+    H5L_info_t link;
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) throw InputError(name_of_file + ": has no " + part);
+    check(H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT), part);
+    if (link.type != H5L_TYPE_HARD) throw InputError(name_of_file + ": " + part + " is a link; links are refused");
+    if (end == std::string::npos) break;
+  }
+  const hid_t id = H5Dopen2(file, path.c_str(), H5P_DEFAULT);
+  if (id < 0) throw InputError(name_of_file + ": " + path + " is no dataset");
+  Handle dataset(id, H5Dclose, path);
+  const Handle properties(H5Dget_create_plist(dataset.get()), H5Pclose, path);
+  if (H5Pget_external_count(properties.get()) > 0) throw InputError(name_of_file + ": " + path + " keeps its data in another file; refused");
+  return dataset;
+}
+
+std::vector<std::size_t> shape_of(hid_t dataset, const std::string& what) {
+  const Handle space(H5Dget_space(dataset), H5Sclose, what);
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (rank < 1 || rank > 3) throw InputError(what + ": has " + std::to_string(rank) + " dimensions, expected 1 to 3");
+  hsize_t dims[3] = {1, 1, 1};
+  H5Sget_simple_extent_dims(space.get(), dims, nullptr);
+  std::size_t total = 1;
+  for (int k = 0; k < rank; ++k) {
+    if (dims[k] > greatest_elements || (dims[k] > 0 && total > greatest_elements / dims[k])) throw InputError(what + ": is absurdly large; refused");
+    total *= dims[k];
+  }
+  return {dims, dims + rank};
+}
+
+std::size_t count(const std::vector<std::size_t>& shape) {
+  std::size_t n = 1;
+  for (const std::size_t s : shape) n *= s;
+  return n;
+}
+
+void expect_class(hid_t dataset, H5T_class_t wanted, const std::string& what) {
+  const Handle type(H5Dget_type(dataset), H5Tclose, what);
+  if (H5Tget_class(type.get()) != wanted) throw InputError(what + ": is of the wrong type, expected " + (wanted == H5T_FLOAT ? "floating point" : "integers"));
+}
+
+}  // namespace
+
+Handle::Handle(hid_t id, Closer closer, const std::string& what) : id_(id), closer_(closer) {
+  if (id < 0) throw EngineError(what + ": HDF5 refused (no space left, or no permission?)");
+}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  if (this != &other) {
+    reset();
+    id_ = std::exchange(other.id_, -1);
+    closer_ = other.closer_;
+  }
+  return *this;
+}
+
+void Handle::reset() noexcept {
+  if (id_ >= 0) closer_(id_);
+  id_ = -1;
+}
+
+void check(herr_t status, const std::string& what) {
+  if (status < 0) throw EngineError(what + ": HDF5 could not write (no space left?)");
+}
+
+Column::Column(hid_t group, const std::string& name, Type type, std::size_t rows, std::size_t width, const std::string& unit)
+    : name_(name), type_(type), rows_(rows), width_(width), rank_(width > 0 ? 3 : rows == std::numeric_limits<std::size_t>::max() ? 1 : 2) {
+  if (rank_ == 1) rows_ = 0;
+  const hsize_t dims[3] = {0, rows_, width_};
+  const hsize_t limits[3] = {H5S_UNLIMITED, H5S_UNLIMITED, width_};
+  const hsize_t chunk[3] = {rank_ == 1 ? hsize_t{64} : hsize_t{1}, std::max<hsize_t>(rows_, 1), width_};
+  const Handle space(H5Screate_simple(rank_, dims, limits), H5Sclose, name);
+  const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+  check(H5Pset_chunk(properties.get(), rank_, chunk), name);
+  check(H5Pset_fletcher32(properties.get()), name);
+  set_fill_value(properties.get(), type);
+  dataset_ = Handle(H5Dcreate2(group, name.c_str(), native(type), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Dclose, name);
+  if (!unit.empty()) write_text_attribute(dataset_.get(), "unit", unit);
+}
+
+void Column::append(std::size_t frame, std::size_t rows, const void* data) {
+  rows_ = std::max(rows_, rows);
+  const hsize_t extent[3] = {frame + 1, rows_, width_};
+  check(H5Dset_extent(dataset_.get(), extent), name_);
+  if (rank_ > 1 && rows == 0) return;
+  const Handle space(H5Dget_space(dataset_.get()), H5Sclose, name_);
+  const hsize_t start[3] = {frame, 0, 0}, size[3] = {1, rows, width_};
+  check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start, nullptr, size, nullptr), name_);
+  const Handle memory(H5Screate_simple(rank_, size, nullptr), H5Sclose, name_);
+  check(H5Dwrite(dataset_.get(), native(type_), memory.get(), space.get(), H5P_DEFAULT, data), name_);
+}
+
+Handle make_group(hid_t parent, const std::string& path) {
+  const Handle properties(H5Pcreate(H5P_LINK_CREATE), H5Pclose, path);
+  check(H5Pset_create_intermediate_group(properties.get(), 1), path);
+  return {H5Gcreate2(parent, path.c_str(), properties.get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path};
+}
+
+void write_text_attribute(hid_t object, const std::string& name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
+  check(H5Tset_size(type.get(), text.size() + 1), name);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  const Handle attribute(H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  check(H5Awrite(attribute.get(), type.get(), text.c_str()), name);
+}
+
+bool has(hid_t file, const std::string& path) {
+  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+    if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+Block read_real(hid_t file, const std::string& path, const std::string& name_of_file) {
+  const std::string what = name_of_file + ": " + path;
+  const Handle dataset = open_own_dataset(file, path, name_of_file);
+  expect_class(dataset.get(), H5T_FLOAT, what);
+  Block block;
+  block.shape = shape_of(dataset.get(), what);
+  block.real.resize(count(block.shape));
+  if (!block.real.empty() && H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.real.data()) < 0)
+    throw InputError(what + ": cannot be read (torn, or a checksum does not match)");
+  return block;
+}
+
+Block read_whole(hid_t file, const std::string& path, const std::string& name_of_file) {
+  const std::string what = name_of_file + ": " + path;
+  const Handle dataset = open_own_dataset(file, path, name_of_file);
+  expect_class(dataset.get(), H5T_INTEGER, what);
+  Block block;
+  block.shape = shape_of(dataset.get(), what);
+  block.whole.resize(count(block.shape));
+  if (!block.whole.empty() && H5Dread(dataset.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.whole.data()) < 0)
+    throw InputError(what + ": cannot be read (torn, or a checksum does not match)");
+  return block;
+}
+
+std::string unit_of(hid_t file, const std::string& path) {
+  if (!has(file, path) || H5Aexists_by_name(file, path.c_str(), "unit", H5P_DEFAULT) <= 0) return "";
+  const Handle attribute(H5Aopen_by_name(file, path.c_str(), "unit", H5P_DEFAULT, H5P_DEFAULT), H5Aclose, path);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose, path);
+  if (H5Tget_class(type.get()) != H5T_STRING) return "";
+  if (H5Tis_variable_str(type.get()) > 0) {
+    char* text = nullptr;
+    if (H5Aread(attribute.get(), type.get(), static_cast<void*>(&text)) < 0 || text == nullptr) return "";
+    const std::string unit = text;
+    H5free_memory(text);
+    return unit;
+  }
+  std::string text(std::min<std::size_t>(H5Tget_size(type.get()), 256), '\0');
+  if (text.size() != H5Tget_size(type.get()) || H5Aread(attribute.get(), type.get(), text.data()) < 0) return "";
+  return text.c_str();
+}
+
+std::vector<std::string> members(hid_t file, const std::string& path) {
+  std::vector<std::string> names;
+  if (!has(file, path)) return names;
+  const Handle group(H5Gopen2(file, path.c_str(), H5P_DEFAULT), H5Gclose, path);
+  const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names);
+  return names;
+}
+
+Handle open_for_reading(const std::string& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id < 0) throw InputError(path + ": is no readable HDF5 file");
+  return {id, H5Fclose, path};
+}
+
+Handle create_file(const std::string& path) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path};
+}
+
+}  // namespace tripoint::h5

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <charconv>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "io/trajectory.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr std::size_t greatest_line = 4096;
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream in(line);
+  for (std::string cell; std::getline(in, cell, ',');) {
+    const auto first = cell.find_first_not_of(" \t\r"), last = cell.find_last_not_of(" \t\r");
+    cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
+  }
+  return cells;
+}
+
+/// Column numbers by name, and one line's cells as numbers.
+class Table {
+ public:
+  Table(const std::string& path, const std::string& header) : path_(path) {
+    const auto names = split(header);
+    for (std::size_t k = 0; k < names.size(); ++k) column_[names[k]] = k;
+  }
+  void line(const std::string& text, int number) {
+    place_ = {path_, number, 0};
+    const auto cells = split(text);
+    if (cells.size() != column_.size()) throw InputError(place_, "has " + std::to_string(cells.size()) + " cells, the header has " + std::to_string(column_.size()));
+    value_.assign(cells.size(), 0.0);
+    for (std::size_t k = 0; k < cells.size(); ++k) value_[k] = number_in(cells[k]);
+  }
+  [[nodiscard]] bool has(const std::string& name) const { return column_.count(name) > 0; }
+  [[nodiscard]] double operator[](const std::string& name) const {
+    const auto at = column_.find(name);
+    if (at == column_.end()) throw InputError(place_, "the column " + name + " is missing");
+    return value_[at->second];
+  }
+  [[nodiscard]] Vec3 vector(const char* x, const char* y, const char* z) const { return {(*this)[x], (*this)[y], (*this)[z]}; }
+  [[nodiscard]] std::size_t row(const std::string& name, std::size_t rows) const {
+    const double v = (*this)[name];
+    if (!(v >= 0.0 && v < static_cast<double>(rows)) || v != std::floor(v)) throw InputError(place_, name + " " + std::to_string(v) + " is not one of 0 to " + std::to_string(rows) + " - 1");
+    return static_cast<std::size_t>(v);
+  }
+
+ private:
+  [[nodiscard]] double number_in(const std::string& cell) const {
+    double v = 0.0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), v);
+    if (error != std::errc() || end != cell.data() + cell.size()) throw InputError(place_, "\"" + cell + "\" is no number");
+    return v;
+  }
+  std::string path_;
+  SourcePlace place_;
+  std::map<std::string, std::size_t> column_;
+  std::vector<double> value_;
+};
+
+Snapshot empty_frame(double time, const InitialState& initial, std::size_t bodies) {
+  const Vec3 nan{not_a_number, not_a_number, not_a_number};
+  Snapshot s;
+  s.time = time;
+  s.position.assign(initial.size(), nan);
+  s.velocity.assign(initial.size(), nan);
+  s.mass = initial.mass;
+  s.phase = initial.phase;
+  s.body = initial.body;
+  s.material = initial.material;
+  s.id.assign(initial.size(), -1);
+  s.bodies.assign(bodies, BodyState{nan, nan, nan, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, {}, {}});
+  return s;
+}
+
+void put_particle(const Table& row, const InitialState& initial, Snapshot& s) {
+  const std::size_t i = row.row("id", initial.size());
+  s.id[i] = static_cast<int>(i);
+  s.position[i] = row.vector("x", "y", "z");
+  s.velocity[i] = row.vector("vx", "vy", "vz");
+  if (!row.has("temperature")) return;
+  s.temperature.resize(initial.size(), not_a_number);
+  s.temperature[i] = row["temperature"];
+}
+
+/// A row of a body places its particles too: they move rigidly with it from where they started.
+void put_body(const Table& row, const InitialState& initial, const std::vector<MassProperties>& start, Snapshot& s) {
+  const std::size_t b = row.row("body", s.bodies.size());
+  BodyState& body = s.bodies[b];
+  body.mass = start[b].mass;
+  body.position = row.vector("x", "y", "z");
+  body.velocity = row.vector("vx", "vy", "vz");
+  if (row.has("qw")) body.orientation = {row["qw"], row["qx"], row["qy"], row["qz"]};
+  if (row.has("wx")) body.angular_velocity = row.vector("wx", "wy", "wz");
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    if (initial.body[i] != static_cast<int>(b)) continue;
+    const Vec3 arm = rotate(body.orientation, initial.position[i] - start[b].centre);
+    s.id[i] = static_cast<int>(i);
+    s.position[i] = body.position + arm;
+    s.velocity[i] = body.velocity + cross(body.angular_velocity, arm);
+  }
+}
+
+std::vector<MassProperties> centres(const InitialState& initial, std::size_t bodies) {
+  std::vector<MassProperties> all(bodies);
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    if (initial.body[i] < 0 || static_cast<std::size_t>(initial.body[i]) >= bodies) continue;
+    MassProperties& m = all[static_cast<std::size_t>(initial.body[i])];
+    m.mass += initial.mass[i];
+    m.centre += initial.mass[i] * initial.position[i];
+  }
+  for (MassProperties& m : all) m.centre *= m.mass > 0.0 ? 1.0 / m.mass : 0.0;
+  return all;
+}
+
+}  // namespace
+
+Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial, std::size_t bodies) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": cannot be read");
+  std::string text;
+  if (!std::getline(file, text) || text.size() > greatest_line) throw InputError(path + ": has no header line");
+  Table row(path, text);
+  const std::vector<MassProperties> start = centres(initial, bodies);
+  std::map<double, Snapshot> frames;
+  for (int number = 2; std::getline(file, text); ++number) {
+    if (text.empty()) continue;
+    if (text.size() > greatest_line) throw InputError({path, number, 0}, "the line is too long");
+    row.line(text, number);
+    const double time = row["time"];
+    if (!std::isfinite(time)) throw InputError({path, number, 0}, "the time is not finite");
+    Snapshot& frame = frames.try_emplace(time, empty_frame(time, initial, bodies)).first->second;
+    row.has("body") ? put_body(row, initial, start, frame) : put_particle(row, initial, frame);
+  }
+  Trajectory trajectory;
+  for (auto& [time, frame] : frames) {
+    for (std::size_t i = 0; i < initial.size(); ++i) {
+      frame.total_mass += frame.mass[i];
+      frame.momentum += frame.mass[i] * frame.velocity[i];
+      frame.angular_momentum += frame.mass[i] * cross(frame.position[i], frame.velocity[i]);
+    }
+    trajectory.frames.push_back(std::move(frame));
+  }
+  return trajectory;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "io/h5md_file.hpp"
+#include "io/trajectory.hpp"
+
+namespace tripoint {
+namespace {
+
+/// One trajectory.h5 open for reading; every block is checked against the number of frames.
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : path_(path), file_(h5::open_for_reading(path)) {
+    if (!h5::has(file_.get(), "/h5md")) throw InputError(path + ": is no H5MD file (it has no group h5md)");
+    time_ = h5::read_real(file_.get(), "/particles/all/position/time", path).real;
+    step_ = h5::read_whole(file_.get(), "/particles/all/position/step", path).whole;
+    frames_ = std::min(time_.size(), step_.size());
+  }
+
+  [[nodiscard]] std::size_t frames() const { return frames_; }
+  [[nodiscard]] double time(std::size_t f) const { return time_[f]; }
+  [[nodiscard]] long step(std::size_t f) const { return step_[f]; }
+  [[nodiscard]] bool has(const std::string& element) const { return h5::has(file_.get(), "/" + element + "/value"); }
+  [[nodiscard]] std::vector<std::string> members(const std::string& group) const { return h5::members(file_.get(), group); }
+
+  /// Real values of an element, frames x rows x width flattened. The unit must be the contract's.
+  h5::Block real(const std::string& element, std::size_t width, const std::string& unit) {
+    const std::string value = "/" + element + "/value";
+    h5::Block block = h5::read_real(file_.get(), value, path_);
+    const std::string given = h5::unit_of(file_.get(), value);
+    if (given != unit) throw InputError(path_ + ": " + value + " is in \"" + given + "\", expected \"" + unit + "\"");
+    expect(block, width, value);
+    return block;
+  }
+  h5::Block whole(const std::string& element) {
+    const std::string value = "/" + element + "/value";
+    h5::Block block = h5::read_whole(file_.get(), value, path_);
+    expect(block, 1, value);
+    return block;
+  }
+
+ private:
+  void expect(h5::Block& block, std::size_t width, const std::string& what) const {
+    if (block.shape.size() < 3) block.shape.resize(3, 1);
+    if (block.shape[0] < frames_) throw InputError(path_ + ": " + what + " has fewer frames than its times");
+    if (block.shape[2] != width) throw InputError(path_ + ": " + what + " has " + std::to_string(block.shape[2]) + " components, expected " + std::to_string(width));
+  }
+
+  std::string path_;
+  h5::Handle file_;
+  std::vector<double> time_;
+  std::vector<int> step_;
+  std::size_t frames_ = 0;
+};
+
+using Frames = std::vector<Snapshot>;
+
+void read_vectors(Reader& in, const std::string& element, const std::string& unit, Frames& frames, std::vector<Vec3> Snapshot::*column) {
+  const h5::Block b = in.real(element, 3, unit);
+  const std::size_t n = b.shape[1];
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    auto& out = frames[f].*column;
+    out.resize(n);
+    for (std::size_t i = 0; i < n; ++i) out[i] = {b.real[(f * n + i) * 3], b.real[(f * n + i) * 3 + 1], b.real[(f * n + i) * 3 + 2]};
+  }
+}
+
+void read_reals(Reader& in, const std::string& name, const std::string& unit, Frames& frames, std::vector<double> Snapshot::*column) {
+  if (!in.has("particles/all/" + name)) return;
+  const h5::Block b = in.real("particles/all/" + name, 1, unit);
+  const auto n = static_cast<std::ptrdiff_t>(b.shape[1]);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const auto first = b.real.begin() + static_cast<std::ptrdiff_t>(f) * n;
+    (frames[f].*column).assign(first, first + n);
+  }
+}
+
+void read_wholes(Reader& in, const std::string& name, Frames& frames, std::vector<int> Snapshot::*column) {
+  if (!in.has("particles/all/" + name)) return;
+  const h5::Block b = in.whole("particles/all/" + name);
+  const auto n = static_cast<std::ptrdiff_t>(b.shape[1]);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const auto first = b.whole.begin() + static_cast<std::ptrdiff_t>(f) * n;
+    (frames[f].*column).assign(first, first + n);
+  }
+}
+
+void read_bodies(Reader& in, Frames& frames) {
+  if (!in.has("particles/bodies/position")) return;
+  const auto vectors = [&](const char* name, const char* unit, Vec3 BodyState::*member, bool needed) {
+    const std::string element = std::string("particles/bodies/") + name;
+    if (!needed && !in.has(element)) return;
+    const h5::Block b = in.real(element, 3, unit);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      frames[f].bodies.resize(b.shape[1]);
+      for (std::size_t i = 0; i < b.shape[1]; ++i) {
+        const double* v = &b.real[(f * b.shape[1] + i) * 3];
+        frames[f].bodies[i].*member = {v[0], v[1], v[2]};
+      }
+    }
+  };
+  vectors("position", "m", &BodyState::position, true);
+  vectors("velocity", "m s-1", &BodyState::velocity, true);
+  vectors("angular_velocity", "rad s-1", &BodyState::angular_velocity, true);
+  vectors("force", "N", &BodyState::force, false);
+  vectors("torque", "N m", &BodyState::torque, false);
+  const h5::Block q = in.real("particles/bodies/orientation", 4, "1");
+  const h5::Block m = in.real("particles/bodies/mass", 1, "kg");
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    if (q.shape[1] != frames[f].bodies.size() || m.shape[1] != q.shape[1]) throw InputError("bodies: columns of unequal length");
+    for (std::size_t i = 0; i < q.shape[1]; ++i) {
+      const double* v = &q.real[(f * q.shape[1] + i) * 4];
+      frames[f].bodies[i].orientation = {v[0], v[1], v[2], v[3]};
+      frames[f].bodies[i].mass = m.real[f * q.shape[1] + i];
+    }
+  }
+}
+
+void read_observables(Reader& in, Frames& frames) {
+  const auto numbers = [&](const std::string& name, const std::string& unit, auto&& put) {
+    if (!in.has("observables/" + name)) return;
+    const h5::Block b = in.real("observables/" + name, 1, unit);
+    for (std::size_t f = 0; f < frames.size(); ++f) put(frames[f], &b.real[f * b.shape[1]], b.shape[1]);
+  };
+  const auto three = [](const double* v, std::size_t n) { return n == 3 ? Vec3{v[0], v[1], v[2]} : Vec3{not_a_number, not_a_number, not_a_number}; };
+  numbers("mass", "kg", [](Snapshot& s, const double* v, std::size_t) { s.total_mass = *v; });
+  numbers("momentum", "kg m s-1", [&](Snapshot& s, const double* v, std::size_t n) { s.momentum = three(v, n); });
+  numbers("angular_momentum", "kg m2 s-1", [&](Snapshot& s, const double* v, std::size_t n) { s.angular_momentum = three(v, n); });
+  const std::string prefix = "energy_";
+  for (const std::string& name : in.members("/observables"))
+    if (name.rfind(prefix, 0) == 0) numbers(name, "J", [&](Snapshot& s, const double* v, std::size_t) { s.energy[name.substr(prefix.size())] = *v; });
+}
+
+void expect_equal_lengths(const std::string& path, const Snapshot& s) {
+  const std::size_t n = s.position.size();
+  const auto fits = [&](std::size_t size) { return size == 0 || size == n; };
+  if (!fits(s.velocity.size()) || !fits(s.temperature.size()) || !fits(s.temperature_error.size()) || !fits(s.density.size()) || !fits(s.pressure.size()) ||
+      !fits(s.liquid_fraction.size()) || !fits(s.id.size()) || !fits(s.phase.size()) || !fits(s.body.size()) || !fits(s.material.size()) || !fits(s.mass.size()))
+    throw InputError(path + ": columns of particles/all have unequal lengths");
+}
+
+}  // namespace
+
+Trajectory read_trajectory(const std::string& path) {
+  Reader in(path);
+  Trajectory trajectory;
+  Frames& frames = trajectory.frames;
+  frames.resize(in.frames());
+  for (std::size_t f = 0; f < frames.size(); ++f) frames[f].time = in.time(f), frames[f].step = in.step(f);
+  read_vectors(in, "particles/all/position", "m", frames, &Snapshot::position);
+  read_vectors(in, "particles/all/velocity", "m s-1", frames, &Snapshot::velocity);
+  read_reals(in, "mass", "kg", frames, &Snapshot::mass);
+  read_reals(in, "temperature", "K", frames, &Snapshot::temperature);
+  read_reals(in, "temperature_error", "K", frames, &Snapshot::temperature_error);
+  read_reals(in, "density", "kg m-3", frames, &Snapshot::density);
+  read_reals(in, "pressure", "Pa", frames, &Snapshot::pressure);
+  read_reals(in, "liquid_fraction", "1", frames, &Snapshot::liquid_fraction);
+  read_wholes(in, "id", frames, &Snapshot::id);
+  read_wholes(in, "phase", frames, &Snapshot::phase);
+  read_wholes(in, "body", frames, &Snapshot::body);
+  read_wholes(in, "material", frames, &Snapshot::material);
+  read_bodies(in, frames);
+  read_observables(in, frames);
+  for (const Snapshot& s : frames) expect_equal_lengths(path, s);
+  return trajectory;
+}
+
+}  // namespace tripoint
