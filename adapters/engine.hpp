@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adapters/job.hpp"
+#include "core/defect.hpp"
 #include "io/trajectory.hpp"
 
 /// An engine adapter is five functions, SI in and out, one executable each (contracts: engine protocol).

@@ -68,7 +68,8 @@ void write_particles(const std::string& path, const InitialState&);
 [[nodiscard]] InitialState read_particles(const std::string& path);
 
 /// trajectory.xdmf beside trajectory.h5, for ParaView.
-void write_xdmf(const std::string& folder, const Trajectory&);
+/// @param last the last frame: its columns and row count are those of the file
+void write_xdmf(const std::string& folder, const std::vector<double>& times, const Snapshot& last);
 
 /// FNV-1a over the bits of positions, velocities, temperatures and bodies, as 16 hex digits.
 [[nodiscard]] std::string state_hash(const Snapshot&);

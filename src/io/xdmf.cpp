@@ -23,14 +23,12 @@ void attribute(std::ofstream& out, const std::string& name, const std::string& d
 
 }  // namespace
 
-void write_xdmf(const std::string& folder, const Trajectory& t) {
+void write_xdmf(const std::string& folder, const std::vector<double>& times, const Snapshot& s) {
   std::ofstream out(folder + "/trajectory.xdmf");
   out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain><Grid GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-  const std::size_t frames = t.frames.size();
+  const std::size_t frames = times.size(), n = s.position.size();
   for (std::size_t f = 0; f < frames; ++f) {
-    const Snapshot& s = t.frames[f];
-    const std::size_t n = s.position.size();
-    out << fmt::format("<Grid><Time Value=\"{:.17g}\"/><Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n", s.time, n);
+    out << fmt::format("<Grid><Time Value=\"{:.17g}\"/><Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n", times[f], n);
     out << "<Geometry GeometryType=\"XYZ\">" << item(f, frames, n, 3, "position", false) << "</Geometry>\n";
     attribute(out, "velocity", item(f, frames, n, 3, "velocity", false), true);
     if (!s.temperature.empty()) attribute(out, "temperature", item(f, frames, n, 1, "temperature", false), false);

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "core/errors.hpp"
+
+namespace tripoint {
+
+/// Writes a file so that a reader finds the old contents or all of the new: temporary name, fsync, rename, fsync of the folder.
+/// @throws EngineError naming the file and the system's reason
+inline void write_durably(const std::string& path, std::string_view text) {
+  const std::string temporary = path + ".part";
+  const auto fail = [&] { throw EngineError(path + ": cannot be written: " + std::strerror(errno)); };
+  const int file = ::open(temporary.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
+  if (file < 0) fail();
+  for (std::string_view rest = text; !rest.empty();) {
+    const ssize_t n = ::write(file, rest.data(), rest.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      ::close(file);
+      ::unlink(temporary.c_str());
+      fail();
+    }
+    rest.remove_prefix(static_cast<std::size_t>(n));
+  }
+  if (::fsync(file) != 0) fail();
+  ::close(file);
+  if (std::rename(temporary.c_str(), path.c_str()) != 0) fail();
+  const auto slash = path.find_last_of('/');
+  const int folder = ::open(slash == std::string::npos ? "." : path.substr(0, slash + 1).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder >= 0) {
+    ::fsync(folder);
+    ::close(folder);
+  }
+}
+
+}  // namespace tripoint
