@@ -18,6 +18,7 @@ struct EngineInfo {
   std::vector<std::string> presets{"default"};
   std::map<std::string, std::string> settings;  ///< settings that change results -> what they mean and their default
   bool deterministic = true;
+  std::vector<DefectEntry> defects;  ///< run-time defects that the test build of this engine knows
   bool available = true;  ///< false: the engine's library is missing; --info still answers, with the reason
   std::string reason;     ///< why it is not available
 };

@@ -50,7 +50,9 @@ int print_info(const Engine& engine) {
                  {"presets", info.presets},
                  {"settings", info.settings},
                  {"deterministic", info.deterministic},
-                 {"defects", defects}};
+                 {"defects", defects},
+                 {"available", info.available},
+                 {"reason", info.reason}};
   fmt::print("{}\n", out.dump(1));
   return ok;
 }
