@@ -72,7 +72,7 @@ inside() {
   local name
   while IFS= read -r name; do settings+=("$name=${!name}"); done < <(compgen -e | grep -iE '^PIP_|^(https?|no)_proxy$' | grep -v '^PIP_C')
   if [[ -f $root/usr/local/share/ca-certificates/outer.crt ]]; then settings+=(PIP_CERT=/usr/local/share/ca-certificates/outer.crt); fi
-  chroot "$root" /usr/bin/env -i "${settings[@]}" sh -c "cd /root/tripoint && $1" </dev/null
+  chroot "$root" /usr/bin/env -i "${settings[@]}" sh -c "cd /srv/tripoint && $1" </dev/null
 }
 
 # Runs one line, passing its output on, and says how long it took and when its first and last verdict line came.
@@ -91,7 +91,7 @@ timed() {
 begin=$SECONDS
 make_root
 furnish_root
-git clone --quiet --no-hardlinks . "$root/root/tripoint"
+git clone --quiet --no-hardlinks . "$root/srv/tripoint"
 say "bare root with $(git rev-parse --short HEAD) after $((SECONDS - begin)) s"
 (($#)) || set -- "make validate" "make test"
 for line in "$@"; do timed "$line"; done

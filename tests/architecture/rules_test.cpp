@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each rule on files made up here: it finds the line that breaks it, and leaves the line that does not.
+#include "architecture/rules.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tripoint::architecture {
+namespace {
+
+Source file(std::string path, std::string text) { return {std::move(path), std::move(text)}; }
+
+TEST(Rooms, AreReadFromPaths) {
+  EXPECT_EQ(room_of("src/core/vec3.hpp"), "core");
+  EXPECT_EQ(room_of("src/effects/plan.hpp"), "effects");
+  EXPECT_EQ(room_of("src/effects/heat/heat.cpp"), "effects/heat");
+  EXPECT_EQ(room_of("adapters/job.hpp"), "adapters");
+  EXPECT_EQ(room_of("adapters/bullet/world.cpp"), "adapters/bullet");
+  EXPECT_EQ(room_of("validation/metrics/order.hpp"), "validation/metrics");
+  EXPECT_EQ(room_of("tests/core/vec3_test.cpp"), "");
+}
+
+TEST(Includes, UpTheChainAreNamedWithTheirLine) {
+  const auto found =
+      forbidden_includes(file("src/core/vec3.hpp", "#pragma once\n#include <cmath>\n#include \"sph/kernels.hpp\"\n"));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].line, 3U);
+  EXPECT_EQ(found[0].message(), "src/core/vec3.hpp:3: core may not include sph\n    #include \"sph/kernels.hpp\"");
+}
+
+TEST(Includes, DownTheChainAreAllowed) {
+  EXPECT_TRUE(forbidden_includes(file("src/step/step.cpp",
+                                      "#include \"step/step.hpp\"\n#include \"effects/plan.hpp\"\n#include \"core/vec3.hpp\"\n"))
+                  .empty());
+  EXPECT_TRUE(forbidden_includes(file("adapters/exact/exact.cpp", "#include \"validation/references/reference.hpp\"\n")).empty());
+  EXPECT_TRUE(
+      forbidden_includes(file("src/cli/validate.cpp", "#include \"validation/harness/suite.hpp\"\n#include \"step/step.hpp\"\n"))
+          .empty());
+}
+
+TEST(Includes, OfTheJudgeNeverReachTheSolver) {
+  for (const auto* room : {"references", "metrics", "harness"}) {
+    for (const auto* header :
+         {"effects/plan.hpp", "effects/heat/heat.hpp", "step/step.hpp", "particles/columns.hpp", "sph/kernels.hpp"}) {
+      const auto found =
+          forbidden_includes(file(std::string("validation/") + room + "/a.cpp", std::string("#include \"") + header + "\"\n"));
+      EXPECT_EQ(found.size(), 1U) << room << " " << header;
+    }
+  }
+}
+
+TEST(Includes, OfOneEffectByAnotherAreRefusedAndTheListIsNot) {
+  const std::string line = "#include \"effects/heat/heat.hpp\"\n";
+  EXPECT_EQ(forbidden_includes(file("src/effects/rigid/rigid.cpp", line)).size(), 1U);
+  EXPECT_EQ(forbidden_includes(file("src/effects/plan.cpp", line)).size(), 1U);
+  EXPECT_TRUE(forbidden_includes(file("src/effects/heat/heat.cpp", line)).empty());
+  EXPECT_TRUE(forbidden_includes(file("src/effects/all_effects.cpp", line)).empty());
+}
+
+TEST(Includes, OfOneEngineByAnotherAreRefused) {
+  EXPECT_EQ(forbidden_includes(file("adapters/bullet/a.cpp", "#include \"adapters/lammps/deck.hpp\"\n")).size(), 1U);
+  EXPECT_EQ(forbidden_includes(file("adapters/bullet/a.cpp", "#  include \"step/step.hpp\"\n")).size(), 1U);
+  EXPECT_TRUE(
+      forbidden_includes(file("adapters/bullet/a.cpp", "#include \"world.hpp\"\n#include \"adapters/engine.hpp\"\n")).empty());
+}
+
+TEST(Includes, FromARoomThatTheMapDoesNotKnowAreRefused) {
+  EXPECT_EQ(forbidden_includes(file("src/shiny/new.cpp", "#include \"core/vec3.hpp\"\n")).size(), 1U);
+}
+
+TEST(Libraries, StayInTheirRooms) {
+  const std::vector<std::pair<std::string, std::string>> homes{{"btBulletDynamicsCommon.h", "adapters/bullet"},
+                                                               {"lammps/library.h", "adapters/lammps"},
+                                                               {"hdf5.h", "src/io"},
+                                                               {"toml++/toml.h", "src/scene"},
+                                                               {"CLI/CLI.hpp", "src/cli"}};
+  for (const auto& [header, room] : homes) {
+    const std::string line = "#include <" + header + ">\n";
+    EXPECT_TRUE(strayed_libraries(file(room + "/a.cpp", line)).empty()) << header;
+    EXPECT_EQ(strayed_libraries(file("validation/harness/a.cpp", line)).size(), 1U) << header;
+  }
+  EXPECT_EQ(strayed_libraries(file("adapters/lammps/a.cpp", "#include <mpi.h>\n")).size(), 1U);
+}
+
+TEST(Libraries, ThatAreDearStayOutOfHeaders) {
+  EXPECT_EQ(strayed_libraries(file("adapters/scene_json.hpp", "#include <nlohmann/json.hpp>\n")).size(), 1U);
+  EXPECT_TRUE(strayed_libraries(file("adapters/scene_json.hpp", "#include <nlohmann/json_fwd.hpp>\n")).empty());
+  EXPECT_TRUE(strayed_libraries(file("adapters/scene_json.cpp", "#include <nlohmann/json.hpp>\n")).empty());
+}
+
+TEST(Licence, IsNamedAtTheTopAndIsTheGplForLammps) {
+  const std::string tag = "// SPDX-License-Identifier: ";
+  EXPECT_TRUE(missing_licence(file("src/core/a.cpp", tag + "BSD-3-Clause\n")).empty());
+  EXPECT_TRUE(missing_licence(file("reports/a.py", "#!/usr/bin/python3\n# SPDX-License-Identifier: BSD-3-Clause\n")).empty());
+  EXPECT_EQ(missing_licence(file("src/core/a.cpp", "int x;\n")).size(), 1U);
+  EXPECT_EQ(missing_licence(file("src/core/a.cpp", "")).size(), 1U);
+  EXPECT_EQ(missing_licence(file("adapters/lammps/a.cpp", tag + "BSD-3-Clause\n")).size(), 1U);
+  EXPECT_EQ(missing_licence(file("src/core/a.cpp", "\n\n\n" + tag + "BSD-3-Clause\n")).size(), 1U);
+}
+
+TEST(Length, IsFiveHundredLinesAtMost) {
+  std::string text;
+  for (int n = 0; n < 500; ++n) text += "x\n";
+  EXPECT_TRUE(too_long(file("src/core/a.cpp", text)).empty());
+  EXPECT_EQ(too_long(file("src/core/a.cpp", text + "y")).size(), 1U);
+}
+
+TEST(Paths, OfOneMachineAreFound) {
+  const std::string home = std::string("/home") + "/ann/decks";
+  const auto found = machine_paths(file("src/core/a.cpp", "int x;\nopen(\"" + home + "\");\n"));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].line, 2U);
+  EXPECT_TRUE(
+      machine_paths(file("src/core/a.cpp", "open(\"/usr/bin/python3\"); f(a/root/b, \"./home/x\"); // kinetic/work/heat\n"))
+          .empty());
+}
+
+}  // namespace
+}  // namespace tripoint::architecture
