@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adapters/bullet/presets.hpp"
+#include "core/quaternion.hpp"
+#include "core/vec3.hpp"
+
+/// Bullet's world behind plain data; the only file pair that includes Bullet's headers.
+namespace tripoint::bullet {
+
+/// One convex part of a body, in the body's principal frame.
+struct Piece {
+  bool sphere = false;
+  Vec3 centre;           ///< [m]
+  Quaternion rotation;   ///< of the box's axes
+  Vec3 half_extents;     ///< box [m]; a sphere's radius is half_extents.x
+};
+
+/// A body's place and motion; orientation takes principal axes to world axes.
+struct RigidMotion {
+  Vec3 centre;            ///< of mass [m]
+  Quaternion orientation;
+  Vec3 velocity;          ///< [m/s]
+  Vec3 angular_velocity;  ///< world frame [rad/s]
+};
+
+enum class Drive { dynamic, fixed, kinematic };
+
+struct RigidPart {
+  double mass = 0.0;       ///< [kg]
+  Vec3 principal_inertia;  ///< ascending; 0 stands for a moment that the body does not have [kg m2]
+  RigidMotion motion;
+  Drive drive = Drive::dynamic;
+  std::vector<Piece> pieces;
+};
+
+/// What Bullet itself holds of a body.
+struct HeldBody {
+  double mass = 0.0;  ///< 0 = infinite, as for fixed and driven bodies
+  Vec3 centre, principal_inertia;
+  double friction = 0.0, restitution = 0.0, linear_damping = 0.0, angular_damping = 0.0;
+};
+
+struct Wrench {
+  Vec3 force, torque;  ///< [N], [N m] about the centre of mass
+};
+
+class World {
+ public:
+  World(const Preset&, const Vec3& gravity);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// Adds a body and returns its handle. Call in the order of the bodies' rows: the order changes Bullet's bits.
+  [[nodiscard]] int add(const RigidPart&);
+  void remove(int handle);
+  /// Where a kinematic body will be at the end of the next step.
+  void drive(int handle, const Vec3& centre, const Quaternion& orientation);
+  /// Exactly one step of dt [s].
+  void step(double dt);
+  [[nodiscard]] RigidMotion motion(int handle) const;
+  [[nodiscard]] HeldBody held(int handle) const;
+  [[nodiscard]] Vec3 gravity() const;
+  /// Mean contact force and torque over the last step of dt.
+  [[nodiscard]] Wrench contact(int handle, double dt) const;
+  [[nodiscard]] double contact_points() const;  ///< sum over steps
+
+  [[nodiscard]] static std::string version();
+  [[nodiscard]] static std::string library_path();  ///< of the library that is loaded
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tripoint::bullet
