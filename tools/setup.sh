@@ -43,10 +43,10 @@ install_packages() {
     exit 1
   fi
   say "${#missing[@]} packages are missing: ${missing[*]}"
-  as_root apt-get update -qq >&2 || say "apt-get update failed; going on with the lists that are here"
+  as_root apt-get update -qq -o DPkg::Lock::Timeout=120 >&2 || say "apt-get update failed; going on with the lists that are here"
   say "$(size_of "${missing[@]}")"
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install --yes -qq --no-install-recommends \
-    -o Dpkg::Use-Pty=0 "${missing[@]}" >/dev/null || { say "apt-get failed; the line was:  $line"; exit 1; }
+    -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 "${missing[@]}" >/dev/null || { say "apt-get failed; the line was:  $line"; exit 1; }
 }
 
 # The wheels are pinned by hash. Without PyPI everything else works: the report's row says "engine missing".
