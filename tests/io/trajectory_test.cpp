@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "core/errors.hpp"
+#include "io/trajectory.hpp"
+
+namespace tripoint {
+namespace {
+
+struct Io : ::testing::Test {
+  Io() : folder(std::filesystem::temp_directory_path() / ("tripoint io " + std::to_string(::getpid()))) { std::filesystem::create_directories(folder); }
+  ~Io() override { std::filesystem::remove_all(folder); }
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+  std::filesystem::path folder;
+};
+
+Snapshot frame_at(double time, int particles, int bodies) {
+  Snapshot s;
+  s.time = time;
+  s.step = std::lround(10 * time);
+  for (int i = 0; i < particles; ++i) {
+    s.position.push_back({time + i, 0.1 * i, -1.0 / (i + 3)});
+    s.velocity.push_back({1.0 / 3.0, time, -i * 1e-300});
+    s.temperature.push_back(300.0 + i);
+    s.mass.push_back(0.5);
+    s.id.push_back(i);
+    s.phase.push_back(2);
+    s.body.push_back(0);
+    s.material.push_back(0);
+  }
+  for (int b = 0; b < bodies; ++b) s.bodies.push_back({{time, 0, 0}, {0, 1, 0}, {0, 0, 2}, {std::cos(time), 0, 0, std::sin(time)}, 0.5 * particles, {}, {0, 0, 1}});
+  s.total_mass = 0.5 * particles;
+  s.energy["kinetic"] = 1.0 + time;
+  return s;
+}
+
+TEST_F(Io, ATrajectoryReadsBackBitForBit) {
+  TrajectoryWriter writer(path("trajectory.h5"));
+  for (const double t : {0.0, 0.1, 0.2}) writer.append(frame_at(t, 5, 2));
+  EXPECT_EQ(writer.frames(), 3);
+  writer.close();
+  const Trajectory read = read_trajectory(path("trajectory.h5"));
+  ASSERT_EQ(read.frames.size(), 3U);
+  const Snapshot& last = read.frames[2];
+  const Snapshot wrote = frame_at(0.2, 5, 2);
+  EXPECT_EQ(state_hash(last), state_hash(wrote));
+  EXPECT_EQ(last.step, 2);
+  EXPECT_EQ(last.mass, wrote.mass);
+  EXPECT_EQ(last.id, wrote.id);
+  EXPECT_EQ(last.energy.at("kinetic"), 1.2);
+  EXPECT_EQ(last.bodies[1].torque.z, 1.0);
+}
+
+TEST_F(Io, ParticlesThatComeLaterLeaveEarlierFramesEmpty) {
+  TrajectoryWriter writer(path("trajectory.h5"));
+  writer.append(frame_at(0.0, 2, 1));
+  writer.append(frame_at(1.0, 4, 3));
+  writer.close();
+  const Trajectory read = read_trajectory(path("trajectory.h5"));
+  EXPECT_EQ(read.frames[0].position.size(), 4U);
+  EXPECT_EQ(read.frames[0].id[3], -1);
+  EXPECT_TRUE(std::isnan(read.frames[0].temperature[3]));
+  EXPECT_TRUE(std::isnan(read.frames[0].bodies[2].mass));
+  EXPECT_EQ(read.frames[1].id[3], 3);
+}
+
+TEST_F(Io, AFrameThatWasAnnouncedIsReadableWhileTheWriterIsStillOpen) {
+  TrajectoryWriter writer(path("trajectory.h5"));
+  writer.append(frame_at(0.0, 3, 1));
+  writer.append(frame_at(0.5, 3, 1));
+  std::filesystem::copy_file(path("trajectory.h5"), path("killed.h5"));  // what a killed process would leave
+  EXPECT_EQ(read_trajectory(path("killed.h5")).frames.size(), 2U);
+}
+
+TEST_F(Io, AFileOfAnotherKindIsRefusedByName) {
+  std::ofstream(path("noise.h5")) << "no HDF5 at all";
+  EXPECT_THROW((void)read_trajectory(path("noise.h5")), InputError);
+  EXPECT_THROW((void)read_trajectory(path("absent.h5")), InputError);
+}
+
+TEST_F(Io, ADamagedFrameIsRefusedByItsChecksum) {
+  {
+    TrajectoryWriter writer(path("trajectory.h5"));
+    writer.append(frame_at(0.25, 400, 1));
+  }
+  std::string bytes;
+  {
+    std::ifstream in(path("trajectory.h5"), std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  const double marker = 0.25 + 200;  // x of particle 200
+  const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&marker), 8));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] = static_cast<char>(bytes[at] ^ 0x10);
+  std::ofstream(path("trajectory.h5"), std::ios::binary) << bytes;
+  EXPECT_THROW((void)read_trajectory(path("trajectory.h5")), InputError);
+}
+
+TEST_F(Io, RowsOfABodyPlaceItsParticles) {
+  InitialState start;
+  start.position = {{-1, 0, 0}, {1, 0, 0}};
+  start.velocity = {{}, {}};
+  start.mass = {1, 1};
+  start.phase = {2, 2};
+  start.body = {0, 0};
+  start.material = {0, 0};
+  std::ofstream(path("trajectory.csv")) << "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz\n0,0,0,0,0,0,0,0,1,0,0,0,0,0,2\n"
+                                          "1,0,5,0,0,1,0,0,0.7071067811865476,0,0,0.7071067811865476,0,0,2\n";
+  const Trajectory t = read_trajectory_csv(path("trajectory.csv"), start, 1);
+  ASSERT_EQ(t.frames.size(), 2U);
+  EXPECT_NEAR(t.frames[1].position[1].y, 1.0, 1e-15);   // a quarter turn takes x to y
+  EXPECT_NEAR(t.frames[1].velocity[1].x, 1.0 - 2.0, 1e-15);  // v + omega x r
+}
+
+TEST_F(Io, ACsvCellThatIsNoNumberIsRefusedWithItsLine) {
+  InitialState start;
+  start.position = start.velocity = {{}};
+  start.mass = {1};
+  start.phase = start.body = start.material = {0};
+  std::ofstream(path("trajectory.csv")) << "time,id,x,y,z,vx,vy,vz\n0,0,zero,0,0,0,0,0\n";
+  try {
+    (void)read_trajectory_csv(path("trajectory.csv"), start, 0);
+    FAIL() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("trajectory.csv:2"), std::string::npos) << e.what();
+  }
+}
+
+TEST_F(Io, ParticlesReadBackWithTheirSources) {
+  InitialState s;
+  s.position = {{0, 0, 0}, {1, 0, 0}};
+  s.velocity = {{1, 2, 3}, {}};
+  s.mass = {1, 2};
+  s.temperature = {300, 400};
+  s.phase = {2, 0};
+  s.body = {0, -1};
+  s.material = {0, 1};
+  s.source = {0, 1};
+  write_particles(path("particles.h5"), s);
+  const InitialState r = read_particles(path("particles.h5"));
+  EXPECT_EQ(r.position, s.position);
+  EXPECT_EQ(r.velocity, s.velocity);
+  EXPECT_EQ(r.body, s.body);
+  EXPECT_EQ(r.source, s.source);
+  EXPECT_EQ(r.temperature, s.temperature);
+}
+
+}  // namespace
+}  // namespace tripoint
