@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Paths, attitude and energies of solid bodies in time, engine over engine."""
+from __future__ import annotations
+
+import numpy as np
+
+from . import style
+from .curve import Drawing
+
+MOST_BODIES = 2
+
+
+def draw(case, trajectories, notes):
+    shown = [(curve, t) for curve, t in trajectories if t.bodies]
+    wanted = [panel for panel in (position_panel(shown), turn_panel(shown), spin_panel(shown), energy_panel(trajectories)) if panel]
+    if not shown or not wanted:
+        return None
+    most = max(t.bodies["position"].shape[1] for _, t in shown if "position" in t.bodies) if any("position" in t.bodies for _, t in shown) else 1
+    if most > MOST_BODIES:
+        notes.append(f"curves show the first {MOST_BODIES} of {most} bodies")
+    figure, axes = style.panels(len(wanted), height=2.5)
+    for axis, (title, lines) in zip(axes, wanted):
+        for curve, time, values, nth, words in lines:
+            look = style.look(curve)
+            dashes = "-" if nth == 0 else (0, (1 + nth, 1.5))
+            width = 2.6 if curve.engine.name == "exact" else 1.3
+            axis.plot(time, values, color=look["color"], linestyle=dashes, linewidth=width, alpha=0.6 if width > 2 else 1.0, label=curve.label + words,
+                      marker=look["marker"] if nth == 0 and width < 2 else None, markersize=3.2, markevery=(offset(curve, shown), max(1, len(time) // 8)))
+        axis.set_xlabel("time [s]")
+        axis.set_ylabel(title)
+    style.legend(figure, axes)
+    return Drawing("bodies", "Bodies in time", "Position, rotation and energy of the bodies against time for " + ", ".join(c.label for c, _ in shown) + ".", figure,
+                   "Finest run of each engine. Turn from the start is the angle of the rotation that leads from the first attitude to the present one.")
+
+
+def offset(curve, shown):
+    """Markers of engines that lie on one another are set apart in time."""
+    return [c for c, _ in shown].index(curve) if curve in [c for c, _ in shown] else 0
+
+
+def busiest(shown, name):
+    """The component that changes most over all engines, None where nothing changes."""
+    spans = [np.nanmax(np.nanmax(v, axis=0) - np.nanmin(v, axis=0), axis=0) for _, t in shown if (v := t.bodies.get(name)) is not None and np.isfinite(v).any()]
+    if not spans:
+        return None
+    span = np.nanmax(spans, axis=0)
+    return int(np.nanargmax(span)) if np.nanmax(span) > 1e-12 else None
+
+
+def component(shown, name):
+    chosen = busiest(shown, name)
+    if chosen is None:
+        return None, []
+    return chosen, [(curve, t.body_times, t.bodies[name][:, b, chosen], b, f", body {b}" if t.bodies[name].shape[1] > 1 else "")
+                    for curve, t in shown if name in t.bodies for b in range(min(MOST_BODIES, t.bodies[name].shape[1]))]
+
+
+def position_panel(shown):
+    chosen, lines = component(shown, "position")
+    return (f"{'xyz'[chosen]} of the centre [m]", lines) if lines else None
+
+
+def spin_panel(shown):
+    chosen, lines = component(shown, "angular_velocity")
+    return (f"angular velocity {'xyz'[chosen]} [rad/s]", lines) if lines else None
+
+
+def turn_panel(shown):
+    lines = []
+    for curve, t in shown:
+        q = t.bodies.get("orientation")
+        for b in range(min(MOST_BODIES, q.shape[1]) if q is not None else 0):
+            angle = 2 * np.arctan2(np.linalg.norm(q[:, b, 1:], axis=1), np.abs(q[:, b, 0]))
+            if np.isfinite(angle).any() and np.nanmax(angle) > 1e-9:
+                lines.append((curve, t.body_times, np.degrees(angle), b, f", body {b}" if q.shape[1] > 1 else ""))
+    return ("turn from the start [deg]", lines) if lines else None
+
+
+def energy_panel(trajectories):
+    """Change of mechanical energy since the first frame (kinetic plus potential, where the run states both or one)."""
+    lines = []
+    for curve, t in trajectories:
+        parts = [t.observables[name] for name in ("kinetic", "potential") if name in t.observables]
+        if parts and all(len(v) == len(parts[0][1]) for _, v in parts):
+            total = sum(v for _, v in parts)
+            scale = np.nanmax(np.abs(parts[0][1])) if np.isfinite(parts[0][1]).any() else 0.0
+            if scale > 0:
+                lines.append((curve, parts[0][0], (total - total[0]) / scale, 0, ""))
+    return ("energy change / kinetic", lines) if lines else None

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What every figure of a case asks: which curves there are, and which runs belong to each."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from load import Case, Engine, is_number
+
+
+@dataclass
+class Curve:
+    """One engine with one preset in one mode: one colour, marker and line style."""
+    case: Case
+    engine: Engine
+    mode: str
+    runs: list
+
+    @property
+    def label(self):
+        several = len({mode for engine in self.case.engines for mode in engine.modes if mode}) > 1
+        return f"{self.engine.label} ({self.mode})" if several and self.mode and self.engine.name != "exact" else self.engine.label
+
+    @property
+    def finest(self):
+        """The sound run of the finest spacing, then of the smallest step, then of the most walkers."""
+        sound = [run for run in self.runs if run.status == "ok"]
+
+        def key(run):
+            return (run.knob("spacing") or 0, run.knob("time_step") or 0, -(run.knob("walkers") or 0), -(run.knob("iterations") or 0), run.number)
+        return min(sound, key=key) if sound else None
+
+
+@dataclass
+class Drawing:
+    """A figure that is ready for the page."""
+    name: str
+    title: str
+    alt: str
+    figure: object
+    caption: str = ""
+
+
+def curves(case):
+    """In the order of results.json."""
+    result = []
+    for engine in case.engines:
+        for mode in engine.modes:
+            runs = [run for run in engine.runs if run.mode == mode]
+            if runs:
+                result.append(Curve(case, engine, mode, runs))
+    return result
+
+
+def metrics(case, wanted=4):
+    """Names of metrics that have a positive value somewhere, those with a gate first."""
+    gated = [gate.metric for engine in case.engines for gate in engine.gates]
+    listed = [name for engine in case.engines for run in engine.runs for name in run.metrics]
+    drawn = {name for engine in case.engines for run in engine.runs for name, m in run.metrics.items() if is_number(m.value) and m.value != 0}
+    ordered = [name for name in dict.fromkeys(gated + listed) if name in drawn]
+    return ordered[:wanted], ordered[wanted:]

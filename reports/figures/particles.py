@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The particles at the end of the run, one picture an engine, on one scale of length and of colour.
+
+Thin scenes are seen along their thinnest axis, others from above in parallel projection. Points are a picture inside the
+SVG, text stays text. Where nothing is warm and bodies fly, earlier frames are drawn paler: a stroboscope.
+"""
+from __future__ import annotations
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from . import style
+from .curve import Drawing
+from trajectories import MOST_POINTS
+
+MOST_PANELS = 8
+THIN = 0.12  # of the longest extent: below it the scene is seen along that axis
+TURN, TILT = np.radians(-55.0), np.radians(24.0)
+
+
+def draw(case, trajectories, notes):
+    shown = [(curve, t) for curve, t in trajectories if t.position is not None and len(t.position)]
+    if not shown:
+        return None
+    if len(shown) > MOST_PANELS:
+        notes.append("pictures show the first " + str(MOST_PANELS) + " engines; not drawn: " + ", ".join(c.label for c, _ in shown[MOST_PANELS:]))
+        shown = shown[:MOST_PANELS]
+    warm = warmth(shown)
+    frames = [t.strobe if warm is None else t.strobe[-1:] for _, t in shown]
+    view, names = projection(np.concatenate([finite(p) for each in frames for _, p in each]))
+    bounds = extent([view(finite(p)) for each in frames for _, p in each])
+    figure, axes, bar = layout(len(shown), bounds, warm is not None)
+    for axis, (curve, trajectory), strobe in zip(axes, shown, frames):
+        panel(axis, curve, trajectory, strobe, view, bounds, warm)
+        axis.set_xlabel(names[0], labelpad=1)
+        axis.set_ylabel(names[1], labelpad=1)
+    if warm is not None:
+        colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(*warm), style.TEMPERATURE)
+        figure.colorbar(colours, cax=bar, orientation="horizontal").set_label("temperature [K]")
+        bar.grid(False)
+    time = shown[0][1].strobe[-1][0]
+    how = "coloured by temperature on one scale" if warm is not None else "coloured by body" + (", earlier times paler" if len(frames[0]) > 1 else "")
+    most = max(len(t.position) for _, t in shown)
+    caption = f"At t = {time:.4g} s, finest run of each, {how}." + (f" {MOST_POINTS} of up to {most} particles are drawn." if most > MOST_POINTS else "")
+    return Drawing("particles", "Particles, engine by engine", f"Particles at {time:.4g} s for {', '.join(c.label for c, _ in shown)}, {how}.", figure, caption)
+
+
+def finite(position):
+    return position[np.isfinite(position).all(axis=1)]
+
+
+def warmth(shown):
+    """(low, high) of all engines, or None where no temperature differs."""
+    values = [t.temperature[np.isfinite(t.temperature)] for _, t in shown if t.temperature is not None]
+    values = np.concatenate(values) if values else np.empty(0)
+    if not values.size or np.ptp(values) <= 1e-9 * max(1.0, abs(values).max()):
+        return None
+    return float(values.min()), float(values.max())
+
+
+def projection(points):
+    """A map from (n, 3) to (n, 3): two screen coordinates and depth; and the names of the screen axes."""
+    size = np.ptp(points, axis=0) if len(points) else np.ones(3)
+    order = np.argsort(-size, kind="stable")
+    if size[order[2]] <= THIN * max(size[order[0]], 1e-300):
+        a, b = order[:2] if order[0] < order[1] or size[order[0]] > 4 * size[order[1]] else order[1::-1]
+        return (lambda p: p[:, [a, b, order[2]]]), [f"{'xyz'[a]} [m]", f"{'xyz'[b]} [m]"]
+    turn = np.array([[np.cos(TURN), -np.sin(TURN), 0], [np.sin(TURN) * np.sin(TILT), np.cos(TURN) * np.sin(TILT), np.cos(TILT)], [np.sin(TURN) * np.cos(TILT), np.cos(TURN) * np.cos(TILT), -np.sin(TILT)]])
+    return (lambda p: p @ turn.T), ["across [m]", "up [m]"]
+
+
+def extent(projected):
+    points = np.concatenate([p[:, :2] for p in projected])
+    if not len(points):
+        return np.array([0.0, 0.0]), np.array([1.0, 1.0])
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = max(0.04 * (high - low).max(), 1e-12)
+    return low - margin, high + margin
+
+
+def layout(count, bounds, bar):
+    """Long scenes are stacked, others stand side by side."""
+    wide, tall = bounds[1] - bounds[0]
+    columns = 1 if wide > 6 * tall else 2 if wide > 2.5 * tall else min(4, max(count, 2))
+    columns = min(columns, max(count, 1)) if columns <= 2 else columns
+    lines = -(-count // columns)
+    each = style.WIDTH / columns - 0.65
+    height = float(np.clip(each * tall / wide, 0.32, 3.4))
+    below, above, gap = (0.95 if bar else 0.45), 0.32, 0.72
+    total = lines * height + (lines - 1) * gap + below + above
+    figure = Figure(figsize=(style.WIDTH, total))
+    FigureCanvasAgg(figure)
+    axes = []
+    for k in range(count):
+        line, column = divmod(k, columns)
+        left = (column * style.WIDTH / columns + 0.58) / style.WIDTH
+        axes.append(figure.add_axes([left, (below + (lines - 1 - line) * (height + gap)) / total, each / style.WIDTH, height / total]))
+    return figure, axes, figure.add_axes([0.3, 0.36 / total, 0.4, 0.1 / total]) if bar else None
+
+
+def panel(axis, curve, trajectory, strobe, view, bounds, warm):
+    axis.set_xlim(bounds[0][0], bounds[1][0])
+    axis.set_ylim(bounds[0][1], bounds[1][1])
+    axis.set_aspect("equal")
+    axis.set_title(curve.label, color=style.look(curve)["color"], fontweight="bold")
+    axis.locator_params(nbins=5)
+    axis.set_axisbelow(True)
+    for k, (_, position) in enumerate(strobe):
+        step = max(1, -(-len(position) // (MOST_POINTS // len(strobe))))
+        chosen = np.arange(0, len(position), step)
+        chosen = chosen[np.isfinite(position[chosen]).all(axis=1)]
+        seen = view(position[chosen])
+        order = np.argsort(-seen[:, 2], kind="stable")
+        axis.scatter(seen[order, 0], seen[order, 1], s=marker_area(axis, bounds, len(position) / step), linewidths=0, rasterized=True,
+                     alpha=1.0 if k == len(strobe) - 1 else 0.25 + 0.4 * k / len(strobe), **hues(trajectory, chosen[order], seen[order, 2], warm))
+    lost = int((~np.isfinite(strobe[-1][1]).all(axis=1)).sum())
+    if lost:
+        axis.annotate(f"{lost} particles not finite", (0.02, 0.9), xycoords="axes fraction", color=style.RED, fontsize=8)
+
+
+def marker_area(axis, bounds, count):
+    """[points^2]: such that the drawn particles cover the panel about once."""
+    box = axis.get_position()
+    area = box.width * box.height * np.prod(axis.figure.get_size_inches()) * 72**2
+    return float(np.clip(0.7 * area / max(count, 1), 2.5, 60.0))
+
+
+def hues(trajectory, chosen, depth, warm):
+    if warm is not None and trajectory.temperature is not None:
+        return {"c": trajectory.temperature[chosen], "cmap": style.TEMPERATURE, "vmin": warm[0], "vmax": warm[1]}
+    bodies = trajectory.body[chosen].astype(int) if trajectory.body is not None else np.zeros(len(chosen), int)
+    colours = np.array([matplotlib.colors.to_rgb(style.BODIES[b % len(style.BODIES)] if b >= 0 else style.GREY) for b in range(-1, max(bodies.max(initial=0), 0) + 1)])[bodies + 1]
+    span = np.ptp(depth) if len(depth) else 0.0
+    shade = 0.62 + 0.38 * (depth.max() - depth) / span if span > 0 else np.ones(len(depth))
+    return {"c": colours * shade[:, None]}

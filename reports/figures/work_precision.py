@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Error against CPU seconds, log-log, one curve an engine and mode; failed runs stand at the edge, none is dropped."""
+from __future__ import annotations
+
+from load import is_number
+
+from . import style
+from .curve import Drawing, curves, metrics
+
+
+def draw(case, trajectories, notes):
+    names, rest = metrics(case, 2)
+    if not names or sum(len(curve.runs) for curve in curves(case)) < 2:
+        return None
+    if rest:
+        notes.append("work-precision is drawn for " + " and ".join(names) + "; the other metrics are in the table of runs: " + ", ".join(rest))
+    figure, axes = style.panels(len(names), height=3.1)
+    for axis, metric in zip(axes, names):
+        panel(case, axis, metric)
+    style.legend(figure, axes)
+    return Drawing("work-precision", "Work and precision", f"Log-log plot of {', '.join(names)} against CPU seconds for each engine and mode, with the Pareto front.", figure,
+                   "Lower left is better. Labels: what was refined. Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: runs that failed or gave no number.")
+
+
+def panel(case, axis, metric):
+    good, bad = [], []
+    for curve in curves(case):
+        look, own = style.look(curve), []
+        for run in curve.runs:
+            m, cost = run.metrics.get(metric), run.cost.get("cpu_s")
+            sound = run.status == "ok" and m and is_number(m.value) and is_number(cost) and cost > 0
+            if sound and m.value != 0:
+                own.append((cost, abs(m.value), m.u or 0.0, label(curve, run)))
+            elif curve.engine.name != "exact" and (m or run.status != "ok"):
+                bad.append((cost, "0" if sound else run.status if run.status != "ok" else "no number", look["color"]))
+        if own:
+            own.sort()
+            x, y, u, words = zip(*own)
+            axis.errorbar(x, y, yerr=[[min(2 * s, 0.95 * e) for e, s in zip(y, u)], [2 * s for s in u]], capsize=2, elinewidth=0.8, label=curve.label, **look)
+            for k in sorted({0, len(own) - 1}):
+                axis.annotate(words[k], (x[k], y[k]), xytext=(5, 4), textcoords="offset points", fontsize=7.5, color=look["color"])
+            good += list(zip(x, y))
+    front(axis, good)
+    style.logarithmic(axis)
+    failed(axis, bad, good)
+    axis.set_xlabel("CPU seconds, all threads")
+    axis.set_ylabel(metric)
+
+
+def label(curve, run):
+    """The knob in which this curve's runs differ, and its value."""
+    for name, short in (("walkers", "N"), ("spacing", "dx"), ("time_step", "dt"), ("iterations", "it"), ("support_ratio", "h/dx")):
+        values = {r.knob(name) for r in curve.runs}
+        if len(values) > 1 and is_number(run.knob(name)):
+            return f"{short} {run.knob(name):.3g}"
+    return ""
+
+
+def front(axis, good):
+    """Steps through the runs that no other run beats in both."""
+    best, steps = float("inf"), []
+    for x, y in sorted(good):
+        if y < best:
+            best = y
+            steps.append((x, y))
+    if steps:
+        low, high = min(x for x, _ in good), max(x for x, _ in good)
+        xs, ys = [steps[0][0]], [max(y for _, y in good)]
+        for x, y in steps:
+            xs += [x, x]
+            ys += [ys[-1], y]
+        axis.plot(xs + [max(high, low * 1.01)], ys + [ys[-1]], color=style.GREY, linewidth=5, alpha=0.28, zorder=0, solid_joinstyle="miter", label="Pareto front")
+
+
+def failed(axis, bad, good):
+    """Crosses at the upper edge at their cost, or in its corner where the cost is not known."""
+    middle = good[0][0] if good else 1.0
+    for k, (cost, why, hue) in enumerate(bad[:6]):
+        known = is_number(cost) and cost > 0
+        height = 0.97 - 0.07 * k if why != "0" else 0.03
+        axis.plot([cost if known else middle], [height], "x", transform=axis.get_xaxis_transform(), color=hue if hue != style.INK else style.RED, markersize=7, markeredgewidth=2, clip_on=False)
+        axis.annotate(("error exactly 0" if why == "0" else why) + ("" if known else " (cost unknown)"), (cost if known else middle, height), xycoords=("data", "axes fraction"), xytext=(7, -3),
+                      textcoords="offset points", fontsize=7.5, color=style.SOFT)
+    if len(bad) > 6:
+        axis.set_title(f"and {len(bad) - 6} more failed runs: see the table", fontsize=8, color=style.RED)

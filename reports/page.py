@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fills the templates: one HTML file that needs nothing else."""
+from __future__ import annotations
+
+import math
+import time
+from pathlib import Path
+
+import summary
+from load import is_number, number
+
+TEMPLATES = Path(__file__).resolve().parent / "templates"
+EXITS = {"0": "pass", "1": "accuracy, order or an invariant fails", "2": "bad input", "3": "inconclusive", "4": "a required engine, reference or metric is missing", "5": "the gate's self-test failed",
+         "6": "cost regression only", "7": "a run diverged", "130": "interrupted"}
+
+
+def show(value):
+    """A number as text; what is absent and what was not finite look different."""
+    if value is None:
+        return "—"
+    if not isinstance(value, (int, float)) or isinstance(value, bool):
+        return str(value)
+    if math.isnan(value):
+        return "not finite"
+    if math.isinf(value):
+        return "infinite"
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 1e5:
+        return f"{value:.4g}"
+    mantissa, exponent = f"{value:.3e}".split("e")
+    return f"{mantissa.rstrip('0').rstrip('.')}e{int(exponent)}"
+
+
+def size(value):
+    return "—" if not is_number(value) else f"{value / 1e6:.0f} MB" if value >= 1e6 else f"{value / 1e3:.0f} kB"
+
+
+def percent(value):
+    """How much of a limit is used."""
+    if not is_number(value):
+        return "—"
+    return f"{100 * value:.0f} %" if value < 99.5 else f"{value:.3g} times" if value < 1e6 else "far above"
+
+
+def anchor(case):
+    return f"case-{case.number + 1}"
+
+
+def terms(ledgers):
+    """Every term of any ledger, the residual last."""
+    found = list(dict.fromkeys(term for _, entries in ledgers for term in entries))
+    return [term for term in found if term != "residual"] + [term for term in found if term == "residual"]
+
+
+def truth(row, case, side):
+    """Error to the reference of one side of an equivalence: as stated, else of that engine's gate or finest run."""
+    for key in (f"{side}_error", f"error_{side}"):
+        if key in row:
+            return number(row[key])
+    for engine in case.engines:
+        if row.get(side) in (engine.label, engine.name):
+            gate = next((g for g in engine.gates if g.metric == row.get("metric")), None)
+            run = next((r for r in reversed(engine.runs) if row.get("metric") in r.metrics), None)
+            return gate.value if gate else run.metrics[row["metric"]].value if run else None
+    return None
+
+
+def render(results, pictures, notes, suite, missing_libraries):
+    """@param pictures, notes: case number -> list   @param suite: pictures of all cases   @return HTML"""
+    import jinja2
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    environment.filters.update(show=show, size=size, percent=percent, tone=summary.tone, anchor=anchor, terms=terms, truth=truth)
+    columns = summary.columns(results)
+    return environment.get_template("report.html.j2").render(
+        results=results, columns=columns, cells={(case.number, label): summary.cell(case, label) for case in results.cases for label in columns},
+        counts=summary.counts(results), engines=summary.engine_table(results), gaps=summary.not_validated(results), pictures=pictures, notes=notes, suite=suite,
+        missing=missing_libraries, meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"), written=time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()))

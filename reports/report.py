@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Writes the report of a validation run: python3 report.py RESULTS.json [--out DIR] [--jobs N]
+
+results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is one self-contained file,
+DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
+Exit: 0 the page is written, whatever it says; 2 there is nothing to report on.
+"""
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import load
+import page
+import plain
+
+PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "h5py": "python3-h5py", "jinja2": "python3-jinja2"}
+
+
+def absent():
+    """Libraries that cannot be imported, as sentences that say what to install."""
+    lines = []
+    for name, package in PACKAGES.items():
+        try:
+            __import__(name)
+        except Exception as error:  # a broken library raises more than ImportError
+            lines.append(f"Python's {name} is not usable ({type(error).__name__}): install the Debian package {package}")
+    return lines
+
+
+def draw(results, out, jobs):
+    """@return (pictures, notes, suite): by case number, and of the suite"""
+    try:
+        import figures
+    except Exception as error:
+        return {}, {}, ([], [f"no figures: {error}"])
+    cases = results.cases
+    if jobs > 1 and len(cases) > 1:
+        with ProcessPoolExecutor(max_workers=jobs) as pool:
+            drawn = list(pool.map(figures.draw_case, [results.folder] * len(cases), [out] * len(cases), cases))
+    else:
+        drawn = [figures.draw_case(results.folder, out, case) for case in cases]
+    pictures = {case.number: found for case, (found, _) in zip(cases, drawn)}
+    notes = {case.number: found for case, (_, found) in zip(cases, drawn)}
+    return pictures, notes, figures.draw_suite(out, results)
+
+
+def write(path, content):
+    """By rename, so that nobody sees half a page."""
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=".index-", suffix=".html")
+    with os.fdopen(handle, "w", encoding="utf-8", errors="replace") as file:
+        file.write(content)
+    os.chmod(name, 0o644)
+    os.replace(name, path)
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(description="Writes the HTML report of a validation run.")
+    parser.add_argument("results", metavar="RESULTS.json")
+    parser.add_argument("--out", metavar="DIR", help="folder of index.html and figures/ (default: beside RESULTS.json)")
+    parser.add_argument("--jobs", type=int, default=min(2, os.cpu_count() or 1), help="processes that draw (default: %(default)s)")
+    options = parser.parse_args(arguments)
+    try:
+        results = load.load(options.results)
+    except load.Unreadable as reason:
+        print(f"report: {reason}", file=sys.stderr)
+        return 2
+    out = Path(options.out) if options.out else results.folder
+    out.mkdir(parents=True, exist_ok=True)
+    missing = absent()
+    pictures, notes, suite = draw(results, out, options.jobs)
+    html = plain.render(results, missing) if any("jinja2" in line for line in missing) else page.render(results, pictures, notes, suite, missing)
+    write(out / "index.html", html)
+    print(out / "index.html")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reads what a run wrote (trajectory.h5 by H5MD, or trajectory.csv of a small engine) as far as pictures need it."""
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+MOST_FRAMES = 400    # of a body's path
+MOST_POINTS = 4_000  # of a picture: more are not told apart at its size
+MOST_ROWS = 2_000_000  # bound on what a file may ask this program to read
+
+
+class NoTrajectory(Exception):
+    """There is nothing to draw; the message says which file and why."""
+
+
+@dataclass
+class Trajectory:
+    """Rows are particles (or bodies), SI; `strobe` are a few frames of positions from first to last."""
+    times: np.ndarray
+    position: np.ndarray | None = None
+    temperature: np.ndarray | None = None
+    temperature_error: np.ndarray | None = None
+    body: np.ndarray | None = None
+    strobe: list = field(default_factory=list)
+    bodies: dict = field(default_factory=dict)  # name -> (frames, bodies, components)
+    body_times: np.ndarray | None = None
+    observables: dict = field(default_factory=dict)  # name -> (times, values)
+
+
+def folder_of(root, run):
+    """The run's folder inside the results' folder. @raises NoTrajectory where it lies outside or is not said"""
+    if not run.folder:
+        raise NoTrajectory("results.json names no folder for this run")
+    folder = (Path(root) / run.folder).resolve()
+    if not folder.is_relative_to(Path(root).resolve()):
+        raise NoTrajectory(f"folder {run.folder} lies outside the report's folder")
+    return folder
+
+
+def read(root, run):
+    """@raises NoTrajectory"""
+    folder = folder_of(root, run)
+    for name, reader in (("trajectory.h5", read_h5md), ("trajectory.csv", read_csv)):
+        if (folder / name).is_file():
+            try:
+                return reader(folder / name)
+            except NoTrajectory:
+                raise
+            except Exception as error:  # h5py and csv raise what they like on torn files: the page must say it and go on
+                raise NoTrajectory(f"{run.folder}/{name} cannot be read: {error}") from error
+    raise NoTrajectory(f"{run.folder}/trajectory.h5 is missing")
+
+
+def read_h5md(path):
+    try:
+        import h5py
+    except ImportError:
+        raise NoTrajectory("Python has no h5py here: install python3-h5py to see trajectories") from None
+    with h5py.File(path, "r") as file:
+        particles = file.get("particles/all")
+        if particles is None:
+            raise NoTrajectory(f"{path.name} has no /particles/all")
+        result = Trajectory(times=np.empty(0))
+        position = particles.get("position/value")
+        if position is not None and position.shape[0] > 0:
+            result.times = np.asarray(particles["position/time"])[:position.shape[0]]
+            if position.shape[1] > MOST_ROWS:
+                raise NoTrajectory(f"{path.name} has {position.shape[1]} rows, more than a picture reads")
+            frames = np.unique(np.linspace(0, position.shape[0] - 1, 5).astype(int))
+            result.strobe = [(float(result.times[f]), position[f]) for f in frames]
+            result.position = result.strobe[-1][1]
+            result.temperature = last(particles, "temperature", position.shape)
+            result.temperature_error = last(particles, "temperature_error", position.shape)
+            result.body = last(particles, "body", position.shape)
+        read_bodies(file, result)
+        observables = file.get("observables")
+        for name in sorted(observables) if observables is not None else []:
+            node = observables[name]
+            if name.startswith("energy_") and "value" in node and node["value"].ndim == 1:
+                step = max(1, node["value"].shape[0] // MOST_FRAMES)
+                result.observables[name[len("energy_"):]] = (node["time"][::step], node["value"][::step])
+    return result
+
+
+def last(particles, name, shape):
+    node = particles.get(f"{name}/value")
+    if node is None or node.shape[0] == 0:
+        return None
+    values = np.asarray(node[-1] if node.ndim > 1 else node)
+    return values if values.shape[0] == shape[1] else None
+
+
+def read_bodies(file, result):
+    node = file.get("particles/bodies/position/value")
+    if node is None or node.ndim != 3 or node.shape[0] == 0 or node.shape[1] == 0:
+        return
+    step = max(1, node.shape[0] // MOST_FRAMES)
+    result.body_times = file["particles/bodies/position/time"][::step]
+    for name in ("position", "orientation", "velocity", "angular_velocity"):
+        values = file.get(f"particles/bodies/{name}/value")
+        if values is not None and values.ndim == 3:
+            result.bodies[name] = values[::step][:len(result.body_times)]
+
+
+def read_csv(path):
+    """Rows of one time follow each other; a column `body` means rows of bodies."""
+    with open(path, newline="", encoding="utf-8") as file:
+        reader = csv.DictReader(file)
+        columns = {name: [] for name in reader.fieldnames or []}
+        for count, row in enumerate(reader):
+            if count > MOST_ROWS:
+                raise NoTrajectory(f"{path.name} has more than {MOST_ROWS} rows")
+            for name in columns:
+                columns[name].append(float(row[name]))
+    columns = {name: np.array(values) for name, values in columns.items()}
+    times = np.unique(columns["time"])
+    key = "body" if "body" in columns else "id"
+    rows = int(columns[key].max()) + 1
+    if rows * len(times) > 4 * MOST_ROWS:
+        raise NoTrajectory(f"{path.name} numbers its rows up to {rows}")
+    frame, row = np.searchsorted(times, columns["time"]), columns[key].astype(int)
+
+    def gather(names):
+        values = np.full((len(times), rows, len(names)), np.nan)
+        for k, name in enumerate(names):
+            values[frame, row, k] = columns[name]
+        return values
+
+    result = Trajectory(times=times)
+    if key == "body":
+        groups = {"position": ("x", "y", "z"), "velocity": ("vx", "vy", "vz"), "orientation": ("qw", "qx", "qy", "qz"), "angular_velocity": ("wx", "wy", "wz")}
+        result.bodies = {name: gather(names) for name, names in groups.items() if all(n in columns for n in names)}
+        result.body_times = times
+    else:
+        position = gather(("x", "y", "z"))
+        frames = np.unique(np.linspace(0, len(times) - 1, 5).astype(int))
+        result.strobe = [(float(times[f]), position[f]) for f in frames]
+        result.position = position[-1]
+        result.temperature = gather(("temperature",))[-1, :, 0] if "temperature" in columns else None
+    return result
