@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/references/arguments.hpp"
+
+#include <algorithm>
+
+#include "scene/nearest.hpp"
+
+namespace tripoint {
+
+Arguments::Arguments(const ReferenceChoice& choice, const ReferenceFunction& function) : function_(function.name), args_(choice.args) {
+  std::vector<std::string> known;
+  for (const auto& a : function.args) known.push_back(a.name);
+  for (const auto& [name, value] : args_) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw InputError("reference function " + function_ + " has no argument `" + printable(name) + "`" + suggestion(name, known));
+  }
+}
+
+template <class T>
+std::optional<T> Arguments::get(const std::string& name, const char* kind) const {
+  const auto found = args_.find(name);
+  if (found == args_.end()) return {};
+  if (const auto* value = std::get_if<T>(&found->second)) return *value;
+  throw InputError("argument `" + name + "` of reference function " + function_ + " must be " + kind);
+}
+
+std::optional<double> Arguments::number(const std::string& name) const { return get<double>(name, "a number"); }
+std::optional<std::string> Arguments::word(const std::string& name) const { return get<std::string>(name, "a text"); }
+std::optional<bool> Arguments::flag(const std::string& name) const { return get<bool>(name, "true or false"); }
+
+std::optional<Vec3> Arguments::vector(const std::string& name) const {
+  const auto list = get<std::vector<double>>(name, "three numbers");
+  if (!list) return {};
+  if (list->size() != 3) throw InputError("argument `" + name + "` of reference function " + function_ + " must be three numbers");
+  return Vec3{(*list)[0], (*list)[1], (*list)[2]};
+}
+
+}  // namespace tripoint

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+
+#include "core/vec3.hpp"
+#include "scene/scene.hpp"
+#include "validation/references/reference.hpp"
+
+namespace tripoint {
+
+/// The arguments that a case gives a reference function; what it leaves out is taken from the scene.
+class Arguments {
+ public:
+  /// @throws InputError for an argument that the function does not have, with the nearest one that it has
+  Arguments(const ReferenceChoice&, const ReferenceFunction&);
+  /// @throws InputError when the argument is there and is of another kind
+  [[nodiscard]] std::optional<double> number(const std::string& name) const;
+  [[nodiscard]] std::optional<Vec3> vector(const std::string& name) const;
+  [[nodiscard]] std::optional<std::string> word(const std::string& name) const;
+  [[nodiscard]] std::optional<bool> flag(const std::string& name) const;
+
+ private:
+  template <class T>
+  [[nodiscard]] std::optional<T> get(const std::string& name, const char* kind) const;
+  std::string function_;
+  Settings args_;
+};
+
+}  // namespace tripoint

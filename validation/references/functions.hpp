@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "validation/references/arguments.hpp"
+#include "validation/references/reference.hpp"
+
+namespace tripoint {
+
+/// What a reference function is made from.
+struct ReferenceInput {
+  const Arguments& args;
+  const Job& job;
+  const InitialState& initial;
+};
+
+/// A reference function: its description and its maker. One file each; `all_references()` is the one list.
+struct ReferenceEntry {
+  ReferenceFunction function;
+  std::unique_ptr<Reference> (*make)(const ReferenceInput&);
+};
+
+[[nodiscard]] ReferenceEntry ballistic_entry();
+[[nodiscard]] ReferenceEntry ballistic_semi_implicit_entry();
+[[nodiscard]] ReferenceEntry torque_free_entry();
+[[nodiscard]] ReferenceEntry flip_time_entry();
+[[nodiscard]] ReferenceEntry merge_in_flight_entry();
+[[nodiscard]] ReferenceEntry split_in_flight_entry();
+[[nodiscard]] ReferenceEntry keyframes_entry();
+[[nodiscard]] ReferenceEntry cosine_mode_entry();
+[[nodiscard]] ReferenceEntry cosine_mode_lattice_entry();
+[[nodiscard]] ReferenceEntry step_insulated_entry();
+[[nodiscard]] ReferenceEntry two_conductivities_entry();
+[[nodiscard]] ReferenceEntry invariant_entry();
+
+[[nodiscard]] const std::vector<ReferenceEntry>& all_references();
+
+}  // namespace tripoint

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <string>
+
+#include "validation/references/reference.hpp"
+
+namespace tripoint {
+
+/// What a conducting scene is along one axis: its ends, and whether it closes on itself.
+struct BarAxis {
+  std::size_t axis = 0;          ///< 0, 1, 2 for x, y, z
+  double low = 0.0, high = 0.0;  ///< ends [m]
+  bool periodic = false;
+  [[nodiscard]] double length() const { return high - low; }
+};
+
+/// The ends of all bodies along an axis: of the domain where it is periodic, else of the bodies' boxes, or of their particles and
+/// half a spacing.
+[[nodiscard]] BarAxis bar_along(std::size_t axis, const Job&, const InitialState&);
+/// Likewise of one body.
+[[nodiscard]] BarAxis body_along(std::size_t axis, std::size_t body, const Job&, const InitialState&);
+
+/// The axis that a direction points along. @throws InputError when it points along none
+std::size_t axis_of(const Vec3& direction, const std::string& what);
+
+/// Diffusivity k/(rho c_p) [m2/s] and effusivity sqrt(k rho c_p) [W s^0.5/m2/K] of a body's material.
+/// @throws InputError when its material has no conductivity or heat capacity
+[[nodiscard]] double diffusivity(const Job&, std::size_t body);
+[[nodiscard]] double effusivity(const Job&, std::size_t body);
+/// The one diffusivity of a scene. @throws InputError when its bodies differ
+[[nodiscard]] double common_diffusivity(const Job&);
+
+/// Base of the references of heat: a medium at rest of which only the temperature changes. Snapshots hold everything else as it was.
+class HeatReference : public Reference {
+ public:
+  /// @throws InputError when a body moves, melts by event, or holds its temperature
+  HeatReference(const Job&, const InitialState&);
+  [[nodiscard]] Snapshot at(double time) const final;
+
+ protected:
+  [[nodiscard]] virtual double temperature(const Vec3& place, double time) const = 0;  ///< [K]
+  InitialState initial_;
+
+ private:
+  Snapshot rest_;
+};
+
+}  // namespace tripoint

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "scene/nearest.hpp"
+#include "validation/references/functions.hpp"
+
+namespace tripoint {
+
+const std::vector<ReferenceEntry>& all_references() {
+  static const std::vector<ReferenceEntry> entries{
+      ballistic_entry(),       ballistic_semi_implicit_entry(), torque_free_entry(),    flip_time_entry(),
+      merge_in_flight_entry(), split_in_flight_entry(),         keyframes_entry(),      cosine_mode_entry(),
+      cosine_mode_lattice_entry(), step_insulated_entry(),      two_conductivities_entry(), invariant_entry()};
+  return entries;
+}
+
+const std::vector<ReferenceFunction>& reference_functions() {
+  static const std::vector<ReferenceFunction> functions = [] {
+    std::vector<ReferenceFunction> list;
+    for (const auto& e : all_references()) list.push_back(e.function);
+    return list;
+  }();
+  return functions;
+}
+
+std::unique_ptr<Reference> make_reference(const ReferenceChoice& choice, const Job& job, const InitialState& initial) {
+  const std::string name = choice.function.empty() && choice.kind == "invariant" ? "invariant" : choice.function;
+  if (name.empty()) throw InputError("the reference of kind " + choice.kind + " names no function: no truth to compare with");
+  const auto& entries = all_references();
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.function.name == name; });
+  if (found == entries.end()) {
+    std::vector<std::string> known;
+    for (const auto& e : entries) known.push_back(e.function.name);
+    throw InputError("unknown reference function `" + printable(name) + "`" + suggestion(name, known));
+  }
+  const Arguments args(choice, found->function);
+  return found->make({args, job, initial});
+}
+
+}  // namespace tripoint

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "adapters/job.hpp"
+#include "io/trajectory.hpp"
+
+namespace tripoint {
+
+/// Position, velocity, orientation and spin of a fixed or prescribed body: keyframes with linear position and slerp, at rest before
+/// the first and after the last; without keyframes constant velocity and angular velocity for ever. At a keyframe itself the
+/// velocity is that of the interval that ends there, so that the end of a run at the last keyframe still moves.
+/// Written apart from the solver's own evaluation on purpose: the two check each other.
+[[nodiscard]] BodyState prescribed_motion(const JobBody&, double time);
+
+}  // namespace tripoint
