@@ -156,6 +156,7 @@ TEST(Keyframes, GoStraightBetweenPositionsAndTurnAtConstantRate) {
   EXPECT_LT(norm(half.bodies[0].angular_velocity - Vec3{0, 0, test::pi / 2}), 1e-15);
   EXPECT_LT(norm(reference->at(1.5).bodies[0].velocity - Vec3{-1, 0, 0}), 1e-15);
   EXPECT_LT(norm(reference->at(3.0).bodies[0].position - centre), 1e-15);
+  EXPECT_EQ(reference->at(2.0).bodies[0].velocity, Vec3{});  // at rest after the last keyframe
   const double h = 1e-5;
   for (const std::size_t i : {0U, 17U, 63U})
     EXPECT_LT(norm((reference->at(0.5 + h).position[i] - reference->at(0.5 - h).position[i]) / (2 * h) - half.velocity[i]), 1e-9);

@@ -44,11 +44,11 @@ BodyState prescribed_motion(const JobBody& body, double time) {
     state.angular_velocity = moves ? body.angular_velocity : Vec3{};
     state.position = body.properties.centre + time * state.velocity;
     state.orientation = from_rotation_vector(time * state.angular_velocity);
-  } else if (time < keys.front().time || keys.size() == 1 || time > keys.back().time) {
+  } else if (time < keys.front().time || time >= keys.back().time) {
     state = at_rest(time < keys.front().time ? keys.front() : keys.back());
   } else {
     std::size_t n = 1;
-    while (n + 1 < keys.size() && keys[n].time < time) ++n;
+    while (keys[n].time <= time) ++n;
     state = between(keys[n - 1], keys[n], time);
   }
   state.mass = body.properties.mass;
