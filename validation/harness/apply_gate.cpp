@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/apply_gate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/harness/judge.hpp"
+
+namespace tripoint {
+namespace {
+
+Verdict worse(Verdict a, Verdict b) {
+  for (const auto v : {Verdict::fail, Verdict::missing, Verdict::inconclusive})
+    if (a == v || b == v) return v;
+  return Verdict::pass;
+}
+
+bool limits_something(const Gate& gate) { return gate.limit || gate.at_least || gate.band; }
+
+/// Verdict of an interval against [lowest, highest].
+Verdict interval_within(const Order& order, double lowest, double highest) {
+  if (!(order.low <= order.value && order.value <= order.high) || !std::isfinite(order.low) || !std::isfinite(order.high)) return Verdict::fail;
+  if (order.low >= lowest && order.high <= highest) return Verdict::pass;
+  return order.high < lowest || order.low > highest ? Verdict::fail : Verdict::inconclusive;
+}
+
+std::string name_of_order(const std::string& metric) { return metric.ends_with(".order") ? metric.substr(0, metric.size() - 6) : std::string(); }
+
+bool is_at_level(const RunRow& run, const std::optional<double>& level) {
+  return !level || std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *level); });
+}
+
+/// Runs that differ by seed only, in the order in which they were planned.
+struct Group {
+  std::string mode;
+  std::map<std::string, double> levels;
+  std::vector<const RunRow*> runs;
+};
+
+std::vector<Group> groups_for(const Gate& gate, const EngineRow& engine) {
+  std::vector<Group> groups;
+  for (const auto& run : engine.runs) {
+    if ((!gate.mode.empty() && run.knobs.mode != gate.mode) || !is_at_level(run, gate.level)) continue;
+    const auto same = [&](const Group& g) { return !run.group.empty() && g.mode == run.knobs.mode && g.runs.front()->group == run.group; };
+    const auto at = std::find_if(groups.begin(), groups.end(), same);
+    if (at == groups.end()) groups.push_back({run.knobs.mode, run.levels, {&run}});
+    else at->runs.push_back(&run);
+  }
+  return groups;
+}
+
+GateRow new_row(const Gate& gate, const std::string& mode) {
+  GateRow row;
+  row.metric = gate.metric, row.mode = mode, row.level = gate.level, row.gate = gate;
+  row.value = not_a_number;
+  return row;
+}
+
+GateRow missing_row(const Gate& gate, const std::string& why) {
+  auto row = new_row(gate, gate.mode);
+  row.verdict = to_string(Verdict::missing), row.why = why;
+  return row;
+}
+
+void judge_value(GateRow& row, const MetricValue& metric) {
+  row.value = metric.value;
+  row.uncertainty = metric.uncertainty.combined();
+  const auto verdict = verdict_of(row.gate, row.value, row.uncertainty);
+  row.verdict = to_string(verdict);
+  if (verdict == Verdict::pass) return;
+  if (!std::isfinite(row.value)) row.why = "not finite" + (metric.note.empty() ? std::string() : ": " + metric.note);
+  else row.why = fmt::format("{:.4g} with standard uncertainty {:.2g}, {}", row.value, row.uncertainty, describe(row.gate));
+}
+
+/// @return false when the group gives no row: its run failed, and the engine's row says so
+bool judge_group(const Gate& gate, const Group& group, EngineRow& engine) {
+  auto row = new_row(gate, group.mode);
+  if (!row.level && group.levels.size() == 1) row.level = group.levels.begin()->second;
+  std::vector<MetricValue> values;
+  for (const auto* run : group.runs) {
+    if (run->status != "ok" || !run->comparable) {
+      if (!engine.required && run->comparable && run->status != "diverged") return false;
+      row.verdict = to_string(run->status == "diverged" ? Verdict::diverged : Verdict::missing);
+      row.why = run->reason.empty() ? run->status : run->reason;
+      engine.gates.push_back(row);
+      return true;
+    }
+    const auto value = measured(*run, gate.metric);
+    if (!value) {
+      row.verdict = to_string(Verdict::missing), row.why = "the run has no metric of this name";
+      engine.gates.push_back(row);
+      return true;
+    }
+    values.push_back(*value);
+  }
+  judge_value(row, pooled(values));
+  engine.gates.push_back(row);
+  return true;
+}
+
+bool has_mode(const EngineRow& engine, const std::string& mode) {
+  return mode.empty() || std::any_of(engine.runs.begin(), engine.runs.end(), [&](const auto& r) { return r.knobs.mode == mode; });
+}
+
+bool some_run_failed(const EngineRow& engine) {
+  return std::any_of(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != "ok" || !r.comparable; });
+}
+
+/// Whether a study of the case makes this engine run at the gate's level (any level, if it names none).
+bool level_is_due(const CaseResult& result, const Gate& gate, const EngineRow& engine) {
+  return std::any_of(result.studies.begin(), result.studies.end(), [&](const Study& s) {
+    if (engine.name == "exact" || (!s.engine.empty() && s.engine != engine.name)) return false;
+    if (!gate.mode.empty() && !s.mode.empty() && s.mode != gate.mode) return false;
+    return !gate.level || std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, *gate.level); });
+  });
+}
+
+Applied judge_order(const CaseResult& result, const Gate& gate, EngineRow& engine) {
+  bool judged = false;
+  for (const auto& order : engine.order) {
+    if (order.metric != name_of_order(gate.metric) || (!gate.mode.empty() && order.mode != gate.mode)) continue;
+    auto row = new_row(gate, order.mode);
+    row.value = order.order.value, row.low = order.order.low, row.high = order.order.high, row.fit_class = order.order.fit_class;
+    const auto verdict = verdict_of(gate, order.order);
+    row.verdict = to_string(verdict);
+    if (verdict != Verdict::pass)
+      row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low, *row.high, row.fit_class, describe(gate));
+    engine.gates.push_back(row);
+    judged = true;
+  }
+  if (judged) return Applied::judged;
+  if (!level_is_due(result, gate, engine)) return Applied::not_applicable;
+  if (some_run_failed(engine) && !engine.required) return Applied::absent;
+  engine.gates.push_back(missing_row(gate, "no order could be fitted: a level is missing or not finite"));
+  return Applied::judged;
+}
+
+}  // namespace
+
+Verdict verdict_of(const Gate& gate, double value, double u) {
+  if (!limits_something(gate)) return Verdict::missing;
+  auto verdict = Verdict::pass;
+  if (gate.limit) verdict = worse(verdict, judge_limit(value, u, *gate.limit));
+  if (gate.at_least) verdict = worse(verdict, judge_at_least(value, u, *gate.at_least));
+  if (gate.band) verdict = worse(verdict, judge_band(value, u, (*gate.band)[0], (*gate.band)[1]));
+  return verdict;
+}
+
+Verdict verdict_of(const Gate& gate, const Order& order) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (!limits_something(gate)) return Verdict::missing;
+  auto verdict = Verdict::pass;
+  if (gate.limit) verdict = worse(verdict, interval_within(order, -infinity, *gate.limit));
+  if (gate.at_least) verdict = worse(verdict, interval_within(order, *gate.at_least, infinity));
+  if (gate.band) verdict = worse(verdict, interval_within(order, (*gate.band)[0], (*gate.band)[1]));
+  return verdict;
+}
+
+std::string describe(const Gate& gate) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (gate.limit) add(fmt::format("limit {:g}", *gate.limit));
+  if (gate.at_least) add(fmt::format("at least {:g}", *gate.at_least));
+  if (gate.band) add(fmt::format("band {:g} to {:g}", (*gate.band)[0], (*gate.band)[1]));
+  return text.empty() ? "no limit" : text;
+}
+
+Applied apply_gate(const CaseResult& result, const Gate& gate, EngineRow& engine) {
+  if (engine.runs.empty()) return Applied::absent;
+  if (!has_mode(engine, gate.mode)) return Applied::not_applicable;
+  if (!name_of_order(gate.metric).empty()) return judge_order(result, gate, engine);
+  const auto groups = groups_for(gate, engine);
+  if (groups.empty()) {
+    if (!level_is_due(result, gate, engine)) return Applied::not_applicable;
+    engine.gates.push_back(missing_row(gate, "the level of this gate was not run"));
+    return Applied::judged;
+  }
+  bool judged = false;
+  for (const auto& group : groups) judged = judge_group(gate, group, engine) || judged;
+  return judged ? Applied::judged : Applied::absent;
+}
+
+Applied apply_expected_class(const CaseResult& result, const Study& study, EngineRow& engine) {
+  const std::string metric = !study.metric.empty() ? study.metric : result.metrics.empty() ? std::string() : result.metrics.front().name;
+  Gate gate;
+  gate.metric = metric + ".order", gate.engine = engine.name, gate.place = study.place;
+  gate.reason = fmt::format("the study over {} declares the class {}", study.axis, study.expect);
+  auto applied = Applied::not_applicable;
+  for (const auto& order : fit_orders(result, engine, study)) {
+    if (order.metric != metric) continue;
+    auto row = new_row(gate, order.mode);
+    row.value = order.order.value, row.low = order.order.low, row.high = order.order.high;
+    row.expect = study.expect, row.fit_class = order.order.fit_class;
+    row.verdict = to_string(row.fit_class == study.expect ? Verdict::pass : Verdict::fail);
+    if (row.fit_class != study.expect) row.why = fmt::format("converges as {}, declared is {}", row.fit_class, study.expect);
+    engine.gates.push_back(row);
+    applied = Applied::judged;
+  }
+  if (applied == Applied::judged || engine.runs.empty() || !(study.engine.empty() || study.engine == engine.name)) return applied;
+  if (engine.name == "exact" || !has_mode(engine, study.mode) || (some_run_failed(engine) && !engine.required)) return Applied::absent;
+  auto row = missing_row(gate, "no order could be fitted: a level is missing or not finite");
+  row.expect = study.expect;
+  engine.gates.push_back(row);
+  return Applied::judged;
+}
+
+}  // namespace tripoint

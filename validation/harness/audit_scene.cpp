@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/harness/run_one.hpp"
+
+namespace tripoint {
+namespace {
+
+// An engine may hold reciprocals or other units of what it was given: a few roundings, but no more.
+constexpr double roundings = 1e-9;
+
+bool same(double a, double b, double scale) { return std::abs(a - b) <= roundings * scale; }
+
+std::string text(const Vec3& v) { return fmt::format("({:g}, {:g}, {:g})", v.x, v.y, v.z); }
+
+std::string audit_body(const JobBody& given, const ReadbackBody& held) {
+  const auto& p = given.properties;
+  if (!same(p.mass, held.mass, p.mass)) return fmt::format("mass of {} is {:.10g} kg, given were {:.10g} kg", given.name, held.mass, p.mass);
+  const double largest = std::max({p.principal_inertia.x, p.principal_inertia.y, p.principal_inertia.z});
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!same(p.principal_inertia[axis], held.principal_inertia[axis], largest))
+      return fmt::format("principal inertia of {} is {} kg m2, given was {}", given.name, text(held.principal_inertia), text(p.principal_inertia));
+  if (held.linear_damping != 0.0 || held.angular_damping != 0.0) return fmt::format("{} is damped, which the scene does not say", given.name);
+  return {};
+}
+
+}  // namespace
+
+std::string audit_scene(const Job& job, const Readback& held) {
+  const Vec3 off = held.gravity - job.scene.gravity;
+  if (!(norm(off) <= roundings * norm(job.scene.gravity))) return fmt::format("gravity is {} m/s2, given was {}", text(held.gravity), text(job.scene.gravity));
+  for (const auto& body : held.bodies) {
+    const auto given = std::find_if(job.bodies.begin(), job.bodies.end(), [&](const auto& b) { return b.name == body.name; });
+    if (given == job.bodies.end()) return fmt::format("it holds a body {} that the scene does not have", body.name);
+    if (given->phase != Phase::rigid || given->motion != Motion::free) continue;  // a driven body's mass is the engine's own affair
+    if (const auto other = audit_body(*given, body); !other.empty()) return other;
+  }
+  return {};
+}
+
+}  // namespace tripoint

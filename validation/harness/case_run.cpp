@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/case_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "validation/harness/judge.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+namespace {
+
+/// Samples each scene of a case once; runs of one sampling share state and file.
+class Sampler {
+ public:
+  explicit Sampler(fs::path folder) : folder_(std::move(folder)) {}
+  const std::pair<std::shared_ptr<const InitialState>, std::string>& of(const Scene& scene) {
+    const auto key = sampling_key(scene);
+    const auto at = samples_.find(key);
+    return at != samples_.end() ? at->second : (samples_[key] = make(scene, key));
+  }
+
+ private:
+  std::pair<std::shared_ptr<const InitialState>, std::string> make(const Scene& scene, const std::string& key) {
+    auto state = std::make_shared<InitialState>(sample(scene));
+    fs::create_directories(folder_);
+    const auto file = (folder_ / (key + ".h5")).string();
+    const std::lock_guard lock(hdf5_mutex());
+    fs::remove(file);
+    write_particles(file, *state);
+    return {state, file};
+  }
+  fs::path folder_;
+  std::map<std::string, std::pair<std::shared_ptr<const InitialState>, std::string>> samples_;
+};
+
+double wall_limit(const EnginePlan& engine, const SuiteOptions& options) {
+  const auto at = engine.settings.find("wall_limit");
+  return at != engine.settings.end() && std::holds_alternative<double>(at->second) ? std::get<double>(at->second) : options.wall_limit;
+}
+
+Knobs knobs_of(const CaseRun& run, const Result& result) {
+  const auto& r = run.job.resolution;
+  return {r.spacing, result.readback.time_step > 0.0 ? result.readback.time_step : r.time_step.value_or(0.0), r.support_ratio, r.walkers, r.iterations,
+          run.plan.mode, run.job.threads, run.job.seed, run.job.scene.jitter};
+}
+
+EngineRow row_of(const EnginePlan& plan) {
+  EngineRow row;
+  row.name = plan.name, row.preset = plan.preset, row.required = plan.required;
+  if (plan.entry) row.version = plan.entry->version;
+  if (!plan.entry) row.status = "missing", row.reason = fmt::format("there is no engine-{} beside the program or in TRIPOINT_ENGINE_PATH", plan.name);
+  else if (!plan.entry->available) row.status = "missing", row.reason = plan.entry->reason;
+  return row;
+}
+
+std::string repeat_command(const Case& value, const SuiteOptions& options) {
+  std::string command = "tripoint validate " + value.file;
+  if (!options.selection.engines.empty()) command += fmt::format(" --engines {}", fmt::join(options.selection.engines, ","));
+  if (options.selection.seed) command += fmt::format(" --seed {}", *options.selection.seed);
+  return command;
+}
+
+}  // namespace
+
+CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, const SuiteOptions& options) {
+  CaseRuns all;
+  all.value = &value;
+  all.engines = plan_runs(value, found, options.selection);
+  const fs::path folder = fs::path(options.out) / "runs" / value.id;
+  Sampler sampler(folder / "particles");
+  for (std::size_t e = 0; e < all.engines.size(); ++e) {
+    const auto& engine = all.engines[e];
+    if (!engine.entry) continue;
+    for (const auto& plan : engine.runs) {
+      if (options.wanted && !options.wanted(engine, plan)) continue;
+      CaseRun run;
+      const Scene scene = scene_of(value, plan);
+      const auto& [initial, file] = sampler.of(scene);
+      run.engine = e, run.plan = plan, run.initial = initial, run.particles = file;
+      run.job = make_job(value, engine, plan, scene, *initial);
+      run.job.threads = options.threads;
+      run.folder = (folder / engine.name / (engine.preset == "default" ? plan.label : engine.preset + "-" + plan.label)).string();
+      all.runs.push_back(std::move(run));
+    }
+  }
+  return all;
+}
+
+void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
+  const auto& engine = all.engines[run.engine];
+  RunRequest request;
+  request.engine = engine.entry, request.job = &run.job, request.initial = run.initial.get();
+  request.folder = fs::absolute(run.folder).string(), request.particles = fs::absolute(run.particles).string();
+  request.wall_limit = wall_limit(engine, options), request.environment = options.environment;
+  auto outcome = run_one(request);
+  auto& row = run.row;
+  row.knobs = knobs_of(run, outcome.result);
+  row.levels = run.plan.levels, row.base = run.plan.base, row.group = run.plan.group;
+  row.status = outcome.status, row.reason = outcome.reason, row.comparable = outcome.comparable, row.cost = outcome.cost;
+  row.state_hash = outcome.result.state_hash, row.time_step_bound = outcome.result.time_step_bound;
+  row.folder = fs::relative(run.folder, options.out).string();
+  if (outcome.trajectory) row.metrics = evaluate_all(*all.value, run.job, *run.initial, *outcome.trajectory);
+  if (run.plan.base) run.trajectory = outcome.trajectory;
+}
+
+CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
+  const auto& value = *all.value;
+  CaseResult result;
+  result.id = value.id, result.title = value.title, result.kind = value.kind, result.requirement = value.requirement;
+  result.claims = value.claims, result.file = value.file, result.expect = value.expect, result.reference = value.reference;
+  result.metrics = value.metrics, result.studies = value.studies, result.gates = value.gates;
+  result.repeat = repeat_command(value, options);
+  for (std::size_t e = 0; e < all.engines.size(); ++e) {
+    auto row = row_of(all.engines[e]);
+    for (const auto& run : all.runs)
+      if (run.engine == e) row.runs.push_back(run.row);
+    result.engines.push_back(std::move(row));
+  }
+  result.equivalence = compare_engines(all);
+  for (const auto& run : all.runs)
+    if (run.trajectory && run.plan.base && all.engines[run.engine].name == "tripoint" && result.ledger.empty()) result.ledger = ledger_of(*run.trajectory);
+  judge(result, !options.selection.engines.empty());
+  return result;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "validation/harness/run_one.hpp"
+#include "validation/harness/suite.hpp"
+
+/// The parts of the suite that look at one case.
+namespace tripoint {
+
+/// One run of a case, ready to be made; and what came of it.
+struct CaseRun {
+  std::size_t engine = 0;  ///< row in CaseRuns::engines
+  RunPlan plan;
+  Job job;
+  std::shared_ptr<const InitialState> initial;
+  std::string folder, particles;
+  RunRow row;
+  std::shared_ptr<const Trajectory> trajectory;  ///< kept of base runs, for the comparison of engines
+};
+
+struct CaseRuns {
+  const Case* value = nullptr;
+  std::vector<EnginePlan> engines;
+  std::vector<CaseRun> runs;
+};
+
+/// Plans a case, samples each of its scenes once and writes the particles. @throws InputError when a scene cannot be sampled
+[[nodiscard]] CaseRuns prepare_case(const Case&, const std::vector<EngineEntry>&, const SuiteOptions&);
+
+/// Makes one run and fills its row; its metrics are evaluated here.
+void make_run(const CaseRuns&, CaseRun&, const SuiteOptions&);
+
+/// Puts the runs into rows, compares the engines, books the ledger and judges.
+[[nodiscard]] CaseResult finish_case(const CaseRuns&, const SuiteOptions&);
+
+/// Differences between the engines' own trajectories, in each metric that compares states; both errors to truth beside it.
+[[nodiscard]] std::vector<EquivalenceRow> compare_engines(const CaseRuns&);
+
+/// Change of each energy of the ledger over a run, and their sum, the residual [J].
+[[nodiscard]] std::map<std::string, double> ledger_of(const Trajectory&);
+
+}  // namespace tripoint

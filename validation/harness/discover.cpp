@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/discover.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "validation/harness/process.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+namespace {
+
+constexpr double info_limit = 10.0;  // [s], by the contract
+
+std::string text(const Json& from, const char* key) {
+  const auto at = from.find(key);
+  if (at == from.end() || at->is_null()) return {};
+  return at->is_string() ? at->get<std::string>() : at->dump();
+}
+
+std::vector<std::string> words(const Json& from, const char* key) {
+  std::vector<std::string> list;
+  if (const auto at = from.find(key); at != from.end() && at->is_array())
+    for (const auto& word : *at)
+      if (word.is_string()) list.push_back(word.get<std::string>());
+  return list;
+}
+
+std::string name_of_file(const std::string& executable) {
+  const std::string file = fs::path(executable).filename().string();
+  return file.rfind("engine-", 0) == 0 ? file.substr(7) : file;
+}
+
+EngineEntry unavailable(EngineEntry entry, const std::string& reason) {
+  entry.available = false;
+  entry.reason = reason;
+  return entry;
+}
+
+void read_info(const Json& info, EngineEntry& entry) {
+  entry.name = text(info, "name");
+  entry.version = text(info, "version");
+  entry.build = text(info, "build");
+  if (const auto library = info.find("library"); library != info.end() && library->is_object()) {
+    entry.library_path = text(*library, "path");
+    entry.library_hash = text(*library, "hash");
+  }
+  entry.capabilities = words(info, "capabilities");
+  if (const auto presets = words(info, "presets"); !presets.empty()) entry.presets = presets;
+  if (const auto settings = info.find("settings"); settings != info.end() && settings->is_object())
+    for (const auto& [key, value] : settings->items()) entry.settings[key] = text(*settings, key.c_str());
+  if (const auto d = info.find("deterministic"); d != info.end() && d->is_boolean()) entry.deterministic = d->get<bool>();
+  if (const auto defects = info.find("defects"); defects != info.end() && defects->is_array())
+    for (const auto& d : *defects) entry.defects.push_back({text(d, "name"), text(d, "what"), text(d, "case")});
+  if (const auto a = info.find("available"); a != info.end() && a->is_boolean() && !a->get<bool>()) {
+    entry.available = false;
+    entry.reason = text(info, "reason").empty() ? "says of itself that it is not available" : text(info, "reason");
+  }
+}
+
+bool is_program(const fs::path& path) {
+  std::error_code none;
+  return fs::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;
+}
+
+std::vector<std::string> engines_in(const fs::path& folder) {
+  std::vector<std::string> found;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (entry.path().filename().string().rfind("engine-", 0) == 0 && is_program(entry.path())) found.push_back(fs::absolute(entry.path()).string());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::string> candidates(const std::vector<std::string>& extra) {
+  std::vector<std::string> paths;
+  for (const auto& path : extra) {
+    if (!is_program(path)) throw InputError(path + ": is no executable file (an engine is a program, see docs/engines.md)");
+    paths.push_back(fs::absolute(path).string());
+  }
+  for (const auto& path : engines_in(fs::path(program_folder()) / "../libexec/tripoint")) paths.push_back(fs::weakly_canonical(path).string());
+  const char* folders = std::getenv("TRIPOINT_ENGINE_PATH");
+  std::istringstream list(folders ? folders : "");
+  for (std::string folder; std::getline(list, folder, ':');)
+    if (!folder.empty())
+      for (const auto& path : engines_in(folder)) paths.push_back(path);
+  return paths;
+}
+
+}  // namespace
+
+std::string program_folder() {
+  std::error_code none;
+  return fs::read_symlink("/proc/self/exe", none).parent_path().string();
+}
+
+EngineEntry ask_engine(const std::string& executable) {
+  EngineEntry entry;
+  entry.executable = executable;
+  entry.name = name_of_file(executable);
+  ProcessSpec spec;
+  spec.argv = {executable, "--info"};
+  spec.wall_limit = info_limit;
+  const auto end = run_process(spec);
+  if (end.how != ProcessEnd::How::exited || end.code != 0) return unavailable(entry, "--info " + describe(end));
+  const auto info = Json::parse(end.output, nullptr, false);
+  if (!info.is_object() || text(info, "contract") != "1" || text(info, "name").empty())
+    return unavailable(entry, "--info did not print one JSON object of contract 1 with a name");
+  read_info(info, entry);
+  return entry;
+}
+
+std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) {
+  std::vector<std::future<EngineEntry>> asked;
+  for (const auto& path : candidates(extra)) asked.push_back(std::async(std::launch::async, ask_engine, path));
+  std::vector<EngineEntry> engines;
+  for (auto& answer : asked) {
+    auto entry = answer.get();
+    if (!find_engine(engines, entry.name)) engines.push_back(std::move(entry));  // the first of a name wins, as in PATH
+  }
+  std::sort(engines.begin(), engines.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return engines;
+}
+
+const EngineEntry* find_engine(const std::vector<EngineEntry>& engines, const std::string& name) {
+  const auto at = std::find_if(engines.begin(), engines.end(), [&](const auto& e) { return e.name == name; });
+  return at == engines.end() ? nullptr : &*at;
+}
+
+std::string engines_json(const std::vector<EngineEntry>& engines) {
+  Json list = Json::array();
+  for (const auto& e : engines)
+    list.push_back({{"name", e.name}, {"version", e.version}, {"build", e.build}, {"library", {{"path", e.library_path}, {"hash", e.library_hash}}},
+                    {"capabilities", e.capabilities}, {"presets", e.presets}, {"settings", e.settings}, {"deterministic", e.deterministic},
+                    {"executable", e.executable}, {"available", e.available}, {"reason", e.reason}});
+  return Json{{"engines", list}}.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace tripoint

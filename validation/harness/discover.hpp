@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/defect.hpp"
+
+namespace tripoint {
+
+/// An engine executable as its `--info` describes it.
+struct EngineEntry {
+  std::string name, version, build;
+  std::string library_path, library_hash;
+  std::vector<std::string> capabilities, presets{"default"};
+  std::map<std::string, std::string> settings;
+  std::vector<DefectEntry> defects;  ///< of the test build only
+  bool deterministic = true;
+  bool available = true;
+  std::string reason;      ///< why it is not available
+  std::string executable;  ///< absolute path
+};
+
+/// Asks one executable; a program that does not answer by the contract within 10 s is an entry that is not available.
+[[nodiscard]] EngineEntry ask_engine(const std::string& executable);
+
+/// Every engine-* in ../libexec/tripoint beside this program and in the folders of TRIPOINT_ENGINE_PATH, by name; each is asked once.
+/// @param extra executables that join, and win over another of their name (--engine PATH)
+/// @throws InputError when an extra path is no executable file
+[[nodiscard]] std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra = {});
+
+/// nullptr when there is none of that name.
+[[nodiscard]] const EngineEntry* find_engine(const std::vector<EngineEntry>&, const std::string& name);
+
+/// The document of `tripoint engines --json`.
+[[nodiscard]] std::string engines_json(const std::vector<EngineEntry>&);
+
+/// Folder of the executable that runs now.
+[[nodiscard]] std::string program_folder();
+
+}  // namespace tripoint

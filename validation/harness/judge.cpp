@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "validation/harness/apply_gate.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace {
+
+/// Collects what is wrong with a case: a sentence and its exit code.
+struct Findings {
+  std::vector<std::string>& problems;
+  std::set<int> codes;
+  void add(int code, const std::string& what) {
+    codes.insert(code);
+    if (std::find(problems.begin(), problems.end(), what) == problems.end()) problems.push_back(what);
+  }
+};
+
+std::string name_of(const EngineRow& e) { return e.preset == "default" ? e.name : e.name + " (" + e.preset + ")"; }
+
+/// The row says what its worst run says; a row that claims to be ok and has no run is a hole in the results.
+void settle_status(const CaseResult& result, EngineRow& engine, Findings& findings) {
+  if (engine.runs.empty() && engine.status == "ok") {
+    engine.status = "error", engine.reason = "the results hold no run of it";
+    findings.add(exit_missing, name_of(engine) + ": " + engine.reason);
+  }
+  for (const auto& run : engine.runs) {
+    if (run.status == "diverged" && result.expect != "diverges")
+      findings.add(exit_diverged, fmt::format("{}{}{} diverged: {}", name_of(engine), run.knobs.mode.empty() ? "" : " ", run.knobs.mode, run.reason));
+    if (!run.comparable) findings.add(exit_missing, name_of(engine) + " is not comparable: " + run.reason);
+  }
+  const auto bad = std::find_if(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != "ok" || !r.comparable; });
+  if (!engine.runs.empty()) {
+    engine.status = bad == engine.runs.end() ? "ok" : bad->status == "ok" ? "error" : bad->status;
+    engine.reason = bad == engine.runs.end() ? "" : bad->reason.empty() ? bad->status : bad->reason;
+  }
+  if (engine.required && engine.status != "ok" && engine.status != "diverged")
+    findings.add(exit_missing, fmt::format("{} is required and is {}: {}", name_of(engine), engine.status, engine.reason));
+}
+
+bool names(const Gate& gate, const EngineRow& engine) {
+  if (!gate.preset.empty() && gate.preset != engine.preset) return false;
+  return gate.engine.empty() ? engine.name != "exact" : gate.engine == engine.name;
+}
+
+void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen, Findings& findings) {
+  if (gate.reason.empty()) findings.add(exit_missing, fmt::format("{}: the gate on {} gives no reason for its limit", to_string(gate.place), gate.metric));
+  int named = 0, judged = 0, absent = 0;
+  for (auto& engine : result.engines) {
+    if (!names(gate, engine)) continue;
+    ++named;
+    const auto applied = apply_gate(result, gate, engine);
+    judged += applied == Applied::judged;
+    absent += applied == Applied::absent;
+  }
+  if (judged > 0 || absent > 0 || (named == 0 && engines_were_chosen)) return;
+  findings.add(exit_missing, fmt::format("{}: the gate on {} judges nothing: no engine, mode or level of the case fits it", to_string(gate.place), gate.metric));
+}
+
+void count_gates(CaseResult& result, Findings& findings) {
+  int judged = 0, two_sided = 0;
+  for (const auto& engine : result.engines)
+    for (const auto& row : engine.gates) {
+      ++judged;
+      two_sided += row.gate.band || row.gate.at_least;
+      if (row.verdict == "fail") findings.codes.insert(exit_fail);
+      else if (row.verdict == "inconclusive") findings.codes.insert(exit_inconclusive);
+      else if (row.verdict == "diverged") findings.codes.insert(result.expect == "diverges" ? exit_pass : exit_diverged);
+      else if (row.verdict != "pass") findings.codes.insert(exit_missing);
+    }
+  if (judged == 0 && result.expect != "diverges") findings.add(exit_missing, "no gate judges this case");
+  if (result.expect == "defect" && two_sided == 0)
+    findings.add(exit_missing, "declares a defect, which only a gate with band or at_least can measure, and has none");
+}
+
+void check_divergence(const CaseResult& result, Findings& findings) {
+  if (result.expect != "diverges") return;
+  for (const auto& engine : result.engines)
+    for (const auto& run : engine.runs)
+      if (run.status == "diverged") return;
+  findings.add(exit_fail, "is declared to diverge, and no run did");
+}
+
+void check_planned(const Results& results, std::vector<std::string>& problems, std::set<int>& codes) {
+  const auto say = [&](const std::string& what) { problems.push_back(what), codes.insert(exit_missing); };
+  if (results.cases.empty()) say("the results hold no case");
+  std::set<std::string> seen;
+  for (const auto& c : results.cases)
+    if (!seen.insert(c.id).second) say(c.id + ": two cases have this id");
+  for (const auto& id : results.planned)
+    if (!seen.count(id)) say(id + ": was planned and is not in the results");
+}
+
+}  // namespace
+
+void judge(CaseResult& result, bool engines_were_chosen) {
+  result.problems.clear();
+  Findings findings{result.problems, {}};
+  if (result.engines.empty()) findings.add(exit_missing, "no engine ran this case");
+  for (auto& engine : result.engines) {
+    settle_status(result, engine, findings);
+    engine.order.clear(), engine.gates.clear();
+    for (const auto& study : result.studies)
+      for (auto& row : fit_orders(result, engine, study)) engine.order.push_back(std::move(row));
+  }
+  for (const auto& gate : result.gates) apply_to_all(result, gate, engines_were_chosen, findings);
+  for (const auto& study : result.studies)
+    if (!study.expect.empty())
+      for (auto& engine : result.engines) apply_expected_class(result, study, engine);
+  count_gates(result, findings);
+  check_divergence(result, findings);
+  result.exit_code = first_of(findings.codes);
+  result.verdict = verdict_word(result.exit_code);
+}
+
+void judge(Results& results) {
+  std::set<int> codes;
+  results.problems.clear();
+  for (auto& c : results.cases) {
+    judge(c, !results.only_engines.empty());
+    codes.insert(c.exit_code);
+  }
+  check_planned(results, results.problems, codes);
+  results.exit_code = first_of(codes);
+  results.verdict = verdict_word(results.exit_code);
+}
+
+}  // namespace tripoint

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "validation/harness/results.hpp"
+
+/// The one judge. It reads measured values and declared limits, never a stored verdict: the same function judges a fresh run and `tripoint gate`.
+namespace tripoint {
+
+/// Fits the orders, applies every gate, and sets every verdict and exit code.
+///
+/// A gate applies to each engine row that it names (none = every engine but `exact`, whose error is that of the reference to itself),
+/// to each run of its mode and level (none = every run); runs that differ by seed only are pooled. What a gate names and cannot
+/// find is "missing" (exit 4), what is not finite fails, a gate that judges nothing is missing, a case that no gate judges too.
+void judge(Results&);
+void judge(CaseResult&, bool engines_were_chosen);
+
+/// The orders of one engine's runs over one study: one for each metric and mode that is finite at every level (the interval need not be).
+[[nodiscard]] std::vector<OrderRow> fit_orders(const CaseResult&, const EngineRow&, const Study&);
+
+/// Value of NAME, or of NAME.statistical (its statistical standard uncertainty), in one run; empty when the run has no such metric.
+[[nodiscard]] std::optional<MetricValue> measured(const RunRow&, const std::string& metric);
+
+/// Mean of runs that differ by seed only: the statistical uncertainty is the larger of the stated one and the scatter, over sqrt(n).
+[[nodiscard]] MetricValue pooled(const std::vector<MetricValue>&);
+
+/// Whether a study of the case says that this engine runs at levels.
+[[nodiscard]] bool applies(const Study&, const std::string& engine, const std::string& mode);
+
+/// Two levels are the same to 1e-9 of their size.
+[[nodiscard]] bool same_level(double a, double b);
+
+}  // namespace tripoint

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "validation/harness/apply_gate.hpp"
+#include "validation/harness/report_files.hpp"
+
+namespace tripoint {
+namespace {
+
+/// Text for XML: markup escaped, characters that XML 1.0 forbids left out.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default:
+        if (static_cast<unsigned char>(c) >= 0x20 || c == '\n' || c == '\t') out += c;
+    }
+  return out;
+}
+
+/// One <testcase>; `body` holds its failure or skip.
+struct TestCase {
+  std::string class_name, name, body;
+  bool failed = false, skipped = false;
+};
+
+std::string name_of(const GateRow& g, const EngineRow& e) {
+  std::string name = e.preset == "default" ? e.name : e.name + "(" + e.preset + ")";
+  if (!g.mode.empty()) name += " " + g.mode;
+  name += " " + g.metric;
+  if (!g.expect.empty()) name += " is " + g.expect;
+  if (g.level) name += fmt::format(" at {:g}", *g.level);
+  return name;
+}
+
+TestCase test_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
+  TestCase t{c.id, name_of(g, e), {}, g.verdict != "pass", false};
+  t.body = fmt::format("<properties><property name=\"value\" value=\"{:g}\"/><property name=\"uncertainty\" value=\"{:g}\"/><property name=\"limit\" value=\"{}\"/></properties>",
+                       g.value, g.uncertainty, escaped(describe(g.gate)));
+  if (t.failed)
+    t.body += fmt::format("<failure type=\"{}\" message=\"{}\">{}\nlimit set at {} because: {}</failure>", g.verdict, escaped(g.why), escaped(g.why), escaped(to_string(g.gate.place)), escaped(g.gate.reason));
+  return t;
+}
+
+std::vector<TestCase> tests_of(const CaseResult& c) {
+  std::vector<TestCase> tests;
+  for (const auto& e : c.engines) {
+    if (e.status != "ok") {
+      const bool counts = e.required || e.status == "diverged";
+      tests.push_back({c.id, e.name + " runs", counts ? fmt::format("<failure type=\"{}\" message=\"{}\"/>", e.status, escaped(e.reason))
+                                                      : fmt::format("<skipped message=\"{}: {}\"/>", e.status, escaped(e.reason)), counts, !counts});
+    }
+    for (const auto& g : e.gates) tests.push_back(test_of(c, e, g));
+  }
+  for (const auto& p : c.problems) tests.push_back({c.id, "the case can be judged", fmt::format("<failure type=\"problem\" message=\"{}\"/>", escaped(p)), true, false});
+  return tests;
+}
+
+std::string suite_text(const std::string& name, const std::vector<TestCase>& tests) {
+  std::string body;
+  int failures = 0, skipped = 0;
+  for (const auto& t : tests) {
+    failures += t.failed, skipped += t.skipped;
+    body += fmt::format("    <testcase classname=\"{}\" name=\"{}\">{}</testcase>\n", escaped(t.class_name), escaped(t.name), t.body);
+  }
+  return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n", escaped(name), tests.size(), failures, skipped, body);
+}
+
+}  // namespace
+
+std::string junit_text(const Results& results) {
+  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"tripoint\">\n";
+  for (const auto& c : results.cases) text += suite_text(c.id, tests_of(c));
+  std::vector<TestCase> whole;
+  for (const auto& p : results.problems) whole.push_back({"tripoint", "the results are whole", fmt::format("<failure type=\"problem\" message=\"{}\"/>", escaped(p)), true, false});
+  if (!whole.empty()) text += suite_text("tripoint", whole);
+  return text + "</testsuites>\n";
+}
+
+}  // namespace tripoint

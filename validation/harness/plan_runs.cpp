@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/plan_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "validation/harness/judge.hpp"
+
+namespace tripoint {
+namespace {
+
+bool contains(const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); }
+
+std::optional<double> number_setting(const Settings& settings, const std::string& key) {
+  const auto at = settings.find(key);
+  if (at == settings.end() || !std::holds_alternative<double>(at->second)) return {};
+  return std::get<double>(at->second);
+}
+
+std::vector<EngineChoice> engines_of(const Case& value, const Selection& selection) {
+  std::vector<EngineChoice> list;
+  const auto listed = [&](const std::string& name) { return std::find_if(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; }); };
+  const auto add = [&](const std::string& name, bool required) {
+    if (std::any_of(list.begin(), list.end(), [&](const auto& e) { return e.name == name; })) return;
+    const auto at = listed(name);
+    auto choice = at == value.engines.end() ? EngineChoice{name, required, {}, {}} : *at;
+    choice.required = choice.required || required;
+    list.push_back(choice);
+  };
+  add("tripoint", true);
+  for (const auto& e : value.engines) add(e.name, false);
+  if (has_states(value.reference)) add("exact", false);
+  for (const auto& name : selection.extra) add(name, false);
+  for (const auto& name : selection.engines) add(name, false);
+  if (!selection.engines.empty())
+    std::erase_if(list, [&](const auto& e) { return !contains(selection.engines, e.name) && !contains(selection.extra, e.name); });
+  return list;
+}
+
+/// The value that the case's own resolution has on an axis.
+std::optional<double> own_level(const Scene& scene, const RunPlan& run, const std::string& axis) {
+  if (axis == "spacing") return scene.spacing;
+  if (axis == "time_step") return scene.time_step;
+  if (axis == "support_ratio") return scene.support_ratio;
+  return axis == "walkers" ? run.walkers : run.iterations;
+}
+
+void set_level(RunPlan& run, const std::string& axis, double level) {
+  if (axis == "spacing") run.choice.spacing = level;
+  else if (axis == "time_step") run.choice.time_step = level;
+  else if (axis == "support_ratio") run.choice.support_ratio = level;
+  else if (axis == "walkers") run.walkers = level;
+  else run.iterations = level;
+}
+
+bool same_run(const Case& value, const RunPlan& a, const RunPlan& b) {
+  const auto s = scene_of(value, a), t = scene_of(value, b);
+  const auto same = [](const std::optional<double>& x, const std::optional<double>& y) { return x.has_value() == y.has_value() && (!x || same_level(*x, *y)); };
+  return a.mode == b.mode && same_level(s.spacing, t.spacing) && same(s.time_step, t.time_step) && same_level(s.support_ratio, t.support_ratio) &&
+         s.jitter == t.jitter && s.seed == t.seed && same(a.walkers, b.walkers) && same(a.iterations, b.iterations);
+}
+
+/// @return the run itself, or the one that is the same and was planned before
+RunPlan& add_run(const Case& value, std::vector<RunPlan>& runs, const RunPlan& run) {
+  const auto at = std::find_if(runs.begin(), runs.end(), [&](const auto& r) { return same_run(value, r, run); });
+  if (at == runs.end()) return runs.emplace_back(run);
+  at->levels.insert(run.levels.begin(), run.levels.end());
+  return *at;
+}
+
+void add_study(const Case& value, const Study& study, const RunPlan& base, std::uint64_t seed, std::vector<RunPlan>& runs) {
+  for (const double level : study.levels) {
+    auto run = base;
+    run.base = false;
+    run.levels = {{study.axis, level}};
+    set_level(run, study.axis, level);
+    if (study.jitter > 0.0) run.choice.jitter = study.jitter;
+    run.label = run.group = fmt::format("{}{}={:g}{}", base.mode.empty() ? "" : base.mode + "-", study.axis, level, study.jitter > 0.0 ? fmt::format("-jitter={:g}", study.jitter) : "");
+    const std::string group = add_run(value, runs, run).group;
+    for (int k = 1; k < study.seeds; ++k) {
+      auto replica = run;
+      replica.choice.seed = seed + static_cast<std::uint64_t>(k);
+      replica.group = group;
+      replica.label += fmt::format("-seed{}", *replica.choice.seed);
+      add_run(value, runs, replica);
+    }
+  }
+}
+
+std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, const Selection& selection) {
+  std::vector<RunPlan> runs;
+  std::vector<std::string> modes;
+  for (const auto mode : value.modes) modes.emplace_back(to_string(mode));
+  if (engine.name != "tripoint") modes = {""};
+  const std::uint64_t seed = selection.seed.value_or(value.scene.seed);
+  for (const auto& mode : modes) {
+    RunPlan base;
+    base.mode = mode, base.base = true;
+    if (!mode.empty()) base.choice.mode = mode_from(mode);
+    base.choice.seed = seed;
+    base.walkers = number_setting(engine.settings, "walkers"), base.iterations = number_setting(engine.settings, "iterations");
+    base.label = base.group = mode.empty() ? "base" : mode;
+    const Scene scene = scene_of(value, base);
+    for (const auto& study : value.studies)
+      if (const auto level = own_level(scene, base, study.axis); level && applies(study, engine.name, mode) && (study.jitter == 0.0 || study.jitter == scene.jitter)) base.levels[study.axis] = *level;
+    runs.push_back(base);
+    base.levels.clear();
+    for (const auto& study : value.studies)
+      if (applies(study, engine.name, mode)) add_study(value, study, base, seed, runs);
+  }
+  return runs;
+}
+
+}  // namespace
+
+bool has_states(const ReferenceChoice& reference) {
+  return !reference.function.empty() && (reference.kind == "analytic" || reference.kind == "discrete_exact" || reference.kind == "mms");
+}
+
+std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
+  std::vector<EnginePlan> plans;
+  for (const auto& engine : engines_of(value, selection)) {
+    EnginePlan plan;
+    plan.name = engine.name, plan.required = engine.required, plan.settings = engine.settings;
+    plan.entry = find_engine(found, engine.name);
+    if (plan.entry && !plan.entry->available) plan.runs.clear();
+    else plan.runs = runs_of(value, engine, selection);
+    auto presets = engine.presets;
+    if (presets.empty()) presets = {plan.entry && !contains(plan.entry->presets, "default") ? plan.entry->presets.front() : "default"};
+    for (const auto& preset : presets) {
+      plan.preset = preset;
+      plans.push_back(plan);
+    }
+  }
+  return plans;
+}
+
+Scene scene_of(const Case& value, const RunPlan& run) { return scene_for(value, run.choice); }
+
+}  // namespace tripoint

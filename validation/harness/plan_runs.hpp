@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "adapters/job.hpp"
+#include "scene/read_case.hpp"
+#include "validation/harness/discover.hpp"
+
+/// From a case to the list of its runs and their jobs.
+namespace tripoint {
+
+/// One run that is to be made.
+struct RunPlan {
+  std::string mode;  ///< empty for foreign engines
+  RunChoice choice;
+  std::optional<double> walkers, iterations;
+  std::map<std::string, double> levels;  ///< study axis -> level
+  bool base = false;
+  std::string label;  ///< name of its folder below runs/<case>/<engine>
+  std::string group;  ///< runs of one group differ by seed only
+};
+
+/// One engine and preset of a case with all its runs.
+struct EnginePlan {
+  std::string name, preset = "default";
+  bool required = false;
+  Settings settings;
+  const EngineEntry* entry = nullptr;  ///< nullptr: not found
+  std::vector<RunPlan> runs;
+};
+
+struct Selection {
+  std::vector<std::string> engines;  ///< --engines; empty = all that the case names
+  std::vector<std::string> extra;    ///< names of the engines given by path: they join every case
+  std::optional<std::uint64_t> seed;
+};
+
+/// Engines that run the case: tripoint (required unless the case says otherwise) and, where the reference has states, exact;
+/// then those that the case lists, and the extra ones. Modes are tripoint's alone: foreign engines run once.
+/// Runs: the case's own resolution, and each level and seed of each study; a run that two studies share is made once.
+[[nodiscard]] std::vector<EnginePlan> plan_runs(const Case&, const std::vector<EngineEntry>&, const Selection&);
+
+/// The scene that a run is made in.
+[[nodiscard]] Scene scene_of(const Case&, const RunPlan&);
+
+/// The job of one run: every body of the scene with the mass properties of its particles, output times from 0 to the end.
+[[nodiscard]] Job make_job(const Case&, const EnginePlan&, const RunPlan&, const Scene&, const InitialState&);
+
+/// Times 0, interval, 2 interval, ..., end [s]; the last is `end` itself.
+[[nodiscard]] std::vector<double> output_times(double interval, double end);
+
+/// What decides the particles of a scene: runs of one key share one particles.h5.
+[[nodiscard]] std::string sampling_key(const Scene&);
+
+/// Whether a reference describes states (positions, temperatures), so that the engine `exact` can write them.
+[[nodiscard]] bool has_states(const ReferenceChoice&);
+
+}  // namespace tripoint

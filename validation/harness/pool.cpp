@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "validation/harness/judge.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr std::string_view statistical = ".statistical";
+
+double refinement(const std::string& axis, double level) {
+  return axis == "spacing" || axis == "time_step" ? level : 1.0 / level;  // finer = smaller
+}
+
+/// Particles are jittered as the study says, or else as in the case's own run.
+bool has_jitter_of(const EngineRow& engine, const Study& study, const RunRow& run) {
+  if (study.jitter > 0.0) return run.knobs.jitter == study.jitter;
+  const auto base = std::find_if(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.base; });
+  return base == engine.runs.end() || run.knobs.jitter == base->knobs.jitter;
+}
+
+/// The pooled metric at one level of a study, NaN when any of its runs is missing, not ok, or lacks it.
+MetricValue at_level(const EngineRow& engine, const Study& study, const std::string& mode, const std::string& metric, double level) {
+  std::vector<MetricValue> values;
+  for (const auto& run : engine.runs) {
+    const auto at = run.levels.find(study.axis);
+    if (run.knobs.mode != mode || at == run.levels.end() || !same_level(at->second, level) || !has_jitter_of(engine, study, run)) continue;
+    const auto value = measured(run, metric);
+    if (run.status != "ok" || !run.comparable || !value) return {not_a_number, {}, "a level has no value", {}, {}};
+    values.push_back(*value);
+  }
+  return values.empty() ? MetricValue{not_a_number, {}, "a level was not run", {}, {}} : pooled(values);
+}
+
+std::vector<std::string> modes_of(const EngineRow& engine) {
+  std::vector<std::string> modes;
+  for (const auto& run : engine.runs)
+    if (std::find(modes.begin(), modes.end(), run.knobs.mode) == modes.end()) modes.push_back(run.knobs.mode);
+  return modes;
+}
+
+/// Metrics to fit: those of the study or all, and the statistical uncertainties that a gate on an order asks for.
+std::vector<std::string> metrics_to_fit(const CaseResult& result, const Study& study) {
+  std::vector<std::string> names;
+  for (const auto& m : result.metrics)
+    if (study.metric.empty() || study.metric == m.name) names.push_back(m.name);
+  for (const auto& gate : result.gates) {
+    const auto at = gate.metric.rfind(".order");
+    if (at == std::string::npos || at + 6 != gate.metric.size()) continue;
+    const auto name = gate.metric.substr(0, at);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+bool same_level(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+bool applies(const Study& study, const std::string& engine, const std::string& mode) {
+  if (engine == "exact") return false;  // truth does not converge
+  return (study.engine.empty() || study.engine == engine) && (study.mode.empty() || study.mode == mode);
+}
+
+std::optional<MetricValue> measured(const RunRow& run, const std::string& metric) {
+  if (const auto at = run.metrics.find(metric); at != run.metrics.end()) return at->second;
+  if (!metric.ends_with(statistical)) return {};
+  const auto at = run.metrics.find(metric.substr(0, metric.size() - statistical.size()));
+  if (at == run.metrics.end()) return {};
+  const bool known = std::isfinite(at->second.value) && at->second.uncertainty.statistical > 0.0;  // an unknown scatter is no scatter of 0
+  return MetricValue{known ? at->second.uncertainty.statistical : not_a_number, {}, "statistical standard uncertainty", {}, {}};
+}
+
+MetricValue pooled(const std::vector<MetricValue>& values) {
+  if (values.size() == 1) return values.front();
+  MetricValue pool = values.front();
+  const double n = static_cast<double>(values.size());
+  double sum = 0.0, stated = 0.0, scatter = 0.0;
+  for (const auto& v : values) {
+    sum += v.value;
+    stated += v.uncertainty.statistical * v.uncertainty.statistical;
+    pool.uncertainty.numerical = std::max(pool.uncertainty.numerical, v.uncertainty.numerical);
+    pool.uncertainty.input = std::max(pool.uncertainty.input, v.uncertainty.input);
+    pool.uncertainty.data = std::max(pool.uncertainty.data, v.uncertainty.data);
+  }
+  pool.value = sum / n;
+  for (const auto& v : values) scatter += (v.value - pool.value) * (v.value - pool.value);
+  pool.uncertainty.statistical = std::max(std::sqrt(stated) / n, std::sqrt(scatter / (n - 1.0) / n));
+  return pool;
+}
+
+std::vector<OrderRow> fit_orders(const CaseResult& result, const EngineRow& engine, const Study& study) {
+  std::vector<OrderRow> rows;
+  for (const auto& mode : modes_of(engine)) {
+    if (!applies(study, engine.name, mode)) continue;
+    for (const auto& metric : metrics_to_fit(result, study)) {
+      OrderRow row{metric, study.axis, mode, {}, study.order.value_or(0.0), {}, {}, {}};
+      for (const double level : study.levels) {
+        const auto value = at_level(engine, study, mode, metric, level);
+        row.step.push_back(refinement(study.axis, level));
+        row.error.push_back(value.value);
+        row.uncertainty.push_back(value.uncertainty.combined());
+      }
+      if (!std::all_of(row.error.begin(), row.error.end(), [](double e) { return std::isfinite(e); })) continue;
+      row.order = fit_order(row.step, row.error, row.uncertainty, row.formal);
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/process.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <optional>
+
+extern char** environ;
+
+namespace tripoint {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::size_t kept_output = 4u << 20, kept_log = 1u << 20, kept_tail = 4096;
+
+std::atomic<bool> stop_wanted{false};
+extern "C" void on_interrupt(int) { stop_wanted.store(true); }
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd = -1) : fd_(fd) {}
+  ~Descriptor() { reset(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  void reset(int fd = -1) {
+    if (fd_ >= 0) ::close(fd_);
+    fd_ = fd;
+  }
+  [[nodiscard]] int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+/// Keeps the beginning of a stream in a file, its end in memory, and counts what lies between: a flood costs time, not disk.
+class BoundedLog {
+ public:
+  explicit BoundedLog(const std::string& path) {
+    if (!path.empty()) file_.reset(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+  }
+  void add(const char* data, std::size_t size) {
+    const std::size_t fits = std::min(size, kept_log - std::min(kept_log, written_));
+    put(data, fits);
+    written_ += fits;
+    left_out_ += size - fits;
+    tail_.append(data, size);
+    if (tail_.size() > 2 * kept_tail) tail_.erase(0, tail_.size() - kept_tail);
+  }
+  std::string close() {
+    if (left_out_ > 0) {
+      const std::string end = fmt::format("\n[{} bytes are left out here; the end of the log was:]\n{}", left_out_, tail_);
+      put(end.data(), end.size());
+    }
+    file_.reset();
+    return tail_.size() > kept_tail ? tail_.substr(tail_.size() - kept_tail) : tail_;
+  }
+
+ private:
+  void put(const char* data, std::size_t size) {
+    while (file_.get() >= 0 && size > 0) {
+      const ssize_t n = ::write(file_.get(), data, size);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return file_.reset();  // a full disk must not stop the run: the tail is still in memory
+      data += n, size -= static_cast<std::size_t>(n);
+    }
+  }
+  Descriptor file_;
+  std::size_t written_ = 0, left_out_ = 0;
+  std::string tail_;
+};
+
+/// Finds the lines `progress X` in a stream that arrives in pieces.
+class ProgressLines {
+ public:
+  explicit ProgressLines(const std::function<void(double)>& report) : report_(report) {}
+  void add(const char* data, std::size_t size) {
+    if (!report_) return;
+    for (std::size_t i = 0; i < size; ++i) {
+      if (data[i] == '\n') end_line();
+      else if (line_.size() < 80) line_ += data[i];
+    }
+  }
+
+ private:
+  void end_line() {
+    if (line_.rfind("progress ", 0) == 0) {
+      const double done = std::strtod(line_.c_str() + 9, nullptr);
+      if (std::isfinite(done)) report_(std::clamp(done, 0.0, 1.0));
+    }
+    line_.clear();
+  }
+  const std::function<void(double)>& report_;
+  std::string line_;
+};
+
+std::vector<std::string> environment_with(const std::map<std::string, std::string>& added) {
+  std::vector<std::string> all;
+  for (char** e = environ; *e; ++e) {
+    const std::string entry = *e;
+    if (!added.count(entry.substr(0, entry.find('=')))) all.push_back(entry);
+  }
+  for (const auto& [name, value] : added) all.push_back(name + "=" + value);
+  return all;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& strings) {
+  std::vector<char*> p;
+  for (auto& s : strings) p.push_back(s.data());
+  p.push_back(nullptr);
+  return p;
+}
+
+/// Starts the program in a process group of its own. @return 0 or the error number
+int spawn(const ProcessSpec& spec, int out, int err, pid_t& pid) {
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawnattr_init(&attributes);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, out, 1);
+  posix_spawn_file_actions_adddup2(&actions, err, 2);
+  if (!spec.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, spec.folder.c_str());
+  sigset_t none, all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  auto argv = spec.argv;
+  auto environment = environment_with(spec.environment);
+  const int error = posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  return error;
+}
+
+/// No core files, no file above 16 GiB; the address space may not pass four times the machine's memory.
+void bound_resources(pid_t pid) {
+  const rlimit no_core{0, 0}, file{16ull << 30, 16ull << 30};
+  const auto memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  const rlimit space{4 * memory, 4 * memory};
+  prlimit(pid, RLIMIT_CORE, &no_core, nullptr);
+  prlimit(pid, RLIMIT_FSIZE, &file, nullptr);
+#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer's shadow alone takes terabytes of address space
+  prlimit(pid, RLIMIT_AS, &space, nullptr);
+#endif
+}
+
+void add_cost(ProcessEnd& end, const rusage& use) {
+  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  end.cpu_s += seconds(use.ru_utime) + seconds(use.ru_stime);
+  end.peak_bytes = std::max(end.peak_bytes, 1024.0 * static_cast<double>(use.ru_maxrss));
+}
+
+/// Reads what is there without waiting. @return false at the end of the stream
+template <class Take>
+bool drain(int fd, Take take) {
+  char buffer[65536];
+  for (int rounds = 0; rounds < 64; ++rounds) {  // a flood must not starve the clock
+    const ssize_t n = ::read(fd, buffer, sizeof buffer);
+    if (n > 0) take(buffer, static_cast<std::size_t>(n));
+    else if (n == 0) return false;
+    else return errno == EAGAIN || errno == EINTR;
+  }
+  return true;
+}
+
+/// The leader has ended or must end: nothing of its group stays, and every member that is ours to reap is paid for.
+void end_group(pid_t leader, ProcessEnd& end, bool leader_reaped) {
+  ::kill(-leader, SIGKILL);
+  int status = 0;
+  rusage use{};
+  if (!leader_reaped && ::wait4(leader, &status, 0, &use) == leader) add_cost(end, use);
+  while (::wait4(-leader, &status, 0, &use) > 0) add_cost(end, use);
+}
+
+void adopt_orphans() {
+  static std::once_flag once;
+  std::call_once(once, [] { prctl(PR_SET_CHILD_SUBREAPER, 1); });  // daemons that an engine leaves come to us, not to init
+}
+
+/// Follows the child's streams until it ends, is out of time, or we are stopped.
+void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& log, ProcessEnd& end) {
+  const auto start = Clock::now();
+  ProgressLines progress(spec.progress);
+  const auto take_output = [&](const char* p, std::size_t n) { end.output.append(p, std::min(n, kept_output - std::min(kept_output, end.output.size()))); };
+  const auto take_log = [&](const char* p, std::size_t n) { log.add(p, n), progress.add(p, n); };
+  const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
+  std::array<pollfd, 3> wait{pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}, pollfd{child.get(), POLLIN, 0}};
+  bool reaped = false;
+  while (!reaped) {
+    const double left = spec.wall_limit - seconds_since(start);
+    if (stop_wanted || left <= 0.0) {
+      end.how = stop_wanted ? ProcessEnd::How::interrupted : ProcessEnd::How::timed_out;
+      break;
+    }
+    ::poll(wait.data(), wait.size(), static_cast<int>(std::min(100.0, 1e3 * left + 1.0)));
+    if (wait[0].revents && !drain(out, take_output)) wait[0].fd = -1;
+    if (wait[1].revents && !drain(err, take_log)) wait[1].fd = -1;
+    int status = 0;
+    rusage use{};
+    if (::wait4(pid, &status, WNOHANG, &use) == pid) {
+      reaped = true;
+      add_cost(end, use);
+      end.how = WIFEXITED(status) ? ProcessEnd::How::exited : ProcessEnd::How::signalled;
+      end.code = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
+    }
+  }
+  end_group(pid, end, reaped);
+  drain(out, take_output);
+  drain(err, take_log);
+  end.wall_s = seconds_since(start);
+}
+
+}  // namespace
+
+ProcessEnd run_process(const ProcessSpec& spec) {
+  adopt_orphans();
+  ProcessEnd end;
+  int out[2], err[2];
+  if (::pipe2(out, O_CLOEXEC | O_NONBLOCK) != 0) return end.log_tail = std::strerror(errno), end;
+  const Descriptor out_read(out[0]);
+  Descriptor out_write(out[1]);
+  if (::pipe2(err, O_CLOEXEC | O_NONBLOCK) != 0) return end.log_tail = std::strerror(errno), end;
+  const Descriptor err_read(err[0]);
+  Descriptor err_write(err[1]);
+  for (const int end_of_child : {out[1], err[1]}) ::fcntl(end_of_child, F_SETFL, 0);  // the child writes blocking
+  pid_t pid = -1;
+  if (const int error = spawn(spec, out[1], err[1], pid); error != 0) {
+    end.log_tail = std::strerror(error);
+    return end;
+  }
+  bound_resources(pid);
+  out_write.reset();
+  err_write.reset();
+  BoundedLog log(spec.log);
+  follow(spec, pid, out[0], err[0], log, end);
+  end.log_tail = log.close();
+  return end;
+}
+
+std::string describe(const ProcessEnd& end) {
+  switch (end.how) {
+    case ProcessEnd::How::exited: return fmt::format("exited with code {}", end.code);
+    case ProcessEnd::How::signalled: return fmt::format("was killed by signal {} ({})", end.code, strsignal(end.code));
+    case ProcessEnd::How::timed_out: return fmt::format("was stopped after {:.0f} s", end.wall_s);
+    case ProcessEnd::How::interrupted: return "was stopped by Ctrl-C";
+    case ProcessEnd::How::not_started: break;
+  }
+  return "could not be started: " + end.log_tail;
+}
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESETHAND;  // a second Ctrl-C ends us at once
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool interrupted() noexcept { return stop_wanted.load(); }
+
+}  // namespace tripoint

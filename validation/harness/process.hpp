@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+/// Engines are seen only as processes: started in a group of their own, bounded, and paid for by the group.
+namespace tripoint {
+
+struct ProcessSpec {
+  std::vector<std::string> argv;                   ///< argv[0] is the path of the program
+  std::string folder;                              ///< working folder; empty = ours
+  std::map<std::string, std::string> environment;  ///< added to ours
+  double wall_limit = 600.0;                       ///< [s]; then the whole group is killed
+  std::string log;                                 ///< file that keeps stderr: its first MiB and its last lines; empty = none
+  std::function<void(double)> progress;            ///< called with 0..1 for each line `progress X` of stderr
+};
+
+struct ProcessEnd {
+  enum class How { exited, signalled, timed_out, interrupted, not_started } how = How::not_started;
+  int code = 0;              ///< exit code, or the signal's number
+  std::string output;        ///< stdout, at most 4 MiB
+  std::string log_tail;      ///< last lines of stderr, or why it could not start
+  double wall_s = 0.0;       ///< [s]
+  double cpu_s = 0.0;        ///< user and system of the whole group [s]
+  double peak_bytes = 0.0;   ///< greatest resident size of one process of the group
+};
+
+/// Runs a program to its end, its limit or our Ctrl-C, whichever is first; nothing of its group survives. Never throws for what the program does.
+[[nodiscard]] ProcessEnd run_process(const ProcessSpec&);
+
+/// "exited with code 3", "was killed by signal 9 (Killed)", "was stopped after 600 s", ...
+[[nodiscard]] std::string describe(const ProcessEnd&);
+
+/// From now on Ctrl-C and SIGTERM stop the children and set interrupted(), instead of ending this process.
+void catch_interrupts();
+[[nodiscard]] bool interrupted() noexcept;
+
+}  // namespace tripoint

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "validation/harness/results.hpp"
+
+/// What lies beside results.json; it exists without Python, but for the page.
+namespace tripoint {
+
+/// JUnit XML: a suite a case, a test a gate (and one for each engine that did not run); inconclusive is a failure of a type of its own.
+[[nodiscard]] std::string junit_text(const Results&);
+
+/// Markdown for a CI job's summary: the verdict, a row a case, and every gate that is not green with its reason and line.
+[[nodiscard]] std::string summary_text(const Results&);
+
+/// Writes results.json, junit.xml and summary.md into the folder, then asks the report program for index.html.
+/// @return why the page could not be made; empty when it is there. @throws EngineError when a file cannot be written
+[[nodiscard]] std::string write_report(const Results&, const std::string& folder);
+
+/// The line that ends every validation: `verdict PASS exit 0  report/index.html`.
+[[nodiscard]] std::string last_line(const Results&, const std::string& folder);
+
+/// One line for a case: its verdict, id and what is not green.
+[[nodiscard]] std::string case_line(const CaseResult&);
+
+/// Shards into one set of results; runs are copied below `out`. @throws InputError when a shard is missing or two overlap
+[[nodiscard]] Results merge_shards(const std::vector<std::string>& folders, const std::string& out);
+
+}  // namespace tripoint

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "validation/metrics/metric.hpp"
+#include "validation/metrics/order.hpp"
+
+/// What results.json holds (contracts: results.json, format 1), as plain data. Verdicts in it are always recomputed: judge.hpp.
+namespace tripoint {
+
+struct Cost {
+  double cpu_s = 0.0, wall_s = 0.0, setup_cpu_s = 0.0;  ///< [s]
+  double peak_bytes = 0.0;
+  double pairs = 0.0, steps = 0.0, iterations = 0.0;  ///< counted by the engine
+};
+
+struct Knobs {
+  double spacing = 0.0;    ///< [m]
+  double time_step = 0.0;  ///< as the engine itself says [s]; 0 = it has none
+  double support_ratio = 0.0;
+  std::optional<double> walkers, iterations;
+  std::string mode;  ///< corrected, paper; empty for foreign engines
+  int threads = 1;
+  std::uint64_t seed = 1;
+  double jitter = 0.0;  ///< [spacings]
+};
+
+/// One run of one engine.
+struct RunRow {
+  Knobs knobs;
+  std::map<std::string, double> levels;  ///< study axis -> the level that this run is
+  bool base = false;                     ///< the case's own resolution
+  std::string group;                     ///< runs of one group differ by seed only; empty = alone
+  std::string status = "ok", reason;     ///< ok refused missing diverged killed timeout error
+  bool comparable = true;                ///< false: the engine read back another scene than it was given
+  std::map<std::string, MetricValue> metrics;
+  Cost cost;
+  std::string state_hash, time_step_bound;
+  std::string folder;  ///< of job, trajectory and log, relative to results.json
+};
+
+struct OrderRow {
+  std::string metric, axis, mode;
+  Order order;
+  double formal = 0.0;
+  std::vector<double> step, error, uncertainty;  ///< what was fitted
+};
+
+/// One gate applied to one engine's run (or seeds of a run, pooled), or to a fitted order.
+struct GateRow {
+  std::string metric, mode;
+  std::optional<double> level;
+  double value = 0.0;        ///< NaN where there is none
+  double uncertainty = 0.0;  ///< standard
+  std::optional<double> low, high;  ///< an order's 95 % interval
+  std::string verdict;       ///< pass fail inconclusive missing diverged
+  std::string why;           ///< one sentence for a verdict that is not pass
+  std::string expect, fit_class;  ///< class of convergence: as a study declares it, and as fitted
+  Gate gate;                 ///< limit, band, reason, file and line
+};
+
+/// One row of the matrix: an engine with a preset.
+struct EngineRow {
+  std::string name, version, preset = "default";
+  bool required = false;
+  std::string status = "ok", reason;
+  std::vector<RunRow> runs;
+  std::vector<OrderRow> order;
+  std::vector<GateRow> gates;
+};
+
+struct EquivalenceRow {
+  std::string a, b, metric;
+  double difference = 0.0, uncertainty = 0.0;
+  std::optional<double> margin;   ///< the limit that the case sets for this metric
+  double error_a = 0.0, error_b = 0.0;  ///< to truth
+  std::string verdict;
+};
+
+struct CaseResult {
+  std::string id, title, kind, requirement, claims, file, verdict, expect = "pass";
+  int exit_code = 0;
+  ReferenceChoice reference;
+  std::vector<MetricChoice> metrics;  ///< as declared
+  std::vector<Study> studies;         ///< as declared
+  std::vector<Gate> gates;            ///< as declared: the judge starts from these
+  std::vector<EngineRow> engines;
+  std::vector<EquivalenceRow> equivalence;
+  std::map<std::string, double> ledger;
+  std::vector<std::string> problems;  ///< why the verdict is not pass, beyond the gates' own rows
+  std::string repeat;
+};
+
+struct Tool {
+  std::string version, commit, compiler, flags, cpu;
+  int cores = 0;
+};
+
+struct Results {
+  int format = 1;
+  Tool tool;
+  std::string command, profile, verdict, date;
+  std::uint64_t seed = 1;
+  int exit_code = 0;
+  std::string shard;                    ///< "i/n", empty = whole
+  std::vector<std::string> planned;     ///< ids of every case that this run had to do
+  std::vector<std::string> only_engines;  ///< --engines; empty = all
+  std::vector<std::string> problems;
+  std::vector<CaseResult> cases;
+};
+
+[[nodiscard]] std::string results_text(const Results&);
+/// @throws InputError naming the file and what is missing or of the wrong kind
+[[nodiscard]] Results read_results(const std::string& path);
+/// This build, this machine.
+[[nodiscard]] Tool this_tool();
+
+}  // namespace tripoint

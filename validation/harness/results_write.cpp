@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "validation/harness/results.hpp"
+
+namespace tripoint {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The writer of a non-finite number is this one line: null, and "finite": false beside it (contracts).
+void put(Json& to, const char* key, double value, bool say_finite = false) {
+  if (std::isfinite(value)) to[key] = value;
+  else to[key] = nullptr;
+  if (say_finite && !std::isfinite(value)) to["finite"] = false;
+}
+
+Json number(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double v : values) list.push_back(std::isfinite(v) ? Json(v) : Json(nullptr));
+  return list;
+}
+
+Json json(const Setting& setting) {
+  return std::visit([](const auto& v) { return Json(v); }, setting);
+}
+
+Json json(const Knobs& k) {
+  return {{"spacing", k.spacing}, {"time_step", k.time_step > 0.0 ? Json(k.time_step) : Json(nullptr)}, {"support_ratio", k.support_ratio},
+          {"walkers", number(k.walkers)}, {"iterations", number(k.iterations)}, {"mode", k.mode.empty() ? Json(nullptr) : Json(k.mode)},
+          {"threads", k.threads}, {"seed", k.seed}, {"jitter", k.jitter}};
+}
+
+Json json(const MetricValue& m) {
+  Json out;
+  put(out, "value", m.value, true);
+  Json u;
+  put(u, "numerical", m.uncertainty.numerical);
+  put(u, "statistical", m.uncertainty.statistical);
+  put(u, "input", m.uncertainty.input);
+  put(u, "data", m.uncertainty.data);
+  out["uncertainty"] = u;
+  if (!m.note.empty()) out["note"] = m.note;
+  if (!m.times.empty()) out["times"] = numbers(m.times), out["series"] = numbers(m.series);
+  return out;
+}
+
+Json json(const RunRow& r) {
+  Json metrics = Json::object(), levels = Json::object();
+  for (const auto& [name, value] : r.metrics) metrics[name] = json(value);
+  for (const auto& [axis, level] : r.levels) levels[axis] = level;
+  return {{"knobs", json(r.knobs)}, {"levels", levels}, {"base", r.base}, {"group", r.group}, {"status", r.status}, {"reason", r.reason}, {"comparable", r.comparable},
+          {"metrics", metrics},
+          {"cost", {{"cpu_s", r.cost.cpu_s}, {"wall_s", r.cost.wall_s}, {"setup_cpu_s", r.cost.setup_cpu_s}, {"peak_bytes", r.cost.peak_bytes},
+                    {"pairs", r.cost.pairs}, {"steps", r.cost.steps}, {"iterations", r.cost.iterations}, {"instructions", nullptr}}},
+          {"state_hash", r.state_hash}, {"time_step_bound", r.time_step_bound}, {"folder", r.folder}};
+}
+
+Json json(const OrderRow& o) {
+  return {{"metric", o.metric}, {"axis", o.axis}, {"mode", o.mode.empty() ? Json(nullptr) : Json(o.mode)}, {"value", o.order.value},
+          {"low", o.order.low}, {"high", o.order.high}, {"class", o.order.fit_class}, {"formal", o.formal > 0.0 ? Json(o.formal) : Json(nullptr)},
+          {"coefficient", number(o.order.coefficient)}, {"floor", number(o.order.floor)}, {"step", numbers(o.step)}, {"error", numbers(o.error)},
+          {"uncertainty", numbers(o.uncertainty)}};
+}
+
+Json json(const Gate& g) {
+  return {{"metric", g.metric}, {"engine", g.engine}, {"mode", g.mode}, {"preset", g.preset}, {"level", number(g.level)}, {"limit", number(g.limit)},
+          {"band", g.band ? Json(*g.band) : Json(nullptr)}, {"at_least", number(g.at_least)}, {"reason", g.reason}, {"by", g.by}, {"date", g.date},
+          {"file", g.place.file}, {"line", g.place.line}};
+}
+
+Json json(const GateRow& r) {
+  Json out = json(r.gate);
+  out.erase("engine"), out.erase("preset");
+  out["mode"] = r.mode.empty() ? Json(nullptr) : Json(r.mode);
+  out["level"] = number(r.level);
+  put(out, "value", r.value, true);
+  put(out, "uncertainty", r.uncertainty);
+  if (r.low) out["low"] = number(r.low), out["high"] = number(r.high);
+  if (!r.fit_class.empty()) out["class"] = r.fit_class;
+  if (!r.expect.empty()) out["expect"] = r.expect;
+  out["verdict"] = r.verdict;
+  out["why"] = r.why;
+  return out;
+}
+
+Json json(const EngineRow& e) {
+  Json runs = Json::array(), order = Json::array(), gates = Json::array();
+  for (const auto& r : e.runs) runs.push_back(json(r));
+  for (const auto& o : e.order)
+    if (std::isfinite(o.order.value) && std::isfinite(o.order.low) && std::isfinite(o.order.high)) order.push_back(json(o));
+  for (const auto& g : e.gates) gates.push_back(json(g));
+  return {{"name", e.name}, {"version", e.version}, {"preset", e.preset}, {"required", e.required}, {"status", e.status}, {"reason", e.reason},
+          {"runs", runs}, {"order", order}, {"gates", gates}};
+}
+
+Json json(const ReferenceChoice& r) {
+  Json args = Json::object();
+  for (const auto& [key, value] : r.args) args[key] = json(value);
+  return {{"kind", r.kind}, {"function", r.function}, {"file", r.file}, {"source", r.source}, {"args", args}, {"uncertainty", r.uncertainty}};
+}
+
+Json json(const Study& s) {
+  return {{"axis", s.axis}, {"levels", s.levels}, {"jitter", s.jitter}, {"seeds", s.seeds}, {"engine", s.engine}, {"mode", s.mode}, {"expect", s.expect},
+          {"order", number(s.order)}, {"metric", s.metric}, {"file", s.place.file}, {"line", s.place.line}};
+}
+
+Json json(const EquivalenceRow& q) {
+  Json out{{"a", q.a}, {"b", q.b}, {"metric", q.metric}};
+  put(out, "difference", q.difference);
+  put(out, "uncertainty", q.uncertainty);
+  out["margin"] = number(q.margin);
+  put(out, "error_a", q.error_a);
+  put(out, "error_b", q.error_b);
+  out["verdict"] = q.verdict;
+  return out;
+}
+
+Json json(const CaseResult& c) {
+  Json metrics = Json::array(), studies = Json::array(), gates = Json::array(), engines = Json::array(), equivalence = Json::array(), ledger = Json::object();
+  for (const auto& m : c.metrics)
+    metrics.push_back({{"name", m.name}, {"quantity", m.quantity}, {"norm", m.norm}, {"body", m.body}, {"at", m.at}, {"scale", m.scale}, {"unit", m.unit}});
+  for (const auto& s : c.studies) studies.push_back(json(s));
+  for (const auto& g : c.gates) gates.push_back(json(g));
+  for (const auto& e : c.engines) engines.push_back(json(e));
+  for (const auto& q : c.equivalence) equivalence.push_back(json(q));
+  for (const auto& [term, value] : c.ledger) put(ledger, term.c_str(), value);
+  return {{"id", c.id}, {"title", c.title}, {"kind", c.kind}, {"requirement", c.requirement}, {"claims", c.claims}, {"file", c.file},
+          {"expect", c.expect}, {"verdict", c.verdict}, {"exit_code", c.exit_code}, {"problems", c.problems}, {"reference", json(c.reference)},
+          {"metrics", metrics}, {"studies", studies}, {"gates", gates}, {"engines", engines}, {"equivalence", equivalence}, {"ledger", ledger},
+          {"repeat", c.repeat}};
+}
+
+}  // namespace
+
+std::string results_text(const Results& r) {
+  Json cases = Json::array();
+  for (const auto& c : r.cases) cases.push_back(json(c));
+  const Json document{{"format", r.format},
+                      {"tool", {{"version", r.tool.version}, {"commit", r.tool.commit}, {"compiler", r.tool.compiler}, {"flags", r.tool.flags}, {"cpu", r.tool.cpu}, {"cores", r.tool.cores}}},
+                      {"command", r.command}, {"date", r.date}, {"profile", r.profile}, {"seed", r.seed}, {"shard", r.shard}, {"planned", r.planned},
+                      {"only_engines", r.only_engines}, {"verdict", r.verdict}, {"exit_code", r.exit_code}, {"problems", r.problems}, {"cases", cases}};
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tripoint

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/run_one.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/trajectory.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double check_limit = 60.0;  // [s]: --check runs nothing
+
+Outcome failed(Outcome outcome, const std::string& status, const std::string& reason) {
+  outcome.status = status;
+  outcome.reason = reason;
+  outcome.trajectory.reset();
+  return outcome;
+}
+
+/// The last lines of a log that say something, for a reason in one line.
+std::string last_words(const std::string& log) {
+  std::istringstream lines(log);
+  std::string last, line;
+  while (std::getline(lines, line))
+    if (!line.empty() && line.rfind("progress ", 0) != 0) last = line;
+  return last.empty() ? "" : "; its last words: " + last.substr(0, 300);
+}
+
+std::string reason_for_refusal(const std::string& check_output) {
+  const auto answer = nlohmann::json::parse(check_output, nullptr, false);
+  if (!answer.is_object() || !answer.contains("can") || !answer["can"].is_boolean()) return "--check did not print {can, reason}";
+  if (answer["can"].get<bool>()) return {};
+  return answer.value("reason", std::string("it gives no reason"));
+}
+
+void prepare_folder(const RunRequest& request) {
+  fs::remove_all(request.folder);
+  fs::create_directories(request.folder);
+  Job job = *request.job;
+  job.particles = fs::relative(request.particles, request.folder).string();
+  job.output = ".";
+  write_job((fs::path(request.folder) / "job.json").string(), job);
+}
+
+ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
+  ProcessSpec spec;
+  spec.argv = {request.engine->executable, verb, (fs::path(request.folder) / "job.json").string()};
+  spec.folder = request.folder;
+  spec.environment = request.environment;
+  spec.environment["OMP_NUM_THREADS"] = std::to_string(request.job->threads);
+  spec.wall_limit = limit;
+  return spec;
+}
+
+void take_cost(Outcome& outcome, const ProcessEnd& end) {
+  const auto& r = outcome.result;
+  outcome.cost = {end.cpu_s, end.wall_s, r.setup_cpu, end.peak_bytes, r.pairs, static_cast<double>(r.steps), r.iterations};
+}
+
+std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
+  const std::lock_guard lock(hdf5_mutex());
+  const fs::path folder(request.folder);
+  if (fs::exists(folder / "trajectory.h5")) return std::make_shared<Trajectory>(read_trajectory((folder / "trajectory.h5").string()));
+  const auto& bodies = request.job->bodies;
+  const auto solids = std::count_if(bodies.begin(), bodies.end(), [](const auto& b) { return b.index >= 0; });
+  return std::make_shared<Trajectory>(read_trajectory_csv((folder / "trajectory.csv").string(), *request.initial, static_cast<std::size_t>(solids)));
+}
+
+std::string describe(const Divergence& d) {
+  return fmt::format("{}{}{} in stage {} at t = {:g} s", d.field, d.particle >= 0 ? fmt::format(" of particle {}", d.particle) : "", d.body >= 0 ? fmt::format(" of body {}", d.body) : "", d.stage, d.time);
+}
+
+Outcome read_trajectory_of(const RunRequest& request, Outcome outcome) {
+  const auto& job = *request.job;
+  const double end = job.times.back();
+  if (!(std::abs(outcome.result.time_reached - end) <= 1e-9 * end))
+    return failed(outcome, "error", fmt::format("time not reached: {:g} s of {:g} s", outcome.result.time_reached, end));
+  outcome.trajectory = read_any_trajectory(request);
+  if (const auto wrong = audit(job, *request.initial, *outcome.trajectory); !wrong.empty()) return failed(outcome, "error", wrong);
+  if (const auto other = audit_scene(job, outcome.result.readback); !other.empty()) {
+    outcome.comparable = false;
+    return failed(outcome, "error", "not comparable: " + other);
+  }
+  return outcome;
+}
+
+}  // namespace
+
+std::mutex& hdf5_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
+  Outcome outcome;
+  take_cost(outcome, end);
+  using How = ProcessEnd::How;
+  if (end.how == How::not_started) return failed(outcome, "error", describe(end));
+  if (end.how == How::timed_out) return failed(outcome, "timeout", describe(end) + last_words(end.log_tail));
+  const fs::path file = fs::path(request.folder) / "result.json";
+  if (end.how == How::interrupted || !fs::exists(file)) return failed(outcome, "killed", describe(end) + " without a result" + last_words(end.log_tail));
+  try {
+    outcome.result = read_result(file.string());
+    take_cost(outcome, end);
+    const auto& r = outcome.result;
+    if (r.status == "refused") return failed(outcome, "refused", r.message.empty() ? "it gives no reason" : r.message);
+    if (r.status == "diverged") return failed(outcome, "diverged", r.divergence ? describe(*r.divergence) : r.message.empty() ? "it gives no place" : r.message);
+    if (r.status != "ok") return failed(outcome, "error", (r.message.empty() ? "status " + r.status : r.message) + last_words(end.log_tail));
+    if (end.how != How::exited || end.code != 0) return failed(outcome, "error", "says ok but " + describe(end) + last_words(end.log_tail));
+    return read_trajectory_of(request, outcome);
+  } catch (const std::exception& e) {
+    return failed(outcome, "error", e.what());
+  }
+}
+
+Outcome run_one(const RunRequest& request) {
+  try {
+    prepare_folder(request);
+  } catch (const std::exception& e) {
+    return failed({}, "error", std::string("the job could not be written: ") + e.what());
+  }
+  const auto check = run_process(call(request, "--check", check_limit));
+  if (check.how == ProcessEnd::How::interrupted) return failed({}, "killed", describe(check));
+  if (check.how == ProcessEnd::How::timed_out) return failed({}, "timeout", "--check " + describe(check));
+  if (check.how != ProcessEnd::How::exited || check.code != 0) return failed({}, "error", "--check " + describe(check) + last_words(check.log_tail));
+  if (const auto reason = reason_for_refusal(check.output); !reason.empty()) return failed({}, "refused", reason);
+  auto spec = call(request, "--run", request.wall_limit);
+  spec.log = (fs::path(request.folder) / "log.txt").string();
+  spec.progress = request.progress;
+  return read_back(request, run_process(spec));
+}
+
+std::map<std::string, MetricValue> evaluate_all(const Case& value, const Job& job, const InitialState& initial, const Trajectory& trajectory) {
+  std::map<std::string, MetricValue> metrics;
+  for (const auto& choice : value.metrics) {
+    try {
+      const auto reference = make_reference(choice.reference.value_or(value.reference), job, initial);
+      metrics[choice.name] = evaluate(choice, job, initial, trajectory, *reference);
+    } catch (const std::exception& e) {
+      metrics[choice.name] = {not_a_number, {}, e.what(), {}, {}};
+    }
+  }
+  return metrics;
+}
+
+}  // namespace tripoint

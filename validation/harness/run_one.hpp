@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "validation/harness/plan_runs.hpp"
+#include "validation/harness/process.hpp"
+#include "validation/harness/results.hpp"
+
+namespace tripoint {
+
+/// One job for one engine executable.
+struct RunRequest {
+  const EngineEntry* engine = nullptr;
+  const Job* job = nullptr;
+  const InitialState* initial = nullptr;
+  std::string folder;     ///< emptied before the run: what an earlier run left is never judged
+  std::string particles;  ///< path of particles.h5
+  double wall_limit = 600.0;  ///< [s]
+  std::map<std::string, std::string> environment;
+  std::function<void(double)> progress;
+};
+
+struct Outcome {
+  std::string status = "ok", reason;  ///< as in results.json
+  bool comparable = true;
+  Result result;  ///< of the engine, where there is one
+  std::shared_ptr<const Trajectory> trajectory;  ///< where status is ok
+  Cost cost;
+};
+
+/// Writes the job, asks --check, runs, and reads back; what the engine does wrong becomes a status with its reason, never an exception.
+[[nodiscard]] Outcome run_one(const RunRequest&);
+
+/// Held around every use of HDF5: Debian's library is not thread-safe.
+[[nodiscard]] std::mutex& hdf5_mutex();
+
+/// Reads result and trajectory from the folder of a run that has ended.
+[[nodiscard]] Outcome read_back(const RunRequest&, const ProcessEnd&);
+
+/// Compares what the engine holds with what it was given: gravity, masses, inertia, damping.
+/// @return empty when it is the same scene, else what differs, by name
+[[nodiscard]] std::string audit_scene(const Job&, const Readback&);
+
+/// The metrics of a case for one run that is ok, by name.
+[[nodiscard]] std::map<std::string, MetricValue> evaluate_all(const Case&, const Job&, const InitialState&, const Trajectory&);
+
+}  // namespace tripoint

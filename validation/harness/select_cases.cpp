@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "core/errors.hpp"
+#include "scene/read_case.hpp"
+#include "validation/harness/suite.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+namespace {
+
+struct Found {
+  std::string path;
+  bool by_name = false;  ///< a file or id that was asked for, whatever its profile
+};
+
+std::vector<Found> files_below(const fs::path& folder) {
+  std::vector<Found> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink))
+    if (entry.is_regular_file() && entry.path().extension() == ".toml" && entry.path().filename().string().find(".ref.") == std::string::npos)
+      files.push_back({entry.path().string(), false});
+  return files;
+}
+
+std::vector<Found> files_for(const std::string& what) {
+  if (fs::is_directory(what)) return files_below(what);
+  if (fs::exists(what)) return {{what, true}};
+  const fs::path by_id = fs::path(share_folder()) / "cases" / (what + ".toml");
+  if (fs::exists(by_id)) return {{by_id.string(), true}};
+  throw InputError(what + ": is no case file, no folder and no case id (tripoint list prints the ids)");
+}
+
+std::vector<Found> all_files(const std::vector<std::string>& what) {
+  const fs::path own = fs::path(share_folder()) / "cases";
+  if (what.empty()) return fs::is_directory(own) ? files_below(own) : throw InputError(own.string() + ": the folder of cases is missing");
+  std::vector<Found> files;
+  for (const auto& w : what)
+    for (auto& f : files_for(w)) files.push_back(std::move(f));
+  return files;
+}
+
+bool matches(const CaseFilter& filter, const Case& value, bool by_name) {
+  const auto has = [](const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); };
+  if (!filter.tag.empty() && !has(value.tags, filter.tag)) return false;
+  return by_name || filter.profile.empty() || has(value.profiles, filter.profile);
+}
+
+std::string describe(const CaseFilter& filter) {
+  std::string text = filter.what.empty() ? "the cases beside the program" : fmt::format("{}", fmt::join(filter.what, ", "));
+  if (!filter.profile.empty()) text += ", profile " + filter.profile;
+  if (!filter.tag.empty()) text += ", tag " + filter.tag;
+  return text;
+}
+
+}  // namespace
+
+std::string shown_path(const std::string& path) {
+  std::error_code none;
+  const auto real = fs::canonical(path, none);
+  if (none) return path;
+  const auto below = fs::relative(real, fs::current_path(none), none);
+  return none || below.empty() || *below.begin() == ".." ? real.string() : below.string();
+}
+
+std::vector<Case> select_cases(const CaseFilter& filter) {
+  std::map<std::string, Case> by_id;
+  for (const auto& file : all_files(filter.what)) {
+    auto value = read_case(shown_path(file.path)).value;
+    if (!matches(filter, value, file.by_name)) continue;
+    const auto [at, is_new] = by_id.emplace(value.id, value);
+    if (!is_new && at->second.file != value.file) throw InputError(fmt::format("{}: the id {} is already that of {}", value.file, value.id, at->second.file));
+  }
+  if (by_id.empty()) throw InputError("no case matches " + describe(filter));
+  std::vector<Case> chosen;
+  int index = 0;
+  for (auto& [id, value] : by_id)
+    if (index++ % filter.shards == filter.shard - 1) chosen.push_back(std::move(value));
+  return chosen;
+}
+
+}  // namespace tripoint

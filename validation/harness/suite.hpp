@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "validation/harness/plan_runs.hpp"
+#include "validation/harness/results.hpp"
+
+/// Runs cases on engines and judges them.
+namespace tripoint {
+
+struct CaseFilter {
+  std::vector<std::string> what;  ///< files, folders or case ids; empty = all cases beside the program
+  std::string profile;            ///< empty = every profile; files and ids are taken whatever their profile
+  std::string tag;                ///< empty = any
+  int shard = 1, shards = 1;      ///< takes the cases shard, shard + shards, ... of the list by id
+};
+
+/// Reads the cases, in order of their ids. @throws InputError for a file that is wrong, an id used twice, and a filter that nothing matches
+[[nodiscard]] std::vector<Case> select_cases(const CaseFilter&);
+
+struct SuiteOptions {
+  Selection selection;
+  std::string out = "report";  ///< runs go below out/runs
+  int jobs = 1;                ///< engine processes at a time
+  int threads = 1;             ///< of each engine process
+  double wall_limit = 600.0;   ///< [s] for a run whose case says nothing else (engine setting wall_limit)
+  std::map<std::string, std::string> environment;  ///< for the engines
+  /// Which runs of the plan are made; empty = all.
+  std::function<bool(const EnginePlan&, const RunPlan&)> wanted;
+  std::function<void(const std::string&)> say;           ///< progress, one line a call, from any thread
+  std::function<void(const CaseResult&)> on_case;        ///< each case as soon as it and those before it are judged
+};
+
+/// The verdicts of all cases, in their order; judged. Stopped by Ctrl-C, it returns what has ended.
+[[nodiscard]] Results run_suite(const std::vector<Case>&, const std::vector<EngineEntry>&, const SuiteOptions&);
+
+/// Path as people type it: below the working folder if it lies there, with links resolved.
+[[nodiscard]] std::string shown_path(const std::string& path);
+
+}  // namespace tripoint
