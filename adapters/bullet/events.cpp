@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "adapters/bullet/bullet_engine.hpp"
+#include "scene/geometry.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint::bullet {
@@ -91,9 +92,10 @@ void BulletEngine::merge(const Event& event) {
 
 std::vector<int> BulletEngine::members_in(const Row& r, const Event& event) const {
   const std::vector<Vec3> at = positions(r);
+  const auto inside = inside_of(*event.region, job_.resolution.spacing);
   std::vector<int> chosen;
   for (std::size_t k = 0; k < at.size(); ++k)
-    if (contains(*event.region, at[k])) chosen.push_back(r.members[k]);
+    if (inside(at[k])) chosen.push_back(r.members[k]);
   return chosen;
 }
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "adapters/job.hpp"
+#include "io/trajectory.hpp"
+
+/// What walkers and sph/heatconduction share: heat in bodies at rest.
+namespace tripoint::lammps {
+
+/// Why this is no scene of pure conduction at rest; empty = it is.
+[[nodiscard]] std::string why_no_conduction(const Job&);
+
+/// k/(rho c) of a body [m2/s].
+[[nodiscard]] double diffusivity(const Scene&, const Body&);
+/// rho c of a body [J/m3/K].
+[[nodiscard]] double heat_per_volume(const Scene&, const Body&);
+
+/// Particles that never move, with the given temperatures.
+[[nodiscard]] Snapshot at_rest(const Job&, const InitialState&, double time, long step, std::vector<double> temperature);
+
+/// Masses as LAMMPS was handed them: it holds scaled particles, so that these are read from the particles.
+[[nodiscard]] Readback rest_readback(const Job&, double time_step);
+
+/// The one box that the bodies fill, in cells of one spacing.
+struct CellBox {
+  Vec3 min, max;
+  std::array<int, 3> cells{};
+  std::array<bool, 3> periodic{};  ///< the body reaches across the periodic domain; else an insulated wall
+};
+/// @param why receives the reason where the bodies tile no such box
+[[nodiscard]] std::optional<CellBox> cell_box(const Scene&, std::string& why);
+
+/// Least and greatest temperature of a field in any place; for an expression, of the given particles' values.
+struct Range {
+  double least, greatest;
+};
+[[nodiscard]] Range range_of(const TemperatureField&, const std::vector<double>& particle_values);
+/// The field at a place; empty for an expression, whose particle values serve then. [K]
+[[nodiscard]] std::optional<double> value_at(const TemperatureField&, const Vec3&);
+
+}  // namespace tripoint::lammps

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/vec3.hpp"
+
+namespace tripoint::lammps {
+
+/// One LAMMPS instance behind plain data. A build with exceptions throws EngineError in LAMMPS's own words; one without
+/// (Debian's) writes them to the log and ends the process, which supervise() turns into a result.
+class Library {
+ public:
+  /// @param log file for LAMMPS's log, "none" for no log
+  explicit Library(const std::string& log = "none");
+  ~Library();
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+
+  /// One command or several lines. @throws EngineError
+  void run(const std::string& commands);
+  /// Atoms with ids 1..n. @param velocity may be empty
+  void create_atoms(const std::vector<int>& type, const std::vector<Vec3>& position, const std::vector<Vec3>& velocity);
+  /// A vector column (x, v, f), row = id - 1.
+  [[nodiscard]] std::vector<Vec3> vectors(const char* name) const;
+  /// A scalar column (esph), row = id - 1.
+  [[nodiscard]] std::vector<double> scalars(const char* name) const;
+  void set_scalars(const char* name, const std::vector<double>& by_id);
+  /// Positions in LAMMPS's own order, without a copy by id: for walkers, which are only counted.
+  [[nodiscard]] std::vector<Vec3> unordered_positions() const;
+
+  [[nodiscard]] bool has_style(const char* category, const char* name) const;
+  [[nodiscard]] std::string version() const;  ///< yyyymmdd
+  [[nodiscard]] double mass_of_type(int type) const;
+  [[nodiscard]] double time_step() const;
+  [[nodiscard]] static std::string path();  ///< of the library that is loaded
+
+ private:
+  [[nodiscard]] int local_count() const;
+  [[nodiscard]] const int* ids() const;
+  void check() const;
+  void* handle_ = nullptr;
+};
+
+/// Ends MPI, once, after the last instance.
+void finish();
+
+}  // namespace tripoint::lammps

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "adapters/lammps/model.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+
+namespace tripoint::lammps {
+namespace {
+
+[[noreturn]] void refuse(const std::string& key, const std::string& what) {
+  throw InputError(fmt::format("lammps: the setting {} must be {}", key, what));
+}
+double positive(const std::string& key, const Setting& value) {
+  const auto* d = std::get_if<double>(&value);
+  if (!d || !(*d > 0.0)) refuse(key, "a number above zero");
+  return *d;
+}
+std::string text(const std::string& key, const Setting& value) {
+  const auto* s = std::get_if<std::string>(&value);
+  if (!s) refuse(key, "a text");
+  return *s;
+}
+
+struct Entry {
+  std::string help;
+  std::function<void(Choice&, const std::string&, const Setting&)> apply;
+};
+
+const std::map<std::string, Entry>& entries() {
+  static const std::map<std::string, Entry> table{
+      {"conduction", {"heat by brownian | langevin (walkers) | sph (pair sph/heatconduction); default: the preset, then brownian where the build has it, else langevin",
+                      [](Choice& c, const std::string& k, const Setting& v) {
+                        c.conduction = text(k, v);
+                        if (c.conduction != "brownian" && c.conduction != "langevin" && c.conduction != "sph") refuse(k, "brownian, langevin or sph");
+                      }}},
+      {"walkers", {"number of walkers, default 1e5; the job's resolution.walkers goes first",
+                   [](Choice& c, const std::string& k, const Setting& v) { c.walkers = positive(k, v); }}},
+      {"cutoff", {"support of sph/heatconduction in spacings, default 3", [](Choice& c, const std::string& k, const Setting& v) { c.cutoff = positive(k, v); }}},
+      {"pool", {"count walkers in whole layers where the start depends on one coordinate only, default true",
+                [](Choice& c, const std::string& k, const Setting& v) {
+                  const auto* b = std::get_if<bool>(&v);
+                  if (!b) refuse(k, "true or false");
+                  c.pool = *b;
+                }}},
+      {"commands", {"LAMMPS commands run after the set-up, default none", [](Choice& c, const std::string& k, const Setting& v) { c.commands = text(k, v); }}},
+      {"time_step", {"rigid: default 1/240 s; sph: 0.1 dx2/D; walkers: as long as the box allows", [](Choice&, const std::string& k, const Setting& v) { (void)positive(k, v); }}}};
+  return table;
+}
+
+}  // namespace
+
+std::map<std::string, std::string> setting_help() {
+  std::map<std::string, std::string> help;
+  for (const auto& [key, entry] : entries()) help[key] = entry.help;
+  return help;
+}
+
+Choice choice_for(const Job& job) {
+  Choice choice;
+  if (job.preset == "conduction")
+    choice.conduction = "sph";
+  else if (job.preset != "default" && job.preset != "walkers")
+    throw InputError(fmt::format("lammps: no preset '{}'; there are default, walkers, conduction", job.preset));
+  for (const auto& [key, value] : job.settings) {
+    const auto entry = entries().find(key);
+    if (entry == entries().end()) throw InputError(fmt::format("lammps: no setting '{}'; --info lists them", key));
+    entry->second.apply(choice, key, value);
+  }
+  if (job.resolution.walkers) choice.walkers = *job.resolution.walkers;
+  return choice;
+}
+
+std::optional<double> wanted_time_step(const Job& job) {
+  if (job.resolution.time_step) return job.resolution.time_step;
+  const auto set = job.settings.find("time_step");
+  if (set == job.settings.end()) return {};
+  return positive("time_step", set->second);
+}
+
+void Clock::run(Library& library, const Steps& steps) {
+  const bool same = std::abs(steps.size - size_) <= 1e-12 * steps.size;
+  if (!same) library.run(fmt::format("timestep {:.17g}", steps.size));
+  library.run(fmt::format("run {} pre {} post no", steps.count, same ? "no" : "yes"));
+  size_ = steps.size;
+  total_ += steps.count;
+}
+
+}  // namespace tripoint::lammps

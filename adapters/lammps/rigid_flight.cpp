@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "adapters/lammps/rigid_flight.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "adapters/lammps/body_fit.hpp"
+
+namespace tripoint::lammps {
+namespace {
+
+constexpr double default_step = 1.0 / 240.0;  // [s], Bullet's: rows compare at the same step
+
+class RigidFlight final : public Model {
+ public:
+  RigidFlight(const Job& job, const InitialState& state)
+      : job_(job), state_(state), library_(job.output + "/log.lammps"), time_(job.times.front()) {
+    limit_ = wanted_time_step(job).value_or(default_step);
+    make_box();
+    make_particles();
+    make_fixes();
+    library_.run(choice_for(job).commands);
+  }
+
+  void advance_to(double time) override {
+    clock_.run(library_, steps_in(time - time_, limit_));
+    time_ = time;
+    const Snapshot now = observe();
+    for (std::size_t i = 0; i < now.bodies.size(); ++i)
+      if (!finite(now.bodies[i].position)) throw Diverged(-1, static_cast<long>(i), "position", "run", time, "the position is not finite");
+    refuse_contact(now);
+  }
+
+  [[nodiscard]] Snapshot observe() const override;
+  [[nodiscard]] Readback readback() const override;
+  void account(Result& result) const override {
+    result.steps = clock_.total();
+    result.time_step_bound = job_.resolution.time_step ? "given" : "default 1/240 s";
+  }
+
+ private:
+  void make_box() {
+    const double dx = job_.resolution.spacing;
+    Vec3 lo = state_.position.front(), hi = lo;
+    for (const Vec3& x : state_.position)
+      for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], x[k]), hi[k] = std::max(hi[k], x[k]);
+    library_.run("units si\natom_style atomic\natom_modify map array sort 0 0.0\nboundary s s s\n");
+    library_.run(fmt::format("region box block {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\ncreate_box {} box\n", lo.x - dx, hi.x + dx, lo.y - dx,
+                             hi.y + dx, lo.z - dx, hi.z + dx, job_.bodies.size()));
+    library_.run(fmt::format("pair_style none\ncomm_modify cutoff {0:.17g}\nneighbor {0:.17g} bin\nneigh_modify every 1 delay 0 check yes\n", dx));
+  }
+
+  /// A type a body, so that the body is a set of types.
+  void make_particles() {
+    std::vector<int> type;
+    for (const int body : state_.body) type.push_back(body + 1);
+    std::vector<Vec3> velocity;
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      const JobBody& b = job_.bodies.at(static_cast<std::size_t>(state_.source[i]));
+      velocity.push_back(b.motion == Motion::fixed ? Vec3{} : b.velocity + cross(b.angular_velocity, state_.position[i] - b.properties.centre));
+    }
+    for (const JobBody& b : job_.bodies) library_.run(fmt::format("mass {} {:.17g}", b.index + 1, particle_mass(b)));
+    library_.run("fix tags all property/atom i_bodytag");
+    library_.create_atoms(type, state_.position, velocity);
+    for (const JobBody& b : job_.bodies) library_.run(fmt::format("set type {0} i_bodytag {0}", b.index + 1));
+  }
+
+  [[nodiscard]] double particle_mass(const JobBody& b) const {
+    double mass = 0.0;
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      if (state_.body[i] != b.index) continue;
+      if (mass > 0.0 && std::abs(state_.mass[i] - mass) > 1e-12 * mass) throw EngineError(fmt::format("the particles of {} differ in mass, and a LAMMPS type has one mass", b.name));
+      mass = state_.mass[i];
+    }
+    return mass;
+  }
+
+  [[nodiscard]] std::vector<std::size_t> members(const JobBody& b) const {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < state_.size(); ++i)
+      if (state_.body[i] == b.index) rows.push_back(i);
+    return rows;
+  }
+
+  /// Gravity is defined before fix rigid: after it every body lags by g dt t/2.
+  void make_fixes() {
+    std::string rigid, points;
+    for (const JobBody& b : job_.bodies)
+      if (b.motion == Motion::free) (members(b).size() > 1 ? rigid : points) += fmt::format(" {}", b.index + 1);
+    if (!(rigid + points).empty()) library_.run("group moving type" + rigid + points);
+    const double g = norm(job_.scene.gravity);
+    if (g > 0.0) library_.run(fmt::format("fix weight moving gravity {:.17g} vector {:.17g} {:.17g} {:.17g}", g, job_.scene.gravity.x, job_.scene.gravity.y, job_.scene.gravity.z));
+    if (!rigid.empty()) library_.run("group bodies type" + rigid + "\nfix flight bodies rigid custom i_bodytag");
+    if (!points.empty()) library_.run("group points type" + points + "\nfix points points nve");
+    library_.run("thermo 0");
+  }
+
+  void refuse_contact(const Snapshot& now) const;
+
+  Job job_;
+  InitialState state_;
+  Library library_;
+  Clock clock_;
+  double time_, limit_ = default_step;
+};
+
+Snapshot RigidFlight::observe() const {
+  Snapshot s;
+  s.time = time_;
+  s.step = clock_.total();
+  s.position = library_.vectors("x");
+  s.velocity = library_.vectors("v");
+  s.phase = state_.phase;
+  s.body = state_.body;
+  s.material = state_.material;
+  s.mass = state_.mass;
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    s.id.push_back(static_cast<int>(i));
+    s.total_mass += s.mass[i];
+    s.momentum += s.mass[i] * s.velocity[i];
+    s.angular_momentum += s.mass[i] * cross(s.position[i], s.velocity[i]);
+    s.energy["kinetic"] += 0.5 * s.mass[i] * dot(s.velocity[i], s.velocity[i]);
+  }
+  s.energy["potential"] = 0.0;
+  s.bodies.resize(job_.bodies.size());
+  for (const JobBody& b : job_.bodies) {
+    const BodyState fit = fit_body(b.properties, members(b), state_, s);
+    s.bodies.at(static_cast<std::size_t>(b.index)) = fit;
+    if (b.motion == Motion::free) s.energy["potential"] -= fit.mass * dot(job_.scene.gravity, fit.position);
+  }
+  return s;
+}
+
+Readback RigidFlight::readback() const {
+  Readback back;
+  back.gravity = job_.scene.gravity;
+  back.time_step = clock_.total() > 0 ? library_.time_step() : job_.times.size() > 1 ? steps_in(job_.times[1] - job_.times[0], limit_).size : limit_;
+  const Snapshot now = observe();
+  for (const JobBody& b : job_.bodies) {
+    const double mass = library_.mass_of_type(b.index + 1) * static_cast<double>(members(b).size());
+    back.bodies.push_back({b.name, mass, now.bodies[static_cast<std::size_t>(b.index)].position, b.properties.principal_inertia, 0.0, 0.0, 0.0, 0.0});
+  }
+  return back;
+}
+
+/// Bodies of this model pass through each other; it stops before that becomes a number.
+void RigidFlight::refuse_contact(const Snapshot& now) const {
+  const double reach = 0.999 * job_.resolution.spacing;
+  std::vector<double> radius;
+  for (const JobBody& b : job_.bodies) {
+    double r = 0.0;
+    for (const std::size_t i : members(b)) r = std::max(r, norm(state_.position[i] - b.properties.centre));
+    radius.push_back(r);
+  }
+  for (std::size_t a = 0; a < job_.bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < job_.bodies.size(); ++b) {
+      const Vec3 apart = now.bodies[a].position - now.bodies[b].position;
+      if (norm(apart) > radius[a] + radius[b] + reach) continue;
+      if (job_.bodies[a].motion == Motion::fixed && job_.bodies[b].motion == Motion::fixed) continue;
+      for (const std::size_t i : members(job_.bodies[a]))
+        for (const std::size_t j : members(job_.bodies[b]))
+          if (norm(now.position[i] - now.position[j]) < reach)
+            throw EngineError(fmt::format("{} and {} touch at t = {:.6g} s; fix rigid runs here without contact", job_.bodies[a].name, job_.bodies[b].name, time_));
+    }
+}
+
+}  // namespace
+
+std::string why_no_rigid(const Job& job) {
+  for (const JobBody& b : job.bodies) {
+    if (b.phase != Phase::rigid) return fmt::format("LAMMPS runs rigid bodies by fix rigid here, and {} is {}", b.name, to_string(b.phase));
+    if (b.motion == Motion::prescribed) return fmt::format("{} is prescribed; fix rigid follows forces, not keyframes", b.name);
+  }
+  for (const Body& b : job.scene.bodies)
+    if (b.joins || !b.joined_to.empty()) return fmt::format("bonds are not handed to fix rigid, and {} has some", b.name);
+  if (!job.scene.events.empty()) return "fix rigid keeps its bodies for the whole run: no merge, split or other events";
+  if (!job.scene.inflows.empty()) return "no inflow into fix rigid";
+  if (job.scene.periodic[0] || job.scene.periodic[1] || job.scene.periodic[2]) return "rigid bodies across periodic directions are not handed to fix rigid";
+  return {};
+}
+
+std::unique_ptr<Model> make_rigid_flight(const Job& job, const InitialState& state) { return std::make_unique<RigidFlight>(job, state); }
+
+}  // namespace tripoint::lammps
