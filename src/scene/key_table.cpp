@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/key_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace tripoint {
+namespace {
+
+using enum ValueType;
+using enum Range;
+constexpr std::string_view axes = "spacing time_step support_ratio walkers iterations";
+constexpr std::string_view references = "analytic discrete_exact mms self engine experiment invariant bound";
+constexpr std::string_view orders = "asymptotic preasymptotic plateau roundoff oscillating diverging noise-limited too-few";
+
+constexpr auto keys = std::to_array<Key>({
+    // format
+    {"", "format", integer, "", positive, "1", "the first version", "", "version of the case file"},
+    {"", "case", table, "", any, "=", "id from the file's place", "case", "what is shown, and how it is judged"},
+    {"", "scene", table, "", any, "!", "", "scene", "what is simulated"},
+    {"", "material", tables, "", any, "=", "materials of the library serve by name", "material", "matter"},
+    {"", "body", tables, "", any, "!", "", "body", "bodies, in the order of their rows"},
+    {"", "event", tables, "", any, "=", "nothing happens on the way", "event", "what happens at a time"},
+    {"", "inflow", tables, "", any, "=", "nothing flows in", "inflow", "liquid that flows in"},
+    {"", "engines", table, "", any, "=", "every engine that can", "engines", "one table an engine: [engines.NAME]"},
+    {"", "reference", table, "", any, "=", "only the invariants are known", "reference", "the truth, as far as it is known"},
+    {"", "metric", tables, "", any, "=", "nothing is measured", "metric", "numbers formed of each run"},
+    {"", "study", tables, "", any, "=", "one run an engine", "study", "convergence studies"},
+    {"", "gate", tables, "", any, "=", "nothing is judged", "gate", "limits"},
+    {"", "defect", tables, "", any, "=", "none", "defect", "faults that this case must catch"},
+    {"", "harmless", tables, "", any, "=", "none", "harmless", "defects that this case cannot see"},
+    // [case]
+    {"case", "id", text, "", any, "=", "folder and name of the file", "", "name of the case: subject/case"},
+    {"case", "title", text, "", any, "=", "the id", "", "one line for people"},
+    {"case", "requirement", text, "", any, "\"\"", "none is stated", "", "what it shows that the model can do"},
+    {"case", "claims", text, "", any, "\"\"", "none is stated", "", "the statement that the gates prove"},
+    {"case", "kind", word, "", any, "\"verification\"", "against an exact solution", "verification validation comparison", "verification: exact solution; validation: experiment; comparison: another engine"},
+    {"case", "profiles", words, "", any, "[\"commit\"]", "runs with every change", "commit nightly release", "when it runs"},
+    {"case", "tags", texts, "", any, "[]", "none", "", "words to choose cases by"},
+    {"case", "expect", word, "", any, "\"pass\"", "a case is meant to pass", "pass diverges defect", "what must be measured for the case to pass"},
+    {"case", "modes", words, "", any, "=", "the scene's mode", "corrected paper", "forms of the model that run: one set of runs each"},
+    // [scene]
+    {"scene", "end_time", number, "s", positive, "!", "", "", "time that is simulated"},
+    {"scene", "gravity", vector, "m/s2", any, "[0, 0, 0]", "free space: a case says when bodies fall", "", "acceleration of every free particle"},
+    {"scene", "spacing", number, "m", positive, "=", "a tenth of the smallest extent of a body", "", "distance of particles dx; one a scene"},
+    {"scene", "support_ratio", number, "", above_one, "=", "2.12 where every term is paper, else 2.6 (about 40 and 74 neighbours)", "", "support radius of the kernel over spacing, h/dx"},
+    {"scene", "mode", word, "", any, "\"corrected\"", "the best known form of each term", "corrected paper", "form of every term of the model"},
+    {"scene", "modes", table, "", any, "=", "every term as `mode` says", "modes", "form of single terms"},
+    {"scene", "time_step", number_or_auto, "s", positive, "\"auto\"", "the least bound of the effects that are on", "", "time step, or \"auto\""},
+    {"scene", "seed", integer, "", not_negative, "1", "any number serves; kept so that runs repeat", "", "of jitter and walkers"},
+    {"scene", "jitter", number, "", fraction, "0", "an undisturbed lattice", "", "random shift of each particle, uniform in +-jitter a direction, in spacings"},
+    {"scene", "min", vector, "m", any, "", "no bounds: no direction is periodic", "", "lower corner of the domain"},
+    {"scene", "max", vector, "m", any, "", "no bounds: no direction is periodic", "", "upper corner of the domain"},
+    {"scene", "periodic", words, "", any, "[]", "open in every direction", "x y z", "directions that repeat"},
+    {"scene", "output_interval", number, "s", positive, "=", "a twentieth of end_time", "", "time between frames"},
+    {"scene", "viscosity_form", word, "", any, "\"central\"", "keeps angular momentum; right wherever a surface or body is free", "laplacian central", "corrected viscosity; laplacian for wall-bounded shear only"},
+    {"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "", "move particles by the transport velocity"},
+    {"scene", "clamp", flag, "", any, "true", "negative pressure would glue bodies together", "", "no negative pressure"},
+    {"scene", "merge_distance", number, "", positive, "1.5", "nearest and diagonal neighbours of the lattice", "", "how near a freezing particle joins, in spacings"},
+    {"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "", "coefficient of the energy against zero-energy modes"},
+    {"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "", "viscosity between solids that touch"},
+    // [[material]]
+    {"material", "name", text, "", any, "!", "", "", "its name; a name of the library brings the library's values, which keys here replace"},
+    {"material", "density", number, "kg/m3", positive, "!", "", "", "rest density, one for both phases"},
+    {"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"},
+    {"material", "stiffness", number, "m2/s2", positive, "", "the solver takes it from the speeds of the scene", "", "k of p = k (rho - rho0), the square of the sound speed"},
+    {"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "", "instead of stiffness: k is its square"},
+    {"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"},
+    {"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"},
+    {"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "", "thermal conductivity"},
+    {"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"},
+    {"material", "t_melt", number, "K", positive, "", "does not melt", "", "above it the matter is liquid"},
+    {"material", "t_solid", number, "K", positive, "=", "t_melt: no soft band and no hysteresis", "", "below it the matter is solid; at most t_melt"},
+    {"material", "latent_heat", number, "J/kg", not_negative, "=", "melts at once where t_melt is given", "", "heat of fusion"},
+    {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid", "elastic rigid", "what it is when solid"},
+    {"material", "softens", flag, "", any, "false", "full stiffness up to melting", "", "stiffness falls with the liquid fraction"},
+    {"material", "elastic_limit", number, "", positive, "", "never yields", "", "deviatoric strain where plastic flow begins"},
+    {"material", "plastic_limit", number, "", positive, "", "flows without end", "", "largest plastic strain"},
+    {"material", "fracture_stretch", number, "", above_one, "", "never breaks", "", "corrected: stretch |r|/|x| that breaks a bond"},
+    {"material", "fracture_distance", number, "", positive, "", "never breaks", "", "paper: distance that breaks a bond, in spacings"},
+    {"material", "source", text, "", any, "", "the case's own values", "", "where the values come from"},
+    // [[body]]
+    {"body", "name", text, "", any, "!", "", "", "its name"},
+    {"body", "material", text, "", any, "!", "", "", "a [[material]], or one of the library"},
+    {"body", "phase", word, "", any, "=", "from the material and the temperature", "liquid elastic rigid", "what it is at the start"},
+    {"body", "shape", shape, "", any, "!", "", "", "the space it fills"},
+    {"body", "velocity", velocity, "m/s", any, "[0, 0, 0]", "at rest", "", "at the start; of a prescribed body for ever"},
+    {"body", "angular_velocity", vector, "rad/s", any, "[0, 0, 0]", "no spin", "", "about the centre of mass, world frame; for liquids too"},
+    {"body", "temperature", temperature, "K", positive, "", "its heat is not followed", "", "at the start"},
+    {"body", "temperature_held", flag, "", any, "false", "free to warm and cool", "", "its temperature never changes"},
+    {"body", "motion", word, "", any, "\"free\"", "bodies move by their forces", "free fixed prescribed", "who moves it"},
+    {"body", "keyframes", tables, "", any, "[]", "prescribed: constant velocity and angular_velocity", "keyframe", "its motion where it is prescribed"},
+    {"body", "slip", word, "", any, "\"no\"", "liquid sticks to solids", "no free", "free: liquid glides along it"},
+    {"body", "joins", flag, "", any, "=", "true where the material melts", "", "freezing matter that touches it joins it"},
+    {"body", "joined_to", texts, "", any, "[]", "bonded to nothing", "", "bodies it is bonded to from the start"},
+    // keyframes
+    {"keyframe", "time", number, "s", not_negative, "!", "", "", "when; rising"},
+    {"keyframe", "position", vector, "m", any, "!", "", "", "of the centre of mass; linear between keyframes"},
+    {"keyframe", "rotation", numbers, "", any, "[1, 0, 0, 0]", "not turned", "", "(w, x, y, z) from the start; slerp, under half a turn each"},
+    // shapes
+    {"shape.box", "min", vector, "m", any, "!", "", "", "lower corner"},
+    {"shape.box", "max", vector, "m", any, "!", "", "", "upper corner"},
+    {"shape.sphere", "centre", vector, "m", any, "!", "", "", "centre"},
+    {"shape.sphere", "radius", number, "m", positive, "!", "", "", "radius"},
+    {"shape.cylinder", "base", vector, "m", any, "!", "", "", "centre of its foot"},
+    {"shape.cylinder", "axis", vector, "", any, "[0, 0, 1]", "upright", "", "direction from foot to head, of any length"},
+    {"shape.cylinder", "length", number, "m", positive, "!", "", "", "length along the axis"},
+    {"shape.cylinder", "radius", number, "m", positive, "!", "", "", "radius"},
+    {"shape.half_space", "point", vector, "m", any, "!", "", "", "a point of its face"},
+    {"shape.half_space", "normal", vector, "", any, "!", "", "", "outward normal of its face, of any length"},
+    {"shape.union", "of", tables, "", any, "!", "", "shape", "shapes, at least one"},
+    {"shape.difference", "from", shape, "", any, "!", "", "", "what is cut"},
+    {"shape.difference", "minus", shape, "", any, "!", "", "", "what is taken away"},
+    {"shape.mesh", "file", text, "", any, "!", "", "", "closed triangle mesh, .obj or .stl, beside the case"},
+    {"shape.mesh", "scale", number, "", positive, "1", "the mesh is in metres", "", "factor to metres"},
+    // temperature fields
+    {"temperature.cosine", "mean", number, "K", any, "!", "", "", "mean"},
+    {"temperature.cosine", "amplitude", number, "K", any, "!", "", "", "amplitude"},
+    {"temperature.cosine", "wave_vector", vector, "rad/m", any, "!", "", "", "2 pi over wavelength, by direction"},
+    {"temperature.cosine", "phase", number, "rad", any, "0", "greatest at the origin", "", "mean + amplitude cos(k.r + phase)"},
+    {"temperature.step", "point", vector, "m", any, "!", "", "", "a point of the step"},
+    {"temperature.step", "normal", vector, "", any, "!", "", "", "from behind to ahead, of any length"},
+    {"temperature.step", "behind", number, "K", positive, "!", "", "", "where (r - point).normal < 0"},
+    {"temperature.step", "ahead", number, "K", positive, "!", "", "", "elsewhere"},
+    {"temperature.expression", "value", text, "", any, "!", "", "", "of x, y, z in m; + - * / ^ ( ) sin cos exp sqrt abs min max pi"},
+    // velocity fields
+    {"velocity.cosine", "mean", vector, "m/s", any, "[0, 0, 0]", "a wave alone", "", "mean"},
+    {"velocity.cosine", "amplitude", vector, "m/s", any, "!", "", "", "amplitude"},
+    {"velocity.cosine", "wave_vector", vector, "rad/m", any, "!", "", "", "2 pi over wavelength, by direction"},
+    {"velocity.cosine", "phase", number, "rad", any, "0", "greatest at the origin", "", "mean + amplitude cos(k.r + phase)"},
+    {"velocity.linear", "centre", vector, "m", any, "[0, 0, 0]", "the origin", "", "where it is zero"},
+    {"velocity.linear", "gradient", tables, "1/s", any, "!", "", "", "three rows of three: row i gives component i"},
+    {"velocity.taylor_green", "speed", number, "m/s", positive, "!", "", "", "greatest speed"},
+    {"velocity.taylor_green", "wavelength", number, "m", positive, "!", "", "", "side of the periodic cell in x and y"},
+    {"velocity.expression", "value", texts, "", any, "!", "", "", "three expressions of x, y, z in m"},
+    // [[event]]
+    {"event", "time", number, "s", not_negative, "!", "", "", "when"},
+    {"event", "kind", word, "", any, "!", "", "merge split release heat hold grip", "merge: bodies[0] absorbs the rest; split: members in region become body `name`; heat: holds `temperature` in region or bodies until `until`; hold: pauses bodies; grip: moves solids in region by keyframes until release"},
+    {"event", "name", text, "", any, "=", "none", "", "of the body that is born, or of the grip"},
+    {"event", "bodies", texts, "", any, "[]", "all in the region", "", "which bodies"},
+    {"event", "region", shape, "", any, "", "everywhere", "", "where"},
+    {"event", "temperature", number, "K", positive, "", "none", "", "that is held"},
+    {"event", "until", number, "s", positive, "", "to the end", "", "when it ends"},
+    {"event", "keyframes", tables, "", any, "[]", "none", "keyframe", "motion of a grip"},
+    // [[inflow]]
+    {"inflow", "material", text, "", any, "!", "", "", "a material"},
+    {"inflow", "shape", shape, "", any, "!", "", "", "where it enters"},
+    {"inflow", "velocity", vector, "m/s", any, "!", "", "", "of what enters"},
+    {"inflow", "temperature", number, "K", positive, "", "its heat is not followed", "", "of what enters"},
+    {"inflow", "start", number, "s", not_negative, "0", "from the start", "", "when it begins"},
+    {"inflow", "stop", number, "s", positive, "=", "end_time", "", "when it ends"},
+    {"inflow", "rate", number, "m3/s", positive, "", "by the speed", "", "volume a second; replaces the size of velocity"},
+    // [engines.NAME]
+    {"engines", "required", flag, "", any, "false", "its absence is a row of the report and no failure", "", "absence fails the case"},
+    {"engines", "preset", text_or_texts, "", any, "[]", "the engine's default", "", "one row of the results each"},
+    {"engines", "settings", settings, "", any, "{}", "the preset's own", "", "the engine's own keys"},
+    // [reference]
+    {"reference", "kind", word, "", any, "\"analytic\"", "an exact solution", references, "what sort of truth"},
+    {"reference", "function", text, "", any, "=", "none", "", "exact solution by name"},
+    {"reference", "args", settings, "", any, "{}", "from the scene", "", "its arguments"},
+    {"reference", "file", text, "", any, "\"\"", "no data", "", "data beside the case: <case>.ref.*"},
+    {"reference", "source", text, "", any, "\"\"", "the function's own", "", "book, paper or derivation"},
+    {"reference", "uncertainty", number, "", not_negative, "0", "exact", "", "standard uncertainty in the metric's unit"},
+    // [[metric]]
+    {"metric", "name", text, "", any, "!", "", "", "its name"},
+    {"metric", "quantity", text, "", any, "!", "", "", "position orientation velocity angular_velocity temperature pressure density force torque phase_count body_count event_time ledger.TERM"},
+    {"metric", "norm", text, "", any, "\"max\"", "the worst counts", "", "L1 L2 Linf max final ..."},
+    {"metric", "body", text, "", any, "\"\"", "all", "", "of one body"},
+    {"metric", "at", text, "", any, "\"end\"", "where errors have grown", "", "when"},
+    {"metric", "window", numbers, "s", any, "[0, 0]", "all frames", "", "from, to"},
+    {"metric", "scale", number, "", positive, "1", "in the quantity's own unit", "", "the error is divided by it"},
+    {"metric", "unit", text, "", any, "\"\"", "the quantity's own", "", "of the scaled value, for people"},
+    {"metric", "reference", table, "", any, "=", "the case's", "reference", "its own truth"},
+    // [[study]]
+    {"study", "axis", word, "", any, "!", "", axes, "what is refined"},
+    {"study", "levels", numbers, "", any, "!", "", "", "in the axis's own unit, coarse to fine"},
+    {"study", "jitter", number, "", fraction, "0", "an undisturbed lattice", "", "as of the scene"},
+    {"study", "seeds", integer, "", positive, "1", "one run a level", "", "runs a level, with seeds of their own"},
+    {"study", "engine", text, "", any, "\"\"", "all", "", "one engine"},
+    {"study", "mode", word, "", any, "\"\"", "all", "corrected paper", "one mode"},
+    {"study", "expect", word, "", any, "\"\"", "not judged", orders, "class of the convergence"},
+    {"study", "order", number, "", any, "", "not judged", "", "formal order"},
+    {"study", "metric", text, "", any, "\"\"", "every metric", "", "one metric"},
+    // [[gate]]
+    {"gate", "metric", text, "", any, "!", "", "", "a metric's name, or NAME.order"},
+    {"gate", "engine", text, "", any, "\"\"", "all", "", "one engine"},
+    {"gate", "mode", word, "", any, "\"\"", "all", "corrected paper", "one mode"},
+    {"gate", "preset", text, "", any, "\"\"", "all", "", "one preset"},
+    {"gate", "limit", number, "", any, "", "none", "", "the value is at most this"},
+    {"gate", "at_least", number, "", any, "", "none", "", "the value is at least this"},
+    {"gate", "band", numbers, "", any, "", "none", "", "the value lies between"},
+    {"gate", "level", number, "", any, "", "every run", "", "of the study's axis: only this run"},
+    {"gate", "reason", text, "", any, "!", "", "", "why this limit"},
+    {"gate", "by", text, "", any, "\"\"", "unsigned", "", "who set it"},
+    {"gate", "date", text, "", any, "\"\"", "undated", "", "when"},
+    // [[defect]], [[harmless]]
+    {"defect", "name", text, "", any, "!", "", "", "a registered defect: heat.conductivity ..."},
+    {"defect", "size", number, "", any, "!", "", "", "of the fault"},
+    {"defect", "killed_by", text_or_texts, "", any, "[]", "any gate", "", "metrics whose gates must fail"},
+    {"harmless", "name", text, "", any, "!", "", "", "a registered defect"},
+});
+
+constexpr auto tables_of_case = std::to_array<TableInfo>({
+    {"", "(top)", "The file. Numbers are SI, or texts with a unit: \"3 mm\", \"1.2 g/cm3\", \"20 degC\"."},
+    {"case", "[case]", "What is shown."},
+    {"scene", "[scene]", "What is simulated."},
+    {"material", "[[material]]", "Matter."},
+    {"body", "[[body]]", "A body."},
+    {"keyframe", "keyframes = [{time, position, rotation}]", "A place at a time."},
+    {"shape.box", "shape = {kind = \"box\", ...}", "A box along the axes."},
+    {"shape.sphere", "shape = {kind = \"sphere\", ...}", "A sphere."},
+    {"shape.cylinder", "shape = {kind = \"cylinder\", ...}", "A cylinder."},
+    {"shape.half_space", "shape = {kind = \"half_space\", ...}", "All that lies behind a plane; for regions, or cut by a difference."},
+    {"shape.union", "shape = {kind = \"union\", ...}", "All of several shapes."},
+    {"shape.difference", "shape = {kind = \"difference\", ...}", "A shape less another."},
+    {"shape.mesh", "shape = {kind = \"mesh\", ...}", "The inside of a closed triangle mesh."},
+    {"temperature.cosine", "temperature = {kind = \"cosine\", ...}", "A wave. A plain number is constant."},
+    {"temperature.step", "temperature = {kind = \"step\", ...}", "Two values, on either side of a plane."},
+    {"temperature.expression", "temperature = {kind = \"expression\", ...}", "A formula."},
+    {"velocity.cosine", "velocity = {kind = \"cosine\", ...}", "A wave. A plain vector is constant."},
+    {"velocity.linear", "velocity = {kind = \"linear\", ...}", "gradient (r - centre)."},
+    {"velocity.taylor_green", "velocity = {kind = \"taylor_green\", ...}", "Vortices in x and y."},
+    {"velocity.expression", "velocity = {kind = \"expression\", ...}", "Formulas."},
+    {"event", "[[event]]", "What happens at a time."},
+    {"inflow", "[[inflow]]", "Liquid that flows in."},
+    {"engines", "[engines.NAME]", "One row of the results an engine and preset."},
+    {"reference", "[reference]", "The truth."},
+    {"metric", "[[metric]]", "A number formed of each run."},
+    {"study", "[[study]]", "A ladder of runs."},
+    {"gate", "[[gate]]", "A limit that decides."},
+    {"defect", "[[defect]]", "A fault that this case must catch."},
+    {"harmless", "[[harmless]]", "A defect that this case cannot see."},
+});
+
+constexpr std::array type_texts{"number", "integer", "true or false", "text", "word", "[x, y, z]", "array of numbers", "array of texts", "number or \"auto\"",
+                                "text or array of texts", "array of words", "table", "array of tables", "table of free keys", "shape", "number or table", "[x, y, z] or table"};
+constexpr std::array range_texts{"", "greater than 0", "0 or greater", "from 0 to 1", "greater than -1 and less than 0.5", "greater than 1"};
+
+}  // namespace
+
+std::span<const Key> key_table() { return keys; }
+std::span<const TableInfo> table_infos() { return tables_of_case; }
+
+std::vector<const Key*> keys_of(std::string_view name) {
+  std::vector<const Key*> rows;
+  for (const auto& k : keys)
+    if (k.table == name) rows.push_back(&k);
+  return rows;
+}
+
+std::vector<std::string> key_names(std::string_view name) {
+  std::vector<std::string> names;
+  for (const auto* k : keys_of(name)) names.emplace_back(k->name);
+  return names;
+}
+
+const Key& key_row(std::string_view table_name, std::string_view name) {
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.table == table_name && k.name == name; });
+  assert(found != keys.end());
+  return *found;
+}
+
+std::vector<std::string> split_words(std::string_view list) {
+  std::vector<std::string> out;
+  while (!list.empty()) {
+    const auto end = std::min(list.find(' '), list.size());
+    if (end > 0) out.emplace_back(list.substr(0, end));
+    list.remove_prefix(std::min(end + 1, list.size()));
+  }
+  return out;
+}
+
+std::string_view type_text(ValueType t) { return type_texts[static_cast<std::size_t>(t)]; }
+std::string_view range_text(Range r) { return range_texts[static_cast<std::size_t>(r)]; }
+
+bool in_range(Range r, double v) {
+  switch (r) {
+    case any: return true;
+    case positive: return v > 0.0;
+    case not_negative: return v >= 0.0;
+    case fraction: return v >= 0.0 && v <= 1.0;
+    case poisson: return v > -1.0 && v < 0.5;
+    case above_one: return v > 1.0;
+  }
+  return false;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The one list of what a case file may say. The reader's checks, the JSON Schema and the reference page come from it.
+namespace tripoint {
+
+enum class ValueType {
+  number, integer, flag, text, word, vector, numbers, texts, number_or_auto,
+  text_or_texts,   ///< "a" or ["a", "b"]
+  words,           ///< array of words
+  table, tables,   ///< a sub-table of its own rows; an array of such
+  settings,        ///< a table of free keys
+  shape, temperature, velocity,
+};
+
+enum class Range { any, positive, not_negative, fraction, poisson, above_one };
+
+struct Key {
+  std::string_view table;     ///< "scene", "body", "shape.box" ...
+  std::string_view name;
+  ValueType type;
+  std::string_view unit;      ///< SI; "" = plain number
+  Range range;
+  std::string_view fallback;  ///< "!" required, "" absent = not set, "=" by a rule of the reader, else the value as TOML text
+  std::string_view note;      ///< reason of the fallback (or, where nothing is set, what that means)
+  std::string_view words;     ///< allowed words, separated by blanks; of a table: its name in this list
+  std::string_view meaning;   ///< one line
+
+  [[nodiscard]] bool required() const { return fallback == "!"; }
+};
+
+/// Every key, in the order of the reference page.
+[[nodiscard]] std::span<const Key> key_table();
+
+/// Rows of one table. Empty = no such table.
+[[nodiscard]] std::vector<const Key*> keys_of(std::string_view table);
+[[nodiscard]] std::vector<std::string> key_names(std::string_view table);
+/// @pre the key exists
+[[nodiscard]] const Key& key_row(std::string_view table, std::string_view name);
+
+[[nodiscard]] std::vector<std::string> split_words(std::string_view words);
+[[nodiscard]] std::string_view type_text(ValueType);
+[[nodiscard]] std::string_view range_text(Range);  ///< "greater than 0" ...; "" for any
+[[nodiscard]] bool in_range(Range, double);
+
+/// A table of the list and what it is: title for the page, and how it is written.
+struct TableInfo {
+  std::string_view name, written, meaning;
+};
+[[nodiscard]] std::span<const TableInfo> table_infos();
+
+}  // namespace tripoint

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/lattice.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tripoint {
+namespace {
+
+/// A corner counts as on the lattice within this part of a spacing: round-off of the numbers in the file.
+constexpr double on_lattice = 1e-6;
+
+struct Span {
+  double origin = 0.0;
+  long first = 0, count = 0;
+};
+
+/// Cells of a lattice through `origin` whose centres lie between low and high.
+Span cells_between(double origin, double low, double high, double dx) {
+  const double first = std::ceil((low - origin) / dx - 0.5 - on_lattice), last = std::floor((high - origin) / dx - 0.5 + on_lattice);
+  return {origin, static_cast<long>(first), static_cast<long>(std::max(0.0, last - first + 1.0))};
+}
+
+Span along(const Scene& s, const Body& b, const Bounds& box, std::size_t a) {
+  const double dx = s.spacing, low = box.min[a], high = box.max[a];
+  if (s.periodic[a]) {
+    const double cells = ((*s.max)[a] - (*s.min)[a]) / dx;
+    if (std::abs(cells - std::round(cells)) > on_lattice * std::max(1.0, cells))
+      throw InputError(b.place, fmt::format("the domain is {} spacings long in the periodic direction {}: choose a spacing that divides it", cells, "xyz"[a]));
+    return cells_between((*s.min)[a], std::max(low, (*s.min)[a]), std::min(high, (*s.max)[a]), dx);
+  }
+  if (const auto centre = symmetry_centre(b.shape)) {
+    const double n = std::max(1.0, std::round((high - low) / dx));
+    return cells_between((*centre)[a] - 0.5 * n * dx, low, high, dx);
+  }
+  const double k = std::round(low / dx);
+  const bool shared = std::abs(low / dx - k) <= on_lattice * std::max(1.0, std::abs(k) * 1e-6);
+  return cells_between(shared ? 0.0 : low, low, high, dx);
+}
+
+}  // namespace
+
+Lattice lattice_of(const Scene& s, const Body& b) {
+  Bounds box = bounds(b.shape);
+  Lattice lattice;
+  lattice.spacing = s.spacing;
+  double cells = 1.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (s.min && s.max) {  // a half space fills the domain
+      if (!std::isfinite(box.min[a])) box.min[a] = (*s.min)[a];
+      if (!std::isfinite(box.max[a])) box.max[a] = (*s.max)[a];
+    }
+    if (!std::isfinite(box.min[a]) || !std::isfinite(box.max[a]))
+      throw InputError(b.place, fmt::format("body \"{}\" has no end along {}: cut it by a difference, or give scene.min and scene.max", b.name, "xyz"[a]));
+    cells *= std::max(0.0, (box.max[a] - box.min[a]) / s.spacing + 2.0);
+    if (!(cells <= 2e8)) throw InputError(b.place, fmt::format("body \"{}\" spans more than 2e8 cells of spacing {} m: coarsen scene.spacing", b.name, s.spacing));
+    const Span span = along(s, b, box, a);
+    lattice.origin[a] = span.origin, lattice.first[a] = span.first, lattice.count[a] = span.count;
+  }
+  return lattice;
+}
+
+std::vector<Vec3> fill(const Scene& s, const Body& b) {
+  const Lattice lattice = lattice_of(s, b);
+  const auto inside = inside_of(b.shape, s.spacing);
+  std::vector<Vec3> centres;
+  for (long k = 0; k < lattice.count[2]; ++k)
+    for (long j = 0; j < lattice.count[1]; ++j)
+      for (long i = 0; i < lattice.count[0]; ++i)
+        if (const Vec3 r = lattice.centre(i, j, k); inside(r)) centres.push_back(r);
+  if (centres.empty()) throw InputError(b.place, fmt::format("body \"{}\" holds no particle at spacing {} m: refine scene.spacing or enlarge the body", b.name, s.spacing));
+  return centres;
+}
+
+double counter_noise(std::uint64_t seed, std::uint64_t particle, std::uint64_t axis) {
+  std::uint64_t z = seed * 0x9e3779b97f4a7c15ULL + (3 * particle + axis + 1) * 0xbf58476d1ce4e5b9ULL;
+  for (int round = 0; round < 2; ++round) {
+    z += 0x9e3779b97f4a7c15ULL;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    z ^= z >> 31;
+  }
+  return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/nearest.hpp"
+#include "scene/readers.hpp"
+
+namespace tripoint {
+namespace {
+
+/// What a body is where the case does not say: by melting, else by what its material can do.
+std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<TemperatureField>& temperature) {
+  const Phase solid = m.solid == "rigid" ? Phase::rigid : Phase::elastic;
+  const bool constant = temperature && temperature->kind == TemperatureField::Kind::constant;
+  if (m.t_melt && constant) {
+    if (temperature->value > *m.t_melt) return {Phase::liquid, fmt::format("its temperature is above t_melt = {} K", *m.t_melt)};
+    return {solid, fmt::format("its temperature is not above t_melt = {} K, and its material is {} when solid", *m.t_melt, m.solid)};
+  }
+  if (m.viscosity > 0.0 && !m.young_modulus && m.solid != "rigid") return {Phase::liquid, "its material has a viscosity and no stiffness of a solid"};
+  return {solid, fmt::format("its material is {} when solid", m.solid)};
+}
+
+void check_solid_keys(TableReader& in, const Material& m) {
+  if (m.young_modulus.has_value() != m.poisson_ratio.has_value())
+    in.refuse(m.young_modulus ? "young_modulus" : "poisson_ratio", "an elastic material needs both young_modulus and poisson_ratio: give the other too");
+  if (m.t_solid && !m.t_melt) in.refuse("t_solid", "without t_melt the material does not melt: give t_melt too");
+  if (m.latent_heat && !m.t_melt) in.refuse("latent_heat", "without t_melt the material does not melt: give t_melt too");
+  if (m.t_solid && *m.t_solid > *m.t_melt) in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt", *m.t_solid, *m.t_melt));
+  if (m.plastic_limit && !m.elastic_limit) in.refuse("plastic_limit", "without elastic_limit nothing flows: give elastic_limit too");
+  if (m.softens && !m.t_melt) in.refuse("softens", "without t_melt the material does not melt: give t_melt too, or remove softens");
+}
+
+}  // namespace
+
+std::string entry_name(const TomlNode& node, std::size_t number) {
+  const auto* name = node.find("name");
+  return name && name->kind == TomlNode::Kind::text ? printable(name->text) : std::to_string(number);
+}
+
+Material read_material(const TomlNode& node, Reading& reading) {
+  TableReader in(node, "material", "material." + entry_name(node, 1), reading.decisions);
+  Material m;
+  m.name = in.text("name");
+  TomlNode library;
+  if (const auto file = library_file(m.name); !file.empty()) {
+    const TomlNode document = read_toml(file);
+    if (const auto* values = document.find("material")) library = *values;
+    const auto* source = library.find("source");
+    in.fall_back_on(library, fmt::format("library, cases/materials/{}.toml{}", m.name, source ? ": " + source->text : ""));
+  }
+  m.density = in.number("density");
+  m.viscosity = in.number("viscosity");
+  m.stiffness = in.maybe_number("stiffness");
+  if (const auto c = in.maybe_number("sound_speed")) {
+    if (in.has("stiffness")) in.refuse("sound_speed", "stiffness is given too, and is its square: give one of them");
+    m.stiffness = *c * *c;
+    in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
+  }
+  m.young_modulus = in.maybe_number("young_modulus"), m.poisson_ratio = in.maybe_number("poisson_ratio");
+  m.conductivity = in.maybe_number("conductivity"), m.heat_capacity = in.maybe_number("heat_capacity");
+  m.t_melt = in.maybe_number("t_melt"), m.t_solid = in.maybe_number("t_solid"), m.latent_heat = in.maybe_number("latent_heat");
+  m.softens = in.flag("softens");
+  m.elastic_limit = in.maybe_number("elastic_limit"), m.plastic_limit = in.maybe_number("plastic_limit");
+  m.fracture_stretch = in.maybe_number("fracture_stretch"), m.fracture_distance = in.maybe_number("fracture_distance");
+  static_cast<void>(in.maybe_text("source"));
+  check_solid_keys(in, m);
+  if (m.t_melt && !m.t_solid) m.t_solid = m.t_melt, in.ruled("t_solid", show(*m.t_solid), "t_melt: no soft band and no hysteresis");
+  if (m.t_melt && !m.latent_heat) m.latent_heat = 0.0, in.ruled("latent_heat", "0", "melts at once");
+  if (const auto solid = in.maybe_text("solid")) {
+    m.solid = *solid;
+  } else {
+    m.solid = m.young_modulus ? "elastic" : "rigid";
+    // A liquid that never freezes is no solid; the word then only says what it would be.
+    if (m.viscosity > 0.0 && !m.young_modulus && !m.t_melt) m.solid = "elastic";
+    in.ruled("solid", "\"" + m.solid + "\"", m.young_modulus ? "young_modulus is given" : m.solid == "elastic" ? "a liquid that does not freeze" : "no young_modulus is given");
+  }
+  return m;
+}
+
+Body read_body(const TomlNode& node, const std::vector<Material>& materials, Reading& reading) {
+  TableReader in(node, "body", "body." + entry_name(node, 1), reading.decisions);
+  Body b;
+  b.place = node.place;
+  b.name = in.text("name");
+  if (b.name.empty() || b.name.size() > 64) in.refuse("name", "a name has 1 to 64 letters");
+  b.material = in.text("material");
+  const auto material = std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == b.material; });
+  if (material == materials.end()) {
+    auto known = library_names();
+    for (const auto& m : materials) known.push_back(m.name);
+    in.refuse("material", fmt::format("no material is named \"{}\"{}", printable(b.material), suggestion(b.material, known)));
+  }
+  b.shape = read_shape(*in.composite("shape"), in.path() + ".shape", reading);
+  if (const auto* t = in.composite("temperature")) b.temperature = read_temperature(*t, in.path() + ".temperature", reading);
+  else in.ruled("temperature", "none", std::string(key_row("body", "temperature").note));
+  if (const auto phase = in.maybe_text("phase")) {
+    b.phase = phase_from(*phase);
+  } else {
+    const auto [found, why] = phase_rule(*material, b.temperature);
+    b.phase = found;
+    in.ruled("phase", fmt::format("\"{}\"", to_string(found)), why);
+  }
+  if (b.phase == Phase::elastic && !material->young_modulus)
+    in.refuse(in.has("phase") ? "phase" : "material", fmt::format("an elastic body needs young_modulus and poisson_ratio of its material \"{}\": give them, or write phase = \"rigid\"", b.material));
+  if (const auto* v = in.composite("velocity")) b.velocity = read_velocity(*v, in.path() + ".velocity", reading);
+  else in.ruled("velocity", "[0, 0, 0]", std::string(key_row("body", "velocity").note));
+  b.angular_velocity = in.vector("angular_velocity");
+  b.temperature_held = in.flag("temperature_held");
+  if (b.temperature_held && !b.temperature) in.refuse("temperature_held", "no temperature is given to hold: give temperature too");
+  b.motion = motion_from(in.text("motion"));
+  b.keyframes = read_keyframes(in, "keyframes", reading);
+  if (!b.keyframes.empty() && b.motion != Motion::prescribed) in.refuse("keyframes", "only a prescribed body follows keyframes: write motion = \"prescribed\"");
+  if (b.motion == Motion::fixed && (in.has("velocity") || in.has("angular_velocity")))
+    in.refuse(in.has("velocity") ? "velocity" : "angular_velocity", "a fixed body does not move: remove it, or write motion = \"prescribed\"");
+  if (b.phase == Phase::rigid && b.velocity.kind != VelocityField::Kind::constant)
+    in.refuse("velocity", "a rigid body has one velocity: write [x, y, z] and angular_velocity");
+  b.free_slip = in.text("slip") == "free";
+  if (const auto joins = in.maybe_flag("joins")) {
+    b.joins = *joins;
+  } else {
+    b.joins = material->t_melt.has_value();
+    in.ruled("joins", b.joins ? "true" : "false", b.joins ? "its material melts" : "its material does not melt");
+  }
+  b.joined_to = in.texts("joined_to");
+  return b;
+}
+
+std::vector<Keyframe> read_keyframes(TableReader& owner, std::string_view key, Reading& reading) {
+  std::vector<Keyframe> frames;
+  const auto list = owner.tables(key);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    TableReader in(*list[i], "keyframe", fmt::format("{}.{}.{}", owner.path(), key, i + 1), reading.decisions);
+    Keyframe k;
+    k.time = in.number("time"), k.position = in.vector("position");
+    const auto q = in.numbers("rotation");
+    if (q.size() != 4) in.refuse("rotation", "write the quaternion [w, x, y, z]");
+    k.rotation = {q[0], q[1], q[2], q[3]};
+    if (!(std::abs(norm(k.rotation) - 1.0) < 1e-3)) in.refuse("rotation", fmt::format("the quaternion has length {}: write one of length 1 (w = cos(angle/2))", norm(k.rotation)));
+    k.rotation = normalised(k.rotation);
+    if (!frames.empty() && !(k.time > frames.back().time)) in.refuse("time", fmt::format("{} s is not after the keyframe before it ({} s): times must rise", k.time, frames.back().time));
+    frames.push_back(k);
+  }
+  if (list.empty()) owner.ruled(key, "[]", std::string(key_row("body", "keyframes").note));
+  return frames;
+}
+
+Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
+  TableReader in(node, "event", fmt::format("event.{}", entry_name(node, number)), reading.decisions);
+  Event e;
+  e.place = node.place;
+  e.time = in.number("time");
+  const auto kind = in.text("kind");
+  const auto kinds = split_words(key_row("event", "kind").words);
+  e.kind = static_cast<Event::Kind>(std::find(kinds.begin(), kinds.end(), kind) - kinds.begin());
+  e.name = in.maybe_text("name").value_or("");
+  e.bodies = in.texts("bodies");
+  if (const auto* region = in.composite("region")) e.region = read_shape(*region, in.path() + ".region", reading);
+  e.temperature = in.maybe_number("temperature"), e.until = in.maybe_number("until");
+  e.keyframes = read_keyframes(in, "keyframes", reading);
+  if (e.until && !(*e.until > e.time)) in.refuse("until", "the event ends before it begins: until must be greater than time");
+  const auto needs = [&](bool there, std::string_view key) {
+    if (!there) in.refuse("", fmt::format("a {} event needs the key `{}`", kind, key));
+  };
+  if (e.kind == Event::Kind::merge && e.bodies.size() < 2) in.refuse("bodies", "a merge names at least two bodies: bodies[0] absorbs the rest");
+  if (e.kind == Event::Kind::split) needs(e.region.has_value(), "region"), needs(!e.name.empty(), "name");
+  if (e.kind == Event::Kind::heat) needs(e.temperature.has_value(), "temperature"), needs(e.region || !e.bodies.empty(), "region` or `bodies");
+  if (e.kind == Event::Kind::grip) needs(e.region.has_value(), "region"), needs(!e.keyframes.empty(), "keyframes");
+  if (e.kind == Event::Kind::hold) needs(!e.bodies.empty(), "bodies");
+  if (e.kind != Event::Kind::grip && !e.keyframes.empty()) in.refuse("keyframes", "only a grip has keyframes: remove them");
+  return e;
+}
+
+Inflow read_inflow(const TomlNode& node, std::size_t number, double end_time, Reading& reading) {
+  TableReader in(node, "inflow", fmt::format("inflow.{}", number), reading.decisions);
+  Inflow f;
+  f.material = in.text("material");
+  f.shape = read_shape(*in.composite("shape"), in.path() + ".shape", reading);
+  f.velocity = in.vector("velocity");
+  if (!(norm(f.velocity) > 0.0)) in.refuse("velocity", "nothing flows in at rest: give a velocity, its direction serves where rate is given");
+  f.temperature = in.maybe_number("temperature");
+  f.start = in.number("start");
+  if (const auto stop = in.maybe_number("stop")) f.stop = *stop;
+  else f.stop = end_time, in.ruled("stop", show(end_time), "end_time");
+  if (!(f.stop > f.start)) in.refuse("stop", "it ends before it begins: stop must be greater than start");
+  f.rate = in.maybe_number("rate");
+  return f;
+}
+
+}  // namespace tripoint

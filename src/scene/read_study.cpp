@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "scene/nearest.hpp"
+#include "scene/readers.hpp"
+
+/// How a case is judged: engines, reference, metrics, studies, gates, defects.
+namespace tripoint {
+namespace {
+
+/// Words that become names of folders, columns and command line arguments.
+void plain_name(TableReader& in, std::string_view key, const std::string& name) {
+  const bool plain = !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == ' ';
+  });
+  if (!plain) in.refuse(key, "a name has 1 to 64 letters, digits, or any of _ - .");
+}
+
+}  // namespace
+
+EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading& reading) {
+  TableReader in(node, "engines", "engines." + printable(name), reading.decisions);
+  plain_name(in, "", name);
+  EngineChoice e;
+  e.name = name;
+  e.required = in.flag("required"), e.presets = in.texts("preset"), e.settings = in.settings("settings");
+  return e;
+}
+
+ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Reading& reading) {
+  TableReader in(node, "reference", path, reading.decisions);
+  ReferenceChoice r;
+  r.kind = in.text("kind");
+  r.function = in.maybe_text("function").value_or("");
+  const bool formula = r.kind == "analytic" || r.kind == "discrete_exact" || r.kind == "mms";
+  if (formula && r.function.empty()) in.refuse(in.has("function") ? "function" : "kind", fmt::format("a reference of kind \"{}\" needs the key `function`: the exact solution's name", r.kind));
+  r.args = in.settings("args");
+  r.file = in.text("file");
+  if (r.kind == "experiment" && r.file.empty()) in.refuse("kind", "a reference of kind \"experiment\" needs the key `file`: the data beside the case");
+  if (!r.file.empty()) {
+    const auto full = std::filesystem::path(reading.folder) / r.file;
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(full, error)) in.refuse("file", fmt::format("no file `{}` beside the case", printable(r.file)));
+    r.file = std::filesystem::absolute(full).lexically_normal().string();
+  }
+  r.source = in.text("source");
+  r.uncertainty = in.number("uncertainty");
+  return r;
+}
+
+MetricChoice read_metric(const TomlNode& node, Reading& reading) {
+  TableReader in(node, "metric", "metric." + entry_name(node, 1), reading.decisions);
+  MetricChoice m;
+  m.place = node.place;
+  m.name = in.text("name");
+  plain_name(in, "name", m.name);
+  m.quantity = in.text("quantity"), m.norm = in.text("norm"), m.body = in.text("body"), m.at = in.text("at");
+  const auto window = in.numbers("window");
+  if (window.size() != 2 || (in.has("window") && !(window[1] > window[0] && window[0] >= 0.0))) in.refuse("window", "write [from, to] in s, 0 <= from < to");
+  m.window = {window[0], window[1]};
+  m.scale = in.number("scale"), m.unit = in.text("unit");
+  if (const auto* r = in.composite("reference")) m.reference = read_reference(*r, in.path() + ".reference", reading);
+  return m;
+}
+
+Study read_study(const TomlNode& node, std::size_t number, Reading& reading) {
+  TableReader in(node, "study", fmt::format("study.{}", number), reading.decisions);
+  Study s;
+  s.place = node.place;
+  s.axis = in.text("axis"), s.levels = in.numbers("levels");
+  if (s.levels.size() < 2) in.refuse("levels", "a study has at least two levels, and at least three for an order with its interval");
+  const bool refines_upward = s.axis == "walkers" || s.axis == "iterations" || s.axis == "support_ratio";
+  for (std::size_t i = 0; i < s.levels.size(); ++i) {
+    if (!(s.levels[i] > 0.0)) in.refuse("levels", fmt::format("level {} is {}: levels are greater than 0, in the axis's own unit", i + 1, s.levels[i]));
+    if (i > 0 && (refines_upward ? s.levels[i] <= s.levels[i - 1] : s.levels[i] >= s.levels[i - 1]))
+      in.refuse("levels", fmt::format("levels go from coarse to fine: for {} that is {}", s.axis, refines_upward ? "rising" : "falling"));
+  }
+  s.jitter = in.number("jitter");
+  s.seeds = static_cast<int>(std::min(in.integer("seeds"), 100000L));
+  s.engine = in.text("engine"), s.mode = in.text("mode"), s.expect = in.text("expect"), s.order = in.maybe_number("order"), s.metric = in.text("metric");
+  return s;
+}
+
+Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
+  TableReader in(node, "gate", fmt::format("gate.{}", number), reading.decisions);
+  Gate g;
+  g.place = node.place;
+  g.metric = in.text("metric"), g.engine = in.text("engine"), g.mode = in.text("mode"), g.preset = in.text("preset");
+  g.limit = in.maybe_number("limit"), g.at_least = in.maybe_number("at_least");
+  if (const auto band = in.maybe_numbers("band")) {
+    if (band->size() != 2 || !((*band)[0] <= (*band)[1])) in.refuse("band", "write [low, high] with low <= high");
+    g.band = std::array<double, 2>{(*band)[0], (*band)[1]};
+  }
+  if (!g.limit && !g.at_least && !g.band) in.refuse("", fmt::format("the gate on \"{}\" has no limit and would pass anything: give limit, at_least or band", printable(g.metric)));
+  g.level = in.maybe_number("level");
+  g.reason = in.text("reason");
+  if (g.reason.find_first_not_of(" \t\n") == std::string::npos) in.refuse("reason", "a limit needs a reason: say where the number comes from");
+  g.by = in.text("by"), g.date = in.text("date");
+  return g;
+}
+
+Defect read_defect(const TomlNode& node, std::size_t number, Reading& reading) {
+  TableReader in(node, "defect", fmt::format("defect.{}", number), reading.decisions);
+  Defect d;
+  d.place = node.place;
+  d.name = in.text("name"), d.size = in.number("size"), d.killed_by = in.texts("killed_by");
+  return d;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "scene/expression.hpp"
+#include "scene/lattice.hpp"
+#include "scene/read_case.hpp"
+
+/// Particles of a scene at time 0: places on the lattice, mass rho0 dx^3, velocity and temperature by their fields.
+namespace tripoint {
+namespace {
+
+/// Fields with their expressions compiled once.
+class TemperatureAt {
+ public:
+  explicit TemperatureAt(const TemperatureField& f) : field_(f) {
+    if (f.kind == TemperatureField::Kind::expression) expression_.emplace(f.expression);
+  }
+  double operator()(const Vec3& r) const {
+    switch (field_.kind) {
+      case TemperatureField::Kind::constant: return field_.value;
+      case TemperatureField::Kind::cosine: return field_.mean + field_.amplitude * std::cos(dot(field_.wave_vector, r) + field_.phase);
+      case TemperatureField::Kind::step: return dot(r - field_.point, field_.normal) < 0.0 ? field_.behind : field_.ahead;
+      case TemperatureField::Kind::expression: return (*expression_)(r);
+    }
+    return not_a_number;
+  }
+
+ private:
+  const TemperatureField& field_;
+  std::optional<Expression> expression_;
+};
+
+class VelocityAt {
+ public:
+  explicit VelocityAt(const VelocityField& f) : field_(f) {
+    if (f.kind == VelocityField::Kind::expression)
+      for (const auto& text : f.expression) expressions_.emplace_back(text);
+  }
+  Vec3 operator()(const Vec3& r) const {
+    switch (field_.kind) {
+      case VelocityField::Kind::constant: return field_.value;
+      case VelocityField::Kind::cosine: return field_.mean + std::cos(dot(field_.wave_vector, r) + field_.phase) * field_.amplitude;
+      case VelocityField::Kind::linear: {
+        const Vec3 d = r - field_.centre;
+        return {dot(field_.gradient[0], d), dot(field_.gradient[1], d), dot(field_.gradient[2], d)};
+      }
+      case VelocityField::Kind::taylor_green: {
+        const double k = 2.0 * std::numbers::pi / field_.wavelength;
+        return {-field_.speed * std::cos(k * r.x) * std::sin(k * r.y), field_.speed * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
+      }
+      case VelocityField::Kind::expression: return {expressions_[0](r), expressions_[1](r), expressions_[2](r)};
+    }
+    return {};
+  }
+
+ private:
+  const VelocityField& field_;
+  std::vector<Expression> expressions_;
+};
+
+Vec3 wrapped(const Scene& s, Vec3 r) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!s.periodic[a]) continue;
+    const double low = (*s.min)[a], high = (*s.max)[a];
+    if (r[a] < low) r[a] += high - low;
+    if (r[a] >= high) r[a] -= high - low;
+  }
+  return r;
+}
+
+/// Velocity of each particle of a body: its field and its spin about the centre of mass, or its prescribed motion.
+std::vector<Vec3> velocities(const Scene& s, const Body& b, const std::vector<Vec3>& centres) {
+  std::vector<Vec3> out(centres.size());
+  if (b.motion == Motion::fixed) return out;
+  Vec3 centre;
+  for (const auto& r : centres) centre += r;
+  centre = centre / static_cast<double>(centres.size());  // equal masses
+  const VelocityAt field(b.velocity);
+  const auto start = b.keyframes.empty() ? PrescribedState{centre, {}, b.angular_velocity, {}} : prescribed_state(b.keyframes, centre, {}, {}, 0.0);
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    const Vec3 own = b.keyframes.empty() ? field(centres[i]) : start.velocity;
+    out[i] = own + cross(start.angular_velocity, centres[i] - centre);
+    if (!finite(out[i])) throw InputError(b.place, fmt::format("body \"{}\": its velocity is not finite at ({}, {}, {}) m", b.name, centres[i].x, centres[i].y, centres[i].z));
+  }
+  static_cast<void>(s);
+  return out;
+}
+
+void check_temperatures(const Scene& s) {
+  const auto heated = std::find_if(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.temperature.has_value(); });
+  if (heated == s.bodies.end()) return;
+  for (const auto& b : s.bodies)
+    if (!b.temperature) throw InputError(b.place, fmt::format("body \"{}\" has no temperature, but \"{}\" has: give every body one, or none", b.name, heated->name));
+}
+
+}  // namespace
+
+InitialState sample(const Scene& s) {
+  check_temperatures(s);
+  InitialState out;
+  const auto rows = body_rows(s);
+  for (std::size_t n = 0; n < s.bodies.size(); ++n) {
+    const Body& b = s.bodies[n];
+    const auto material = std::find_if(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == b.material; });
+    const double mass = s.material(b.material).density * s.spacing * s.spacing * s.spacing;
+    auto centres = fill(s, b);
+    for (std::size_t i = 0; i < centres.size() && s.jitter > 0.0; ++i)
+      for (std::size_t a = 0; a < 3; ++a) centres[i][a] += s.jitter * s.spacing * counter_noise(s.seed, out.size() + i, a);
+    const auto velocity = velocities(s, b, centres);
+    std::optional<TemperatureAt> temperature;
+    if (b.temperature) temperature.emplace(*b.temperature);
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      out.position.push_back(wrapped(s, centres[i]));
+      out.velocity.push_back(velocity[i]);
+      out.mass.push_back(mass);
+      out.phase.push_back(static_cast<int>(b.phase));
+      out.body.push_back(rows[n]);
+      out.material.push_back(static_cast<int>(material - s.materials.begin()));
+      out.source.push_back(static_cast<int>(n));
+      if (!temperature) continue;
+      const double T = (*temperature)(centres[i]);
+      if (!std::isfinite(T) || T <= 0.0) throw InputError(b.place, fmt::format("body \"{}\": its temperature is {} K at ({}, {}, {}) m: it must be above 0 K", b.name, T, centres[i].x, centres[i].y, centres[i].z));
+      out.temperature.push_back(T);
+    }
+  }
+  return out;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/read_case.hpp"
+
+namespace tripoint {
+
+Scene scene_for(const Case& c, const RunChoice& choice) {
+  Scene s = c.scene;
+  if (choice.mode) s.mode = *choice.mode;
+  for (std::size_t t = 0; t < term_count; ++t) s.modes[t] = s.modes_given[t].value_or(s.mode);
+  if (choice.spacing) s.spacing = *choice.spacing;
+  if (choice.time_step) s.time_step = *choice.time_step;
+  if (choice.jitter) s.jitter = *choice.jitter;
+  if (choice.seed) s.seed = *choice.seed;
+  const bool paper = std::all_of(s.modes.begin(), s.modes.end(), [](Mode m) { return m == Mode::paper; });
+  if (choice.support_ratio) s.support_ratio = *choice.support_ratio, s.support_ratio_given = true;
+  else if (!s.support_ratio_given) s.support_ratio = paper ? 2.12 : 2.6;
+  return s;
+}
+
+std::vector<int> body_rows(const Scene& s) {
+  std::vector<int> rows;
+  int next = 0;
+  for (const auto& b : s.bodies) rows.push_back(b.phase == Phase::liquid ? -1 : next++);
+  return rows;
+}
+
+namespace {
+
+/// Names of the bodies that a test picks: "body a", "bodies a, b"; empty when it picks none.
+template <class Test>
+std::string bodies_where(const Scene& s, Test test) {
+  std::vector<std::string> names;
+  for (const auto& b : s.bodies)
+    if (test(b, s.material(b.material))) names.push_back(b.name);
+  if (names.empty()) return "";
+  if (names.size() > 4) return fmt::format("{} bodies ({}, ...)", names.size(), names.front());
+  return fmt::format("{} {}", names.size() == 1 ? "body" : "bodies", fmt::join(names, ", "));
+}
+
+/// Least and greatest temperature that a scene can reach: conduction has a maximum principle.
+struct TemperatureRange {
+  double least = INFINITY, greatest = -INFINITY;
+  void add(double T) { least = std::min(least, T), greatest = std::max(greatest, T); }
+  void add(const TemperatureField& f) {
+    switch (f.kind) {
+      case TemperatureField::Kind::constant: return add(f.value);
+      case TemperatureField::Kind::cosine: return add(f.mean - std::abs(f.amplitude)), add(f.mean + std::abs(f.amplitude));
+      case TemperatureField::Kind::step: return add(f.behind), add(f.ahead);
+      case TemperatureField::Kind::expression: return add(0.0), add(INFINITY);  // anything
+    }
+  }
+};
+
+TemperatureRange temperatures_of(const Scene& s) {
+  TemperatureRange range;
+  for (const auto& b : s.bodies)
+    if (b.temperature) range.add(*b.temperature);
+  for (const auto& f : s.inflows)
+    if (f.temperature) range.add(*f.temperature);
+  for (const auto& e : s.events)
+    if (e.temperature) range.add(*e.temperature);
+  return range;
+}
+
+bool has_heat(const Body& b, const Material& m) { return b.temperature && m.conductivity && m.heat_capacity; }
+
+/// A body that is held for good needs no equations of motion.
+bool moves(const Body& b, const Scene& s) {
+  if (b.motion != Motion::fixed) return true;
+  return std::any_of(s.events.begin(), s.events.end(), [](const Event& e) { return e.kind == Event::Kind::release || e.kind == Event::Kind::grip; });
+}
+
+}  // namespace
+
+std::vector<CalledEffect> called_effects(const Scene& s) {
+  std::vector<CalledEffect> out;
+  const auto call = [&](const char* name, const std::string& who, const char* why) {
+    if (!who.empty()) out.push_back({name, fmt::format("{} {}", who, why)});
+  };
+  std::string liquid = bodies_where(s, [&](const Body& b, const Material&) { return b.phase == Phase::liquid && moves(b, s); });
+  if (liquid.empty() && !s.inflows.empty()) liquid = "an inflow";
+  call("fluid", liquid, "flows: liquid, and not held in place");
+  const auto elastic = [&](const Body& b) { return b.phase == Phase::elastic && moves(b, s); };
+  call("elastic", bodies_where(s, [&](const Body& b, const Material&) { return elastic(b); }), "deforms: elastic, and not held in place");
+  call("plastic", bodies_where(s, [&](const Body& b, const Material& m) { return elastic(b) && m.elastic_limit; }), "can yield: elastic with an elastic_limit");
+  call("fracture", bodies_where(s, [&](const Body& b, const Material& m) { return elastic(b) && (m.fracture_stretch || m.fracture_distance); }), "can break: elastic with a fracture limit");
+  call("rigid", bodies_where(s, [&](const Body& b, const Material&) { return b.phase == Phase::rigid && moves(b, s); }), "moves as a rigid body");
+  call("heat", bodies_where(s, has_heat), "has a temperature, and a material with conductivity and heat_capacity");
+  const auto range = temperatures_of(s);
+  const auto changes = [&](const Body& b, const Material& m) {
+    if (!has_heat(b, m) || !m.t_melt || b.temperature_held) return false;
+    return b.phase == Phase::liquid ? range.least < *m.t_solid : range.greatest > *m.t_melt;
+  };
+  call("phase", bodies_where(s, changes), "can melt or freeze: the scene's temperatures pass t_melt or t_solid of its material");
+  return out;
+}
+
+}  // namespace tripoint

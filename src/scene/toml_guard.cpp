@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "scene/toml_node.hpp"
+
+/// toml++ 3.3 aborts on `[,]` and `v=[1,}` and overflows the stack on a 400 kB dotted key: bounds come before it.
+namespace tripoint {
+namespace {
+
+constexpr std::size_t max_file = std::size_t{1} << 20, max_line = 16384;
+constexpr int max_nesting = 24, max_dots = 12;
+
+class Scanner {
+ public:
+  Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+  void scan() {
+    while (at_ < text_.size()) step();
+    if (!open_.empty()) refuse(fmt::format("the file ends inside a `{}`: close it", open_.back()));
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw InputError({file_, line_, static_cast<int>(at_ - line_start_) + 1}, what);
+  }
+  [[nodiscard]] bool at(std::string_view s) const { return text_.substr(at_, s.size()) == s; }
+
+  void control(char c) const {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool line_end = c == '\n' || (c == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n');
+    if ((byte < 32 && c != '\t' && !line_end) || byte == 127)
+      refuse(fmt::format("control byte 0x{:02x}: a case file is plain UTF-8 text", byte));
+    if (at_ - line_start_ > max_line) refuse(fmt::format("the line is longer than {} bytes: break it", max_line));
+  }
+
+  void newline() {
+    ++line_;
+    line_start_ = at_ + 1;
+    dots_ = 0;
+  }
+
+  void step() {
+    const char c = text_[at_];
+    control(c);
+    switch (c) {
+      case '\n': newline(); break;
+      case '#': comment(); return;
+      case '"':
+      case '\'': string(c); return;
+      case '[':
+      case '{': open(c); break;
+      case ']':
+      case '}': close(c); break;
+      case ',': comma(); break;
+      case '.':
+        if (++dots_ > max_dots && open_.empty()) refuse(fmt::format("more than {} dots in one line: a dotted key is at most three names long", max_dots));
+        break;
+      case '=': dots_ = 0; break;
+      default: break;
+    }
+    if (c != ' ' && c != '\t' && c != '\n' && c != '\r') last_ = c;
+    ++at_;
+  }
+
+  void comment() {
+    while (at_ < text_.size() && text_[at_] != '\n') control(text_[at_]), ++at_;
+  }
+
+  void string(char quote) {
+    const std::string three(3, quote);
+    const bool multi = at(three);
+    const auto begin = line_;
+    at_ += multi ? 3 : 1;
+    for (;; ++at_) {
+      if (at_ >= text_.size() || (!multi && text_[at_] == '\n')) refuse(fmt::format("the string that begins on line {} is not closed", begin));
+      control(text_[at_]);
+      if (text_[at_] == '\n') newline();
+      if (quote == '"' && text_[at_] == '\\') {
+        if (at_ + 1 < text_.size() && text_[at_ + 1] != '\n' && text_[at_ + 1] != '\r') ++at_;
+        continue;
+      }
+      if (multi ? at(three) : text_[at_] == quote) break;
+    }
+    at_ += multi ? 3 : 1;
+    while (multi && at_ < text_.size() && text_[at_] == quote) ++at_;  // """a"""" holds a quote
+    last_ = quote;
+  }
+
+  void open(char c) {
+    if (open_.size() >= max_nesting) refuse(fmt::format("brackets nested deeper than {}: flatten the value", max_nesting));
+    open_ += c;
+  }
+
+  void close(char c) {
+    const char want = c == ']' ? '[' : '{';
+    if (open_.empty() || open_.back() != want) refuse(fmt::format("`{}` closes nothing: write the bracket that was opened", c));
+    if (c == '}' && last_ == ',') refuse("a comma before `}`: remove the comma");
+    open_.pop_back();
+  }
+
+  void comma() const {
+    if (open_.empty()) return;  // the parser says it better
+    if (last_ == '[' || last_ == '{' || last_ == ',' || last_ == '=') refuse("a comma where a value belongs: remove the comma, or write the value before it");
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  std::size_t at_ = 0, line_start_ = 0;
+  int line_ = 1, dots_ = 0;
+  std::string open_;
+  char last_ = '\n';
+};
+
+}  // namespace
+
+void check_size(std::size_t bytes, const std::string& file) {
+  if (bytes > max_file) throw InputError({file, 0, 0}, fmt::format("{} bytes; a case file has at most {}: put data into a file of its own", bytes, max_file));
+}
+
+void check_text(std::string_view text, const std::string& file) {
+  check_size(text.size(), file);
+  Scanner(text, file).scan();
+}
+
+}  // namespace tripoint

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/errors.hpp"
+
+/// A TOML document as plain data: what the rest of this room reads, so that the parser stays behind one file.
+namespace tripoint {
+
+struct TomlNode {
+  enum class Kind { boolean, integer, real, text, date, array, table };
+  Kind kind = Kind::table;
+  bool flag = false;
+  std::int64_t integer = 0;
+  double real = 0.0;
+  std::string text;                                         ///< of a string; of a date as written
+  std::vector<TomlNode> items;                              ///< array
+  std::vector<std::pair<std::string, TomlNode>> members;    ///< table, in the order of the file
+  SourcePlace place;                                        ///< of the value
+  SourcePlace key_place;                                    ///< of its key, where it has one
+
+  [[nodiscard]] const TomlNode* find(std::string_view key) const;
+  [[nodiscard]] TomlNode* find(std::string_view key);
+};
+
+/// "a table", "an array", "a number" ...
+[[nodiscard]] std::string_view kind_name(TomlNode::Kind);
+
+/// The value as TOML text on one line, numbers with all their digits.
+[[nodiscard]] std::string to_toml(const TomlNode&);
+
+/// @throws InputError (file, line, column) when the text breaks a bound of check_text or is no TOML
+[[nodiscard]] TomlNode parse_toml(const std::string& text, const std::string& file);
+
+/// @throws InputError also when the file is not there, no regular file, empty or above the bound
+[[nodiscard]] TomlNode read_toml(const std::string& file);
+
+/// Bounds before a parser sees a stranger's text: size, line length, control bytes, nesting, length of dotted keys,
+/// a comma where a value belongs. @throws InputError with line and column
+void check_size(std::size_t bytes, const std::string& file);
+void check_text(std::string_view text, const std::string& file);
+
+}  // namespace tripoint

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "scene/nearest.hpp"
+#include "scene/scene.hpp"
+
+/// Words of the case file for the enumerations of the scene, and look-up by name.
+namespace tripoint {
+namespace {
+
+constexpr std::array phase_words{"liquid", "elastic", "rigid"};
+constexpr std::array motion_words{"free", "fixed", "prescribed"};
+constexpr std::array mode_words{"corrected", "paper"};
+constexpr std::array term_words{"kernel", "pressure", "density", "state", "viscosity", "walls", "elastic", "hourglass", "heat", "phase", "rotation", "time"};
+static_assert(term_words.size() == term_count);
+
+template <class E, std::size_t n>
+E from_word(std::string_view word, const std::array<const char*, n>& words, const char* what) {
+  for (std::size_t i = 0; i < n; ++i)
+    if (word == words[i]) return static_cast<E>(i);
+  throw InputError("`" + printable(word) + "` is no " + what + suggestion(word, {words.begin(), words.end()}));
+}
+
+template <class T>
+const T& by_name(const std::vector<T>& list, std::string_view name, const char* what) {
+  const auto found = std::find_if(list.begin(), list.end(), [&](const T& t) { return t.name == name; });
+  if (found != list.end()) return *found;
+  std::vector<std::string> names;
+  for (const auto& t : list) names.push_back(t.name);
+  throw InputError(std::string("no ") + what + " is named `" + printable(name) + "`" + suggestion(name, names));
+}
+
+}  // namespace
+
+std::string_view to_string(Phase p) { return phase_words[static_cast<std::size_t>(p)]; }
+std::string_view to_string(Motion m) { return motion_words[static_cast<std::size_t>(m)]; }
+std::string_view to_string(Mode m) { return mode_words[static_cast<std::size_t>(m)]; }
+std::string_view to_string(Term t) { return term_words[static_cast<std::size_t>(t)]; }
+Phase phase_from(std::string_view word) { return from_word<Phase>(word, phase_words, "phase"); }
+Motion motion_from(std::string_view word) { return from_word<Motion>(word, motion_words, "motion"); }
+Mode mode_from(std::string_view word) { return from_word<Mode>(word, mode_words, "mode"); }
+Term term_from(std::string_view word) { return from_word<Term>(word, term_words, "term of the model"); }
+
+const Material& Scene::material(std::string_view name) const { return by_name(materials, name, "material"); }
+const Body& Scene::body(std::string_view name) const { return by_name(bodies, name, "body"); }
+
+}  // namespace tripoint
