@@ -64,6 +64,8 @@ class Metric:
     value: float | None
     uncertainty: dict
     note: str = ""
+    times: list = field(default_factory=list)  # the error in time, where the norm is over time
+    series: list = field(default_factory=list)
 
     @property
     def u(self):
@@ -80,6 +82,7 @@ class Run:
     state_hash: str
     folder: str
     series: dict
+    levels: dict  # study axis -> the level that this run is
     number: int = 0
 
     @property
@@ -107,6 +110,9 @@ class Order:
     high: float | None
     fit_class: str
     formal: float | None
+    coefficient: float | None  # error = floor + coefficient step^value
+    floor: float | None
+    points: list  # (step, error, standard uncertainty) that were fitted
 
 
 @dataclass
@@ -119,10 +125,15 @@ class Gate:
     at_least: float | None
     band: tuple | None
     verdict: str
-    reason: str
+    reason: str  # of the limit
+    why: str     # of a verdict that is not pass
+    expect: str  # class of convergence that a study declares
+    fit_class: str
+    low: float | None  # an order's 95 % interval
+    high: float | None
+    level: float | None
     file: str
     line: str
-    number: int = 0
 
     @property
     def allowed(self):
@@ -130,7 +141,9 @@ class Gate:
             return f"{self.band[0]:.4g} to {self.band[1]:.4g}"
         if self.at_least is not None:
             return f"≥ {self.at_least:.4g}"
-        return f"≤ {self.limit:.4g}" if self.limit is not None else "none"
+        if self.limit is not None:
+            return f"≤ {self.limit:.4g}"
+        return f"class {self.expect}" if self.expect else "none"
 
     @property
     def used(self):
@@ -184,6 +197,8 @@ class Case:
     repeat: str
     number: int
     raw: dict
+    metrics: list  # as declared
+    units: dict    # metric -> unit
     notes: list = field(default_factory=list)
 
 
@@ -213,6 +228,7 @@ def load(path):
     if not isinstance(raw, dict) or not isinstance(raw.get("cases"), list):
         raise Unreadable(f"{path} has no list of cases")
     notes = [] if raw.get("format") == 1 else [f"format {raw.get('format')!r} is not 1, which this report was written for"]
+    notes += problems(raw)
     notes += [f"the file has no {key}" for key in ("tool", "command", "profile", "verdict", "exit_code") if key not in raw]
     cases = [read_case(row, index) for index, row in enumerate(rows(raw["cases"]))]
     if not cases:
@@ -222,13 +238,21 @@ def load(path):
                    path.resolve().parent, notes, raw)
 
 
+def problems(raw):
+    """Why a verdict is not pass, beyond what the gates say."""
+    listed = raw.get("problems")
+    return [text(line) for line in listed if text(line)] if isinstance(listed, list) else []
+
+
 def read_case(raw, index):
     notes = [f"results.json has no {key} for this case" for key in ("title", "kind", "file", "verdict", "reference", "engines", "repeat")
-             if key not in raw]
+             if key not in raw] + problems(raw)
+    metrics = rows(raw.get("metrics"))
+    units = {text(m.get("name")): text(m.get("unit")) for m in metrics}
     engines = [read_engine(row, notes) for row in rows(raw.get("engines"))]
     return Case(text(raw.get("id"), f"case {index + 1}"), text(raw.get("title")), text(raw.get("kind")), text(raw.get("requirement")),
                 text(raw.get("claims")), text(raw.get("file")), text(raw.get("verdict"), "no verdict").upper(), table(raw.get("reference")),
-                engines, rows(raw.get("equivalence")), read_ledgers(raw, engines), text(raw.get("repeat")), index, raw, notes)
+                engines, rows(raw.get("equivalence")), read_ledgers(raw, engines), text(raw.get("repeat")), index, raw, metrics, units, notes)
 
 
 def read_engine(raw, notes):
@@ -246,18 +270,23 @@ def read_engine(raw, notes):
                   runs, [read_order(row) for row in rows(raw.get("order"))], gates, raw)
 
 
+def read_metric(raw):
+    times, series = (raw.get(key) if isinstance(raw.get(key), list) else [] for key in ("times", "series"))
+    return Metric(number(raw.get("value"), raw.get("finite")), table(raw.get("uncertainty")), text(raw.get("note")), times, series)
+
+
 def read_run(raw):
-    metrics = {key: Metric(number(table(m).get("value"), table(m).get("finite")), table(table(m).get("uncertainty")), text(table(m).get("note")))
-               for key, m in table(raw.get("metrics")).items()}
+    metrics = {key: read_metric(table(m)) for key, m in table(raw.get("metrics")).items()}
     cost = {key: number(table(raw.get("cost")).get(key)) for key in COSTS}
     return Run(table(raw.get("knobs")), text(raw.get("status"), "ok"), text(raw.get("reason") or raw.get("message")), metrics, cost,
-               text(raw.get("state_hash")), text(raw.get("folder")), table(raw.get("series")))
+               text(raw.get("state_hash")), text(raw.get("folder")), table(raw.get("series")), table(raw.get("levels")))
 
 
 def read_order(raw):
-    formal = next((number(raw[key]) for key in ("formal", "formal_order", "expected") if number(raw.get(key)) is not None), None)
+    step, error, u = ([number(v) for v in raw.get(key)] if isinstance(raw.get(key), list) else [] for key in ("step", "error", "uncertainty"))
+    points = [(x, abs(e), s if is_number(s) else 0.0) for x, e, s in zip(step, error, u + [0.0] * len(step)) if is_number(x) and is_number(e) and x > 0 and e != 0]
     return Order(text(raw.get("metric")), text(raw.get("axis")), text(raw.get("mode")), number(raw.get("value"), raw.get("finite")),
-                 number(raw.get("low")), number(raw.get("high")), text(raw.get("class")), formal)
+                 number(raw.get("low")), number(raw.get("high")), text(raw.get("class")), number(raw.get("formal")), number(raw.get("coefficient")), number(raw.get("floor")), sorted(points))
 
 
 def read_gate(raw):
@@ -265,7 +294,8 @@ def read_gate(raw):
     band = tuple(number(edge) for edge in band) if isinstance(band, list) and len(band) == 2 else None
     return Gate(text(raw.get("metric")), text(raw.get("mode")), number(raw.get("value"), raw.get("finite")), combined(raw.get("uncertainty")),
                 number(raw.get("limit")), number(raw.get("at_least")), band if band and None not in band else None,
-                text(raw.get("verdict"), "no verdict").upper(), text(raw.get("reason") or raw.get("note")), text(raw.get("file")), text(raw.get("line")))
+                text(raw.get("verdict"), "no verdict").upper(), text(raw.get("reason")), text(raw.get("why")), text(raw.get("expect")),
+                text(raw.get("class")), number(raw.get("low")), number(raw.get("high")), number(raw.get("level")), text(raw.get("file")), text(raw.get("line")))
 
 
 def read_ledgers(raw, engines):

@@ -53,11 +53,20 @@ def terms(ledgers):
     return [term for term in found if term != "residual"] + [term for term in found if term == "residual"]
 
 
+def measure(metric):
+    """How a metric is formed, in words."""
+    body, at, scale = metric.get("body"), metric.get("at"), metric.get("scale")
+    words = [f"{metric.get('norm', 'norm not stated')} of {metric.get('quantity', 'a quantity not stated')}"]
+    words += [f"of body {body}"] if body else []
+    words += [f"at {at}"] if at not in (None, "") else []
+    words += [f"over {show(scale)}"] if scale not in (None, 1, 1.0) else []
+    return " ".join(words) + (f", {metric['unit']}" if metric.get("unit") else "")
+
+
 def truth(row, case, side):
     """Error to the reference of one side of an equivalence: as stated, else of that engine's gate or finest run."""
-    for key in (f"{side}_error", f"error_{side}"):
-        if key in row:
-            return number(row[key])
+    if number(row.get(f"error_{side}")) is not None:
+        return number(row[f"error_{side}"])
     for engine in case.engines:
         if row.get(side) in (engine.label, engine.name):
             gate = next((g for g in engine.gates if g.metric == row.get("metric")), None)
@@ -70,7 +79,7 @@ def render(results, pictures, notes, suite, missing_libraries):
     """@param pictures, notes: case number -> list   @param suite: pictures of all cases   @return HTML"""
     import jinja2
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(show=show, size=size, percent=percent, tone=summary.tone, anchor=anchor, terms=terms, truth=truth)
+    environment.filters.update(show=show, size=size, percent=percent, tone=summary.tone, anchor=anchor, terms=terms, measure=measure, truth=truth)
     columns = summary.columns(results)
     return environment.get_template("report.html.j2").render(
         results=results, columns=columns, cells={(case.number, label): summary.cell(case, label) for case in results.cases for label in columns},

@@ -48,7 +48,7 @@ def cell(case, label):
         return Cell(word="—", detail="not asked", reason="the case does not list this engine")
     engine = engines[0]
     verdict = worst(gate.verdict for gate in engine.gates)
-    failing = [f"{g.metric}{' (' + g.mode + ')' if g.mode else ''}: {g.verdict.lower()}, {g.reason}" for g in engine.gates if g.verdict != "PASS"]
+    failing = [f"{g.metric}{' (' + g.mode + ')' if g.mode else ''}: {g.why or g.verdict.lower()}" for g in engine.gates if g.verdict != "PASS"]
     reason = "; ".join(filter(None, [engine.reason] + failing))
     if not engine.gates:
         word = engine.status if engine.status != "ok" else "ran"

@@ -96,7 +96,7 @@ def last(particles, name, shape):
 
 def read_bodies(file, result):
     node = file.get("particles/bodies/position/value")
-    if node is None or node.ndim != 3 or node.shape[0] == 0 or node.shape[1] == 0:
+    if node is None or node.ndim != 3 or 0 in node.shape:
         return
     step = max(1, node.shape[0] // MOST_FRAMES)
     result.body_times = file["particles/bodies/position/time"][::step]

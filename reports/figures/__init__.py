@@ -22,6 +22,7 @@ class Picture:
     caption: str
     svg: str
     file: str
+    half: bool  # two of them stand side by side
 
 
 def stem_of(case):
@@ -63,4 +64,5 @@ def draw_suite(out, results):
 def finish(drawing, out, stem):
     name = f"{stem}-{drawing.name}"
     svg = style.files(drawing.figure, out / "figures" / name)
-    return Picture(drawing.name, drawing.title, drawing.alt, drawing.caption, style.inline(svg, re.sub(r"\W+", "-", name)), f"figures/{name}")
+    return Picture(drawing.name, drawing.title, drawing.alt, drawing.caption, style.inline(svg, re.sub(r"\W+", "-", name)), f"figures/{name}",
+                   drawing.figure.get_figwidth() <= style.HALF)

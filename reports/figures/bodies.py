@@ -12,13 +12,15 @@ MOST_BODIES = 2
 
 def draw(case, trajectories, notes):
     shown = [(curve, t) for curve, t in trajectories if t.bodies]
+    if not shown:
+        return None
     wanted = [panel for panel in (position_panel(shown), turn_panel(shown), spin_panel(shown), energy_panel(trajectories)) if panel]
-    if not shown or not wanted:
+    if not wanted:
         return None
     most = max(t.bodies["position"].shape[1] for _, t in shown if "position" in t.bodies) if any("position" in t.bodies for _, t in shown) else 1
     if most > MOST_BODIES:
         notes.append(f"curves show the first {MOST_BODIES} of {most} bodies")
-    figure, axes = style.panels(len(wanted), height=2.5)
+    figure, axes = style.panels(len(wanted), len({c.label + w for _, lines in wanted for c, _, _, _, w in lines}), height=2.5)
     for axis, (title, lines) in zip(axes, wanted):
         for curve, time, values, nth, words in lines:
             look = style.look(curve)
@@ -39,7 +41,11 @@ def offset(curve, shown):
 
 
 def busiest(shown, name):
-    """The component that changes most over all engines, None where nothing changes."""
+    """The component in which engines differ most at the end, else the one that changes most; None where nothing changes."""
+    ends = [t.bodies[name][-1] for _, t in shown if name in t.bodies and t.bodies[name].shape[1:] == shown[0][1].bodies.get(name, t.bodies[name]).shape[1:]]
+    apart = np.ptp(ends, axis=0) if len(ends) > 1 else np.zeros((1, 3))
+    if np.isfinite(apart).any() and np.nanmax(apart) > 1e-9 * max(1.0, np.nanmax(np.abs(ends))):
+        return int(np.nanargmax(np.nanmax(apart, axis=0)))
     spans = [np.nanmax(np.nanmax(v, axis=0) - np.nanmin(v, axis=0), axis=0) for _, t in shown if (v := t.bodies.get(name)) is not None and np.isfinite(v).any()]
     if not spans:
         return None

@@ -17,7 +17,7 @@ class Curve:
 
     @property
     def label(self):
-        several = len({mode for engine in self.case.engines for mode in engine.modes if mode}) > 1
+        several = len({run.mode for engine in self.case.engines for run in engine.runs if run.mode}) > 1
         return f"{self.engine.label} ({self.mode})" if several and self.mode and self.engine.name != "exact" else self.engine.label
 
     @property
@@ -40,21 +40,26 @@ class Drawing:
     caption: str = ""
 
 
+def axis_label(case, metric):
+    unit = case.units.get(metric)
+    return f"{metric} [{unit}]" if unit else metric
+
+
 def curves(case):
     """In the order of results.json."""
     result = []
     for engine in case.engines:
-        for mode in engine.modes:
-            runs = [run for run in engine.runs if run.mode == mode]
-            if runs:
-                result.append(Curve(case, engine, mode, runs))
+        for mode in dict.fromkeys(run.mode for run in engine.runs):
+            result.append(Curve(case, engine, mode, [run for run in engine.runs if run.mode == mode]))
     return result
 
 
 def metrics(case, wanted=4):
-    """Names of metrics that have a positive value somewhere, those with a gate first."""
+    """(names to draw, other names): with a value that is not zero; a study's metrics alone where there are any, else gated ones first."""
+    studied = [order.metric for engine in case.engines for order in engine.orders]
     gated = [gate.metric for engine in case.engines for gate in engine.gates]
     listed = [name for engine in case.engines for run in engine.runs for name in run.metrics]
     drawn = {name for engine in case.engines for run in engine.runs for name, m in run.metrics.items() if is_number(m.value) and m.value != 0}
-    ordered = [name for name in dict.fromkeys(gated + listed) if name in drawn]
-    return ordered[:wanted], ordered[wanted:]
+    ordered = [name for name in dict.fromkeys(studied + gated + listed) if name in drawn]
+    most = min(wanted, sum(name in studied for name in ordered) or wanted)
+    return ordered[:most], ordered[most:]

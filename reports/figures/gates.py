@@ -19,7 +19,8 @@ def draw(results, notes):
     for case in results.cases:
         for engine in case.engines:
             for gate in engine.gates:
-                lines.setdefault((case.number, gate.metric, gate.mode), []).append((case, engine, gate))
+                if not (gate.expect and gate.allowed.startswith("class")):  # a class of convergence has no scale
+                    lines.setdefault((case.number, gate.metric, gate.mode), []).append((case, engine, gate))
     if not lines:
         return None
     if len(lines) > MOST_LINES:
@@ -44,22 +45,30 @@ def mark(axis, k, case, engine, gate, seen):
     hue = style.colour(engine.name, [e.name for e in case.engines])
     name = engine.name if engine.name not in seen else None
     used = gate.used
-    if used is None or not is_number(used):
+    if not is_number(used) and gate.verdict == "PASS":
+        used = 0.0  # a limit of zero that is met
+    if not is_number(used):
         axis.plot([1.0], [k], "x", color=style.RED, markersize=6, markeredgewidth=2)
         axis.annotate(gate.verdict.lower(), (1.0, k), xytext=(6, -3), textcoords="offset points", fontsize=7.5, color=style.RED)
         return
     seen.add(engine.name)
-    place = min(max(used, FLOOR), 100.0)
+    place, k = min(max(used, FLOOR), 100.0), k + shift(engine, case)
     if is_number(gate.uncertainty) and gate.uncertainty > 0 and gate.value:
         reach = 2 * gate.uncertainty * used / abs(gate.value) if not gate.band else 4 * gate.uncertainty / (gate.band[1] - gate.band[0])
         axis.plot([max(place - reach, FLOOR), place + reach], [k, k], color=hue, linewidth=0.9, alpha=0.7)
     presets = list(dict.fromkeys(e.preset for e in case.engines if e.name == engine.name))
-    axis.plot([place], [k], style.MARKERS[presets.index(engine.preset) % len(style.MARKERS)] if used >= FLOOR else "<", color=hue, markersize=5, label=name,
+    axis.plot([place], [k], style.MARKERS[presets.index(engine.preset) % len(style.MARKERS)] if used >= FLOOR else "<", color=hue, markersize=4.5, label=name,
               markeredgecolor=style.RED if gate.verdict == "FAIL" else style.INK if gate.verdict != "PASS" else hue, markeredgewidth=1.4)
 
 
+def shift(engine, case):
+    """Engines of one line stand a little apart, so that equal ones are seen."""
+    judged = [e.label for e in case.engines if e.gates]
+    return 0.0 if len(judged) < 2 else 0.36 * (judged.index(engine.label) / (len(judged) - 1) - 0.5)
+
+
 def finish(axis, kept):
-    axis.set_xscale("log")
+    style.logarithmic(axis, "x")
     low, high = axis.get_xlim()
     axis.set_xlim(max(low, FLOOR) * 0.8, max(high, 3.0))
     axis.axvline(1.0, color=style.RED, linewidth=1.4, zorder=0)

@@ -36,6 +36,10 @@ def draw(case, trajectories, notes):
         panel(axis, curve, trajectory, strobe, view, bounds, warm)
         axis.set_xlabel(names[0], labelpad=1)
         axis.set_ylabel(names[1], labelpad=1)
+        if bounds[1][0] - bounds[0][0] > 6 * (bounds[1][1] - bounds[0][1]):
+            axis.locator_params(axis="y", nbins=2)
+            axis.set_xlabel("")
+    axes[-1].set_xlabel(names[0], labelpad=1)
     if warm is not None:
         colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(*warm), style.TEMPERATURE)
         figure.colorbar(colours, cax=bar, orientation="horizontal").set_label("temperature [K]")
@@ -83,12 +87,12 @@ def extent(projected):
 def layout(count, bounds, bar):
     """Long scenes are stacked, others stand side by side."""
     wide, tall = bounds[1] - bounds[0]
-    columns = 1 if wide > 6 * tall else 2 if wide > 2.5 * tall else min(4, max(count, 2))
-    columns = min(columns, max(count, 1)) if columns <= 2 else columns
+    columns = 1 if wide > 6 * tall else 2 if wide > 2.5 * tall else 3 if count in (3, 5, 6) else 4
+    columns = min(columns, max(count, 2)) if columns > 1 else 1
     lines = -(-count // columns)
     each = style.WIDTH / columns - 0.65
     height = float(np.clip(each * tall / wide, 0.32, 3.4))
-    below, above, gap = (0.95 if bar else 0.45), 0.32, 0.72
+    below, above, gap = (1.12 if bar else 0.45), 0.32, 0.72 if columns > 1 else 0.55
     total = lines * height + (lines - 1) * gap + below + above
     figure = Figure(figsize=(style.WIDTH, total))
     FigureCanvasAgg(figure)
@@ -97,7 +101,7 @@ def layout(count, bounds, bar):
         line, column = divmod(k, columns)
         left = (column * style.WIDTH / columns + 0.58) / style.WIDTH
         axes.append(figure.add_axes([left, (below + (lines - 1 - line) * (height + gap)) / total, each / style.WIDTH, height / total]))
-    return figure, axes, figure.add_axes([0.3, 0.36 / total, 0.4, 0.1 / total]) if bar else None
+    return figure, axes, figure.add_axes([0.3, 0.48 / total, 0.4, 0.1 / total]) if bar else None
 
 
 def panel(axis, curve, trajectory, strobe, view, bounds, warm):
@@ -113,18 +117,20 @@ def panel(axis, curve, trajectory, strobe, view, bounds, warm):
         chosen = chosen[np.isfinite(position[chosen]).all(axis=1)]
         seen = view(position[chosen])
         order = np.argsort(-seen[:, 2], kind="stable")
-        axis.scatter(seen[order, 0], seen[order, 1], s=marker_area(axis, bounds, len(position) / step), linewidths=0, rasterized=True,
+        axis.scatter(seen[order, 0], seen[order, 1], s=marker_area(axis, bounds, curve, len(position) / step), linewidths=0, rasterized=True,
                      alpha=1.0 if k == len(strobe) - 1 else 0.25 + 0.4 * k / len(strobe), **hues(trajectory, chosen[order], seen[order, 2], warm))
     lost = int((~np.isfinite(strobe[-1][1]).all(axis=1)).sum())
     if lost:
         axis.annotate(f"{lost} particles not finite", (0.02, 0.9), xycoords="axes fraction", color=style.RED, fontsize=8)
 
 
-def marker_area(axis, bounds, count):
-    """[points^2]: such that the drawn particles cover the panel about once."""
-    box = axis.get_position()
-    area = box.width * box.height * np.prod(axis.figure.get_size_inches()) * 72**2
-    return float(np.clip(0.7 * area / max(count, 1), 2.5, 60.0))
+def marker_area(axis, bounds, curve, count):
+    """[points^2]: a disc of nine tenths of a spacing, or such that the points cover the panel where no spacing is stated."""
+    box, size = axis.get_position(), axis.figure.get_size_inches()
+    spacing = curve.finest.knob("spacing")
+    if spacing and spacing > 0:
+        return float(np.clip((0.9 * spacing * box.width * size[0] * 72 / (bounds[1][0] - bounds[0][0])) ** 2, 1.5, 120.0))
+    return float(np.clip(0.7 * box.width * box.height * size[0] * size[1] * 72**2 / max(count, 1), 2.5, 60.0))
 
 
 def hues(trajectory, chosen, depth, warm):

@@ -16,7 +16,7 @@ def draw(case, trajectories, notes):
     first = shown[0][1].position
     along = int(np.argmax(np.ptp(first[np.isfinite(first).all(axis=1)], axis=0)))
     exact = next(((curve, t) for curve, t in shown if curve.engine.name == "exact"), None)
-    figure, axes = style.panels(2 if exact and len(shown) > 1 else 1)
+    figure, axes = style.panels(2 if exact and len(shown) > 1 else 1, len(shown))
     truth = binned(exact[1], along) if exact else None
     for curve, trajectory in shown:
         x, value, error = binned(trajectory, along)

@@ -7,23 +7,23 @@ import numpy as np
 from load import table
 
 from . import style
-from .curve import Drawing, curves
+from .curve import Drawing, axis_label, curves
 
 MOST_PANELS = 4
 
 
 def draw(case, trajectories, notes):
     finest = [(curve, curve.finest) for curve in curves(case) if curve.finest]
-    names = list(dict.fromkeys(name for _, run in finest for name in run.series))
+    names = list(dict.fromkeys(name for _, run in finest for name in [*run.metrics, *run.series]))
     drawn = [name for name in names if any(numbers(run, name) is not None for _, run in finest)]
     if not drawn:
         return None
     if len(drawn) > MOST_PANELS:
         notes.append("error in time is not drawn for " + ", ".join(drawn[MOST_PANELS:]))
         drawn = drawn[:MOST_PANELS]
-    figure, axes = style.panels(len(drawn), height=2.5)
+    figure, axes = style.panels(len(drawn), len(finest), height=2.5)
     for axis, name in zip(axes, drawn):
-        panel(axis, name, finest)
+        panel(case, axis, name, finest)
     style.legend(figure, axes)
     return Drawing("error-in-time", "Error in time", f"Error of {', '.join(drawn)} against time for each engine and mode.", figure, "The finest sound run of each engine and mode; shaded: two standard uncertainties where the run states them.")
 
@@ -31,6 +31,8 @@ def draw(case, trajectories, notes):
 def numbers(run, name):
     """(time, value, uncertainty|None) as arrays of equal length, None where the series is not sound."""
     entry = table(run.series.get(name))
+    if name in run.metrics and run.metrics[name].times:
+        entry = {"time": run.metrics[name].times, "value": run.metrics[name].series, **{k: v for k, v in entry.items() if k in ("uncertainty", "error")}}
     try:
         time, value = (np.array([np.nan if v is None else float(v) for v in entry.get(key, ())]) for key in ("time", "value"))
         u = entry.get("uncertainty", entry.get("error"))
@@ -42,21 +44,22 @@ def numbers(run, name):
     return time, value, u if u is not None and len(u) == len(value) else None
 
 
-def panel(axis, name, finest):
-    values = []
-    for curve, run in finest:
-        found = numbers(run, name)
-        if found is None:
-            continue
-        time, value, u = found
+def panel(case, axis, name, finest):
+    found = [(curve, numbers(run, name)) for curve, run in finest]
+    found = [(curve, entry) for curve, entry in found if entry is not None]
+    everything = np.concatenate([value[np.isfinite(value) & (value != 0)] for _, (_, value, _) in found])
+    log = everything.size > 0 and everything.min() > 0 and everything.max() / everything.min() > 50
+    for curve, (time, value, u) in found:
         look = style.look(curve)
+        if log and not (value > 0).any():
+            axis.plot([], [], color=look["color"], linestyle=look["linestyle"], label=f"{curve.label}: 0 throughout")
+            continue
+        value = np.where(value > 0, value, np.nan) if log else value
         axis.plot(time, value, label=curve.label, color=look["color"], linestyle=look["linestyle"], marker=look["marker"], markevery=max(1, len(time) // 6), markersize=3.5)
         if u is not None:
             axis.fill_between(time, value - 2 * u, value + 2 * u, color=look["color"], alpha=0.15, linewidth=0)
-        values.append(value[np.isfinite(value) & (value != 0)])
-    everything = np.concatenate(values) if values else np.empty(0)
-    if everything.size and everything.min() > 0 and everything.max() / everything.min() > 50:
+    if log:
         axis.set_ylim(bottom=max(everything.min() * 0.7, everything.max() * 1e-14), top=everything.max() * 1.6)
         style.logarithmic(axis, "y")
     axis.set_xlabel("time [s]")
-    axis.set_ylabel(name)
+    axis.set_ylabel(axis_label(case, name))

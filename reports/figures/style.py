@@ -26,14 +26,15 @@ SPARE = (SKY, AMBER, GREY)
 BODIES = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY, GREY)
 MARKERS = "osD^vP"
 TEMPERATURE = "inferno"
-WIDTH, DPI = 9.2, 110
+WIDTH, HALF, DPI = 9.2, 4.6, 110
 
 matplotlib.rcParams.update({
     "figure.facecolor": PAPER, "axes.facecolor": PAPER, "savefig.facecolor": PAPER, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": SOFT,
     "xtick.color": SOFT, "ytick.color": SOFT, "xtick.labelcolor": INK, "ytick.labelcolor": INK, "font.size": 9, "axes.titlesize": 9.5, "axes.labelsize": 9,
     "axes.titlelocation": "left", "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": GRID, "grid.linewidth": 0.6,
     "axes.linewidth": 0.8, "lines.linewidth": 1.5, "lines.markersize": 4.5, "legend.frameon": False, "legend.fontsize": 8.5, "legend.handlelength": 2.4,
-    "svg.fonttype": "none", "svg.hashsalt": "tripoint", "path.simplify_threshold": 0.4, "axes.formatter.useoffset": False})
+    "svg.fonttype": "none", "svg.hashsalt": "tripoint", "path.simplify_threshold": 0.4, "axes.formatter.useoffset": False,
+    "text.parse_math": False})  # names come from files: a dollar sign is a dollar sign
 
 
 def colour(engine, engines):
@@ -51,16 +52,19 @@ def look(curve):
             "linestyle": "--" if curve.mode == "paper" else "-"}
 
 
-def panels(count, columns=2, height=2.9):
-    """A figure with `count` axes in a grid, drawn without pyplot (no global state)."""
-    columns = min(columns, count)
+def panels(count, labels, height=2.9):
+    """A figure with `count` axes in a grid under a legend of `labels` entries, drawn without pyplot (no global state)."""
+    columns = 3 if count == 3 else min(2, count)
     lines = -(-count // columns)
-    width = WIDTH if columns > 1 else 0.66 * WIDTH
-    figure = Figure(figsize=(width, height * lines + 0.45))
+    width = WIDTH if columns > 1 else HALF
+    above = 0.3 + 0.19 * -(-labels // (5 if columns > 1 else 2))
+    total = height * lines + above - 0.25
+    figure = Figure(figsize=(width, total))
     FigureCanvasAgg(figure)
     axes = [figure.add_subplot(lines, columns, k + 1) for k in range(count)]
-    total = height * lines + 0.45
-    figure.subplots_adjust(left=0.72 / width, right=1 - 0.15 / width, bottom=0.5 / total, top=1 - 0.72 / total, wspace=0.26, hspace=0.48)
+    for axis in axes:
+        axis.locator_params(nbins=6)
+    figure.subplots_adjust(left=0.72 / width, right=1 - 0.15 / width, bottom=0.5 / total, top=1 - above / total, wspace=0.24 if columns < 3 else 0.36, hspace=0.36)
     return figure, axes
 
 
@@ -71,7 +75,7 @@ def legend(figure, axes):
         for handle, label in zip(*axis.get_legend_handles_labels()):
             entries.setdefault(label, handle)
     if entries:
-        figure.legend(entries.values(), entries.keys(), loc="upper left", ncol=min(len(entries), 5), bbox_to_anchor=(0.055, 1.0), columnspacing=1.4, borderaxespad=0.25)
+        figure.legend(entries.values(), entries.keys(), loc="upper left", ncol=min(len(entries), 5 if figure.get_figwidth() > HALF else 2), bbox_to_anchor=(0.03, 1.0), columnspacing=1.4, borderaxespad=0.25)
 
 
 def logarithmic(axis, which="xy"):
@@ -80,13 +84,25 @@ def logarithmic(axis, which="xy"):
         if name in which:
             scale("log")
             low, high = axis.get_xlim() if name == "x" else axis.get_ylim()
-            if high / low < 30:
-                side.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)))
-                side.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:.3g}"))
-            else:
-                side.set_major_locator(ticker.LogLocator(numticks=7))
-                side.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e+") if not 1e-3 <= value < 1e4 else f"{value:g}"))
+            side.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)) if high / low < 30 else ticker.LogLocator(numticks=7))
+            side.set_major_formatter(ticker.FuncFormatter(power))
             side.set_minor_locator(ticker.NullLocator())
+
+
+def labels(axis, wanted, aside=(6, 6)):
+    """Writes (text, point, colour) aside of its point, shifted on until no earlier one is in the way; call it when limits are final."""
+    placed, on = [], 11 if aside[1] > 0 else -11
+    for words, point, hue in wanted:
+        x, y = axis.transData.transform(point) + aside
+        while any(abs(x - a) < 5.2 * max(len(words), n) and abs(y - b) < 11 for a, b, n in placed):
+            y += on
+        placed.append((x, y, len(words)))
+        axis.annotate(words, axis.transAxes.inverted().transform((x, y)), xycoords="axes fraction", fontsize=7.5, color=hue)
+
+
+def power(value, _=None):
+    """0.02, 1e-5: short for a tick."""
+    return f"{value:.3g}" if 1e-3 <= value < 1e4 else f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e")
 
 
 def files(figure, stem):
@@ -110,5 +126,5 @@ def inline(svg, prefix):
         svg = svg.replace(value, f"var(--{name})")
     svg = re.sub(r"font(-family)?: ?([^;\"]*)'DejaVu Sans'[^;\"]*", lambda m: m.group(0).split("'DejaVu Sans'")[0] + "var(--sans)", svg)
     # coordinates to a hundredth of a point: half the bytes, no visible change
-    svg = re.sub(r"(\d+\.\d{2})\d+", r"\1", svg)
+    svg = re.sub(r' (?:d|x|y|transform)="[^"]*"', lambda m: re.sub(r"(\d+\.\d{2})\d+", r"\1", m.group(0)), svg)
     return re.sub(r'<svg [^>]*viewBox="([^"]+)"[^>]*>', r'<svg viewBox="\1" xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" role="img">', svg, count=1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from load import is_number
 
 from . import style
-from .curve import Drawing, curves, metrics
+from .curve import Drawing, axis_label, curves, metrics
 
 
 def draw(case, trajectories, notes):
@@ -14,7 +14,7 @@ def draw(case, trajectories, notes):
         return None
     if rest:
         notes.append("work-precision is drawn for " + " and ".join(names) + "; the other metrics are in the table of runs: " + ", ".join(rest))
-    figure, axes = style.panels(len(names), height=3.1)
+    figure, axes = style.panels(len(names), len(curves(case)) + 1, height=3.1)
     for axis, metric in zip(axes, names):
         panel(case, axis, metric)
     style.legend(figure, axes)
@@ -23,7 +23,7 @@ def draw(case, trajectories, notes):
 
 
 def panel(case, axis, metric):
-    good, bad = [], []
+    good, bad, labels = [], [], []
     for curve in curves(case):
         look, own = style.look(curve), []
         for run in curve.runs:
@@ -38,13 +38,15 @@ def panel(case, axis, metric):
             x, y, u, words = zip(*own)
             axis.errorbar(x, y, yerr=[[min(2 * s, 0.95 * e) for e, s in zip(y, u)], [2 * s for s in u]], capsize=2, elinewidth=0.8, label=curve.label, **look)
             for k in sorted({0, len(own) - 1}):
-                axis.annotate(words[k], (x[k], y[k]), xytext=(5, 4), textcoords="offset points", fontsize=7.5, color=look["color"])
+                labels.append((words[k], (x[k], y[k]), look["color"]))
             good += list(zip(x, y))
     front(axis, good)
+    axis.margins(x=0.12, y=0.1)
     style.logarithmic(axis)
+    style.labels(axis, labels)
     failed(axis, bad, good)
     axis.set_xlabel("CPU seconds, all threads")
-    axis.set_ylabel(metric)
+    axis.set_ylabel(axis_label(case, metric))
 
 
 def label(curve, run):

@@ -1,0 +1,240 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the page must do, on the example of make_example.py: python3 report_test.py"""
+import html
+import html.parser
+import json
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+REPORT = HERE.parents[1] / "reports" / "report.py"
+sys.path.insert(0, str(HERE))
+import make_example  # noqa: E402
+
+# Runs the report with the named libraries made impossible to import, as on a machine without them.
+BLOCKED = """
+import runpy, sys
+class Blocker:
+    def find_spec(self, name, path=None, target=None):
+        if name.split(".")[0] in {names!r}:
+            raise ImportError("blocked: " + name)
+sys.meta_path.insert(0, Blocker())
+sys.path.insert(0, {folder!r})
+sys.argv = {argv!r}
+runpy.run_path({script!r}, run_name="__main__")
+"""
+
+
+def write_report(results, out, without=()):
+    argv = [str(REPORT), str(results), "--out", str(out)]
+    command = [sys.executable, "-B", *argv]
+    if without:
+        command = [sys.executable, "-B", "-c", BLOCKED.format(names=set(without), folder=str(REPORT.parent), argv=argv, script=str(REPORT))]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=150, cwd="/")
+    page = Path(out, "index.html")
+    return done, page.read_text(encoding="utf-8") if page.exists() else ""
+
+
+class Reader(html.parser.HTMLParser):
+    """Visible text, tags, ids and links of a page; complains of tags that are left open."""
+    VOID = {"meta", "br", "link", "img", "input", "hr"}
+
+    def __init__(self, page):
+        super().__init__()
+        self.tags, self.ids, self.links, self.words, self.open = set(), [], [], [], []
+        self.feed(page)
+        self.text = " ".join(" ".join(self.words).split())
+
+    def handle_starttag(self, tag, attributes):
+        self.tags.add(tag)
+        values = dict(attributes)
+        self.ids += [values["id"]] if "id" in values else []
+        self.links += [values[key] for key in ("href", "src", "xlink:href") if values.get(key)]
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        if tag not in self.VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        assert self.open and self.open[-1] == tag, f"</{tag}> closes <{self.open[-1] if self.open else 'nothing'}> at {self.getpos()}"
+        self.open.pop()
+
+    def handle_data(self, data):
+        if not self.open or self.open[-1] not in ("style", "script"):
+            self.words.append(data)
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="report ü ")
+        cls.root = Path(cls.folder.name)
+        cls.results = make_example.make_example(cls.root / "in")
+        cls.data = json.loads(cls.results.read_text())
+        cls.done, cls.page = write_report(cls.results, cls.root / "out")
+        cls.read = Reader(cls.page)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_a_report_that_says_fail_is_still_written_with_exit_0(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        self.assertEqual(self.done.stderr, "")
+        self.assertIn("<h1>FAIL</h1>", self.page)
+
+    def test_the_page_needs_no_other_file_and_no_network(self):
+        self.assertNotIn('src="http', self.page)
+        self.assertNotIn('href="http', self.page)
+        self.assertNotIn("@import", self.page)
+        self.assertNotIn("url(http", self.page)
+        self.assertFalse({"script", "link", "iframe", "object"} & self.read.tags)
+        for link in self.read.links:
+            self.assertRegex(link, r"^(#|data:)")
+
+    def test_links_inside_the_page_lead_somewhere_and_ids_are_single(self):
+        self.assertEqual(len(self.read.ids), len(set(self.read.ids)))
+        for link in self.read.links:
+            if link.startswith("#"):
+                self.assertIn(link[1:], self.read.ids)
+        for used in re.findall(r"url\(#([^)]+)\)", self.page):
+            self.assertIn(used, self.read.ids)
+
+    def test_every_tag_is_closed(self):
+        self.assertEqual(self.read.open, [])
+
+    def test_every_case_engine_and_gate_appears_with_its_verdict_and_reason(self):
+        for case in self.data["cases"]:
+            for key in ("id", "title", "claims", "repeat", "verdict", "file"):
+                self.assertIn(" ".join(case[key].split()), self.read.text)
+            self.assertIn(case["reference"]["source"], self.read.text)
+            section = self.section(case)
+            for engine in case["engines"]:
+                self.assertIn(engine["name"], section)
+                self.assertIn(engine["status"], section)
+                self.assertIn(engine["reason"], section)
+            for gate in (gate for engine in case["engines"] for gate in engine["gates"]):
+                for key in ("metric", "reason", "why", "verdict"):
+                    self.assertIn(gate[key], section)
+            rows = section[section.index("Gates"):section.index("reason modes runs")].count("PASS")
+            self.assertEqual(rows, sum(gate["verdict"] == "PASS" for engine in case["engines"] for gate in engine["gates"]))
+
+    def section(self, case):
+        number = self.data["cases"].index(case) + 1
+        start = self.page.index(f'id="case-{number}"')
+        return Reader(self.page[self.page.rindex("<section", 0, start):self.page.index("</section>", start) + len("</section>")]).text
+
+    def test_a_number_that_was_not_finite_is_said(self):
+        spoilt = self.section(self.data["cases"][-1])
+        self.assertIn("temperature_l2 not finite", spoilt)
+        self.assertRegex(spoilt, r"overshoot paper not finite")
+
+    def test_runs_that_failed_are_listed_with_their_reason(self):
+        spoilt = self.section(self.data["cases"][-1])
+        self.assertIn("temperature of particle 17 is not finite in stage rates at t = 0.004 s", spoilt)
+        self.assertIn("signal 9 after 3.1 s", spoilt)
+
+    def test_text_of_strangers_is_text(self):
+        self.assertNotIn("<script", self.page)
+        self.assertIn(html.escape(make_example.HOSTILE, quote=False).replace('"', "&#34;").replace("'", "&#39;"), self.page)
+
+    def test_a_missing_trajectory_gives_a_note(self):
+        self.assertRegex(self.section(self.data["cases"][-1]), r"tripoint \(paper\): no picture and no curves, \S+trajectory.h5 is missing")
+
+    def test_every_figure_is_also_a_png_and_an_svg_and_has_a_text_for_those_who_do_not_see_it(self):
+        pngs = sorted(path.stem for path in (self.root / "out" / "figures").glob("*.png"))
+        self.assertEqual(pngs, sorted(path.stem for path in (self.root / "out" / "figures").glob("*.svg")))
+        self.assertEqual(len(pngs), self.page.count("<figure"))
+        self.assertEqual(len(pngs), len(re.findall(r'role="img" aria-label="[^"]{20,}"', self.page)))
+        kinds = {name.split("-", 1)[1].split("-", 2)[-1] for name in pngs}
+        for kind in ("particles", "profile", "bodies", "convergence", "precision", "time"):
+            self.assertTrue(any(kind in name for name in kinds), kind)
+
+    def test_the_same_results_give_the_same_figures(self):
+        write_report(self.results, self.root / "again")
+        for path in (self.root / "out" / "figures").glob("*.svg"):
+            self.assertEqual(path.read_bytes(), (self.root / "again" / "figures" / path.name).read_bytes(), path.name)
+
+    def test_without_matplotlib_and_h5py_the_tables_are_there_and_the_packages_are_named(self):
+        done, page = write_report(self.results, self.root / "plain", ("matplotlib", "h5py"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("python3-matplotlib", page)
+        self.assertIn("python3-h5py", page)
+        text = Reader(page).text
+        for gate in (gate for case in self.data["cases"] for engine in case["engines"] for gate in engine["gates"]):
+            self.assertIn(gate["metric"], text)
+        self.assertNotIn("<figure", page)
+
+    def test_without_jinja_there_is_a_plain_page(self):
+        done, page = write_report(self.results, self.root / "plainer", ("jinja2", "numpy", "matplotlib", "h5py"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("python3-jinja2", page)
+        self.assertIn("FAIL, exit code 1", page)
+        self.assertNotIn("<script", page)
+        for case in self.data["cases"]:
+            self.assertIn(html.escape(case["title"]), page)
+
+
+class Trouble(unittest.TestCase):
+    """Results that are broken: a visible note, never a traceback."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.root = Path(self.folder.name)
+        self.addCleanup(self.folder.cleanup)
+
+    def write(self, document):
+        path = self.root / "results.json"
+        path.write_text(document if isinstance(document, str) else json.dumps(document))
+        return write_report(path, self.root)
+
+    def test_what_is_not_results_ends_2_and_names_the_file(self):
+        for document in ("", "{", "[]", '{"format": 1}', "[" * 100_000):
+            done, page = self.write(document)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("results.json", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+            self.assertEqual(page, "")
+
+    def test_missing_keys_are_noted_and_an_empty_suite_is_no_pass(self):
+        done, page = self.write({"cases": []})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("the file lists no case", page)
+        self.assertNotIn("PASS", Reader(page).text)
+        done, page = self.write({"cases": [{}]})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("results.json has no reference for this case", page)
+        self.assertIn("No gate: nothing here was judged.", page)
+
+    def test_values_of_the_wrong_kind_do_not_stop_the_report(self):
+        for wrong in (None, 7, "text", [], {}, [None], [[]], True, 1e999, "$\\frac{"):
+            engine = {key: wrong for key in ("version", "preset", "required", "reason", "order")}
+            engine.update(name="tripoint", status="ok", runs=[{"knobs": wrong, "metrics": {"m": wrong}, "cost": wrong, "series": wrong, "folder": wrong, "levels": wrong},
+                          {"knobs": {"spacing": wrong}, "metrics": {"m": {"value": 1.0, "times": wrong, "series": wrong}}, "cost": {"cpu_s": 1.0}}, wrong],
+                          gates=[{"metric": "m", "band": wrong, "value": wrong, "limit": wrong, "uncertainty": wrong, "verdict": wrong}, {"metric": "m", "value": 2.0, "limit": 1.0, "verdict": "fail"}])
+            case = {key: wrong for key in ("title", "kind", "reference", "equivalence", "ledger", "claims", "metrics", "problems")}
+            document = {"format": wrong, "tool": wrong, "verdict": wrong, "engines": wrong, "not_validated": wrong, "problems": wrong,
+                        "cases": [{**case, "id": "a/b", "engines": [engine]}, {"id": "a/b", "engines": wrong}, wrong]}
+            done, page = self.write(document)
+            self.assertEqual(done.returncode, 0, f"{wrong!r}: {done.stderr}")
+            self.assertIn("2 times", page, f"{wrong!r}")
+
+    def test_a_torn_trajectory_and_a_folder_outside_are_noted(self):
+        (self.root / "runs").mkdir()
+        (self.root / "runs" / "trajectory.h5").write_bytes(b"\x89HDF\r\n\x1a\n torn")
+        runs = [{"knobs": {"mode": mode}, "folder": folder, "metrics": {}} for mode, folder in (("paper", "runs"), ("corrected", "../.."))]
+        done, page = self.write({"cases": [{"id": "x", "engines": [{"name": "tripoint", "status": "ok", "runs": runs}]}]})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("runs/trajectory.h5 cannot be read", page)
+        self.assertIn("lies outside the report", page)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
