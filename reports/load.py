@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""results.json as objects that the page and the figures can rely on.
+"""Reads results.json.
 
 The file may come from a stranger, from an older version or from a run that broke off: a key that is missing or of the
-wrong kind becomes a note on the page, never an exception. A number is a float, NaN where the file says that it was not
-finite, and None where there is none; the three look different on the page.
+wrong kind becomes a note on the page, never an exception.
 """
 from __future__ import annotations
 
 import json
-import math
-from dataclasses import dataclass, field
 from pathlib import Path
+
+from model import Case, Engine, Gate, Metric, Order, Results, Run, combined, is_number, number, rows, table, text
 
 STATUSES = ("ok", "refused", "missing", "diverged", "killed", "timeout", "error")
 COSTS = ("cpu_s", "wall_s", "setup_cpu_s", "peak_bytes", "pairs", "steps", "instructions")
@@ -18,202 +17,6 @@ COSTS = ("cpu_s", "wall_s", "setup_cpu_s", "peak_bytes", "pairs", "steps", "inst
 
 class Unreadable(Exception):
     """results.json is absent, is not JSON or has no cases; the message says which."""
-
-
-def number(value, finite=True):
-    """A float; NaN for what was not finite; None for what is not a number at all."""
-    if value is None:
-        return None if finite is not False else math.nan
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return None
-    try:
-        return float(value)
-    except OverflowError:  # an integer beyond the range of double
-        return math.inf
-
-
-def is_number(value):
-    return value is not None and math.isfinite(value)
-
-
-def text(value, default=""):
-    if isinstance(value, str):
-        return value
-    return default if value is None or isinstance(value, (dict, list)) else str(value)
-
-
-def table(value):
-    return value if isinstance(value, dict) else {}
-
-
-def rows(value):
-    return [row for row in value if isinstance(row, dict)] if isinstance(value, list) else []
-
-
-def combined(uncertainty):
-    """Root sum of squares of the named standard uncertainties; a plain number is taken as it stands."""
-    if isinstance(uncertainty, dict):
-        parts = [number(part) for part in uncertainty.values()]
-        parts = [part for part in parts if part is not None]
-        return math.sqrt(sum(part * part for part in parts)) if parts else None
-    return number(uncertainty)
-
-
-@dataclass
-class Metric:
-    value: float | None
-    uncertainty: dict
-    note: str = ""
-    times: list = field(default_factory=list)  # the error in time, where the norm is over time
-    series: list = field(default_factory=list)
-
-    @property
-    def u(self):
-        return combined(self.uncertainty)
-
-
-@dataclass
-class Run:
-    knobs: dict
-    status: str
-    reason: str
-    metrics: dict
-    cost: dict
-    state_hash: str
-    folder: str
-    series: dict
-    levels: dict  # study axis -> the level that this run is
-    number: int = 0
-
-    @property
-    def mode(self):
-        return text(self.knobs.get("mode"))
-
-    def knob(self, name):
-        return number(self.knobs.get(name))
-
-    @property
-    def size(self):
-        """The knobs that set the resolution, as text."""
-        units = {"spacing": " m", "time_step": " s"}
-        parts = [(key, self.knob(key)) for key in ("spacing", "time_step", "support_ratio", "walkers", "iterations")]
-        return ", ".join(f"{key.replace('_', ' ')} {value:.4g}{units.get(key, '')}" for key, value in parts if is_number(value))
-
-
-@dataclass
-class Order:
-    metric: str
-    axis: str
-    mode: str
-    value: float | None
-    low: float | None
-    high: float | None
-    fit_class: str
-    formal: float | None
-    coefficient: float | None  # error = floor + coefficient step^value
-    floor: float | None
-    points: list  # (step, error, standard uncertainty) that were fitted
-
-
-@dataclass
-class Gate:
-    metric: str
-    mode: str
-    value: float | None
-    uncertainty: float | None
-    limit: float | None
-    at_least: float | None
-    band: tuple | None
-    verdict: str
-    reason: str  # of the limit
-    why: str     # of a verdict that is not pass
-    expect: str  # class of convergence that a study declares
-    fit_class: str
-    low: float | None  # an order's 95 % interval
-    high: float | None
-    level: float | None
-    file: str
-    line: str
-
-    @property
-    def allowed(self):
-        if self.band:
-            return f"{self.band[0]:.4g} to {self.band[1]:.4g}"
-        if self.at_least is not None:
-            return f"≥ {self.at_least:.4g}"
-        if self.limit is not None:
-            return f"≤ {self.limit:.4g}"
-        return f"class {self.expect}" if self.expect else "none"
-
-    @property
-    def used(self):
-        """Share of the limit that is used: 1 at the limit, above it outside; None where that has no meaning."""
-        if not is_number(self.value):
-            return None
-        if self.band:
-            half = 0.5 * (self.band[1] - self.band[0])
-            return abs(self.value - 0.5 * (self.band[0] + self.band[1])) / half if half > 0 else None
-        if self.at_least is not None:
-            return self.at_least / self.value if self.value > 0 and self.at_least > 0 else None
-        return abs(self.value) / self.limit if self.limit is not None and self.limit > 0 else None
-
-
-@dataclass
-class Engine:
-    name: str
-    version: str
-    preset: str
-    required: bool
-    status: str
-    reason: str
-    runs: list
-    orders: list
-    gates: list
-    raw: dict
-
-    @property
-    def label(self):
-        return f"{self.name} · {self.preset}" if self.preset and self.preset != "default" else self.name
-
-    @property
-    def modes(self):
-        seen = [run.mode for run in self.runs] + [gate.mode for gate in self.gates]
-        return list(dict.fromkeys(mode for mode in seen if mode)) or [""]
-
-
-@dataclass
-class Case:
-    id: str
-    title: str
-    kind: str
-    requirement: str
-    claims: str
-    file: str
-    verdict: str
-    reference: dict
-    engines: list
-    equivalence: list
-    ledgers: list
-    repeat: str
-    number: int
-    raw: dict
-    metrics: list  # as declared
-    units: dict    # metric -> unit
-    notes: list = field(default_factory=list)
-
-
-@dataclass
-class Results:
-    tool: dict
-    command: str
-    profile: str
-    seed: str
-    verdict: str
-    exit_code: str
-    cases: list
-    folder: Path
-    notes: list
-    raw: dict
 
 
 def load(path):

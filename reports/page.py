@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 import summary
-from load import is_number, number
+from model import is_number, number
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 EXITS = {"0": "pass", "1": "accuracy, order or an invariant fails", "2": "bad input", "3": "inconclusive", "4": "a required engine, reference or metric is missing", "5": "the gate's self-test failed",
@@ -40,7 +40,7 @@ def percent(value):
     """How much of a limit is used."""
     if not is_number(value):
         return "—"
-    return f"{100 * value:.0f} %" if value < 99.5 else f"{value:.3g} times" if value < 1e6 else "far above"
+    return f"{100 * value:.0f} %" if value < 9.995 else f"{value:.3g} times" if value < 1e6 else "far above"
 
 
 def anchor(case):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from load import is_number
+from model import is_number
 
 GRADES = ("DIVERGED", "FAIL", "MISSING", "INCONCLUSIVE", "NO VERDICT", "PASS")  # worst first
 KINDS = {"verification": "an exact solution", "validation": "an experiment", "comparison": "another engine"}

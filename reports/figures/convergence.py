@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from load import is_number
+from model import is_number
 
 from . import style
 from .curve import Drawing, axis_label, curves

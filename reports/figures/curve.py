@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from load import Case, Engine, is_number
+from model import Case, Engine, is_number
 
 
 @dataclass

@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from load import is_number
+from model import is_number
 
 from . import style
 from .curve import Drawing

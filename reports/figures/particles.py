@@ -17,6 +17,7 @@ from trajectories import MOST_POINTS
 
 MOST_PANELS = 8
 THIN = 0.12  # of the longest extent: below it the scene is seen along that axis
+LONG = 0.35  # second extent of the first: below it a bar is seen from the side
 TURN, TILT = np.radians(-55.0), np.radians(24.0)
 
 
@@ -68,7 +69,7 @@ def projection(points):
     """A map from (n, 3) to (n, 3): two screen coordinates and depth; and the names of the screen axes."""
     size = np.ptp(points, axis=0) if len(points) else np.ones(3)
     order = np.argsort(-size, kind="stable")
-    if size[order[2]] <= THIN * max(size[order[0]], 1e-300):
+    if size[order[2]] <= THIN * max(size[order[0]], 1e-300) or size[order[1]] <= LONG * size[order[0]]:
         a, b = order[:2] if order[0] < order[1] or size[order[0]] > 4 * size[order[1]] else order[1::-1]
         return (lambda p: p[:, [a, b, order[2]]]), [f"{'xyz'[a]} [m]", f"{'xyz'[b]} [m]"]
     turn = np.array([[np.cos(TURN), -np.sin(TURN), 0], [np.sin(TURN) * np.sin(TILT), np.cos(TURN) * np.sin(TILT), np.cos(TILT)], [np.sin(TURN) * np.cos(TILT), np.cos(TURN) * np.cos(TILT), -np.sin(TILT)]])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from load import table
+from model import table
 
 from . import style
 from .curve import Drawing, axis_label, curves

@@ -83,7 +83,10 @@ def logarithmic(axis, which="xy"):
     for name, scale, side in (("x", axis.set_xscale, axis.xaxis), ("y", axis.set_yscale, axis.yaxis)):
         if name in which:
             scale("log")
-            low, high = axis.get_xlim() if name == "x" else axis.get_ylim()
+            low, high = side.get_view_interval()
+            if high / low < 2:
+                low, high = low / 2, high * 2
+                side.set_view_interval(low, high, ignore=True)
             side.set_major_locator(ticker.LogLocator(subs=(1, 2, 5)) if high / low < 30 else ticker.LogLocator(numticks=7))
             side.set_major_formatter(ticker.FuncFormatter(power))
             side.set_minor_locator(ticker.NullLocator())

@@ -2,7 +2,7 @@
 """Error against CPU seconds, log-log, one curve an engine and mode; failed runs stand at the edge, none is dropped."""
 from __future__ import annotations
 
-from load import is_number
+from model import is_number
 
 from . import style
 from .curve import Drawing, axis_label, curves, metrics
@@ -12,14 +12,12 @@ def draw(case, trajectories, notes):
     names, rest = metrics(case, 2)
     if not names or sum(len(curve.runs) for curve in curves(case)) < 2:
         return None
-    if rest:
-        notes.append("work-precision is drawn for " + " and ".join(names) + "; the other metrics are in the table of runs: " + ", ".join(rest))
     figure, axes = style.panels(len(names), len(curves(case)) + 1, height=3.1)
     for axis, metric in zip(axes, names):
         panel(case, axis, metric)
     style.legend(figure, axes)
     return Drawing("work-precision", "Work and precision", f"Log-log plot of {', '.join(names)} against CPU seconds for each engine and mode, with the Pareto front.", figure,
-                   "Lower left is better. Labels: what was refined. Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: runs that failed or gave no number.")
+                   "Lower left is better. Labels: what was refined. Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: runs that failed or gave no number." + (f" In the table of runs alone: {', '.join(rest)}." if rest else ""))
 
 
 def panel(case, axis, metric):
