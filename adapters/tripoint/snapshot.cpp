@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adapters/tripoint/tripoint_engine.hpp"
+
+namespace tripoint {
+namespace {
+
+std::vector<double> by_id(const Particles& p, const Field<double>& f) {
+  if (!p.has(f.name)) return {};
+  const auto column = p[f];
+  std::vector<double> values(p.size());
+  for (std::size_t id = 0; id < p.size(); ++id) values[id] = column[p.row(id)];
+  return values;
+}
+
+std::vector<int> by_id(const Particles& p, const Field<int>& f) {
+  const auto column = p[f];
+  std::vector<int> values(p.size());
+  for (std::size_t id = 0; id < p.size(); ++id) values[id] = column[p.row(id)];
+  return values;
+}
+
+BodyState body_state(const Columns& bodies, std::size_t b) {
+  if (!bodies[field::body_alive][b]) {
+    constexpr Vec3 nowhere{not_a_number, not_a_number, not_a_number};
+    return {nowhere, nowhere, nowhere, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, nowhere, nowhere};
+  }
+  BodyState s;
+  s.position = bodies[field::body_centre][b];
+  s.velocity = bodies[field::body_velocity][b];
+  s.angular_velocity = bodies[field::body_angular_velocity][b];
+  s.orientation = bodies[field::body_orientation][b];
+  s.mass = bodies[field::body_mass][b];
+  return s;  // nothing in this build lets one body act on another: force and torque stay 0
+}
+
+}  // namespace
+
+Snapshot snapshot_of(const Simulation& simulation) {
+  const World& world = simulation.world();
+  const Particles& p = world.particles;
+  Snapshot s;
+  s.time = world.time;
+  s.step = simulation.steps();
+  for (std::size_t id = 0; id < p.size(); ++id) {
+    s.position.push_back(world.unwrapped(p.row(id)));
+    s.velocity.push_back(p.velocity(p.row(id)));
+    s.id.push_back(static_cast<int>(id));
+  }
+  s.temperature = by_id(p, field::temperature);
+  s.density = by_id(p, field::density);
+  s.phase = by_id(p, field::phase);
+  s.body = by_id(p, field::body);
+  s.material = by_id(p, field::material);
+  s.mass = by_id(p, field::mass);
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) s.bodies.push_back(body_state(world.bodies, b));
+  const Ledger sums = simulation.ledger();
+  s.total_mass = sums.mass;
+  s.momentum = sums.momentum;
+  s.angular_momentum = sums.angular_momentum;
+  s.energy = sums.energy;
+  return s;
+}
+
+}  // namespace tripoint

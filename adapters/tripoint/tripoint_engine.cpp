@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adapters/tripoint/tripoint_engine.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+namespace tripoint {
+namespace {
+
+template <class T>
+T setting(const Job& job, const std::string& name, T otherwise) {
+  const auto place = job.settings.find(name);
+  if (place == job.settings.end()) return otherwise;
+  const T* value = std::get_if<T>(&place->second);
+  if (!value) throw InputError("the setting " + name + " of the engine tripoint has the wrong kind of value");
+  return *value;
+}
+
+}  // namespace
+
+EngineInfo TripointEngine::info() const {
+  EngineInfo info;
+  info.name = "tripoint";
+  info.version = TRIPOINT_VERSION;
+  info.build = TRIPOINT_BUILD;
+  std::error_code ignored;
+  info.library_path = std::filesystem::read_symlink("/proc/self/exe", ignored).string();  // the solver is this program
+  info.capabilities = {"rigid-free-flight", "gravity", "merge", "split", "release", "hold", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected"};
+  info.settings = {{"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
+                   {"skin", "skin of the neighbour lists in support radii; default 0.1"}};
+  info.deterministic = true;
+  info.defects = registered_defects();
+  return info;
+}
+
+std::string TripointEngine::refusal(const Job& job) const {
+  if (const std::string missing = missing_effect(job.scene); !missing.empty()) return "tripoint: the " + missing + " effect is not in this build";
+  if (!job.scene.inflows.empty()) return "tripoint: inflows are not in this build";
+  for (const Event& e : job.scene.events) {
+    if (e.kind == Event::Kind::grip) return "tripoint: grip events are not in this build";
+  }
+  if (job.ranks != 1) return "tripoint: runs in one process, ranks = " + std::to_string(job.ranks) + " is not possible";
+  if (!job.resume.empty()) return "tripoint: continuing from a checkpoint is not in this build";
+  return {};
+}
+
+void TripointEngine::load(const Job& job, const InitialState& initial) {
+  SimulationOptions options;
+  options.threads = job.threads;
+  options.force_time_step = setting(job, "force_time_step", false);
+  options.skin = setting(job, "skin", options.skin);
+  Scene scene = job.scene;
+  if (job.resolution.time_step) scene.time_step = job.resolution.time_step;
+  simulation_.emplace(scene, initial, options);
+}
+
+void TripointEngine::advance_to(double time) { simulation_->advance_to(time); }
+
+Snapshot TripointEngine::observe() const { return snapshot_of(*simulation_); }
+
+Readback TripointEngine::readback() const {
+  const World& world = simulation_->world();
+  Readback held;
+  held.gravity = world.scene.gravity;
+  held.time_step = world.scene.time_step.value_or(simulation_->bound().dt);
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    held.bodies.push_back({world.body_names[b], world.bodies[field::body_mass][b], world.bodies[field::body_centre][b],
+                           world.bodies[field::body_inertia][b], 0.0, 0.0, 0.0, 0.0});
+  }
+  return held;
+}
+
+void TripointEngine::account(Result& result) const {
+  if (!simulation_) return;
+  result.steps = simulation_->steps();
+  result.pairs = simulation_->pairs();
+  result.time_step_bound = simulation_->time_step_set_by();
+  result.extra["time_step"] = simulation_->time_step();
+  if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
+  if (const auto& lists = simulation_->world().neighbours) result.extra["neighbour_rebuilds"] = static_cast<double>(lists->rebuilds());
+}
+
+}  // namespace tripoint

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+
+#include "adapters/engine.hpp"
+#include "step/simulation.hpp"
+
+namespace tripoint {
+
+/// The unified particle solver as an engine.
+class TripointEngine : public Engine {
+ public:
+  [[nodiscard]] EngineInfo info() const override;
+  [[nodiscard]] std::string refusal(const Job&) const override;
+  void load(const Job&, const InitialState&) override;
+  void advance_to(double time) override;
+  [[nodiscard]] Snapshot observe() const override;
+  [[nodiscard]] Readback readback() const override;
+  void account(Result&) const override;
+
+ private:
+  std::optional<Simulation> simulation_;
+};
+
+/// What the world shows: rows by id, places not put back into a periodic box.
+[[nodiscard]] Snapshot snapshot_of(const Simulation&);
+
+}  // namespace tripoint

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "core/quaternion.hpp"
+#include "core/vec3.hpp"
+
+/// Fields are typed keys: a name, a unit, and what carries a value. A column of that field exists only where an effect of
+/// the scene owns it.
+namespace tripoint {
+
+enum class Per { particle, bond, body };
+
+[[nodiscard]] constexpr std::string_view to_string(Per per) noexcept {
+  return per == Per::particle ? "particle" : per == Per::bond ? "bond" : "body";
+}
+
+template <class T>
+struct Field {
+  std::string_view name, unit;
+  Per per = Per::particle;
+};
+
+enum class FieldType { real, integer, vector, quaternion };
+
+/// A field without its C++ type, for lists of fields.
+struct FieldInfo {
+  std::string_view name, unit;
+  Per per = Per::particle;
+  FieldType type = FieldType::real;
+  std::size_t bytes = 0;  ///< of one value
+
+  FieldInfo() = default;
+  template <class T>
+  constexpr FieldInfo(const Field<T>& f) noexcept : name(f.name), unit(f.unit), per(f.per), type(type_of<T>()), bytes(sizeof(T)) {}
+  bool operator==(const FieldInfo& other) const noexcept { return name == other.name && per == other.per; }
+
+ private:
+  template <class T>
+  static constexpr FieldType type_of() noexcept {
+    static_assert(std::is_same_v<T, double> || std::is_same_v<T, int> || std::is_same_v<T, Vec3> || std::is_same_v<T, Quaternion>);
+    if constexpr (std::is_same_v<T, double>) return FieldType::real;
+    else if constexpr (std::is_same_v<T, int>) return FieldType::integer;
+    else if constexpr (std::is_same_v<T, Vec3>) return FieldType::vector;
+    else return FieldType::quaternion;
+  }
+};
+
+/// A column was asked for that no effect of this scene owns: a fault of the program, so it says the field by name.
+class MissingField : public std::logic_error {
+ public:
+  MissingField(std::string_view name, Per per)
+      : std::logic_error("no effect of this scene owns the field " + std::string(name) + " (per " + std::string(to_string(per)) + ")"),
+        field_(name) {}
+  [[nodiscard]] const std::string& field() const noexcept { return field_; }
+
+ private:
+  std::string field_;
+};
+
+}  // namespace tripoint

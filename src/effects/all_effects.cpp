@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/all_effects.hpp"
+
+#include <algorithm>
+
+#include "effects/density/density.hpp"
+#include "effects/density/density_terms.hpp"
+#include "effects/heat/heat.hpp"
+#include "effects/heat/heat_terms.hpp"
+#include "effects/rigid/rigid.hpp"
+#include "scene/read_case.hpp"
+
+namespace tripoint {
+namespace {
+
+struct Registered {
+  std::string_view name;
+  EffectSpec (*spec)(const Scene&);
+  std::unique_ptr<Effect> (*make)(const Scene&);
+  std::vector<DefectEntry> (*defects)();
+};
+
+/// The one list of effects, in the order in which they run within a stage.
+constexpr Registered all_effects[] = {
+    {"rigid", rigid::spec, rigid::make, rigid::defects},
+    {"density", density::spec, density::make, density::defects},
+    {"heat", heat::spec, heat::make, heat::defects},
+};
+
+/// The slots of each pass, one line each.
+using DensityPass = Pass<Slot<DensityPaper, None>, Slot<None, HeatMoment>>;
+using RatePass = Pass<Slot<HeatFlowPaper, HeatFlowCorrected>>;
+
+const Registered* find(std::string_view name) {
+  const auto* place = std::ranges::find(all_effects, name, &Registered::name);
+  return place == std::end(all_effects) ? nullptr : place;
+}
+
+/// What the scene calls for, and what that in turn needs.
+std::vector<CalledEffect> wanted(const Scene& scene) {
+  std::vector<CalledEffect> list = called_effects(scene);
+  const auto has = [&](std::string_view name) { return std::ranges::find(list, name, &CalledEffect::name) != list.end(); };
+  const std::vector<int> rows = body_rows(scene);
+  if (!has("rigid") && std::ranges::any_of(rows, [](int row) { return row >= 0; }) && !has("elastic")) {
+    list.push_back({"rigid", "fixed and prescribed bodies move as rigid ones"});
+  }
+  if (has("heat") && scene.mode_of(Term::heat) == Mode::paper && !has("fluid")) {
+    list.push_back({"density", "(21) as printed divides by the summed density (4)"});
+  }
+  return list;
+}
+
+/// @throws InputError when two effects own a field, or one is read and owned by none
+void check_ownership(const std::vector<Active>& effects, bool periodic) {
+  struct Owned {
+    FieldInfo field;
+    std::string owner;
+  };
+  std::vector<Owned> owned;
+  for (const FieldInfo& f : common_fields(periodic)) owned.push_back({f, "particles"});
+  const auto owner_of = [&](const FieldInfo& f) { return std::ranges::find(owned, f, &Owned::field); };
+  for (const Active& a : effects) {
+    for (const FieldInfo& f : a.spec.owns) {
+      const auto other = owner_of(f);
+      if (other != owned.end()) {
+        throw InputError("the field " + std::string(f.name) + " is owned by two effects, " + other->owner + " and " + a.name);
+      }
+      owned.push_back({f, a.name});
+    }
+  }
+  for (const Active& a : effects) {
+    for (const FieldInfo& f : a.spec.reads) {
+      if (owner_of(f) != owned.end()) continue;
+      throw InputError("the effect " + a.name + " reads the field " + std::string(f.name) + ", which no effect of this scene owns");
+    }
+  }
+}
+
+Form form_of(const Scene& scene, const std::vector<Active>& effects, std::string_view effect, Term term) {
+  if (std::ranges::find(effects, effect, &Active::name) == effects.end()) return Form::off;
+  return scene.mode_of(term) == Mode::paper ? Form::paper : Form::corrected;
+}
+
+}  // namespace
+
+std::string missing_effect(const Scene& scene) {
+  for (const CalledEffect& called : wanted(scene)) {
+    if (!find(called.name)) return called.name;
+  }
+  return {};
+}
+
+std::vector<Active> active_effects(const Scene& scene) {
+  const std::vector<CalledEffect> calls = wanted(scene);
+  if (const std::string missing = missing_effect(scene); !missing.empty()) {
+    throw InputError("tripoint: the " + missing + " effect is not in this build");
+  }
+  std::vector<Active> list;
+  for (const Registered& r : all_effects) {
+    const auto call = std::ranges::find(calls, r.name, &CalledEffect::name);
+    if (call != calls.end()) list.push_back({std::string(r.name), call->why, r.spec(scene), r.make(scene)});
+  }
+  check_ownership(list, scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
+  return list;
+}
+
+Plan plan(const Scene& scene) {
+  Plan p;
+  const auto add = [&](const FieldInfo& f, const std::string& owner) {
+    p.fields.push_back({std::string(f.name), std::string(f.unit), std::string(to_string(f.per)), owner, f.bytes});
+    if (f.per == Per::particle) p.bytes_per_particle += f.bytes;
+  };
+  for (const FieldInfo& f : common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2])) add(f, "particles");
+  // What is called for and not in this build is listed all the same: explain says what a scene means.
+  for (const CalledEffect& c : wanted(scene)) {
+    if (!find(c.name)) p.effects.push_back({c.name, c.why + " (not in this build)", std::string(to_string(scene.mode))});
+  }
+  if (!p.effects.empty()) return p;
+  for (const Active& a : active_effects(scene)) {
+    p.effects.push_back({a.name, a.why, std::string(to_string(a.spec.mode))});
+    for (const FieldInfo& f : a.spec.owns) add(f, a.name);
+  }
+  return p;
+}
+
+std::vector<DefectEntry> registered_defects() {
+  std::vector<DefectEntry> list{
+      {"neighbours.seam", "pairs across the seam of a periodic box left out", "heat/cosine-mode"},
+      {"time.first_kick", "first half kick left out: the leapfrog starts first order", "rigid/ballistic"},
+  };
+  for (const Registered& r : all_effects) {
+    const auto more = r.defects();
+    list.insert(list.end(), more.begin(), more.end());
+  }
+  return list;
+}
+
+struct Passes::Impl {
+  DensityPass density;
+  RatePass rates;
+};
+
+Passes::Passes(const Scene& scene, const std::vector<Active>& effects) {
+  const Form heat = form_of(scene, effects, "heat", Term::heat);
+  const Form density = form_of(scene, effects, "density", Term::heat);
+  impl_ = std::make_unique<Impl>(Impl{DensityPass({density, heat == Form::corrected ? heat : Form::off}), RatePass({heat})});
+}
+Passes::~Passes() = default;
+Passes::Passes(Passes&&) noexcept = default;
+Passes& Passes::operator=(Passes&&) noexcept = default;
+
+bool Passes::needed() const { return !impl_->density.idle() || !impl_->rates.idle(); }
+
+void Passes::run(PassName name, World& world) const {
+  if (!needed()) return;
+  const PairKernels kernels(world.support());
+  if (name == PassName::density) {
+    impl_->density(world.particles, *world.neighbours, kernels, world.threads);
+  } else {
+    impl_->rates(world.particles, *world.neighbours, kernels, world.threads);
+  }
+}
+
+}  // namespace tripoint

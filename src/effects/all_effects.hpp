@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "effects/effect.hpp"
+#include "effects/plan.hpp"
+#include "sph/pass.hpp"
+
+namespace tripoint {
+
+/// One effect that a scene has on.
+struct Active {
+  std::string name, why;
+  EffectSpec spec;
+  std::unique_ptr<Effect> effect;
+};
+
+/// Effects that the scene calls for, in the order in which they run. @throws InputError naming one that is not in this build
+[[nodiscard]] std::vector<Active> active_effects(const Scene&);
+/// First effect that the scene calls for and this build does not have; empty = none.
+[[nodiscard]] std::string missing_effect(const Scene&);
+
+/// The fused pair passes, as the scene's modes choose them.
+class Passes {
+ public:
+  Passes(const Scene&, const std::vector<Active>&);
+  ~Passes();
+  Passes(Passes&&) noexcept;
+  Passes& operator=(Passes&&) noexcept;
+  [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
+  void run(PassName, World&) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tripoint

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/density/density.hpp"
+
+#include "sph/kernels.hpp"
+
+namespace tripoint::density {
+namespace {
+
+class DensityEffect : public Effect {
+ public:
+  /// Each particle's own share of (4), m_i W(0).
+  void clear(World& world, PassName pass) override {
+    if (pass != PassName::density) return;
+    const double self = Poly6(world.support()).value(0.0);
+    const auto rho = world.particles[field::density];
+    const auto m = world.particles[field::mass];
+    for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * self;
+  }
+};
+
+}  // namespace
+
+EffectSpec spec(const Scene&) { return {"density", Mode::paper, {field::density}, {field::mass}}; }
+
+std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<DensityEffect>(); }
+
+std::vector<DefectEntry> defects() { return {}; }
+
+}  // namespace tripoint::density

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "sph/pass.hpp"
+
+namespace tripoint {
+
+/// Density (4): rho_i = sum_j m_j W_poly6(r_ij) [kg/m3]; the particle itself is added before the pass.
+struct DensityPaper {
+  using reads = Keys<field::mass>;
+  using adds = Keys<field::density>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const double, 1> j, std::span<V, 1> sum) {
+    sum[0] += j[0] * g.kernels.poly6.value(g.r);
+  }
+};
+
+}  // namespace tripoint

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/defect.hpp"
+#include "effects/world.hpp"
+#include "scene/initial_state.hpp"
+
+/// An effect: a part of physics that a scene calls for. Effects do not know each other; they meet in fields.
+namespace tripoint {
+
+/// What an effect owns and what it reads of others.
+struct EffectSpec {
+  std::string_view name;
+  Mode mode = Mode::corrected;
+  std::vector<FieldInfo> owns, reads;
+};
+
+/// Greatest stable step of an effect, and what sets it.
+struct TimeStepBound {
+  double dt = std::numeric_limits<double>::infinity();  ///< [s]
+  std::string name = "none";
+};
+inline void tighten(TimeStepBound& bound, double dt, std::string_view name) {
+  if (dt < bound.dt) bound = {dt, std::string(name)};
+}
+
+enum class PassName { density, rates };
+
+/// An event of the scene as it begins or, where it lasts, ends.
+struct Happening {
+  const Event& event;
+  bool begins;
+};
+
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  /// Fills the columns that the effect owns. @throws InputError when the scene lacks what it needs
+  virtual void load(World&, const InitialState&) {}
+  virtual void kick(World&, double /*dt*/) {}
+  virtual void drift(World&, double /*dt*/) {}
+  /// Sets the columns that the pass adds to.
+  virtual void clear(World&, PassName) {}
+  virtual void state(World&) {}
+  /// The second stage of two-stage schemes, with rates at the predicted state. @return whether rates must be had again
+  virtual bool correct(World&, double /*dt*/) { return false; }
+  virtual void happen(World&, const Happening&) {}
+  [[nodiscard]] virtual TimeStepBound max_dt(const World&) const { return {}; }
+  virtual void add_to(const World&, Ledger&) const {}
+};
+
+}  // namespace tripoint

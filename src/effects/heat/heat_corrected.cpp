@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/heat/heat_corrected.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/heat/enthalpy.hpp"
+#include "effects/heat/thermal_particles.hpp"
+#include "sph/moments.hpp"
+
+namespace tripoint::heat {
+namespace {
+
+constexpr double moment_cut = 0.05;  ///< eigenvalues of M_i below this share of the largest count as none (model 8.6)
+
+double set_temperature(Particles& p, std::size_t row, double temperature) {
+  const double before = p[field::enthalpy][row];
+  p[field::temperature][row] = temperature;
+  p[field::enthalpy][row] = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], temperature);
+  return p[field::enthalpy][row] - before;
+}
+
+/// H_i += change(i), T from H; what a held particle would have taken goes to the walls. Sums in order of id.
+template <class Change>
+void add_heat(World& world, Change change) {
+  Particles& p = world.particles;
+  const auto H = p[field::enthalpy], T = p[field::temperature], m = p[field::mass], c_p = p[field::heat_capacity];
+  const auto held = p[field::held];
+  static const bool leaks = defect_size("heat.held") > 0.0;
+  for (std::size_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    if (held[i] && !leaks) {
+      world.booked.walls += change(i);
+    } else {
+      H[i] += change(i);
+      T[i] = temperature_of(m[i], c_p[i], H[i]);
+    }
+  }
+}
+
+}  // namespace
+
+void CorrectedHeat::load(World& world, const InitialState& initial) {
+  load_common(world, initial);
+  Particles& p = world.particles;
+  const auto k = p[field::conductivity], V = p[field::rest_volume], H = p[field::enthalpy];
+  const double factor = 1.0 + defect_size("heat.conductivity");
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    k[i] = factor * *world.material_of(i).conductivity;
+    V[i] = p[field::mass][i] / world.material_of(i).density;
+    H[i] = enthalpy_of(p[field::mass][i], p[field::heat_capacity][i], p[field::temperature][i]);
+  }
+}
+
+/// First stage: an Euler step with the rates of the old time, which are kept for the second.
+void CorrectedHeat::drift(World& world, double dt) {
+  const auto rate = world.particles[field::heat_rate];
+  std::ranges::copy(rate, world.particles[field::heat_rate_before].begin());
+  add_heat(world, [&](std::size_t i) { return dt * rate[i]; });
+}
+
+/// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1.
+bool CorrectedHeat::correct(World& world, double dt) {
+  static const bool skipped = defect_size("heat.first_order") > 0.0;
+  if (skipped) return false;
+  const auto rate = world.particles[field::heat_rate], before = world.particles[field::heat_rate_before];
+  add_heat(world, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
+  return true;
+}
+
+void CorrectedHeat::clear(World& world, PassName pass) {
+  Particles& p = world.particles;
+  if (pass == PassName::rates) {
+    for (const auto* f : {&field::heat_rate, &field::conductance}) std::ranges::fill(p[*f], 0.0);
+  } else {
+    for (const auto* f : {&field::moment_xx, &field::moment_yy, &field::moment_zz, &field::moment_yz, &field::moment_xz, &field::moment_xy}) {
+      std::ranges::fill(p[*f], 0.0);
+    }
+  }
+}
+
+/// pinv M_i of every particle.
+void CorrectedHeat::state(World& world) {
+  if (!world.moved) return;
+  Particles& p = world.particles;
+  static const bool skipped = defect_size("heat.moment") > 0.0;
+  const auto mxx = p[field::moment_xx], myy = p[field::moment_yy], mzz = p[field::moment_zz];
+  const auto myz = p[field::moment_yz], mxz = p[field::moment_xz], mxy = p[field::moment_xy];
+  const auto axx = p[field::moment_inverse_xx], ayy = p[field::moment_inverse_yy], azz = p[field::moment_inverse_zz];
+  const auto ayz = p[field::moment_inverse_yz], axz = p[field::moment_inverse_xz], axy = p[field::moment_inverse_xy];
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    Symmetric a{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+    if (!skipped) a = pseudo_inverse({mxx[i], myy[i], mzz[i], myz[i], mxz[i], mxy[i]}, moment_cut);
+    axx[i] = a.xx, ayy[i] = a.yy, azz[i] = a.zz, ayz[i] = a.yz, axz[i] = a.xz, axy[i] = a.xy;
+  }
+}
+
+void CorrectedHeat::happen(World& world, const Happening& now) { hold_temperature(world, now, set_temperature); }
+
+/// 1/max_i sum_j G_ij/C_i (model 8.10): the one bound that gives a discrete maximum principle.
+TimeStepBound CorrectedHeat::max_dt(const World& world) const {
+  const Particles& p = world.particles;
+  const auto G = p[field::conductance], m = p[field::mass], c_p = p[field::heat_capacity];
+  const auto held = p[field::held];
+  double greatest = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!held[i]) greatest = std::max(greatest, G[i] / (m[i] * c_p[i]));
+  }
+  TimeStepBound bound;
+  if (greatest > 0.0) tighten(bound, 1.0 / greatest, "heat");
+  return bound;
+}
+
+void CorrectedHeat::add_to(const World& world, Ledger& ledger) const {
+  const auto H = world.particles[field::enthalpy];
+  double sum = 0.0;
+  for (std::size_t id = 0; id < H.size(); ++id) sum += H[world.particles.row(id)];
+  ledger.energy["thermal"] += sum;
+}
+
+}  // namespace tripoint::heat

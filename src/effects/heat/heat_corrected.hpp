@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "effects/effect.hpp"
+
+namespace tripoint::heat {
+
+/// (21) in the enthalpy form of model 8.6. Two-stage strong-stability-preserving Runge-Kutta [Shu & Osher 1988, (2.16)]:
+/// a convex mix of Euler steps, so that a step within the bound makes no new extremes, and second order in time: with one
+/// Euler step at the bound the temporal error would be as large as the spatial one, and of opposite sign.
+class CorrectedHeat : public Effect {
+ public:
+  void load(World&, const InitialState&) override;
+  void drift(World&, double dt) override;
+  void clear(World&, PassName) override;
+  void state(World&) override;
+  bool correct(World&, double dt) override;
+  void happen(World&, const Happening&) override;
+  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
+  void add_to(const World&, Ledger&) const override;
+};
+
+}  // namespace tripoint::heat

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/rigid/bodies.hpp"
+
+#include <algorithm>
+
+#include "core/defect.hpp"
+#include "core/errors.hpp"
+#include "effects/rigid/rotation.hpp"
+#include "scene/read_case.hpp"
+
+namespace tripoint::rigid {
+namespace {
+
+/// World axes that the body may turn about: one that reaches through a periodic box turns about that axis only.
+Vec3 turning_axes(const World& world, const std::vector<std::size_t>& rows) {
+  Vec3 turns{1.0, 1.0, 1.0};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!world.box.periodic[a] || rows.empty()) continue;
+    double low = world.unwrapped(rows[0])[a], high = low;
+    for (const std::size_t i : rows) {
+      low = std::min(low, world.unwrapped(i)[a]);
+      high = std::max(high, world.unwrapped(i)[a]);
+    }
+    if (high - low + world.scene.spacing < (1.0 - 1e-6) * world.box.width[a]) continue;
+    for (std::size_t other = 0; other < 3; ++other) {
+      if (other != a) turns[other] = 0.0;
+    }
+  }
+  return turns;
+}
+
+}  // namespace
+
+std::vector<std::size_t> members(const World& world, std::size_t body) {
+  std::vector<std::size_t> rows;
+  const auto of = world.particles[field::body];
+  for (std::size_t id = 0; id < of.size(); ++id) {
+    const std::size_t i = world.particles.row(id);
+    if (of[i] == static_cast<int>(body)) rows.push_back(i);
+  }
+  return rows;
+}
+
+BodyMotion motion_of(const World& world, std::size_t b) {
+  const Columns& t = world.bodies;
+  return {t[field::body_mass][b], t[field::body_centre][b], t[field::body_velocity][b], t[field::body_angular_momentum][b],
+          t[field::body_angular_velocity][b]};
+}
+
+bool is_alive(const World& world, std::size_t body) { return world.bodies[field::body_alive][body] != 0; }
+bool is_free(const World& world, std::size_t body) {
+  return is_alive(world, body) && world.bodies[field::body_motion][body] == static_cast<int>(Motion::free);
+}
+
+Quaternion principal_to_world(const World& world, std::size_t body) {
+  return world.bodies[field::body_orientation][body] * world.bodies[field::body_axes][body];
+}
+
+double kinetic_energy(const World& world, std::size_t b) {
+  const BodyMotion m = motion_of(world, b);
+  return 0.5 * m.mass * dot(m.velocity, m.velocity) + 0.5 * dot(m.omega, m.L);
+}
+
+double potential_energy(const World& world, std::size_t b) { return -world.bodies[field::body_mass][b] * dot(world.scene.gravity, world.bodies[field::body_centre][b]); }
+
+void measure(World& world, std::size_t b) {
+  const std::vector<std::size_t> rows = members(world, b);
+  Columns& t = world.bodies;
+  t[field::body_alive][b] = !rows.empty();
+  t[field::body_mass][b] = 0.0;
+  if (rows.empty()) return;
+  std::vector<Vec3> r;  // in the body frame, so that the principal axes come out in it
+  std::vector<double> m;
+  const Quaternion q = t[field::body_orientation][b];
+  for (const std::size_t i : rows) {
+    r.push_back(rotate_back(q, world.unwrapped(i)));
+    m.push_back(world.particles[field::mass][i]);
+  }
+  const MassProperties properties = mass_properties(r, m);
+  const Vec3 centre_before = t[field::body_centre][b];
+  t[field::body_mass][b] = properties.mass;
+  t[field::body_centre][b] = rotate(q, properties.centre);
+  t[field::body_offset][b] += rotate_back(q, t[field::body_centre][b] - centre_before);
+  t[field::body_inertia][b] = (1.0 + defect_size("rigid.inertia")) * truncated(properties.principal_inertia, properties.mass, world.scene.spacing);
+  t[field::body_axes][b] = properties.principal_axes;
+  t[field::body_turns][b] = turning_axes(world, rows);
+  const auto reference = triple(world.particles, field::reference_x, field::reference_y, field::reference_z);
+  for (std::size_t n = 0; n < rows.size(); ++n) reference.set(rows[n], r[n] - properties.centre);
+}
+
+void update_spin(World& world, std::size_t b) {
+  Columns& t = world.bodies;
+  const Vec3 turns = t[field::body_turns][b], L = t[field::body_angular_momentum][b];
+  const Quaternion q = principal_to_world(world, b);
+  if (turns == Vec3{1.0, 1.0, 1.0}) {
+    t[field::body_angular_velocity][b] = angular_velocity(q, t[field::body_inertia][b], L);
+    return;
+  }
+  Vec3 omega;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (turns[a] == 0.0) continue;
+    Vec3 axis;
+    axis[a] = 1.0;
+    const Vec3 e = rotate_back(q, axis), I = t[field::body_inertia][b];
+    const double about = e.x * e.x * I.x + e.y * e.y * I.y + e.z * e.z * I.z;
+    omega[a] = about > 0.0 ? L[a] / about : 0.0;
+  }
+  t[field::body_angular_velocity][b] = omega;
+}
+
+Vec3 spin_momentum(const World& world, std::size_t b) {
+  const Quaternion q = principal_to_world(world, b);
+  const Vec3 w = rotate_back(q, world.bodies[field::body_angular_velocity][b]), I = world.bodies[field::body_inertia][b];
+  return rotate(q, {I.x * w.x, I.y * w.y, I.z * w.z});
+}
+
+void place_members(World& world) {
+  Particles& p = world.particles;
+  const auto x = positions(p);
+  const auto reference = triple(std::as_const(p), field::reference_x, field::reference_y, field::reference_z);
+  const auto body = p[field::body];
+  const auto centre = world.bodies[field::body_centre];
+  const auto orientation = world.bodies[field::body_orientation];
+  const auto alive = world.bodies[field::body_alive];
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (body[i] < 0) continue;
+    const auto b = static_cast<std::size_t>(body[i]);
+    if (!alive[b]) continue;
+    const Vec3 r = centre[b] + rotate(orientation[b], reference.at(i));
+    x.set(i, r);
+  }
+  if (!world.box.any()) return;
+  const auto image = images(p);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (body[i] < 0) continue;
+    Vec3 r = x.at(i);
+    const Vec3 n = image.at(i);
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (world.box.periodic[a]) r[a] -= n[a] * world.box.width[a];
+    }
+    x.set(i, r);
+  }
+}
+
+void give_velocities(World& world) {
+  Particles& p = world.particles;
+  const auto v = velocities(p);
+  const auto reference = triple(std::as_const(p), field::reference_x, field::reference_y, field::reference_z);
+  const auto body = p[field::body];
+  const auto velocity = world.bodies[field::body_velocity], omega = world.bodies[field::body_angular_velocity];
+  const auto orientation = world.bodies[field::body_orientation];
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (body[i] < 0) continue;
+    const auto b = static_cast<std::size_t>(body[i]);
+    v.set(i, velocity[b] + cross(omega[b], rotate(orientation[b], reference.at(i))));
+  }
+}
+
+std::size_t add_body(World& world, std::string_view name) {
+  Columns& t = world.bodies;
+  t.append_row();
+  const std::size_t b = t.size() - 1;
+  t[field::body_orientation][b] = {};
+  t[field::body_axes][b] = {};
+  t[field::body_turns][b] = {1.0, 1.0, 1.0};
+  t[field::body_alive][b] = 1;
+  t[field::body_source][b] = -1;
+  world.body_names.emplace_back(name);
+  return b;
+}
+
+std::size_t body_row(const World& world, std::string_view name) {
+  const auto place = std::ranges::find(world.body_names, name);
+  if (place == world.body_names.end()) throw InputError("an event names the body " + std::string(name) + ", and no solid body has that name");
+  const auto row = static_cast<std::size_t>(place - world.body_names.begin());
+  if (!is_alive(world, row)) throw InputError("an event names the body " + std::string(name) + ", which has been absorbed before");
+  return row;
+}
+
+}  // namespace tripoint::rigid

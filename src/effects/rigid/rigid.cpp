@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/rigid/rigid.hpp"
+
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "effects/rigid/bodies.hpp"
+#include "effects/rigid/merge_split.hpp"
+#include "effects/rigid/rotation.hpp"
+#include "scene/read_case.hpp"
+
+namespace tripoint::rigid {
+namespace {
+
+class RigidBodies : public Effect {
+ public:
+  void load(World&, const InitialState&) override;
+  void kick(World&, double dt) override;
+  void drift(World&, double dt) override;
+  void happen(World&, const Happening&) override;
+  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
+  void add_to(const World&, Ledger&) const override;
+};
+
+/// L of a body that turns about one axis only must lie along it. @throws InputError naming the body
+void refuse_blocked_spin(const World& world, std::size_t b) {
+  const Vec3 turns = world.bodies[field::body_turns][b], w = world.bodies[field::body_angular_velocity][b];
+  const Vec3 L = world.bodies[field::body_angular_momentum][b];
+  if (!is_free(world, b)) return;
+  const double size = world.bodies[field::body_mass][b] * world.scene.spacing * world.scene.spacing * (1e-300 + norm(w));
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (turns[a] != 0.0 || std::abs(L[a]) <= 1e-9 * size) continue;
+    throw InputError("the rigid body " + world.body_names[b] + " reaches through a periodic direction and would turn across it: " +
+                     "make that direction not periodic, or the body shorter, or let it turn about that axis only");
+  }
+}
+
+/// A driven body at a time: its keyframes, or constant velocity and angular velocity for ever.
+void drive(World& world, std::size_t b, double time) {
+  Columns& t = world.bodies;
+  const auto source = t[field::body_source][b];
+  static const std::vector<Keyframe> none;
+  const auto& keyframes = source >= 0 ? world.scene.bodies[static_cast<std::size_t>(source)].keyframes : none;
+  static const double faster = 1.0 + defect_size("rigid.prescribed");
+  const PrescribedState s =
+      prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b], t[field::body_start_spin][b], faster * time);
+  const Vec3 lever = rotate(s.rotation, t[field::body_offset][b]);
+  t[field::body_orientation][b] = s.rotation;
+  t[field::body_centre][b] = s.position + lever;
+  t[field::body_angular_velocity][b] = s.angular_velocity;
+  t[field::body_velocity][b] = s.velocity + cross(s.angular_velocity, lever);
+  t[field::body_angular_momentum][b] = spin_momentum(world, b);
+}
+
+bool at_rest(const World& world, std::size_t b) {
+  return world.bodies[field::body_velocity][b] == Vec3{} && world.bodies[field::body_angular_momentum][b] == Vec3{};
+}
+
+/// Turns a free body by its angular momentum; the one that reaches through a periodic box about that axis.
+void turn(World& world, std::size_t b, double dt) {
+  Columns& t = world.bodies;
+  const Vec3 L = t[field::body_angular_momentum][b];
+  if (L == Vec3{}) return;
+  Quaternion& orientation = t[field::body_orientation][b];
+  if (t[field::body_turns][b] != Vec3{1.0, 1.0, 1.0}) {
+    orientation = normalised(from_rotation_vector(dt * t[field::body_angular_velocity][b]) * orientation);
+    return;
+  }
+  const Quaternion q = principal_to_world(world, b);
+  const Vec3 I = t[field::body_inertia][b];
+  const bool paper = world.scene.mode_of(Term::rotation) == Mode::paper;
+  orientation = (paper ? rotated_paper(q, I, L, dt) : rotated_corrected(q, I, L, dt)) * conjugate(t[field::body_axes][b]);
+  update_spin(world, b);
+}
+
+void RigidBodies::load(World& world, const InitialState& initial) {
+  const std::vector<int> rows = body_rows(world.scene);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    if (rows[n] < 0) continue;
+    const Body& body = world.scene.bodies[n];
+    const std::size_t b = add_body(world, body.name);
+    Columns& t = world.bodies;
+    t[field::body_source][b] = static_cast<int>(n);
+    t[field::body_motion][b] = static_cast<int>(body.motion);
+    measure(world, b);
+    t[field::body_offset][b] = {};
+    t[field::body_start_centre][b] = t[field::body_centre][b];
+    t[field::body_start_spin][b] = body.angular_velocity;
+    if (body.motion == Motion::fixed) continue;
+    Vec3 P, L;
+    for (const std::size_t i : members(world, b)) {
+      const auto id = static_cast<std::size_t>(world.particles[field::id][i]);
+      P += initial.mass[id] * initial.velocity[id];
+      L += initial.mass[id] * cross(initial.position[id] - t[field::body_centre][b], initial.velocity[id]);
+    }
+    if (!is_alive(world, b)) continue;
+    t[field::body_velocity][b] = t[field::body_start_velocity][b] = P / t[field::body_mass][b];
+    t[field::body_angular_momentum][b] = L;
+    update_spin(world, b);
+    refuse_blocked_spin(world, b);
+    if (body.motion == Motion::prescribed) drive(world, b, world.time);
+  }
+  give_velocities(world);
+}
+
+void RigidBodies::kick(World& world, double dt) {
+  static const double factor = 1.0 + defect_size("rigid.gravity");
+  const auto velocity = world.bodies[field::body_velocity];
+  for (std::size_t b = 0; b < velocity.size(); ++b) {
+    if (is_free(world, b)) velocity[b] += factor * dt * world.scene.gravity;
+  }
+  give_velocities(world);
+}
+
+void RigidBodies::drift(World& world, double dt) {
+  Columns& t = world.bodies;
+  bool any = false;
+  for (std::size_t b = 0; b < t.size(); ++b) {
+    if (!is_alive(world, b) || t[field::body_motion][b] == static_cast<int>(Motion::fixed)) continue;
+    if (is_free(world, b)) {
+      if (at_rest(world, b)) continue;
+      t[field::body_centre][b] += dt * t[field::body_velocity][b];
+      turn(world, b, dt);
+    } else {
+      const double before = kinetic_energy(world, b) + potential_energy(world, b);
+      drive(world, b, world.time + dt);
+      world.booked.walls -= kinetic_energy(world, b) + potential_energy(world, b) - before;
+    }
+    any = true;
+  }
+  if (!any) return;
+  place_members(world);
+  world.moved = true;
+}
+
+/// How the scene says that a body moves; one born by a split is free.
+Motion own_motion(const World& world, std::size_t b) {
+  const int source = world.bodies[field::body_source][b];
+  return source < 0 ? Motion::free : world.scene.bodies[static_cast<std::size_t>(source)].motion;
+}
+
+/// Holds bodies still, or lets them go: what changes of their energy is booked at the walls.
+void set_motion(World& world, std::size_t b, Motion motion) {
+  Columns& t = world.bodies;
+  const double before = kinetic_energy(world, b);
+  t[field::body_motion][b] = static_cast<int>(motion);
+  if (motion == Motion::fixed) {
+    t[field::body_velocity][b] = t[field::body_angular_momentum][b] = t[field::body_angular_velocity][b] = {};
+  }
+  world.booked.walls += before - kinetic_energy(world, b);
+}
+
+void RigidBodies::happen(World& world, const Happening& now) {
+  switch (now.event.kind) {
+    case Event::Kind::merge: merge(world, now.event); break;
+    case Event::Kind::split: split(world, now.event); break;
+    case Event::Kind::release:
+      for (const std::string& name : now.event.bodies) set_motion(world, body_row(world, name), Motion::free);
+      break;
+    case Event::Kind::hold:
+      for (const std::string& name : now.event.bodies) {
+        const std::size_t b = body_row(world, name);
+        set_motion(world, b, now.begins ? Motion::fixed : own_motion(world, b));
+      }
+      break;
+    case Event::Kind::heat:
+    case Event::Kind::grip: return;
+  }
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) refuse_blocked_spin(world, b);
+  give_velocities(world);
+}
+
+/// |omega| dt <= 0.5, and 0.25 sqrt(h/|g|) for what falls (model 8.10).
+TimeStepBound RigidBodies::max_dt(const World& world) const {
+  TimeStepBound bound;
+  const double g = norm(world.scene.gravity);
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    if (!is_free(world, b)) continue;
+    const double spin = norm(world.bodies[field::body_angular_velocity][b]);
+    if (spin > 0.0) tighten(bound, 0.5 / spin, "rotation");
+    if (g > 0.0) tighten(bound, 0.25 * std::sqrt(world.support() / g), "acceleration");
+  }
+  return bound;
+}
+
+void RigidBodies::add_to(const World& world, Ledger& ledger) const {
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    if (!is_alive(world, b)) continue;
+    const BodyMotion m = motion_of(world, b);
+    ledger.momentum += m.mass * m.velocity;
+    ledger.angular_momentum += m.L + m.mass * cross(m.centre, m.velocity);
+    ledger.energy["kinetic"] += kinetic_energy(world, b);
+    ledger.energy["potential"] += potential_energy(world, b);
+  }
+  ledger.angular_momentum += world.booked.undelivered_spin;
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene& scene) {
+  return {"rigid",
+          scene.mode_of(Term::rotation),
+          {field::reference_x, field::reference_y, field::reference_z, field::body_mass, field::body_centre, field::body_velocity,
+           field::body_angular_momentum, field::body_angular_velocity, field::body_inertia, field::body_orientation, field::body_axes,
+           field::body_turns, field::body_start_centre, field::body_offset, field::body_start_velocity, field::body_start_spin,
+           field::body_motion, field::body_alive, field::body_source},
+          {field::mass, field::body, field::position_x, field::position_y, field::position_z, field::velocity_x, field::velocity_y,
+           field::velocity_z}};
+}
+
+std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<RigidBodies>(); }
+
+std::vector<DefectEntry> defects() {
+  return {{"rigid.gravity", "gravity times 1 + size", "rigid/ballistic"},
+          {"rigid.inertia", "moments of inertia times 1 + size", "rigid/torque-free"},
+          {"rigid.rotation", "rotations about the axes in one sequence, not symmetric: first order", "rigid/torque-free"},
+          {"rigid.paper.rotation", "angle of each step of the paper's rotation times 1 + size", "rigid/torque-free"},
+          {"rigid.merge", "orbital part of L times 1 + size as bodies merge", "rigid/merge-in-flight"},
+          {"rigid.split", "velocity of the split part times 1 + size", "rigid/split-in-flight"},
+          {"rigid.prescribed", "keyframes play 1 + size times as fast", "rigid/prescribed-board"}};
+}
+
+}  // namespace tripoint::rigid

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/rigid/rotation.hpp"
+
+#include "core/defect.hpp"
+
+namespace tripoint {
+namespace {
+
+double inverse(double moment) noexcept { return moment > 0.0 ? 1.0 / moment : 0.0; }
+
+/// Turns the body about its own axis k by omega_k dt, omega_k = L_k/I_k: the exact motion of that part of the energy.
+Quaternion turned_about(std::size_t k, const Quaternion& q, const Vec3& moments, const Vec3& L, double dt) noexcept {
+  Vec3 turn;
+  turn[k] = rotate_back(q, L)[k] * inverse(moments[k]) * dt;
+  return q * from_rotation_vector(turn);
+}
+
+}  // namespace
+
+Vec3 angular_velocity(const Quaternion& to_world, const Vec3& moments, const Vec3& L) noexcept {
+  const Vec3 l = rotate_back(to_world, L);
+  return rotate(to_world, {l.x * inverse(moments.x), l.y * inverse(moments.y), l.z * inverse(moments.z)});
+}
+
+double rotation_energy(const Quaternion& to_world, const Vec3& moments, const Vec3& L) noexcept {
+  const Vec3 l = rotate_back(to_world, L);
+  return 0.5 * (l.x * l.x * inverse(moments.x) + l.y * l.y * inverse(moments.y) + l.z * l.z * inverse(moments.z));
+}
+
+Quaternion rotated_paper(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt) noexcept {
+  static const double factor = 1.0 + defect_size("rigid.paper.rotation");
+  return normalised(from_rotation_vector(factor * dt * angular_velocity(to_world, moments, L)) * to_world);
+}
+
+Quaternion rotated_corrected(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt, const AxisOrder& order) noexcept {
+  static const bool first_order = defect_size("rigid.rotation") > 0.0;
+  const auto [outer, middle, inner] = order;
+  Quaternion q = to_world;
+  if (first_order) {
+    for (const std::size_t k : order) q = turned_about(k, q, moments, L, dt);
+    return normalised(q);
+  }
+  q = turned_about(outer, q, moments, L, 0.5 * dt);
+  q = turned_about(middle, q, moments, L, 0.5 * dt);
+  q = turned_about(inner, q, moments, L, dt);
+  q = turned_about(middle, q, moments, L, 0.5 * dt);
+  q = turned_about(outer, q, moments, L, 0.5 * dt);
+  return normalised(q);
+}
+
+Vec3 truncated(const Vec3& moments, double mass, double spacing) noexcept {
+  const double least = 2e-3 * mass * spacing * spacing;
+  return {moments.x < least ? 0.0 : moments.x, moments.y < least ? 0.0 : moments.y, moments.z < least ? 0.0 : moments.z};
+}
+
+}  // namespace tripoint

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "core/quaternion.hpp"
+#include "core/vec3.hpp"
+
+/// Free rotation of a rigid body. L, its angular momentum in the world frame, is the state and is kept exactly.
+namespace tripoint {
+
+/// Order of the principal axes in the splitting, outer to inner; 0, 1, 2 = ascending moment. Both monotone orders are good,
+/// those with the middle axis outermost or innermost are up to ten times worse: tests/effects/rotation_test.cpp.
+using AxisOrder = std::array<std::size_t, 3>;
+inline constexpr AxisOrder default_axis_order{0, 1, 2};
+
+/// Angular velocity in the world frame, I^-1 L (19) [rad/s]; an axis with moment 0 (truncated) does not turn.
+/// @param to_world principal frame to world frame   @param moments principal [kg m2]
+[[nodiscard]] Vec3 angular_velocity(const Quaternion& to_world, const Vec3& moments, const Vec3& L) noexcept;
+
+/// Kinetic energy of rotation, 1/2 sum_k L_k^2/I_k over the axes that are not truncated [J].
+[[nodiscard]] double rotation_energy(const Quaternion& to_world, const Vec3& moments, const Vec3& L) noexcept;
+
+/// (19)-(20) as printed: omega = I^-1 L, then the orientation turns by omega dt. First order; over a long spin the energy
+/// drifts to the axis of least inertia, +152 % in the notes' example. (The members are placed by the orientation; moving each by dt
+/// omega x r, as a literal reading would, stretches the body.)
+[[nodiscard]] Quaternion rotated_paper(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt) noexcept;
+
+/// NO_SQUISH splitting [Miller et al. 2002, J. Chem. Phys. 116, 8649]: exact rotations about the principal axes in a symmetric
+/// sequence. Symplectic, second order, energy bounded for ever.
+[[nodiscard]] Quaternion rotated_corrected(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt,
+                                           const AxisOrder& order = default_axis_order) noexcept;
+
+/// Moments of inertia by size: one below 2e-3 M spacing^2, a body thinner than about 4.5 % of a spacing, becomes 0.
+[[nodiscard]] Vec3 truncated(const Vec3& moments, double mass, double spacing) noexcept;
+
+}  // namespace tripoint

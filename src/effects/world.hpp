@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "effects/ledger.hpp"
+#include "particles/neighbours.hpp"
+#include "particles/particles.hpp"
+#include "scene/scene.hpp"
+
+namespace tripoint {
+
+/// All that a step changes, and what it works with.
+struct World {
+  Scene scene;
+  Particles particles;
+  Columns bodies;                       ///< one row for each solid body that ever existed
+  std::vector<std::string> body_names;  ///< of each row
+  PeriodicBox box;
+  std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
+  Booked booked;
+  double time = 0.0;  ///< [s]
+  int threads = 1;
+  bool moved = true;  ///< positions differ from those of the last rates
+
+  [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }
+  /// Place of a particle that is not put back into a periodic box.
+  [[nodiscard]] Vec3 unwrapped(std::size_t row) const;
+  [[nodiscard]] const Material& material_of(std::size_t row) const {
+    return scene.materials[static_cast<std::size_t>(particles[field::material][row])];
+  }
+};
+
+inline Vec3 World::unwrapped(std::size_t row) const {
+  Vec3 r = particles.position(row);
+  if (!box.any()) return r;
+  const Vec3 n = images(particles).at(row);
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (box.periodic[a]) r[a] += n[a] * box.width[a];
+  }
+  return r;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cassert>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/aligned.hpp"
+#include "core/field.hpp"
+
+namespace tripoint {
+
+/// Structure of arrays: one column a field, rows common to all. Columns are 64-byte aligned and padded by one vector.
+class Columns {
+ public:
+  Columns() = default;
+  /// @param per only the fields of this carrier become columns
+  Columns(std::size_t rows, Per per, std::span<const FieldInfo> fields);
+
+  [[nodiscard]] std::size_t size() const noexcept { return rows_; }
+  [[nodiscard]] bool has(std::string_view name) const noexcept { return find(name) != nullptr; }
+  [[nodiscard]] std::vector<FieldInfo> fields() const;
+
+  /// @throws MissingField by name when no effect of this scene owns it
+  template <class T>
+  [[nodiscard]] std::span<T> operator[](const Field<T>& key) {
+    return {values<T>(*this, key).data(), rows_};
+  }
+  template <class T>
+  [[nodiscard]] std::span<const T> operator[](const Field<T>& key) const {
+    return {values<T>(*this, key).data(), rows_};
+  }
+
+  /// Row n becomes what was row order[n], in every column. @param order a permutation of 0..size()-1
+  void permute(std::span<const std::uint32_t> order);
+  /// Adds a row of zeros to every column; spans taken before are no longer valid.
+  void append_row();
+
+ private:
+  using Values = std::variant<AlignedVector<double>, AlignedVector<int>, AlignedVector<Vec3>, AlignedVector<Quaternion>>;
+  struct Column {
+    FieldInfo info;
+    Values values;
+  };
+  [[nodiscard]] const Column* find(std::string_view name) const noexcept;
+
+  template <class T, class Self>
+  static auto& values(Self& self, const Field<T>& key) {
+    auto* column = const_cast<std::conditional_t<std::is_const_v<Self>, const Column, Column>*>(self.find(key.name));
+    if (!column) throw MissingField(key.name, key.per);
+    return std::get<AlignedVector<T>>(column->values);
+  }
+
+  std::size_t rows_ = 0;
+  Per per_ = Per::particle;
+  std::vector<Column> columns_;
+};
+
+}  // namespace tripoint

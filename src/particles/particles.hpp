@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "particles/catalogue.hpp"
+#include "particles/columns.hpp"
+
+namespace tripoint {
+
+/// The particles of a scene. Rows are in order of the neighbour grid's cells; ids are for ever.
+class Particles : public Columns {
+ public:
+  Particles() = default;
+  /// Particles 0..count-1, in rows of the same number. @param fields every field that the scene's effects own
+  Particles(std::size_t count, std::span<const FieldInfo> fields);
+
+  /// Row of the particle with this id, which is in 0..size()-1.
+  [[nodiscard]] std::size_t row(std::size_t id) const noexcept { return row_of_id_[id]; }
+  /// Reorders every column and the map from ids to rows.
+  void permute(std::span<const std::uint32_t> order);
+
+  [[nodiscard]] Vec3 position(std::size_t row) const { return vector(row, field::position_x, field::position_y, field::position_z); }
+  [[nodiscard]] Vec3 velocity(std::size_t row) const { return vector(row, field::velocity_x, field::velocity_y, field::velocity_z); }
+  [[nodiscard]] Vec3 vector(std::size_t row, const Field<double>& x, const Field<double>& y, const Field<double>& z) const {
+    return {(*this)[x][row], (*this)[y][row], (*this)[z][row]};
+  }
+
+ private:
+  std::vector<std::uint32_t> row_of_id_;
+};
+
+/// Three columns of a vector field.
+template <class T>
+struct Triple {
+  std::span<T> x, y, z;
+  [[nodiscard]] Vec3 at(std::size_t row) const { return {static_cast<double>(x[row]), static_cast<double>(y[row]), static_cast<double>(z[row])}; }
+  void set(std::size_t row, const Vec3& v) const { x[row] = v.x, y[row] = v.y, z[row] = v.z; }
+};
+template <class T, class P>
+[[nodiscard]] auto triple(P& particles, const Field<T>& x, const Field<T>& y, const Field<T>& z) {
+  return Triple<std::conditional_t<std::is_const_v<P>, const T, T>>{particles[x], particles[y], particles[z]};
+}
+template <class P>
+[[nodiscard]] auto positions(P& p) { return triple(p, field::position_x, field::position_y, field::position_z); }
+template <class P>
+[[nodiscard]] auto velocities(P& p) { return triple(p, field::velocity_x, field::velocity_y, field::velocity_z); }
+template <class P>
+[[nodiscard]] auto images(P& p) { return triple(p, field::image_x, field::image_y, field::image_z); }
+
+/// The fields that the particles of every scene have.
+[[nodiscard]] std::vector<FieldInfo> common_fields(bool periodic);
+
+}  // namespace tripoint

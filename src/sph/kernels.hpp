@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+/// Smoothing kernels in three dimensions. h is the support radius: W = 0 for r >= h. Each integrates to 1 over space:
+/// tests/sph/kernels_test.cpp. Constants are formed once, so that a pair pass only multiplies.
+namespace tripoint {
+
+/// poly6 [Mueller, Charypar, Gross 2003, (20)], the paper's density kernel (4).
+class Poly6 {
+ public:
+  explicit Poly6(double h) noexcept : h_(h), c_(315.0 / (64.0 * std::numbers::pi * std::pow(h, 9))) { assert(h > 0.0); }
+  /// W(r) [1/m3]
+  [[nodiscard]] double value(double r) const noexcept {
+    const double q = h_ * h_ - r * r;
+    return r < h_ ? c_ * q * q * q : 0.0;
+  }
+
+ private:
+  double h_, c_;
+};
+
+/// spiky [Mueller, Charypar, Gross 2003, (21)], the paper's pressure kernel (7).
+class Spiky {
+ public:
+  explicit Spiky(double h) noexcept : h_(h), c_(15.0 / (std::numbers::pi * std::pow(h, 6))) { assert(h > 0.0); }
+  /// W(r) [1/m3]
+  [[nodiscard]] double value(double r) const noexcept { return r < h_ ? c_ * (h_ - r) * (h_ - r) * (h_ - r) : 0.0; }
+  /// W'(r) [1/m4]
+  [[nodiscard]] double derivative(double r) const noexcept { return r < h_ ? -3.0 * c_ * (h_ - r) * (h_ - r) : 0.0; }
+
+ private:
+  double h_, c_;
+};
+
+/// Viscosity kernel [Mueller, Charypar, Gross 2003, (22)], the paper's kernel of viscosity (8) and heat (21).
+class ViscosityKernel {
+ public:
+  explicit ViscosityKernel(double h) noexcept : h_(h), c_(45.0 / (std::numbers::pi * std::pow(h, 6))) { assert(h > 0.0); }
+  /// W(r) [1/m3]; infinite at r = 0
+  [[nodiscard]] double value(double r) const noexcept {
+    if (r >= h_) return 0.0;
+    const double q = r / h_;
+    return 15.0 / (2.0 * std::numbers::pi * h_ * h_ * h_) * (-0.5 * q * q * q + q * q + 0.5 / q - 1.0);
+  }
+  /// lap W(r) = 45/(pi h^6) (h - r) [1/m5]
+  [[nodiscard]] double laplacian(double r) const noexcept { return r < h_ ? c_ * (h_ - r) : 0.0; }
+
+ private:
+  double h_, c_;
+};
+
+/// Elasticity kernel (17), made for solids of as few as two particles:
+/// W(r) = c (2h/pi) (cos((r + h) pi/(2h)) + 1), c = pi / (8 h^4 (pi/3 - 8/pi + 16/pi^2)).
+class ElasticityKernel {
+ public:
+  explicit ElasticityKernel(double h) noexcept : h_(h), c_(constant(h)) { assert(h > 0.0); }
+  /// W(r) [1/m3]
+  [[nodiscard]] double value(double r) const noexcept {
+    using std::numbers::pi;
+    return r < h_ ? c_ * (2.0 * h_ / pi) * (std::cos((r + h_) * pi / (2.0 * h_)) + 1.0) : 0.0;
+  }
+  /// W'(r) = -c sin((r + h) pi/(2h)) [1/m4]
+  [[nodiscard]] double derivative(double r) const noexcept {
+    using std::numbers::pi;
+    return r < h_ ? -c_ * std::sin((r + h_) * pi / (2.0 * h_)) : 0.0;
+  }
+
+ private:
+  static double constant(double h) noexcept {
+    using std::numbers::pi;
+    return pi / (8.0 * std::pow(h, 4) * (pi / 3.0 - 8.0 / pi + 16.0 / (pi * pi)));
+  }
+  double h_, c_;
+};
+
+/// Wendland's C2 kernel [Wendland 1995] in three dimensions, the corrected forms' one kernel:
+/// W(r) = 21/(2 pi h^3) (1 - q)^4 (1 + 4q), q = r/h.
+class WendlandC2 {
+ public:
+  explicit WendlandC2(double h) noexcept
+      : h_(h), per_h_(1.0 / h), c_(21.0 / (2.0 * std::numbers::pi * h * h * h)), g_(210.0 / (std::numbers::pi * std::pow(h, 5))) {
+    assert(h > 0.0);
+  }
+  /// W(r) [1/m3]
+  [[nodiscard]] double value(double r) const noexcept {
+    const double q = r * per_h_, t = 1.0 - q;
+    return r < h_ ? c_ * t * t * t * t * (1.0 + 4.0 * q) : 0.0;
+  }
+  /// W'(r)/r = -210/(pi h^5) (1 - q)^3 [1/m5]: finite at r = 0, no division
+  [[nodiscard]] double derivative_over_r(double r) const noexcept {
+    const double t = 1.0 - r * per_h_;
+    return r < h_ ? -g_ * t * t * t : 0.0;
+  }
+  /// W'(r) [1/m4]
+  [[nodiscard]] double derivative(double r) const noexcept { return r * derivative_over_r(r); }
+
+ private:
+  double h_, per_h_, c_, g_;
+};
+
+/// The kernels at one support radius, handed to every pair.
+struct PairKernels {
+  explicit PairKernels(double support) noexcept : poly6(support), viscosity(support), wendland(support) {}
+  Poly6 poly6;
+  ViscosityKernel viscosity;
+  WendlandC2 wendland;
+};
+
+}  // namespace tripoint

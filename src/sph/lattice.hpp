@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string_view>
+
+#include "core/vec3.hpp"
+
+/// Sums over the cubic lattice: what a kernel makes of undisturbed particles, exact at any number of them.
+namespace tripoint {
+
+/// Moments of a kernel on the cubic lattice of spacing 1 at support h = q; the ideal of each is 1.
+struct LatticeMoments {
+  int neighbours = 0;      ///< with r < h
+  double density = 0.0;    ///< S0 = sum_j W dx^3, the particle itself included
+  double gradient = 0.0;   ///< -1/3 sum_j V r W'(r); also that of the Laplacian -2 W'/r
+  double laplacian = 0.0;  ///< 1/6 sum_j V r^2 lap W (viscosity kernel only, else 0)
+};
+
+[[nodiscard]] LatticeMoments poly6_moments(double q);
+[[nodiscard]] LatticeMoments spiky_moments(double q);
+[[nodiscard]] LatticeMoments viscosity_moments(double q);
+[[nodiscard]] LatticeMoments elasticity_moments(double q);
+[[nodiscard]] LatticeMoments wendland_moments(double q);
+
+/// Decay rate over diffusivity of the mode cos(k.r) under (21) as printed, on the cubic lattice:
+/// sum_j V lapW_visc(r_j) (1 - cos k.r_j) [1/m2], V = dx^3/S0 of poly6, the volume m/rho that (4) gives. Times the
+/// diffusivity it is the rate of decay in continuous time.
+[[nodiscard]] double paper_heat_rate(double spacing, double support, const Vec3& wave_vector);
+
+}  // namespace tripoint

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "step/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "step/guard.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr long steps_between_bounds = 32;  ///< a step that changes more often would break the time symmetry of kick-drift-kick
+
+PeriodicBox box_of(const Scene& scene) {
+  PeriodicBox box;
+  box.periodic = scene.periodic;
+  if (!box.any()) return box;
+  if (!scene.min || !scene.max) throw InputError("a periodic scene needs the domain's min and max");
+  box.min = *scene.min;
+  box.width = *scene.max - *scene.min;
+  return box;
+}
+
+/// Whether no particle can ever move: then lists need no skin and are never built anew.
+bool is_static(const Scene& scene, const InitialState& initial) {
+  const auto at_rest = [](const Vec3& v) { return v == Vec3{}; };
+  const bool all_fixed = std::ranges::all_of(scene.bodies, [](const Body& b) { return b.motion == Motion::fixed; });
+  if (all_fixed) return scene.events.empty();
+  const bool none_prescribed = std::ranges::none_of(scene.bodies, [](const Body& b) { return b.motion == Motion::prescribed; });
+  return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) && scene.events.empty();
+}
+
+std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& effects) {
+  std::vector<FieldInfo> fields = common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
+  for (const Active& a : effects) fields.insert(fields.end(), a.spec.owns.begin(), a.spec.owns.end());
+  return fields;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options)
+    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_) {
+  world_.scene = scene;
+  world_.threads = options.threads;
+  world_.box = box_of(scene);
+  load(initial);
+  if (passes_.needed()) {
+    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options.skin * world_.support(), world_.box, options.threads);
+  }
+  update_rates();
+  check_finite(world_);
+  bound_ = next_bound();
+  refuse_large_step();
+  plan_events();
+  happen_until_now();
+}
+
+void Simulation::load(const InitialState& initial) {
+  const std::vector<FieldInfo> fields = fields_of(world_.scene, effects_);
+  world_.particles = Particles(initial.size(), fields);
+  world_.bodies = Columns(0, Per::body, fields);
+  Particles& p = world_.particles;
+  const auto x = positions(p), v = velocities(p);
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    x.set(i, initial.position[i]);
+    v.set(i, initial.velocity[i]);
+    p[field::mass][i] = initial.mass[i];
+    p[field::phase][i] = initial.phase[i];
+    p[field::body][i] = initial.body[i];
+    p[field::material][i] = initial.material[i];
+    p[field::source][i] = initial.source[i];
+  }
+  for (const Active& a : effects_) a.effect->load(world_, initial);
+}
+
+void Simulation::plan_events() {
+  const auto& events = world_.scene.events;
+  for (std::size_t n = 0; n < events.size(); ++n) {
+    moments_.push_back({events[n].time, n, true});
+    if (events[n].until) moments_.push_back({*events[n].until, n, false});
+  }
+  std::ranges::stable_sort(moments_, {}, &Moment::time);
+}
+
+void Simulation::happen_until_now() {
+  bool any = false;
+  for (; next_moment_ < moments_.size() && moments_[next_moment_].time <= world_.time; ++next_moment_) {
+    const Moment& m = moments_[next_moment_];
+    for (const Active& a : effects_) a.effect->happen(world_, {world_.scene.events[m.event], m.begins});
+    any = true;
+  }
+  if (!any) return;
+  world_.moved = true;
+  update_rates();
+  check_finite(world_);
+}
+
+void Simulation::advance_to(double time) {
+  while (world_.time < time) {
+    const double stop = next_moment_ < moments_.size() ? std::min(time, moments_[next_moment_].time) : time;
+    advance_without_events(stop);
+    happen_until_now();
+  }
+}
+
+void Simulation::advance_without_events(double time) {
+  while (world_.time < time) {
+    const double start = world_.time;
+    bound_ = next_bound();
+    refuse_large_step();
+    const long n = steps_to(time);
+    dt_ = (time - start) / static_cast<double>(n);
+    for (long k = 1; k <= n; ++k) {
+      step();
+      world_.time = k == n ? time : start + static_cast<double>(k) * dt_;
+      if (k % steps_between_bounds == 0 || next_bound().dt < dt_) break;
+    }
+  }
+}
+
+/// Equal steps, none longer than the scene's own or the bound.
+long Simulation::steps_to(double time) const {
+  const double length = time - world_.time, most = world_.scene.time_step.value_or(bound_.dt);
+  if (!(most > 0.0)) throw Diverged(-1, -1, "time_step", bound_.name, world_.time, "the bound of " + bound_.name + " leaves no time step");
+  return std::max(1L, static_cast<long>(std::ceil(length / most - 1e-9)));
+}
+
+/// Rates and dt_ hold for the time on entry, and again on exit.
+void Simulation::step() {
+  static const bool no_first_kick = defect_size("time.first_kick") > 0.0;
+  const bool starts_late = steps_ == 0 && (no_first_kick || world_.scene.mode_of(Term::time) == Mode::paper);
+  if (!starts_late) run(&Effect::kick, 0.5 * dt_);  // v of bodies; the paper's leapfrog starts without its half kick
+  run(&Effect::drift, dt_);                         // r; rotation (19)-(20); prescribed motion; T or H by its rate (21)
+  world_.time += dt_;
+  update_rates();
+  bool again = false;
+  for (const Active& a : effects_) again = a.effect->correct(world_, dt_) || again;
+  if (again) pass(PassName::rates);  // second stage of two-stage schemes
+  run(&Effect::kick, 0.5 * dt_);
+  ++steps_;
+  check_finite(world_);
+}
+
+void Simulation::update_rates() {
+  if (world_.neighbours) world_.neighbours->update(world_.particles, world_.time);
+  if (world_.moved) pass(PassName::density);  // (4), moments: of places only
+  run(&Effect::state);
+  world_.moved = false;
+  pass(PassName::rates);  // (21)
+}
+
+void Simulation::pass(PassName name) {
+  if (!passes_.needed()) return;
+  run(&Effect::clear, name);
+  passes_.run(name, world_);
+  if (name == PassName::rates) pairs_ += static_cast<double>(world_.neighbours->entries());
+}
+
+TimeStepBound Simulation::next_bound() const {
+  TimeStepBound least;
+  for (const Active& a : effects_) {
+    const TimeStepBound b = a.effect->max_dt(world_);
+    tighten(least, b.dt, b.name);
+  }
+  return least;
+}
+
+void Simulation::refuse_large_step() const {
+  const auto& given = world_.scene.time_step;
+  if (!given || options_.force_time_step || *given <= bound_.dt * (1.0 + 1e-9)) return;
+  throw InputError("time_step " + std::to_string(*given) + " s is above the bound of " + bound_.name + ", " + std::to_string(bound_.dt) +
+                   " s: make it smaller, or set force_time_step to run all the same");
+}
+
+std::string Simulation::time_step_set_by() const {
+  if (world_.scene.time_step) return "scene";
+  return bound_.name == "none" ? "output" : bound_.name;
+}
+
+Ledger Simulation::ledger() const {
+  Ledger sum;
+  const auto m = world_.particles[field::mass];
+  for (std::size_t id = 0; id < m.size(); ++id) sum.mass += m[world_.particles.row(id)];
+  for (const Active& a : effects_) a.effect->add_to(world_, sum);
+  sum.energy["merging"] += world_.booked.merging;
+  sum.energy["walls"] += world_.booked.walls;
+  return sum;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "effects/all_effects.hpp"
+#include "effects/world.hpp"
+#include "scene/initial_state.hpp"
+
+namespace tripoint {
+
+struct SimulationOptions {
+  int threads = 1;
+  bool force_time_step = false;  ///< run with the scene's time step though it is above a bound
+  double skin = 0.1;             ///< of the neighbour lists, in support radii; static scenes need none
+};
+
+/// A scene in motion: kick, drift, kick, with the effects that it calls for.
+class Simulation {
+ public:
+  /// @throws InputError when an effect is missing, a bound forbids the scene's time step, or the scene lacks what an effect needs
+  Simulation(const Scene&, const InitialState&, const SimulationOptions& = {});
+
+  /// Steps until `time` [s], which is met exactly; events on the way happen at their time, those at `time` before it returns.
+  /// @throws Diverged with particle, field, stage and time
+  void advance_to(double time);
+
+  [[nodiscard]] const World& world() const noexcept { return world_; }
+  [[nodiscard]] Ledger ledger() const;
+  [[nodiscard]] long steps() const noexcept { return steps_; }
+  [[nodiscard]] double pairs() const noexcept { return pairs_; }  ///< directed pairs visited by rate passes
+  [[nodiscard]] double time_step() const noexcept { return dt_; }
+  [[nodiscard]] const TimeStepBound& bound() const noexcept { return bound_; }
+  /// What set the step: the name of the least bound, "scene" where the scene gives it, "output" where nothing bounds it.
+  [[nodiscard]] std::string time_step_set_by() const;
+
+ private:
+  struct Moment {  ///< an event's begin or end
+    double time;
+    std::size_t event;
+    bool begins;
+  };
+  void load(const InitialState&);
+  void plan_events();
+  void advance_without_events(double time);
+  void happen_until_now();
+  [[nodiscard]] long steps_to(double time) const;
+  void step();
+  void update_rates();
+  void pass(PassName);
+  [[nodiscard]] TimeStepBound next_bound() const;
+  void refuse_large_step() const;
+  template <class... Args>
+  void run(void (Effect::*stage)(World&, Args...), Args... args) {
+    for (const Active& a : effects_) (a.effect.get()->*stage)(world_, args...);
+  }
+
+  World world_;
+  SimulationOptions options_;
+  std::vector<Active> effects_;
+  Passes passes_;
+  std::vector<Moment> moments_;  ///< in order of time
+  std::size_t next_moment_ = 0;
+  double dt_ = 0.0, pairs_ = 0.0;
+  TimeStepBound bound_;
+  long steps_ = 0;
+};
+
+}  // namespace tripoint
