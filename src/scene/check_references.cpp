@@ -68,6 +68,9 @@ class Checker {
         if (other == b.name) throw InputError(place(fmt::format("body.{}.joined_to", b.name), b.place), fmt::format("body \"{}\" is joined to itself: remove it", b.name));
       }
       turning(b);
+      const Material& m = scene_.material(b.material);
+      if (b.temperature && !(m.conductivity && m.heat_capacity))
+        throw InputError(place(fmt::format("body.{}.temperature", b.name), b.place), fmt::format("body \"{}\" has a temperature, but its material \"{}\" lacks {}: give it, or remove the temperature", b.name, m.name, m.conductivity ? "heat_capacity" : "conductivity"));
       if (!b.keyframes.empty() && b.keyframes.back().time < scene_.end_time && b.keyframes.size() < 2)
         throw InputError(place(fmt::format("body.{}.keyframes", b.name), b.place), fmt::format("body \"{}\" has one keyframe: give at least two, the motion lies between them", b.name));
     }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "scene/read_case.hpp"
+
+namespace tripoint {
+
+std::string new_case_text(const std::string& id) {
+  return fmt::format(R"(# A case of tripoint. `tripoint explain FILE` prints what each key and default means, `tripoint schema --page` all keys.
+# Numbers are SI, or texts with a unit: "3 mm", "20 degC".
+format = 1
+
+[case]
+id = "{}"
+title = "A steel block is thrown and falls"
+
+[scene]
+end_time = 1.0
+gravity = [0.0, 0.0, -9.81]
+spacing = 0.05
+time_step = 0.01
+
+[[body]]
+name = "block"
+material = "steel"                 # of the library: water ice wax steel rubber; or a [[material]] of your own
+shape = {{kind = "box", min = [-0.1, -0.1, -0.1], max = [0.1, 0.1, 0.1]}}
+velocity = [1.0, 0.0, 3.0]
+
+# Judged against free flight, whose exact solution the engines share.
+[reference]
+kind = "analytic"
+function = "ballistic"
+
+[[metric]]
+name = "position"
+quantity = "position"
+norm = "max"
+unit = "m"
+
+[[gate]]
+metric = "position"
+engine = "tripoint"
+limit = 1e-9
+reason = "kick-drift-kick is exact in a uniform field, but for round-off"
+)",
+                     id);
+}
+
+}  // namespace tripoint

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+#include "scene/initial_state.hpp"
+
+namespace tripoint {
+
+/// Two bodies (rows of Scene::bodies, a < b) with particles nearer than a distance.
+struct Overlap {
+  std::size_t a = 0, b = 0;
+  long pairs = 0;
+  double nearest = 0.0;  ///< [m]
+};
+[[nodiscard]] std::vector<Overlap> find_overlaps(const Scene&, const InitialState&, double near);
+
+}  // namespace tripoint

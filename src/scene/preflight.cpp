@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scene/geometry.hpp"
+#include "scene/overlap.hpp"
+#include "scene/read_case.hpp"
+
+/// What can be told of a scene before anything runs.
+namespace tripoint {
+namespace {
+
+class Preflight {
+ public:
+  Preflight(const Case& c, const Scene& s, const InitialState& state) : case_(c), scene_(s), state_(state) {}
+
+  std::vector<Finding> run() {
+    overlaps();
+    for (std::size_t n = 0; n < scene_.bodies.size(); ++n) {
+      resolution(n);
+      mass(n);
+      keyframes(n);
+    }
+    outside();
+    time_steps();
+    return std::move(findings_);
+  }
+
+ private:
+  void error(const SourcePlace& place, std::string what) { findings_.push_back({true, std::move(what), place}); }
+  void warn(const SourcePlace& place, std::string what) { findings_.push_back({false, std::move(what), place}); }
+
+  void overlaps() {
+    // Neighbours of one lattice come as near as 1 - 2 jitter by themselves.
+    const double near = std::min(0.5, 0.99 * (1.0 - 2.0 * scene_.jitter)) * scene_.spacing;
+    if (!(near > 0.0)) return;
+    for (const auto& o : find_overlaps(scene_, state_, near)) {
+      const auto& a = scene_.bodies[o.a];
+      const auto& b = scene_.bodies[o.b];
+      error(b.place, fmt::format("bodies \"{}\" and \"{}\" overlap: {} pairs of particles are nearer than {:.3g} m, the nearest {:.3g} m; move them apart or cut one by a difference", a.name, b.name, o.pairs, near, o.nearest));
+    }
+  }
+
+  void resolution(std::size_t n) {
+    const Body& b = scene_.bodies[n];
+    Vec3 low{INFINITY, INFINITY, INFINITY}, high = -low;
+    for (std::size_t i = 0; i < state_.size(); ++i) {
+      if (state_.source[i] != static_cast<int>(n)) continue;
+      for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], state_.position[i][a]), high[a] = std::max(high[a], state_.position[i][a]);
+    }
+    for (std::size_t a = 0; a < 3; ++a) {
+      const long across = std::lround((high[a] - low[a]) / scene_.spacing) + 1;
+      if (scene_.periodic[a] && static_cast<double>(across) * scene_.spacing >= 0.999 * ((*scene_.max)[a] - (*scene_.min)[a])) continue;  // endless
+      if (across < 3) warn(b.place, fmt::format("body \"{}\" is {} particle{} across along {}: at least 3 resolve it; refine scene.spacing", b.name, across, across == 1 ? "" : "s", "xyz"[a]));
+    }
+  }
+
+  void mass(std::size_t n) {
+    const Body& b = scene_.bodies[n];
+    const auto v = volume(b.shape);
+    if (!v) return;
+    double sampled = 0.0;
+    for (std::size_t i = 0; i < state_.size(); ++i)
+      if (state_.source[i] == static_cast<int>(n)) sampled += state_.mass[i];
+    const double exact = *v * scene_.material(b.material).density;
+    if (std::abs(sampled - exact) > 0.1 * exact)
+      warn(b.place, fmt::format("body \"{}\": its particles weigh {:.4g} kg, its shape {:.4g} kg ({:+.0f} %): refine scene.spacing, or make its sides multiples of it", b.name, sampled, exact, 100.0 * (sampled / exact - 1.0)));
+  }
+
+  void keyframes(std::size_t n) {
+    const Body& b = scene_.bodies[n];
+    if (b.keyframes.empty()) return;
+    Vec3 centre;
+    double count = 0.0;
+    for (std::size_t i = 0; i < state_.size(); ++i)
+      if (state_.source[i] == static_cast<int>(n)) centre += state_.position[i], count += 1.0;
+    centre = centre / count;
+    const double jump = norm(b.keyframes.front().position - centre);
+    if (jump > 1e-6 * scene_.spacing) {
+      auto what = fmt::format("body \"{}\": its first keyframe is at ({}, {}, {}) m, its centre of mass at ({}, {}, {}) m: it jumps there at the start", b.name, b.keyframes.front().position.x,
+                              b.keyframes.front().position.y, b.keyframes.front().position.z, centre.x, centre.y, centre.z);
+      findings_.push_back({jump > 0.5 * scene_.spacing, std::move(what), b.place});
+    }
+    for (std::size_t k = 1; k < b.keyframes.size(); ++k) {
+      const auto& from = b.keyframes[k - 1].rotation;
+      const auto& to = b.keyframes[k].rotation;
+      if ((conjugate(from) * to).w > 1e-9) continue;
+      error(b.place, fmt::format("body \"{}\": keyframe {} is half a turn or more from the one before it, as written; the body takes the shorter way: add a keyframe between them (or flip the quaternion's sign)", b.name, k + 1));
+    }
+  }
+
+  void outside() {
+    if (!(scene_.min && scene_.max)) return;
+    std::map<int, long> lost;
+    for (std::size_t i = 0; i < state_.size(); ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        if (!scene_.periodic[a] && (state_.position[i][a] < (*scene_.min)[a] || state_.position[i][a] > (*scene_.max)[a])) {
+          ++lost[state_.source[i]];
+          break;
+        }
+    for (const auto& [source, count] : lost)
+      warn(scene_.bodies[static_cast<std::size_t>(source)].place, fmt::format("{} particles of body \"{}\" lie outside scene.min and scene.max: enlarge the domain", count, scene_.bodies[static_cast<std::size_t>(source)].name));
+  }
+
+  /// Stability bound of explicit conduction on the lattice [s]: 0.075 h^2/a corrected, 0.130 h^2/a paper (largest eigenvalue
+  /// measured on the lattice at h/dx = 2.6 and 2.12), a = k/(rho c).
+  [[nodiscard]] double heat_bound(std::string& which) const {
+    double least = INFINITY;
+    const double h = scene_.support_ratio * scene_.spacing, c = scene_.mode_of(Term::heat) == Mode::paper ? 0.130 : 0.075;
+    for (const auto& b : scene_.bodies) {
+      const Material& m = scene_.material(b.material);
+      if (!b.temperature || !m.conductivity || !m.heat_capacity) continue;
+      const double bound = c * h * h * m.density * *m.heat_capacity / *m.conductivity;
+      if (bound < least) least = bound, which = fmt::format("heat in body \"{}\"", b.name);
+    }
+    return least;
+  }
+
+  void time_steps() {
+    std::string which;
+    double bound = heat_bound(which);
+    for (const auto& b : scene_.bodies) {
+      if (b.phase != Phase::rigid || b.motion != Motion::free || !(norm(b.angular_velocity) > 0.0)) continue;
+      const double turning = 0.5 / norm(b.angular_velocity);
+      if (turning < bound) bound = turning, which = fmt::format("rotation of body \"{}\", |angular_velocity| dt <= 0.5,", b.name);
+    }
+    if (scene_.time_step && *scene_.time_step > bound) {
+      auto what = fmt::format("time_step = {} s is above the bound of {} {:.4g} s: shorten it, or write \"auto\"", *scene_.time_step, which, bound);
+      findings_.push_back({case_.expect != "diverges", std::move(what), {case_.file, 0, 0}});
+    }
+    for (const auto& study : case_.studies)
+      if (study.axis == "time_step" && study.levels.front() > bound)
+        warn(study.place, fmt::format("the study's first time step {} s is above the bound of {} {:.4g} s: leave it out", study.levels.front(), which, bound));
+    if (scene_.time_step && scene_.end_time / *scene_.time_step > 1e8)
+      warn({case_.file, 0, 0}, fmt::format("{:.3g} steps to end_time: lengthen scene.time_step", scene_.end_time / *scene_.time_step));
+  }
+
+  const Case& case_;
+  const Scene& scene_;
+  const InitialState& state_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> preflight(const Case& c, const Scene& s, const InitialState& state) { return Preflight(c, s, state).run(); }
+
+}  // namespace tripoint
