@@ -41,8 +41,8 @@ std::string reason_for_refusal(const std::string& check_output) {
 }
 
 void prepare_folder(const RunRequest& request) {
-  fs::remove_all(request.folder);
   fs::create_directories(request.folder);
+  for (const char* stale : {"job.json", "result.json", "trajectory.h5", "trajectory.csv", "trajectory.xdmf", "log.txt"}) fs::remove(fs::path(request.folder) / stale);
   Job job = *request.job;
   job.particles = fs::relative(request.particles, request.folder).string();
   job.output = ".";

@@ -17,7 +17,7 @@ struct RunRequest {
   const EngineEntry* engine = nullptr;
   const Job* job = nullptr;
   const InitialState* initial = nullptr;
-  std::string folder;     ///< emptied before the run: what an earlier run left is never judged
+  std::string folder;     ///< results of an earlier run in it are removed first: they are never judged
   std::string particles;  ///< path of particles.h5
   double wall_limit = 600.0;  ///< [s]
   std::map<std::string, std::string> environment;

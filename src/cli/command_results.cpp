@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/common.hpp"
+#include "validation/harness/judge.hpp"
+#include "validation/harness/report_files.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr const char* merge_description =
+    "Joins the results of shards into one report with the verdict that the whole suite would have had.\n"
+    "  tripoint validate --shard 1/2 --out a     tripoint validate --shard 2/2 --out b\n"
+    "  tripoint merge a b --out report\n"
+    "A missing or doubled shard is refused (exit 2).";
+
+constexpr const char* report_description =
+    "Draws the report anew from a results.json: index.html, junit.xml and summary.md beside it. Runs and judges nothing anew\n"
+    "but the verdicts, which are always recomputed from the measured values.\n"
+    "  tripoint report report/results.json";
+
+int finish(const Results& results, const std::string& out) {
+  if (const auto missing = write_report(results, out); !missing.empty()) say("tripoint: no page: " + missing);
+  print(last_line(results, out) + "\n");
+  return results.exit_code;
+}
+
+int merge(const std::vector<std::string>& folders, const std::string& out) {
+  const auto results = merge_shards(folders, out);
+  for (const auto& c : results.cases) print(case_line(c) + "\n");
+  return finish(results, out);
+}
+
+int report(const std::string& path) {
+  auto results = read_results(path);
+  judge(results);
+  const auto folder = std::filesystem::path(path).parent_path();
+  finish(results, folder.empty() ? "." : folder.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("merge", merge_description);
+  auto folders = std::make_shared<std::vector<std::string>>();
+  auto out = std::make_shared<std::string>();
+  command->add_option("DIR", *folders, "folders of the shards")->required();
+  command->add_option("--out", *out, "folder of the joined report")->required();
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return merge(*folders, *out); }); });
+}
+
+void add_report(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("report", report_description);
+  auto path = std::make_shared<std::string>();
+  command->add_option("RESULTS", *path, "a results.json")->required();
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return report(*path); }); });
+}
+
+}  // namespace tripoint

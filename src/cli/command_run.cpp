@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/common.hpp"
+#include "core/errors.hpp"
+#include "validation/harness/run_one.hpp"
+#include "validation/harness/suite.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* description =
+    "Runs one case on one engine, at the case's own resolution, and prints how it ended and its metrics. It judges nothing.\n"
+    "  tripoint run rigid/ballistic\n"
+    "  tripoint run heat/cosine-mode --set scene.spacing='1 mm' --threads 2 --out coarse\n"
+    "  tripoint run rigid/ballistic --engine bullet --until 0.5\n"
+    "DIR then holds job.json, particles.h5, trajectory.h5 (H5MD; trajectory.xdmf opens it in ParaView), result.json and log.txt.\n"
+    "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged.";
+
+struct RunOptions {
+  std::string what, engine = "tripoint", out, until;
+  std::vector<std::string> set;
+  int threads = 1;
+  double wall_limit = 1e9;
+  bool quiet = false, json = false;
+};
+
+std::string case_file(const std::string& what) {
+  if (fs::is_regular_file(what)) return what;
+  const auto by_id = fs::path(share_folder()) / "cases" / (what + ".toml");
+  if (fs::is_regular_file(by_id)) return by_id.string();
+  throw InputError(what + ": is no case file and no case id (tripoint list prints the ids)");
+}
+
+int code_of(const Outcome& outcome) {
+  if (outcome.status == "ok") return exit_pass;
+  return outcome.status == "diverged" ? exit_diverged : interrupted() ? exit_interrupted : exit_missing;
+}
+
+void print_text(const RunOptions& o, const Outcome& outcome, const std::map<std::string, MetricValue>& metrics) {
+  print(fmt::format("{}{}{}\n", outcome.status, outcome.reason.empty() ? "" : ": ", outcome.reason));
+  const auto& r = outcome.result;
+  if (r.steps > 0) print(fmt::format("  t = {:g} s in {} steps; last step {:g} s{}\n", r.time_reached, r.steps, r.readback.time_step, r.time_step_bound.empty() ? "" : ", bound by " + r.time_step_bound));
+  print(fmt::format("  {:.3g} CPU s, {:.3g} s, {:.3g} MB\n", outcome.cost.cpu_s, outcome.cost.wall_s, outcome.cost.peak_bytes / 1e6));
+  for (const auto& [name, m] : metrics) print(fmt::format("  {:24} {:<12.5g} +- {:.2g}{}\n", name, m.value, m.uncertainty.combined(), m.note.empty() ? "" : "  (" + m.note + ")"));
+  print(fmt::format("  in {}\n", o.out));
+}
+
+void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std::string, MetricValue>& metrics) {
+  nlohmann::ordered_json values = nlohmann::ordered_json::object();
+  for (const auto& [name, m] : metrics) {
+    values[name] = {{"value", std::isfinite(m.value) ? nlohmann::ordered_json(m.value) : nlohmann::ordered_json()}, {"uncertainty", m.uncertainty.combined()}, {"note", m.note}};
+    if (!std::isfinite(m.value)) values[name]["finite"] = false;
+  }
+  const auto& r = outcome.result;
+  print(nlohmann::ordered_json{{"status", outcome.status}, {"reason", outcome.reason}, {"time_reached", r.time_reached}, {"steps", r.steps}, {"time_step_bound", r.time_step_bound},
+                               {"state_hash", r.state_hash}, {"cost", {{"cpu_s", outcome.cost.cpu_s}, {"wall_s", outcome.cost.wall_s}, {"peak_bytes", outcome.cost.peak_bytes}}},
+                               {"metrics", values}, {"folder", o.out}}
+            .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+/// The engine's base run in the case's first mode.
+EnginePlan plan_for(const Case& value, const std::vector<EngineEntry>& engines, const std::string& name) {
+  Selection selection;
+  selection.engines = {name};
+  auto plan = plan_runs(value, engines, selection).front();
+  if (!plan.entry) throw EngineError("no engine is named " + name + " (tripoint engines lists them)");
+  if (!plan.entry->available) throw EngineError(name + " is not available: " + plan.entry->reason);
+  return plan;
+}
+
+int run(RunOptions o) {
+  catch_interrupts();
+  if (!o.until.empty()) o.set.push_back("scene.end_time=" + o.until);
+  const Case value = read_case(shown_path(case_file(o.what)), o.set).value;
+  if (o.out.empty()) o.out = "runs/" + value.id + "/" + o.engine.substr(o.engine.rfind('/') + 1);
+  const auto words = sort_engine_words({o.engine});
+  const auto engines = discover_engines(words.paths);
+  const auto plan = plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);
+  const auto& base = plan.runs.front();
+  const Scene scene = scene_of(value, base);
+  const auto initial = sample(scene);
+  auto job = make_job(value, plan, base, scene, initial);
+  job.threads = o.threads;
+  fs::create_directories(o.out);
+  RunRequest request;
+  request.engine = plan.entry, request.job = &job, request.initial = &initial, request.wall_limit = o.wall_limit;
+  request.folder = fs::absolute(o.out).string(), request.particles = (fs::absolute(o.out) / "particles.h5").string();
+  fs::remove(request.particles);
+  write_particles(request.particles, initial);
+  if (!o.quiet) say(fmt::format("{} on {} {}: {} particles to t = {:g} s", value.id, plan.name, plan.entry->version, initial.size(), scene.end_time));
+  if (!o.quiet && isatty(2)) request.progress = [](double done) { std::fprintf(stderr, "\r%3.0f %%", 100.0 * done); };
+  const auto outcome = run_one(request);
+  if (request.progress) std::fprintf(stderr, "\r      \r");
+  std::map<std::string, MetricValue> metrics;
+  if (outcome.trajectory) metrics = evaluate_all(value, job, initial, *outcome.trajectory);
+  if (o.json) print_json(o, outcome, metrics);
+  else print_text(o, outcome, metrics);
+  return code_of(outcome);
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("run", description);
+  auto o = std::make_shared<RunOptions>();
+  command->add_option("CASE", o->what, "a case file or id")->required();
+  command->add_option("--engine", o->engine, "name of an engine, or path of an executable")->capture_default_str();
+  command->add_option("--out", o->out, "folder of the run (default: runs/CASE/ENGINE)");
+  command->add_option("--threads", o->threads, "threads of the engine; they do not change its bits")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--set", o->set, "a.b=VALUE replaces a key of the case file; may be repeated")->take_all()->allow_extra_args(false);
+  command->add_option("--until", o->until, "end at this time instead: seconds, or a number with a unit");
+  command->add_flag("--quiet", o->quiet, "no progress on stderr");
+  command->add_flag("--json", o->json, "print one JSON document");
+  command->callback([o, &exit_code] { exit_code = guarded([&] { return run(*o); }); });
+}
+
+}  // namespace tripoint

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <ctime>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/common.hpp"
+#include "core/errors.hpp"
+#include "validation/harness/process.hpp"
+#include "validation/harness/report_files.hpp"
+#include "validation/harness/suite.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace {
+
+struct ValidateOptions {
+  CaseFilter filter;
+  SuiteOptions suite;
+  std::string profile, shard, engines;
+  std::vector<std::string> engine;
+  std::uint64_t seed = 0;
+  bool seed_given = false, json = false;
+};
+
+constexpr const char* description =
+    "Runs cases on their engines, compares each with its reference, judges every gate and writes the report.\n\n"
+    "Without CASE it takes the cases beside the program that belong to the profile.\n"
+    "  tripoint validate                                     the commit suite\n"
+    "  tripoint validate heat/cosine-mode --jobs 2           one case, two engine processes at a time\n"
+    "  tripoint validate my-cases/ --engine ./my-engine      your cases, with your engine beside ours\n"
+    "  tripoint validate --profile nightly --shard 1/4       a quarter of the suite; tripoint merge joins the four\n"
+    "The verdict is the last line; OUT/index.html shows it, OUT/results.json holds it.";
+
+std::pair<int, int> read_shard(const std::string& text) {
+  int i = 0, n = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%c", &i, &n, &rest) != 2 || i < 1 || n < 1 || i > n) throw InputError("--shard " + text + ": write i/n with 1 <= i <= n, for example 2/4");
+  return {i, n};
+}
+
+std::string now() {
+  const std::time_t t = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&t));
+  return text;
+}
+
+int validate(ValidateOptions o) {
+  catch_interrupts();
+  if (!o.shard.empty()) std::tie(o.filter.shard, o.filter.shards) = read_shard(o.shard);
+  o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() ? "commit" : "";
+  if (o.seed_given) o.suite.selection.seed = o.seed;
+  const auto words = sort_engine_words(o.engine);
+  o.suite.selection.engines = split(o.engines);
+  for (const auto& name : words.names) o.suite.selection.extra.push_back(name);
+  const auto cases = select_cases(o.filter);
+  const auto engines = discover_engines(words.paths);
+  for (const auto& path : words.paths) o.suite.selection.extra.push_back(ask_engine(path).name);
+  for (const auto& name : o.suite.selection.engines)
+    if (!find_engine(engines, name)) say("tripoint: no engine is named " + name + " (tripoint engines lists them)");
+  say(fmt::format("{} cases, {} engines, into {}", cases.size(), engines.size(), o.suite.out));
+  o.suite.say = [](const std::string& line) { say(line); };
+  if (!o.json) o.suite.on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
+  auto results = run_suite(cases, engines, o.suite);
+  results.command = command_line(), results.profile = o.filter.profile, results.date = now(), results.shard = o.shard;
+  if (const auto missing = write_report(results, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
+  print(o.json ? results_text(results) : last_line(results, o.suite.out) + "\n");
+  return interrupted() ? exit_interrupted : results.exit_code;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("validate", description);
+  auto o = std::make_shared<ValidateOptions>();
+  command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
+  command->add_option("--profile", o->profile, "only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release"}));
+  command->add_option("--tag", o->filter.tag, "only cases with this tag");
+  command->add_option("--engines", o->engines, "only these engines, A,B");
+  command->add_option("--engine", o->engine, "an engine that joins every case: the path of an executable, or a name")->take_all();
+  command->add_option("--out", o->suite.out, "folder of the report and the runs")->capture_default_str();
+  command->add_option("--jobs", o->suite.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--threads", o->suite.threads, "threads of each engine process")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option_function<std::uint64_t>("--seed", [o](std::uint64_t seed) { o->seed = seed, o->seed_given = true; }, "replaces the cases' seeds");
+  command->add_option("--shard", o->shard, "i/n: every n-th case, from the i-th");
+  command->add_option("--time-limit", o->suite.wall_limit, "seconds for one run; engine setting wall_limit goes before it")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_flag("--json", o->json, "print results.json, and nothing else, on stdout");
+  command->callback([o, &exit_code] { exit_code = guarded([&] { return validate(*o); }); });
+}
+
+}  // namespace tripoint

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+/// What the commands share: how errors become exit codes, and how lists and progress look.
+namespace tripoint {
+
+/// Calls the command and turns its exceptions into messages on stderr and the exit codes of the contract.
+[[nodiscard]] int guarded(const std::function<int()>& command);
+
+/// One line on stderr.
+void say(const std::string& line);
+
+/// One piece of the result, on stdout, at once.
+void print(const std::string& text);
+
+/// "A,B" -> {"A", "B"}.
+[[nodiscard]] std::vector<std::string> split(const std::string& list, char separator = ',');
+
+/// Names are those of engines, words with a slash or of existing files are paths: --engines and --engine take both.
+struct EngineWords {
+  std::vector<std::string> names, paths;
+};
+[[nodiscard]] EngineWords sort_engine_words(const std::vector<std::string>& words);
+
+/// The command line as it was typed, for the report.
+void remember_command_line(int argc, char** argv);
+[[nodiscard]] const std::string& command_line();
+
+}  // namespace tripoint

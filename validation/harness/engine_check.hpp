@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+/// Compliance test of an engine executable with the contract.
+namespace tripoint {
+
+struct EngineCheck {
+  std::string what;  ///< the sentence that must hold
+  bool passed = false;
+  std::string found;  ///< what was found instead
+};
+
+/// Asks --info, hands over broken jobs, and runs small scenes (flight of one body; conduction where it says `heat`) of which it
+/// must be able to do one; checks result, times, ids, masses, units and, where it says deterministic, that a second run is the same.
+[[nodiscard]] std::vector<EngineCheck> check_engine(const std::string& executable);
+
+/// A case that the check runs, as text of a case file.
+struct CheckScene {
+  std::string name, text;
+  bool heat = false;
+};
+[[nodiscard]] const std::vector<CheckScene>& check_scenes();
+
+}  // namespace tripoint
