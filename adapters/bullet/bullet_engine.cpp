@@ -72,16 +72,17 @@ std::vector<Piece> BulletEngine::start_pieces(const Row& row, const JobBody& bod
     if (shape.kind == Shape::Kind::box) return {{false, local(0.5 * (shape.min + shape.max)), conjugate(axes), 0.5 * (shape.max - shape.min)}};
     if (shape.kind == Shape::Kind::sphere) return {{true, local(shape.centre), {}, Vec3{shape.radius, shape.radius, shape.radius}}};
   }
-  return particle_pieces(row, {});
+  std::vector<Piece> pieces(row.arms.size(), particle_piece());
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    pieces[k].centre = row.arms[k];
+    pieces[k].rotation = conjugate(axes);
+  }
+  return pieces;
 }
 
-/// @param lattice the particles' lattice axes in body axes
-std::vector<Piece> BulletEngine::particle_pieces(const Row& row, const Quaternion& lattice) const {
+Piece BulletEngine::particle_piece() const {
   const double half = 0.5 * job_.resolution.spacing;
-  const bool sphere = preset_for(job_).collision == Collision::spheres;
-  std::vector<Piece> pieces;
-  for (const Vec3& arm : row.arms) pieces.push_back({sphere, arm, conjugate(row.frame) * lattice, {half, half, half}});
-  return pieces;
+  return {preset_for(job_).collision == Collision::spheres, {}, {}, {half, half, half}};
 }
 
 RigidMotion BulletEngine::start_motion(const Row& row, const JobBody& body) const {
@@ -105,11 +106,25 @@ void BulletEngine::advance_to(double time) {
   integrate_to(time);
 }
 
+namespace {
+
+/// Number of equal steps, none above `limit`, over an interval.
+long steps_in(double interval, double limit) { return std::max(1L, static_cast<long>(std::ceil(interval / limit * (1.0 - 1e-9)))); }
+
+}  // namespace
+
+/// The step that the first interval will be run with. [s]
+double BulletEngine::first_step() const {
+  if (job_.times.size() < 2) return dt_;
+  const double interval = job_.times[1] - job_.times[0];
+  return interval / static_cast<double>(steps_in(interval, dt_));
+}
+
 /// Equal steps, none above the wanted one, that end at `time`.
 void BulletEngine::integrate_to(double time) {
   const double interval = time - time_, start = time_;
   if (interval <= 0.0) return;
-  const long n = std::max(1L, static_cast<long>(std::ceil(interval / dt_ * (1.0 - 1e-9))));
+  const long n = steps_in(interval, dt_);
   last_dt_ = interval / static_cast<double>(n);
   for (long k = 1; k <= n; ++k) {
     drive_bodies(start + interval * static_cast<double>(k) / static_cast<double>(n));
@@ -185,7 +200,7 @@ Readback BulletEngine::readback() const {
   Readback back;
   if (!world_) return back;
   back.gravity = world_->gravity();
-  back.time_step = last_dt_ > 0.0 ? last_dt_ : dt_;
+  back.time_step = last_dt_ > 0.0 ? last_dt_ : first_step();
   for (const Row& r : rows_) {
     if (r.handle < 0) continue;
     const HeldBody held = world_->held(r.handle);

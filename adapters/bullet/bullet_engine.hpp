@@ -36,24 +36,23 @@ class BulletEngine final : public Engine {
 
   [[nodiscard]] Row start_row(const JobBody&) const;
   [[nodiscard]] std::vector<Piece> start_pieces(const Row&, const JobBody&) const;
-  [[nodiscard]] std::vector<Piece> particle_pieces(const Row&, const Quaternion& lattice) const;
+  [[nodiscard]] Piece particle_piece() const;
   [[nodiscard]] RigidMotion start_motion(const Row&, const JobBody&) const;
   void set_arms(Row&, const std::vector<Vec3>& positions, const Vec3& centre, const Quaternion& principal) const;
   void enter(Row&, const RigidMotion&);
   void integrate_to(double time);
+  [[nodiscard]] double first_step() const;
   void drive_bodies(double time);
   void check_finite() const;
 
   void apply(const Event&);
   void merge(const Event&);
   void split(const Event&);
-  [[nodiscard]] Row& splitting_row(const Event&);
-  [[nodiscard]] std::vector<int> members_in(const Row&, const Event&) const;
-  [[nodiscard]] Row& row(const std::string& name);
-  [[nodiscard]] std::vector<Vec3> positions(const Row&) const;
-  [[nodiscard]] std::vector<double> masses(const std::vector<int>& members) const;
+  void take_out(Row&);
+  void launch(Row&, std::vector<int> members, const Snapshot& now, const Quaternion& axes, const std::vector<Piece>& world_pieces);
+  [[nodiscard]] Row& alive(const std::string& name);
   [[nodiscard]] Quaternion orientation(const Row&) const;
-  void take_part(Row&, const std::vector<int>& members, const RigidMotion& whole, const Quaternion& body_axes);
+  [[nodiscard]] std::vector<Piece> world_pieces(const std::vector<int>& members, const Snapshot& now, const Quaternion& lattice) const;
 
   void show_body(Snapshot&, const Row&) const;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Merge and split: bodies are taken out of Bullet's world and others put in, so that P and L hold to round-off.
-// (A btFixedConstraint between two bodies would lose angular momentum.)
+// Merge and split: bodies are taken out of Bullet's world and others put in, with the momenta of the very particles, so that
+// P and L hold to round-off. (A btFixedConstraint between two bodies would lose angular momentum.)
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,10 +19,11 @@ Vec3 spin_of(const MassProperties& p, const Vec3& angular_momentum) {
   return rotate(p.principal_axes, w);
 }
 
-/// The same piece as seen from another frame.
-Piece moved(const Piece& piece, const RigidMotion& from, const Vec3& centre, const Quaternion& principal) {
-  const Vec3 at = from.centre + rotate(from.orientation, piece.centre);
-  return {piece.sphere, rotate_back(principal, at - centre), conjugate(principal) * from.orientation * piece.rotation, piece.half_extents};
+Piece to_world(const Piece& piece, const RigidMotion& m) {
+  return {piece.sphere, m.centre + rotate(m.orientation, piece.centre), m.orientation * piece.rotation, piece.half_extents};
+}
+Piece to_frame(const Piece& piece, const Vec3& centre, const Quaternion& axes) {
+  return {piece.sphere, rotate_back(axes, piece.centre - centre), conjugate(axes) * piece.rotation, piece.half_extents};
 }
 
 }  // namespace
@@ -34,114 +35,96 @@ void BulletEngine::apply(const Event& event) {
     split(event);
 }
 
-BulletEngine::Row& BulletEngine::row(const std::string& name) {
+BulletEngine::Row& BulletEngine::alive(const std::string& name) {
   const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const Row& r) { return r.name == name && r.handle >= 0; });
   if (found == rows_.end()) throw EngineError(fmt::format("no body '{}' at t = {} s", name, time_));
   return *found;
 }
 
-std::vector<Vec3> BulletEngine::positions(const Row& r) const {
-  const RigidMotion m = world_->motion(r.handle);
-  std::vector<Vec3> at;
-  for (const Vec3& arm : r.arms) at.push_back(m.centre + rotate(m.orientation, arm));
-  return at;
-}
-
-std::vector<double> BulletEngine::masses(const std::vector<int>& members) const {
-  std::vector<double> m;
-  for (const int i : members) m.push_back(state_.mass[static_cast<std::size_t>(i)]);
-  return m;
-}
-
 Quaternion BulletEngine::orientation(const Row& r) const { return world_->motion(r.handle).orientation * conjugate(r.frame); }
 
-/// bodies[0] absorbs the rest and keeps its orientation: v = P/M, w = I^-1 L about the new centre.
+void BulletEngine::take_out(Row& r) {
+  world_->remove(r.handle);
+  r.handle = -1;
+}
+
+/// Makes the row a body of the given particles with their momenta.
+/// @param now all particles, as they are   @param axes orientation that the row goes on with; (1,0,0,0) at a birth
+void BulletEngine::launch(Row& r, std::vector<int> members, const Snapshot& now, const Quaternion& axes, const std::vector<Piece>& world_pieces) {
+  std::sort(members.begin(), members.end());
+  std::vector<Vec3> at;
+  std::vector<double> mass;
+  for (const int i : members) at.push_back(now.position[static_cast<std::size_t>(i)]), mass.push_back(now.mass[static_cast<std::size_t>(i)]);
+  const MassProperties p = mass_properties(at, mass);
+  Vec3 momentum, angular_momentum;  // about the new centre
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const Vec3 mv = mass[k] * now.velocity[static_cast<std::size_t>(members[k])];
+    momentum += mv;
+    angular_momentum += cross(at[k] - p.centre, mv);
+  }
+  r.properties = p;
+  r.frame = conjugate(axes) * p.principal_axes;
+  r.members = std::move(members);
+  set_arms(r, at, p.centre, p.principal_axes);
+  r.pieces.clear();
+  for (const Piece& piece : world_pieces) r.pieces.push_back(to_frame(piece, p.centre, p.principal_axes));
+  enter(r, {p.centre, p.principal_axes, momentum / p.mass, spin_of(p, angular_momentum)});
+}
+
+/// bodies[0] absorbs the rest and goes on with its own orientation.
 void BulletEngine::merge(const Event& event) {
-  Row& keeper = row(event.bodies.front());
+  const Snapshot now = observe();
+  Row& keeper = alive(event.bodies.front());
   const Quaternion axes = orientation(keeper);
   std::vector<int> members;
-  std::vector<Vec3> at;
-  Vec3 momentum, angular_momentum;  // about the origin
-  for (const std::string& name : event.bodies) {
-    const Row& r = row(name);
-    const RigidMotion m = world_->motion(r.handle);
-    const Vec3 w = rotate_back(m.orientation, m.angular_velocity), inertia = r.properties.principal_inertia;
-    momentum += r.properties.mass * m.velocity;
-    angular_momentum += r.properties.mass * cross(m.centre, m.velocity) + rotate(m.orientation, Vec3{inertia.x * w.x, inertia.y * w.y, inertia.z * w.z});
-    const std::vector<Vec3> here = positions(r);
-    members.insert(members.end(), r.members.begin(), r.members.end());
-    at.insert(at.end(), here.begin(), here.end());
-  }
-  const MassProperties whole = mass_properties(at, masses(members));
   std::vector<Piece> pieces;
   for (const std::string& name : event.bodies) {
-    Row& r = row(name);
+    Row& r = alive(name);
     const RigidMotion m = world_->motion(r.handle);
-    for (const Piece& piece : r.pieces) pieces.push_back(moved(piece, m, whole.centre, whole.principal_axes));
-    world_->remove(r.handle);
-    r.handle = -1;
+    for (const Piece& piece : r.pieces) pieces.push_back(to_world(piece, m));
+    members.insert(members.end(), r.members.begin(), r.members.end());
+    take_out(r);
   }
-  keeper.properties = whole;
-  keeper.frame = conjugate(axes) * whole.principal_axes;
-  keeper.members = members;
-  keeper.pieces = pieces;
-  set_arms(keeper, at, whole.centre, whole.principal_axes);
-  const Vec3 spin_momentum = angular_momentum - cross(whole.centre, momentum);
-  enter(keeper, {whole.centre, whole.principal_axes, momentum / whole.mass, spin_of(whole, spin_momentum)});
+  launch(keeper, members, now, axes, pieces);
 }
 
-std::vector<int> BulletEngine::members_in(const Row& r, const Event& event) const {
-  const std::vector<Vec3> at = positions(r);
-  const auto inside = inside_of(*event.region, job_.resolution.spacing);
-  std::vector<int> chosen;
-  for (std::size_t k = 0; k < at.size(); ++k)
-    if (inside(at[k])) chosen.push_back(r.members[k]);
-  return chosen;
+/// One piece a particle, along the lattice axes of the body that it was in. [world frame]
+std::vector<Piece> BulletEngine::world_pieces(const std::vector<int>& members, const Snapshot& now, const Quaternion& lattice) const {
+  std::vector<Piece> pieces;
+  for (const int i : members) {
+    Piece piece = particle_piece();
+    piece.centre = now.position[static_cast<std::size_t>(i)];
+    piece.rotation = lattice;
+    pieces.push_back(piece);
+  }
+  return pieces;
 }
 
-/// The body that is named, or the first with a member in the region.
-BulletEngine::Row& BulletEngine::splitting_row(const Event& event) {
-  if (!event.region) throw EngineError(fmt::format("the split at t = {} s has no region", event.time));
-  if (!event.bodies.empty()) return row(event.bodies.front());
-  for (Row& r : rows_)
-    if (r.handle >= 0 && r.motion == Motion::free && !members_in(r, event).empty()) return r;
-  throw EngineError(fmt::format("the split at t = {} s finds no particle in its region", event.time));
-}
-
-/// Members in the region become a new row; both parts move on as the particles did: v + w x r, the same w.
+/// Members in the region, of the bodies named or of all, become a new body; what stays goes on in its own row.
 void BulletEngine::split(const Event& event) {
-  Row& parent = splitting_row(event);
-  const std::vector<int> leaving = members_in(parent, event);
-  if (leaving.empty() || leaving.size() == parent.members.size())
-    throw EngineError(fmt::format("the split at t = {} s takes {} of the {} particles of {}", event.time, leaving.size(), parent.members.size(), parent.name));
-  std::vector<int> staying;
-  for (const int i : parent.members)
-    if (std::find(leaving.begin(), leaving.end(), i) == leaving.end()) staying.push_back(i);
-  const RigidMotion whole = world_->motion(parent.handle);
-  const Quaternion axes = orientation(parent);
-  Row child = parent;
+  if (!event.region) throw EngineError(fmt::format("the split at t = {} s has no region", event.time));
+  const Snapshot now = observe();
+  const auto inside = inside_of(*event.region, job_.resolution.spacing);
+  Row child;
   child.name = event.name;
-  world_->remove(parent.handle);
-  take_part(parent, staying, whole, axes);
-  take_part(child, leaving, whole, {});
+  std::vector<int> leaving;
+  std::vector<Piece> pieces;
+  for (Row& r : rows_) {
+    const bool named = event.bodies.empty() || std::find(event.bodies.begin(), event.bodies.end(), r.name) != event.bodies.end();
+    if (r.handle < 0 || r.motion != Motion::free || !named) continue;
+    std::vector<int> staying, parting;
+    for (const int i : r.members) (inside(now.position[static_cast<std::size_t>(i)]) ? parting : staying).push_back(i);
+    if (parting.empty()) continue;
+    const Quaternion axes = orientation(r);
+    const std::vector<Piece> mine = world_pieces(parting, now, axes);
+    pieces.insert(pieces.end(), mine.begin(), mine.end());
+    leaving.insert(leaving.end(), parting.begin(), parting.end());
+    take_out(r);
+    if (!staying.empty()) launch(r, staying, now, axes, world_pieces(staying, now, axes));
+  }
+  if (leaving.empty()) throw EngineError(fmt::format("the split at t = {} s finds no particle in its region", event.time));
+  launch(child, leaving, now, {}, pieces);
   rows_.push_back(child);
-}
-
-/// Shrinks a row to the given members of the body that moved as `whole`; its lattice keeps the body's axes.
-/// @param body_axes orientation that the row goes on with; (1,0,0,0) for a newborn
-void BulletEngine::take_part(Row& r, const std::vector<int>& members, const RigidMotion& whole, const Quaternion& body_axes) {
-  const Quaternion lattice = whole.orientation * conjugate(r.frame);
-  std::vector<Vec3> at;
-  for (std::size_t k = 0; k < r.members.size(); ++k)
-    if (std::find(members.begin(), members.end(), r.members[k]) != members.end())
-      at.push_back(whole.centre + rotate(whole.orientation, r.arms[k]));
-  r.members = members;
-  r.properties = mass_properties(at, masses(members));
-  r.frame = conjugate(body_axes) * r.properties.principal_axes;
-  set_arms(r, at, r.properties.centre, r.properties.principal_axes);
-  r.pieces = particle_pieces(r, conjugate(body_axes) * lattice);
-  const Vec3 v = whole.velocity + cross(whole.angular_velocity, r.properties.centre - whole.centre);
-  enter(r, {r.properties.centre, r.properties.principal_axes, v, whole.angular_velocity});
 }
 
 }  // namespace tripoint::bullet

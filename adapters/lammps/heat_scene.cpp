@@ -85,8 +85,6 @@ Readback rest_readback(const Job& job, double time_step) {
   Readback back;
   back.gravity = job.scene.gravity;
   back.time_step = time_step;
-  for (const JobBody& b : job.bodies)
-    back.bodies.push_back({b.name, b.properties.mass, b.properties.centre, b.properties.principal_inertia, 0.0, 0.0, 0.0, 0.0});
   return back;
 }
 

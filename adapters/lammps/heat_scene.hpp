@@ -22,7 +22,7 @@ namespace tripoint::lammps {
 /// Particles that never move, with the given temperatures.
 [[nodiscard]] Snapshot at_rest(const Job&, const InitialState&, double time, long step, std::vector<double> temperature);
 
-/// Masses as LAMMPS was handed them: it holds scaled particles, so that these are read from the particles.
+/// Gravity does not act on bodies at rest; no bodies, as LAMMPS holds walkers or scaled particles of unit mass.
 [[nodiscard]] Readback rest_readback(const Job&, double time_step);
 
 /// The one box that the bodies fill, in cells of one spacing.

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "adapters/lammps/body_fit.hpp"
+#include "scene/read_case.hpp"
 
 namespace tripoint::lammps {
 namespace {
@@ -21,6 +22,7 @@ class RigidFlight final : public Model {
     make_particles();
     make_fixes();
     library_.run(choice_for(job).commands);
+    library_.run("run 0 post no");  // the forces of the read-back
   }
 
   void advance_to(double time) override {
@@ -132,14 +134,19 @@ Snapshot RigidFlight::observe() const {
   return s;
 }
 
+/// From LAMMPS's own masses, places and forces: the latter are the weights, as nothing else acts.
 Readback RigidFlight::readback() const {
   Readback back;
   back.gravity = job_.scene.gravity;
   back.time_step = clock_.total() > 0 ? library_.time_step() : job_.times.size() > 1 ? steps_in(job_.times[1] - job_.times[0], limit_).size : limit_;
-  const Snapshot now = observe();
+  const std::vector<Vec3> at = library_.vectors("x"), force = library_.vectors("f");
   for (const JobBody& b : job_.bodies) {
-    const double mass = library_.mass_of_type(b.index + 1) * static_cast<double>(members(b).size());
-    back.bodies.push_back({b.name, mass, now.bodies[static_cast<std::size_t>(b.index)].position, b.properties.principal_inertia, 0.0, 0.0, 0.0, 0.0});
+    const double mass = library_.mass_of_type(b.index + 1);
+    std::vector<Vec3> mine;
+    for (const std::size_t i : members(b)) mine.push_back(at[i]);
+    if (b.motion == Motion::free) back.gravity = force[members(b).front()] / mass;
+    const MassProperties p = mass_properties(mine, std::vector<double>(mine.size(), mass));
+    back.bodies.push_back({b.name, p.mass, p.centre, p.principal_inertia, 0.0, 0.0, 0.0, 0.0});
   }
   return back;
 }
