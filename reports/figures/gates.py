@@ -19,8 +19,9 @@ def draw(results, notes):
     for case in results.cases:
         for engine in case.engines:
             for gate in engine.gates:
+                mode = gate.mode or next((g.mode for e in case.engines for g in e.gates if g.metric == gate.metric and g.mode), "")
                 if not (gate.expect and gate.allowed.startswith("class")):  # a class of convergence has no scale
-                    lines.setdefault((case.number, gate.metric, gate.mode), []).append((case, engine, gate))
+                    lines.setdefault((case.number, gate.metric, mode), []).append((case, engine, gate))
     if not lines:
         return None
     if len(lines) > MOST_LINES:

