@@ -24,6 +24,13 @@ std::string share_folder() {
   return folder;
 }
 
+std::string case_path(const std::string& path_or_id) {
+  std::error_code error;
+  if (fs::exists(path_or_id, error)) return path_or_id;
+  const auto shipped = fs::path(share_folder()) / "cases" / (path_or_id + ".toml");
+  return fs::is_regular_file(shipped, error) ? shipped.string() : path_or_id;
+}
+
 std::vector<std::string> library_names() {
   std::vector<std::string> names;
   std::error_code error;

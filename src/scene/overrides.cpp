@@ -102,7 +102,7 @@ void apply_override(TomlNode& document, const std::string& set) {
     if (next->kind == Kind::array) {
       next = &entry(*next, parts[i + 1], parts[i], set);
       ++i;
-      if (i + 1 >= parts.size()) refuse(set, fmt::format("name the key within `{}`", printable(path)));
+      if (i + 1 >= parts.size()) return static_cast<void>(*next = std::move(value));
     }
     if (next->kind != Kind::table) refuse(set, fmt::format("`{}` is {} and has no keys: give the whole value", printable(parts[i]), kind_name(next->kind)));
     at = next;

@@ -119,6 +119,7 @@ void resolve_spacing(TableReader& in, Scene& s) {
 void read_materials(TableReader& top, Scene& s, Reading& reading) {
   for (const auto* node : top.tables("material")) s.materials.push_back(read_material(*node, reading));
   for (const char* list : {"body", "inflow"}) {
+    if (!top.has(list)) continue;
     for (const auto* node : top.tables(list)) {
       const auto* name = node->find("material");
       if (!name || name->kind != TomlNode::Kind::text || library_file(name->text).empty()) continue;

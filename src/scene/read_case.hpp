@@ -78,4 +78,7 @@ struct PrescribedState {
 /// Folder of cases, material library and assets: share/tripoint beside the executable's folder.
 [[nodiscard]] std::string share_folder();
 
+/// Path of a case that is given as a path or as the id of a shipped case ("heat/cosine"); a path that is no file comes back as it is.
+[[nodiscard]] std::string case_path(const std::string& path_or_id);
+
 }  // namespace tripoint
