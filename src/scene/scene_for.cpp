@@ -80,23 +80,23 @@ bool moves(const Body& b, const Scene& s) {
 std::vector<CalledEffect> called_effects(const Scene& s) {
   std::vector<CalledEffect> out;
   const auto call = [&](const char* name, const std::string& who, const char* why) {
-    if (!who.empty()) out.push_back({name, fmt::format("{} {}", who, why)});
+    if (!who.empty()) out.push_back({name, fmt::format("{}: {}", who, why)});
   };
   std::string liquid = bodies_where(s, [&](const Body& b, const Material&) { return b.phase == Phase::liquid && moves(b, s); });
   if (liquid.empty() && !s.inflows.empty()) liquid = "an inflow";
-  call("fluid", liquid, "flows: liquid, and not held in place");
+  call("fluid", liquid, "liquid, and not held in place");
   const auto elastic = [&](const Body& b) { return b.phase == Phase::elastic && moves(b, s); };
-  call("elastic", bodies_where(s, [&](const Body& b, const Material&) { return elastic(b); }), "deforms: elastic, and not held in place");
-  call("plastic", bodies_where(s, [&](const Body& b, const Material& m) { return elastic(b) && m.elastic_limit; }), "can yield: elastic with an elastic_limit");
-  call("fracture", bodies_where(s, [&](const Body& b, const Material& m) { return elastic(b) && (m.fracture_stretch || m.fracture_distance); }), "can break: elastic with a fracture limit");
-  call("rigid", bodies_where(s, [&](const Body& b, const Material&) { return b.phase == Phase::rigid && moves(b, s); }), "moves as a rigid body");
-  call("heat", bodies_where(s, has_heat), "has a temperature, and a material with conductivity and heat_capacity");
+  call("elastic", bodies_where(s, [&](const Body& b, const Material&) { return elastic(b); }), "elastic, and not held in place");
+  call("plastic", bodies_where(s, [&](const Body& b, const Material& m) { return elastic(b) && m.elastic_limit; }), "elastic with an elastic_limit: can yield");
+  call("fracture", bodies_where(s, [&](const Body& b, const Material& m) { return elastic(b) && (m.fracture_stretch || m.fracture_distance); }), "elastic with a fracture limit: can break");
+  call("rigid", bodies_where(s, [&](const Body& b, const Material&) { return b.phase == Phase::rigid && moves(b, s); }), "rigid, and not held in place");
+  call("heat", bodies_where(s, has_heat), "a temperature is given, and the material conducts");
   const auto range = temperatures_of(s);
   const auto changes = [&](const Body& b, const Material& m) {
     if (!has_heat(b, m) || !m.t_melt || b.temperature_held) return false;
     return b.phase == Phase::liquid ? range.least < *m.t_solid : range.greatest > *m.t_melt;
   };
-  call("phase", bodies_where(s, changes), "can melt or freeze: the scene's temperatures pass t_melt or t_solid of its material");
+  call("phase", bodies_where(s, changes), "the scene's temperatures pass t_melt or t_solid of the material");
   return out;
 }
 

@@ -130,7 +130,7 @@ TomlNode parse_toml(const std::string& text, const std::string& file) {
   try {
     return convert_table(toml::parse(text), file);
   } catch (const toml::parse_error& error) {
-    throw InputError(place_of(error.source(), file), fmt::format("no valid TOML: {}", printable(error.description(), 300)));
+    throw InputError(place_of(error.source(), file), fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists", printable(error.description(), 300)));
   } catch (const std::exception& error) {
     throw InputError({file, 0, 0}, fmt::format("no valid TOML: {}", error.what()));
   }
