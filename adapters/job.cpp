@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include <nlohmann/json.hpp>
+
 #include "adapters/scene_json.hpp"
 #include "core/durable_file.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adapters/scene_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 namespace tripoint {
 
 using json = nlohmann::ordered_json;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "adapters/job.hpp"
 
-/// The scene of a job as JSON, keys as in the case file; every value SI. For adapters/*.cpp only (a heavy header).
+/// The scene of a job as JSON, keys as in the case file; every value SI.
 namespace tripoint {
 
 [[nodiscard]] nlohmann::ordered_json scene_to_json(const Scene&, const std::vector<JobBody>&);
