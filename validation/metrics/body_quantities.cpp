@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "validation/metrics/frame_error.hpp"
+
+namespace tripoint {
+namespace {
+
+bool alive(const BodyState& b) { return finite(b.position); }
+bool whole(const BodyState& b) {
+  const auto& q = b.orientation;
+  return finite(b.position) && finite(b.velocity) && finite(b.angular_velocity) && std::isfinite(q.w + q.x + q.y + q.z);
+}
+
+/// One sample for each body that is alive, or for the metric's body alone. A body that only one side has is an error, not a gap.
+template <class F>
+FrameError over_bodies(const FramePair& f, F difference) {
+  if (f.truth.bodies.empty()) return problem("the reference does not know the bodies");
+  const long only = body_row(f.in);
+  if (only < 0 && !f.in.choice.body.empty()) return problem("body `" + f.in.choice.body + "` is liquid and has no row");
+  FrameError out;
+  const std::size_t rows = std::max(f.now.bodies.size(), f.truth.bodies.size());
+  for (std::size_t b = 0; b < rows; ++b) {
+    if (only >= 0 && static_cast<long>(b) != only) continue;
+    const bool run = b < f.now.bodies.size() && alive(f.now.bodies[b]), truth = b < f.truth.bodies.size() && alive(f.truth.bodies[b]);
+    if (!run && !truth && only < 0) continue;
+    if (run != truth || !run) return problem("body row " + std::to_string(b) + (run ? " should not exist" : " is missing or not finite") + " at t = " + std::to_string(f.now.time) + " s");
+    if (!whole(f.now.bodies[b])) return problem("body row " + std::to_string(b) + " is not finite");
+    out.add(difference(f.now.bodies[b], f.truth.bodies[b]), 1.0, static_cast<long>(b));
+  }
+  return out;
+}
+
+double alive_count(const Snapshot& s) { return static_cast<double>(std::count_if(s.bodies.begin(), s.bodies.end(), alive)); }
+
+FrameError body_count(const FramePair& f) {
+  if (f.truth.bodies.empty()) return problem("the reference does not know the bodies");
+  return single(alive_count(f.now) - alive_count(f.truth));
+}
+
+/// Largest relative change of the distances to four members far apart, which fix the shape of all; pairs in one body now and then only.
+double stretch(const FramePair& f, const std::vector<std::size_t>& members) {
+  const auto& start = f.in.initial.position;
+  std::vector<std::size_t> anchors{members.front()};
+  while (anchors.size() < std::min<std::size_t>(4, members.size())) {
+    const auto reach = [&](std::size_t i) {
+      double least = 1e300;
+      for (const auto a : anchors) least = std::min(least, norm(start[i] - start[a]));
+      return least;
+    };
+    anchors.push_back(*std::max_element(members.begin(), members.end(), [&](auto i, auto j) { return reach(i) < reach(j); }));
+  }
+  double worst = 0.0;
+  for (const auto a : anchors)
+    for (const auto i : members) {
+      if (i == a || f.now.body[i] != f.now.body[a]) continue;
+      const double before = norm(start[i] - start[a]);
+      const double change = norm(displacement(f.in.job.scene, f.now.position[i], f.now.position[a])) / before - 1.0;
+      if (!(std::abs(change) <= worst)) worst = std::abs(change);  // keeps NaN
+    }
+  return worst;
+}
+
+FrameError shape(const FramePair& f) {
+  if (f.now.position.size() < f.in.initial.size() || f.now.body.size() != f.now.position.size()) return problem("the trajectory has no positions and bodies of all particles");
+  FrameError out;
+  for (std::size_t b = 0; b < f.in.job.bodies.size(); ++b) {
+    const auto& body = f.in.job.bodies[b];
+    if (body.phase != Phase::rigid || (!f.in.choice.body.empty() && f.in.choice.body != body.name)) continue;
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < f.in.initial.size(); ++i)
+      if (f.in.initial.source[i] == static_cast<int>(b)) members.push_back(i);
+    if (members.size() > 1) out.add(stretch(f, members), 1.0, body.index);
+  }
+  return out.error.empty() ? problem("there is no rigid body of two particles or more") : out;
+}
+
+double distance(const Scene& scene, const BodyState& a, const BodyState& b) { return norm(displacement(scene, a.position, b.position)); }
+
+}  // namespace
+
+const std::vector<Quantity>& body_quantities() {
+  static const std::vector<Quantity> list{
+      {{"position", "m", ""}, [](const FramePair& f) { return over_bodies(f, [&](const auto& a, const auto& b) { return distance(f.in.job.scene, a, b); }); }},
+      {{"velocity", "m/s", ""}, [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.velocity - b.velocity); }); }},
+      {{"orientation", "rad", "angle between the orientations of bodies, 0..pi, blind to the quaternion's sign"},
+       [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return angle_between(a.orientation, b.orientation); }); }},
+      {{"angular_velocity", "rad/s", "difference of angular velocities of bodies, world frame"},
+       [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.angular_velocity - b.angular_velocity); }); }},
+      {{"force", "N", "difference of the forces on bodies from all others"},
+       [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.force - b.force); }); }},
+      {{"torque", "N m", "difference of the torques on bodies from all others"},
+       [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.torque - b.torque); }); }},
+      {{"body_count", "1", "difference in the number of solid bodies alive"}, body_count},
+      {{"shape", "1", "largest relative change of distances inside a rigid body since the start; needs no reference"}, shape}};
+  return list;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <optional>
+
+#include "validation/metrics/frame_error.hpp"
+
+namespace tripoint {
+namespace {
+
+using Real = long double;  // sums of 1e5 terms stay below 1e-15 of the whole
+
+/// Masses, places and velocities of what is alive; empty when the frame does not have them all.
+bool has_motion(const Snapshot& s, std::size_t n) { return s.position.size() >= n && s.velocity.size() >= n && n > 0; }
+bool is_dead(const Snapshot& s, std::size_t i) { return i < s.id.size() && s.id[i] == -1; }
+double mass_of(const MetricInput& in, const Snapshot& s, std::size_t i) {
+  if (i < s.mass.size()) return s.mass[i];
+  return i < in.initial.size() ? in.initial.mass[i] : not_a_number;
+}
+
+template <class F>
+Vec3 vector_sum(const Snapshot& s, F term) {
+  Real x = 0, y = 0, z = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    if (is_dead(s, i)) continue;
+    const Vec3 t = term(i);
+    x += t.x, y += t.y, z += t.z;
+  }
+  return {double(x), double(y), double(z)};
+}
+
+double total_mass(const MetricInput& in, const Snapshot& s) {
+  Real sum = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i) sum += is_dead(s, i) ? 0.0 : mass_of(in, s, i);
+  return double(sum);
+}
+
+Vec3 momentum(const MetricInput& in, const Snapshot& s) {
+  return vector_sum(s, [&](std::size_t i) { return mass_of(in, s, i) * s.velocity[i]; });
+}
+
+/// About the centre of mass of all that is alive: gravity does not change it.
+Vec3 angular_momentum(const MetricInput& in, const Snapshot& s) {
+  const double M = total_mass(in, s);
+  const Vec3 centre = vector_sum(s, [&](std::size_t i) { return mass_of(in, s, i) * s.position[i]; }) / M;
+  const Vec3 drift = momentum(in, s) / M;
+  return vector_sum(s, [&](std::size_t i) { return mass_of(in, s, i) * cross(s.position[i] - centre, s.velocity[i] - drift); });
+}
+
+double kinetic(const MetricInput& in, const Snapshot& s) {
+  Real sum = 0;
+  for (std::size_t i = 0; i < s.velocity.size(); ++i)
+    if (!is_dead(s, i)) sum += Real(0.5) * mass_of(in, s, i) * dot(s.velocity[i], s.velocity[i]);
+  return double(sum);
+}
+
+double potential(const MetricInput& in, const Snapshot& s) {
+  Real sum = 0;
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    if (!is_dead(s, i)) sum -= Real(mass_of(in, s, i)) * dot(in.job.scene.gravity, s.position[i]);
+  return double(sum);
+}
+
+/// sum m (c_p T + L f), above 0 K.
+std::optional<double> thermal(const MetricInput& in, const Snapshot& s) {
+  if (s.temperature.size() < in.initial.size() || in.initial.size() == 0) return {};
+  Real sum = 0;
+  for (std::size_t i = 0; i < in.initial.size(); ++i) {
+    if (is_dead(s, i)) continue;
+    const auto row = static_cast<std::size_t>(in.initial.material[i]);
+    if (row >= in.job.scene.materials.size() || !in.job.scene.materials[row].heat_capacity) return {};
+    const auto& m = in.job.scene.materials[row];
+    const double latent = i < s.liquid_fraction.size() ? m.latent_heat.value_or(0.0) * s.liquid_fraction[i] : 0.0;
+    sum += Real(mass_of(in, s, i)) * (Real(*m.heat_capacity) * s.temperature[i] + latent);
+  }
+  return double(sum);
+}
+
+/// A ledger term of a frame [J]: kinetic, potential and thermal from the particles themselves, the rest as the engine keeps it.
+std::optional<double> term_of(const MetricInput& in, const Snapshot& s, const std::string& term) {
+  const bool moves = has_motion(s, in.initial.size());
+  if (term == "kinetic") return moves ? std::optional(kinetic(in, s)) : std::nullopt;
+  if (term == "potential") return moves ? std::optional(potential(in, s)) : std::nullopt;
+  if (term == "thermal") return thermal(in, s);
+  if (term == "residual") {
+    if (s.energy.empty()) return {};
+    Real sum = 0;
+    for (const auto& [name, value] : s.energy) sum += value;
+    return double(sum);
+  }
+  const auto found = s.energy.find(term);
+  return found == s.energy.end() ? std::nullopt : std::optional(found->second);
+}
+
+FrameError ledger(const FramePair& f) {
+  const std::string term = f.in.choice.quantity.substr(std::string("ledger.").size());
+  const auto now = term_of(f.in, f.now, term);
+  if (!now) return problem("the trajectory has no ledger term `" + term + "`");
+  const auto truth = term_of(f.in, term == "residual" ? f.first : f.truth, term);
+  if (!truth) return problem("the reference does not know the ledger term `" + term + "`: use norm = \"drift\"");
+  return single(*now - *truth);
+}
+
+template <class F>
+FrameError vector_change(const FramePair& f, F quantity, const char* name) {
+  const auto n = f.in.initial.size();
+  if (!has_motion(f.now, n)) return problem("the trajectory has no positions and velocities");
+  if (!has_motion(f.truth, n)) return problem(std::string("the reference has no particles to sum the ") + name + " of: use norm = \"drift\"");
+  const Vec3 d = quantity(f.in, f.now) - quantity(f.in, f.truth);
+  return finite(d) ? single(norm(d)) : problem(std::string(name) + " is not finite");
+}
+
+FrameError momentum_change(const FramePair& f) {
+  if (!f.truth.position.empty() || f.truth.total_mass <= 0.0) return vector_change(f, momentum, "momentum");
+  if (!has_motion(f.now, f.in.initial.size())) return problem("the trajectory has no positions and velocities");
+  return single(norm(momentum(f.in, f.now) - f.truth.momentum));  // a law of conservation knows it without particles
+}
+
+FrameError mass_change(const FramePair& f) {
+  if (f.now.position.empty()) return problem("the trajectory has no particles");
+  const double truth = f.truth.position.empty() ? f.truth.total_mass : total_mass(f.in, f.truth);
+  if (!(truth > 0.0)) return problem("the reference does not know the mass: use norm = \"drift\"");
+  return single(total_mass(f.in, f.now) - truth);
+}
+
+FrameError energy_change(const FramePair& f) {
+  const auto n = f.in.initial.size();
+  if (!has_motion(f.now, n)) return problem("the trajectory has no positions and velocities");
+  if (!has_motion(f.truth, n)) return problem("the reference has no particles to sum the energy of: use norm = \"drift\"");
+  const auto of = [&](const Snapshot& s) { return kinetic(f.in, s) + potential(f.in, s); };
+  return single(of(f.now) - of(f.truth));
+}
+
+FrameError energy_ratio(const FramePair& f) {
+  const auto ratio = f.in.reference.number("energy_ratio");
+  if (!ratio) return problem("the reference does not know the energy ratio");
+  const auto n = f.in.initial.size();
+  if (!has_motion(f.now, n) || !has_motion(f.first, n)) return problem("the trajectory has no positions and velocities");
+  return single(kinetic(f.in, f.now) / kinetic(f.in, f.first) - *ratio);
+}
+
+}  // namespace
+
+const std::vector<Quantity>& conserved_quantities() {
+  static const std::vector<Quantity> list{
+      {{"mass", "kg", "difference of the total mass"}, mass_change},
+      {{"momentum", "kg m/s", "length of the difference of the total momentum"}, momentum_change},
+      {{"angular_momentum", "kg m2/s", "length of the difference of the angular momentum about the centre of mass"},
+       [](const FramePair& f) { return vector_change(f, angular_momentum, "angular momentum"); }},
+      {{"energy", "J", "difference of kinetic and potential energy, from the particles"}, energy_change},
+      {{"energy_ratio", "1", "kinetic energy over that of the first frame, minus the reference's energy_ratio"}, energy_ratio},
+      {{"ledger.TERM", "J", "difference of a ledger term: kinetic, potential, thermal from the particles, others as the engine keeps them; residual is the change of their sum"},
+       ledger}};
+  return list;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "scene/nearest.hpp"
+#include "validation/metrics/frame_error.hpp"
+#include "validation/metrics/frames.hpp"
+#include "validation/metrics/norms.hpp"
+
+namespace tripoint {
+namespace {
+
+MetricValue unformed(const std::string& why) {
+  MetricValue v;
+  v.value = not_a_number;
+  v.note = why;
+  return v;
+}
+
+template <class List>
+auto find_word(const List& list, const std::string& name) {
+  return std::find_if(list.begin(), list.end(), [&](const auto& q) { return q.word.name == name; });
+}
+
+bool is_ledger(const std::string& quantity) { return quantity.rfind("ledger.", 0) == 0 && quantity.size() > 7; }
+
+const Quantity* find_quantity(const MetricChoice& choice) {
+  const auto in = [&](const std::vector<Quantity>& list, const std::string& name) -> const Quantity* {
+    const auto at = find_word(list, name);
+    return at == list.end() ? nullptr : &*at;
+  };
+  if (is_ledger(choice.quantity)) return in(conserved_quantities(), "ledger.TERM");
+  const auto* of_body = in(body_quantities(), choice.quantity);
+  if (of_body && !choice.body.empty()) return of_body;
+  if (const auto* q = in(particle_quantities(), choice.quantity)) return q;
+  if (of_body) return of_body;
+  if (const auto* q = in(conserved_quantities(), choice.quantity)) return q;
+  return in(profile_quantities(), choice.quantity);
+}
+
+void refuse_unknown_words(const MetricChoice& choice) {
+  const auto check = [&](const std::vector<MetricWord>& words, const std::string& word, const char* what) {
+    std::vector<std::string> known;
+    for (const auto& w : words) {
+      if (w.name == word) return;
+      known.push_back(w.name);
+    }
+    throw InputError(choice.place, "metric `" + choice.name + "`: unknown " + what + " `" + printable(word) + "`" + suggestion(word, known));
+  };
+  if (!is_ledger(choice.quantity)) check(metric_quantities(), choice.quantity, "quantity");
+  check(metric_norms(), choice.norm, "norm");
+}
+
+/// Errors of all chosen frames under one norm in space, and what the norm in time makes of them.
+struct Series {
+  std::vector<double> times, value, uncertainty;
+  std::vector<long> worst;
+};
+
+double rms_over_time(const Series& s) {
+  if (s.value.size() == 1) return std::abs(s.value[0]);
+  double integral = 0.0;
+  for (std::size_t n = 1; n < s.value.size(); ++n)
+    integral += 0.5 * (s.times[n] - s.times[n - 1]) * (s.value[n] * s.value[n] + s.value[n - 1] * s.value[n - 1]);
+  return std::sqrt(integral / (s.times.back() - s.times.front()));
+}
+
+/// Trend of the error [unit/s] and its standard error.
+std::pair<double, double> slope_over_time(const Series& s) {
+  const double n = static_cast<double>(s.value.size());
+  double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0;
+  for (std::size_t i = 0; i < s.value.size(); ++i) t0 += s.times[i] / n, y0 += s.value[i] / n;
+  for (std::size_t i = 0; i < s.value.size(); ++i) tt += (s.times[i] - t0) * (s.times[i] - t0), ty += (s.times[i] - t0) * (s.value[i] - y0);
+  for (std::size_t i = 0; i < s.value.size(); ++i) rest += std::pow(s.value[i] - y0 - ty / tt * (s.times[i] - t0), 2);
+  return {ty / tt, n > 2.0 ? std::sqrt(rest / (n - 2.0) / tt) : not_a_number};
+}
+
+MetricValue over_time(const std::string& norm, const Series& s) {
+  MetricValue v;
+  v.times = s.times, v.series = s.value;
+  std::size_t k = s.value.size() - 1;
+  if (norm == "rms") {
+    v.value = rms_over_time(s);
+    v.uncertainty.statistical = *std::max_element(s.uncertainty.begin(), s.uncertainty.end());
+    return v;
+  }
+  if (norm == "slope") {
+    if (s.value.size() < 2) return unformed("a slope needs two output times or more");
+    std::tie(v.value, v.uncertainty.numerical) = slope_over_time(s);
+    return v;
+  }
+  if (norm != "final")  // the largest in time: max, drift, and a norm in space at all times
+    for (std::size_t n = 0; n < s.value.size(); ++n) k = std::abs(s.value[n]) > std::abs(s.value[k]) ? n : k;
+  v.value = norm == "final" ? s.value[k] : std::abs(s.value[k]);
+  v.uncertainty.statistical = s.uncertainty[k];
+  v.note = "at t = " + std::to_string(s.times[k]) + " s" + (s.worst[k] >= 0 ? ", row " + std::to_string(s.worst[k]) : "");
+  return v;
+}
+
+MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Frames& all, const Frames& chosen) {
+  const auto& norm = in.choice.norm;
+  const std::string in_space = is_spatial(norm) ? norm : norm == "rms" ? "L2" : "Linf";
+  Series series;
+  for (const auto* now : chosen) {
+    const Snapshot truth = norm == "drift" ? *all.front() : in.reference.at(now->time);
+    const auto error = quantity.error({in, *now, truth, *all.front()});
+    if (!error.problem.empty()) return unformed(error.problem);
+    const auto value = spatial_norm(in_space, error);
+    if (!std::isfinite(value.value)) return unformed("no finite value at t = " + std::to_string(now->time) + " s");
+    series.times.push_back(now->time);
+    series.value.push_back(value.value);
+    series.uncertainty.push_back(value.uncertainty);
+    series.worst.push_back(value.worst);
+  }
+  return over_time(norm, series);
+}
+
+void scale(MetricValue& v, double by) {
+  v.value /= by;
+  for (double* u : {&v.uncertainty.numerical, &v.uncertainty.statistical}) *u /= by;
+  for (double& x : v.series) x /= by;
+}
+
+}  // namespace
+
+double Uncertainty::combined() const { return std::sqrt(numerical * numerical + statistical * statistical + input * input + data * data); }
+
+MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialState& initial, const Trajectory& run, const Reference& reference) {
+  refuse_unknown_words(choice);
+  if (!(choice.scale > 0.0)) throw InputError(choice.place, "metric `" + choice.name + "`: scale must be above 0");
+  const MetricInput in{choice, job, initial, reference};
+  (void)body_row(in);
+  const auto frames = frames_of_job(job, initial, run);
+  if (!frames.problem.empty()) return unformed(frames.problem);
+  const auto chosen = chosen_frames(choice, job, frames.list);
+  if (chosen.empty()) return unformed("no output time lies in the metric's window");
+  MetricValue value;
+  const auto whole = find_word(run_quantities(), choice.quantity);
+  if (whole != run_quantities().end()) {
+    value = whole->value(in, frames_in_window(choice, job, frames.list));
+    if (choice.norm != "final") value.value = std::abs(value.value);
+  } else {
+    value = of_frames(in, *find_quantity(choice), frames.list, chosen);
+  }
+  scale(value, choice.scale);
+  value.uncertainty.data = (choice.reference ? *choice.reference : job.reference).uncertainty;
+  return value;
+}
+
+const std::vector<MetricWord>& metric_quantities() {
+  static const std::vector<MetricWord> words = [] {
+    std::vector<MetricWord> list;
+    for (const auto* group : {&particle_quantities(), &body_quantities(), &conserved_quantities(), &profile_quantities()})
+      for (const auto& q : *group)
+        if (!q.word.meaning.empty()) list.push_back(q.word);
+    for (const auto& q : run_quantities()) list.push_back(q.word);
+    return list;
+  }();
+  return words;
+}
+
+const std::vector<MetricWord>& metric_norms() {
+  static const std::vector<MetricWord> words{
+      {"L1", "", "mean of the sizes, by volume, at `at`"},
+      {"L2", "", "root mean square, by volume, at `at`; the variance that walkers state is taken off below the root"},
+      {"L2raw", "", "as L2 with the statistical part left in"},
+      {"Linf", "", "largest size at `at`"},
+      {"chi", "", "root mean square of error over its stated standard error: 1 when walkers agree with the truth"},
+      {"max", "", "largest size over all output times of the window"},
+      {"rms", "", "root mean square over time of L2"},
+      {"final", "", "at the end; keeps the sign of a single number"},
+      {"drift", "", "largest change since the run's own start; needs no reference"},
+      {"slope", "1/s", "trend of the largest error over time, least squares"}};
+  return words;
+}
+
+}  // namespace tripoint
