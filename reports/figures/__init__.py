@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from dataclasses import dataclass
 
 from trajectories import NoTrajectory, read
@@ -10,6 +11,7 @@ from trajectories import NoTrajectory, read
 from . import bodies, convergence, gates, particles, profiles, series, style, work_precision
 from .curve import curves
 
+warnings.filterwarnings("ignore", category=RuntimeWarning)  # bodies that are not alive are NaN by contract
 OF_A_CASE = (particles, profiles, bodies, series, convergence, work_precision)
 
 

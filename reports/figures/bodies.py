@@ -7,7 +7,7 @@ import numpy as np
 from . import style
 from .curve import Drawing
 
-MOST_BODIES = 2
+MOST_BODIES = 4
 
 
 def draw(case, trajectories, notes):
@@ -20,19 +20,19 @@ def draw(case, trajectories, notes):
     most = max(t.bodies["position"].shape[1] for _, t in shown if "position" in t.bodies) if any("position" in t.bodies for _, t in shown) else 1
     if most > MOST_BODIES:
         notes.append(f"curves show the first {MOST_BODIES} of {most} bodies")
-    figure, axes = style.panels(len(wanted), len({c.label + w for _, lines in wanted for c, _, _, _, w in lines}), height=2.5)
+    figure, axes = style.panels(len(wanted), len(shown), height=2.5)
     for axis, (title, lines) in zip(axes, wanted):
-        for curve, time, values, nth, words in lines:
+        for curve, time, values, nth in lines:
             look = style.look(curve)
             dashes = "-" if nth == 0 else (0, (1 + nth, 1.5))
             width = 2.6 if curve.engine.name == "exact" else 1.3
-            axis.plot(time, values, color=look["color"], linestyle=dashes, linewidth=width, alpha=0.6 if width > 2 else 1.0, label=curve.label + words,
+            axis.plot(time, values, color=look["color"], linestyle=dashes, linewidth=width, alpha=0.6 if width > 2 else 1.0, label=curve.label if nth == 0 else None,
                       marker=look["marker"] if nth == 0 and width < 2 else None, markersize=3.2, markevery=(offset(curve, shown), max(1, len(time) // 8)))
         axis.set_xlabel("time [s]")
         axis.set_ylabel(title)
     style.legend(figure, axes)
     return Drawing("bodies", "Bodies in time", "Position, rotation and energy of the bodies against time for " + ", ".join(c.label for c, _ in shown) + ".", figure,
-                   "Finest run of each engine. Turn from the start is the angle of the rotation that leads from the first attitude to the present one.")
+                   "Finest run of each engine. Turn from the start is the angle of the rotation that leads from the first attitude to the present one." + (" Solid: the first body; dashes: further ones." if most > 1 else ""))
 
 
 def offset(curve, shown):
@@ -57,7 +57,7 @@ def component(shown, name):
     chosen = busiest(shown, name)
     if chosen is None:
         return None, []
-    return chosen, [(curve, t.body_times, t.bodies[name][:, b, chosen], b, f", body {b}" if t.bodies[name].shape[1] > 1 else "")
+    return chosen, [(curve, t.body_times, t.bodies[name][:, b, chosen], b)
                     for curve, t in shown if name in t.bodies for b in range(min(MOST_BODIES, t.bodies[name].shape[1]))]
 
 
@@ -78,7 +78,7 @@ def turn_panel(shown):
         for b in range(min(MOST_BODIES, q.shape[1]) if q is not None else 0):
             angle = 2 * np.arctan2(np.linalg.norm(q[:, b, 1:], axis=1), np.abs(q[:, b, 0]))
             if np.isfinite(angle).any() and np.nanmax(angle) > 1e-9:
-                lines.append((curve, t.body_times, np.degrees(angle), b, f", body {b}" if q.shape[1] > 1 else ""))
+                lines.append((curve, t.body_times, np.degrees(angle), b))
     return ("turn from the start [deg]", lines) if lines else None
 
 
@@ -91,5 +91,5 @@ def energy_panel(trajectories):
             total = sum(v for _, v in parts)
             scale = np.nanmax(np.abs(parts[0][1])) if np.isfinite(parts[0][1]).any() else 0.0
             if scale > 0:
-                lines.append((curve, parts[0][0], (total - total[0]) / scale, 0, ""))
+                lines.append((curve, parts[0][0], (total - total[0]) / scale, 0))
     return ("energy change / kinetic", lines) if lines else None

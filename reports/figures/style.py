@@ -127,6 +127,7 @@ def inline(svg, prefix):
     svg = svg[svg.index("<svg"):]
     svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.S)
     svg = re.sub(r' id="(?:figure|axes|patch|line2d|text|matplotlib\.axis|xtick|ytick|legend|PathCollection|PolyCollection|LineCollection|FillBetweenPolyCollection)_\d+"', "", svg)
+    svg = re.sub(r">[^<]+<", lambda m: m.group(0).replace('"', "&quot;"), svg)  # text stays text, whatever it looks like
     svg = re.sub(r'(\bid="|url\(#|href="#)', rf"\g<1>{prefix}-", svg)
     for value, name in VARIABLES.items():
         svg = svg.replace(value, f"var(--{name})")

@@ -226,6 +226,20 @@ class Trouble(unittest.TestCase):
             self.assertEqual(done.returncode, 0, f"{wrong!r}: {done.stderr}")
             self.assertTrue("200 %" in page, f"{wrong!r}")
 
+    def test_text_of_strangers_is_text_inside_figures_too(self):
+        name, metric = "</text><script>alert(1)</script>", "$x_<img src=\"http://x\">"
+        runs = [{"knobs": {"spacing": dx}, "metrics": {metric: {"value": dx}}, "cost": {"cpu_s": 1 / dx}} for dx in (0.1, 0.05)]
+        order = {"metric": metric, "axis": "spacing", "value": 1.0, "low": 0.9, "high": 1.1, "class": name}
+        gate = {"metric": metric, "value": 0.05, "limit": 0.06, "verdict": "pass", "reason": name, "file": name}
+        done, page = self.write({"cases": [{"id": name, "engines": [{"name": name, "status": "ok", "runs": runs, "order": [order], "gates": [gate]}]}]})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('id="case-1"', page)
+        self.assertGreaterEqual(page.count("<figure"), 3)
+        read = Reader(page)
+        self.assertFalse({"script", "img"} & read.tags)
+        self.assertNotIn("could not be drawn", page)
+        self.assertNotIn('src="http', page)
+
     def test_a_torn_trajectory_and_a_folder_outside_are_noted(self):
         (self.root / "runs").mkdir()
         (self.root / "runs" / "trajectory.h5").write_bytes(b"\x89HDF\r\n\x1a\n torn")
