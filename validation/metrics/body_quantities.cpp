@@ -57,7 +57,8 @@ double stretch(const FramePair& f, const std::vector<std::size_t>& members) {
       if (i == a || f.now.body[i] != f.now.body[a]) continue;
       const double before = norm(start[i] - start[a]);
       const double change = norm(displacement(f.in.job.scene, f.now.position[i], f.now.position[a])) / before - 1.0;
-      if (!(std::abs(change) <= worst)) worst = std::abs(change);  // keeps NaN
+      if (!std::isfinite(change)) return not_a_number;
+      worst = std::max(worst, std::abs(change));
     }
   return worst;
 }
