@@ -86,9 +86,9 @@ class Run:
     @property
     def size(self):
         """The knobs that set the resolution, as text."""
-        units = {"spacing": " m", "time_step": " s"}
-        parts = [(key, self.knob(key)) for key in ("spacing", "time_step", "support_ratio", "walkers", "iterations")]
-        return ", ".join(f"{key.replace('_', ' ')} {value:.4g}{units.get(key, '')}" for key, value in parts if is_number(value))
+        words = {"spacing": "dx {:.4g} m", "time_step": "dt {:.4g} s", "support_ratio": "h/dx {:.4g}", "walkers": "{:.0f} walkers", "iterations": "{:.0f} iterations", "jitter": "jitter {:.3g}", "seed": "seed {:.0f}"}
+        parts = [(form, self.knob(key)) for key, form in words.items()]
+        return ", ".join(form.format(value) for form, value in parts if is_number(value) and (value or "jitter" not in form))
 
 
 @dataclass

@@ -26,7 +26,9 @@ def show(value):
         return "infinite"
     if value == 0:
         return "0"
-    if 1e-3 <= abs(value) < 1e5:
+    if value == int(value) and abs(value) < 1e6:
+        return str(int(value))
+    if 1e-3 <= abs(value) < 9999.5:
         return f"{value:.4g}"
     mantissa, exponent = f"{value:.3e}".split("e")
     return f"{mantissa.rstrip('0').rstrip('.')}e{int(exponent)}"
