@@ -211,7 +211,7 @@ Readback BulletEngine::readback() const {
 
 void BulletEngine::account(Result& result) const {
   result.steps = steps_;
-  result.time_step_bound = job_.resolution.time_step ? "given" : "default 1/240 s";
+  result.time_step_bound = job_.resolution.time_step || job_.settings.contains("time_step") ? "given" : "default 1/240 s";
   if (!world_) return;
   result.pairs = world_->contact_points();
   result.iterations = static_cast<double>(steps_) * preset_for(job_).iterations;

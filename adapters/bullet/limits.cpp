@@ -70,9 +70,8 @@ std::string why_not(const Job& job) {
 }
 
 double wanted_time_step(const Job& job) {
-  if (job.resolution.time_step) return *job.resolution.time_step;
   const auto set = job.settings.find("time_step");
-  if (set == job.settings.end()) return 1.0 / 240.0;
+  if (set == job.settings.end()) return job.resolution.time_step.value_or(1.0 / 240.0);
   const auto* value = std::get_if<double>(&set->second);
   return value ? *value : 0.0;
 }

@@ -68,7 +68,7 @@ std::vector<std::string> preset_names() { return {"default", "impact", "resting"
 std::map<std::string, std::string> setting_help() {
   std::map<std::string, std::string> help;
   for (const auto& [key, entry] : entries()) help[key] = entry.help;
-  help["time_step"] = "default 1/240 s; shortened so that output times are hit exactly";
+  help["time_step"] = "goes before the job's; default 1/240 s; shortened so that output times are hit exactly";
   return help;
 }
 

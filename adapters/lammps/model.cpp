@@ -44,7 +44,7 @@ const std::map<std::string, Entry>& entries() {
                   c.pool = *b;
                 }}},
       {"commands", {"LAMMPS commands run after the set-up, default none", [](Choice& c, const std::string& k, const Setting& v) { c.commands = text(k, v); }}},
-      {"time_step", {"rigid: default 1/240 s; sph: 0.1 dx2/D; walkers: as long as the box allows", [](Choice&, const std::string& k, const Setting& v) { (void)positive(k, v); }}}};
+      {"time_step", {"rigid: default 1/240 s; sph: 0.1 dx2/D; walkers take only this one, not the job's, default as long as the box allows", [](Choice&, const std::string& k, const Setting& v) { (void)positive(k, v); }}}};
   return table;
 }
 
@@ -72,9 +72,8 @@ Choice choice_for(const Job& job) {
 }
 
 std::optional<double> wanted_time_step(const Job& job) {
-  if (job.resolution.time_step) return job.resolution.time_step;
   const auto set = job.settings.find("time_step");
-  if (set == job.settings.end()) return {};
+  if (set == job.settings.end()) return job.resolution.time_step;
   return positive("time_step", set->second);
 }
 

@@ -31,7 +31,7 @@ struct Choice {
 /// @throws InputError naming an unknown preset, key or word
 [[nodiscard]] Choice choice_for(const Job&);
 
-/// The step that was asked for, if any. [s]
+/// The step of the engine's settings, else the job's, if any. [s]
 [[nodiscard]] std::optional<double> wanted_time_step(const Job&);
 
 /// Equal steps, none above `limit`, over an interval. [s]

@@ -38,7 +38,7 @@ class RigidFlight final : public Model {
   [[nodiscard]] Readback readback() const override;
   void account(Result& result) const override {
     result.steps = clock_.total();
-    result.time_step_bound = job_.resolution.time_step ? "given" : "default 1/240 s";
+    result.time_step_bound = wanted_time_step(job_) ? "given" : "default 1/240 s";
   }
 
  private:

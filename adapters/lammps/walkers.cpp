@@ -50,7 +50,7 @@ class Walkers final : public Model {
 
   void account(Result& result) const override {
     result.steps = clock_.total();
-    result.time_step_bound = "box over eight deviations of a step";
+    result.time_step_bound = brownian_ ? "none: exact at any step within the box" : "relaxation time, box";
     result.extra["walkers"] = choice_.walkers;
     result.extra["kelvin_a_walker"] = kelvin_a_walker();
     result.message = fmt::format("{:.0f} {} walkers above {} K; {}; cell means lie (k dx)^2/24 below the values at the centres", choice_.walkers,
@@ -75,12 +75,13 @@ class Walkers final : public Model {
     double shortest = job_.times.back() - job_.times.front();
     for (std::size_t i = 1; i < job_.times.size(); ++i) shortest = std::min(shortest, job_.times[i] - job_.times[i - 1]);
     if (!brownian_) limit_ = std::min(limit_, shortest / steps_an_interval);
-    if (const auto wanted = wanted_time_step(job_)) limit_ = std::min(limit_, *wanted);
+    const auto set = job_.settings.find("time_step");  // the job's own step is the particle solver's: walkers do not need it
+    if (set != job_.settings.end()) limit_ = std::min(limit_, *wanted_time_step(job_));
     if (job_.times.size() > 1) tau_ = steps_in(job_.times[1] - job_.times[0], limit_).size / step_over_tau;
   }
 
   void make_box() {
-    library_.run(fmt::format("units lj\natom_style atomic\natom_modify map none sort 0 0.0\nboundary {} {} {}\n", wraps_[0] ? 'p' : 'f', wraps_[1] ? 'p' : 'f', wraps_[2] ? 'p' : 'f'));
+    library_.run(fmt::format("units lj\natom_style atomic\natom_modify sort 0 0.0\nboundary {} {} {}\n", wraps_[0] ? 'p' : 'f', wraps_[1] ? 'p' : 'f', wraps_[2] ? 'p' : 'f'));
     library_.run(fmt::format("region box block 0 {} 0 {} 0 {}\ncreate_box 1 box\nmass 1 1.0\npair_style none\n", sides_[0], sides_[1], sides_[2]));
     library_.run("comm_modify cutoff 0.05\nneighbor 0.0 bin\nneigh_modify every 1 delay 0 check no\nthermo 0\n");
   }
