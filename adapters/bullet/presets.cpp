@@ -21,7 +21,7 @@ const std::map<std::string, Preset>& presets() {
 const std::map<std::string, Gyro> gyro_words{
     {"implicit", Gyro::implicit_body}, {"implicit_world", Gyro::implicit_world}, {"explicit", Gyro::explicit_world}, {"off", Gyro::off}};
 const std::map<std::string, Collision> collision_words{
-    {"solid", Collision::solid}, {"boxes", Collision::boxes}, {"spheres", Collision::spheres}};
+    {"solid", Collision::solid}, {"boxes", Collision::boxes}, {"spheres", Collision::spheres}, {"none", Collision::none}};
 
 template <class Map>
 std::string words(const Map& map) {
@@ -52,7 +52,7 @@ const std::map<std::string, Entry>& entries() {
   static const std::map<std::string, Entry> table{
       {"gyro", {"gyroscopic term: implicit (default, Bullet's own) | implicit_world | explicit | off",
                 [](Preset& p, const std::string& k, const Setting& v) { p.gyro = word(k, v, gyro_words); }}},
-      {"collision", {"geometry of contact: solid (default; a box or sphere as the case says, else boxes) | boxes | spheres, one a particle",
+      {"collision", {"geometry of contact: solid (default; a box or sphere as the case says, else boxes) | boxes | spheres, one a particle | none: free flight",
                      [](Preset& p, const std::string& k, const Setting& v) { p.collision = word(k, v, collision_words); }}},
       {"iterations", {"solver iterations, default 10 (resting: 200); the job's resolution.iterations goes first",
                       [](Preset& p, const std::string& k, const Setting& v) { p.iterations = static_cast<int>(number(k, v)); }}},

@@ -10,7 +10,8 @@
 namespace tripoint::bullet {
 
 enum class Gyro { off, explicit_world, implicit_body, implicit_world };
-enum class Collision { solid, boxes, spheres };  ///< the case's own box or sphere; or one box (sphere) a particle
+/// The case's own box or sphere; one box (sphere) a particle; or bodies that pass through each other.
+enum class Collision { solid, boxes, spheres, none };
 
 struct Preset {
   int iterations = 10;                   ///< of the sequential impulse solver

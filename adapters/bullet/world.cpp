@@ -125,7 +125,8 @@ int World::add(const RigidPart& part) {
   body.setSpinningFriction(0.0);
   body.setRestitution(std::sqrt(impl_->preset.restitution));  // a pair's value is the product of both
   if (impl_->preset.contact_threshold < 1e30) body.setContactProcessingThreshold(impl_->preset.contact_threshold);
-  impl_->world.addRigidBody(&body);
+  const int all = -1, none = 0;
+  impl_->world.addRigidBody(&body, btBroadphaseProxy::DefaultFilter, impl_->preset.collision == Collision::none ? none : all);
   impl_->solids.push_back(std::move(solid));
   return static_cast<int>(impl_->solids.size()) - 1;
 }

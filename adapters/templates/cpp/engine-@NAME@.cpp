@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // engine-@NAME@: an engine of tripoint in one file, one process a run. Put its folder on TRIPOINT_ENGINE_PATH and ask
 // `tripoint engine check PATH`. Everything in JOB.json is SI; the particles are in the job's particles.h5 (H5MD).
-// Build: g++ -std=c++20 -O2 engine-@NAME@.cpp -o engine-@NAME@   (Debian: nlohmann-json3-dev)
+// Build: cmake -S . -B build && cmake --build build   (Debian: nlohmann-json3-dev); the program lands beside this file
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -40,23 +41,29 @@ std::string refusal(const json& job) {
   if (!job.at("scene").at("events").empty()) return "no events";
   for (const auto& body : job.at("scene").at("bodies")) {
     if (body.at("phase") != "rigid" || body.at("motion") != "free" || !body.at("temperature").is_null()) return "only free rigid bodies, without heat";
-    if (body.at("angular_velocity").get<Vector>() != Vector{}) return "no rotation yet";
+    const auto I = body.at("principal_inertia").get<Vector>();  // ascending
+    if (body.at("angular_velocity").get<Vector>() != Vector{} && I[2] > (1.0 + 1e-9) * I[0]) return "spin of bodies with equal moments only";
   }
   return {};
 }
 
-/// Writes trajectory.csv: one row a body and output time. Here a body without spin follows its parabola: put your engine in its place.
+/// Writes trajectory.csv: one row a body and output time. Here a body follows its parabola and turns at a constant
+/// rate: put your engine in its place.
 void solve(const json& job, std::ostream& out) {
   out.precision(17);
   out << "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz\n";  // of particles: time,id,x,y,z,vx,vy,vz[,temperature]
   const auto g = job.at("scene").at("gravity").get<Vector>();
   for (const auto& body : job.at("scene").at("bodies")) {
-    const auto x0 = body.at("centre").get<Vector>(), v0 = body.at("velocity").get<Vector>();
+    const auto x0 = body.at("centre").get<Vector>(), v0 = body.at("velocity").get<Vector>(), w = body.at("angular_velocity").get<Vector>();
+    const double rate = std::hypot(w[0], w[1], w[2]);
     for (const double t : job.at("times")) {
       out << t << ',' << body.at("index").get<int>();
       for (std::size_t k = 0; k < 3; ++k) out << ',' << x0[k] + v0[k] * t + 0.5 * g[k] * t * t;
       for (std::size_t k = 0; k < 3; ++k) out << ',' << v0[k] + g[k] * t;
-      out << ",1,0,0,0,0,0,0\n";
+      out << ',' << std::cos(0.5 * rate * t);  // orientation (w, x, y, z), (1, 0, 0, 0) at the start
+      for (std::size_t k = 0; k < 3; ++k) out << ',' << (rate > 0.0 ? std::sin(0.5 * rate * t) * w[k] / rate : 0.0);
+      for (std::size_t k = 0; k < 3; ++k) out << ',' << w[k];
+      out << '\n';
     }
   }
 }
