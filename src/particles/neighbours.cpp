@@ -129,7 +129,8 @@ void Neighbours::rebuild_from(Particles& particles, std::span<const Vec3> build_
     x.set(i, build_positions[i]);
   }
   rebuild(particles, time);
-  for (std::size_t k = 0; k < now.size(); ++k) x.set(particles.row(k), now[k]);
+  const auto sorted = positions(particles);
+  for (std::size_t k = 0; k < now.size(); ++k) sorted.set(particles.row(k), now[k]);
 }
 
 /// Moves particles by whole box widths into the box, and counts them in `image`.

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "effects/lab.hpp"
+
+namespace tripoint {
+namespace {
+
+bool lists(const Plan& p, std::string_view field) { return std::ranges::find(p.fields, field, &PlannedField::name) != p.fields.end(); }
+
+TEST(Plan, OfARigidSceneHasNoHeatColumnAndNeitherHasTheRun) {
+  const lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
+  const Plan p = plan(lab.scene);
+  ASSERT_EQ(p.effects.size(), 1u);
+  EXPECT_EQ(p.effects[0].name, "rigid");
+  for (const char* f : {"temperature", "enthalpy", "heat_rate", "conductivity", "density"}) EXPECT_FALSE(lists(p, f)) << f;
+  const Simulation s(lab.scene, lab.initial);
+  EXPECT_THROW((void)s.world().particles[field::temperature], MissingField);
+  EXPECT_FALSE(s.world().neighbours.has_value()) << "a scene without pair terms needs no lists";
+}
+
+lab::Lab warm(Mode mode) {
+  lab::Lab lab(0.01, mode);
+  lab.add({.count = {4, 4, 4}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 300.0; }});
+  return lab;
+}
+
+TEST(Plan, OfHeatOwnsEachFormsOwnFields) {
+  const Plan corrected = plan(warm(Mode::corrected).scene), paper = plan(warm(Mode::paper).scene);
+  EXPECT_TRUE(lists(corrected, "enthalpy"));
+  EXPECT_FALSE(lists(corrected, "density"));
+  EXPECT_FALSE(lists(paper, "enthalpy"));
+  EXPECT_TRUE(lists(paper, "density"));
+  EXPECT_EQ(corrected.effects.back().mode, "corrected");
+  EXPECT_EQ(paper.effects.back().mode, "paper");
+  EXPECT_GT(corrected.bytes_per_particle, paper.bytes_per_particle);
+}
+
+TEST(Plan, ListsExactlyTheColumnsThatTheRunHas) {
+  for (const Mode mode : {Mode::corrected, Mode::paper}) {
+    const lab::Lab lab = warm(mode);
+    const Plan p = plan(lab.scene);
+    const Simulation s(lab.scene, lab.initial);
+    std::size_t columns = s.world().particles.fields().size() + s.world().bodies.fields().size();
+    EXPECT_EQ(columns, p.fields.size());
+    for (const auto& f : s.world().particles.fields()) EXPECT_TRUE(lists(p, f.name)) << f.name;
+  }
+}
+
+TEST(Plan, NamesAnEffectThatIsNotInThisBuild) {
+  lab::Lab lab(0.01);
+  lab.add({.name = "pool", .count = {3, 3, 3}, .phase = Phase::liquid});
+  EXPECT_EQ(missing_effect(lab.scene), "fluid");
+  try {
+    const Simulation s(lab.scene, lab.initial);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "tripoint: the fluid effect is not in this build");
+  }
+}
+
+TEST(Heat, WithoutAHeatCapacityNamesTheMaterial) {
+  lab::Lab lab = warm(Mode::corrected);
+  lab.add_material(2000.0, 1.0, 1.0);
+  lab.scene.materials[1].heat_capacity.reset();
+  lab.add({.name = "other", .material = 1, .corner = {1.0, 0.0, 0.0}, .count = {2, 2, 2}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 300.0; }});
+  try {
+    const Simulation s(lab.scene, lab.initial);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("material m1"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace tripoint

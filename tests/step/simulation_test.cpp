@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "step/simulation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "effects/lab.hpp"
+
+namespace tripoint {
+namespace {
+
+/// FNV-1a over the bits of every column by id, and of the bodies.
+std::uint64_t hash_of(const Simulation& s) {
+  std::uint64_t hash = 1469598103934665603ull;
+  const auto add = [&](double v) { hash = (hash ^ std::bit_cast<std::uint64_t>(v)) * 1099511628211ull; };
+  const Particles& p = s.world().particles;
+  for (std::size_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    for (const Vec3& v : {p.position(i), p.velocity(i)}) add(v.x), add(v.y), add(v.z);
+    if (p.has("temperature")) add(p[field::temperature][i]);
+  }
+  for (std::size_t b = 0; b < s.world().bodies.size(); ++b) {
+    for (const Vec3& v : {s.world().bodies[field::body_centre][b], s.world().bodies[field::body_angular_momentum][b]}) add(v.x), add(v.y), add(v.z);
+  }
+  return hash;
+}
+
+/// Two hot and cold blocks that fly past each other in a periodic box, spinning: everything that this build has at once.
+lab::Lab everything(Mode mode) {
+  lab::Lab lab(1e-3, mode);
+  lab.scene.gravity = {0.0, 0.0, -1e-3};
+  lab.make_periodic({true, true, false}, {0.0, 0.0, 0.0}, {16, 12, 8});
+  lab.add_material(300.0, 5.0, 800.0);
+  lab.add({.name = "a", .count = {6, 6, 6}, .velocity = {0.02, 0.001, 0.0}, .angular_velocity = {0.5, 1.0, 2.0}, .temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; }});
+  lab.add({.name = "b", .material = 1, .corner = {8e-3, 0.0, 0.0}, .count = {5, 6, 6}, .velocity = {-0.02, 0.0, 0.001}, .temperature = [](const Vec3&) { return 350.0; }});
+  return lab;
+}
+
+TEST(Simulation, GivesTheSameBitsOnAnyNumberOfThreads) {
+  for (const Mode mode : {Mode::corrected, Mode::paper}) {
+    const lab::Lab lab = everything(mode);
+    const Simulation one = lab.run(0.5, 1);
+    EXPECT_GT(one.steps(), 20);
+    EXPECT_GT(one.world().neighbours->rebuilds(), 3) << "the lists must have been built anew for this to prove anything";
+    for (const int threads : {2, 3, 7}) EXPECT_EQ(hash_of(lab.run(0.5, threads)), hash_of(one)) << threads << " threads";
+  }
+}
+
+TEST(Simulation, GivesAnEffectTheSameBitsAloneAndBesideAnother) {
+  lab::Lab warm = everything(Mode::corrected), cold = everything(Mode::corrected);
+  for (Body& b : cold.scene.bodies) b.temperature.reset();
+  cold.initial.temperature.clear();
+  warm.scene.time_step = cold.scene.time_step = 1e-2;
+  const Simulation a = warm.run(0.5), b = cold.run(0.5);
+  EXPECT_FALSE(b.world().neighbours.has_value());
+  for (std::size_t row = 0; row < 2; ++row) {
+    EXPECT_EQ(a.world().bodies[field::body_centre][row], b.world().bodies[field::body_centre][row]);
+    EXPECT_EQ(a.world().bodies[field::body_orientation][row], b.world().bodies[field::body_orientation][row]);
+  }
+}
+
+TEST(Simulation, KeepsEnergyWhileListsAreBuiltAnewAndParticlesCrossTheSeam) {
+  const lab::Lab lab = everything(Mode::corrected);
+  Simulation s(lab.scene, lab.initial);
+  const double before = s.ledger().energy.at("thermal");
+  s.advance_to(1.0);
+  EXPECT_NEAR(s.ledger().energy.at("thermal") / before, 1.0, 1e-12);
+}
+
+TEST(Simulation, MeetsEveryOutputTimeExactly) {
+  lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
+  Simulation s(lab.scene, lab.initial);
+  for (const double time : {0.1, 0.37, 1.0, 10.0 / 3.0}) {
+    s.advance_to(time);
+    EXPECT_EQ(s.world().time, time);
+  }
+}
+
+TEST(Simulation, TakesTheScenesTimeStepWhereItGivesOne) {
+  lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
+  lab.scene.time_step = 0.01;
+  Simulation s(lab.scene, lab.initial);
+  s.advance_to(0.1);
+  s.advance_to(1.0);
+  EXPECT_EQ(s.steps(), 100);
+  EXPECT_EQ(s.time_step_set_by(), "scene");
+}
+
+TEST(Simulation, NamesTheEffectWhoseBoundSetsTheStep) {
+  lab::Lab spinning = lab::asymmetric_block({1.0, 2.0, 3.0});
+  EXPECT_EQ(Simulation(spinning.scene, spinning.initial).time_step_set_by(), "rotation");
+  EXPECT_NEAR(Simulation(spinning.scene, spinning.initial).bound().dt, 0.5 / std::sqrt(14.0), 1e-12);
+  spinning.scene.gravity = {0.0, 0.0, -1e4};
+  EXPECT_EQ(Simulation(spinning.scene, spinning.initial).time_step_set_by(), "acceleration");
+  lab::Lab warm(1e-3);
+  warm.add({.count = {4, 4, 4}, .motion = Motion::fixed, .temperature = [](const Vec3& r) { return 300.0 + r.x; }});
+  EXPECT_EQ(Simulation(warm.scene, warm.initial).time_step_set_by(), "heat");
+}
+
+TEST(Simulation, RefusesAStepAboveABoundUnlessToldToForceIt) {
+  lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
+  lab.scene.time_step = 0.25;
+  EXPECT_THROW(Simulation(lab.scene, lab.initial), InputError);
+  Simulation forced(lab.scene, lab.initial, {.force_time_step = true});
+  forced.advance_to(1.0);
+  EXPECT_EQ(forced.steps(), 4);
+}
+
+TEST(Simulation, OfAStaticSceneBuildsItsListsOnce) {
+  lab::Lab lab(1e-3);
+  lab.add({.count = {6, 6, 6}, .motion = Motion::fixed, .temperature = [](const Vec3& r) { return 300.0 + 1e3 * r.x; }});
+  const Simulation s = lab.run(5.0);
+  EXPECT_GT(s.steps(), 10);
+  EXPECT_EQ(s.world().neighbours->rebuilds(), 1);
+  const auto x = positions(s.world().particles);
+  for (std::size_t id = 0; id < lab.initial.size(); ++id) EXPECT_EQ(x.at(s.world().particles.row(id)), lab.initial.position[id]);
+}
+
+}  // namespace
+}  // namespace tripoint
