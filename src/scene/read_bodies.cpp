@@ -18,7 +18,7 @@ std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<
     if (temperature->value > *m.t_melt) return {Phase::liquid, fmt::format("its temperature is above t_melt = {} K", *m.t_melt)};
     return {solid, fmt::format("its temperature is not above t_melt = {} K, and its material is {} when solid", *m.t_melt, m.solid)};
   }
-  if (m.viscosity > 0.0 && !m.young_modulus && m.solid != "rigid") return {Phase::liquid, "its material has a viscosity and no stiffness of a solid"};
+  if (m.viscosity > 0.0 && !m.young_modulus) return {Phase::liquid, "its material has a viscosity and no young_modulus"};
   return {solid, fmt::format("its material is {} when solid", m.solid)};
 }
 

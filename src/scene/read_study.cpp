@@ -70,7 +70,7 @@ Study read_study(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in(node, "study", fmt::format("study.{}", number), reading.decisions);
   Study s;
   s.place = node.place;
-  s.axis = in.text("axis"), s.levels = in.numbers("levels");
+  s.axis = in.text("axis"), s.levels = in.numbers_in(s.axis == "spacing" ? "m" : s.axis == "time_step" ? "s" : "", "levels");
   if (s.levels.size() < 2) in.refuse("levels", "a study has at least two levels, and at least three for an order with its interval");
   const bool refines_upward = s.axis == "walkers" || s.axis == "iterations" || s.axis == "support_ratio";
   for (std::size_t i = 0; i < s.levels.size(); ++i) {

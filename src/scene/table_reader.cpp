@@ -233,6 +233,15 @@ std::optional<std::vector<double>> TableReader::maybe_numbers(std::string_view k
 
 std::vector<double> TableReader::numbers(std::string_view key) { return maybe_numbers(key).value(); }
 
+std::vector<double> TableReader::numbers_in(std::string_view unit, std::string_view key) {
+  const Found f = find(key);
+  Key row = *f.row;
+  row.unit = unit;
+  const auto values = numbers_of(f.value ? *f.value : fallback_value(row), row, path_of(key));
+  record(f, show(values));
+  return values;
+}
+
 std::optional<Vec3> TableReader::maybe_vector(std::string_view key) {
   const Found f = find(key);
   if (!f.value && f.row->fallback.empty()) {

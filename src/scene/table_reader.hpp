@@ -35,6 +35,7 @@ class TableReader {
   [[nodiscard]] Vec3 vector(std::string_view key);
   [[nodiscard]] std::optional<Vec3> maybe_vector(std::string_view key);
   [[nodiscard]] std::vector<double> numbers(std::string_view key);
+  [[nodiscard]] std::vector<double> numbers_in(std::string_view unit, std::string_view key);  ///< where another key decides the unit
   [[nodiscard]] std::optional<std::vector<double>> maybe_numbers(std::string_view key);
   [[nodiscard]] std::vector<std::string> texts(std::string_view key);  ///< array of texts or words; a single text where the row allows it
   [[nodiscard]] Settings settings(std::string_view key);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "scene/read_case.hpp"
+
+/// Case files for the tests of the scene, in a folder of their own that goes with the object.
+namespace tripoint::test {
+
+class Folder {
+ public:
+  Folder() {
+    std::string path = (std::filesystem::temp_directory_path() / "tripoint a b \u00fc XXXXXX").string();  // users have such folders
+    path_ = mkdtemp(path.data());
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] std::string write(const std::string& name, const std::string& text) const {
+    const auto file = path_ / name;
+    std::ofstream(file, std::ios::binary) << text;
+    return file.string();
+  }
+  [[nodiscard]] std::string path() const { return path_.string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline CaseReading read_text(const std::string& text, const std::vector<std::string>& set = {}) {
+  const Folder folder;
+  return read_case(folder.write("case.toml", text), set);
+}
+
+/// The refusal of a text, or "" when it is accepted.
+inline std::string refusal(const std::string& text, const std::vector<std::string>& set = {}) {
+  try {
+    static_cast<void>(read_text(text, set));
+    return "";
+  } catch (const InputError& e) {
+    const std::string what = e.what();
+    const auto file = what.find("case.toml");
+    return file == std::string::npos ? what : what.substr(file);
+  }
+}
+
+inline const Decision* decision(const CaseReading& r, const std::string& key) {
+  for (const auto& d : r.decisions)
+    if (d.key == key) return &d;
+  return nullptr;
+}
+
+/// Six lines: all else by default.
+inline const std::string six_lines = R"([scene]
+end_time = 1.0
+[[body]]
+name = "block"
+material = "steel"
+shape = {kind = "box", min = [0, 0, 0], max = [0.4, 0.4, 0.4]}
+)";
+
+}  // namespace tripoint::test

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "case_file.hpp"
+#include "scene/mesh.hpp"
+
+namespace tripoint::test {
+namespace {
+
+using std::numbers::pi;
+
+const char* const cube_faces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
+/// Cube of side 1 from the origin; corners in the order of their bits zyx.
+std::string cube_obj(const std::string& faces = cube_faces) {
+  std::string text;
+  for (int i = 0; i < 8; ++i) text += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " + std::to_string(i >> 2 & 1) + "\n";
+  return text + faces;
+}
+
+/// Sphere of triangles by longitude and latitude, as an OBJ.
+std::string sphere_obj(int rings, int sectors) {
+  std::string text = "v 0 0 1\nv 0 0 -1\n";
+  for (int i = 1; i < rings; ++i)
+    for (int j = 0; j < sectors; ++j) {
+      const double a = pi * i / rings, b = 2 * pi * j / sectors;
+      text += "v " + std::to_string(std::sin(a) * std::cos(b)) + " " + std::to_string(std::sin(a) * std::sin(b)) + " " + std::to_string(std::cos(a)) + "\n";
+    }
+  const auto at = [&](int i, int j) { return std::to_string(3 + (i - 1) * sectors + j % sectors); };
+  for (int j = 0; j < sectors; ++j) {
+    text += "f 1 " + at(1, j) + " " + at(1, j + 1) + "\nf 2 " + at(rings - 1, j + 1) + " " + at(rings - 1, j) + "\n";
+    for (int i = 1; i + 1 < rings; ++i) text += "f " + at(i, j) + " " + at(i + 1, j) + " " + at(i + 1, j + 1) + " " + at(i, j + 1) + "\n";
+  }
+  return text;
+}
+
+std::string as_stl(const Mesh& m, bool binary) {
+  std::string text = binary ? std::string(80, ' ') : "solid s\n";
+  const auto count = static_cast<std::uint32_t>(m.triangles.size());
+  if (binary) text.append(reinterpret_cast<const char*>(&count), 4);
+  for (const auto& t : m.triangles) {
+    if (!binary) text += "facet normal 0 0 0\nouter loop\n";
+    if (binary) text.append(12, '\0');
+    for (const auto c : t) {
+      const auto& p = m.points[c];
+      const float xyz[3]{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+      if (binary) text.append(reinterpret_cast<const char*>(xyz), 12);
+      else text += "vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+    }
+    if (binary) text.append(2, '\0');
+    else text += "endloop\nendfacet\n";
+  }
+  return binary ? text : text + "endsolid s\n";
+}
+
+std::string refused(const Folder& folder, const std::string& name, const std::string& bytes) {
+  try {
+    static_cast<void>(read_mesh(folder.write(name, bytes), 1.0));
+    return "";
+  } catch (const InputError& e) {
+    return e.what();
+  }
+}
+
+TEST(Mesh, OfACubeHasItsVolumeFromEveryFormat) {
+  const Folder folder;
+  const auto cube = read_mesh(folder.write("cube.obj", cube_obj()), 2.0);
+  EXPECT_EQ(cube.points.size(), 8U);
+  EXPECT_EQ(cube.triangles.size(), 12U);
+  EXPECT_DOUBLE_EQ(volume(cube), 8.0);
+  EXPECT_DOUBLE_EQ(volume(read_mesh(folder.write("cube.stl", as_stl(cube, true)), 1.0)), 8.0);
+  EXPECT_DOUBLE_EQ(volume(read_mesh(folder.write("text.stl", as_stl(cube, false)), 1.0)), 8.0);
+}
+
+TEST(Mesh, ThatIsOpenIsRefusedWithItsOpenEdges) {
+  const Folder folder;
+  const std::string faces = cube_faces;
+  const auto open = refused(folder, "open.obj", cube_obj(faces.substr(faces.find('\n') + 1)));
+  EXPECT_NE(open.find("4 open edges"), std::string::npos) << open;
+  EXPECT_NE(open.find("open.obj"), std::string::npos);
+  EXPECT_NE(open.find("(0, 0, 0) to (1, 0, 0)"), std::string::npos) << open;
+  const auto flipped = refused(folder, "flipped.obj", cube_obj("f 2 4 3 1\n" + faces.substr(faces.find('\n') + 1)));
+  EXPECT_NE(flipped.find("4 open edges"), std::string::npos) << "one face turned inward: " << flipped;
+}
+
+TEST(Mesh, ThatTurnsInwardIsRefused) {
+  const Folder folder;
+  EXPECT_NE(refused(folder, "in.obj", cube_obj("f 2 4 3 1\nf 7 8 6 5\nf 5 6 2 1\nf 4 8 7 3\nf 3 7 5 1\nf 6 8 4 2\n")).find("turn inward"), std::string::npos);
+}
+
+TEST(Mesh, OfAStrangerIsRefusedWithoutACrash) {
+  const Folder folder;
+  const auto cube = read_mesh(folder.write("cube.obj", cube_obj()), 1.0);
+  auto lying = as_stl(cube, true);
+  const std::uint32_t many = 0xffffffffU;
+  std::memcpy(lying.data() + 80, &many, 4);
+  EXPECT_NE(refused(folder, "a.stl", lying), "");
+  EXPECT_NE(refused(folder, "b.stl", as_stl(cube, true).substr(0, 300)), "");
+  EXPECT_NE(refused(folder, "c.stl", "solid x\nfacet\nvertex 1 2\n"), "");
+  EXPECT_NE(refused(folder, "d.stl", "short"), "");
+  EXPECT_NE(refused(folder, "e.obj", "v 0 0 0\nf 1 2 3\n"), "");
+  EXPECT_NE(refused(folder, "f.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -9\n"), "");
+  EXPECT_NE(refused(folder, "g.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "");
+  EXPECT_NE(refused(folder, "h.obj", ""), "");
+  EXPECT_NE(refused(folder, "i.ply", "ply"), "");
+}
+
+TEST(MeshInterior, OfACubeHoldsJustItsLattice) {
+  const Folder folder;
+  static_cast<void>(folder.write("cube.obj", cube_obj()));
+  const auto file = folder.write("case.toml", "[scene]\nend_time=1\nspacing=0.2\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='mesh',file='cube.obj',scale=2}\n");
+  const auto scene = scene_for(read_case(file).value, {});
+  const auto s = sample(scene);
+  EXPECT_EQ(s.size(), 1000U);
+  EXPECT_NEAR(mass_properties(s.position, s.mass).mass, 8.0 * 7850.0, 1e-8);
+}
+
+TEST(MeshInterior, OfASphereTendsToItsVolume) {
+  const Folder folder;
+  const auto mesh = read_mesh(folder.write("ball.obj", sphere_obj(24, 48)), 1.0);
+  const MeshInterior interior(mesh, 0.025, "ball.obj");
+  double inside = 0.0;
+  for (double x = -0.975; x < 1.0; x += 0.05)
+    for (double y = -0.975; y < 1.0; y += 0.05)
+      for (double z = -0.975; z < 1.0; z += 0.05) inside += interior.holds({x, y, z}) ? 0.05 * 0.05 * 0.05 : 0.0;
+  EXPECT_NEAR(inside / volume(mesh), 1.0, 0.01);  // lattice point discrepancy of a ball of 20 spacings
+}
+
+TEST(MeshInterior, GivesASecondAlarmWhenThereIsNoInside) {
+  Mesh sheet;  // a triangle used from both sides: every edge matches, nothing is enclosed
+  sheet.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  sheet.triangles = {{0, 1, 2}, {2, 1, 0}};
+  EXPECT_NO_THROW(check_closed(sheet, "sheet.obj"));
+  EXPECT_THROW(MeshInterior(sheet, 0.05, "sheet.obj"), InputError);
+}
+
+}  // namespace
+}  // namespace tripoint::test

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "case_file.hpp"
+#include "full_case.hpp"
+
+namespace tripoint::test {
+namespace {
+
+using testing::Test;
+
+void expect_refused(const std::string& text, const std::vector<std::string>& parts) {
+  const auto what = refusal(text);
+  EXPECT_NE(what, "") << text;
+  for (const auto& part : parts) EXPECT_NE(what.find(part), std::string::npos) << part << "\n in: " << what;
+}
+
+TEST(ReadCase, SixLinesRunOnDefaultsAndEachDefaultHasItsReason) {
+  const auto r = read_text(six_lines);
+  EXPECT_DOUBLE_EQ(r.value.scene.spacing, 0.04);
+  EXPECT_DOUBLE_EQ(r.value.scene.output_interval, 0.05);
+  EXPECT_EQ(r.value.scene.bodies[0].phase, Phase::rigid);
+  EXPECT_EQ(r.value.scene.material("steel").density, 7850.0);
+  EXPECT_EQ(r.value.scene.support_ratio, 2.6);
+  EXPECT_GT(r.decisions.size(), 60U);
+  for (const auto& d : r.decisions) {
+    EXPECT_FALSE(d.reason.empty()) << d.key;
+    EXPECT_TRUE(!d.given || d.place.line > 0) << d.key;
+  }
+  EXPECT_NE(decision(r, "scene.spacing")->reason.find("a tenth of the smallest extent, 0.4 m of body block"), std::string::npos);
+  EXPECT_EQ(sample(scene_for(r.value, {})).size(), 1000U);
+}
+
+TEST(ReadCase, ReadsEveryKeyOfTheContract) {
+  const auto r = read_text(full_case);
+  const Case& c = r.value;
+  EXPECT_EQ(c.id, "test/full");
+  EXPECT_EQ(c.modes, (std::vector<Mode>{Mode::corrected, Mode::paper}));
+  EXPECT_EQ(c.scene.mode_of(Term::heat), Mode::paper);
+  EXPECT_EQ(c.scene.mode_of(Term::kernel), Mode::corrected);
+  EXPECT_EQ(c.scene.support_ratio, 2.6);
+  EXPECT_EQ(*c.scene.time_step, 1e-3);
+  EXPECT_TRUE(c.scene.periodic[0]);
+  EXPECT_EQ(*c.scene.material("goo").stiffness, 400.0);
+  EXPECT_EQ(*c.scene.material("goo").t_solid, 320.0);
+  EXPECT_EQ(c.scene.bodies.size(), 5U);
+  EXPECT_EQ(c.scene.body("pool").velocity.kind, VelocityField::Kind::linear);
+  EXPECT_EQ(c.scene.body("pool").velocity.gradient[1], (Vec3{0.0, -1.0, 0.0}));
+  EXPECT_EQ(c.scene.body("plate").keyframes.size(), 2U);
+  EXPECT_EQ(c.scene.body("plate").shape.kind, Shape::Kind::difference);
+  EXPECT_EQ(c.scene.body("drop").temperature->kind, TemperatureField::Kind::expression);
+  EXPECT_EQ(c.scene.body("beam").joined_to, (std::vector<std::string>{"plate"}));
+  ASSERT_EQ(c.scene.events.size(), 6U);
+  EXPECT_EQ(c.scene.events[5].kind, Event::Kind::grip);
+  EXPECT_EQ(*c.scene.inflows.at(0).rate, 2e-3 / 60.0);
+  EXPECT_EQ(c.engines.at(0).presets, (std::vector<std::string>{"default", "impact"}));
+  EXPECT_EQ(std::get<double>(c.engines.at(1).settings.at("walkers")), 1000.0);
+  EXPECT_EQ(c.metrics.at(1).reference->kind, "bound");
+  EXPECT_EQ(c.studies.at(0).levels, (std::vector<double>{0.1, 0.05, 0.025}));
+  EXPECT_EQ((*c.gates.at(1).band)[1], 2.2);
+  EXPECT_EQ(c.defects.at(0).killed_by, (std::vector<std::string>{"error"}));
+  EXPECT_EQ(c.harmless, (std::vector<std::string>{"rigid.order"}));
+}
+
+TEST(ReadCase, NamesFileLineColumnAndTheNearestKey) {
+  expect_refused("[scene]\nend_tme = 1.0\n", {"case.toml:2:1: unknown key `end_tme`", "did you mean `end_time`"});
+  expect_refused("[scene]\nend_time = 1.0\ngravty = [0,0,0]\n", {"case.toml:3:1", "`gravity`"});
+  expect_refused("[scne]\nend_time = 1.0\n", {"case.toml:1:", "did you mean `scene`"});
+  expect_refused(six_lines + "phse = \"rigid\"\n", {"case.toml:7:1", "`phase`"});
+  expect_refused(six_lines + "[scene.modes]\nheet = \"paper\"\n", {"case.toml:8:1", "did you mean `heat`"});
+}
+
+TEST(ReadCase, RefusesWhatIsNoNumberOrOutOfRangeSayingWhy) {
+  expect_refused("[scene]\nend_time = nan\n", {"case.toml:2:12", "finite number"});
+  expect_refused("[scene]\nend_time = inf\n", {"case.toml:2:12", "finite number"});
+  expect_refused("[scene]\nend_time = -1.0\n", {"greater than 0"});
+  expect_refused("[scene]\nend_time = \"3 kg\"\n", {"case.toml:2:12", "in kg, but a number in s is expected"});
+  expect_refused("[[material]]\nname='a'\ndensity=-1\n", {"case.toml:3:9", "greater than 0"});
+  expect_refused("[[material]]\nname='a'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.5\n", {"case.toml:5:15", "stiffness infinite"});
+  expect_refused("[scene]\nend_time = true\n", {"must be number in s, not true or false"});
+  expect_refused(six_lines + "velocity = [1, 2]\n", {"2 components", "[x, y, z]"});
+  expect_refused(six_lines + "motion = \"fxed\"\n", {"none of: free, fixed, prescribed", "did you mean `fixed`"});
+}
+
+TEST(ReadCase, RefusesNamesThatReferToNothing) {
+  expect_refused("[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steal'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"case.toml:5:10", "did you mean `steel`"});
+  expect_refused(six_lines + "joined_to = [\"blok\"]\n", {"case.toml:7", "did you mean `block`"});
+  const std::string metric = six_lines + "[[metric]]\nname='speed'\nquantity='velocity'\n";
+  EXPECT_EQ(refusal(metric), "");
+  expect_refused(metric + "[[gate]]\nmetric='sped'\nlimit=1\nreason='r'\n", {"case.toml:11:8", "no [[metric]] is named \"sped\"", "did you mean `speed`"});
+  expect_refused(metric + "[[gate]]\nmetric='speed'\nreason='r'\n", {"case.toml:10", "no limit and would pass anything"});
+  expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\n", {"lacks the key `reason`"});
+  expect_refused(metric + "[[gate]]\nmetric='speed.order'\nlimit=1\nreason='r'\n", {"needs a [[study]]"});
+  expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\nlevel=0.1\nreason='r'\n", {"no [[study]] has this level"});
+  expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\nmode='paper'\nreason='r'\n", {"does not run mode \"paper\""});
+  expect_refused(metric + "[engines.bullet]\n[[gate]]\nmetric='speed'\nlimit=1\nengine='bulet'\nreason='r'\n", {"did you mean `bullet`"});
+  expect_refused(six_lines + "[[body]]\nname='block'\nmaterial='steel'\nshape={kind='sphere',centre=[9,0,0],radius=1}\n", {"two tables [[body]] are named \"block\""});
+}
+
+TEST(ReadCase, RefusesWhatCannotBeMeant) {
+  expect_refused(six_lines + "temperature = \"20 degC\"\ntemperature_held = true\nmotion = \"fixed\"\nvelocity = [1,0,0]\n", {"a fixed body does not move"});
+  expect_refused(six_lines + "keyframes = [{time = 0, position = [0,0,0]}]\n", {"only a prescribed body follows keyframes"});
+  expect_refused(six_lines + "temperature = -3.0\n", {"case.toml:7", "greater than 0"});
+  expect_refused("[scene]\nend_time=1\nperiodic=['x']\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"case.toml:3", "give scene.min and scene.max"});
+  expect_refused("[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='box',min=[0,0,0],max=[1,0,1]}\n", {"no extent along y"});
+  expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nt_melt=300\nt_solid=310\n", {"above t_melt"});
+  expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\n[[body]]\nname='b'\nmaterial='m'\ntemperature=300\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"lacks conductivity"});
+}
+
+TEST(ReadCase, SurvivesFilesThatBreakParsers) {
+  std::string key;
+  for (int i = 0; i < 200000; ++i) key += "a.";
+  expect_refused("v = [,]\n", {"case.toml:1:6", "remove the comma"});
+  expect_refused("v=[1,}\n", {"case.toml:1:6", "closes nothing"});
+  expect_refused("v={a=1,}\n", {"case.toml:1:8", "remove the comma"});
+  expect_refused(key + "b = 1\n", {"case.toml:1:", "dotted key"});
+  expect_refused("v = " + std::string(5000, '['), {"case.toml:1:", "nested"});
+  expect_refused("v = " + std::string(5000, '{'), {"case.toml:1:", "nested"});
+  expect_refused(std::string(17000, 'a') + " = 1\n", {"case.toml:1:", "longer than"});
+  expect_refused(std::string((1 << 20) + 1, '\n'), {"case.toml", "at most 1048576"});
+  expect_refused("", {"case.toml", "empty"});
+  expect_refused(std::string("\0\1\2", 3), {"case.toml:1:1", "plain UTF-8 text"});
+  expect_refused("[scene\n", {"case.toml:2:1", "close it"});
+  expect_refused("a = \"abc\n", {"case.toml:1:", "not closed"});
+  expect_refused("a = '''abc\n", {"not closed"});
+  expect_refused("[scene]\nend_time=1\nend_time=2\n", {"case.toml:3:", "redefine"});
+  expect_refused("\xff\xfe = 1\n", {"case.toml"});
+  expect_refused("a = 1979-05-27T07:32:00Z\n", {"case.toml:1:"});
+  EXPECT_THROW(static_cast<void>(read_case("/nonexistent/case.toml")), InputError);
+  EXPECT_THROW(static_cast<void>(read_case("/")), InputError);
+  EXPECT_THROW(static_cast<void>(read_case("/dev/zero")), InputError);
+}
+
+TEST(Overrides, ReplaceAnyKeyByTheSameChecks) {
+  const auto r = read_text(six_lines, {"scene.spacing=0.1", "body.block.velocity=[1, 2, 3]", "material.steel.density=8000", "scene.gravity=[0,0,-9.81]", "scene.modes.heat='paper'"});
+  EXPECT_EQ(r.value.scene.spacing, 0.1);
+  EXPECT_EQ(r.value.scene.bodies[0].velocity.value, (Vec3{1, 2, 3}));
+  EXPECT_EQ(r.value.scene.material("steel").density, 8000.0);
+  EXPECT_EQ(r.value.scene.modes_given[static_cast<std::size_t>(Term::heat)], Mode::paper);
+  EXPECT_TRUE(decision(r, "scene.spacing")->given);
+  EXPECT_EQ(decision(r, "scene.spacing")->place.file, "--set scene.spacing=0.1");
+  EXPECT_EQ(read_text(six_lines, {"scene.mode=paper"}).value.scene.mode, Mode::paper) << "the shell eats quotes";
+  EXPECT_EQ(read_text(six_lines, {"scene.spacing=2 cm"}).value.scene.spacing, 0.02);
+  EXPECT_EQ(read_text(full_case, {"study.1.levels=[0.1, 0.05]"}).value.studies[0].levels.size(), 2U);
+}
+
+TEST(Overrides, RefuseWhatTheyCannotPlace) {
+  const auto refused = [](const std::string& set) {
+    try {
+      static_cast<void>(read_text(six_lines, {set}));
+      return std::string();
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+  };
+  EXPECT_NE(refused("scene.spcing=0.1").find("did you mean `spacing`"), std::string::npos);
+  EXPECT_NE(refused("body.blok.velocity=[1,2,3]").find("did you mean `block`"), std::string::npos);
+  EXPECT_NE(refused("scene.end_time=nan").find("finite"), std::string::npos);
+  EXPECT_NE(refused("scene.end_time=-1").find("greater than 0"), std::string::npos);
+  for (const char* set : {"", "=", "scene.spacing", "scene.spacing=", "=1", "scene.spacing=[1,}", "scene.spacing=1\nx=2", "scene..spacing=1", "a.b.c.d.e.f.g.h.i=1", "scene.end_time.x=1", "gate.1.limit=3"})
+    EXPECT_NE(refused(set), "") << set;
+}
+
+TEST(Library, GivesSourcesAndYieldsToTheCase) {
+  const auto r = read_text("[scene]\nend_time=1\n[[material]]\nname='water'\ndensity=1025\n[[body]]\nname='b'\nmaterial='water'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n");
+  EXPECT_EQ(r.value.scene.material("water").density, 1025.0);
+  EXPECT_DOUBLE_EQ(r.value.scene.material("water").viscosity, 1.0016e-3);
+  EXPECT_TRUE(decision(r, "material.water.density")->given);
+  EXPECT_NE(decision(r, "material.water.viscosity")->reason.find("IAPWS"), std::string::npos);
+  EXPECT_EQ(r.value.scene.bodies[0].phase, Phase::liquid);
+  for (const char* name : {"water", "ice", "wax", "steel", "rubber"}) {
+    const auto one = read_text(six_lines, {std::string("body.block.material='") + name + "'"});
+    EXPECT_EQ(one.value.scene.materials[0].name, name);
+    EXPECT_NE(decision(one, std::string("material.") + name + ".source")->value, "none");
+  }
+}
+
+TEST(SceneFor, ResolvesModesAndSupportRatioForEachRun) {
+  const auto c = read_text(six_lines, {"scene.modes.heat=paper"}).value;
+  RunChoice paper;
+  paper.mode = Mode::paper, paper.spacing = 0.1, paper.time_step = 1e-4, paper.seed = 7, paper.jitter = 0.1;
+  const auto s = scene_for(c, paper);
+  EXPECT_EQ(s.support_ratio, 2.12) << "every term is paper";
+  EXPECT_EQ(s.spacing, 0.1);
+  EXPECT_EQ(*s.time_step, 1e-4);
+  EXPECT_EQ(s.seed, 7U);
+  EXPECT_EQ(scene_for(c, {}).support_ratio, 2.6);
+  EXPECT_EQ(scene_for(c, {}).mode_of(Term::heat), Mode::paper) << "a term that the case fixes stays";
+  EXPECT_EQ(scene_for(read_text(six_lines, {"scene.support_ratio=3"}).value, paper).support_ratio, 3.0);
+}
+
+}  // namespace
+}  // namespace tripoint::test
