@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""An engine that flies one body along the exact parabola, and does one thing wrong: the word in FAKE says which."""
+import json
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+WRONG = os.environ.get("FAKE", "nothing")
+
+
+def info():
+    answer = {"contract": 1, "name": os.environ.get("FAKE_NAME", "fake"), "version": "1", "build": "python", "library": {"path": "", "hash": ""},
+              "capabilities": ["rigid-free-flight", "gravity"], "presets": ["default"], "settings": {}, "deterministic": True}
+    if WRONG == "slow info":
+        time.sleep(60)
+    if WRONG == "not there":
+        answer.update(available=False, reason="its library is not installed")
+    print("{" if WRONG == "broken info" else json.dumps(answer))
+
+
+def check():
+    refused = WRONG == "refuses"
+    print(json.dumps({"can": not refused, "reason": "it has no conduction" if refused else ""}))
+
+
+def flight(job, g, times):
+    """Rows of the trajectory: time, body, position, velocity."""
+    rows = []
+    for t in times:
+        for body in job["scene"]["bodies"]:
+            x, v = body["centre"], body["velocity"]
+            rows.append([t, body["index"]] + [x[k] + v[k] * t + 0.5 * g[k] * t * t for k in range(3)] + [v[k] + g[k] * t for k in range(3)])
+    return rows
+
+
+def write(folder, rows):
+    lines = ["time,body,x,y,z,vx,vy,vz"] + [",".join(repr(float(c)) if k != 1 else str(c) for k, c in enumerate(row)) for row in rows]
+    (folder / "trajectory.csv").write_text("\n".join(lines) + "\n")
+
+
+def result(folder, job, **changes):
+    scene = job["scene"]
+    bodies = [{"name": b["name"], "mass": b["mass"], "centre": b["centre"], "principal_inertia": b["principal_inertia"]} for b in scene["bodies"]]
+    answer = {"contract": 1, "status": "ok", "message": "", "time_reached": job["times"][-1], "steps": 1, "counters": {"pairs": 0, "iterations": 0},
+              "seconds": {"setup_wall": 0, "setup_cpu": 0, "stepping_wall": 0, "stepping_cpu": 0}, "state_hash": "",
+              "readback": {"gravity": scene["gravity"], "time_step": 0, "precision": "double", "bodies": bodies}, "divergence": None}
+    if WRONG == "holds another gravity":
+        answer["readback"]["gravity"] = [1.01 * c for c in scene["gravity"]]
+    if WRONG == "holds another mass":
+        bodies[0]["mass"] *= 2.0
+    answer.update(changes)
+    (folder / "result.json").write_text("{" if WRONG == "torn result" else json.dumps(answer))
+
+
+def spoil(rows, times):
+    """The trajectory with the wrong thing in it."""
+    if WRONG == "stops early":
+        return rows[: len(rows) // 2]
+    if WRONG == "frozen":
+        return [[t] + rows[0][1:] for t in times]
+    if WRONG == "not a number":
+        return [[row[0], row[1]] + [float("nan")] * 6 for row in rows]
+    if WRONG == "millimetres":
+        return [row[:2] + [1e3 * c for c in row[2:]] for row in rows]
+    if WRONG == "shifted time axis":
+        return [[row[0] + 0.01 * times[-1]] + row[1:] for row in rows]
+    return rows
+
+
+def run(path):
+    try:
+        job = json.loads(Path(path).read_text())
+        times, gravity = job["times"], job["scene"]["gravity"]
+    except (OSError, ValueError, KeyError):
+        sys.exit(2)
+    folder = Path(path).parent / job["output"]
+    if WRONG == "leaves no result":
+        return
+    if WRONG == "hangs":
+        time.sleep(600)
+    if WRONG == "floods":
+        for _ in range(2000):
+            sys.stderr.write("an engine that will not be quiet\n" * 1000)
+    if WRONG == "ends with an error":
+        sys.stderr.write("ERROR: Unrecognized fix style 'rigid' is part of the RIGID package (src/modify.cpp:899)\n")
+        sys.exit(1)
+    if WRONG == "diverges":
+        result(folder, job, status="diverged", message="blew up", time_reached=0.1, divergence={"particle": 3, "body": -1, "field": "velocity", "stage": "kick", "time": 0.1})
+        sys.exit(7)
+    g = [(1.01 if WRONG == "one per cent of gravity" else 1.0) * c for c in gravity]
+    rows = flight(job, g, times)
+    if WRONG == "is killed":
+        write(folder, rows[:2])
+        os.kill(os.getpid(), signal.SIGKILL)
+    write(folder, spoil(rows, times))
+    result(folder, job)
+    if WRONG == "says ok and exits 3":
+        sys.exit(3)
+
+
+if __name__ == "__main__":
+    {"--info": info, "--check": check, "--run": lambda: run(sys.argv[2])}[sys.argv[1]]()

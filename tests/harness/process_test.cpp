@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "harness/fakes.hpp"
+#include "validation/harness/process.hpp"
+
+namespace tripoint {
+namespace {
+
+ProcessSpec shell(const std::string& script, double limit = 20.0) {
+  ProcessSpec spec;
+  spec.argv = {"/bin/sh", "-c", script};
+  spec.wall_limit = limit;
+  return spec;
+}
+
+TEST(Process, OutputCodeAndLastWordsComeBack) {
+  const auto end = run_process(shell("echo out; echo err >&2; exit 3"));
+  EXPECT_EQ(end.how, ProcessEnd::How::exited);
+  EXPECT_EQ(end.code, 3);
+  EXPECT_EQ(end.output, "out\n");
+  EXPECT_EQ(end.log_tail, "err\n");
+}
+
+TEST(Process, AProgramThatIsNotThereIsNotStarted) {
+  ProcessSpec spec;
+  spec.argv = {"/no/such/program"};
+  EXPECT_EQ(run_process(spec).how, ProcessEnd::How::not_started);
+}
+
+TEST(Process, TheWholeGroupDiesAtTheLimit) {
+  const TestFolder folder;
+  const auto file = folder / "pid";
+  const auto end = run_process(shell("sleep 300 & echo $! > " + file + "; wait", 0.5));
+  EXPECT_EQ(end.how, ProcessEnd::How::timed_out);
+  pid_t grandchild = 0;
+  std::ifstream(file) >> grandchild;
+  ASSERT_GT(grandchild, 0);
+  EXPECT_NE(::kill(grandchild, 0), 0) << "the grandchild outlived its group";
+}
+
+TEST(Process, TheGroupsCpuTimeCountsGrandchildrenThatNobodyWaitedFor) {
+  const auto end = run_process(shell("(i=0; while [ $i -lt 300000 ]; do i=$((i+1)); done; sleep 60) & sleep 1; exit 0"));
+  EXPECT_EQ(end.how, ProcessEnd::How::exited);
+  EXPECT_GT(end.cpu_s, 0.05);  // the loop of the orphan; the leader itself takes a millisecond
+}
+
+TEST(Process, AnOrphanThatHoldsThePipesDoesNotHoldUs) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto end = run_process(shell("sleep 30 & exit 0"));
+  EXPECT_EQ(end.how, ProcessEnd::How::exited);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+}
+
+TEST(Process, ProgressLinesAreReported) {
+  auto spec = shell("echo progress 0.25 >&2; echo noise >&2; echo progress 7 >&2");
+  std::vector<double> seen;
+  spec.progress = [&](double done) { seen.push_back(done); };
+  (void)run_process(spec);
+  EXPECT_EQ(seen, (std::vector<double>{0.25, 1.0}));
+}
+
+TEST(Process, AFloodOnStdoutIsCut) {
+  const auto end = run_process(shell("head -c 20000000 /dev/zero | tr '\\0' x"));
+  EXPECT_EQ(end.output.size(), 4u << 20);
+  EXPECT_EQ(end.code, 0);
+}
+
+}  // namespace
+}  // namespace tripoint
