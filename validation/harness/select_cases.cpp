@@ -18,11 +18,15 @@ struct Found {
   bool by_name = false;  ///< a file or id that was asked for, whatever its profile
 };
 
+/// Not a case: reference data beside a case (NAME.ref.*), and the material library.
+bool is_case(const fs::path& file) {
+  return file.extension() == ".toml" && file.filename().string().find(".ref.") == std::string::npos && file.parent_path().filename() != "materials";
+}
+
 std::vector<Found> files_below(const fs::path& folder) {
   std::vector<Found> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder, fs::directory_options::follow_directory_symlink))
-    if (entry.is_regular_file() && entry.path().extension() == ".toml" && entry.path().filename().string().find(".ref.") == std::string::npos)
-      files.push_back({entry.path().string(), false});
+    if (entry.is_regular_file() && is_case(entry.path())) files.push_back({entry.path().string(), false});
   return files;
 }
 

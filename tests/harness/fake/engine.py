@@ -27,17 +27,17 @@ def check():
 
 
 def flight(job, g, times):
-    """Rows of the trajectory: time, body, position, velocity."""
+    """Rows of the trajectory: time, body, position, velocity, orientation, spin (none)."""
     rows = []
     for t in times:
         for body in job["scene"]["bodies"]:
             x, v = body["centre"], body["velocity"]
-            rows.append([t, body["index"]] + [x[k] + v[k] * t + 0.5 * g[k] * t * t for k in range(3)] + [v[k] + g[k] * t for k in range(3)])
+            rows.append([t, body["index"]] + [x[k] + v[k] * t + 0.5 * g[k] * t * t for k in range(3)] + [v[k] + g[k] * t for k in range(3)] + [1, 0, 0, 0, 0, 0, 0])
     return rows
 
 
 def write(folder, rows):
-    lines = ["time,body,x,y,z,vx,vy,vz"] + [",".join(repr(float(c)) if k != 1 else str(c) for k, c in enumerate(row)) for row in rows]
+    lines = ["time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz"] + [",".join(repr(float(c)) if k != 1 else str(c) for k, c in enumerate(row)) for row in rows]
     (folder / "trajectory.csv").write_text("\n".join(lines) + "\n")
 
 
@@ -62,9 +62,9 @@ def spoil(rows, times):
     if WRONG == "frozen":
         return [[t] + rows[0][1:] for t in times]
     if WRONG == "not a number":
-        return [[row[0], row[1]] + [float("nan")] * 6 for row in rows]
+        return [[row[0], row[1]] + [float("nan")] * 6 + row[8:] for row in rows]
     if WRONG == "millimetres":
-        return [row[:2] + [1e3 * c for c in row[2:]] for row in rows]
+        return [row[:2] + [1e3 * c for c in row[2:8]] + row[8:] for row in rows]
     if WRONG == "shifted time axis":
         return [[row[0] + 0.01 * times[-1]] + row[1:] for row in rows]
     return rows
