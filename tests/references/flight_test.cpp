@@ -58,6 +58,15 @@ TEST(BallisticSemiImplicit, IsWhatTheSchemeDoesStepByStep) {
   EXPECT_NEAR(exact->at(1.0).bodies[0].position.z - x.z, 0.04905, 1e-13);  // g dt T/2
 }
 
+TEST(BallisticSemiImplicit, ShortensItsStepsToMeetTheOutputTimes) {
+  auto s = thrown_cube();
+  s.job.resolution.time_step = 0.004;  // three steps of 10/3 ms to each output time
+  const auto reference = make_reference(test::function("ballistic_semi_implicit"), s.job, s.initial);
+  Vec3 x = s.job.bodies[0].properties.centre, v = s.job.bodies[0].velocity;
+  for (int n = 0; n < 300; ++n) v += (0.01 / 3) * s.job.scene.gravity, x += (0.01 / 3) * v;
+  EXPECT_LT(norm(reference->at(1.0).bodies[0].position - x), 1e-13);
+}
+
 TEST(BallisticSemiImplicit, RefusesATumblingBodyAndAMissingTimeStep) {
   auto s = test::block({1, 2, 3}, 1.0, 10);
   EXPECT_THROW((void)make_reference(test::function("ballistic_semi_implicit"), s.job, s.initial), InputError);
