@@ -164,7 +164,7 @@ class Checker {
     if (!g.level) return;
     for (const auto& s : case_.studies)
       if (std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return std::abs(l - *g.level) <= 1e-9 * l; })) return;
-    throw InputError(place(path + ".level", g.place), fmt::format("`{}.level` = {}: no [[study]] has this level", path, *g.level));
+    throw InputError(place(path + ".level", g.place), fmt::format("`{}.level` = {}: no [[study]] has this level: write one of its levels, or remove it", path, *g.level));
   }
 
   const Case& case_;

@@ -33,7 +33,7 @@ class Compiler {
   void compile() {
     if (text_.size() > 1000) throw InputError("the expression is longer than 1000 bytes: shorten it");
     sum();
-    if (!ends()) refuse(fmt::format("`{}` does not belong here", printable(text_.substr(at_, 12))));
+    if (!ends()) refuse(fmt::format("`{}` does not belong here: remove it, or write an operator before it", printable(text_.substr(at_, 12))));
   }
 
  private:
@@ -51,12 +51,12 @@ class Compiler {
     return true;
   }
   void expect(char c) {
-    if (!take(c)) refuse(fmt::format("`{}` is missing", c));
+    if (!take(c)) refuse(fmt::format("`{}` is missing: write it", c));
   }
   void emit(Op op, double value = 0.0) { steps_.push_back({op, value}); }
 
   void sum() {
-    if (++depth_ > 50) refuse("nested deeper than 50 brackets");
+    if (++depth_ > 50) refuse("nested deeper than 50 brackets: write it flatter");
     product();
     for (;;) {
       if (take('+')) product(), emit(Op::add);
@@ -74,7 +74,7 @@ class Compiler {
     }
   }
   void signed_power() {
-    if (++depth_ > 50) refuse("nested deeper than 50 signs and brackets");
+    if (++depth_ > 50) refuse("nested deeper than 50 signs and brackets: write it flatter");
     if (take('-')) signed_power(), emit(Op::negate);
     else if (take('+')) signed_power();
     else power();
@@ -85,17 +85,17 @@ class Compiler {
     if (take('^')) signed_power(), emit(Op::power);
   }
   void atom() {
-    if (ends()) refuse("a number, x, y, z, a function or a bracket is missing at the end");
+    if (ends()) refuse("it ends where a value belongs: write a number, x, y, z, a function or a bracket");
     const char c = text_[at_];
     if (take('(')) return sum(), expect(')');
     if ((c >= '0' && c <= '9') || c == '.') return number();
     if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')) return name();
-    refuse(fmt::format("`{}` is no number, x, y, z, function or bracket", printable(text_.substr(at_, 1))));
+    refuse(fmt::format("`{}` stands where a value belongs: write a number, x, y, z, a function or a bracket", printable(text_.substr(at_, 1))));
   }
   void number() {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
-    if (error != std::errc{} || !std::isfinite(value)) refuse("this is no finite number");
+    if (error != std::errc{} || !std::isfinite(value)) refuse("this is no finite number: write a smaller one");
     at_ = static_cast<std::size_t>(end - text_.data());
     emit(Op::number, value);
   }

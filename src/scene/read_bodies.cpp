@@ -84,7 +84,7 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
   Body b;
   b.place = node.place;
   b.name = in.text("name");
-  if (b.name.empty() || b.name.size() > 64) in.refuse("name", "a name has 1 to 64 letters");
+  plain_name(in, "name", b.name);
   b.material = in.text("material");
   const auto material = std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == b.material; });
   if (material == materials.end()) {

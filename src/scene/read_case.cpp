@@ -169,7 +169,7 @@ CaseReading read_case(const std::string& path, const std::vector<std::string>& s
   Case& c = out.value;
   c.file = path;
   TableReader top(document, "", "", reading.decisions);
-  if (const long format = top.integer("format"); format != 1) top.refuse("format", fmt::format("format {} is not known: this program reads format 1", format));
+  if (const long format = top.integer("format"); format != 1) top.refuse("format", fmt::format("format {} is not known: write 1", format));
   const auto* head = top.composite("case");
   read_head(head ? *head : empty_table, c, reading);
   // Materials come first: their faults are theirs, whatever else is missing.

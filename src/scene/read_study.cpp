@@ -9,17 +9,12 @@
 
 /// How a case is judged: engines, reference, metrics, studies, gates, defects.
 namespace tripoint {
-namespace {
-
-/// Words that become names of folders, columns and command line arguments.
 void plain_name(TableReader& in, std::string_view key, const std::string& name) {
   const bool plain = !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == ' ';
   });
-  if (!plain) in.refuse(key, "a name has 1 to 64 letters, digits, or any of _ - .");
+  if (!plain) in.refuse(key, "write a name of 1 to 64 letters, digits, blanks, or any of _ - .");
 }
-
-}  // namespace
 
 EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading& reading) {
   TableReader in(node, "engines", "engines." + printable(name), reading.decisions);
@@ -74,9 +69,9 @@ Study read_study(const TomlNode& node, std::size_t number, Reading& reading) {
   if (s.levels.size() < 2) in.refuse("levels", "a study has at least two levels, and at least three for an order with its interval");
   const bool refines_upward = s.axis == "walkers" || s.axis == "iterations" || s.axis == "support_ratio";
   for (std::size_t i = 0; i < s.levels.size(); ++i) {
-    if (!(s.levels[i] > 0.0)) in.refuse("levels", fmt::format("level {} is {}: levels are greater than 0, in the axis's own unit", i + 1, s.levels[i]));
+    if (!(s.levels[i] > 0.0)) in.refuse("levels", fmt::format("level {} is {}: write numbers greater than 0, in the axis's own unit", i + 1, s.levels[i]));
     if (i > 0 && (refines_upward ? s.levels[i] <= s.levels[i - 1] : s.levels[i] >= s.levels[i - 1]))
-      in.refuse("levels", fmt::format("levels go from coarse to fine: for {} that is {}", s.axis, refines_upward ? "rising" : "falling"));
+      in.refuse("levels", fmt::format("write the levels from coarse to fine: for {} that is {}", s.axis, refines_upward ? "rising" : "falling"));
   }
   s.jitter = in.number("jitter");
   s.seeds = static_cast<int>(std::min(in.integer("seeds"), 100000L));

@@ -32,6 +32,9 @@ struct Reading {
 [[nodiscard]] Gate read_gate(const TomlNode&, std::size_t number, Reading&);
 [[nodiscard]] Defect read_defect(const TomlNode&, std::size_t number, Reading&);
 
+/// Names that become folders, columns and command line arguments: refuses any but letters, digits, blanks, _ - .
+void plain_name(TableReader&, std::string_view key, const std::string& name);
+
 /// Names that refer to each other, and rules between keys: after everything is read.
 void check_references(const Case&, const Reading&);
 

@@ -72,7 +72,7 @@ class Scanner {
     const auto begin = line_;
     at_ += multi ? 3 : 1;
     for (;; ++at_) {
-      if (at_ >= text_.size() || (!multi && text_[at_] == '\n')) refuse(fmt::format("the string that begins on line {} is not closed", begin));
+      if (at_ >= text_.size() || (!multi && text_[at_] == '\n')) refuse(fmt::format("the text that begins on line {} is not closed: write its closing quote", begin));
       control(text_[at_]);
       if (text_[at_] == '\n') newline();
       if (quote == '"' && text_[at_] == '\\') {

@@ -65,7 +65,7 @@ class UnitReader {
 
   Unit read() {
     Unit unit = product(true);
-    if (at_ < text_.size()) throw std::invalid_argument(fmt::format("`{}` is no unit", printable(text_)));
+    if (at_ < text_.size()) throw std::invalid_argument(fmt::format("`{}` is no unit: write one like m, kg/m3, W/m/K", printable(text_)));
     return unit;
   }
 
@@ -94,7 +94,7 @@ class UnitReader {
   Unit factor(bool outer) {
     if (outer && take('(')) {
       const Unit inner = product(false);
-      if (!take(')')) throw std::invalid_argument(fmt::format("`{}` lacks a `)`", printable(text_)));
+      if (!take(')')) throw std::invalid_argument(fmt::format("`{}` lacks a `)`: write it", printable(text_)));
       return inner;
     }
     spaces();
@@ -103,7 +103,7 @@ class UnitReader {
     const auto name = text_.substr(begin, at_ - begin);
     if (name.empty()) {
       if (take('1')) return {};
-      throw std::invalid_argument(fmt::format("`{}` is no unit", printable(text_)));
+      throw std::invalid_argument(fmt::format("`{}` is no unit: write one like m, kg/m3, W/m/K", printable(text_)));
     }
     Unit unit;
     multiply(unit, named(name), power());
@@ -119,7 +119,7 @@ class UnitReader {
       const int digit = text_[at_++] - '0';
       return minus ? -digit : digit;
     }
-    if (caret || minus) throw std::invalid_argument(fmt::format("`{}` lacks an exponent of one digit", printable(text_)));
+    if (caret || minus) throw std::invalid_argument(fmt::format("`{}` lacks an exponent: write one digit, as in s^-2", printable(text_)));
     return 1;
   }
 
@@ -154,17 +154,18 @@ double parse_quantity(std::string_view text, std::string_view expected) {
   const auto [end, error] = std::from_chars(first, text.data() + text.size(), value);
   const auto want = expected.empty() ? std::string("a plain number") : fmt::format("a number in {}", expected);
   if (error != std::errc{} || !std::isfinite(value))
-    throw std::invalid_argument(fmt::format("`{}` is not a finite number with a unit; expected {}", printable(text), want));
+    throw std::invalid_argument(fmt::format("`{}` is not a finite number with a unit: write {}", printable(text), want));
   auto name = text.substr(static_cast<std::size_t>(end - text.data()));
   while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
   const Unit target = parse_unit(expected);
-  if (name.empty()) return value;  // "3": SI
+  if (name.empty())
+    throw std::invalid_argument(expected.empty() ? fmt::format("`{}` is a text: write the number without quotes", printable(text)) : fmt::format("`{}` is a text without a unit: write {} or \"{} {}\"", printable(text), printable(text), printable(text), expected));
   const Unit unit = parse_unit(name);
   if (unit.dimension != target.dimension)
     throw std::invalid_argument(fmt::format("`{}` is in {}, but {} is expected{}", printable(text), to_string(unit.dimension), want,
                                             expected.empty() ? "" : fmt::format(" (write 3 or \"3 {}\")", expected)));
   const double si = value * unit.numerator / unit.denominator + unit.offset;
-  if (!std::isfinite(si)) throw std::invalid_argument(fmt::format("`{}` is too large for a number in SI", printable(text)));
+  if (!std::isfinite(si)) throw std::invalid_argument(fmt::format("`{}` is too large for a number in SI: write a smaller one", printable(text)));
   return si;
 }
 

@@ -13,7 +13,6 @@ TEST(Units, AreTheDoubleNearestToTheDecimal) {
   EXPECT_EQ(parse_quantity("35 mm", "m"), 0.035);
   EXPECT_EQ(parse_quantity("7um", "m"), 7e-6);
   EXPECT_EQ(parse_quantity("0.1 ms", "s"), 1e-4);
-  EXPECT_EQ(parse_quantity("12", "m"), 12.0);
   EXPECT_EQ(parse_quantity("+3 cm", "m"), 0.03);
 }
 
@@ -47,7 +46,7 @@ TEST(Units, RefuseAnotherDimensionSayingWhichIsExpected) {
 }
 
 TEST(Units, RefuseWhatIsNoFiniteNumberWithAUnit) {
-  for (const char* text : {"", "m", "3 parsec", "nan m", "inf", "1e400 m", "3 m^", "3 (m", "3 m)", "3 m//s", "3 m 4", "1e308 km", "--3 m", "3 ((m))"})
+  for (const char* text : {"", "12", "m", "3 parsec", "nan m", "inf", "1e400 m", "3 m^", "3 (m", "3 m)", "3 m//s", "3 m 4", "1e308 km", "--3 m", "3 ((m))"})
     EXPECT_THROW(static_cast<void>(parse_quantity(text, "m")), std::invalid_argument) << text;
 }
 
