@@ -56,7 +56,7 @@ std::string word_table(const char* title, const std::vector<MetricWord>& words) 
 std::string page() {
   std::string out = case_reference_page() + "## Reference functions\n\n";
   for (const auto& f : reference_functions()) {
-    out += fmt::format("### `{}`\n\n{} Source: {} ({}).\n\n", f.name, f.meaning, f.source, f.kind);
+    out += fmt::format("### `{}`\n\n{}. Source: {} ({}).\n\n", f.name, f.meaning, f.source, f.kind);
     if (!f.args.empty()) out += "| argument | unit | meaning and default |\n|---|---|---|\n";
     for (const auto& a : f.args) out += fmt::format("| `{}` | {} | {} |\n", a.name, a.unit, a.meaning);
     if (!f.args.empty()) out += "\n";

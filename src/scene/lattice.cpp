@@ -11,6 +11,8 @@ namespace {
 /// A corner counts as on the lattice within this part of a spacing: round-off of the numbers in the file.
 constexpr double on_lattice = 1e-6;
 
+constexpr double max_cells = 1e8;
+
 struct Span {
   double origin = 0.0;
   long first = 0, count = 0;
@@ -54,7 +56,7 @@ Lattice lattice_of(const Scene& s, const Body& b) {
     if (!std::isfinite(box.min[a]) || !std::isfinite(box.max[a]))
       throw InputError(b.place, fmt::format("body \"{}\" has no end along {}: cut it by a difference, or give scene.min and scene.max", b.name, "xyz"[a]));
     cells *= std::max(0.0, (box.max[a] - box.min[a]) / s.spacing + 2.0);
-    if (!(cells <= 2e8)) throw InputError(b.place, fmt::format("body \"{}\" spans more than 2e8 cells of spacing {} m: coarsen scene.spacing", b.name, s.spacing));
+    if (!(cells <= max_cells)) throw InputError(b.place, fmt::format("body \"{}\" spans more than {:.0e} cells of spacing {} m: coarsen scene.spacing", b.name, max_cells, s.spacing));
     const Span span = along(s, b, box, a);
     lattice.origin[a] = span.origin, lattice.first[a] = span.first, lattice.count[a] = span.count;
   }

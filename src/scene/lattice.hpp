@@ -24,7 +24,7 @@ struct Lattice {
   [[nodiscard]] long across(std::size_t axis) const { return count[axis]; }
 };
 
-/// @throws InputError when the body has no finite bounds, would need more than 2e8 cells, or a periodic domain is no multiple of dx
+/// @throws InputError when the body has no finite bounds, would need more than 1e8 cells, or a periodic domain is no multiple of dx
 [[nodiscard]] Lattice lattice_of(const Scene&, const Body&);
 
 /// Centres of the particles that fill the body, x fastest; neither jittered nor wrapped. @throws InputError when there is none

@@ -154,6 +154,13 @@ void read_judgement(TableReader& top, Case& c, Reading& reading) {
   for (const auto* node : top.tables("harmless")) c.harmless.push_back(TableReader(*node, "harmless", fmt::format("harmless.{}", ++n), reading.decisions).text("name"));
 }
 
+/// In the order of the reference page, whatever order the rules asked for.
+void sort_by_table(std::vector<Decision>& decisions) {
+  const auto tables = key_names("");
+  const auto rank = [&](const Decision& d) { return std::find(tables.begin(), tables.end(), d.key.substr(0, d.key.find('.'))) - tables.begin(); };
+  std::stable_sort(decisions.begin(), decisions.end(), [&](const Decision& a, const Decision& b) { return rank(a) < rank(b); });
+}
+
 }  // namespace
 
 CaseReading read_case(const std::string& path, const std::vector<std::string>& set) {
@@ -192,6 +199,7 @@ CaseReading read_case(const std::string& path, const std::vector<std::string>& s
   read_judgement(top, c, reading);
   check_references(c, reading);
   out.decisions = std::move(reading.decisions);
+  sort_by_table(out.decisions);
   return out;
 }
 

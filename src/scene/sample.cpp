@@ -14,6 +14,8 @@
 namespace tripoint {
 namespace {
 
+constexpr std::size_t max_particles = 20'000'000;  // about 2 GB here; far beyond what one machine steps
+
 /// Fields with their expressions compiled once.
 class TemperatureAt {
  public:
@@ -109,6 +111,7 @@ InitialState sample(const Scene& s) {
     const auto material = std::find_if(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == b.material; });
     const double mass = s.material(b.material).density * s.spacing * s.spacing * s.spacing;
     auto centres = fill(s, b);
+    if (out.size() + centres.size() > max_particles) throw InputError(b.place, fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing", max_particles, b.name));
     for (std::size_t i = 0; i < centres.size() && s.jitter > 0.0; ++i)
       for (std::size_t a = 0; a < 3; ++a) centres[i][a] += s.jitter * s.spacing * counter_noise(s.seed, out.size() + i, a);
     const auto velocity = velocities(s, b, centres);

@@ -58,7 +58,7 @@ std::string show(const std::vector<double>& v) { return fmt::format("[{}]", fmt:
 std::string show(const std::vector<std::string>& v) { return v.empty() ? "[]" : fmt::format("[\"{}\"]", fmt::join(v, "\", \"")); }
 
 TableReader::TableReader(const TomlNode& node, std::string_view table, std::string path, std::vector<Decision>& decisions, std::vector<std::string> extra)
-    : node_(node), table_(table), path_(std::move(path)), decisions_(decisions) {
+    : node_(node), table_(table), path_(std::move(path)), decisions_(decisions), first_(decisions.size()) {
   if (node.kind != Kind::table) throw InputError(node.place, fmt::format("`{}` must be a table, not {}", path_, kind_name(node.kind)));
   auto known = key_names(table);
   known.insert(known.begin(), extra.begin(), extra.end());
@@ -104,8 +104,8 @@ void TableReader::record(const Found& f, std::string value) {
 
 void TableReader::ruled(std::string_view key, std::string value, std::string reason) {
   Decision d{path_of(key), std::move(value), std::move(reason), false, {}};
-  for (auto& before : decisions_)
-    if (before.key == d.key && !before.given) return static_cast<void>(before = std::move(d));
+  for (std::size_t i = first_; i < decisions_.size(); ++i)
+    if (decisions_[i].key == d.key && !decisions_[i].given) return static_cast<void>(decisions_[i] = std::move(d));
   decisions_.push_back(std::move(d));
 }
 

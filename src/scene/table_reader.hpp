@@ -69,6 +69,7 @@ class TableReader {
   const TomlNode* library_ = nullptr;
   std::string table_, path_, library_reason_;
   std::vector<Decision>& decisions_;
+  std::size_t first_;  ///< of the decisions that are this table's
 };
 
 /// A value by the unit and range of a row of the key table. @param path names it in messages

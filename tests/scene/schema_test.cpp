@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "case_file.hpp"
+#include "scene/key_table.hpp"
+
+namespace tripoint::test {
+namespace {
+
+using json = nlohmann::json;
+
+TEST(KeyTable, NamesEveryKeyOnceWithAMeaningAndAReasonForItsDefault) {
+  std::set<std::string> seen;
+  for (const auto& k : key_table()) {
+    EXPECT_TRUE(seen.insert(std::string(k.table) + "." + std::string(k.name)).second) << k.table << "." << k.name;
+    EXPECT_FALSE(k.meaning.empty()) << k.name;
+    EXPECT_TRUE(k.required() || !k.note.empty()) << k.table << "." << k.name;
+  }
+  for (const auto& t : table_infos()) EXPECT_FALSE(keys_of(t.name).empty()) << t.name;
+}
+
+TEST(Schema, HoldsEveryKeyOfTheTable) {
+  const auto s = json::parse(case_schema());
+  for (const auto& k : key_table()) {
+    const auto& table = k.table.empty() ? s : s.at("$defs").at(std::string(k.table));
+    ASSERT_TRUE(table.at("properties").contains(std::string(k.name))) << k.table << "." << k.name;
+    EXPECT_FALSE(table.at("additionalProperties").get<bool>());
+  }
+}
+
+/// Every $ref leads somewhere.
+void check_references(const json& node, const json& root) {
+  if (node.is_object() && node.contains("$ref")) {
+    EXPECT_TRUE(root.contains(json::json_pointer(node.at("$ref").get<std::string>().substr(1)))) << node;
+  }
+  if (node.is_structured())
+    for (const auto& child : node) check_references(child, root);
+}
+
+TEST(Schema, RefersOnlyToWhatItDefines) {
+  const auto s = json::parse(case_schema());
+  check_references(s, s);
+}
+
+TEST(ReferencePage, NamesEveryKeyOfTheTable) {
+  const auto page = case_reference_page();
+  for (const auto& k : key_table()) EXPECT_NE(page.find("| `" + std::string(k.name) + "` |"), std::string::npos) << k.name;
+}
+
+TEST(NewCase, RunsAsItIsAndNeedsNoOtherFile) {
+  const auto r = read_text(new_case_text("my/case"));
+  EXPECT_EQ(r.value.id, "my/case");
+  const auto scene = scene_for(r.value, {});
+  EXPECT_TRUE(preflight(r.value, scene, sample(scene)).empty());
+}
+
+}  // namespace
+}  // namespace tripoint::test
