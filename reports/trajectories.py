@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 MOST_FRAMES = 400    # of a body's path
-MOST_POINTS = 4_000  # of a picture: more are not told apart at its size
 MOST_ROWS = 2_000_000  # bound on what a file may ask this program to read
 
 

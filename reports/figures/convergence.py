@@ -9,7 +9,7 @@ import numpy as np
 from model import is_number
 
 from . import style
-from .curve import Drawing, axis_label, curves
+from .curve import Drawing, judged, label_metric
 
 UNITS = {"spacing": "particle spacing [m]", "time_step": "time step [s]", "support_ratio": "1 / support ratio", "walkers": "1 / walkers", "iterations": "1 / iterations"}
 INVERSE = ("support_ratio", "walkers", "iterations")  # the more the finer: drawn against 1/level, so that finer is always left
@@ -18,13 +18,13 @@ MOST_PANELS = 4
 
 def draw(case, trajectories, notes):
     wanted = list(dict.fromkeys((order.metric, order.axis) for engine in case.engines for order in engine.orders))
-    wanted = [pair for pair in wanted if any(len(points(curve, *pair)) > 1 for curve in curves(case))]
+    wanted = [pair for pair in wanted if any(len(points(curve, *pair)) > 1 for curve in judged(case))]
     if not wanted:
         return None
     if len(wanted) > MOST_PANELS:
         notes.append(f"convergence is drawn for the first {MOST_PANELS} studies; in the table of orders alone: " + ", ".join(f"{m} by {a}" for m, a in wanted[MOST_PANELS:]))
         wanted = wanted[:MOST_PANELS]
-    figure, axes = style.panels(len(wanted), len(curves(case)))
+    figure, axes = style.panels(len(wanted), len(judged(case)))
     for axis, (metric, knob) in zip(axes, wanted):
         panel(case, axis, metric, knob)
     style.legend(figure, axes)
@@ -52,7 +52,7 @@ def points(curve, metric, knob):
 
 def panel(case, axis, metric, knob):
     formal, labels = {}, []
-    for curve in curves(case):
+    for curve in judged(case):
         found = points(curve, metric, knob)
         if not found:
             continue
@@ -70,7 +70,7 @@ def panel(case, axis, metric, knob):
     style.logarithmic(axis)
     style.labels(axis, labels, (4, -14))
     axis.set_xlabel(UNITS.get(knob, knob))
-    axis.set_ylabel(axis_label(case, metric))
+    label_metric(axis, case, metric)
 
 
 def fitted(axis, found, order, look):
@@ -80,15 +80,19 @@ def fitted(axis, found, order, look):
     x = np.exp(np.linspace(log_x.min(), log_x.max(), 25))
     y = y0 * (x / x0) ** order.value
     if is_number(order.coefficient) and is_number(order.floor):
-        own = order.floor + order.coefficient * x**order.value
-        y = own if (own > 0).all() and abs(math.log(np.exp(np.log(own).mean()) / y0)) < 1.0 else y
+        y = law(order, x, x0, order.value)
     axis.plot(x, y, color=look["color"], linestyle=look["linestyle"], linewidth=1.3)
     words = f"{order.value:.2f}"
     if is_number(order.low) and is_number(order.high):
-        fan = [y * (x / x0) ** np.clip(edge - order.value, -3, 3) for edge in (order.low, order.high)]
+        fan = [law(order, x, x0, edge) if is_number(order.coefficient) and is_number(order.floor) else y * (x / x0) ** (edge - order.value) for edge in (order.low, order.high)]
         axis.fill_between(x, np.minimum(*fan), np.maximum(*fan), color=look["color"], alpha=0.15, linewidth=0)
-        words += f" [{order.low:.2f}, {order.high:.2f}]"
+        words += f" [{order.low:.2f}, {order.high:.2f}]" + (f" {order.fit_class}" if order.fit_class != "asymptotic" else "")
     return words, (x[-9], y[-9]), look["color"]
+
+
+def law(order, x, x0, slope):
+    """|floor + C x^p| as fitted; at another slope the term keeps its value at x0. Floor and C are signed."""
+    return np.abs(order.floor + order.coefficient * x0 ** order.value * (x / x0) ** slope)
 
 
 def guide(axis, slope, found):

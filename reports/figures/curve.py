@@ -40,9 +40,12 @@ class Drawing:
     caption: str = ""
 
 
-def axis_label(case, metric):
-    unit = case.units.get(metric)
-    return f"{metric} [{unit}]" if unit else metric
+def label_metric(axis, case, metric):
+    """Name at the axis; a unit of several words stands over the panel."""
+    unit = case.units.get(metric) or ""
+    axis.set_ylabel(f"{metric} [{unit}]" if unit and len(unit) < 8 else metric)
+    if len(unit) >= 8:
+        axis.set_title(unit, loc="right", fontsize=8)
 
 
 def curves(case):
@@ -52,6 +55,11 @@ def curves(case):
         for mode in dict.fromkeys(run.mode for run in engine.runs):
             result.append(Curve(case, engine, mode, [run for run in engine.runs if run.mode == mode]))
     return result
+
+
+def judged(case):
+    """Without `exact`: it evaluates the reference, its round-off says nothing of a method."""
+    return [curve for curve in curves(case) if curve.engine.name != "exact"]
 
 
 def metrics(case, wanted=4):

@@ -39,7 +39,7 @@ def draw(results, notes):
     handles = axis.get_legend_handles_labels()
     figure.legend(*handles, loc="upper left", ncol=min(6, len(handles[1])), bbox_to_anchor=(0.0, 1.0), columnspacing=1.2, borderaxespad=0.3)
     return Drawing("limits", "How much of each limit is used", f"{len(kept)} gates on a logarithmic scale of value over limit; the limit is at 1.", figure,
-                   "Value over limit (distance from the middle over half the width for a band). Whiskers: two standard uncertainties. Left of 1 is inside. Far left is a slack limit. Crosses: no finite value.")
+                   "Value over limit (distance from the middle over half the width for a band). Whiskers: two standard uncertainties. Left of 1 is inside. Far left is a slack limit. Triangles: beyond the scale. Crosses: no finite value.")
 
 
 def mark(axis, k, case, engine, gate, seen):
@@ -58,7 +58,7 @@ def mark(axis, k, case, engine, gate, seen):
         reach = 2 * gate.uncertainty * used / abs(gate.value) if not gate.band else 4 * gate.uncertainty / (gate.band[1] - gate.band[0])
         axis.plot([max(place - reach, FLOOR), place + reach], [k, k], color=hue, linewidth=0.9, alpha=0.7)
     presets = list(dict.fromkeys(e.preset for e in case.engines if e.name == engine.name))
-    axis.plot([place], [k], style.MARKERS[presets.index(engine.preset) % len(style.MARKERS)] if used >= FLOOR else "<", color=hue, markersize=4.5, label=name,
+    axis.plot([place], [k], style.MARKERS[presets.index(engine.preset) % len(style.MARKERS)] if FLOOR <= used <= 100.0 else "<" if used < FLOOR else ">", color=hue, markersize=4.5, label=name,
               markeredgecolor=style.RED if gate.verdict == "FAIL" else style.INK if gate.verdict != "PASS" else hue, markeredgewidth=1.4)
 
 

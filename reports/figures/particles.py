@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 
 from . import style
 from .curve import Drawing
-from trajectories import MOST_POINTS
 
 MOST_PANELS = 8
+CELLS = 110  # squares across a picture, of which each shows one particle
 THIN = 0.12  # of the longest extent: below it the scene is seen along that axis
 LONG = 0.35  # second extent of the first: below it a bar is seen from the side
 TURN, TILT = np.radians(-55.0), np.radians(24.0)
@@ -30,11 +30,17 @@ def draw(case, trajectories, notes):
         shown = shown[:MOST_PANELS]
     warm = warmth(shown)
     frames = [t.strobe if warm is None else t.strobe[-1:] for _, t in shown]
-    view, names = projection(np.concatenate([finite(p) for each in frames for _, p in each]))
+    everything = np.concatenate([finite(p) for each in frames for _, p in each])
+    view, names = projection(everything)
+    if len(everything) and np.abs(everything).max() < 0.1:
+        names = [name.replace("[m]", "[mm]") for name in names]
     bounds = extent([view(finite(p)) for each in frames for _, p in each])
     figure, axes, bar = layout(len(shown), bounds, warm is not None)
     for axis, (curve, trajectory), strobe in zip(axes, shown, frames):
         panel(axis, curve, trajectory, strobe, view, bounds, warm)
+        if "[mm]" in names[0]:
+            for side in (axis.xaxis, axis.yaxis):
+                side.set_major_formatter(lambda value, _: f"{1000 * value:.4g}")
         axis.set_xlabel(names[0], labelpad=1)
         axis.set_ylabel(names[1], labelpad=1)
         if bounds[1][0] - bounds[0][0] > 6 * (bounds[1][1] - bounds[0][1]):
@@ -47,8 +53,8 @@ def draw(case, trajectories, notes):
         bar.grid(False)
     time = shown[0][1].strobe[-1][0]
     how = "coloured by temperature on one scale" if warm is not None else "coloured by body" + (", earlier times paler" if len(frames[0]) > 1 else "")
-    most = max(len(t.position) for _, t in shown)
-    caption = f"At t = {time:.4g} s, finest run of each, {how}." + (f" {MOST_POINTS} of up to {most} particles are drawn." if most > MOST_POINTS else "")
+    most = max(int(np.isfinite(t.position).all(axis=1).sum()) for _, t in shown)
+    caption = f"At t = {time:.4g} s, finest run of each, {how}." + f" Up to {most} particles; of those behind one another the foremost is drawn."
     return Drawing("particles", "Particles, engine by engine", f"Particles at {time:.4g} s for {', '.join(c.label for c, _ in shown)}, {how}.", figure, caption)
 
 
@@ -91,8 +97,8 @@ def layout(count, bounds, bar):
     columns = 1 if wide > 6 * tall else 2 if wide > 2.5 * tall else 3 if count in (3, 5, 6) else 4
     columns = min(columns, max(count, 2)) if columns > 1 else 1
     lines = -(-count // columns)
-    each = style.WIDTH / columns - 0.65
-    height = float(np.clip(each * tall / wide, 0.32, 3.4))
+    each = style.WIDTH / columns - 0.8
+    height = float(np.clip(each * tall / wide, 0.32, 2.9))
     below, above, gap = (1.12 if bar else 0.45), 0.32, 0.72 if columns > 1 else 0.55
     total = lines * height + (lines - 1) * gap + below + above
     figure = Figure(figsize=(style.WIDTH, total))
@@ -100,7 +106,7 @@ def layout(count, bounds, bar):
     axes = []
     for k in range(count):
         line, column = divmod(k, columns)
-        left = (column * style.WIDTH / columns + 0.58) / style.WIDTH
+        left = (column * style.WIDTH / columns + 0.68) / style.WIDTH
         axes.append(figure.add_axes([left, (below + (lines - 1 - line) * (height + gap)) / total, each / style.WIDTH, height / total]))
     return figure, axes, figure.add_axes([0.3, 0.48 / total, 0.4, 0.1 / total]) if bar else None
 
@@ -110,19 +116,29 @@ def panel(axis, curve, trajectory, strobe, view, bounds, warm):
     axis.set_ylim(bounds[0][1], bounds[1][1])
     axis.set_aspect("equal")
     axis.set_title(curve.label, color=style.look(curve)["color"], fontweight="bold")
-    axis.locator_params(nbins=5)
+    axis.locator_params(nbins=4 if bounds[1][0] - bounds[0][0] < 6 * (bounds[1][1] - bounds[0][1]) else 8)
     axis.set_axisbelow(True)
     for k, (_, position) in enumerate(strobe):
-        step = max(1, -(-len(position) // (MOST_POINTS // len(strobe))))
-        chosen = np.arange(0, len(position), step)
-        chosen = chosen[np.isfinite(position[chosen]).all(axis=1)]
+        chosen = np.flatnonzero(np.isfinite(position).all(axis=1))
         seen = view(position[chosen])
+        front = in_front(seen, max(0.55 * (curve.finest.knob("spacing") or 0.0), (bounds[1] - bounds[0]).max() / CELLS))
+        chosen, seen = chosen[front], seen[front]
         order = np.argsort(-seen[:, 2], kind="stable")
-        axis.scatter(seen[order, 0], seen[order, 1], s=marker_area(axis, bounds, curve, len(position) / step), linewidths=0, rasterized=True,
+        axis.scatter(seen[order, 0], seen[order, 1], s=marker_area(axis, bounds, curve, len(chosen)), linewidths=0, rasterized=True,
                      alpha=1.0 if k == len(strobe) - 1 else 0.25 + 0.4 * k / len(strobe), **hues(trajectory, chosen[order], seen[order, 2], warm))
     lost = int((~np.isfinite(strobe[-1][1]).all(axis=1)).sum())
     if lost:
         axis.annotate(f"{lost} particles not finite", (0.02, 0.9), xycoords="axes fraction", color=style.RED, fontsize=8)
+
+
+def in_front(seen, cell):
+    """Rows of the particle that is nearest to the viewer in each square of the screen; what lies behind is hidden anyway."""
+    place = np.floor(seen[:, :2] / cell)
+    order = np.lexsort((seen[:, 2], place[:, 1], place[:, 0]))
+    place = place[order]
+    first = np.ones(len(order), bool)
+    first[1:] = (place[1:] != place[:-1]).any(axis=1)
+    return order[first]
 
 
 def marker_area(axis, bounds, curve, count):
@@ -130,7 +146,8 @@ def marker_area(axis, bounds, curve, count):
     box, size = axis.get_position(), axis.figure.get_size_inches()
     spacing = curve.finest.knob("spacing")
     if spacing and spacing > 0:
-        return float(np.clip((0.9 * spacing * box.width * size[0] * 72 / (bounds[1][0] - bounds[0][0])) ** 2, 1.5, 120.0))
+        least = (1.3 * box.width * size[0] * 72 / CELLS) ** 2
+        return float(np.clip((0.95 * spacing * box.width * size[0] * 72 / (bounds[1][0] - bounds[0][0])) ** 2, least, 150.0))
     return float(np.clip(0.7 * box.width * box.height * size[0] * size[1] * 72**2 / max(count, 1), 2.5, 60.0))
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from model import table
 
 from . import style
-from .curve import Drawing, axis_label, curves
+from .curve import Drawing, curves, label_metric
 
 MOST_PANELS = 4
 
@@ -62,4 +62,4 @@ def panel(case, axis, name, finest):
         axis.set_ylim(bottom=max(everything.min() * 0.7, everything.max() * 1e-14), top=everything.max() * 1.6)
         style.logarithmic(axis, "y")
     axis.set_xlabel("time [s]")
-    axis.set_ylabel(axis_label(case, name))
+    label_metric(axis, case, name)

@@ -108,7 +108,10 @@ def labels(axis, wanted, aside=(6, 6)):
 
 def power(value, _=None):
     """0.02, 1e-5: short for a tick."""
-    return f"{value:.3g}" if 1e-3 <= value < 1e4 else f"{value:.0e}".replace("e-0", "e-").replace("e+0", "e")
+    if 1e-3 <= value < 1e4:
+        return f"{value:.4g}"
+    mantissa, exponent = f"{value:.2e}".split("e")
+    return f"{mantissa.rstrip('0').rstrip('.')}e{int(exponent)}"
 
 
 def files(figure, stem):

@@ -5,31 +5,31 @@ from __future__ import annotations
 from model import is_number
 
 from . import style
-from .curve import Drawing, axis_label, curves, metrics
+from .curve import Drawing, judged, label_metric, metrics
 
 
 def draw(case, trajectories, notes):
     names, rest = metrics(case, 2)
-    if not names or sum(len(curve.runs) for curve in curves(case)) < 2:
+    if not names or sum(len(curve.runs) for curve in judged(case)) < 2:
         return None
-    figure, axes = style.panels(len(names), len(curves(case)) + 1, height=3.1)
+    figure, axes = style.panels(len(names), len(judged(case)) + 1, height=3.1)
     for axis, metric in zip(axes, names):
         panel(case, axis, metric)
     style.legend(figure, axes)
     return Drawing("work-precision", "Work and precision", f"Log-log plot of {', '.join(names)} against CPU seconds for each engine and mode, with the Pareto front.", figure,
-                   "Lower left is better. Labels: what was refined. Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: runs that failed or gave no number." + (f" In the table of runs alone: {', '.join(rest)}." if rest else ""))
+                   "Lower left is better; the engine exact, which evaluates the reference, is left out. Labels: what was refined. Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: runs that failed or gave no number." + (f" In the table of runs alone: {', '.join(rest)}." if rest else ""))
 
 
 def panel(case, axis, metric):
     good, bad, labels = [], [], []
-    for curve in curves(case):
+    for curve in judged(case):
         look, own = style.look(curve), []
         for run in curve.runs:
             m, cost = run.metrics.get(metric), run.cost.get("cpu_s")
             sound = run.status == "ok" and m and is_number(m.value) and is_number(cost) and cost > 0
             if sound and m.value != 0:
                 own.append((cost, abs(m.value), m.u or 0.0, label(curve, run)))
-            elif curve.engine.name != "exact" and (m or run.status != "ok"):
+            elif m or run.status != "ok":
                 bad.append((cost, "0" if sound else run.status if run.status != "ok" else "no number", look["color"]))
         if own:
             own.sort()
@@ -46,7 +46,7 @@ def panel(case, axis, metric):
     style.labels(axis, labels)
     failed(axis, bad, good)
     axis.set_xlabel("CPU seconds, all threads")
-    axis.set_ylabel(axis_label(case, metric))
+    label_metric(axis, case, metric)
 
 
 def label(curve, run):
@@ -80,7 +80,7 @@ def failed(axis, bad, good):
     for k, (cost, why, hue) in enumerate(bad[:6]):
         known = is_number(cost) and cost > 0
         height = 1.03 - 0.07 * k if why != "0" else 0.03
-        axis.plot([cost if known else middle], [height], "x", transform=axis.get_xaxis_transform(), color=hue if hue != style.INK else style.RED, markersize=7, markeredgewidth=2, clip_on=False)
+        axis.plot([cost if known else middle], [height], "x", transform=axis.get_xaxis_transform(), color=hue, markersize=7, markeredgewidth=2, clip_on=False)
         axis.annotate(("error exactly 0" if why == "0" else why) + ("" if known else " (cost unknown)"), (cost if known else middle, height), xycoords=("data", "axes fraction"), xytext=(7, -3),
                       textcoords="offset points", fontsize=7.5, color=style.SOFT)
     if len(bad) > 6:
