@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adapters/tripoint/tripoint_engine.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -16,6 +17,18 @@ T setting(const Job& job, const std::string& name, T otherwise) {
   return *value;
 }
 
+constexpr std::string_view no_squish = "no_squish-";  ///< followed by the axes, outer to inner: no_squish-012
+
+/// The order of axes that a preset names. @throws InputError for a preset that is not listed by info()
+std::optional<std::array<std::size_t, 3>> axis_order_of(const std::string& preset) {
+  if (preset == "default") return {};
+  const std::string axes = preset.starts_with(no_squish) ? preset.substr(no_squish.size()) : "";
+  std::string sorted = axes;
+  std::ranges::sort(sorted);
+  if (sorted != "012") throw InputError("the engine tripoint has no preset " + preset + ": default or no_squish- and the order of axes, as in no_squish-012");
+  return std::array{static_cast<std::size_t>(axes[0] - '0'), static_cast<std::size_t>(axes[1] - '0'), static_cast<std::size_t>(axes[2] - '0')};
+}
+
 }  // namespace
 
 EngineInfo TripointEngine::info() const {
@@ -26,6 +39,8 @@ EngineInfo TripointEngine::info() const {
   std::error_code ignored;
   info.library_path = std::filesystem::read_symlink("/proc/self/exe", ignored).string();  // the solver is this program
   info.capabilities = {"rigid-free-flight", "gravity", "merge", "split", "release", "hold", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected"};
+  info.presets = {"default"};
+  for (const char* axes : {"012", "021", "102", "120", "201", "210"}) info.presets.push_back(std::string(no_squish) + axes);
   info.settings = {{"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
                    {"skin", "skin of the neighbour lists in support radii; default 0.1"}};
   info.deterministic = true;
@@ -48,6 +63,7 @@ void TripointEngine::load(const Job& job, const InitialState& initial) {
   SimulationOptions options;
   options.threads = job.threads;
   options.force_time_step = setting(job, "force_time_step", false);
+  options.axis_order = axis_order_of(job.preset);
   options.skin = setting(job, "skin", options.skin);
   Scene scene = job.scene;
   if (job.resolution.time_step) scene.time_step = job.resolution.time_step;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +21,10 @@ struct World {
   PeriodicBox box;
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
   Booked booked;
-  double time = 0.0;  ///< [s]
+  double time = 0.0;       ///< [s]
+  double next_time = 0.0;  ///< end of the step that is being taken, exactly as the loop will set it [s]
   int threads = 1;
+  std::optional<std::array<std::size_t, 3>> axis_order;  ///< rotation by NO_SQUISH in this order, to compare with
   bool moved = true;  ///< positions differ from those of the last rates
 
   [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }

@@ -43,6 +43,7 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
     : options_(options), effects_(active_effects(scene)), passes_(scene, effects_) {
   world_.scene = scene;
   world_.threads = options.threads;
+  world_.axis_order = options.axis_order;
   world_.box = box_of(scene);
   load(initial);
   if (passes_.needed()) {
@@ -112,8 +113,7 @@ void Simulation::advance_without_events(double time) {
     const long n = steps_to(time);
     dt_ = (time - start) / static_cast<double>(n);
     for (long k = 1; k <= n; ++k) {
-      step();
-      world_.time = k == n ? time : start + static_cast<double>(k) * dt_;
+      step(k == n ? time : start + static_cast<double>(k) * dt_);
       if (k % steps_between_bounds == 0 || next_bound().dt < dt_) break;
     }
   }
@@ -126,13 +126,14 @@ long Simulation::steps_to(double time) const {
   return std::max(1L, static_cast<long>(std::ceil(length / most - 1e-9)));
 }
 
-/// Rates and dt_ hold for the time on entry, and again on exit.
-void Simulation::step() {
+/// Rates and dt_ hold for the time on entry, and again on exit, at `end`.
+void Simulation::step(double end) {
+  world_.next_time = end;
   static const bool no_first_kick = defect_size("time.first_kick") > 0.0;
   const bool starts_late = steps_ == 0 && (no_first_kick || world_.scene.mode_of(Term::time) == Mode::paper);
   if (!starts_late) run(&Effect::kick, 0.5 * dt_);  // v of bodies; the paper's leapfrog starts without its half kick
   run(&Effect::drift, dt_);                         // r; rotation (19)-(20); prescribed motion; T or H by its rate (21)
-  world_.time += dt_;
+  world_.time = end;
   update_rates();
   bool again = false;
   for (const Active& a : effects_) again = a.effect->correct(world_, dt_) || again;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@ struct SimulationOptions {
   int threads = 1;
   bool force_time_step = false;  ///< run with the scene's time step though it is above a bound
   double skin = 0.1;             ///< of the neighbour lists, in support radii; static scenes need none
+  std::optional<std::array<std::size_t, 3>> axis_order{};  ///< rotation by NO_SQUISH in this order instead of the better default
 };
 
 /// A scene in motion: kick, drift, kick, with the effects that it calls for.
@@ -45,7 +48,7 @@ class Simulation {
   void advance_without_events(double time);
   void happen_until_now();
   [[nodiscard]] long steps_to(double time) const;
-  void step();
+  void step(double end);
   void update_rates();
   void pass(PassName);
   [[nodiscard]] TimeStepBound next_bound() const;

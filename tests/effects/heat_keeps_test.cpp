@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "effects/lab.hpp"
@@ -67,6 +68,31 @@ TEST(CorrectedHeat, EventHoldsATemperatureAndLetsItGo) {
   EXPECT_LT(lab::by_id(s, field::temperature)[5], 500.0);
   const Ledger after = s.ledger();
   EXPECT_NEAR((after.energy.at("thermal") + after.energy.at("walls")) / before, 1.0, 1e-12);
+}
+
+TEST(CorrectedHeat, LeavesASteadyBarOfTwoConductivitiesAlone) {
+  // Conductivities 10 : 1 in series between held ends: the exact profile is two straight lines that meet at T_face.
+  const double dx = 5e-4, half = 20 * dx, T_face = 300.0 + 100.0 * 1.0 / 11.0, end = 3 * dx;
+  lab::Lab lab(dx);
+  lab.make_periodic({false, true, true}, {0.0, 0.0, 0.0}, {1, 4, 4});
+  lab.add_material(1000.0, 10.0, 1000.0);
+  const auto exact = [&](const Vec3& r) {
+    const double x = r.x + 0.5 * dx - half;  // from the face between the materials
+    return x < 0.0 ? T_face + x * (T_face - 300.0) / half : T_face + x * (400.0 - T_face) / half;
+  };
+  const auto part = [&](std::string name, std::size_t material, double from, int count, bool held) {
+    lab.add({.name = std::move(name), .material = material, .corner = {from, 0.0, 0.0}, .count = {count, 4, 4}, .motion = Motion::fixed, .temperature = exact,
+             .temperature_held = held});
+  };
+  part("cold end", 1, -end, 3, true);
+  part("good conductor", 1, 0.0, 20, false);
+  part("poor conductor", 0, half, 20, false);
+  part("hot end", 0, 2.0 * half, 3, true);
+  const Simulation s = lab.run(60.0, 1);
+  const auto T = lab::by_id(s, field::temperature);
+  double worst = 0.0;
+  for (std::size_t id = 0; id < T.size(); ++id) worst = std::max(worst, std::abs(T[id] - exact(lab.initial.position[id])) / 100.0);
+  EXPECT_LT(worst, 2e-3);  // 0.6e-3 to 1.8e-3 with the harmonic mean, 2e-2 to 6e-2 with the arithmetic one (model 8.6)
 }
 
 /// Random temperatures on a jittered block: the hardest start there is.

@@ -103,11 +103,11 @@ inline std::vector<double> by_id(const Simulation& s, const Field<double>& f) {
   return values;
 }
 
-/// The block of 4 x 6 x 10 particles, spacing 0.1 m, mass 1 kg: I = (0.0416667, 0.095, 0.1116667) kg m2.
+/// The block of 10 x 6 x 4 particles, spacing 0.1 m, mass 1 kg: I = (0.0416667, 0.095, 0.1116667) kg m2.
 inline Lab asymmetric_block(const Vec3& angular_velocity, Mode mode = Mode::corrected) {
   Lab lab(0.1, mode);
   lab.scene.materials[0].density = 1.0 / (240.0 * 1e-3);
-  lab.add({.corner = {-0.15, -0.25, -0.45}, .count = {4, 6, 10}, .angular_velocity = angular_velocity});
+  lab.add({.corner = {-0.45, -0.25, -0.15}, .count = {10, 6, 4}, .angular_velocity = angular_velocity});
   return lab;
 }
 

@@ -68,8 +68,11 @@ void turn(World& world, std::size_t b, double dt) {
   }
   const Quaternion q = principal_to_world(world, b);
   const Vec3 I = t[field::body_inertia][b];
-  const bool paper = world.scene.mode_of(Term::rotation) == Mode::paper;
-  orientation = (paper ? rotated_paper(q, I, L, dt) : rotated_corrected(q, I, L, dt)) * conjugate(t[field::body_axes][b]);
+  const auto turned = [&] {
+    if (world.scene.mode_of(Term::rotation) == Mode::paper) return rotated_paper(q, I, L, dt);
+    return world.axis_order ? rotated_no_squish(q, I, L, dt, *world.axis_order) : rotated_corrected(q, I, L, dt);
+  };
+  orientation = turned() * conjugate(t[field::body_axes][b]);
   update_spin(world, b);
 }
 
@@ -123,7 +126,7 @@ void RigidBodies::drift(World& world, double dt) {
       turn(world, b, dt);
     } else {
       const double before = kinetic_energy(world, b) + potential_energy(world, b);
-      drive(world, b, world.time + dt);
+      drive(world, b, world.next_time);
       world.booked.walls -= kinetic_energy(world, b) + potential_energy(world, b) - before;
     }
     any = true;

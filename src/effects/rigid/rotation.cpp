@@ -8,10 +8,10 @@ namespace {
 
 double inverse(double moment) noexcept { return moment > 0.0 ? 1.0 / moment : 0.0; }
 
-/// Turns the body about its own axis k by omega_k dt, omega_k = L_k/I_k: the exact motion of that part of the energy.
-Quaternion turned_about(std::size_t k, const Quaternion& q, const Vec3& moments, const Vec3& L, double dt) noexcept {
+/// Turns the body about its own axis k by L_k dt times an inverse moment: the exact motion of that part of the energy.
+Quaternion turned_about(std::size_t k, const Quaternion& q, double inverse_moment, const Vec3& L, double dt) noexcept {
   Vec3 turn;
-  turn[k] = rotate_back(q, L)[k] * inverse(moments[k]) * dt;
+  turn[k] = rotate_back(q, L)[k] * inverse_moment * dt;
   return q * from_rotation_vector(turn);
 }
 
@@ -32,19 +32,26 @@ Quaternion rotated_paper(const Quaternion& to_world, const Vec3& moments, const 
   return normalised(from_rotation_vector(factor * dt * angular_velocity(to_world, moments, L)) * to_world);
 }
 
-Quaternion rotated_corrected(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt, const AxisOrder& order) noexcept {
+Quaternion rotated_corrected(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt) noexcept {
   static const bool first_order = defect_size("rigid.rotation") > 0.0;
+  const double isotropic = inverse(moments.y);  // moments ascend: y is the middle one
+  const double least = inverse(moments.x) - isotropic, greatest = inverse(moments.z) - isotropic;
+  Quaternion q = from_rotation_vector(isotropic * dt * L) * to_world;
+  if (first_order) return normalised(turned_about(0, turned_about(2, q, greatest, L, dt), least, L, dt));
+  q = turned_about(2, q, greatest, L, 0.5 * dt);
+  q = turned_about(0, q, least, L, dt);
+  q = turned_about(2, q, greatest, L, 0.5 * dt);
+  return normalised(q);
+}
+
+Quaternion rotated_no_squish(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt, const AxisOrder& order) noexcept {
   const auto [outer, middle, inner] = order;
-  Quaternion q = to_world;
-  if (first_order) {
-    for (const std::size_t k : order) q = turned_about(k, q, moments, L, dt);
-    return normalised(q);
-  }
-  q = turned_about(outer, q, moments, L, 0.5 * dt);
-  q = turned_about(middle, q, moments, L, 0.5 * dt);
-  q = turned_about(inner, q, moments, L, dt);
-  q = turned_about(middle, q, moments, L, 0.5 * dt);
-  q = turned_about(outer, q, moments, L, 0.5 * dt);
+  const Vec3 w{inverse(moments.x), inverse(moments.y), inverse(moments.z)};
+  Quaternion q = turned_about(outer, to_world, w[outer], L, 0.5 * dt);
+  q = turned_about(middle, q, w[middle], L, 0.5 * dt);
+  q = turned_about(inner, q, w[inner], L, dt);
+  q = turned_about(middle, q, w[middle], L, 0.5 * dt);
+  q = turned_about(outer, q, w[outer], L, 0.5 * dt);
   return normalised(q);
 }
 
