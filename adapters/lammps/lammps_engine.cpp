@@ -51,7 +51,7 @@ EngineInfo LammpsEngine::info() const {
   info.presets = {"default", "walkers", "conduction"};
   info.settings = setting_help();
   if (!missing_.empty()) {
-    info.version = "missing";
+    info.version = info.build = "missing";
     info.available = false;
     info.reason = missing_;
     return info;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -19,7 +20,7 @@ namespace {
 using json = nlohmann::json;
 using Vector = std::array<double, 3>;
 
-const json info{{"contract", 1}, {"name", "@NAME@"}, {"version", "1"}, {"build", ""}, {"library", {{"path", ""}, {"hash", ""}}},
+const json info{{"contract", 1}, {"name", "@NAME@"}, {"version", "1"}, {"build", "C++20"}, {"library", {{"path", ""}, {"hash", ""}}},
                 {"capabilities", {"rigid-free-flight", "gravity"}}, {"presets", {"default"}}, {"settings", json::object()}, {"deterministic", true}};
 
 struct JobFile {
@@ -79,7 +80,8 @@ int run(const std::string& path) {
   // Gravity, step and bodies as the engine itself holds them: the harness compares them with the job.
   const json held{{"gravity", job.at("scene").at("gravity")}, {"time_step", 0.0}, {"precision", "double"}, {"bodies", json::array()}};
   const json result{{"contract", 1}, {"status", reason.empty() ? "ok" : "refused"}, {"message", reason},
-                    {"time_reached", reason.empty() ? job.at("times").back().get<double>() : 0.0}, {"readback", held}};
+                    {"time_reached", reason.empty() ? job.at("times").back().get<double>() : 0.0}, {"steps", 0},
+                    {"seconds", {{"stepping_cpu", static_cast<double>(std::clock()) / CLOCKS_PER_SEC}}}, {"readback", held}};
   std::ofstream(folder / "result.json.part") << result.dump(1);
   std::filesystem::rename(folder / "result.json.part", folder / "result.json");  // the last act
   return reason.empty() ? 0 : 4;
