@@ -82,7 +82,7 @@ def read_run(raw):
     metrics = {key: read_metric(table(m)) for key, m in table(raw.get("metrics")).items()}
     cost = {key: number(table(raw.get("cost")).get(key)) for key in COSTS}
     return Run(table(raw.get("knobs")), text(raw.get("status"), "ok"), text(raw.get("reason") or raw.get("message")), metrics, cost,
-               text(raw.get("state_hash")), text(raw.get("folder")), table(raw.get("series")), table(raw.get("levels")))
+               text(raw.get("state_hash")), text(raw.get("folder")), table(raw.get("series")), table(raw.get("levels")), raw.get("base") is True)
 
 
 def read_order(raw):

@@ -74,6 +74,7 @@ class Run:
     folder: str
     series: dict
     levels: dict  # study axis -> the level that this run is
+    base: bool    # the case's own resolution
     number: int = 0
 
     @property

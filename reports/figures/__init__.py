@@ -36,7 +36,7 @@ def draw_case(root, out, case):
     """@returns (pictures, notes)"""
     notes, pictures, trajectories = [], [], []
     for curve in curves(case):
-        run = curve.finest
+        run = curve.shown
         if run is None:
             notes.append(f"{curve.label}: no sound run, nothing to draw")
             continue

@@ -32,7 +32,7 @@ def draw(case, trajectories, notes):
         axis.set_ylabel(title)
     style.legend(figure, axes)
     return Drawing("bodies", "Bodies in time", "Position, rotation and energy of the bodies against time for " + ", ".join(c.label for c, _ in shown) + ".", figure,
-                   "Finest run of each engine. Turn from the start is the angle of the rotation that leads from the first attitude to the present one." + (" Solid: the first body; dashes: further ones." if most > 1 else ""))
+                   "Each engine at the case's own resolution. Turn from the start is the angle of the rotation that leads from the first attitude to the present one." + (" Solid: the first body; dashes: further ones." if most > 1 else ""))
 
 
 def offset(curve, shown):

@@ -21,9 +21,10 @@ class Curve:
         return f"{self.engine.label} ({self.mode})" if several and self.mode and self.engine.name != "exact" else self.engine.label
 
     @property
-    def finest(self):
-        """The sound run of the finest spacing, then of the smallest step, then of the most walkers."""
+    def shown(self):
+        """The run that pictures and curves show: of the case's own resolution, which all engines share, else the finest."""
         sound = [run for run in self.runs if run.status == "ok"]
+        sound = [run for run in sound if run.base] or sound
 
         def key(run):
             return (run.knob("spacing") or 0, run.knob("time_step") or 0, -(run.knob("walkers") or 0), -(run.knob("iterations") or 0), run.number)

@@ -37,7 +37,7 @@ def draw(case, trajectories, notes):
     bounds = extent([view(finite(p)) for each in frames for _, p in each])
     figure, axes, bar = layout(len(shown), bounds, warm is not None)
     for axis, (curve, trajectory), strobe in zip(axes, shown, frames):
-        panel(axis, curve, trajectory, strobe, view, bounds, warm)
+        panel(axis, curve, trajectory, strobe, view, bounds, warm, len(strobe) == 1 and names[0].startswith("across"))
         if "[mm]" in names[0]:
             for side in (axis.xaxis, axis.yaxis):
                 side.set_major_formatter(lambda value, _: f"{1000 * value:.4g}")
@@ -54,7 +54,7 @@ def draw(case, trajectories, notes):
     time = shown[0][1].strobe[-1][0]
     how = "coloured by temperature on one scale" if warm is not None else "coloured by body" + (", earlier times paler" if len(frames[0]) > 1 else "")
     most = max(int(np.isfinite(t.position).all(axis=1).sum()) for _, t in shown)
-    caption = f"At t = {time:.4g} s, finest run of each, {how}." + f" Up to {most} particles; of those behind one another the foremost is drawn."
+    caption = f"At t = {time:.4g} s, at the case's own resolution, {how}." + f" Up to {most} particles; of those behind one another the foremost is drawn."
     return Drawing("particles", "Particles, engine by engine", f"Particles at {time:.4g} s for {', '.join(c.label for c, _ in shown)}, {how}.", figure, caption)
 
 
@@ -111,7 +111,7 @@ def layout(count, bounds, bar):
     return figure, axes, figure.add_axes([0.3, 0.48 / total, 0.4, 0.1 / total]) if bar else None
 
 
-def panel(axis, curve, trajectory, strobe, view, bounds, warm):
+def panel(axis, curve, trajectory, strobe, view, bounds, warm, solid):
     axis.set_xlim(bounds[0][0], bounds[1][0])
     axis.set_ylim(bounds[0][1], bounds[1][1])
     axis.set_aspect("equal")
@@ -121,11 +121,11 @@ def panel(axis, curve, trajectory, strobe, view, bounds, warm):
     for k, (_, position) in enumerate(strobe):
         chosen = np.flatnonzero(np.isfinite(position).all(axis=1))
         seen = view(position[chosen])
-        front = in_front(seen, max(0.55 * (curve.finest.knob("spacing") or 0.0), (bounds[1] - bounds[0]).max() / CELLS))
+        front = in_front(seen, max(0.55 * (curve.shown.knob("spacing") or 0.0), (bounds[1] - bounds[0]).max() / CELLS))
         chosen, seen = chosen[front], seen[front]
         order = np.argsort(-seen[:, 2], kind="stable")
-        axis.scatter(seen[order, 0], seen[order, 1], s=marker_area(axis, bounds, curve, len(chosen)), linewidths=0, rasterized=True,
-                     alpha=1.0 if k == len(strobe) - 1 else 0.25 + 0.4 * k / len(strobe), **hues(trajectory, chosen[order], seen[order, 2], warm))
+        axis.scatter(seen[order, 0], seen[order, 1], s=marker_area(axis, bounds, curve, len(chosen), 1.25 if solid else 1.1 if len(strobe) > 1 else 0.95), linewidths=0, rasterized=True,
+                     alpha=1.0 if k == len(strobe) - 1 else 0.1 + 0.3 * k / len(strobe), **hues(trajectory, chosen[order], seen[order, 2], warm))
     lost = int((~np.isfinite(strobe[-1][1]).all(axis=1)).sum())
     if lost:
         axis.annotate(f"{lost} particles not finite", (0.02, 0.9), xycoords="axes fraction", color=style.RED, fontsize=8)
@@ -141,13 +141,13 @@ def in_front(seen, cell):
     return order[first]
 
 
-def marker_area(axis, bounds, curve, count):
-    """[points^2]: a disc of nine tenths of a spacing, or such that the points cover the panel where no spacing is stated."""
+def marker_area(axis, bounds, curve, count, size_of):
+    """[points^2]: a disc of `size_of` spacings, or such that the points cover the panel where no spacing is stated."""
     box, size = axis.get_position(), axis.figure.get_size_inches()
-    spacing = curve.finest.knob("spacing")
+    spacing = curve.shown.knob("spacing")
     if spacing and spacing > 0:
-        least = (1.3 * box.width * size[0] * 72 / CELLS) ** 2
-        return float(np.clip((0.95 * spacing * box.width * size[0] * 72 / (bounds[1][0] - bounds[0][0])) ** 2, least, 150.0))
+        least = (1.6 * box.width * size[0] * 72 / CELLS) ** 2
+        return float(np.clip((size_of * spacing * box.width * size[0] * 72 / (bounds[1][0] - bounds[0][0])) ** 2, least, 150.0))
     return float(np.clip(0.7 * box.width * box.height * size[0] * size[1] * 72**2 / max(count, 1), 2.5, 60.0))
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The error of each metric in time, of the finest run of every engine and mode, with its band of two standard uncertainties."""
+"""The error of each metric in time, of every engine and mode at the case's own resolution, with its band of two standard uncertainties."""
 from __future__ import annotations
 
 import numpy as np
@@ -13,19 +13,19 @@ MOST_PANELS = 4
 
 
 def draw(case, trajectories, notes):
-    finest = [(curve, curve.finest) for curve in curves(case) if curve.finest]
-    names = list(dict.fromkeys(name for _, run in finest for name in [*run.metrics, *run.series]))
-    drawn = [name for name in names if any(numbers(run, name) is not None for _, run in finest)]
+    shown_runs = [(curve, curve.shown) for curve in curves(case) if curve.shown]
+    names = list(dict.fromkeys(name for _, run in shown_runs for name in [*run.metrics, *run.series]))
+    drawn = [name for name in names if any(numbers(run, name) is not None for _, run in shown_runs)]
     if not drawn:
         return None
     if len(drawn) > MOST_PANELS:
         notes.append("error in time is not drawn for " + ", ".join(drawn[MOST_PANELS:]))
         drawn = drawn[:MOST_PANELS]
-    figure, axes = style.panels(len(drawn), len(finest), height=2.5)
+    figure, axes = style.panels(len(drawn), len(shown_runs), height=2.5)
     for axis, name in zip(axes, drawn):
-        panel(case, axis, name, finest)
+        panel(case, axis, name, shown_runs)
     style.legend(figure, axes)
-    return Drawing("error-in-time", "Error in time", f"Error of {', '.join(drawn)} against time for each engine and mode.", figure, "The finest sound run of each engine and mode; shaded: two standard uncertainties where the run states them.")
+    return Drawing("error-in-time", "Error in time", f"Error of {', '.join(drawn)} against time for each engine and mode.", figure, "Each engine at the case's own resolution; shaded: two standard uncertainties where the run states them.")
 
 
 def numbers(run, name):
@@ -44,8 +44,8 @@ def numbers(run, name):
     return time, value, u if u is not None and len(u) == len(value) else None
 
 
-def panel(case, axis, name, finest):
-    found = [(curve, numbers(run, name)) for curve, run in finest]
+def panel(case, axis, name, shown_runs):
+    found = [(curve, numbers(run, name)) for curve, run in shown_runs]
     found = [(curve, entry) for curve, entry in found if entry is not None]
     everything = np.concatenate([value[np.isfinite(value) & (value != 0)] for _, (_, value, _) in found])
     log = everything.size > 0 and everything.min() > 0 and everything.max() / everything.min() > 50

@@ -54,7 +54,7 @@ def run_of(case, engine, mode, knobs, metrics, cpu, series=None, **more):
     cost = {"cpu_s": cpu, "wall_s": cpu * 0.6, "setup_cpu_s": 0.01, "peak_bytes": 31_000_000, "pairs": int(1e6 * cpu), "steps": 400, "instructions": None}
     metrics = {m: {"value": v, "uncertainty": u, **(series or {}).get(m, {})} for m, (v, u) in metrics.items()}
     levels = {axis: knobs[axis] for axis in ("spacing", "time_step", "walkers") if knobs.get(axis)}
-    return {"knobs": {"support_ratio": 2.6, "mode": mode if engine.startswith("tripoint") else None, "threads": 1, **knobs}, "levels": levels, "status": "ok", "reason": "",
+    return {"knobs": {"support_ratio": 2.6, "mode": mode if engine.startswith("tripoint") else None, "threads": 1, **knobs}, "levels": levels, "base": knobs["spacing"] == 0.05 or knobs["time_step"] == 1e-2, "status": "ok", "reason": "",
             "metrics": metrics, "cost": cost, "state_hash": f"{zlib.crc32(folder.encode()):016x}", "folder": folder, **more}
 
 
@@ -158,7 +158,7 @@ def heat(out, case, walkers=False, title="Cosine mode in a periodic bar, shifted
                     columns = {"position": (np.tile(x, (len(times), 1, 1)), "m"), "temperature": (fields, "K")}
                     if noise:
                         columns["temperature_error"] = (np.full(fields.shape, noise), "K")
-                    if not (spoil and mode == "paper" and n == 80):
+                    if not (spoil and mode == "paper" and n == 20):
                         write_trajectory(out / run["folder"], times, columns, None, {"energy_thermal": (1e6 + 1e-8 * np.sin(times * 1e3), "J")})
                     runs.append(run)
             last = runs[-1]["metrics"]["temperature_l2"]["value"]
