@@ -190,16 +190,34 @@ std::vector<std::string> members(hid_t file, const std::string& path) {
   return names;
 }
 
-Handle open_for_reading(const std::string& path) {
+namespace {
+
+/// Without HDF5's lock on the file: a process just started holds a copy of every open file, and the lock with it, until
+/// it runs its own program, so that a file closed here would for a moment be refused to the next who opens it.
+Handle unlocked_access(const std::string& path) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
+  H5Pset_file_locking(access.get(), false, true);
+  return access;
+}
+
+}  // namespace
+
+Handle open_for_reading(const std::string& path) {
+  const Handle access = unlocked_access(path);
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get());
   if (id < 0) throw InputError(path + ": is no readable HDF5 file");
   return {id, H5Fclose, path};
 }
 
+Handle open_for_change(const std::string& path) {
+  const Handle access = unlocked_access(path);
+  return {H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose, path};
+}
+
 Handle create_file(const std::string& path) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path};
+  const Handle access = unlocked_access(path);
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose, path};
 }
 
 }  // namespace tripoint::h5

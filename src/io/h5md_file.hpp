@@ -72,6 +72,7 @@ struct Block {
 [[nodiscard]] std::vector<std::string> members(hid_t file, const std::string& path);
 /// @throws InputError when it is no readable HDF5 file
 [[nodiscard]] Handle open_for_reading(const std::string& path);
+[[nodiscard]] Handle open_for_change(const std::string& path);
 [[nodiscard]] Handle create_file(const std::string& path);
 
 }  // namespace tripoint::h5

@@ -25,7 +25,7 @@ void write_particles(const std::string& path, const InitialState& s) {
   writer.append(frame);
   writer.close();
 
-  const h5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path);
+  const h5::Handle file = h5::open_for_change(path);
   const h5::Handle group = h5::make_group(file.get(), "particles/all/source");
   h5::Column column(group.get(), "value", h5::Type::int32, n, 0, "");
   column.append(0, n, s.source.data());

@@ -43,7 +43,7 @@ std::size_t expect(std::size_t rows, std::size_t n, const char* name) {
 
 /// One H5MD file being written: elements of shape value/step/time that share one step and one time dataset.
 struct TrajectoryWriter::Impl {
-  explicit Impl(const std::string& path) : path(path), file(h5::create_file(path)) {
+  explicit Impl(const std::string& name) : path(name), file(h5::create_file(name)) {
     write_h5md_group(file.get());
     write_box(file.get());
   }

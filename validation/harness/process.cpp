@@ -139,6 +139,8 @@ int spawn(const ProcessSpec& spec, int out, int err, pid_t& pid) {
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, out, 1);
   posix_spawn_file_actions_adddup2(&actions, err, 2);
+  posix_spawn_file_actions_addclosefrom_np(&actions, 3);
+  posix_spawn_file_actions_addclosefrom_np(&actions, 3);  // HDF5's files are not close-on-exec
   if (!spec.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, spec.folder.c_str());
   sigset_t none, all;
   sigemptyset(&none);
@@ -149,6 +151,7 @@ int spawn(const ProcessSpec& spec, int out, int err, pid_t& pid) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   auto argv = spec.argv;
   auto environment = environment_with(spec.environment);
+  const std::lock_guard lock(no_spawn_mutex());
   const int error = posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
@@ -234,6 +237,11 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
 }
 
 }  // namespace
+
+std::mutex& no_spawn_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
 
 ProcessEnd run_process(const ProcessSpec& spec) {
   adopt_orphans();
