@@ -139,7 +139,6 @@ int spawn(const ProcessSpec& spec, int out, int err, pid_t& pid) {
   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, out, 1);
   posix_spawn_file_actions_adddup2(&actions, err, 2);
-  posix_spawn_file_actions_addclosefrom_np(&actions, 3);
   posix_spawn_file_actions_addclosefrom_np(&actions, 3);  // HDF5's files are not close-on-exec
   if (!spec.folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, spec.folder.c_str());
   sigset_t none, all;
