@@ -65,6 +65,12 @@ TEST(Process, ProgressLinesAreReported) {
   EXPECT_EQ(seen, (std::vector<double>{0.25, 1.0}));
 }
 
+TEST(Process, NoOpenFileOfOursIsInherited) {
+  const TestFolder folder;
+  std::ofstream open(folder / "open");
+  EXPECT_EQ(run_process(shell("ls /proc/self/fd | wc -l")).output, "4\n");  // 0, 1, 2 and the folder that ls reads
+}
+
 TEST(Process, AFloodOnStdoutIsCut) {
   const auto end = run_process(shell("head -c 20000000 /dev/zero | tr '\\0' x"));
   EXPECT_EQ(end.output.size(), 4u << 20);

@@ -27,7 +27,7 @@ class Sampler {
     auto state = std::make_shared<InitialState>(sample(scene));
     fs::create_directories(folder_);
     const auto file = (folder_ / (key + ".h5")).string();
-    const std::lock_guard lock(hdf5_mutex());
+    const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
     fs::remove(file);
     write_particles(file, *state);
     return {state, file};

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,10 @@ struct ProcessEnd {
 
 /// Runs a program to its end, its limit or our Ctrl-C, whichever is first; nothing of its group survives. Never throws for what the program does.
 [[nodiscard]] ProcessEnd run_process(const ProcessSpec&);
+
+/// Held while a program is started, and by whoever uses HDF5: its files are not close-on-exec, a child would inherit them for a
+/// moment; and Debian's library is not thread-safe.
+[[nodiscard]] std::mutex& no_spawn_mutex();
 
 /// "exited with code 3", "was killed by signal 9 (Killed)", "was stopped after 600 s", ...
 [[nodiscard]] std::string describe(const ProcessEnd&);

@@ -65,7 +65,7 @@ void take_cost(Outcome& outcome, const ProcessEnd& end) {
 }
 
 std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
-  const std::lock_guard lock(hdf5_mutex());
+  const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
   const fs::path folder(request.folder);
   if (fs::exists(folder / "trajectory.h5")) return std::make_shared<Trajectory>(read_trajectory((folder / "trajectory.h5").string()));
   const auto& bodies = request.job->bodies;
@@ -92,11 +92,6 @@ Outcome read_trajectory_of(const RunRequest& request, Outcome outcome) {
 }
 
 }  // namespace
-
-std::mutex& hdf5_mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
 
 Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
   Outcome outcome;

@@ -3,7 +3,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "validation/harness/plan_runs.hpp"
@@ -34,9 +33,6 @@ struct Outcome {
 
 /// Writes the job, asks --check, runs, and reads back; what the engine does wrong becomes a status with its reason, never an exception.
 [[nodiscard]] Outcome run_one(const RunRequest&);
-
-/// Held around every use of HDF5: Debian's library is not thread-safe.
-[[nodiscard]] std::mutex& hdf5_mutex();
 
 /// Reads result and trajectory from the folder of a run that has ended.
 [[nodiscard]] Outcome read_back(const RunRequest&, const ProcessEnd&);
