@@ -38,7 +38,7 @@ def draw_case(root, out, case):
     for curve in curves(case):
         run = curve.shown
         if run is None:
-            notes.append(f"{curve.label}: no sound run, nothing to draw")
+            notes += [] if curve.engine.status != "ok" else [f"{curve.label}: no sound run, nothing to draw"]  # else the matrix says why
             continue
         try:
             trajectories.append((curve, read(root, run)))

@@ -24,7 +24,7 @@ def draw(case, trajectories, notes):
     for axis, (title, lines) in zip(axes, wanted):
         for curve, time, values, nth in lines:
             look = style.look(curve)
-            dashes = "-" if nth == 0 else (0, (1 + nth, 1.5))
+            dashes = look["linestyle"] if nth == 0 else (0, (1 + nth, 1.5))
             width = 2.6 if curve.engine.name == "exact" else 1.3
             axis.plot(time, values, color=look["color"], linestyle=dashes, linewidth=width, alpha=0.6 if width > 2 else 1.0, label=curve.label if nth == 0 else None,
                       marker=look["marker"] if nth == 0 and width < 2 else None, markersize=3.2, markevery=(offset(curve, shown), max(1, len(time) // 8)))

@@ -52,13 +52,15 @@ def mark(axis, k, case, engine, gate, seen):
         axis.plot([1.0], [k], "x", color=style.RED, markersize=6, markeredgewidth=2)
         axis.annotate(gate.verdict.lower(), (1.0, k), xytext=(6, -3), textcoords="offset points", fontsize=7.5, color=style.RED)
         return
+    if name:
+        axis.plot([], [], "o", color=hue, label=name, markersize=4.5)
     seen.add(engine.name)
     place, k = min(max(used, FLOOR), 100.0), k + shift(engine, case)
     if is_number(gate.uncertainty) and gate.uncertainty > 0 and gate.value:
         reach = 2 * gate.uncertainty * used / abs(gate.value) if not gate.band else 4 * gate.uncertainty / (gate.band[1] - gate.band[0])
         axis.plot([max(place - reach, FLOOR), place + reach], [k, k], color=hue, linewidth=0.9, alpha=0.7)
     presets = list(dict.fromkeys(e.preset for e in case.engines if e.name == engine.name))
-    axis.plot([place], [k], style.MARKERS[presets.index(engine.preset) % len(style.MARKERS)] if FLOOR <= used <= 100.0 else "<" if used < FLOOR else ">", color=hue, markersize=4.5, label=name,
+    axis.plot([place], [k], style.MARKERS[presets.index(engine.preset) % len(style.MARKERS)] if FLOOR <= used <= 100.0 else "<" if used < FLOOR else ">", color=hue, markersize=4.5,
               markeredgecolor=style.RED if gate.verdict == "FAIL" else style.INK if gate.verdict != "PASS" else hue, markeredgewidth=1.4)
 
 

@@ -34,7 +34,7 @@ def draw(case, trajectories, notes):
     view, names = projection(everything)
     if len(everything) and np.abs(everything).max() < 0.1:
         names = [name.replace("[m]", "[mm]") for name in names]
-    bounds = extent([view(finite(p)) for each in frames for _, p in each])
+    bounds = extent([view(finite(p)) for each in frames for _, p in each], max(curve.shown.knob("spacing") or 0.0 for curve, _ in shown))
     figure, axes, bar = layout(len(shown), bounds, warm is not None)
     for axis, (curve, trajectory), strobe in zip(axes, shown, frames):
         panel(axis, curve, trajectory, strobe, view, bounds, warm, len(strobe) == 1 and names[0].startswith("across"))
@@ -82,12 +82,12 @@ def projection(points):
     return (lambda p: p @ turn.T), ["across [m]", "up [m]"]
 
 
-def extent(projected):
+def extent(projected, spacing):
     points = np.concatenate([p[:, :2] for p in projected])
     if not len(points):
         return np.array([0.0, 0.0]), np.array([1.0, 1.0])
     low, high = points.min(axis=0), points.max(axis=0)
-    margin = max(0.04 * (high - low).max(), 1e-12)
+    margin = max(0.04 * (high - low).max(), 0.7 * spacing, 1e-12)
     return low - margin, high + margin
 
 

@@ -47,7 +47,7 @@ def numbers(run, name):
 def panel(case, axis, name, shown_runs):
     found = [(curve, numbers(run, name)) for curve, run in shown_runs]
     found = [(curve, entry) for curve, entry in found if entry is not None]
-    everything = np.concatenate([value[np.isfinite(value) & (value != 0)] for _, (_, value, _) in found])
+    everything = np.concatenate([value[np.isfinite(value) & (value != 0)] for curve, (_, value, _) in found if curve.engine.name != "exact" or len(found) == 1])
     log = everything.size > 0 and everything.min() > 0 and everything.max() / everything.min() > 50
     for curve, (time, value, u) in found:
         look = style.look(curve)

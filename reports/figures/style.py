@@ -100,6 +100,7 @@ def labels(axis, wanted, aside=(6, 6)):
     placed, on = [], 11 if aside[1] > 0 else -11
     for words, point, hue in wanted:
         x, y = axis.transData.transform(point) + aside
+        x = min(x, axis.bbox.x1 - 5.4 * len(words))
         while any(abs(x - a) < 5.2 * max(len(words), n) and abs(y - b) < 11 for a, b, n in placed):
             y += on
         placed.append((x, y, len(words)))

@@ -29,7 +29,7 @@ def panel(case, axis, metric):
             sound = run.status == "ok" and m and is_number(m.value) and is_number(cost) and cost > 0
             if sound and m.value != 0:
                 own.append((cost, abs(m.value), m.u or 0.0, label(curve, run)))
-            elif m or run.status != "ok":
+            elif (m or run.status != "ok") and run.status not in ("refused", "missing"):
                 bad.append((cost, "0" if sound else run.status if run.status != "ok" else "no number", look["color"]))
         if own:
             own.sort()
