@@ -81,13 +81,33 @@ std::string LammpsEngine::refusal(const Job& job) const {
   }
 }
 
-void LammpsEngine::load(const Job& job, const InitialState& state) {
-  if (!has_heat(job)) {
-    model_ = make_rigid_flight(job, state);
-    return;
+namespace {
+
+/// A failed run ends without destructors: MPI is ended here, or its shared memory stays behind.
+template <class Act>
+void ending_mpi_on_failure(Act&& act) {
+  try {
+    act();
+  } catch (...) {
+    finish();
+    throw;
   }
-  const std::string conduction = conduction_of(job, styles());
-  model_ = conduction == "sph" ? make_sph_heat(job, state) : make_walkers(job, state, conduction == "brownian");
+}
+
+}  // namespace
+
+void LammpsEngine::load(const Job& job, const InitialState& state) {
+  ending_mpi_on_failure([&] {
+    const std::string conduction = has_heat(job) ? conduction_of(job, styles()) : "";
+    if (conduction.empty())
+      model_ = make_rigid_flight(job, state);
+    else
+      model_ = conduction == "sph" ? make_sph_heat(job, state) : make_walkers(job, state, conduction == "brownian");
+  });
+}
+
+void LammpsEngine::advance_to(double time) {
+  ending_mpi_on_failure([&] { model_->advance_to(time); });
 }
 
 }  // namespace tripoint::lammps

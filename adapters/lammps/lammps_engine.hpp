@@ -15,7 +15,7 @@ class LammpsEngine final : public Engine {
   [[nodiscard]] EngineInfo info() const override;
   [[nodiscard]] std::string refusal(const Job&) const override;
   void load(const Job&, const InitialState&) override;
-  void advance_to(double time) override { model_->advance_to(time); }
+  void advance_to(double time) override;
   [[nodiscard]] Snapshot observe() const override { return model_->observe(); }
   [[nodiscard]] Readback readback() const override { return model_->readback(); }
   void account(Result& result) const override {

@@ -32,7 +32,9 @@ Library::Library(const std::string& log) {
   if (!handle_) throw EngineError("LAMMPS could not be opened");
 }
 
-Library::~Library() { lammps_close(handle_); }
+Library::~Library() {
+  if (opened) lammps_close(handle_);
+}
 
 void Library::check() const {
   if (!lammps_config_has_exceptions() || !lammps_has_error(handle_)) return;

@@ -42,7 +42,7 @@ class Library {
   void* handle_ = nullptr;
 };
 
-/// Ends MPI, once, after the last instance.
+/// Ends MPI, once; instances that are still open are then left as they are.
 void finish();
 
 }  // namespace tripoint::lammps
