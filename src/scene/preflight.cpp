@@ -84,6 +84,8 @@ class Preflight {
                               b.keyframes.front().position.y, b.keyframes.front().position.z, centre.x, centre.y, centre.z);
       findings_.push_back({jump > 0.5 * scene_.spacing, std::move(what), b.place});
     }
+    if (const double turn = angle_between({}, b.keyframes.front().rotation); turn > 1e-9)
+      error(b.place, fmt::format("body \"{}\": its first keyframe is turned by {:.3g} rad, but its particles are laid unturned: begin with rotation = [1, 0, 0, 0], rotations count from the start", b.name, turn));
     for (std::size_t k = 1; k < b.keyframes.size(); ++k) {
       const auto& from = b.keyframes[k - 1].rotation;
       const auto& to = b.keyframes[k].rotation;

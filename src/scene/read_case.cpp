@@ -57,6 +57,7 @@ void read_modes(TableReader& in, Scene& s) {
 
 void read_domain(TableReader& in, Scene& s) {
   s.min = in.maybe_vector("min"), s.max = in.maybe_vector("max");
+  if (s.min.has_value() != s.max.has_value()) in.refuse(s.min ? "min" : "max", fmt::format("a domain has two corners: give scene.{} too", s.min ? "max" : "min"));
   for (const auto& word : in.texts("periodic")) s.periodic[static_cast<std::size_t>(word[0] - 'x')] = true;
   for (std::size_t a = 0; a < 3; ++a) {
     if (s.periodic[a] && !(s.min && s.max)) in.refuse("periodic", fmt::format("direction {} repeats over the domain: give scene.min and scene.max", "xyz"[a]));
@@ -165,7 +166,6 @@ void sort_by_table(std::vector<Decision>& decisions) {
 
 CaseReading read_case(const std::string& path, const std::vector<std::string>& set) {
   Reading reading;
-  reading.file = path;
   std::error_code error;
   reading.folder = std::filesystem::absolute(path, error).parent_path().string();
   TomlNode document = read_toml(path);

@@ -10,8 +10,7 @@ namespace tripoint {
 
 /// What the parts share.
 struct Reading {
-  std::string file;    ///< path of the case
-  std::string folder;  ///< its folder, where meshes and data lie
+  std::string folder;  ///< of the case, where meshes and data lie
   std::vector<Decision> decisions;
 };
 

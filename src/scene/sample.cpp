@@ -76,7 +76,7 @@ Vec3 wrapped(const Scene& s, Vec3 r) {
 }
 
 /// Velocity of each particle of a body: its field and its spin about the centre of mass, or its prescribed motion.
-std::vector<Vec3> velocities(const Scene& s, const Body& b, const std::vector<Vec3>& centres) {
+std::vector<Vec3> velocities(const Body& b, const std::vector<Vec3>& centres) {
   std::vector<Vec3> out(centres.size());
   if (b.motion == Motion::fixed) return out;
   Vec3 centre;
@@ -89,7 +89,6 @@ std::vector<Vec3> velocities(const Scene& s, const Body& b, const std::vector<Ve
     out[i] = own + cross(start.angular_velocity, centres[i] - centre);
     if (!finite(out[i])) throw InputError(b.place, fmt::format("body \"{}\": its velocity is not finite at ({}, {}, {}) m", b.name, centres[i].x, centres[i].y, centres[i].z));
   }
-  static_cast<void>(s);
   return out;
 }
 
@@ -114,7 +113,7 @@ InitialState sample(const Scene& s) {
     if (out.size() + centres.size() > max_particles) throw InputError(b.place, fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing", max_particles, b.name));
     for (std::size_t i = 0; i < centres.size() && s.jitter > 0.0; ++i)
       for (std::size_t a = 0; a < 3; ++a) centres[i][a] += s.jitter * s.spacing * counter_noise(s.seed, out.size() + i, a);
-    const auto velocity = velocities(s, b, centres);
+    const auto velocity = velocities(b, centres);
     std::optional<TemperatureAt> temperature;
     if (b.temperature) temperature.emplace(*b.temperature);
     for (std::size_t i = 0; i < centres.size(); ++i) {

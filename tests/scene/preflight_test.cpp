@@ -82,6 +82,8 @@ TEST(Preflight, FindsKeyframesThatTurnTooFarOrJump) {
   EXPECT_EQ(found(board("[0.25,0.25,0.25]", "[1,0,0,0]"), "jumps"), "");
   EXPECT_EQ(found(board("[0.26,0.25,0.25]", "[1,0,0,0]"), "jumps"), "warning");
   EXPECT_EQ(found(board("[1,0.25,0.25]", "[1,0,0,0]"), "jumps"), "error");
+  const std::string turned = "motion='prescribed'\nkeyframes=[{time=0,position=[0.25,0.25,0.25],rotation=[0.6,0.8,0,0]},{time=1,position=[1,1,1],rotation=[0.6,0.8,0,0]}]";
+  EXPECT_EQ(found(scene_with(box("a", "[0,0,0]", "[0.5,0.5,0.5]", turned)), "laid unturned"), "error");
 }
 
 TEST(CalledEffects, FollowFromWhatTheBodiesAre) {

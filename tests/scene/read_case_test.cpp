@@ -107,6 +107,8 @@ TEST(ReadCase, RefusesWhatCannotBeMeant) {
   expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\n[[body]]\nname='b'\nmaterial='m'\ntemperature=300\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"lacks conductivity"});
 }
 
+TEST(ReadCase, RefusesHalfADomain) { expect_refused("[scene]\nend_time=1\nmin=[0,0,0]\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"case.toml:3", "give scene.max too"}); }
+
 TEST(ReadCase, SurvivesFilesThatBreakParsers) {
   std::string key;
   for (int i = 0; i < 200000; ++i) key += "a.";
