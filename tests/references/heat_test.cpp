@@ -155,9 +155,10 @@ TEST(StepInsulated, TurnsWithTheNormalOfTheStep) {
 TEST(TwoConductivities, AgreeAsHalfSpacesAndAsEigenfunctions) {
   // Conductivity ratio 10, equal rho c: contact at 0.7597 of the step (validation notes, 4 digits).
   const TwoLayers s{0.01, 0.05, 0.04, 1e-5, 1e-6, std::sqrt(10.0), 1.0, 1.0, 0.0};
-  EXPECT_NEAR(half_spaces_in_contact(s, 0.01, 1.0), 0.7597, 5e-5);
+  const TwoLayerSolution solution(s);
+  EXPECT_NEAR(solution.half_spaces(0.01, 1.0), 0.7597, 5e-5);
   for (const double x : {-0.03, 0.0, 0.009, 0.01, 0.0105, 0.02, 0.03})
-    EXPECT_NEAR(eigenfunction_series(s, x, 0.5), half_spaces_in_contact(s, x, 0.5), 1e-12) << x;
+    EXPECT_NEAR(solution.series(x, 0.5), solution.half_spaces(x, 0.5), 1e-12) << x;
 }
 
 /// Finite volumes with the exact interface conductance, Crank-Nicolson: nothing in common with the series.
@@ -194,9 +195,10 @@ std::vector<double> finite_volumes(const TwoLayers& s, int n, double time, int s
 TEST(TwoConductivities, AgreesWithFiniteVolumesLongAfterTheFrontsReachTheEnds) {
   const TwoLayers s{0.05, 0.05, 0.05, 1e-5, 1e-6, std::sqrt(10.0), 1.0, 1.0, 0.0};
   const int n = 1000;
+  const TwoLayerSolution solution(s);
   const auto T = finite_volumes(s, n, 400.0, 2000);
   double worst = 0.0;
-  for (int i = 0; i < n; ++i) worst = std::max(worst, std::abs(T[i] - temperature_of(s, (i + 0.5) * 0.1 / n, 400.0)));
+  for (int i = 0; i < n; ++i) worst = std::max(worst, std::abs(T[i] - solution.at((i + 0.5) * 0.1 / n, 400.0)));
   EXPECT_LT(worst, 2e-6);  // second order in 1/1000
 }
 

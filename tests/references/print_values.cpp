@@ -43,9 +43,9 @@ void print_step() {
 }
 
 void print_layers() {
-  const TwoLayers s{0.007, 0.007, 0.003, 2e-6, 2e-7, 1414.2135623730951, 447.21359549995793, 310.0, 300.0};
+  const TwoLayerSolution s({0.007, 0.007, 0.003, 2e-6, 2e-7, 1414.2135623730951, 447.21359549995793, 310.0, 300.0});
   for (const double t : {0.8, 8.0, 60.0})
-    for (const double x : {0.0005, 0.0069, 0.0075, 0.0099}) std::printf("layers %.17g %.17g = %.17g\n", t, x, temperature_of(s, x, t));
+    for (const double x : {0.0005, 0.0069, 0.0075, 0.0099}) std::printf("layers %.17g %.17g = %.17g\n", t, x, s.at(x, t));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 class Contact : public HeatReference {
  public:
-  Contact(const ReferenceInput& in, std::size_t axis, const TwoLayers& layers) : HeatReference(in.job, in.initial), axis_(axis), layers_(layers) {}
+  Contact(const ReferenceInput& in, std::size_t axis, const TwoLayers& layers) : HeatReference(in.job, in.initial), axis_(axis), layers_(layers), solution_(layers) {}
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     const auto& s = layers_;
     if (quantity == "axis") return static_cast<double>(axis_);
@@ -20,11 +20,12 @@ class Contact : public HeatReference {
   }
 
  protected:
-  [[nodiscard]] double temperature(const Vec3& place, double time) const override { return temperature_of(layers_, place[axis_], time); }
+  [[nodiscard]] double temperature(const Vec3& place, double time) const override { return solution_.at(place[axis_], time); }
 
  private:
   std::size_t axis_;
   TwoLayers layers_;
+  TwoLayerSolution solution_;
 };
 
 double uniform_temperature(const ReferenceInput& in, std::size_t body) {

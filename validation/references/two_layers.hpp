@@ -13,14 +13,29 @@ struct TwoLayers {
   double start_low = 0.0, start_high = 0.0;       ///< [K]
 };
 
-/// Temperature at x, by whichever of the two exact forms converges: half spaces in contact, with the contact temperature
+/// Temperature of two layers, by whichever of the two exact forms converges: half spaces in contact, with the contact temperature
 /// (e1 T1 + e2 T2)/(e1 + e2) and erfc profiles, while both fronts are further than 6 sqrt(4 D t) from their ends; else eigenfunctions.
-[[nodiscard]] double temperature_of(const TwoLayers&, double x, double time);
+class TwoLayerSolution {
+ public:
+  explicit TwoLayerSolution(const TwoLayers&);
+  [[nodiscard]] double at(double x, double time) const;
 
-/// The two forms by themselves, for the check of one by the other where both hold.
-[[nodiscard]] double half_spaces_in_contact(const TwoLayers&, double x, double time);
-/// Series over the modes cos(w x1/sqrt D1), cos(w x2/sqrt D2), x1, x2 counted from the ends; the frequencies w [1/sqrt s] are the roots of
-/// e1 sin p cos q + e2 cos p sin q = 0, p = w L1/sqrt D1, q = w L2/sqrt D2: one in each ((n - 1/2) pi, (n + 1/2) pi) of p + q.
-[[nodiscard]] double eigenfunction_series(const TwoLayers&, double x, double time);
+  /// The two forms by themselves, for the check of one by the other where both hold.
+  [[nodiscard]] double half_spaces(double x, double time) const;
+  /// Series over the modes cos(w x1/sqrt D1), cos(w x2/sqrt D2), x1, x2 counted from the ends; the frequencies w [1/sqrt s] are the
+  /// roots of e1 sin p cos q + e2 cos p sin q = 0, p = w L1/sqrt D1, q = w L2/sqrt D2: one in each ((n - 1/2) pi, (n + 1/2) pi) of p + q.
+  /// Enough modes are kept for a quarter of the time from which at() uses them.
+  [[nodiscard]] double series(double x, double time) const;
+
+ private:
+  struct Mode {
+    double w, low, high;  ///< frequency [1/sqrt s], weight of either side's cosine in the solution [K]
+  };
+  [[nodiscard]] Mode mode(int n) const;
+  TwoLayers s_;
+  double reach_low_, reach_high_;  ///< L/sqrt D of each layer [sqrt s]
+  double mean_, switch_time_;
+  std::vector<Mode> modes_;
+};
 
 }  // namespace tripoint
