@@ -23,7 +23,7 @@ void finish() {
 
 Library::Library(const std::string& log) {
   ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);  // else OpenMPI starts a daemon, orted, that outlives the run
-  ::setenv("OMP_NUM_THREADS", "1", 0);
+  ::unsetenv("OMP_NUM_THREADS");  // LAMMPS then runs one thread; the OpenMP library has read the variable before
   std::vector<std::string> words{"lammps", "-log", log, "-screen", "none", "-nocite"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

