@@ -25,8 +25,11 @@ std::optional<std::array<std::size_t, 3>> axis_order_of(const std::string& prese
   const std::string axes = preset.starts_with(no_squish) ? preset.substr(no_squish.size()) : "";
   std::string sorted = axes;
   std::ranges::sort(sorted);
-  if (sorted != "012") throw InputError("the engine tripoint has no preset " + preset + ": default or no_squish- and the order of axes, as in no_squish-012");
-  return std::array{static_cast<std::size_t>(axes[0] - '0'), static_cast<std::size_t>(axes[1] - '0'), static_cast<std::size_t>(axes[2] - '0')};
+  if (sorted != "012")
+    throw InputError("the engine tripoint has no preset " + preset +
+                     ": default or no_squish- and the order of axes, as in no_squish-012");
+  return std::array{static_cast<std::size_t>(axes[0] - '0'), static_cast<std::size_t>(axes[1] - '0'),
+                    static_cast<std::size_t>(axes[2] - '0')};
 }
 
 }  // namespace
@@ -38,7 +41,8 @@ EngineInfo TripointEngine::info() const {
   info.build = TRIPOINT_BUILD;
   std::error_code ignored;
   info.library_path = std::filesystem::read_symlink("/proc/self/exe", ignored).string();  // the solver is this program
-  info.capabilities = {"rigid-free-flight", "gravity", "merge", "split", "release", "hold", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected"};
+  info.capabilities = {"rigid-free-flight", "gravity",  "merge", "split",     "release", "hold",
+                       "prescribed",        "periodic", "heat",  "heat-held", "paper",   "corrected"};
   info.presets = {"default"};
   for (const char* axes : {"012", "021", "102", "120", "201", "210"}) info.presets.push_back(std::string(no_squish) + axes);
   info.settings = {{"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
@@ -49,7 +53,8 @@ EngineInfo TripointEngine::info() const {
 }
 
 std::string TripointEngine::refusal(const Job& job) const {
-  if (const std::string missing = missing_effect(job.scene); !missing.empty()) return "tripoint: the " + missing + " effect is not in this build";
+  if (const std::string missing = missing_effect(job.scene); !missing.empty())
+    return "tripoint: the " + missing + " effect is not in this build";
   if (!job.scene.inflows.empty()) return "tripoint: inflows are not in this build";
   for (const Event& e : job.scene.events) {
     if (e.kind == Event::Kind::grip) return "tripoint: grip events are not in this build";
@@ -93,7 +98,8 @@ void TripointEngine::account(Result& result) const {
   result.time_step_bound = simulation_->time_step_set_by();
   result.extra["time_step"] = simulation_->time_step();
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
-  if (const auto& lists = simulation_->world().neighbours) result.extra["neighbour_rebuilds"] = static_cast<double>(lists->rebuilds());
+  if (const auto& lists = simulation_->world().neighbours)
+    result.extra["neighbour_rebuilds"] = static_cast<double>(lists->rebuilds());
 }
 
 }  // namespace tripoint

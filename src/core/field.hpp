@@ -36,17 +36,23 @@ struct FieldInfo {
 
   FieldInfo() = default;
   template <class T>
-  constexpr FieldInfo(const Field<T>& f) noexcept : name(f.name), unit(f.unit), per(f.per), type(type_of<T>()), bytes(sizeof(T)) {}
+  constexpr FieldInfo(const Field<T>& f) noexcept
+      : name(f.name), unit(f.unit), per(f.per), type(type_of<T>()), bytes(sizeof(T)) {}
   bool operator==(const FieldInfo& other) const noexcept { return name == other.name && per == other.per; }
 
  private:
   template <class T>
   static constexpr FieldType type_of() noexcept {
-    static_assert(std::is_same_v<T, double> || std::is_same_v<T, int> || std::is_same_v<T, Vec3> || std::is_same_v<T, Quaternion>);
-    if constexpr (std::is_same_v<T, double>) return FieldType::real;
-    else if constexpr (std::is_same_v<T, int>) return FieldType::integer;
-    else if constexpr (std::is_same_v<T, Vec3>) return FieldType::vector;
-    else return FieldType::quaternion;
+    static_assert(std::is_same_v<T, double> || std::is_same_v<T, int> || std::is_same_v<T, Vec3> ||
+                  std::is_same_v<T, Quaternion>);
+    if constexpr (std::is_same_v<T, double>)
+      return FieldType::real;
+    else if constexpr (std::is_same_v<T, int>)
+      return FieldType::integer;
+    else if constexpr (std::is_same_v<T, Vec3>)
+      return FieldType::vector;
+    else
+      return FieldType::quaternion;
   }
 };
 
@@ -54,7 +60,8 @@ struct FieldInfo {
 class MissingField : public std::logic_error {
  public:
   MissingField(std::string_view name, Per per)
-      : std::logic_error("no effect of this scene owns the field " + std::string(name) + " (per " + std::string(to_string(per)) + ")"),
+      : std::logic_error("no effect of this scene owns the field " + std::string(name) + " (per " + std::string(to_string(per)) +
+                         ")"),
         field_(name) {}
   [[nodiscard]] const std::string& field() const noexcept { return field_; }
 

@@ -71,7 +71,8 @@ void check_ownership(const std::vector<Active>& effects, bool periodic) {
   for (const Active& a : effects) {
     for (const FieldInfo& f : a.spec.reads) {
       if (owner_of(f) != owned.end()) continue;
-      throw InputError("the effect " + a.name + " reads the field " + std::string(f.name) + ", which no effect of this scene owns");
+      throw InputError("the effect " + a.name + " reads the field " + std::string(f.name) +
+                       ", which no effect of this scene owns");
     }
   }
 }

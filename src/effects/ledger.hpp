@@ -17,9 +17,9 @@ struct Ledger {
 
 /// What left the stored energies for good, booked as it happens.
 struct Booked {
-  double merging = 0.0;           ///< kinetic energy lost as bodies became one [J]
-  double walls = 0.0;             ///< taken by what is held, fixed or prescribed from outside [J]
-  Vec3 undelivered_spin;          ///< angular momentum about truncated axes that a split could not hand on [kg m2/s]
+  double merging = 0.0;   ///< kinetic energy lost as bodies became one [J]
+  double walls = 0.0;     ///< taken by what is held, fixed or prescribed from outside [J]
+  Vec3 undelivered_spin;  ///< angular momentum about truncated axes that a split could not hand on [kg m2/s]
 };
 
 }  // namespace tripoint

@@ -6,7 +6,8 @@
 namespace tripoint::field {
 
 // particles: every scene has these
-inline constexpr Field<int> id{"id", "1"}, body{"body", "1"}, phase{"phase", "1"}, material{"material", "1"}, source{"source", "1"};
+inline constexpr Field<int> id{"id", "1"}, body{"body", "1"}, phase{"phase", "1"}, material{"material", "1"},
+    source{"source", "1"};
 inline constexpr Field<double> mass{"mass", "kg"};
 inline constexpr Field<double> position_x{"position.x", "m"}, position_y{"position.y", "m"}, position_z{"position.z", "m"};
 inline constexpr Field<double> velocity_x{"velocity.x", "m/s"}, velocity_y{"velocity.y", "m/s"}, velocity_z{"velocity.z", "m/s"};
@@ -19,7 +20,8 @@ inline constexpr Field<double> density{"density", "kg/m3"};
 // heat (21)
 inline constexpr Field<double> temperature{"temperature", "K"}, temperature_rate{"temperature_rate", "K/s"};
 inline constexpr Field<double> enthalpy{"enthalpy", "J"}, heat_rate{"heat_rate", "W"}, heat_rate_before{"heat_rate.before", "W"};
-inline constexpr Field<double> conductivity{"conductivity", "W/m/K"}, heat_capacity{"heat_capacity", "J/kg/K"}, diffusivity{"diffusivity", "m2/s"};
+inline constexpr Field<double> conductivity{"conductivity", "W/m/K"}, heat_capacity{"heat_capacity", "J/kg/K"},
+    diffusivity{"diffusivity", "m2/s"};
 inline constexpr Field<double> rest_volume{"rest_volume", "m3"};
 /// sum_j G_ij, the conductance of i to its neighbours: bounds the time step.
 inline constexpr Field<double> conductance{"conductance", "W/K"};
@@ -29,8 +31,10 @@ inline constexpr Field<int> held{"temperature.held", "1"};
 /// M_i of model 8.6, and its pseudo-inverse: symmetric, six components.
 inline constexpr Field<double> moment_xx{"moment.xx", "1"}, moment_yy{"moment.yy", "1"}, moment_zz{"moment.zz", "1"};
 inline constexpr Field<double> moment_yz{"moment.yz", "1"}, moment_xz{"moment.xz", "1"}, moment_xy{"moment.xy", "1"};
-inline constexpr Field<double> moment_inverse_xx{"moment_inverse.xx", "1"}, moment_inverse_yy{"moment_inverse.yy", "1"}, moment_inverse_zz{"moment_inverse.zz", "1"};
-inline constexpr Field<double> moment_inverse_yz{"moment_inverse.yz", "1"}, moment_inverse_xz{"moment_inverse.xz", "1"}, moment_inverse_xy{"moment_inverse.xy", "1"};
+inline constexpr Field<double> moment_inverse_xx{"moment_inverse.xx", "1"}, moment_inverse_yy{"moment_inverse.yy", "1"},
+    moment_inverse_zz{"moment_inverse.zz", "1"};
+inline constexpr Field<double> moment_inverse_yz{"moment_inverse.yz", "1"}, moment_inverse_xz{"moment_inverse.xz", "1"},
+    moment_inverse_xy{"moment_inverse.xy", "1"};
 
 // members of rigid bodies: place seen from the centre of mass, in the body's frame at its birth
 inline constexpr Field<double> reference_x{"reference.x", "m"}, reference_y{"reference.y", "m"}, reference_z{"reference.z", "m"};
@@ -47,7 +51,9 @@ inline constexpr Field<Vec3> body_turns{"body.turns", "1", Per::body};      ///<
 inline constexpr Field<Vec3> body_start_centre{"body.start_centre", "m", Per::body};
 /// From the point that keyframes move to the centre of mass, in the body frame: not 0 after others have joined.
 inline constexpr Field<Vec3> body_offset{"body.offset", "m", Per::body};
-inline constexpr Field<Vec3> body_start_velocity{"body.start_velocity", "m/s", Per::body}, body_start_spin{"body.start_spin", "rad/s", Per::body};
-inline constexpr Field<int> body_motion{"body.motion", "1", Per::body}, body_alive{"body.alive", "1", Per::body}, body_source{"body.source", "1", Per::body};
+inline constexpr Field<Vec3> body_start_velocity{"body.start_velocity", "m/s", Per::body},
+    body_start_spin{"body.start_spin", "rad/s", Per::body};
+inline constexpr Field<int> body_motion{"body.motion", "1", Per::body}, body_alive{"body.alive", "1", Per::body},
+    body_source{"body.source", "1", Per::body};
 
 }  // namespace tripoint::field

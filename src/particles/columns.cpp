@@ -15,10 +15,18 @@ Columns::Columns(std::size_t rows, Per per, std::span<const FieldInfo> fields) :
     if (f.per != per || has(f.name)) continue;
     const std::size_t n = rows + padding;
     switch (f.type) {
-      case FieldType::real: columns_.push_back({f, AlignedVector<double>(n)}); break;
-      case FieldType::integer: columns_.push_back({f, AlignedVector<int>(n)}); break;
-      case FieldType::vector: columns_.push_back({f, AlignedVector<Vec3>(n)}); break;
-      case FieldType::quaternion: columns_.push_back({f, AlignedVector<Quaternion>(n)}); break;
+      case FieldType::real:
+        columns_.push_back({f, AlignedVector<double>(n)});
+        break;
+      case FieldType::integer:
+        columns_.push_back({f, AlignedVector<int>(n)});
+        break;
+      case FieldType::vector:
+        columns_.push_back({f, AlignedVector<Vec3>(n)});
+        break;
+      case FieldType::quaternion:
+        columns_.push_back({f, AlignedVector<Quaternion>(n)});
+        break;
     }
   }
 }

@@ -33,7 +33,8 @@ class Columns {
     return {values<T>(*this, key).data(), rows_};
   }
 
-  /// Row n becomes what was row order[n], in every column; spans taken before are no longer valid. @param order a permutation of 0..size()-1
+  /// Row n becomes what was row order[n], in every column; spans taken before are no longer valid. @param order a permutation of
+  /// 0..size()-1
   void permute(std::span<const std::uint32_t> order);
   /// Adds a row of zeros to every column; spans taken before are no longer valid.
   void append_row();

@@ -43,7 +43,9 @@ class Neighbours {
   /// @param build_positions by row of `particles`
   void rebuild_from(Particles&, std::span<const Vec3> build_positions, double time);
 
-  [[nodiscard]] std::span<const Entry> of(std::size_t i) const { return {entries_.data() + start_[i], start_[i + 1] - start_[i]}; }
+  [[nodiscard]] std::span<const Entry> of(std::size_t i) const {
+    return {entries_.data() + start_[i], start_[i + 1] - start_[i]};
+  }
   /// r_j - r_i of an entry is (x_j - x_i) + shift: in this order it is exactly antisymmetric in i and j.
   [[nodiscard]] const Vec3& shift(std::uint32_t image) const noexcept { return shift_[image]; }
   [[nodiscard]] double support() const noexcept { return support_; }

@@ -5,7 +5,8 @@
 
 namespace tripoint {
 
-Particles::Particles(std::size_t count, std::span<const FieldInfo> fields) : Columns(count, Per::particle, fields), row_of_id_(count) {
+Particles::Particles(std::size_t count, std::span<const FieldInfo> fields)
+    : Columns(count, Per::particle, fields), row_of_id_(count) {
   std::iota(row_of_id_.begin(), row_of_id_.end(), 0u);
   const auto id = (*this)[field::id];
   std::iota(id.begin(), id.end(), 0);
@@ -18,8 +19,9 @@ void Particles::permute(std::span<const std::uint32_t> order) {
 }
 
 std::vector<FieldInfo> common_fields(bool periodic) {
-  std::vector<FieldInfo> list{field::id,         field::body,       field::phase,      field::material,   field::source,     field::mass,
-                              field::position_x, field::position_y, field::position_z, field::velocity_x, field::velocity_y, field::velocity_z};
+  std::vector<FieldInfo> list{field::id,         field::body,       field::phase,      field::material,
+                              field::source,     field::mass,       field::position_x, field::position_y,
+                              field::position_z, field::velocity_x, field::velocity_y, field::velocity_z};
   if (periodic) list.insert(list.end(), {field::image_x, field::image_y, field::image_z});
   return list;
 }

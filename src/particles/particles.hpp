@@ -22,8 +22,12 @@ class Particles : public Columns {
   /// Reorders every column and the map from ids to rows.
   void permute(std::span<const std::uint32_t> order);
 
-  [[nodiscard]] Vec3 position(std::size_t row) const { return vector(row, field::position_x, field::position_y, field::position_z); }
-  [[nodiscard]] Vec3 velocity(std::size_t row) const { return vector(row, field::velocity_x, field::velocity_y, field::velocity_z); }
+  [[nodiscard]] Vec3 position(std::size_t row) const {
+    return vector(row, field::position_x, field::position_y, field::position_z);
+  }
+  [[nodiscard]] Vec3 velocity(std::size_t row) const {
+    return vector(row, field::velocity_x, field::velocity_y, field::velocity_z);
+  }
   [[nodiscard]] Vec3 vector(std::size_t row, const Field<double>& x, const Field<double>& y, const Field<double>& z) const {
     return {(*this)[x][row], (*this)[y][row], (*this)[z][row]};
   }
@@ -36,7 +40,9 @@ class Particles : public Columns {
 template <class T>
 struct Triple {
   std::span<T> x, y, z;
-  [[nodiscard]] Vec3 at(std::size_t row) const { return {static_cast<double>(x[row]), static_cast<double>(y[row]), static_cast<double>(z[row])}; }
+  [[nodiscard]] Vec3 at(std::size_t row) const {
+    return {static_cast<double>(x[row]), static_cast<double>(y[row]), static_cast<double>(z[row])};
+  }
   void set(std::size_t row, const Vec3& v) const { x[row] = v.x, y[row] = v.y, z[row] = v.z; }
 };
 template <class T, class P>
@@ -44,11 +50,17 @@ template <class T, class P>
   return Triple<std::conditional_t<std::is_const_v<P>, const T, T>>{particles[x], particles[y], particles[z]};
 }
 template <class P>
-[[nodiscard]] auto positions(P& p) { return triple(p, field::position_x, field::position_y, field::position_z); }
+[[nodiscard]] auto positions(P& p) {
+  return triple(p, field::position_x, field::position_y, field::position_z);
+}
 template <class P>
-[[nodiscard]] auto velocities(P& p) { return triple(p, field::velocity_x, field::velocity_y, field::velocity_z); }
+[[nodiscard]] auto velocities(P& p) {
+  return triple(p, field::velocity_x, field::velocity_y, field::velocity_z);
+}
 template <class P>
-[[nodiscard]] auto images(P& p) { return triple(p, field::image_x, field::image_y, field::image_z); }
+[[nodiscard]] auto images(P& p) {
+  return triple(p, field::image_x, field::image_y, field::image_z);
+}
 
 /// The fields that the particles of every scene have.
 [[nodiscard]] std::vector<FieldInfo> common_fields(bool periodic);

@@ -42,12 +42,14 @@ double none(double) { return 0.0; }
 
 LatticeMoments poly6_moments(double q) {
   const Poly6 w(q);
-  return moments(q, w.value(0.0), [&](double r) { return w.value(r); }, none, none);
+  return moments(
+      q, w.value(0.0), [&](double r) { return w.value(r); }, none, none);
 }
 
 LatticeMoments spiky_moments(double q) {
   const Spiky w(q);
-  return moments(q, w.value(0.0), [&](double r) { return w.value(r); }, [&](double r) { return w.derivative(r); }, none);
+  return moments(
+      q, w.value(0.0), [&](double r) { return w.value(r); }, [&](double r) { return w.derivative(r); }, none);
 }
 
 LatticeMoments viscosity_moments(double q) {
@@ -57,12 +59,14 @@ LatticeMoments viscosity_moments(double q) {
 
 LatticeMoments elasticity_moments(double q) {
   const ElasticityKernel w(q);
-  return moments(q, w.value(0.0), [&](double r) { return w.value(r); }, [&](double r) { return w.derivative(r); }, none);
+  return moments(
+      q, w.value(0.0), [&](double r) { return w.value(r); }, [&](double r) { return w.derivative(r); }, none);
 }
 
 LatticeMoments wendland_moments(double q) {
   const WendlandC2 w(q);
-  return moments(q, w.value(0.0), [&](double r) { return w.value(r); }, [&](double r) { return w.derivative(r); }, none);
+  return moments(
+      q, w.value(0.0), [&](double r) { return w.value(r); }, [&](double r) { return w.derivative(r); }, none);
 }
 
 double paper_heat_rate(double spacing, double support, const Vec3& wave_vector) {

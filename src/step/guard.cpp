@@ -14,10 +14,11 @@ struct Guarded {
 };
 /// Fields in the order in which a step writes them.
 constexpr Guarded guarded[] = {
-    {&field::position_x, "position", "drift"},   {&field::position_y, "position", "drift"}, {&field::position_z, "position", "drift"},
-    {&field::temperature, "temperature", "drift"}, {&field::density, "density", "density"},   {&field::temperature_rate, "temperature_rate", "rates"},
-    {&field::heat_rate, "heat_rate", "rates"},     {&field::velocity_x, "velocity", "kick"},  {&field::velocity_y, "velocity", "kick"},
-    {&field::velocity_z, "velocity", "kick"},
+    {&field::position_x, "position", "drift"}, {&field::position_y, "position", "drift"},
+    {&field::position_z, "position", "drift"}, {&field::temperature, "temperature", "drift"},
+    {&field::density, "density", "density"},   {&field::temperature_rate, "temperature_rate", "rates"},
+    {&field::heat_rate, "heat_rate", "rates"}, {&field::velocity_x, "velocity", "kick"},
+    {&field::velocity_y, "velocity", "kick"},  {&field::velocity_z, "velocity", "kick"},
 };
 
 /// The sum of a column times zero is not finite when one of its values is not: no branch in the loop.

@@ -47,7 +47,8 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   world_.box = box_of(scene);
   load(initial);
   if (passes_.needed()) {
-    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options.skin * world_.support(), world_.box, options.threads);
+    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options.skin * world_.support(), world_.box,
+                              options.threads);
   }
   update_rates();
   check_finite(world_);
@@ -122,7 +123,8 @@ void Simulation::advance_without_events(double time) {
 /// Equal steps, none longer than the scene's own or the bound.
 long Simulation::steps_to(double time) const {
   const double length = time - world_.time, most = world_.scene.time_step.value_or(bound_.dt);
-  if (!(most > 0.0)) throw Diverged(-1, -1, "time_step", bound_.name, world_.time, "the bound of " + bound_.name + " leaves no time step");
+  if (!(most > 0.0))
+    throw Diverged(-1, -1, "time_step", bound_.name, world_.time, "the bound of " + bound_.name + " leaves no time step");
   return std::max(1L, static_cast<long>(std::ceil(length / most - 1e-9)));
 }
 
@@ -170,8 +172,8 @@ TimeStepBound Simulation::next_bound() const {
 void Simulation::refuse_large_step() const {
   const auto& given = world_.scene.time_step;
   if (!given || options_.force_time_step || *given <= bound_.dt * (1.0 + 1e-9)) return;
-  throw InputError("time_step " + std::to_string(*given) + " s is above the bound of " + bound_.name + ", " + std::to_string(bound_.dt) +
-                   " s: make it smaller, or set force_time_step to run all the same");
+  throw InputError("time_step " + std::to_string(*given) + " s is above the bound of " + bound_.name + ", " +
+                   std::to_string(bound_.dt) + " s: make it smaller, or set force_time_step to run all the same");
 }
 
 std::string Simulation::time_step_set_by() const {

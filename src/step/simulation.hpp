@@ -13,8 +13,8 @@ namespace tripoint {
 
 struct SimulationOptions {
   int threads = 1;
-  bool force_time_step = false;  ///< run with the scene's time step though it is above a bound
-  double skin = 0.1;             ///< of the neighbour lists, in support radii; static scenes need none
+  bool force_time_step = false;                            ///< run with the scene's time step though it is above a bound
+  double skin = 0.1;                                       ///< of the neighbour lists, in support radii; static scenes need none
   std::optional<std::array<std::size_t, 3>> axis_order{};  ///< rotation by NO_SQUISH in this order instead of the better default
 };
 

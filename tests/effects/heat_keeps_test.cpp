@@ -16,8 +16,13 @@ lab::Lab two_blocks(Mode mode, std::optional<double> held = {}) {
   lab::Lab lab(dx, mode);
   lab.add_material(200.0, 10.0, 1000.0);
   lab.add({.name = "a", .count = {6, 5, 5}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 300.0; }});
-  lab.add({.name = "b", .material = 1, .corner = {6 * dx, 0.0, 0.0}, .count = {6, 5, 5}, .motion = Motion::fixed,
-           .temperature = [](const Vec3&) { return 400.0; }, .temperature_held = held.has_value()});
+  lab.add({.name = "b",
+           .material = 1,
+           .corner = {6 * dx, 0.0, 0.0},
+           .count = {6, 5, 5},
+           .motion = Motion::fixed,
+           .temperature = [](const Vec3&) { return 400.0; },
+           .temperature_held = held.has_value()});
   return lab;
 }
 
@@ -27,7 +32,7 @@ TEST(CorrectedHeat, KeepsTheHeatContentAcrossADensityJump) {
   const double before = s.ledger().energy.at("thermal");
   s.advance_to(2.0);
   EXPECT_GT(s.steps(), 100);
-  EXPECT_GT(lab::by_id(s, field::temperature)[5], 301.0);  // heat has crossed the face
+  EXPECT_GT(lab::by_id(s, field::temperature)[5], 301.0);             // heat has crossed the face
   EXPECT_NEAR(s.ledger().energy.at("thermal") / before, 1.0, 1e-12);  // round-off of antisymmetric sums over all steps
 }
 
@@ -81,7 +86,12 @@ TEST(CorrectedHeat, LeavesASteadyBarOfTwoConductivitiesAlone) {
     return x < 0.0 ? T_face + x * (T_face - 300.0) / half : T_face + x * (400.0 - T_face) / half;
   };
   const auto part = [&](std::string name, std::size_t material, double from, int count, bool held) {
-    lab.add({.name = std::move(name), .material = material, .corner = {from, 0.0, 0.0}, .count = {count, 3, 3}, .motion = Motion::fixed, .temperature = exact,
+    lab.add({.name = std::move(name),
+             .material = material,
+             .corner = {from, 0.0, 0.0},
+             .count = {count, 3, 3},
+             .motion = Motion::fixed,
+             .temperature = exact,
              .temperature_held = held});
   };
   part("cold end", 1, -end, 3, true);
@@ -91,7 +101,8 @@ TEST(CorrectedHeat, LeavesASteadyBarOfTwoConductivitiesAlone) {
   const Simulation s = lab.run(60.0, 1);
   const auto T = lab::by_id(s, field::temperature);
   double worst = 0.0;
-  for (std::size_t id = 0; id < T.size(); ++id) worst = std::max(worst, std::abs(T[id] - exact(lab.initial.position[id])) / 100.0);
+  for (std::size_t id = 0; id < T.size(); ++id)
+    worst = std::max(worst, std::abs(T[id] - exact(lab.initial.position[id])) / 100.0);
   EXPECT_LT(worst, 2e-3);  // 0.6e-3 to 1.8e-3 with the harmonic mean, 2e-2 to 6e-2 with the arithmetic one (model 8.6)
 }
 
@@ -100,7 +111,8 @@ lab::Lab noise(Mode mode) {
   lab::Lab lab(1e-3, mode);
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  lab.add({.count = {7, 7, 7}, .motion = Motion::fixed, .temperature = [&](const Vec3&) { return 300.0 + 100.0 * uniform(random); }});
+  lab.add(
+      {.count = {7, 7, 7}, .motion = Motion::fixed, .temperature = [&](const Vec3&) { return 300.0 + 100.0 * uniform(random); }});
   for (Vec3& r : lab.initial.position) r += 2e-4 * Vec3{uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5};
   return lab;
 }

@@ -20,14 +20,15 @@ double amplitude(const Simulation& s, double k, double phase) {
 }
 
 /// Decay rate of cos(k x + 0.7), `across` particles a wavelength of 1 cm, over D k^2.
-double cosine_rate(int across, Mode mode, std::optional<double> time_step = {}, int thick = 6) {
+double cosine_rate(int across, Mode mode, std::optional<double> time_step = {}, int thick = 3) {
   const double wavelength = 0.01, dx = wavelength / across, k = 2.0 * std::numbers::pi / wavelength, phase = 0.7;
   lab::Lab lab(dx, mode);
   const std::array<int, 3> count{across, thick, thick};
   lab.make_periodic({true, true, true}, {0.5 * dx, 0.5 * dx, 0.5 * dx}, count);
   lab.scene.time_step = time_step;
-  lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx}, .count = count, .motion = Motion::fixed,
-           .temperature = [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }});
+  lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx}, .count = count, .motion = Motion::fixed, .temperature = [&](const Vec3& r) {
+             return 300.0 + 10.0 * std::cos(k * r.x + phase);
+           }});
   const double time = 0.5 / (D * k * k);
   const Simulation s = lab.run(time, 2);
   return -std::log(amplitude(s, k, phase) / 10.0) / time / (D * k * k);
@@ -61,14 +62,16 @@ TEST(PaperHeat, LosesACosineAtTheRateOfItsLatticeSum) {
 TEST(CorrectedHeat, IsOfSecondOrderInTime) {
   const double unit = 1.0 / (D * 4e4 * std::numbers::pi * std::numbers::pi);  // [s]
   const double exact = cosine_rate(10, Mode::corrected, 0.0025 * unit);
-  const double coarse = cosine_rate(10, Mode::corrected, 0.0625 * unit) - exact, fine = cosine_rate(10, Mode::corrected, 0.03125 * unit) - exact;
+  const double coarse = cosine_rate(10, Mode::corrected, 0.0625 * unit) - exact,
+               fine = cosine_rate(10, Mode::corrected, 0.03125 * unit) - exact;
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.1);
 }
 
 TEST(PaperHeat, IsOfFirstOrderInTime) {
   const double unit = 1.0 / (D * 4e4 * std::numbers::pi * std::numbers::pi);
   const double exact = cosine_rate(10, Mode::paper, 0.0005 * unit);
-  const double coarse = cosine_rate(10, Mode::paper, 0.0625 * unit) - exact, fine = cosine_rate(10, Mode::paper, 0.03125 * unit) - exact;
+  const double coarse = cosine_rate(10, Mode::paper, 0.0625 * unit) - exact,
+               fine = cosine_rate(10, Mode::paper, 0.03125 * unit) - exact;
   EXPECT_NEAR(std::log2(coarse / fine), 1.0, 0.1);
 }
 
@@ -76,7 +79,9 @@ TEST(PaperHeat, IsOfFirstOrderInTime) {
 double bar_rate(int across, int length) {
   const double dx = 1e-3, k = std::numbers::pi / (length * dx);
   lab::Lab lab(dx);
-  lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx}, .count = {length, across, across}, .motion = Motion::fixed,
+  lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx},
+           .count = {length, across, across},
+           .motion = Motion::fixed,
            .temperature = [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x); }});
   const double time = 0.3 / (D * k * k);
   const Simulation s = lab.run(time, 2);
@@ -84,7 +89,7 @@ double bar_rate(int across, int length) {
 }
 
 TEST(CorrectedHeat, ConductsAlongFreeSidedBars) {
-  EXPECT_NEAR(bar_rate(1, 40), 1.0, 0.02);   // a line of particles: its matrix is along the line
+  EXPECT_NEAR(bar_rate(1, 40), 1.0, 0.02);  // a line of particles: its matrix is along the line
   EXPECT_NEAR(bar_rate(3, 30), 1.0, 0.12);
   EXPECT_NEAR(bar_rate(8, 40), 1.0, 0.04);
 }

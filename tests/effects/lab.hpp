@@ -13,8 +13,8 @@ namespace tripoint::lab {
 struct Block {
   std::string name = "block";
   std::size_t material = 0;
-  Vec3 corner{};                        ///< centre of the first particle [m]
-  std::array<int, 3> count{1, 1, 1};    ///< particles along x, y, z
+  Vec3 corner{};                      ///< centre of the first particle [m]
+  std::array<int, 3> count{1, 1, 1};  ///< particles along x, y, z
   Phase phase = Phase::rigid;
   Motion motion = Motion::free;
   Vec3 velocity{}, angular_velocity{};  ///< [m/s], [rad/s]

@@ -15,8 +15,16 @@ lab::Lab cube_and_bar() {
   lab::Lab lab(0.1);
   lab.scene.materials[0].density = 1.0 / 64.0 / 1e-3;
   lab.scene.time_step = 1e-3;
-  lab.add({.name = "cube", .corner = {-0.15, -0.15, -0.15}, .count = {4, 4, 4}, .velocity = {1.0, 0.0, 0.0}, .angular_velocity = {1.0, 2.0, 0.0}});
-  lab.add({.name = "bar", .corner = {0.35, -0.05, -0.2}, .count = {3, 3, 5}, .velocity = {-1.0, 0.2, 0.0}, .angular_velocity = {0.0, -1.0, 3.0}});
+  lab.add({.name = "cube",
+           .corner = {-0.15, -0.15, -0.15},
+           .count = {4, 4, 4},
+           .velocity = {1.0, 0.0, 0.0},
+           .angular_velocity = {1.0, 2.0, 0.0}});
+  lab.add({.name = "bar",
+           .corner = {0.35, -0.05, -0.2},
+           .count = {3, 3, 5},
+           .velocity = {-1.0, 0.2, 0.0},
+           .angular_velocity = {0.0, -1.0, 3.0}});
   return lab;
 }
 Event event(Event::Kind kind, double time, std::vector<std::string> bodies) {
@@ -86,7 +94,11 @@ TEST(Merge, WithAPrescribedBodyMovesOnWithIt) {
 lab::Lab spinning_bar() {
   lab::Lab lab(0.1);
   lab.scene.time_step = 1e-3;
-  lab.add({.name = "whole", .corner = {-0.45, -0.15, -0.05}, .count = {10, 4, 2}, .velocity = {0.3, -0.2, 0.1}, .angular_velocity = {0.5, 1.0, 2.0}});
+  lab.add({.name = "whole",
+           .corner = {-0.45, -0.15, -0.05},
+           .count = {10, 4, 2},
+           .velocity = {0.3, -0.2, 0.1},
+           .angular_velocity = {0.5, 1.0, 2.0}});
   return lab;
 }
 Event cut(double time) {

@@ -10,7 +10,9 @@
 namespace tripoint {
 namespace {
 
-bool lists(const Plan& p, std::string_view field) { return std::ranges::find(p.fields, field, &PlannedField::name) != p.fields.end(); }
+bool lists(const Plan& p, std::string_view field) {
+  return std::ranges::find(p.fields, field, &PlannedField::name) != p.fields.end();
+}
 
 TEST(Plan, OfARigidSceneHasNoHeatColumnAndNeitherHasTheRun) {
   const lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
@@ -67,7 +69,12 @@ TEST(Heat, WithoutAHeatCapacityNamesTheMaterial) {
   lab::Lab lab = warm(Mode::corrected);
   lab.add_material(2000.0, 1.0, 1.0);
   lab.scene.materials[1].heat_capacity.reset();
-  lab.add({.name = "other", .material = 1, .corner = {1.0, 0.0, 0.0}, .count = {2, 2, 2}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 300.0; }});
+  lab.add({.name = "other",
+           .material = 1,
+           .corner = {1.0, 0.0, 0.0},
+           .count = {2, 2, 2},
+           .motion = Motion::fixed,
+           .temperature = [](const Vec3&) { return 300.0; }});
   try {
     const Simulation s(lab.scene, lab.initial);
     FAIL();

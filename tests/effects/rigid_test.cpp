@@ -19,7 +19,8 @@ TEST(RigidBody, FliesOnTheExactParabolaWhileItSpins) {
   const Vec3 start{0.15, 0.15, 0.15};
   const Simulation s = lab.run(1.0);
   const Vec3 expected = start + Vec3{1.0, 0.0, 5.0} + 0.5 * g;
-  EXPECT_NEAR(norm(s.world().bodies[field::body_centre][0] - expected), 0.0, 1e-13);   // kick-drift-kick is exact for constant forces
+  EXPECT_NEAR(norm(s.world().bodies[field::body_centre][0] - expected), 0.0,
+              1e-13);  // kick-drift-kick is exact for constant forces
   EXPECT_NEAR(norm(s.world().bodies[field::body_velocity][0] - (Vec3{1.0, 0.0, 5.0} + g)), 0.0, 1e-13);
 }
 
@@ -54,7 +55,8 @@ TEST(RigidBody, KeepsItsShapeOverALongSpin) {
 
 TEST(RigidBody, StartsWithTheIdentityWhateverItsPrincipalAxes) {
   lab::Lab lab(0.1);
-  lab.add_points({.angular_velocity = {0.3, -0.2, 1.0}}, {{0, 0, 0}, {0.3, 0.3, 0}, {-0.2, 0.2, 0.1}, {0.1, -0.1, 0.4}, {0.2, 0.3, -0.1}}, 0.1);
+  lab.add_points({.angular_velocity = {0.3, -0.2, 1.0}},
+                 {{0, 0, 0}, {0.3, 0.3, 0}, {-0.2, 0.2, 0.1}, {0.1, -0.1, 0.4}, {0.2, 0.3, -0.1}}, 0.1);
   const Simulation s(lab.scene, lab.initial);
   EXPECT_EQ(s.world().bodies[field::body_orientation][0], Quaternion{});
   EXPECT_NEAR(norm(s.world().bodies[field::body_angular_velocity][0] - Vec3{0.3, -0.2, 1.0}), 0.0, 1e-14);
@@ -126,8 +128,8 @@ std::vector<Vec3> line(int count, double offset) {
   return points;
 }
 INSTANTIATE_TEST_SUITE_P(Bodies, Thin,
-                         testing::Values(line(1, 0.0), line(2, 0.0), line(3, 0.0), line(5, 0.0), line(5, 1e-9), line(5, 1e-5), line(5, 1e-3),
-                                         std::vector<Vec3>{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.1, 0.1, 0}}));
+                         testing::Values(line(1, 0.0), line(2, 0.0), line(3, 0.0), line(5, 0.0), line(5, 1e-9), line(5, 1e-5),
+                                         line(5, 1e-3), std::vector<Vec3>{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.1, 0.1, 0}}));
 
 TEST(RigidBody, ThroughAPeriodicBoxTurnsAboutThatAxisOnly) {
   lab::Lab lab(0.1);

@@ -21,7 +21,9 @@ Quaternion reference(const Vec3& w0, double time) {
     const Quaternion d = Quaternion{0.0, w.x, w.y, w.z} * q;
     return Quaternion{0.5 * d.w, 0.5 * d.x, 0.5 * d.y, 0.5 * d.z};
   };
-  const auto plus = [](const Quaternion& q, double s, const Quaternion& d) { return Quaternion{q.w + s * d.w, q.x + s * d.x, q.y + s * d.y, q.z + s * d.z}; };
+  const auto plus = [](const Quaternion& q, double s, const Quaternion& d) {
+    return Quaternion{q.w + s * d.w, q.x + s * d.x, q.y + s * d.y, q.z + s * d.z};
+  };
   Quaternion q;
   const long n = std::lround(time / 2e-4);
   const double dt = time / static_cast<double>(n);
@@ -42,7 +44,8 @@ double error(const Vec3& w0, double dt, Step step) {
   return angle_between(q, reference(w0, end));
 }
 double error_of(const AxisOrder& order, double dt) {
-  return error({1.0, 2.0, 3.0}, dt, [&](const Quaternion& q, const Vec3& L, double h) { return rotated_no_squish(q, I, L, h, order); });
+  return error({1.0, 2.0, 3.0}, dt,
+               [&](const Quaternion& q, const Vec3& L, double h) { return rotated_no_squish(q, I, L, h, order); });
 }
 double corrected_error(double dt) {
   return error({1.0, 2.0, 3.0}, dt, [](const Quaternion& q, const Vec3& L, double h) { return rotated_corrected(q, I, L, h); });

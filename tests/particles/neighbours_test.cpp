@@ -19,7 +19,8 @@ Particles cloud(std::size_t count, const Vec3& size, bool periodic, unsigned see
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const auto x = positions(p);
-  for (std::size_t i = 0; i < count; ++i) x.set(i, {size.x * uniform(random), size.y * uniform(random), size.z * uniform(random)});
+  for (std::size_t i = 0; i < count; ++i)
+    x.set(i, {size.x * uniform(random), size.y * uniform(random), size.z * uniform(random)});
   return p;
 }
 
@@ -51,7 +52,8 @@ std::vector<Found> brute(const Particles& p, double support, const PeriodicBox& 
           shift[a] = box.periodic[a] ? n[a] * box.width[a] : 0.0;
         }
         const Vec3 d = (x.at(j) - x.at(i)) + shift;
-        if (there && norm(d) < support && !(i == j && k == 13)) pairs.emplace_back(p[field::id][i], p[field::id][j], d.x, d.y, d.z);
+        if (there && norm(d) < support && !(i == j && k == 13))
+          pairs.emplace_back(p[field::id][i], p[field::id][j], d.x, d.y, d.z);
       }
     }
   }
@@ -77,7 +79,8 @@ TEST_P(Widths, CountEveryPeriodicImageOnce) {
   n.update(p, 0.0);
   EXPECT_EQ(listed(p, n, 0.26), brute(p, 0.26, box));
 }
-// Wide; six, two and a half, two and just one support radius wide: one particle then sees another through several images, and itself.
+// Wide; six, two and a half, two and just one support radius wide: one particle then sees another through several images, and
+// itself.
 INSTANTIATE_TEST_SUITE_P(Neighbours, Widths, testing::Values(1.6, 0.65, 0.52, 0.3, 0.2601));
 
 TEST(Neighbours, RefuseAPeriodicDirectionNarrowerThanTheSupport) {

@@ -58,7 +58,8 @@ TEST(Kernels, HaveTheLaplacianOfTheViscosityKernelThatThePaperUses) {
   const ViscosityKernel w(h);
   for (const double q : {0.3, 0.6, 0.9}) {
     const double r = q * h;
-    const double second = (w.value(r + d) - 2.0 * w.value(r) + w.value(r - d)) / (d * d), first = (w.value(r + d) - w.value(r - d)) / (2.0 * d);
+    const double second = (w.value(r + d) - 2.0 * w.value(r) + w.value(r - d)) / (d * d),
+                 first = (w.value(r + d) - w.value(r - d)) / (2.0 * d);
     EXPECT_NEAR((second + 2.0 * first / r) / w.laplacian(r), 1.0, 1e-5);  // central differences
   }
 }
@@ -77,8 +78,8 @@ TEST(Kernels, VanishAtAndBeyondTheSupport) {
 
 TEST(Kernels, GiveTheValuesOfTheElasticityKernelThatFollowFrom17) {
   const ElasticityKernel w(h);
-  EXPECT_NEAR(w.value(0.0) * h * h * h, 2.05158, 5e-6);                      // c (2h/pi), six digits
-  EXPECT_NEAR(w.derivative(0.0) * h * h * h * h, -3.222611689, 5e-10);       // -c
+  EXPECT_NEAR(w.value(0.0) * h * h * h, 2.05158, 5e-6);                 // c (2h/pi), six digits
+  EXPECT_NEAR(w.derivative(0.0) * h * h * h * h, -3.222611689, 5e-10);  // -c
 }
 
 }  // namespace

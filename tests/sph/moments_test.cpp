@@ -19,7 +19,8 @@ void expect_near(const Symmetric& a, const Symmetric& b, double tolerance) {
 
 TEST(PseudoInverse, IsTheInverseOfARegularMatrix) {
   // [[2,1,0],[1,2,0],[0,0,4]]^-1 = [[2,-1,0],[-1,2,0],[0,0,0.75]]/3
-  expect_near(pseudo_inverse({2.0, 2.0, 4.0, 0.0, 0.0, 1.0}, 0.05), {2.0 / 3.0, 2.0 / 3.0, 0.25, 0.0, 0.0, -1.0 / 3.0}, round_off);
+  expect_near(pseudo_inverse({2.0, 2.0, 4.0, 0.0, 0.0, 1.0}, 0.05), {2.0 / 3.0, 2.0 / 3.0, 0.25, 0.0, 0.0, -1.0 / 3.0},
+              round_off);
 }
 
 TEST(PseudoInverse, LeavesOutDirectionsBelowTheCut) {

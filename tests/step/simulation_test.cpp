@@ -24,7 +24,8 @@ std::uint64_t hash_of(const Simulation& s) {
     if (p.has("temperature")) add(p[field::temperature][i]);
   }
   for (std::size_t b = 0; b < s.world().bodies.size(); ++b) {
-    for (const Vec3& v : {s.world().bodies[field::body_centre][b], s.world().bodies[field::body_angular_momentum][b]}) add(v.x), add(v.y), add(v.z);
+    for (const Vec3& v : {s.world().bodies[field::body_centre][b], s.world().bodies[field::body_angular_momentum][b]})
+      add(v.x), add(v.y), add(v.z);
   }
   return hash;
 }
@@ -35,8 +36,17 @@ lab::Lab everything(Mode mode) {
   lab.scene.gravity = {0.0, 0.0, -1e-3};
   lab.make_periodic({true, true, false}, {0.0, 0.0, 0.0}, {16, 12, 8});
   lab.add_material(300.0, 5.0, 800.0);
-  lab.add({.name = "a", .count = {6, 6, 6}, .velocity = {0.02, 0.001, 0.0}, .angular_velocity = {0.5, 1.0, 2.0}, .temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; }});
-  lab.add({.name = "b", .material = 1, .corner = {8e-3, 0.0, 0.0}, .count = {5, 6, 6}, .velocity = {-0.02, 0.0, 0.001}, .temperature = [](const Vec3&) { return 350.0; }});
+  lab.add({.name = "a",
+           .count = {6, 6, 6},
+           .velocity = {0.02, 0.001, 0.0},
+           .angular_velocity = {0.5, 1.0, 2.0},
+           .temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; }});
+  lab.add({.name = "b",
+           .material = 1,
+           .corner = {8e-3, 0.0, 0.0},
+           .count = {5, 6, 6},
+           .velocity = {-0.02, 0.0, 0.001},
+           .temperature = [](const Vec3&) { return 350.0; }});
   return lab;
 }
 

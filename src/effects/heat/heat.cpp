@@ -15,9 +15,12 @@ EffectSpec spec(const Scene& scene) {
   }
   return {"heat",
           Mode::corrected,
-          {field::temperature, field::enthalpy, field::heat_rate, field::heat_rate_before, field::conductance, field::heat_capacity,
-           field::conductivity, field::rest_volume, field::held, field::moment_xx, field::moment_yy, field::moment_zz, field::moment_yz,
-           field::moment_xz, field::moment_xy, field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz,
+          {field::temperature,       field::enthalpy,          field::heat_rate,
+           field::heat_rate_before,  field::conductance,       field::heat_capacity,
+           field::conductivity,      field::rest_volume,       field::held,
+           field::moment_xx,         field::moment_yy,         field::moment_zz,
+           field::moment_yz,         field::moment_xz,         field::moment_xy,
+           field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz,
            field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy},
           {field::mass, field::position_x, field::position_y, field::position_z}};
 }
@@ -31,7 +34,8 @@ std::vector<DefectEntry> defects() {
   return {{"heat.conductivity", "conductivity times 1 + size", "heat/cosine-mode"},
           {"heat.moment", "second-moment matrices left out", "heat/bar-3x3"},
           {"heat.harmonic_mean", "arithmetic instead of harmonic mean of conductivities", "heat/two-conductivities"},
-          {"heat.one_sided", "size of 0..1: conductivity and moment lean to the receiving particle, so that energy is not kept", "heat/step-insulated"},
+          {"heat.one_sided", "size of 0..1: conductivity and moment lean to the receiving particle, so that energy is not kept",
+           "heat/step-insulated"},
           {"heat.held", "temperatures that should be held are let go", "heat/bar-3x3"},
           {"heat.first_order", "second stage of the time scheme left out: first order", "heat/temporal"},
           {"heat.paper.diffusivity", "diffusivity of (21) as printed times 1 + size", "heat/cosine-mode"},

@@ -73,7 +73,8 @@ void CorrectedHeat::clear(World& world, PassName pass) {
   if (pass == PassName::rates) {
     for (const auto* f : {&field::heat_rate, &field::conductance}) std::ranges::fill(p[*f], 0.0);
   } else {
-    for (const auto* f : {&field::moment_xx, &field::moment_yy, &field::moment_zz, &field::moment_yz, &field::moment_xz, &field::moment_xy}) {
+    for (const auto* f :
+         {&field::moment_xx, &field::moment_yy, &field::moment_zz, &field::moment_yz, &field::moment_xz, &field::moment_xy}) {
       std::ranges::fill(p[*f], 0.0);
     }
   }

@@ -43,8 +43,9 @@ inline const double one_sided = defect_size("heat.one_sided");  // share of the 
 /// Conduction between i and j, (21) corrected (model 8.6) [W]: equal and opposite for each pair, so that sum H is kept:
 /// G_ij (T_j - T_i), G_ij = V_i V_j [2 k_i k_j/(k_i + k_j)] [1/2 e^T (pinv M_i + pinv M_j) e] K.
 struct HeatFlowCorrected {
-  using reads = Keys<field::rest_volume, field::conductivity, field::temperature, field::moment_inverse_xx, field::moment_inverse_yy,
-                     field::moment_inverse_zz, field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy>;
+  using reads =
+      Keys<field::rest_volume, field::conductivity, field::temperature, field::moment_inverse_xx, field::moment_inverse_yy,
+           field::moment_inverse_zz, field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy>;
   using adds = Keys<field::heat_rate, field::conductance>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 9> i, std::span<const double, 9> j, std::span<V, 2> sum) {

@@ -17,18 +17,21 @@ namespace {
 }  // namespace
 
 void load_common(World& world, const InitialState& initial) {
-  if (initial.temperature.size() != initial.size()) throw InputError("the scene conducts heat, and has no temperatures: give each body a temperature");
+  if (initial.temperature.size() != initial.size())
+    throw InputError("the scene conducts heat, and has no temperatures: give each body a temperature");
   Particles& p = world.particles;
   const auto T = p[field::temperature], c_p = p[field::heat_capacity];
   const auto held = p[field::held];
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Material& material = world.material_of(i);
     if (!material.heat_capacity || !material.conductivity) {
-      throw InputError("the scene conducts heat, and the material " + material.name + " has no heat_capacity or no conductivity: give both");
+      throw InputError("the scene conducts heat, and the material " + material.name +
+                       " has no heat_capacity or no conductivity: give both");
     }
     c_p[i] = *material.heat_capacity;
     T[i] = initial.temperature[static_cast<std::size_t>(p[field::id][i])];
-    if (!std::isfinite(T[i])) throw InputError("particle " + std::to_string(p[field::id][i]) + " has no temperature: give its body one");
+    if (!std::isfinite(T[i]))
+      throw InputError("particle " + std::to_string(p[field::id][i]) + " has no temperature: give its body one");
     held[i] = held_by_scene(world, i);
   }
 }

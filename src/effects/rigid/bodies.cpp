@@ -61,7 +61,9 @@ double kinetic_energy(const World& world, std::size_t b) {
   return 0.5 * m.mass * dot(m.velocity, m.velocity) + 0.5 * dot(m.omega, m.L);
 }
 
-double potential_energy(const World& world, std::size_t b) { return -world.bodies[field::body_mass][b] * dot(world.scene.gravity, world.bodies[field::body_centre][b]); }
+double potential_energy(const World& world, std::size_t b) {
+  return -world.bodies[field::body_mass][b] * dot(world.scene.gravity, world.bodies[field::body_centre][b]);
+}
 
 void measure(World& world, std::size_t b) {
   const std::vector<std::size_t> rows = members(world, b);
@@ -81,7 +83,8 @@ void measure(World& world, std::size_t b) {
   t[field::body_mass][b] = properties.mass;
   t[field::body_centre][b] = rotate(q, properties.centre);
   t[field::body_offset][b] += rotate_back(q, t[field::body_centre][b] - centre_before);
-  t[field::body_inertia][b] = (1.0 + defect_size("rigid.inertia")) * truncated(properties.principal_inertia, properties.mass, world.scene.spacing);
+  t[field::body_inertia][b] =
+      (1.0 + defect_size("rigid.inertia")) * truncated(properties.principal_inertia, properties.mass, world.scene.spacing);
   t[field::body_axes][b] = properties.principal_axes;
   t[field::body_turns][b] = turning_axes(world, rows);
   const auto reference = triple(world.particles, field::reference_x, field::reference_y, field::reference_z);
@@ -173,9 +176,11 @@ std::size_t add_body(World& world, std::string_view name) {
 
 std::size_t body_row(const World& world, std::string_view name) {
   const auto place = std::ranges::find(world.body_names, name);
-  if (place == world.body_names.end()) throw InputError("an event names the body " + std::string(name) + ", and no solid body has that name");
+  if (place == world.body_names.end())
+    throw InputError("an event names the body " + std::string(name) + ", and no solid body has that name");
   const auto row = static_cast<std::size_t>(place - world.body_names.begin());
-  if (!is_alive(world, row)) throw InputError("an event names the body " + std::string(name) + ", which has been absorbed before");
+  if (!is_alive(world, row))
+    throw InputError("an event names the body " + std::string(name) + ", which has been absorbed before");
   return row;
 }
 

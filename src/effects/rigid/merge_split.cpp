@@ -31,10 +31,12 @@ struct Share {
   double mass = 0.0;
   Vec3 P, moment;  ///< sum m v, sum m r x v
 };
-Share share_of(const World& world, const std::vector<std::size_t>& rows, const std::vector<BodyMotion>& parents, const std::vector<int>& parent_of) {
+Share share_of(const World& world, const std::vector<std::size_t>& rows, const std::vector<BodyMotion>& parents,
+               const std::vector<int>& parent_of) {
   Share sum;
   for (const std::size_t i : rows) {
-    const BodyMotion& parent = parents[static_cast<std::size_t>(parent_of[static_cast<std::size_t>(world.particles[field::id][i])])];
+    const BodyMotion& parent =
+        parents[static_cast<std::size_t>(parent_of[static_cast<std::size_t>(world.particles[field::id][i])])];
     const double m = world.particles[field::mass][i];
     const Vec3 r = world.unwrapped(i), v = parent.velocity_at(r);
     sum.mass += m;
@@ -76,7 +78,8 @@ void merge(World& world, const Event& event) {
   if (bodies.size() < 2) throw InputError(event.place, "merge needs two bodies: bodies = [\"that stays\", \"that joins\"]");
   for (std::size_t n = 1; n < bodies.size(); ++n) {
     if (is_free(world, bodies[n])) continue;
-    throw InputError(event.place, "merge: name the fixed or prescribed body " + world.body_names[bodies[n]] + " first: it is the one that stays");
+    throw InputError(event.place, "merge: name the fixed or prescribed body " + world.body_names[bodies[n]] +
+                                      " first: it is the one that stays");
   }
   const std::size_t stays = bodies[0];
   const bool free = is_free(world, stays);
@@ -121,7 +124,8 @@ void split(World& world, const Event& event) {
     }
     if (touched) changed.push_back(b);
   }
-  if (changed.empty()) throw InputError(event.place, "split: no member of a body is in the region of " + event.name + " at that time");
+  if (changed.empty())
+    throw InputError(event.place, "split: no member of a body is in the region of " + event.name + " at that time");
 
   Vec3 delivered, owed;
   double kinetic = 0.0;

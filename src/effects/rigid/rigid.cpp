@@ -30,7 +30,8 @@ void refuse_blocked_spin(const World& world, std::size_t b) {
   const double size = world.bodies[field::body_mass][b] * world.scene.spacing * world.scene.spacing * (1e-300 + norm(w));
   for (std::size_t a = 0; a < 3; ++a) {
     if (turns[a] != 0.0 || std::abs(L[a]) <= 1e-9 * size) continue;
-    throw InputError("the rigid body " + world.body_names[b] + " reaches through a periodic direction and would turn across it: " +
+    throw InputError("the rigid body " + world.body_names[b] +
+                     " reaches through a periodic direction and would turn across it: " +
                      "make that direction not periodic, or the body shorter, or let it turn about that axis only");
   }
 }
@@ -42,8 +43,8 @@ void drive(World& world, std::size_t b, double time) {
   static const std::vector<Keyframe> none;
   const auto& keyframes = source >= 0 ? world.scene.bodies[static_cast<std::size_t>(source)].keyframes : none;
   static const double faster = 1.0 + defect_size("rigid.prescribed");
-  const PrescribedState s =
-      prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b], t[field::body_start_spin][b], faster * time);
+  const PrescribedState s = prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b],
+                                             t[field::body_start_spin][b], faster * time);
   const Vec3 lever = rotate(s.rotation, t[field::body_offset][b]);
   t[field::body_orientation][b] = s.rotation;
   t[field::body_centre][b] = s.position + lever;
@@ -155,8 +156,12 @@ void set_motion(World& world, std::size_t b, Motion motion) {
 
 void RigidBodies::happen(World& world, const Happening& now) {
   switch (now.event.kind) {
-    case Event::Kind::merge: merge(world, now.event); break;
-    case Event::Kind::split: split(world, now.event); break;
+    case Event::Kind::merge:
+      merge(world, now.event);
+      break;
+    case Event::Kind::split:
+      split(world, now.event);
+      break;
     case Event::Kind::release:
       for (const std::string& name : now.event.bodies) set_motion(world, body_row(world, name), Motion::free);
       break;
@@ -167,7 +172,8 @@ void RigidBodies::happen(World& world, const Happening& now) {
       }
       break;
     case Event::Kind::heat:
-    case Event::Kind::grip: return;
+    case Event::Kind::grip:
+      return;
   }
   for (std::size_t b = 0; b < world.bodies.size(); ++b) refuse_blocked_spin(world, b);
   give_velocities(world);
@@ -204,11 +210,11 @@ EffectSpec spec(const Scene& scene) {
   return {"rigid",
           scene.mode_of(Term::rotation),
           {field::reference_x, field::reference_y, field::reference_z, field::body_mass, field::body_centre, field::body_velocity,
-           field::body_angular_momentum, field::body_angular_velocity, field::body_inertia, field::body_orientation, field::body_axes,
-           field::body_turns, field::body_start_centre, field::body_offset, field::body_start_velocity, field::body_start_spin,
-           field::body_motion, field::body_alive, field::body_source},
-          {field::mass, field::body, field::position_x, field::position_y, field::position_z, field::velocity_x, field::velocity_y,
-           field::velocity_z}};
+           field::body_angular_momentum, field::body_angular_velocity, field::body_inertia, field::body_orientation,
+           field::body_axes, field::body_turns, field::body_start_centre, field::body_offset, field::body_start_velocity,
+           field::body_start_spin, field::body_motion, field::body_alive, field::body_source},
+          {field::mass, field::body, field::position_x, field::position_y, field::position_z, field::velocity_x,
+           field::velocity_y, field::velocity_z}};
 }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<RigidBodies>(); }

@@ -44,7 +44,8 @@ Quaternion rotated_corrected(const Quaternion& to_world, const Vec3& moments, co
   return normalised(q);
 }
 
-Quaternion rotated_no_squish(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt, const AxisOrder& order) noexcept {
+Quaternion rotated_no_squish(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt,
+                             const AxisOrder& order) noexcept {
   const auto [outer, middle, inner] = order;
   const Vec3 w{inverse(moments.x), inverse(moments.y), inverse(moments.z)};
   Quaternion q = turned_about(outer, to_world, w[outer], L, 0.5 * dt);

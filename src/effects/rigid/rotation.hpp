@@ -17,8 +17,8 @@ namespace tripoint {
 [[nodiscard]] double rotation_energy(const Quaternion& to_world, const Vec3& moments, const Vec3& L) noexcept;
 
 /// (19)-(20) as printed: omega = I^-1 L, then the orientation turns by omega dt. First order; over a long spin the energy
-/// drifts to the axis of least inertia, +152 % in the notes' example. (The members are placed by the orientation; moving each by dt
-/// omega x r, as a literal reading would, stretches the body.)
+/// drifts to the axis of least inertia, +152 % in the notes' example. (The members are placed by the orientation; moving each by
+/// dt omega x r, as a literal reading would, stretches the body.)
 [[nodiscard]] Quaternion rotated_paper(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt) noexcept;
 
 /// Splitting into a symmetric top and one axis [Fasso 2003, J. Comput. Phys. 189, 527]. With 1/I_k = 1/I_mid + d_k the isotropic
@@ -32,7 +32,8 @@ using AxisOrder = std::array<std::size_t, 3>;
 
 /// NO_SQUISH splitting [Miller et al. 2002, J. Chem. Phys. 116, 8649], the usual choice, kept to compare with (presets of the
 /// engine): exact rotations about the three principal axes in a symmetric sequence. The two monotone orders are the best.
-[[nodiscard]] Quaternion rotated_no_squish(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt, const AxisOrder& order) noexcept;
+[[nodiscard]] Quaternion rotated_no_squish(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt,
+                                           const AxisOrder& order) noexcept;
 
 /// Moments of inertia by size: one below 2e-3 M spacing^2, a body thinner than about 4.5 % of a spacing, becomes 0.
 [[nodiscard]] Vec3 truncated(const Vec3& moments, double mass, double spacing) noexcept;
