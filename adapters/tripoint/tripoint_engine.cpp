@@ -32,6 +32,35 @@ std::optional<std::array<std::size_t, 3>> axis_order_of(const std::string& prese
                     static_cast<std::size_t>(axes[2] - '0')};
 }
 
+SimulationOptions options_of(const Job& job) {
+  SimulationOptions options;
+  options.threads = job.threads;
+  options.force_time_step = setting(job, "force_time_step", false);
+  options.axis_order = axis_order_of(job.preset);
+  options.skin = setting(job, "skin", options.skin);
+  return options;
+}
+
+Scene scene_of(const Job& job) {
+  Scene scene = job.scene;
+  if (job.resolution.time_step) scene.time_step = job.resolution.time_step;
+  return scene;
+}
+
+/// What only the particles tell: a time step above a bound, a body that would turn across a periodic direction.
+std::string why_it_cannot_start(const Job& job) {
+  const Scene scene = scene_of(job);
+  const bool periodic = scene.periodic[0] || scene.periodic[1] || scene.periodic[2];
+  const bool bodies_move = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.motion == Motion::free; });
+  if (!scene.time_step && !(periodic && bodies_move)) return {};
+  try {
+    const Simulation probe(scene, read_particles(job.particles), options_of(job));
+    return {};
+  } catch (const InputError& e) {
+    return std::string("tripoint: ") + e.what();
+  }
+}
+
 }  // namespace
 
 EngineInfo TripointEngine::info() const {
@@ -61,18 +90,11 @@ std::string TripointEngine::refusal(const Job& job) const {
   }
   if (job.ranks != 1) return "tripoint: runs in one process, ranks = " + std::to_string(job.ranks) + " is not possible";
   if (!job.resume.empty()) return "tripoint: continuing from a checkpoint is not in this build";
-  return {};
+  return why_it_cannot_start(job);
 }
 
 void TripointEngine::load(const Job& job, const InitialState& initial) {
-  SimulationOptions options;
-  options.threads = job.threads;
-  options.force_time_step = setting(job, "force_time_step", false);
-  options.axis_order = axis_order_of(job.preset);
-  options.skin = setting(job, "skin", options.skin);
-  Scene scene = job.scene;
-  if (job.resolution.time_step) scene.time_step = job.resolution.time_step;
-  simulation_.emplace(scene, initial, options);
+  simulation_.emplace(scene_of(job), initial, options_of(job));
 }
 
 void TripointEngine::advance_to(double time) { simulation_->advance_to(time); }
