@@ -102,8 +102,8 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
     base.walkers = number_setting(engine.settings, "walkers"), base.iterations = number_setting(engine.settings, "iterations");
     base.label = base.group = mode.empty() ? "base" : mode;
     const Scene scene = scene_of(value, base);
-    for (const auto& study : value.studies)
-      if (const auto level = own_level(scene, base, study.axis); level && applies(study, engine.name, mode) && (study.jitter == 0.0 || study.jitter == scene.jitter)) base.levels[study.axis] = *level;
+    for (const auto& study : value.studies)  // a gate on this level means the case's own run too, whichever engine the study is of
+      if (const auto level = own_level(scene, base, study.axis)) base.levels[study.axis] = *level;
     runs.push_back(base);
     base.levels.clear();
     for (const auto& study : value.studies)
