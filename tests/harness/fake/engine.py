@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """An engine that flies one body along the exact parabola, and does one thing wrong: the word in FAKE says which."""
 import json
+import math
 import os
 import signal
 import sys
@@ -26,13 +27,20 @@ def check():
     print(json.dumps({"can": not refused, "reason": "it has no conduction" if refused else ""}))
 
 
+def turned(spin, t):
+    """Orientation and spin of a body that turns at a constant rate."""
+    rate = math.hypot(*spin)
+    s = math.sin(0.5 * rate * t) / rate if rate > 0 else 0.0
+    return [math.cos(0.5 * rate * t)] + [s * c for c in spin] + list(spin)
+
+
 def flight(job, g, times):
-    """Rows of the trajectory: time, body, position, velocity, orientation, spin (none)."""
+    """Rows of the trajectory: time, body, position, velocity, orientation, spin."""
     rows = []
     for t in times:
         for body in job["scene"]["bodies"]:
             x, v = body["centre"], body["velocity"]
-            rows.append([t, body["index"]] + [x[k] + v[k] * t + 0.5 * g[k] * t * t for k in range(3)] + [v[k] + g[k] * t for k in range(3)] + [1, 0, 0, 0, 0, 0, 0])
+            rows.append([t, body["index"]] + [x[k] + v[k] * t + 0.5 * g[k] * t * t for k in range(3)] + [v[k] + g[k] * t for k in range(3)] + turned(body["angular_velocity"], t))
     return rows
 
 

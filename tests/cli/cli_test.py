@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program as people and CI call it: cli_test.py TRIPOINT FAKE_ENGINE [unittest arguments]."""
+import copy
+import json
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+TRIPOINT, FAKE = sys.argv[1], sys.argv[2]
+VERBS = "run validate merge compare report converge gate check explain list new schema engines engine".split()
+FLIGHT = """format = 1
+[case]
+title = "Flight"
+requirement = "R"
+claims = "it flies"
+profiles = ["commit"]
+[scene]
+end_time = 0.5
+gravity = [0.0, 0.0, -9.81]
+spacing = 0.1
+time_step = 0.01
+output_interval = 0.05
+[[material]]
+name = "stuff"
+density = 1000.0
+[[body]]
+name = "cube"
+material = "stuff"
+phase = "rigid"
+shape = { kind = "box", min = [0.0, 0.0, 0.0], max = [0.3, 0.3, 0.3] }
+velocity = [1.0, 0.0, 2.0]
+[engines.fake]
+required = true
+[reference]
+kind = "analytic"
+function = "ballistic"
+source = "the parabola"
+[[metric]]
+name = "position"
+quantity = "position"
+norm = "max"
+unit = "m"
+[[gate]]
+metric = "position"
+engine = "fake"
+limit = 1e-10
+reason = "round-off"
+"""
+
+
+def call(*words, **more):
+    return subprocess.run([TRIPOINT, *map(str, words)], capture_output=True, text=True, timeout=120, **more)
+
+
+class Cli(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="tripoint cli ü ")
+        self.path = Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write_cases(self, *names):
+        for name in names:
+            file = self.path / "cases" / "test" / f"{name}.toml"
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(FLIGHT)
+
+    def fake(self, fault="nothing"):
+        script = self.path / "engine-fake"
+        script.write_text(f"#!/bin/sh\nFAKE='{fault}' exec /usr/bin/python3 '{FAKE}' \"$@\"\n")
+        script.chmod(0o755)
+        return script
+
+    def validate(self, fault="nothing", *more):
+        return call("validate", self.path / "cases", "--engines", "fake", "--engine", self.fake(fault), "--out", self.path / "out", *more)
+
+    def results(self):
+        return json.loads((self.path / "out" / "results.json").read_text())
+
+    def test_every_help_teaches_with_an_example(self):
+        for verb in VERBS:
+            done = call(verb, "--help")
+            self.assertEqual(done.returncode, 0, verb)
+            self.assertGreater(len(done.stdout), 80, verb)
+            self.assertIn(f"tripoint {verb}", done.stdout)
+
+    def test_help_costs_less_than_fifty_milliseconds_of_cpu(self):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        for _ in range(5):
+            call("--help")
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        self.assertLess((after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime) / 5, 0.05)
+
+    def test_what_is_no_command_option_file_or_tag_ends_2(self):
+        self.write_cases("flight")
+        for words in (["no-such-verb"], [], ["validate", "--no-such-option"], ["validate", "no/such-case"], ["validate", self.path / "cases", "--tag", "no-such-tag"],
+                      ["validate", "--profile", "daily"], ["gate"], ["gate", "absent.json"], ["validate", "--shard", "3/2"], ["compare", self.path / "cases/test/flight.toml", "--engines", "one"]):
+            self.assertEqual(call(*words).returncode, 2, words)
+
+    def test_a_case_that_is_wrong_ends_2_and_names_file_and_line_before_anything_runs(self):
+        self.write_cases("flight", "wrong")
+        wrong = self.path / "cases/test/wrong.toml"
+        wrong.write_text(FLIGHT.replace("end_time", "end_tme"))
+        done = self.validate()
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"wrong\.toml:\d+")
+        self.assertFalse((self.path / "out").exists())
+
+    def test_a_green_suite_leaves_its_files_and_ends_with_its_verdict(self):
+        self.write_cases("flight")
+        done = self.validate()
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(done.stdout.splitlines()[-1], f"verdict PASS exit 0  {self.path}/out/index.html")
+        for name in ("results.json", "junit.xml", "summary.md", "index.html", "runs/test/flight/fake/base/trajectory.csv"):
+            self.assertTrue((self.path / "out" / name).exists(), name)
+
+    def test_with_json_stdout_is_one_document(self):
+        self.write_cases("flight")
+        self.assertEqual(json.loads(self.validate("nothing", "--json").stdout)["verdict"], "PASS")
+        self.assertIn("engines", json.loads(call("engines", "--json").stdout))
+        self.assertIn("cases", json.loads(call("list", "--json").stdout))
+
+    def test_each_fault_of_an_engine_has_the_exit_code_of_the_contract(self):
+        self.write_cases("flight")
+        for fault, code in {"one per cent of gravity": 1, "leaves no result": 4, "is killed": 4, "ends with an error": 4, "refuses": 4, "not there": 4, "diverges": 7,
+                            "holds another gravity": 4, "stops early": 4, "not a number": 4}.items():
+            with self.subTest(fault):
+                self.assertEqual(self.validate(fault).returncode, code)
+                self.assertEqual(self.results()["exit_code"], code)
+
+    def test_results_that_were_spoilt_do_not_pass_the_gate(self):
+        self.write_cases("flight")
+        self.validate()
+        good = self.results()
+        engine = next(e for e in good["cases"][0]["engines"] if e["gates"])
+
+        def spoilt(change):
+            bad = copy.deepcopy(good)
+            change(bad, next(e for e in bad["cases"][0]["engines"] if e["name"] == engine["name"]))
+            file = self.path / "bad.json"
+            file.write_text(json.dumps(bad))
+            return call("gate", file).returncode
+
+        self.assertEqual(spoilt(lambda bad, e: None), 0)
+        metric = lambda e: e["runs"][0]["metrics"]["position"]
+        for name, change, code in (("an error a million times larger", lambda b, e: metric(e).update(value=1e6), 1), ("null", lambda b, e: metric(e).update(value=None, finite=False), 1),
+                                   ("a metric removed", lambda b, e: e["runs"][0]["metrics"].clear(), 4), ("runs removed", lambda b, e: e.update(runs=[]), 4),
+                                   ("cases removed", lambda b, e: b.update(cases=[]), 4), ("diverged", lambda b, e: e["runs"][0].update(status="diverged"), 7),
+                                   ("the engine removed", lambda b, e: b["cases"][0].update(engines=[]), 4), ("gates removed", lambda b, e: b["cases"][0].update(gates=[]), 4)):
+            with self.subTest(name):
+                self.assertEqual(spoilt(change), code)
+
+    def test_shards_merge_into_the_verdict_and_numbers_of_the_whole(self):
+        self.write_cases("a", "b", "c")
+        engine = self.fake()
+        common = ["validate", self.path / "cases", "--engines", "fake", "--engine", engine]
+        for k in (1, 2):
+            self.assertEqual(call(*common, "--shard", f"{k}/2", "--out", self.path / f"s{k}").returncode, 0)
+        self.assertEqual(call("merge", self.path / "s2", self.path / "s1", "--out", self.path / "merged").returncode, 0)
+        self.assertEqual(call(*common, "--out", self.path / "whole").returncode, 0)
+        merged, whole = (json.loads((self.path / d / "results.json").read_text()) for d in ("merged", "whole"))
+
+        def numbers(results):
+            return [(c["id"], e["name"], r["metrics"], g["verdict"]) for c in results["cases"] for e in c["engines"] for r in e["runs"] for g in e["gates"]]
+        self.assertEqual(numbers(merged), numbers(whole))
+        self.assertEqual(len(whole["cases"]), 3)
+        self.assertEqual(call("merge", self.path / "s1", "--out", self.path / "part").returncode, 2)
+
+    def test_ctrl_c_ends_130_kills_the_engines_and_leaves_what_was_done(self):
+        self.write_cases("a", "b")
+        script = self.path / "engine-fake"  # hangs on case b only
+        script.write_text(f"#!/bin/sh\ncase \"$2\" in */b/*) FAKE=hangs; export FAKE;; esac\nexec /usr/bin/python3 '{FAKE}' \"$@\"\n")
+        script.chmod(0o755)
+        process = subprocess.Popen([TRIPOINT, "validate", self.path / "cases", "--engines", "fake", "--engine", script, "--out", self.path / "out"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertIn("test/a", process.stdout.readline())
+        time.sleep(1.5)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual([c["id"] for c in self.results()["cases"]], ["test/a"])
+        self.assertNotEqual(self.results()["exit_code"], 0)
+        running = [p for p in Path("/proc").iterdir() if p.name.isdigit() and str(self.path).encode() in read_or_empty(p / "cmdline")]
+        self.assertEqual(running, [])
+
+    def test_the_engine_of_each_template_passes_the_compliance_test(self):
+        done = call("engine", "new", "my-engine", "--lang", "python", cwd=self.path)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        engine = self.path / "my-engine" / "engine-my-engine"
+        done = call("engine", "check", engine)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertEqual(call("engine", "new", "my-engine", cwd=self.path).returncode, 2)
+        self.assertEqual(call("engine", "new", "../x", cwd=self.path).returncode, 2)
+
+    def test_engines_that_break_the_contract_fail_the_compliance_test(self):
+        for fault in ("broken info", "leaves no result", "stops early", "millimetres", "not a number", "holds another mass", "frozen", "says ok and exits 3", "torn result"):
+            with self.subTest(fault):
+                self.assertEqual(call("engine", "check", self.fake(fault)).returncode, 1)
+        self.assertEqual(call("engine", "check", self.fake()).returncode, 0)
+
+
+def read_or_empty(path):
+    try:
+        return path.read_bytes()
+    except OSError:
+        return b""
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
