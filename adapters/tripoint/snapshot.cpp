@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adapters/tripoint/tripoint_engine.hpp"
+#include "effects/rigid/body_forces.hpp"
 
 namespace tripoint {
 namespace {
@@ -30,7 +31,7 @@ BodyState body_state(const Columns& bodies, std::size_t b) {
   s.angular_velocity = bodies[field::body_angular_velocity][b];
   s.orientation = bodies[field::body_orientation][b];
   s.mass = bodies[field::body_mass][b];
-  return s;  // nothing in this build lets one body act on another: force and torque stay 0
+  return s;
 }
 
 }  // namespace
@@ -48,11 +49,18 @@ Snapshot snapshot_of(const Simulation& simulation) {
   }
   s.temperature = by_id(p, field::temperature);
   s.density = by_id(p, field::density);
+  s.pressure = by_id(p, field::pressure);
   s.phase = by_id(p, field::phase);
   s.body = by_id(p, field::body);
   s.material = by_id(p, field::material);
   s.mass = by_id(p, field::mass);
-  for (std::size_t b = 0; b < world.bodies.size(); ++b) s.bodies.push_back(body_state(world.bodies, b));
+  const std::vector<rigid::BodyForces> forces = rigid::forces_on_bodies(world);
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    s.bodies.push_back(body_state(world.bodies, b));
+    if (forces.empty() || !world.bodies[field::body_alive][b]) continue;
+    s.bodies.back().force = forces[b].pressure + forces[b].viscous;
+    s.bodies.back().torque = forces[b].pressure_torque + forces[b].viscous_torque;
+  }
   const Ledger sums = simulation.ledger();
   s.total_mass = sums.mass;
   s.momentum = sums.momentum;

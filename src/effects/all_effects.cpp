@@ -5,6 +5,9 @@
 
 #include "effects/density/density.hpp"
 #include "effects/density/density_terms.hpp"
+#include "effects/fluid/fluid.hpp"
+#include "effects/fluid/fluid_terms.hpp"
+#include "effects/fluid/material_numbers.hpp"
 #include "effects/heat/heat.hpp"
 #include "effects/heat/heat_terms.hpp"
 #include "effects/rigid/rigid.hpp"
@@ -23,13 +26,15 @@ struct Registered {
 /// The one list of effects, in the order in which they run within a stage.
 constexpr Registered all_effects[] = {
     {"rigid", rigid::spec, rigid::make, rigid::defects},
+    {"fluid", fluid::spec, fluid::make, fluid::defects},
     {"density", density::spec, density::make, density::defects},
     {"heat", heat::spec, heat::make, heat::defects},
 };
 
 /// The slots of each pass, one line each.
-using DensityPass = Pass<Slot<DensityPaper, None>, Slot<None, HeatMoment>>;
-using RatePass = Pass<Slot<HeatFlowPaper, HeatFlowCorrected>>;
+using DensityPass = Pass<Slot<DensityPaper, NumberDensity>, Slot<None, HeatMoment>>;
+using RatePass = Pass<Slot<PressurePaper, PressureCorrected>, Slot<ViscosityPaper, ViscosityCentral>, Slot<None, ViscosityLaplacian>,
+                      Slot<HeatFlowPaper, HeatFlowCorrected>>;
 
 const Registered* find(std::string_view name) {
   const auto* place = std::ranges::find(all_effects, name, &Registered::name);
@@ -139,12 +144,18 @@ std::vector<DefectEntry> registered_defects() {
 struct Passes::Impl {
   DensityPass density;
   RatePass rates;
+  PairKernels kernels;
 };
 
 Passes::Passes(const Scene& scene, const std::vector<Active>& effects) {
   const Form heat = form_of(scene, effects, "heat", Term::heat);
-  const Form density = form_of(scene, effects, "density", Term::heat);
-  impl_ = std::make_unique<Impl>(Impl{DensityPass({density, heat == Form::corrected ? heat : Form::off}), RatePass({heat})});
+  const bool summed = form_of(scene, effects, "density", Term::heat) != Form::off;
+  const Form density = summed ? Form::paper : form_of(scene, effects, "fluid", Term::density);
+  const Form pressure = form_of(scene, effects, "fluid", Term::pressure), viscosity = form_of(scene, effects, "fluid", Term::viscosity);
+  const bool laplacian = viscosity == Form::corrected && scene.viscosity_form == "laplacian";
+  impl_ = std::make_unique<Impl>(Impl{DensityPass({density, heat == Form::corrected ? heat : Form::off}),
+                                      RatePass({pressure, laplacian ? Form::off : viscosity, laplacian ? viscosity : Form::off, heat}),
+                                      pressure == Form::off ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene)});
 }
 Passes::~Passes() = default;
 Passes::Passes(Passes&&) noexcept = default;
@@ -154,7 +165,7 @@ bool Passes::needed() const { return !impl_->density.idle() || !impl_->rates.idl
 
 void Passes::run(PassName name, World& world) const {
   if (!needed()) return;
-  const PairKernels kernels(world.support());
+  const PairKernels& kernels = impl_->kernels;
   if (name == PassName::density) {
     impl_->density(world.particles, *world.neighbours, kernels, world.threads);
   } else {

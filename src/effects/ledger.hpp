@@ -17,9 +17,18 @@ struct Ledger {
 
 /// What left the stored energies for good, booked as it happens.
 struct Booked {
-  double merging = 0.0;   ///< kinetic energy lost as bodies became one [J]
-  double walls = 0.0;     ///< taken by what is held, fixed or prescribed from outside [J]
-  Vec3 undelivered_spin;  ///< angular momentum about truncated axes that a split could not hand on [kg m2/s]
+  double pressure_work = 0.0;     ///< done by pressure on liquids and free bodies [J]
+  double viscous_work = 0.0;      ///< done by viscous forces on liquids and free bodies: what they dissipate leaves as minus this [J]
+  double gravity_work = 0.0;      ///< done by gravity on liquids and free bodies [J]
+  double wall_pressure_work = 0.0;  ///< done by pressure on driven walls [J]
+  double wall_viscous_work = 0.0;   ///< done by viscous forces on driven walls [J]
+  double extrapolated_work = 0.0;   ///< done on liquids by walls that take the liquid's own pressure: no energy stands behind it [J]
+  double rotation_drift = 0.0;      ///< change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly [J]
+  double driven_potential = 0.0;    ///< change of the potential energy of driven bodies [J]
+  double start_compression = 0.0, start_potential = 0.0;  ///< stored at time 0 [J]
+  double merging = 0.0;           ///< kinetic energy lost as bodies became one [J]
+  double walls = 0.0;             ///< taken by what is held, fixed or prescribed from outside [J]
+  Vec3 undelivered_spin;          ///< angular momentum about truncated axes that a split could not hand on [kg m2/s]
 };
 
 }  // namespace tripoint

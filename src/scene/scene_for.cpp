@@ -75,6 +75,14 @@ bool moves(const Body& b, const Scene& s) {
   return std::any_of(s.events.begin(), s.events.end(), [](const Event& e) { return e.kind == Event::Kind::release || e.kind == Event::Kind::grip; });
 }
 
+/// Bodies that can meet others: contact needs a stiffness, two bodies, and one of them free.
+std::string bodies_that_touch(const Scene& s) {
+  const bool stiff = std::any_of(s.materials.begin(), s.materials.end(), [](const Material& m) { return m.stiffness.has_value(); });
+  const bool any_free = std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.motion == Motion::free; });
+  if (!stiff || !any_free || s.bodies.size() < 2) return "";
+  return bodies_where(s, [](const Body&, const Material&) { return true; });
+}
+
 }  // namespace
 
 std::vector<CalledEffect> called_effects(const Scene& s) {
@@ -85,6 +93,7 @@ std::vector<CalledEffect> called_effects(const Scene& s) {
   std::string liquid = bodies_where(s, [&](const Body& b, const Material&) { return b.phase == Phase::liquid && moves(b, s); });
   if (liquid.empty() && !s.inflows.empty()) liquid = "an inflow";
   call("fluid", liquid, "liquid, and not held in place");
+  if (liquid.empty()) call("fluid", bodies_that_touch(s), "more than one body, one of them free, and a stiffness: they can touch");
   const auto elastic = [&](const Body& b) { return b.phase == Phase::elastic && moves(b, s); };
   call("elastic", bodies_where(s, [&](const Body& b, const Material&) { return elastic(b); }), "elastic, and not held in place");
   call("plastic", bodies_where(s, [&](const Body& b, const Material& m) { return elastic(b) && m.elastic_limit; }), "elastic with an elastic_limit: can yield");

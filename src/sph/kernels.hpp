@@ -30,6 +30,8 @@ class Spiky {
   [[nodiscard]] double value(double r) const noexcept { return r < h_ ? c_ * (h_ - r) * (h_ - r) * (h_ - r) : 0.0; }
   /// W'(r) [1/m4]
   [[nodiscard]] double derivative(double r) const noexcept { return r < h_ ? -3.0 * c_ * (h_ - r) * (h_ - r) : 0.0; }
+  /// W'(r)/r [1/m5]; 0 at r = 0, where the force has no direction
+  [[nodiscard]] double derivative_over_r(double r) const noexcept { return r > 0.0 ? derivative(r) / r : 0.0; }
 
  private:
   double h_, c_;
@@ -101,12 +103,26 @@ class WendlandC2 {
   double h_, per_h_, c_, g_;
 };
 
-/// The kernels at one support radius, handed to every pair.
+/// Core of pairs that exert pressure on each other (model 8.3): energy 1/2 kappa (reach - r)^2 for r < reach, so that they do
+/// not close up where the clamped pressure leaves no repulsion.
+struct Core {
+  double stiffness = 0.0;  ///< kappa [N/m]
+  double reach = 0.0;      ///< 0.9 dx [m]
+  /// Repulsion over r [N/m]
+  [[nodiscard]] double force_over_r(double r) const noexcept { return r < reach && r > 0.0 ? stiffness * (reach - r) / r : 0.0; }
+  /// [J]
+  [[nodiscard]] double energy(double r) const noexcept { return r < reach ? 0.5 * stiffness * (reach - r) * (reach - r) : 0.0; }
+};
+
+/// The kernels at one support radius, and the scene's numbers that pair terms share, handed to every pair.
 struct PairKernels {
-  explicit PairKernels(double support) noexcept : poly6(support), viscosity(support), wendland(support) {}
+  explicit PairKernels(double support) noexcept : poly6(support), spiky(support), viscosity(support), wendland(support) {}
   Poly6 poly6;
+  Spiky spiky;
   ViscosityKernel viscosity;
   WendlandC2 wendland;
+  Core core;                         ///< none unless a scene sets it
+  double per_gradient_moment = 1.0;  ///< 1 over the lattice moment of -2 W'/r at the scene's h/dx
 };
 
 }  // namespace tripoint

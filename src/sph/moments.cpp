@@ -4,11 +4,22 @@
 #include <Eigen/Eigenvalues>
 
 namespace tripoint {
+namespace {
 
-Symmetric pseudo_inverse(const Symmetric& m, double cut) {
+Eigen::Matrix3d matrix_of(const Symmetric& m) {
   Eigen::Matrix3d a;
   a << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(a);
+  return a;
+}
+
+}  // namespace
+
+double largest_eigenvalue(const Symmetric& m) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix_of(m), Eigen::EigenvaluesOnly).eigenvalues()(2);
+}
+
+Symmetric pseudo_inverse(const Symmetric& m, double cut) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix_of(m));
   const double largest = eigen.eigenvalues()(2);
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
   for (int k = 0; k < 3 && largest > 0.0; ++k) {

@@ -13,4 +13,7 @@ struct Symmetric {
 /// @param m positive semidefinite   @param cut in 0..1 (0.05 for heat, model 8.6)
 [[nodiscard]] Symmetric pseudo_inverse(const Symmetric& m, double cut);
 
+/// Largest eigenvalue.
+[[nodiscard]] double largest_eigenvalue(const Symmetric& m);
+
 }  // namespace tripoint

@@ -55,13 +55,13 @@ TEST(Plan, ListsExactlyTheColumnsThatTheRunHas) {
 
 TEST(Plan, NamesAnEffectThatIsNotInThisBuild) {
   lab::Lab lab(0.01);
-  lab.add({.name = "pool", .count = {3, 3, 3}, .phase = Phase::liquid});
-  EXPECT_EQ(missing_effect(lab.scene), "fluid");
+  lab.add({.name = "block", .count = {3, 3, 3}, .phase = Phase::elastic});
+  EXPECT_EQ(missing_effect(lab.scene), "elastic");
   try {
     const Simulation s(lab.scene, lab.initial);
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(), "tripoint: the fluid effect is not in this build");
+    EXPECT_STREQ(e.what(), "tripoint: the elastic effect is not in this build");
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "effects/rigid/bodies.hpp"
+#include "effects/rigid/body_forces.hpp"
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/read_case.hpp"
@@ -77,6 +78,30 @@ void turn(World& world, std::size_t b, double dt) {
   update_spin(world, b);
 }
 
+/// v += dt (F/m + g), L += dt tau (18)-(19); the work of each force is booked by its own formula (model 8.11).
+void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, double dt) {
+  Columns& t = world.bodies;
+  Vec3& v = t[field::body_velocity][b];
+  const double m = t[field::body_mass][b];
+  const Vec3 v_before = v, omega_before = t[field::body_angular_velocity][b];
+  v += dt * ((f.pressure + f.viscous) / m + g);
+  t[field::body_angular_momentum][b] += dt * (f.pressure_torque + f.viscous_torque);
+  update_spin(world, b);
+  const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
+  world.booked.pressure_work += dt * (dot(f.pressure, mean) + dot(f.pressure_torque, spin));
+  world.booked.viscous_work += dt * (dot(f.viscous, mean) + dot(f.viscous_torque, spin));
+  world.booked.gravity_work += dt * m * dot(g, mean);
+}
+
+/// What liquids do to a driven body goes to whoever drives it.
+void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
+  if (forces.empty()) return;
+  const Vec3 v = world.bodies[field::body_velocity][b], omega = world.bodies[field::body_angular_velocity][b];
+  const BodyForces& f = forces[b];
+  world.booked.wall_pressure_work += dt * (dot(f.pressure, v) + dot(f.pressure_torque, omega));
+  world.booked.wall_viscous_work += dt * (dot(f.viscous, v) + dot(f.viscous_torque, omega));
+}
+
 void RigidBodies::load(World& world, const InitialState& initial) {
   const std::vector<int> rows = body_rows(world.scene);
   for (std::size_t n = 0; n < rows.size(); ++n) {
@@ -109,9 +134,11 @@ void RigidBodies::load(World& world, const InitialState& initial) {
 
 void RigidBodies::kick(World& world, double dt) {
   static const double factor = 1.0 + defect_size("rigid.gravity");
-  const auto velocity = world.bodies[field::body_velocity];
-  for (std::size_t b = 0; b < velocity.size(); ++b) {
-    if (is_free(world, b)) velocity[b] += factor * dt * world.scene.gravity;
+  const Vec3 g = factor * world.scene.gravity;
+  const std::vector<BodyForces> forces = forces_on_bodies(world);
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    if (!is_alive(world, b)) continue;
+    is_free(world, b) ? push(world, b, forces.empty() ? BodyForces{} : forces[b], g, dt) : book_wall_work(world, b, forces, dt);
   }
   give_velocities(world);
 }
@@ -124,11 +151,15 @@ void RigidBodies::drift(World& world, double dt) {
     if (is_free(world, b)) {
       if (at_rest(world, b)) continue;
       t[field::body_centre][b] += dt * t[field::body_velocity][b];
+      const double before = kinetic_energy(world, b);
       turn(world, b, dt);
+      world.booked.rotation_drift += kinetic_energy(world, b) - before;
     } else {
-      const double before = kinetic_energy(world, b) + potential_energy(world, b);
+      const double kinetic = kinetic_energy(world, b), potential = potential_energy(world, b);
       drive(world, b, world.next_time);
-      world.booked.walls -= kinetic_energy(world, b) + potential_energy(world, b) - before;
+      const double raised = potential_energy(world, b) - potential;
+      world.booked.driven_potential += raised;
+      world.booked.walls -= kinetic_energy(world, b) - kinetic + raised;
     }
     any = true;
   }

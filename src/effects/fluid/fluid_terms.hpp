@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "core/defect.hpp"
+#include "sph/pass.hpp"
+
+/// Pair terms of liquids, and of everything that touches: density, pressure and viscosity, printed and corrected.
+/// d = r_j - r_i, so that grad_i W = -(W'/r) d.
+namespace tripoint {
+
+/// Number density (model 8.2): delta_i = sum_j W(r_ij) [1/m3]; the particle itself is added before the pass, and the
+/// division by the kernel's lattice sum follows it. [Solenthaler & Pajarola 2008]
+struct NumberDensity {
+  using reads = Keys<>;
+  using adds = Keys<field::number_density>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 0>, std::span<const double, 0>, std::span<V, 1> sum) {
+    sum[0] += g.kernels.wendland.value(g.r);
+  }
+};
+
+/// 1 where a pair acts, 0 where both are members of one rigid body, or both are wall. Liquids have group -1.
+template <class V>
+[[nodiscard]] inline V acts(V group_i, double group_j) noexcept {
+  return group_i < 0.0 || group_i != group_j ? 1.0 : 0.0;
+}
+
+/// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of
+/// compression_energy(); `pressure_share` is V^2 p over the kernel's lattice sum. With it the core energy
+/// 1/2 kappa (0.9 dx - r)^2 that keeps pairs apart where the clamp leaves no repulsion.
+struct PressureCorrected {
+  using reads = Keys<field::pressure_share, field::group>;
+  using adds = Keys<field::force_x, field::force_y, field::force_z>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const double, 2> j, std::span<V, 3> sum) {
+    const V pressure = (i[0] + j[0]) * g.gradient;
+    const V f = acts(i[1], j[1]) * (pressure - g.kernels.core.force_over_r(g.r));
+    sum[0] += f * g.dx;
+    sum[1] += f * g.dy;
+    sum[2] += f * g.dz;
+  }
+};
+
+/// Pressure force (7) as printed [N]: F_i = -sum_j V_i V_j (p_i + p_j)/2 grad_i W_spiky, V = m/rho of (4).
+/// What fails: it tends to half of grad p, and a clamped mixture of two kernels does not keep energy in contacts.
+struct PressurePaper {
+  using reads = Keys<field::volume, field::pressure, field::group>;
+  using adds = Keys<field::force_x, field::force_y, field::force_z>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const double, 3> j, std::span<V, 3> sum) {
+    const V f = acts(i[2], j[2]) * (i[0] * j[0]) * (0.5 * (i[1] + j[1])) * g.kernels.spiky.derivative_over_r(g.r);
+    sum[0] += f * g.dx;
+    sum[1] += f * g.dy;
+    sum[2] += f * g.dz;
+  }
+};
+
+/// Viscosity of a pair [Pa s] (model 8.5): harmonic between liquids; the liquid's own at a solid, 0 where that slips freely;
+/// the scene's contact viscosity between solids (which is what `viscosity` of a solid holds).
+template <class V>
+[[nodiscard]] inline V pair_viscosity(V mu_i, V solid_i, V stick_i, double mu_j, double solid_j, double stick_j) noexcept {
+  const V liquids = 2.0 * mu_i * mu_j / (mu_i + mu_j + 1e-300);
+  const V wet = solid_i * (1.0 - solid_j) * (mu_j * stick_i) + solid_j * (1.0 - solid_i) * (mu_i * stick_j);
+  return (1.0 - solid_i) * (1.0 - solid_j) * liquids + wet + solid_i * solid_j * (0.5 * (mu_i + mu_j));
+}
+
+using ViscousKeys = Keys<field::volume, field::viscosity, field::solid, field::stick, field::group, field::viscous_velocity_x,
+                         field::viscous_velocity_y, field::viscous_velocity_z>;
+using ViscousForce = Keys<field::viscous_force_x, field::viscous_force_y, field::viscous_force_z>;
+
+/// Viscous force (8) as printed [N]: F_i = sum_j V_i V_j (mu_i + mu_j)/2 (v_j - v_i) lap W_visc.
+/// What fails: walls slip, the lattice factor is 0.93, and a rigidly turning liquid ball is braked.
+struct ViscosityPaper {
+  using reads = ViscousKeys;
+  using adds = ViscousForce;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
+    const V mu = 0.5 * (i[1] + j[1]);
+    const V G = acts(i[4], j[4]) * mu * (i[0] * j[0]) * g.kernels.viscosity.laplacian(g.r);
+    sum[0] += G * (j[5] - i[5]);
+    sum[1] += G * (j[6] - i[6]);
+    sum[2] += G * (j[7] - i[7]);
+  }
+};
+
+/// `laplacian` (model 8.5) [N]: F_i = sum_j (V_i^2 + V_j^2) mu_ij (-W'/r)(v_j - v_i) over the kernel's lattice moment.
+/// For wall-bounded shear only: it does not keep angular momentum.
+struct ViscosityLaplacian {
+  using reads = ViscousKeys;
+  using adds = ViscousForce;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
+    const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
+    const V G = acts(i[4], j[4]) * mu * (i[0] * i[0] + j[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
+    sum[0] += G * (j[5] - i[5]);
+    sum[1] += G * (j[6] - i[6]);
+    sum[2] += G * (j[7] - i[7]);
+  }
+};
+
+/// `central` (model 8.5) [N]: F_ij = 10 mu_ij V_i V_j (-W'/r) ((v_j - v_i).r_ij) r_ij/r^2 over the same moment: along the
+/// line of centres, so angular momentum is kept and a rigid rotation feels nothing.
+struct ViscosityCentral {
+  using reads = ViscousKeys;
+  using adds = ViscousForce;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
+    const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
+    const V G = acts(i[4], j[4]) * 10.0 * mu * (i[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
+    const V approach = ((j[5] - i[5]) * g.dx + (j[6] - i[6]) * g.dy + (j[7] - i[7]) * g.dz) / (g.r * g.r + 1e-300);
+    sum[0] += G * approach * g.dx;
+    sum[1] += G * approach * g.dy;
+    sum[2] += G * approach * g.dz;
+  }
+};
+
+/// What a wall particle sees of the liquid (model 8.4) [Adami, Hu, Adams 2012]: sums over liquid neighbours that are not wall
+/// of W, p W, rho (r_w - r_f) W and v W.
+struct WallExtrapolation {
+  using reads = Keys<field::solid, field::pressure, field::density, field::velocity_x, field::velocity_y, field::velocity_z>;
+  using adds = Keys<field::wall_weight, field::wall_pressure, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z,
+                    field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 6> i, std::span<const double, 6> j, std::span<V, 8> sum) {
+    const V w = i[0] * (1.0 - j[0]) * g.kernels.wendland.value(g.r);
+    sum[0] += w;
+    sum[1] += w * j[1];
+    sum[2] -= w * j[2] * g.dx;
+    sum[3] -= w * j[2] * g.dy;
+    sum[4] -= w * j[2] * g.dz;
+    sum[5] += w * j[3];
+    sum[6] += w * j[4];
+    sum[7] += w * j[5];
+  }
+};
+
+}  // namespace tripoint

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/fluid/material_numbers.hpp"
+
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "sph/lattice.hpp"
+
+namespace tripoint::fluid {
+namespace {
+
+bool any_body(const Scene& scene, bool (*is)(const Body&)) { return std::ranges::any_of(scene.bodies, is); }
+
+/// Largest rest density of the materials that liquids (or, without liquids, any bodies) are made of.
+double reference_density(const Scene& scene) {
+  const bool wet = any_body(scene, [](const Body& b) { return b.phase == Phase::liquid; });
+  double most = 0.0;
+  for (const Body& b : scene.bodies)
+    if (!wet || b.phase == Phase::liquid) most = std::max(most, scene.material(b.material).density);
+  return most;
+}
+
+}  // namespace
+
+SceneNumbers numbers_of(const Scene& scene) {
+  SceneNumbers n;
+  for (const Material& m : scene.materials) n.stiffness = std::max(n.stiffness, m.stiffness.value_or(0.0));
+  if (!(n.stiffness > 0.0)) throw InputError("bodies of this scene can touch or flow, and no material has a stiffness: give one a sound_speed of at least 10 times the fastest motion");
+  n.reference_density = reference_density(scene);
+  double lightest = n.reference_density;
+  for (const Body& b : scene.bodies) lightest = std::min(lightest, scene.material(b.material).density);
+  const bool paper = scene.mode_of(Term::state) == Mode::paper;
+  n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, lightest, false));
+  const LatticeMoments moments = wendland_moments(scene.support_ratio);
+  n.lattice_density = moments.density;
+  n.gradient_moment = moments.gradient;
+  n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
+  n.core_reach = 0.9 * scene.spacing;
+  const bool paper_walls = scene.mode_of(Term::walls) == Mode::paper;
+  n.extrapolates = !paper_walls && !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
+  return n;
+}
+
+PairKernels pair_kernels(const Scene& scene) {
+  const SceneNumbers n = numbers_of(scene);
+  PairKernels kernels(scene.support_ratio * scene.spacing);
+  kernels.core = {n.core_stiffness, n.core_reach};
+  kernels.per_gradient_moment = 1.0 / n.gradient_moment;
+  return kernels;
+}
+
+}  // namespace tripoint::fluid

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "effects/fluid/equation_of_state.hpp"
+#include "scene/scene.hpp"
+#include "sph/kernels.hpp"
+
+/// Numbers of the whole scene that the equation of state and the pair terms share (model 8.1-8.5).
+namespace tripoint::fluid {
+
+struct SceneNumbers {
+  double stiffness = 0.0;          ///< k, one a scene: the largest of its materials [m2/s2]
+  double reference_density = 0.0;  ///< largest rest density of the liquids, of the solids where there is none [kg/m3]
+  double sound_speed = 0.0;        ///< [m/s]
+  double lattice_density = 1.0;    ///< S0 of the kernel at the scene's h/dx
+  double gradient_moment = 1.0;    ///< of the kernel at the scene's h/dx
+  double core_stiffness = 0.0;     ///< kappa = 0.03 k rho_ref dx [N/m]
+  double core_reach = 0.0;         ///< 0.9 dx [m]
+  bool extrapolates = false;       ///< walls take the liquid's pressure: no free body in the scene
+};
+/// @throws InputError when no material of the scene has a stiffness or a speed of sound
+[[nodiscard]] SceneNumbers numbers_of(const Scene&);
+
+/// The kernels of the scene with its core and its lattice moment.
+[[nodiscard]] PairKernels pair_kernels(const Scene&);
+
+[[nodiscard]] inline EquationOfState state_of(const SceneNumbers& n, double rest_density, bool clamp) {
+  return {n.stiffness, rest_density, n.reference_density, clamp};
+}
+
+}  // namespace tripoint::fluid

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/fluid/viscous_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sph/moments.hpp"
+
+#include "effects/fluid/fluid_terms.hpp"
+
+namespace tripoint::fluid {
+namespace {
+
+constexpr int calls_between = 32;
+
+/// sum_j of the pair's viscous coefficient, times e e^T for `central` [kg/s]. Plain loops: it runs rarely.
+template <class Coefficient>
+Symmetric tensor_of(const World& world, std::size_t i, bool central, Coefficient coefficient) {
+  Symmetric sum;
+  const Particles& p = world.particles;
+  for (const Entry e : world.neighbours->of(i)) {
+    const Vec3 d = (p.position(e.row()) - p.position(i)) + world.neighbours->shift(e.image());
+    const double r2 = dot(d, d);
+    if (r2 >= world.support() * world.support() || !(r2 > 0.0)) continue;
+    const double G = coefficient(e.row(), std::sqrt(r2));
+    if (!central) {
+      sum.xx += G;
+      continue;
+    }
+    const double g = G / r2;
+    sum.xx += g * d.x * d.x, sum.yy += g * d.y * d.y, sum.zz += g * d.z * d.z;
+    sum.yz += g * d.y * d.z, sum.xz += g * d.x * d.z, sum.xy += g * d.x * d.y;
+  }
+  return sum;
+}
+
+}  // namespace
+
+void ViscousBound::update(World& world, const PairKernels& kernels) {
+  if (calls_++ % calls_between != 0) return;
+  const Particles& p = world.particles;
+  const auto mu = p[field::viscosity], V = p[field::volume], solid = p[field::solid], stick = p[field::stick], group = p[field::group], m = p[field::mass];
+  const bool paper = world.scene.mode_of(Term::viscosity) == Mode::paper;
+  const bool central = !paper && world.scene.viscosity_form == "central";
+  const auto coefficient = [&](std::size_t i, std::size_t j, double r) {
+    const double active = acts(group[i], group[j]);
+    if (paper) return active * 0.5 * (mu[i] + mu[j]) * V[i] * V[j] * kernels.viscosity.laplacian(r);
+    const double pair = active * pair_viscosity(mu[i], solid[i], stick[i], mu[j], solid[j], stick[j]) * -kernels.wendland.derivative_over_r(r) * kernels.per_gradient_moment;
+    return central ? 10.0 * V[i] * V[j] * pair : (V[i] * V[i] + V[j] * V[j]) * pair;
+  };
+  double greatest = 0.0;
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (group[i] == 0.0) continue;  // walls do not move by forces
+    const Symmetric sum = tensor_of(world, i, central, [&](std::size_t j, double r) { return coefficient(i, j, r); });
+    greatest = std::max(greatest, (central ? largest_eigenvalue(sum) : sum.xx) / m[i]);
+  }
+  dt_ = greatest > 0.0 ? (central ? 0.6 : 1.0) / greatest : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace tripoint::fluid

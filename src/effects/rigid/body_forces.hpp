@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+#include "effects/world.hpp"
+
+namespace tripoint::rigid {
+
+/// What the members of one body feel from all others (18): sums of pressure and viscous forces, and their torques about the
+/// centre of mass.
+struct BodyForces {
+  Vec3 pressure, viscous;                ///< [N]
+  Vec3 pressure_torque, viscous_torque;  ///< [N m]
+};
+/// One entry a body, sums in order of id; empty where no effect of the scene makes forces.
+[[nodiscard]] std::vector<BodyForces> forces_on_bodies(const World&);
+
+}  // namespace tripoint::rigid
