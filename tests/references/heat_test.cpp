@@ -44,6 +44,32 @@ TEST(CosineMode, RefusesAWaveThatDoesNotFit) {
   EXPECT_THROW((void)make_reference(test::function("cosine_mode"), moving.job, moving.initial), InputError);
 }
 
+TEST(SineBetweenHeldEnds, AgreesWithFiniteDifferences) {
+  const auto s = cosine_bar(20, false, -pi / 2);
+  const auto reference = make_reference(test::function("sine_held_ends"), s.job, s.initial);
+  const int n = 200;
+  const double dx = 0.1 / n, dt = 0.4 * dx * dx / D, end = 200.0;
+  std::vector<double> T(n + 1);
+  for (int i = 0; i <= n; ++i) T[i] = 300.0 + 10.0 * std::sin(pi * i / n);
+  const int steps = static_cast<int>(std::ceil(end / dt));
+  for (int k = 0; k < steps; ++k) {
+    std::vector<double> next = T;  // the ends stay
+    for (int i = 1; i < n; ++i) next[i] += D * (end / steps) / (dx * dx) * (T[i + 1] - 2.0 * T[i] + T[i - 1]);
+    T = next;
+  }
+  const auto exact = reference->at(end);
+  for (std::size_t i = 0; i < s.initial.size(); ++i) {
+    const double x = s.initial.position[i].x / dx;
+    const int left = static_cast<int>(x);
+    EXPECT_NEAR(exact.temperature[i], T[left] + (x - left) * (T[left + 1] - T[left]), 2e-3);  // (k dx)^2/12 of 10 K, both ways
+  }
+}
+
+TEST(SineBetweenHeldEnds, RefusesAWaveThatIsNotAtItsMeanAtTheEnds) {
+  const auto s = cosine_bar(20, false, 0.0);
+  EXPECT_THROW((void)make_reference(test::function("sine_held_ends"), s.job, s.initial), InputError);
+}
+
 /// The operator's rate measured on a lattice with particles, not by its eigenvalue formula: dT/dt at one particle.
 double measured_paper_damping(int n, double dx, double h) {
   const double k = 2 * pi / (n * dx), mass = 7.0;

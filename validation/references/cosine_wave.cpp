@@ -53,8 +53,8 @@ void refuse_open_ends(const CosineWave& wave, const ReferenceInput& in) {
   }
 }
 
-DecayingCosine::DecayingCosine(const ReferenceInput& in, const CosineWave& wave, double rate)
-    : HeatReference(in.job, in.initial), wave_(wave), rate_(rate) {}
+DecayingCosine::DecayingCosine(const ReferenceInput& in, const CosineWave& wave, double rate, HeldEnds held)
+    : HeatReference(in.job, in.initial, held), wave_(wave), rate_(rate) {}
 
 double DecayingCosine::temperature(const Vec3& place, double time) const {
   return wave_.mean + wave_.amplitude * std::exp(-rate_ * time) * wave_.shape(place);

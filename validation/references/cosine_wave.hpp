@@ -24,7 +24,7 @@ void refuse_open_ends(const CosineWave&, const ReferenceInput&);
 /// The wave, its amplitude falling as exp(-rate t). Numbers: decay_rate [1/s], wave_vector.x, .y, .z [rad/m], phase [rad], axis.
 class DecayingCosine : public HeatReference {
  public:
-  DecayingCosine(const ReferenceInput&, const CosineWave&, double rate);
+  DecayingCosine(const ReferenceInput&, const CosineWave&, double rate, HeldEnds = HeldEnds::refused);
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override;
 
  protected:

@@ -30,6 +30,7 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry keyframes_entry();
 [[nodiscard]] ReferenceEntry cosine_mode_entry();
 [[nodiscard]] ReferenceEntry cosine_mode_lattice_entry();
+[[nodiscard]] ReferenceEntry sine_held_ends_entry();
 [[nodiscard]] ReferenceEntry step_insulated_entry();
 [[nodiscard]] ReferenceEntry two_conductivities_entry();
 [[nodiscard]] ReferenceEntry invariant_entry();

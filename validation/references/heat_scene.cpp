@@ -78,11 +78,12 @@ double common_diffusivity(const Job& job) {
   return first;
 }
 
-HeatReference::HeatReference(const Job& job, const InitialState& initial) : initial_(initial) {
+HeatReference::HeatReference(const Job& job, const InitialState& initial, HeldEnds held) : initial_(initial) {
   for (const auto& body : job.bodies) {
     const bool at_rest = body.motion == Motion::fixed || (norm(body.velocity) == 0.0 && norm(body.angular_velocity) == 0.0 && body.keyframes.empty());
     if (!at_rest) throw InputError("body `" + body.name + "` moves: the exact solutions of heat are of a medium at rest");
-    if (body.temperature_held) throw InputError("body `" + body.name + "` holds its temperature: this exact solution is of an insulated or periodic medium");
+    if (body.temperature_held && held == HeldEnds::refused)
+      throw InputError("body `" + body.name + "` holds its temperature: this exact solution is of an insulated or periodic medium");
     if (body.motion == Motion::free && norm(job.scene.gravity) > 0.0) throw InputError("body `" + body.name + "` falls: the exact solutions of heat are of a medium at rest");
   }
   if (!job.scene.events.empty() || !job.scene.inflows.empty()) throw InputError("an exact solution of heat has no events or inflows");

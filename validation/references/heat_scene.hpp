@@ -34,8 +34,9 @@ std::size_t axis_of(const Vec3& direction, const std::string& what);
 /// Base of the references of heat: a medium at rest of which only the temperature changes. Snapshots hold everything else as it was.
 class HeatReference : public Reference {
  public:
-  /// @throws InputError when a body moves, melts by event, or holds its temperature
-  HeatReference(const Job&, const InitialState&);
+  enum class HeldEnds { refused, allowed };
+  /// @throws InputError when a body moves, melts by event, or (unless allowed) holds its temperature
+  HeatReference(const Job&, const InitialState&, HeldEnds = HeldEnds::refused);
   [[nodiscard]] Snapshot at(double time) const final;
 
  protected:

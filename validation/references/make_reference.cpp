@@ -10,7 +10,7 @@ const std::vector<ReferenceEntry>& all_references() {
   static const std::vector<ReferenceEntry> entries{
       ballistic_entry(),       ballistic_semi_implicit_entry(), torque_free_entry(),    flip_time_entry(),
       merge_in_flight_entry(), split_in_flight_entry(),         keyframes_entry(),      cosine_mode_entry(),
-      cosine_mode_lattice_entry(), step_insulated_entry(),      two_conductivities_entry(), invariant_entry()};
+      cosine_mode_lattice_entry(), sine_held_ends_entry(), step_insulated_entry(),      two_conductivities_entry(), invariant_entry()};
   return entries;
 }
 
