@@ -23,6 +23,7 @@ struct Booked {
   double wall_pressure_work = 0.0;  ///< done by pressure on driven walls [J]
   double wall_viscous_work = 0.0;   ///< done by viscous forces on driven walls [J]
   double extrapolated_work = 0.0;   ///< done on liquids by walls that take the liquid's own pressure: no energy stands behind it [J]
+  double transport_work = 0.0;      ///< done on liquids by the stress of the transport velocity [J]
   double rotation_drift = 0.0;      ///< change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly [J]
   double driven_potential = 0.0;    ///< change of the potential energy of driven bodies [J]
   double start_compression = 0.0, start_potential = 0.0;  ///< stored at time 0 [J]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,13 @@
 
 namespace tripoint {
 
+/// What the next step needs of those before, beside the columns: a checkpoint keeps it.
+struct Lagged {
+  double half_step = 0.0;                                          ///< length of the last kick of liquids [s]
+  double viscous_step = std::numeric_limits<double>::infinity();  ///< greatest stable step of viscosity, as last formed [s]
+  int viscous_age = 0;                                             ///< rates since it was formed
+};
+
 /// All that a step changes, and what it works with.
 struct World {
   Scene scene;
@@ -21,6 +29,7 @@ struct World {
   PeriodicBox box;
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
   Booked booked;
+  Lagged lagged;
   double time = 0.0;       ///< [s]
   double next_time = 0.0;  ///< end of the step that is being taken, exactly as the loop will set it [s]
   int threads = 1;

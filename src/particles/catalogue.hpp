@@ -32,7 +32,12 @@ inline constexpr Field<double> group{"group", "1"};
 inline constexpr Field<double> wall_weight{"wall.weight", "1/m3"}, wall_pressure{"wall.pressure", "Pa/m3"};
 inline constexpr Field<double> wall_lever_x{"wall.lever.x", "kg/m5"}, wall_lever_y{"wall.lever.y", "kg/m5"}, wall_lever_z{"wall.lever.z", "kg/m5"};
 inline constexpr Field<double> wall_velocity_x{"wall.velocity.x", "1/m2/s"}, wall_velocity_y{"wall.velocity.y", "1/m2/s"}, wall_velocity_z{"wall.velocity.z", "1/m2/s"};
-
+/// Part of a pressure force that comes from the pressure of extrapolating walls.
+inline constexpr Field<double> wall_force_x{"wall.force.x", "N"}, wall_force_y{"wall.force.y", "N"}, wall_force_z{"wall.force.z", "N"};
+/// Transport velocity less velocity; force of the background pressure; force of the stress that the difference carries.
+inline constexpr Field<double> shift_x{"shift.x", "m/s"}, shift_y{"shift.y", "m/s"}, shift_z{"shift.z", "m/s"};
+inline constexpr Field<double> background_x{"background.x", "N"}, background_y{"background.y", "N"}, background_z{"background.z", "N"};
+inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, transport_force_y{"transport_force.y", "N"}, transport_force_z{"transport_force.z", "N"};
 
 // heat (21)
 inline constexpr Field<double> temperature{"temperature", "K"}, temperature_rate{"temperature_rate", "K/s"};
@@ -59,6 +64,8 @@ inline constexpr Field<double> reference_x{"reference.x", "m"}, reference_y{"ref
 // solid bodies: one row for each that ever existed, [[body]] order, then births
 inline constexpr Field<double> body_mass{"body.mass", "kg", Per::body};
 inline constexpr Field<Vec3> body_centre{"body.centre", "m", Per::body}, body_velocity{"body.velocity", "m/s", Per::body};
+/// Of the last kick: what it added to the velocities, over its length.
+inline constexpr Field<Vec3> body_acceleration{"body.acceleration", "m/s2", Per::body}, body_angular_acceleration{"body.angular_acceleration", "rad/s2", Per::body};
 inline constexpr Field<Vec3> body_angular_momentum{"body.angular_momentum", "kg m2/s", Per::body};
 inline constexpr Field<Vec3> body_angular_velocity{"body.angular_velocity", "rad/s", Per::body};
 inline constexpr Field<Vec3> body_inertia{"body.inertia", "kg m2", Per::body};  ///< principal, ascending; 0 where truncated

@@ -3,9 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "particles/neighbours.hpp"
 #include "particles/particles.hpp"
@@ -71,16 +73,18 @@ struct Local {
 /// One combination of terms. Every i sums over all its j in list order; nothing is written to j.
 /// Each term sums into registers of its own, so that its bits are the same alone and beside others.
 template <class... Terms>
-void fused(Particles& particles, const Neighbours& neighbours, const PairKernels& kernels, int threads) {
+void fused(Particles& particles, const Neighbours& neighbours, const PairKernels& kernels, int threads, const std::vector<std::uint32_t>* rows) {
   if constexpr (sizeof...(Terms) > 0) {
     const auto x = positions(std::as_const(particles));
     const double support2 = neighbours.support() * neighbours.support();
+    const std::size_t count = rows ? rows->size() : particles.size();
     const std::tuple<Local<double, Terms>...> prepared{Local<double, Terms>(particles)...};
 #pragma omp parallel num_threads(threads)
     {
       auto locals = prepared;
 #pragma omp for schedule(static)
-      for (std::size_t i = 0; i < particles.size(); ++i) {
+      for (std::size_t n = 0; n < count; ++n) {
+        const std::size_t i = rows ? (*rows)[n] : n;
         std::apply([&](auto&... l) { (l.start(i), ...); }, locals);
         for (const Entry e : neighbours.of(i)) {
           const std::size_t j = e.row();
@@ -98,7 +102,7 @@ void fused(Particles& particles, const Neighbours& neighbours, const PairKernels
   }
 }
 
-using Function = void (*)(Particles&, const Neighbours&, const PairKernels&, int);
+using Function = void (*)(Particles&, const Neighbours&, const PairKernels&, int, const std::vector<std::uint32_t>*);
 
 /// From the forms chosen at run time to the combination made at compile time.
 template <class Chosen, class... Slots>
@@ -134,7 +138,11 @@ class Pass {
   explicit Pass(const Forms& forms) : forms_(forms), run_(detail::Pick<std::tuple<>, Slots...>::get(forms_.data())) {}
   /// Adds each term's sum to its columns; what they hold before is the caller's.
   void operator()(Particles& particles, const Neighbours& neighbours, const PairKernels& kernels, int threads) const {
-    run_(particles, neighbours, kernels, threads);
+    run_(particles, neighbours, kernels, threads, nullptr);
+  }
+  /// For these rows only. @param rows each at most once
+  void operator()(Particles& particles, const Neighbours& neighbours, const PairKernels& kernels, int threads, const std::vector<std::uint32_t>& rows) const {
+    run_(particles, neighbours, kernels, threads, &rows);
   }
   [[nodiscard]] bool idle() const noexcept {
     for (const Form f : forms_) {

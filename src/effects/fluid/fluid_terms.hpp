@@ -113,24 +113,4 @@ struct ViscosityCentral {
   }
 };
 
-/// What a wall particle sees of the liquid (model 8.4) [Adami, Hu, Adams 2012]: sums over liquid neighbours that are not wall
-/// of W, p W, rho (r_w - r_f) W and v W.
-struct WallExtrapolation {
-  using reads = Keys<field::solid, field::pressure, field::density, field::velocity_x, field::velocity_y, field::velocity_z>;
-  using adds = Keys<field::wall_weight, field::wall_pressure, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z,
-                    field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z>;
-  template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 6> i, std::span<const double, 6> j, std::span<V, 8> sum) {
-    const V w = i[0] * (1.0 - j[0]) * g.kernels.wendland.value(g.r);
-    sum[0] += w;
-    sum[1] += w * j[1];
-    sum[2] -= w * j[2] * g.dx;
-    sum[3] -= w * j[2] * g.dy;
-    sum[4] -= w * j[2] * g.dz;
-    sum[5] += w * j[3];
-    sum[6] += w * j[4];
-    sum[7] += w * j[5];
-  }
-};
-
 }  // namespace tripoint

@@ -11,7 +11,7 @@
 namespace tripoint::fluid {
 namespace {
 
-constexpr int calls_between = 32;
+constexpr int rates_between = 32;
 
 /// sum_j of the pair's viscous coefficient, times e e^T for `central` [kg/s]. Plain loops: it runs rarely.
 template <class Coefficient>
@@ -36,8 +36,8 @@ Symmetric tensor_of(const World& world, std::size_t i, bool central, Coefficient
 
 }  // namespace
 
-void ViscousBound::update(World& world, const PairKernels& kernels) {
-  if (calls_++ % calls_between != 0) return;
+void update_viscous_bound(World& world, const PairKernels& kernels) {
+  if (world.lagged.viscous_age++ % rates_between != 0) return;
   const Particles& p = world.particles;
   const auto mu = p[field::viscosity], V = p[field::volume], solid = p[field::solid], stick = p[field::stick], group = p[field::group], m = p[field::mass];
   const bool paper = world.scene.mode_of(Term::viscosity) == Mode::paper;
@@ -55,7 +55,7 @@ void ViscousBound::update(World& world, const PairKernels& kernels) {
     const Symmetric sum = tensor_of(world, i, central, [&](std::size_t j, double r) { return coefficient(i, j, r); });
     greatest = std::max(greatest, (central ? largest_eigenvalue(sum) : sum.xx) / m[i]);
   }
-  dt_ = greatest > 0.0 ? (central ? 0.6 : 1.0) / greatest : std::numeric_limits<double>::infinity();
+  world.lagged.viscous_step = greatest > 0.0 ? (central ? 0.6 : 1.0) / greatest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace tripoint::fluid

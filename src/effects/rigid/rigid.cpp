@@ -21,6 +21,9 @@ class RigidBodies : public Effect {
   void happen(World&, const Happening&) override;
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World&, Ledger&) const override;
+
+ private:
+  std::vector<BodyForces> forces_;  ///< memory that is used again from kick to kick
 };
 
 /// L of a body that turns about one axis only must lie along it. @throws InputError naming the body
@@ -53,6 +56,8 @@ void drive(World& world, std::size_t b, double time) {
   t[field::body_velocity][b] = s.velocity + cross(s.angular_velocity, lever);
   t[field::body_angular_momentum][b] = spin_momentum(world, b);
 }
+
+bool is_fixed(const World& world, std::size_t b) { return world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed); }
 
 bool at_rest(const World& world, std::size_t b) {
   return world.bodies[field::body_velocity][b] == Vec3{} && world.bodies[field::body_angular_momentum][b] == Vec3{};
@@ -87,6 +92,8 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   v += dt * ((f.pressure + f.viscous) / m + g);
   t[field::body_angular_momentum][b] += dt * (f.pressure_torque + f.viscous_torque);
   update_spin(world, b);
+  t[field::body_acceleration][b] = (1.0 / dt) * (v - v_before);
+  t[field::body_angular_acceleration][b] = (1.0 / dt) * (t[field::body_angular_velocity][b] - omega_before);
   const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
   world.booked.pressure_work += dt * (dot(f.pressure, mean) + dot(f.pressure_torque, spin));
   world.booked.viscous_work += dt * (dot(f.viscous, mean) + dot(f.viscous_torque, spin));
@@ -135,12 +142,14 @@ void RigidBodies::load(World& world, const InitialState& initial) {
 void RigidBodies::kick(World& world, double dt) {
   static const double factor = 1.0 + defect_size("rigid.gravity");
   const Vec3 g = factor * world.scene.gravity;
-  const std::vector<BodyForces> forces = forces_on_bodies(world);
+  forces_on_moving_bodies(world, forces_);
+  bool any = false;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    if (!is_alive(world, b)) continue;
-    is_free(world, b) ? push(world, b, forces.empty() ? BodyForces{} : forces[b], g, dt) : book_wall_work(world, b, forces, dt);
+    if (!is_alive(world, b) || is_fixed(world, b)) continue;
+    any = true;
+    is_free(world, b) ? push(world, b, forces_.empty() ? BodyForces{} : forces_[b], g, dt) : book_wall_work(world, b, forces_, dt);
   }
-  give_velocities(world);
+  if (any) give_velocities(world);
 }
 
 void RigidBodies::drift(World& world, double dt) {
@@ -179,6 +188,7 @@ void set_motion(World& world, std::size_t b, Motion motion) {
   Columns& t = world.bodies;
   const double before = kinetic_energy(world, b);
   t[field::body_motion][b] = static_cast<int>(motion);
+  t[field::body_acceleration][b] = t[field::body_angular_acceleration][b] = {};
   if (motion == Motion::fixed) {
     t[field::body_velocity][b] = t[field::body_angular_momentum][b] = t[field::body_angular_velocity][b] = {};
   }
@@ -240,7 +250,7 @@ void RigidBodies::add_to(const World& world, Ledger& ledger) const {
 EffectSpec spec(const Scene& scene) {
   return {"rigid",
           scene.mode_of(Term::rotation),
-          {field::reference_x, field::reference_y, field::reference_z, field::body_mass, field::body_centre, field::body_velocity,
+          {field::reference_x, field::reference_y, field::reference_z, field::body_mass, field::body_centre, field::body_velocity, field::body_acceleration, field::body_angular_acceleration,
            field::body_angular_momentum, field::body_angular_velocity, field::body_inertia, field::body_orientation,
            field::body_axes, field::body_turns, field::body_start_centre, field::body_offset, field::body_start_velocity,
            field::body_start_spin, field::body_motion, field::body_alive, field::body_source},

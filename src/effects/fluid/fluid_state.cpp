@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/fluid/fluid_state.hpp"
+
+#include "core/defect.hpp"
+
+namespace tripoint::fluid {
+
+void set_density(World& world, const SceneNumbers& n) {
+  Particles& p = world.particles;
+  const auto rho = p[field::density], m = p[field::mass], V = p[field::volume];
+  static const double denser = 1.0 + defect_size("fluid.density"), paper_denser = 1.0 + defect_size("fluid.paper.density");
+  if (world.scene.mode_of(Term::density) == Mode::corrected) {
+    const auto delta = p[field::number_density];
+    const double scale = denser / n.lattice_density;
+    for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * (delta[i] * scale);
+  } else {
+    for (double& value : rho) value *= paper_denser;
+  }
+  for (std::size_t i = 0; i < rho.size(); ++i) V[i] = m[i] / rho[i];
+}
+
+void set_pressure(World& world, const SceneNumbers& n) {
+  Particles& p = world.particles;
+  const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure];
+  const bool paper = world.scene.mode_of(Term::state) == Mode::paper;
+  static const double stiffer = 1.0 + defect_size("fluid.state"), paper_stiffer = 1.0 + defect_size("fluid.paper.state");
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    const EquationOfState e = state_of(n, rest[i], world.scene.clamp);
+    pressure[i] = paper ? paper_stiffer * pressure_paper(e, rho[i]) : stiffer * pressure_corrected(e, rho[i]);
+  }
+}
+
+void set_pressure_shares(World& world, const SceneNumbers& n) {
+  Particles& p = world.particles;
+  const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure];
+  for (std::size_t i = 0; i < share.size(); ++i) share[i] = V[i] * V[i] * pressure[i] / n.lattice_density;
+}
+
+void predict_velocities(World& world) {
+  Particles& p = world.particles;
+  const double ahead = world.lagged.half_step;
+  const Vec3 g = world.scene.gravity;
+  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const auto D = triple(p, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
+  const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
+  const auto x = positions(p), v = velocities(p);
+  const auto m = p[field::mass];
+  const auto body = p[field::body];
+  const Columns& t = world.bodies;
+  const auto centre = t[field::body_centre], velocity = t[field::body_velocity], omega = t[field::body_angular_velocity];
+  const auto gained = t[field::body_acceleration], turned = t[field::body_angular_acceleration];
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (body[i] < 0) {
+      seen.set(i, ahead > 0.0 ? v.at(i) + ahead * (g + (F.at(i) + D.at(i)) / m[i]) : v.at(i));
+      continue;
+    }
+    const auto b = static_cast<std::size_t>(body[i]);
+    const Vec3 arm = (world.box.any() ? world.unwrapped(i) : x.at(i)) - centre[b];
+    seen.set(i, velocity[b] + ahead * gained[b] + cross(omega[b] + ahead * turned[b], arm));
+  }
+}
+
+}  // namespace tripoint::fluid

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "effects/fluid/material_numbers.hpp"
+#include "effects/world.hpp"
+
+/// What follows from places and velocities of one time, particle by particle: before the rate pass.
+namespace tripoint::fluid {
+
+/// rho and V from the sums of the density pass: delta = sum W / S0, rho = m delta (model 8.2), or (4) as printed.
+void set_density(World&, const SceneNumbers&);
+/// (9), printed or scaled (model 8.3).
+void set_pressure(World&, const SceneNumbers&);
+/// V^2 p over the kernel's lattice sum, what the corrected pressure force takes of each particle.
+void set_pressure_shares(World&, const SceneNumbers&);
+/// The velocities that viscous pairs see: of the full step, a half kick with the old rates ahead (model 7, time).
+void predict_velocities(World&);
+
+}  // namespace tripoint::fluid

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/fluid/transport.hpp"
+
+#include <algorithm>
+
+#include "core/defect.hpp"
+#include "effects/fluid/transport_terms.hpp"
+
+namespace tripoint::fluid {
+
+bool uses_transport_velocity(const Scene& scene) {
+  if (!scene.transport_velocity || scene.mode_of(Term::pressure) != Mode::corrected) return false;
+  const bool free_bodies = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
+  if (free_bodies || scene.clamp)
+    throw InputError("scene.transport_velocity is for liquid that fills its space, between walls at most: it needs clamp = false and no free body");
+  return true;
+}
+
+void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels& kernels) {
+  Particles& p = world.particles;
+  for (const Field<double>* f : TransportForces::adds::list) std::ranges::fill(p[*f], 0.0);
+  static const Pass<Slot<None, TransportForces>> pass({Form::corrected});
+  pass(p, *world.neighbours, kernels, world.threads);
+  static const double weaker = 1.0 - defect_size("fluid.transport_velocity");
+  const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it
+  const double background = weaker * pressure / n.lattice_density, stress = weaker / n.lattice_density;
+  for (const Field<double>* f : {&field::background_x, &field::background_y, &field::background_z})
+    for (double& value : p[*f]) value *= background;
+  for (const Field<double>* f : {&field::transport_force_x, &field::transport_force_y, &field::transport_force_z})
+    for (double& value : p[*f]) value *= stress;
+}
+
+void set_shift(World& world, double dt) {
+  Particles& p = world.particles;
+  const auto w = triple(p, field::shift_x, field::shift_y, field::shift_z);
+  const auto background = triple(std::as_const(p), field::background_x, field::background_y, field::background_z);
+  const auto m = p[field::mass], group = p[field::group];
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (group[i] < 0.0) w.set(i, (0.5 * dt / m[i]) * background.at(i));
+}
+
+}  // namespace tripoint::fluid
