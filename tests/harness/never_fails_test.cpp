@@ -49,6 +49,9 @@ TEST(SixteenWays, Way04AMissingMetricIsNotSkipped) {
   r = green();
   engine(r).runs.clear();
   EXPECT_EQ(exit_of(r), exit_missing);
+  r = green();  // beside a gate that is green too
+  r.cases[0].gates.push_back(limit("absent", 0.1));
+  EXPECT_EQ(exit_of(r), exit_missing);
 }
 
 TEST(SixteenWays, Way05AGateWithoutALimitOrAReasonIsNoGate) {
@@ -151,6 +154,10 @@ TEST(SixteenWays, Way15AnEmptySuiteAShadowedIdAndATagOfNothingAreErrors) {
 TEST(SixteenWays, Way16AFailedRunAWrongUnitAndAShiftedTimeAxisAreSeen) {
   auto r = study_of({1.6e-1, 4.0e-2, 1.0e-2, 2.5e-3, 6.0e-4});
   engine(r).runs[4].status = "killed";  // dropping it would leave four good levels
+  EXPECT_EQ(exit_of(r), exit_missing);
+  r = study_of({1.6e-1, 4.0e-2, 1.0e-2, 2.5e-3});
+  engine(r).runs.push_back(engine(r).runs[3]);
+  engine(r).runs[4].status = "killed";  // nor is a replica dropped that failed
   EXPECT_EQ(exit_of(r), exit_missing);
   for (const char* wrong : {"millimetres", "shifted time axis"}) {
     const TestFolder folder;
