@@ -37,6 +37,8 @@ struct Happening {
   bool begins;
 };
 
+/// An effect keeps nothing from step to step in members of its own: what the next step needs is in the World, where a checkpoint
+/// finds it.
 class Effect {
  public:
   virtual ~Effect() = default;

@@ -33,6 +33,16 @@ class Columns {
     return {values<T>(*this, key).data(), rows_};
   }
 
+  /// Calls visit(FieldInfo, span of values) for every column, in the order of the fields.
+  template <class Visit>
+  void for_each(Visit visit) {
+    for (Column& c : columns_) std::visit([&](auto& values) { visit(c.info, std::span(values.data(), rows_)); }, c.values);
+  }
+  template <class Visit>
+  void for_each(Visit visit) const {
+    for (const Column& c : columns_) std::visit([&](const auto& values) { visit(c.info, std::span(values.data(), rows_)); }, c.values);
+  }
+
   /// Row n becomes what was row order[n], in every column; spans taken before are no longer valid. @param order a permutation of
   /// 0..size()-1
   void permute(std::span<const std::uint32_t> order);

@@ -18,6 +18,14 @@ bool drops_seam() {
   return drops;
 }
 
+void refuse_not_finite(const Particles& particles, double time) {
+  const auto x = positions(particles);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (finite(x.at(i)) && norm(x.at(i)) <= 1e100) continue;
+    throw Diverged(particles[field::id][i], particles[field::body][i], "position", "drift", time, "a position is not finite");
+  }
+}
+
 }  // namespace
 
 /// Cells at least as wide as the list's reach, so that neighbours of i are in the 27 cells around it.
@@ -120,7 +128,7 @@ bool Neighbours::update(Particles& particles, double time) {
   return true;
 }
 
-void Neighbours::rebuild_from(Particles& particles, std::span<const Vec3> build_positions, double time) {
+void Neighbours::rebuild_from(Particles& particles, std::span<const Vec3> build_positions, double time, long rebuilds) {
   const auto x = positions(particles);
   std::vector<Vec3> now(particles.size());  // by id, since the rebuild moves rows
   const auto id = particles[field::id];
@@ -128,7 +136,9 @@ void Neighbours::rebuild_from(Particles& particles, std::span<const Vec3> build_
     now[static_cast<std::size_t>(id[i])] = x.at(i);
     x.set(i, build_positions[i]);
   }
-  rebuild(particles, time);
+  refuse_not_finite(particles, time);
+  sort_and_list(particles);  // not wrapped again: one a rounding error below the box was put on its upper edge, and stays there
+  rebuilds_ = rebuilds;
   const auto sorted = positions(particles);
   for (std::size_t k = 0; k < now.size(); ++k) sorted.set(particles.row(k), now[k]);
 }
@@ -152,17 +162,15 @@ void Neighbours::wrap(Particles& particles) const {
 }
 
 void Neighbours::rebuild(Particles& particles, double time) {
-  const std::size_t n = particles.size();
-  if (n > Entry::row_mask) throw InputError("more than 2^27 particles");
-  {
-    const auto x = positions(particles);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!finite(x.at(i)) || norm(x.at(i)) > 1e100) {
-        throw Diverged(particles[field::id][i], particles[field::body][i], "position", "drift", time, "a position is not finite");
-      }
-    }
-  }
+  if (particles.size() > Entry::row_mask) throw InputError("more than 2^27 particles");
+  refuse_not_finite(particles, time);
   wrap(particles);
+  sort_and_list(particles);
+  ++rebuilds_;
+}
+
+void Neighbours::sort_and_list(Particles& particles) {
+  const std::size_t n = particles.size();
   const auto x = positions(particles);
   Vec3 low = n ? x.at(0) : Vec3{}, high = low;
   for (std::size_t i = 0; i < n; ++i) {
@@ -195,7 +203,6 @@ void Neighbours::rebuild(Particles& particles, double time) {
   built_.resize(n);
   for (std::size_t i = 0; i < n; ++i) built_[i] = sorted.at(i);
   list(particles, grid);
-  ++rebuilds_;
 }
 
 /// Two passes, one that counts and one that fills: every row writes only its own part.

@@ -40,8 +40,9 @@ class Neighbours {
   /// @return whether the rows have a new order
   bool update(Particles&, double time);
   /// Lists the particles anew from the positions of an earlier rebuild, as a restart must to continue the same bits.
-  /// @param build_positions by row of `particles`
-  void rebuild_from(Particles&, std::span<const Vec3> build_positions, double time);
+  /// @param build_positions by row of `particles`, as build_positions() gave them
+  /// @param rebuilds as counted until then
+  void rebuild_from(Particles&, std::span<const Vec3> build_positions, double time, long rebuilds = 1);
 
   [[nodiscard]] std::span<const Entry> of(std::size_t i) const {
     return {entries_.data() + start_[i], start_[i + 1] - start_[i]};
@@ -58,6 +59,7 @@ class Neighbours {
   [[nodiscard]] bool outdated(const Particles&) const;
   void wrap(Particles&) const;
   void rebuild(Particles&, double time);
+  void sort_and_list(Particles&);
   void list(const Particles&, const Grid&);
 
   double support_, skin_;

@@ -36,6 +36,7 @@ bool is_static(const Scene& scene, const InitialState& initial) {
 /// energy that they store is an entry of its own, so that the whole closes; it falls with dt^2.
 void book_mechanical(const Booked& booked, Ledger& sum) {
   if (!sum.energy.count("compression")) return;
+  if (booked.transport_work != 0.0) sum.energy["transport"] -= booked.transport_work;
   sum.energy["viscous"] -= booked.viscous_work + booked.wall_viscous_work;
   sum.energy["walls"] += booked.wall_pressure_work + booked.wall_viscous_work - booked.extrapolated_work;
   const double compression = sum.energy["compression"] - booked.start_compression;
@@ -54,15 +55,7 @@ std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& 
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options)
     : options_(options), effects_(active_effects(scene)), passes_(scene, effects_) {
-  world_.scene = scene;
-  world_.threads = options.threads;
-  world_.axis_order = options.axis_order;
-  world_.box = box_of(scene);
-  load(initial);
-  if (passes_.needed()) {
-    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options.skin * world_.support(), world_.box,
-                              options.threads);
-  }
+  set_up(scene, initial);
   update_rates();
   check_finite(world_);
   bound_ = next_bound();
@@ -70,8 +63,26 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   const Ledger start = ledger();
   if (start.energy.count("compression")) world_.booked.start_compression = start.energy.at("compression");
   if (start.energy.count("potential")) world_.booked.start_potential = start.energy.at("potential");
-  plan_events();
   happen_until_now();
+}
+
+Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options, const Checkpoint& checkpoint)
+    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_) {
+  set_up(scene, initial);
+  restore(checkpoint);
+}
+
+void Simulation::set_up(const Scene& scene, const InitialState& initial) {
+  world_.scene = scene;
+  world_.threads = options_.threads;
+  world_.axis_order = options_.axis_order;
+  world_.box = box_of(scene);
+  load(initial);
+  if (passes_.needed()) {
+    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.box,
+                              options_.threads);
+  }
+  plan_events();
 }
 
 void Simulation::load(const InitialState& initial) {
@@ -114,26 +125,30 @@ void Simulation::happen_until_now() {
   check_finite(world_);
 }
 
-void Simulation::advance_to(double time) {
+bool Simulation::advance_to(double time, const std::function<bool()>& go_on) {
   while (world_.time < time) {
     const double stop = next_moment_ < moments_.size() ? std::min(time, moments_[next_moment_].time) : time;
-    advance_without_events(stop);
+    if (stretch_is_over(stop)) plan_stretch(stop);
+    step(stretch_.next_end(dt_));
+    ++stretch_.done;
     happen_until_now();
+    if (go_on && !go_on()) return world_.time >= time;
   }
+  return true;
 }
 
-void Simulation::advance_without_events(double time) {
-  while (world_.time < time) {
-    const double start = world_.time;
-    bound_ = next_bound();
-    refuse_large_step();
-    const long n = steps_to(time);
-    dt_ = (time - start) / static_cast<double>(n);
-    for (long k = 1; k <= n; ++k) {
-      step(k == n ? time : start + static_cast<double>(k) * dt_);
-      if (k % steps_between_bounds == 0 || next_bound().dt < dt_) break;
-    }
-  }
+bool Simulation::stretch_is_over(double stop) const {
+  const Stretch& s = stretch_;
+  if (s.done == s.count || s.end != stop || s.done % steps_between_bounds == 0) return true;
+  return next_bound().dt < dt_;
+}
+
+void Simulation::plan_stretch(double stop) {
+  bound_ = next_bound();
+  refuse_large_step();
+  const long n = steps_to(stop);
+  stretch_ = {world_.time, stop, n, 0};
+  dt_ = (stop - world_.time) / static_cast<double>(n);
 }
 
 /// Equal steps, none longer than the scene's own or the bound.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/checkpoint.hpp"
 #include "effects/all_effects.hpp"
 #include "effects/world.hpp"
 #include "scene/initial_state.hpp"
@@ -24,9 +26,17 @@ class Simulation {
   /// @throws InputError when an effect is missing, a bound forbids the scene's time step, or the scene lacks what an effect needs
   Simulation(const Scene&, const InitialState&, const SimulationOptions& = {});
 
+  /// Goes on from what checkpoint() gave, with the same bits as the run that it was taken from, whatever the threads.
+  /// @throws InputError naming what differs when the checkpoint is of another scene or another layout of fields
+  Simulation(const Scene&, const InitialState&, const SimulationOptions&, const Checkpoint&);
+
   /// Steps until `time` [s], which is met exactly; events on the way happen at their time, those at `time` before it returns.
+  /// @param go_on asked after every step, when the state is whole: false stops there, short of `time`
+  /// @return whether `time` was reached
   /// @throws Diverged with particle, field, stage and time
-  void advance_to(double time);
+  bool advance_to(double time, const std::function<bool()>& go_on = {});
+  /// All that a continued run needs. Taking it changes nothing.
+  [[nodiscard]] Checkpoint checkpoint() const;
 
   [[nodiscard]] const World& world() const noexcept { return world_; }
   [[nodiscard]] Ledger ledger() const;
@@ -43,10 +53,20 @@ class Simulation {
     std::size_t event;
     bool begins;
   };
+  /// Equal steps towards one end: planned when they begin, so a continued run keeps to the plan that it was cut in.
+  struct Stretch {
+    double start = 0.0, end = 0.0;  ///< [s]
+    long count = 0, done = 0;
+    [[nodiscard]] double next_end(double dt) const { return done + 1 == count ? end : start + static_cast<double>(done + 1) * dt; }
+  };
+  void set_up(const Scene&, const InitialState&);
   void load(const InitialState&);
+  void restore(const Checkpoint&);
+  [[nodiscard]] std::vector<std::string> layout() const;
   void plan_events();
-  void advance_without_events(double time);
   void happen_until_now();
+  [[nodiscard]] bool stretch_is_over(double stop) const;
+  void plan_stretch(double stop);
   [[nodiscard]] long steps_to(double time) const;
   void step(double end);
   void update_rates();
@@ -64,6 +84,7 @@ class Simulation {
   Passes passes_;
   std::vector<Moment> moments_;  ///< in order of time
   std::size_t next_moment_ = 0;
+  Stretch stretch_;
   double dt_ = 0.0, pairs_ = 0.0;
   TimeStepBound bound_;
   long steps_ = 0;

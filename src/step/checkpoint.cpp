@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a line here; derived state (neighbour lists) is built again from what it was built from, never from the present.
+#include <cstring>
+
+#include "core/errors.hpp"
+#include "step/simulation.hpp"
+
+namespace tripoint {
+namespace {
+
+static_assert(sizeof(Lagged) == 24, "a new member of Lagged must be kept and taken back below");
+static_assert(std::is_trivially_copyable_v<Booked> && sizeof(Booked) % sizeof(double) == 0, "bookings are kept as plain numbers [J]");
+
+template <class T>
+std::vector<double> plain(std::span<const T> values) {
+  std::vector<double> out(values.size_bytes() / sizeof(double));
+  if (!values.empty()) std::memcpy(out.data(), values.data(), values.size_bytes());
+  return out;
+}
+template <class T>
+std::vector<double> plain(const T& value) {
+  return plain(std::span<const T>(&value, 1));
+}
+
+void save(const Columns& columns, const std::string& group, Checkpoint& kept) {
+  columns.for_each([&]<class T>(const FieldInfo& field, std::span<const T> values) {
+    const std::string name = group + std::string(field.name);
+    if constexpr (std::is_same_v<T, int>) kept.whole[name].assign(values.begin(), values.end());
+    else kept.real[name] = plain(values);
+  });
+}
+
+/// The array of that name. @throws InputError when it is not there or has another length
+template <class Values>
+const Values& take(const std::map<std::string, Values>& arrays, const std::string& name, std::size_t length) {
+  const auto at = arrays.find(name);
+  if (at == arrays.end()) throw InputError("the checkpoint has no " + name);
+  if (at->second.size() != length)
+    throw InputError("the checkpoint holds " + std::to_string(at->second.size()) + " numbers of " + name + ", expected " + std::to_string(length));
+  return at->second;
+}
+
+void restore_columns(Columns& columns, const std::string& group, const Checkpoint& kept) {
+  columns.for_each([&]<class T>(const FieldInfo& field, std::span<T> values) {
+    const std::string name = group + std::string(field.name);
+    if constexpr (std::is_same_v<T, int>) {
+      const auto& from = take(kept.whole, name, values.size());
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<int>(from[i]);
+    } else {
+      const auto& from = take(kept.real, name, values.size_bytes() / sizeof(double));
+      if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), from.data(), values.size_bytes());
+    }
+  });
+}
+
+/// Rows as they were, each id once. @throws InputError
+std::vector<std::uint32_t> row_order(const Checkpoint& kept, std::size_t particles) {
+  std::vector<std::uint32_t> order;
+  std::vector<bool> seen(particles, false);
+  for (const std::int64_t id : take(kept.whole, "particles/id", particles)) {
+    const auto n = static_cast<std::size_t>(id);
+    if (id < 0 || n >= particles || seen[n]) throw InputError("the checkpoint's particles are not each there once");
+    seen[n] = true;
+    order.push_back(static_cast<std::uint32_t>(n));
+  }
+  return order;
+}
+
+/// Lists of the same order as those that the run was cut with.
+void restore_lists(World& world, const Checkpoint& kept, const std::vector<std::uint32_t>& order) {
+  const std::size_t n = order.size();
+  const std::vector<double>& from = take(kept.real, "neighbours/build_positions", 3 * n);
+  std::vector<Vec3> built(n);
+  for (std::size_t i = 0; i < n; ++i) built[i] = {from[3 * i], from[3 * i + 1], from[3 * i + 2]};
+  world.neighbours->rebuild_from(world.particles, built, world.time, take(kept.whole, "neighbours/rebuilds", 1)[0]);
+  const auto id = world.particles[field::id];
+  for (std::size_t i = 0; i < n; ++i) {
+    if (static_cast<std::uint32_t>(id[i]) != order[i]) throw InputError("the checkpoint's rows are not those of its neighbour lists");
+  }
+}
+
+void restore_bodies(World& world, const Checkpoint& kept) {
+  const auto names = kept.text.find("bodies/name");
+  if (names == kept.text.end() || names->second.size() < world.bodies.size()) throw InputError("the checkpoint has other bodies than the scene");
+  world.body_names = names->second;
+  while (world.bodies.size() < world.body_names.size()) world.bodies.append_row();
+  restore_columns(world.bodies, "bodies/", kept);
+}
+
+}  // namespace
+
+/// Every effect and field with its carrier and type: two checkpoints of one layout hold the same arrays.
+std::vector<std::string> Simulation::layout() const {
+  std::vector<std::string> lines;
+  const auto add = [&](const Columns& columns) {
+    for (const FieldInfo& f : columns.fields())
+      lines.push_back(std::string(to_string(f.per)) + " " + std::string(f.name) + " [" + std::string(f.unit) + "] " + std::to_string(f.bytes) + " bytes");
+  };
+  add(world_.particles);
+  add(world_.bodies);
+  for (const Active& a : effects_) lines.push_back("effect " + a.name + " " + std::string(to_string(a.spec.mode)));
+  lines.push_back("bookings " + std::to_string(sizeof(Booked)) + " bytes");
+  return lines;
+}
+
+Checkpoint Simulation::checkpoint() const {
+  Checkpoint kept;
+  kept.text["step/layout"] = layout();
+  save(world_.particles, "particles/", kept);
+  save(world_.bodies, "bodies/", kept);
+  kept.text["bodies/name"] = world_.body_names;
+  kept.real["step/booked"] = plain(world_.booked);
+  kept.real["step/time"] = {world_.time, world_.next_time, dt_, pairs_, bound_.dt, stretch_.start, stretch_.end};
+  kept.text["step/bound"] = {bound_.name};
+  kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(next_moment_), stretch_.count, stretch_.done, world_.moved ? 1 : 0};
+  const Lagged& lagged = world_.lagged;
+  kept.real["step/lagged"] = {lagged.half_step, lagged.viscous_step, static_cast<double>(lagged.viscous_age)};
+  if (world_.neighbours) {
+    kept.real["neighbours/build_positions"] = plain(world_.neighbours->build_positions());
+    kept.whole["neighbours/rebuilds"] = {world_.neighbours->rebuilds()};
+  }
+  return kept;
+}
+
+void Simulation::restore(const Checkpoint& kept) {
+  const std::vector<std::string> here = layout();
+  const auto there = kept.text.find("step/layout");
+  if (there == kept.text.end() || there->second != here) {
+    const auto differs = [&](std::size_t n) { return there == kept.text.end() || n >= there->second.size() || there->second[n] != here[n]; };
+    std::size_t n = 0;
+    while (n + 1 < here.size() && !differs(n)) ++n;
+    throw InputError("the checkpoint was written by a solver of another layout: it lacks or changes \"" + here[n] + "\"");
+  }
+  const std::vector<double>& t = take(kept.real, "step/time", 7);
+  world_.time = t[0], world_.next_time = t[1], dt_ = t[2], pairs_ = t[3], bound_.dt = t[4], stretch_.start = t[5], stretch_.end = t[6];
+  bound_.name = take(kept.text, "step/bound", 1)[0];
+  const std::vector<std::int64_t>& n = take(kept.whole, "step/count", 5);
+  steps_ = n[0], next_moment_ = static_cast<std::size_t>(n[1]), stretch_.count = n[2], stretch_.done = n[3], world_.moved = n[4] != 0;
+  if (next_moment_ > moments_.size()) throw InputError("the checkpoint has seen more events than the scene has");
+  std::memcpy(static_cast<void*>(&world_.booked), take(kept.real, "step/booked", sizeof(Booked) / sizeof(double)).data(), sizeof(Booked));
+  const std::vector<std::uint32_t> order = row_order(kept, world_.particles.size());
+  world_.particles.permute(order);  // rows were in order of id
+  if (world_.neighbours) restore_lists(world_, kept, order);
+  restore_columns(world_.particles, "particles/", kept);
+  restore_bodies(world_, kept);
+  const std::vector<double>& lagged = take(kept.real, "step/lagged", 3);
+  world_.lagged = {lagged[0], lagged[1], static_cast<int>(lagged[2])};
+}
+
+}  // namespace tripoint
