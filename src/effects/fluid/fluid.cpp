@@ -117,7 +117,7 @@ void Fluid::kick(World& world, double dt) {
 
 /// The walls' side of the work of the pressure that they borrow.
 void Fluid::book_driven_walls(World& world, double dt) const {
-  if (std::ranges::none_of(world.bodies[field::body_motion], [](int motion) { return motion == static_cast<int>(Motion::prescribed); })) return;
+  if (world.bodies.size() == 0 || std::ranges::none_of(world.bodies[field::body_motion], [](int motion) { return motion == static_cast<int>(Motion::prescribed); })) return;
   const Particles& p = world.particles;
   const auto E = triple(p, field::wall_force_x, field::wall_force_y, field::wall_force_z);
   const auto v = velocities(p);

@@ -46,9 +46,9 @@ void predict_velocities(World& world) {
   const auto x = positions(p), v = velocities(p);
   const auto m = p[field::mass];
   const auto body = p[field::body];
-  const Columns& t = world.bodies;
-  const auto centre = t[field::body_centre], velocity = t[field::body_velocity], omega = t[field::body_angular_velocity];
-  const auto gained = t[field::body_acceleration], turned = t[field::body_angular_acceleration];
+  const auto of_bodies = [&](const Field<Vec3>& f) { return world.bodies.size() > 0 ? std::as_const(world.bodies)[f] : std::span<const Vec3>{}; };
+  const auto centre = of_bodies(field::body_centre), velocity = of_bodies(field::body_velocity), omega = of_bodies(field::body_angular_velocity);
+  const auto gained = of_bodies(field::body_acceleration), turned = of_bodies(field::body_angular_acceleration);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (body[i] < 0) {
