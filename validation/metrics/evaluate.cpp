@@ -25,18 +25,28 @@ auto find_word(const List& list, const std::string& name) {
 
 bool is_ledger(const std::string& quantity) { return quantity.rfind("ledger.", 0) == 0 && quantity.size() > 7; }
 
-const Quantity* find_quantity(const MetricChoice& choice) {
+/// A body has a centre and a motion of its own unless it is liquid: then its particles are meant.
+const Quantity* find_quantity(const MetricInput& input) {
+  const auto& choice = input.choice;
   const auto in = [&](const std::vector<Quantity>& list, const std::string& name) -> const Quantity* {
     const auto at = find_word(list, name);
     return at == list.end() ? nullptr : &*at;
   };
   if (is_ledger(choice.quantity)) return in(conserved_quantities(), "ledger.TERM");
   const auto* of_body = in(body_quantities(), choice.quantity);
-  if (of_body && !choice.body.empty()) return of_body;
+  if (of_body && body_row(input) >= 0) return of_body;
   if (const auto* q = in(particle_quantities(), choice.quantity)) return q;
   if (of_body) return of_body;
   if (const auto* q = in(conserved_quantities(), choice.quantity)) return q;
+  if (const auto* q = in(liquid_quantities(), choice.quantity)) return q;
   return in(profile_quantities(), choice.quantity);
+}
+
+const RunQuantity* find_run_quantity(const MetricChoice& choice) {
+  for (const auto* list : {&run_quantities(), &motion_quantities()})
+    for (const auto& q : *list)
+      if (q.word.name == choice.quantity) return &q;
+  return nullptr;
 }
 
 void refuse_unknown_words(const MetricChoice& choice) {
@@ -66,6 +76,13 @@ double rms_over_time(const Series& s) {
   return std::sqrt(integral / (s.times.back() - s.times.front()));
 }
 
+double mean_over_time(const Series& s) {
+  if (s.value.size() == 1) return s.value[0];
+  double integral = 0.0;
+  for (std::size_t n = 1; n < s.value.size(); ++n) integral += 0.5 * (s.times[n] - s.times[n - 1]) * (s.value[n] + s.value[n - 1]);
+  return integral / (s.times.back() - s.times.front());
+}
+
 /// Trend of the error [unit/s] and its standard error.
 std::pair<double, double> slope_over_time(const Series& s) {
   const double n = static_cast<double>(s.value.size());
@@ -82,6 +99,11 @@ MetricValue over_time(const std::string& norm, const Series& s) {
   std::size_t k = s.value.size() - 1;
   if (norm == "rms") {
     v.value = rms_over_time(s);
+    v.uncertainty.statistical = *std::max_element(s.uncertainty.begin(), s.uncertainty.end());
+    return v;
+  }
+  if (norm == "mean") {
+    v.value = mean_over_time(s);
     v.uncertainty.statistical = *std::max_element(s.uncertainty.begin(), s.uncertainty.end());
     return v;
   }
@@ -103,7 +125,7 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
   const std::string in_space = is_spatial(norm) ? norm : norm == "rms" ? "L2" : "Linf";
   Series series;
   for (const auto* now : chosen) {
-    const Snapshot truth = norm == "drift" ? *all.front() : in.reference.at(now->time);
+    const Snapshot truth = norm == "drift" ? *all.front() : in.reference.beside(*now);
     const auto error = quantity.error({in, *now, truth, *all.front()});
     if (!error.problem.empty()) return unformed(error.problem);
     const auto value = spatial_norm(in_space, error);
@@ -136,12 +158,11 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
   const auto chosen = chosen_frames(choice, job, frames.list);
   if (chosen.empty()) return unformed("no output time lies in the metric's window");
   MetricValue value;
-  const auto whole = find_word(run_quantities(), choice.quantity);
-  if (whole != run_quantities().end()) {
+  if (const auto* whole = find_run_quantity(choice)) {
     value = whole->value(in, frames_in_window(choice, job, frames.list));
     if (choice.norm != "final") value.value = std::abs(value.value);
   } else {
-    value = of_frames(in, *find_quantity(choice), frames.list, chosen);
+    value = of_frames(in, *find_quantity(in), frames.list, chosen);
   }
   scale(value, choice.scale);
   value.uncertainty.data = (choice.reference ? *choice.reference : job.reference).uncertainty;
@@ -151,10 +172,11 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
 const std::vector<MetricWord>& metric_quantities() {
   static const std::vector<MetricWord> words = [] {
     std::vector<MetricWord> list;
-    for (const auto* group : {&particle_quantities(), &body_quantities(), &conserved_quantities(), &profile_quantities()})
+    for (const auto* group : {&particle_quantities(), &body_quantities(), &conserved_quantities(), &liquid_quantities(), &profile_quantities()})
       for (const auto& q : *group)
         if (!q.word.meaning.empty()) list.push_back(q.word);
-    for (const auto& q : run_quantities()) list.push_back(q.word);
+    for (const auto* group : {&run_quantities(), &motion_quantities()})
+      for (const auto& q : *group) list.push_back(q.word);
     return list;
   }();
   return words;
@@ -169,6 +191,7 @@ const std::vector<MetricWord>& metric_norms() {
       {"chi", "", "root mean square of error over its stated standard error: 1 when walkers agree with the truth"},
       {"max", "", "largest size over all output times of the window"},
       {"rms", "", "root mean square over time of L2"},
+      {"mean", "", "mean over the times of the window of a single number, with its sign; of many samples, of the largest size"},
       {"final", "", "at the end; keeps the sign of a single number"},
       {"drift", "", "largest change since the run's own start; needs no reference"},
       {"slope", "1/s", "trend of the largest error over time, least squares"}};

@@ -55,6 +55,7 @@ struct Quantity {
 [[nodiscard]] const std::vector<Quantity>& body_quantities();
 [[nodiscard]] const std::vector<Quantity>& conserved_quantities();
 [[nodiscard]] const std::vector<Quantity>& profile_quantities();
+[[nodiscard]] const std::vector<Quantity>& liquid_quantities();
 
 /// A quantity that needs the whole run: decay_rate, event_time, event_count. The value is signed, run minus truth, in SI.
 struct RunQuantity {
@@ -62,6 +63,7 @@ struct RunQuantity {
   std::function<MetricValue(const MetricInput&, const std::vector<const Snapshot*>& frames)> value;
 };
 [[nodiscard]] const std::vector<RunQuantity>& run_quantities();
+[[nodiscard]] const std::vector<RunQuantity>& motion_quantities();
 
 /// r - r0 by the nearest image in periodic directions [m].
 [[nodiscard]] Vec3 displacement(const Scene&, const Vec3& r, const Vec3& r0);

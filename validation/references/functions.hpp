@@ -33,6 +33,18 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry sine_held_ends_entry();
 [[nodiscard]] ReferenceEntry step_insulated_entry();
 [[nodiscard]] ReferenceEntry two_conductivities_entry();
+[[nodiscard]] ReferenceEntry hydrostatic_entry();
+[[nodiscard]] ReferenceEntry poiseuille_entry();
+[[nodiscard]] ReferenceEntry couette_entry();
+[[nodiscard]] ReferenceEntry sound_wave_entry();
+[[nodiscard]] ReferenceEntry liquid_ball_entry();
+[[nodiscard]] ReferenceEntry archimedes_entry();
+[[nodiscard]] ReferenceEntry added_mass_entry();
+[[nodiscard]] ReferenceEntry elastic_collision_entry();
+[[nodiscard]] ReferenceEntry resting_entry();
+[[nodiscard]] ReferenceEntry elliptic_drop_entry();
+[[nodiscard]] ReferenceEntry taylor_green_entry();
+[[nodiscard]] ReferenceEntry couette_cylinders_entry();
 [[nodiscard]] ReferenceEntry invariant_entry();
 
 [[nodiscard]] const std::vector<ReferenceEntry>& all_references();

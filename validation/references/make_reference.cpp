@@ -10,7 +10,10 @@ const std::vector<ReferenceEntry>& all_references() {
   static const std::vector<ReferenceEntry> entries{
       ballistic_entry(),       ballistic_semi_implicit_entry(), torque_free_entry(),    flip_time_entry(),
       merge_in_flight_entry(), split_in_flight_entry(),         keyframes_entry(),      cosine_mode_entry(),
-      cosine_mode_lattice_entry(), sine_held_ends_entry(), step_insulated_entry(),      two_conductivities_entry(), invariant_entry()};
+      cosine_mode_lattice_entry(), sine_held_ends_entry(), step_insulated_entry(),      two_conductivities_entry(), hydrostatic_entry(), poiseuille_entry(), couette_entry(), sound_wave_entry(),
+      liquid_ball_entry(), archimedes_entry(), added_mass_entry(), elastic_collision_entry(),
+      resting_entry(), elliptic_drop_entry(), taylor_green_entry(), couette_cylinders_entry(),
+      invariant_entry()};
   return entries;
 }
 
