@@ -164,7 +164,8 @@ void Fluid::state(World& world) {
   update_viscous_bound(world, kernels_);
 }
 
-/// Sound C h/(c + |v|), C = 0.45 corrected, 0.7 printed; viscosity; acceleration 0.25 sqrt(h/|a|) (model 8.10).
+/// Sound C h/(c + |v|), C = 0.45 corrected, 0.35 with transport velocity (its background pressure adds half to the stiffness),
+/// 0.7 printed; viscosity; acceleration 0.25 sqrt(h/|a|) (model 8.10).
 TimeStepBound Fluid::max_dt(const World& world) const {
   const Particles& p = world.particles;
   const auto v = velocities(p);
@@ -180,7 +181,7 @@ TimeStepBound Fluid::max_dt(const World& world) const {
     const Vec3 a = g + (F.at(i) + D.at(i)) / m[i];
     a2 = std::max(a2, dot(a, a));
   }
-  const double courant = world.scene.mode_of(Term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.25 : 0.45;
+  const double courant = world.scene.mode_of(Term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.35 : 0.45;
   TimeStepBound bound;
   tighten(bound, courant * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "sound");
   tighten(bound, world.lagged.viscous_step, "viscosity");
