@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "adapters/job.hpp"
+#include "core/checkpoint.hpp"
 #include "core/defect.hpp"
 #include "io/trajectory.hpp"
 
@@ -34,6 +36,18 @@ class Engine {
   [[nodiscard]] virtual Readback readback() const = 0;              ///< what the engine itself holds, read from it
   /// Fills steps, counters and extra of the result at the end of a run.
   virtual void account(Result&) const {}
+};
+
+/// What an engine is beside, that can be cut between two steps and continued with the same bits; its info() lists `restart`.
+class Restartable {
+ public:
+  virtual ~Restartable() = default;
+  /// Like load(), from a checkpoint that save() filled. @throws InputError naming what does not fit
+  virtual void resume(const Job&, const InitialState&, const Checkpoint&) = 0;
+  /// Like advance_to(time). @param go_on asked after every step with its time [s] and number: false stops there
+  /// @return whether `time` was reached
+  virtual bool advance_to(double time, const std::function<bool(double time, long step)>& go_on) = 0;
+  virtual void save(Checkpoint&) const = 0;
 };
 
 using MakeEngine = std::unique_ptr<Engine> (*)();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <signal.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -10,13 +11,27 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "adapters/checkpoints.hpp"
 #include "adapters/engine.hpp"
 
 namespace tripoint {
 namespace {
 
 using json = nlohmann::ordered_json;
-enum Exit { ok = 0, failed = 1, bad_job = 2, refused = 4, diverged = 7 };
+enum Exit { ok = 0, failed = 1, bad_job = 2, refused = 4, diverged = 7, interrupted = 130 };
+
+volatile sig_atomic_t stop_wanted = 0;
+extern "C" void on_stop(int) { stop_wanted = 1; }
+
+/// From now on Ctrl-C and SIGTERM ask for a checkpoint and an end; a second one ends us at once.
+void catch_stops() {
+  struct sigaction action {};
+  action.sa_handler = on_stop;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESETHAND;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
 
 double cpu_seconds() {
   timespec t{};
@@ -57,16 +72,27 @@ int print_info(const Engine& engine) {
   return ok;
 }
 
+std::string refusal(const Engine& engine, const Job& job) {
+  if (!job.resume.empty() && !dynamic_cast<const Restartable*>(&engine)) return engine.info().name + ": cannot continue from a checkpoint";
+  return engine.refusal(job);
+}
+
 int print_check(const Engine& engine, const std::string& path) {
-  const std::string reason = engine.refusal(read_job(path));
+  const std::string reason = refusal(engine, read_job(path));
   fmt::print("{}\n", json{{"can", reason.empty()}, {"reason", reason}}.dump());
   return ok;
 }
 
+/// A run that was asked to stop has left a checkpoint.
+struct Interrupted {
+  std::string checkpoint;
+  double time;  ///< [s]
+};
+
 /// One run: frames are announced on stderr once they are safe in the file; result.json is the last act.
 class Run {
  public:
-  Run(Engine& engine, Job job) : engine_(engine), job_(std::move(job)) {
+  Run(Engine& engine, Job job) : engine_(engine), restartable_(dynamic_cast<Restartable*>(&engine)), job_(std::move(job)) {
     std::filesystem::create_directories(job_.output);
     result_path_ = job_.output + "/result.json";
     std::filesystem::remove(result_path_);
@@ -74,11 +100,17 @@ class Run {
 
   int go() {
     try {
-      result_.message = engine_.refusal(job_);
+      if (restartable_) catch_stops();
+      result_.message = refusal(engine_, job_);
       if (!result_.message.empty()) return finish("refused", Exit::refused);
-      set_up();
+      if (!set_up()) return finish("refused", Exit::refused);
       step_to_the_end();
       return finish("ok", Exit::ok);
+    } catch (const Interrupted& e) {
+      result_.message = fmt::format("interrupted at t = {:.9g} s; continue with --resume {}", e.time, e.checkpoint);
+      result_.time_reached = e.time;
+      account();
+      return finish("error", Exit::interrupted);
     } catch (const Diverged& e) {
       result_.message = e.what();
       result_.divergence = Divergence{e.particle, e.body, e.field, e.stage, e.time};
@@ -93,33 +125,76 @@ class Run {
   }
 
  private:
-  void set_up() {
+  /// @return false when the checkpoint does not fit, which the message then says
+  bool set_up() {
     const double cpu = cpu_seconds(), wall = wall_seconds();
-    engine_.load(job_, read_particles(job_.particles));
+    const InitialState initial = read_particles(job_.particles);
+    if (restartable_) checkpoints_.emplace(job_, identity_of(job_, initial, engine_.info().version + " " + engine_.info().build));
+    if (job_.resume.empty()) engine_.load(job_, initial);
+    else if (!resume(initial)) return false;
     result_.setup_cpu = cpu_seconds() - cpu;
     result_.setup_wall = wall_seconds() - wall;
     result_.readback = engine_.readback();
+    return true;
+  }
+
+  bool resume(const InitialState& initial) {
+    try {
+      const Checkpoint kept = open_checkpoint(job_, checkpoints_->identity());
+      earlier_ = earlier_frames(job_, kept);
+      restartable_->resume(job_, initial, kept);
+      result_.extra["resumed_at"] = checkpoints_->go_on_from(kept);
+      return true;
+    } catch (const InputError& e) {
+      result_.message = e.what();
+      return false;
+    }
   }
 
   void step_to_the_end() {
-    TrajectoryWriter writer(job_.output + "/trajectory.h5");
-    std::vector<double> times;
-    Snapshot frame;
-    for (const double time : job_.times) {
+    // Frames of a run that goes on are written beside the file that still holds them, which then is replaced at once.
+    const std::string path = job_.output + "/trajectory.h5", begun = job_.resume.empty() ? path : path + ".part";
+    TrajectoryWriter writer(begun);
+    for (const Snapshot& frame : earlier_) show(writer, frame);
+    earlier_.clear();
+    if (begun != path) std::filesystem::rename(begun, path);
+    while (progress_.frames < job_.times.size()) {
+      const double time = job_.times[progress_.frames];
       const double cpu = cpu_seconds(), wall = wall_seconds();
-      if (time > job_.times.front()) engine_.advance_to(time);
+      if (time > job_.times.front()) advance_to(time);
       result_.stepping_cpu += cpu_seconds() - cpu;
       result_.stepping_wall += wall_seconds() - wall;
-      frame = engine_.observe();
-      writer.append(frame);
-      times.push_back(frame.time);
-      result_.time_reached = frame.time;
-      fmt::print(stderr, "frame {} t {:.9g} s\nprogress {:.4f}\n", writer.frames() - 1, frame.time, (time - job_.times.front()) / std::max(job_.times.back() - job_.times.front(), 1e-300));
+      last_ = engine_.observe();
+      show(writer, last_);
+      fmt::print(stderr, "frame {} t {:.9g} s\nprogress {:.4f}\n", writer.frames() - 1, time, (time - job_.times.front()) / std::max(job_.times.back() - job_.times.front(), 1e-300));
     }
     account();
-    result_.state_hash = state_hash(frame);
+    result_.state_hash = state_hash(last_);
     writer.close();
-    write_xdmf(job_.output, times, frame);
+    write_xdmf(job_.output, shown_, last_);
+  }
+
+  void show(TrajectoryWriter& writer, const Snapshot& frame) {
+    writer.append(frame);
+    shown_.push_back(frame.time);
+    ++progress_.frames;
+    progress_.hash.add(frame);
+    result_.time_reached = frame.time;
+  }
+
+  /// @throws Interrupted once a checkpoint is written, when we are asked to stop
+  void advance_to(double time) {
+    if (!restartable_) return engine_.advance_to(time);
+    restartable_->advance_to(time, [&](double now, long step) {
+      const bool due = checkpoints_->due(now);
+      if (!due && !stop_wanted) return true;
+      Checkpoint kept;
+      restartable_->save(kept);
+      const std::string path = checkpoints_->write(std::move(kept), now, step, progress_);
+      fmt::print(stderr, "checkpoint {} t {:.9g} s\n", path, now);
+      if (stop_wanted) throw Interrupted{path, now};
+      return true;
+    });
   }
 
   void account() { engine_.account(result_); }
@@ -137,7 +212,13 @@ class Run {
   }
 
   Engine& engine_;
+  Restartable* restartable_;  ///< the same engine, or nullptr
   Job job_;
+  std::optional<Checkpoints> checkpoints_;
+  std::vector<Snapshot> earlier_;  ///< frames before the checkpoint that we go on from
+  std::vector<double> shown_;      ///< times of all frames [s]
+  Snapshot last_;
+  Progress progress_;
   std::string result_path_;
   Result result_;
 };

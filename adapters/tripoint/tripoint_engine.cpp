@@ -71,11 +71,12 @@ EngineInfo TripointEngine::info() const {
   std::error_code ignored;
   info.library_path = std::filesystem::read_symlink("/proc/self/exe", ignored).string();  // the solver is this program
   info.capabilities = {"rigid-free-flight", "gravity",  "merge", "split",     "release", "hold",
-                       "prescribed",        "periodic", "heat",  "heat-held", "paper",   "corrected"};
+                       "prescribed",        "periodic", "heat",  "heat-held", "paper",   "corrected", "restart"};
   info.presets = {"default"};
   for (const char* axes : {"012", "021", "102", "120", "201", "210"}) info.presets.push_back(std::string(no_squish) + axes);
   info.settings = {{"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
-                   {"skin", "skin of the neighbour lists in support radii; default 0.1"}};
+                   {"skin", "skin of the neighbour lists in support radii; default 0.1"},
+                   {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"}};
   info.deterministic = true;
   info.defects = registered_defects();
   return info;
@@ -89,7 +90,6 @@ std::string TripointEngine::refusal(const Job& job) const {
     if (e.kind == Event::Kind::grip) return "tripoint: grip events are not in this build";
   }
   if (job.ranks != 1) return "tripoint: runs in one process, ranks = " + std::to_string(job.ranks) + " is not possible";
-  if (!job.resume.empty()) return "tripoint: continuing from a checkpoint is not in this build";
   return why_it_cannot_start(job);
 }
 
@@ -98,6 +98,16 @@ void TripointEngine::load(const Job& job, const InitialState& initial) {
 }
 
 void TripointEngine::advance_to(double time) { simulation_->advance_to(time); }
+
+void TripointEngine::resume(const Job& job, const InitialState& initial, const Checkpoint& kept) {
+  simulation_.emplace(scene_of(job), initial, options_of(job), kept);
+}
+
+bool TripointEngine::advance_to(double time, const std::function<bool(double, long)>& go_on) {
+  return simulation_->advance_to(time, [&] { return go_on(simulation_->world().time, simulation_->steps()); });
+}
+
+void TripointEngine::save(Checkpoint& kept) const { kept = simulation_->checkpoint(); }
 
 Snapshot TripointEngine::observe() const { return snapshot_of(*simulation_); }
 

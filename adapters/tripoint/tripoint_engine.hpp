@@ -8,7 +8,7 @@
 namespace tripoint {
 
 /// The unified particle solver as an engine.
-class TripointEngine : public Engine {
+class TripointEngine : public Engine, public Restartable {
  public:
   [[nodiscard]] EngineInfo info() const override;
   [[nodiscard]] std::string refusal(const Job&) const override;
@@ -17,6 +17,9 @@ class TripointEngine : public Engine {
   [[nodiscard]] Snapshot observe() const override;
   [[nodiscard]] Readback readback() const override;
   void account(Result&) const override;
+  void resume(const Job&, const InitialState&, const Checkpoint&) override;
+  bool advance_to(double time, const std::function<bool(double, long)>& go_on) override;
+  void save(Checkpoint&) const override;
 
  private:
   std::optional<Simulation> simulation_;

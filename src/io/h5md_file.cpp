@@ -220,4 +220,12 @@ Handle create_file(const std::string& path) {
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose, path};
 }
 
+Handle create_latest(const std::string& path, std::size_t user_block) {
+  const Handle access = unlocked_access(path);
+  check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST), path);
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, path);
+  check(H5Pset_userblock(creation.get(), user_block), path);
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, path};
+}
+
 }  // namespace tripoint::h5

@@ -74,5 +74,7 @@ struct Block {
 [[nodiscard]] Handle open_for_reading(const std::string& path);
 [[nodiscard]] Handle open_for_change(const std::string& path);
 [[nodiscard]] Handle create_file(const std::string& path);
+/// Of the library's latest format, whose own structures carry checksums, after `user_block` bytes left free.
+[[nodiscard]] Handle create_latest(const std::string& path, std::size_t user_block);
 
 }  // namespace tripoint::h5

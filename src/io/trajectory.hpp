@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -73,5 +74,15 @@ void write_xdmf(const std::string& folder, const std::vector<double>& times, con
 
 /// FNV-1a over the bits of positions, velocities, temperatures and bodies, as 16 hex digits.
 [[nodiscard]] std::string state_hash(const Snapshot&);
+/// FNV-1a over the bits of all that these frames show, one after the other; rows that do not exist count for nothing, so that
+/// frames read back hash as they did when written.
+class FramesHash {
+ public:
+  void add(const Snapshot&);
+  [[nodiscard]] std::string text() const;
+
+ private:
+  std::uint64_t hash_ = 1469598103934665603ULL;
+};
 
 }  // namespace tripoint

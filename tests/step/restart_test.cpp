@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run that is cut and continued must be the run that was never cut. Each cut is compared with ONE unbroken run, in every number
+// of its whole state; a second run that sets up anew on both sides would hide what is wrong with the first.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <random>
+
+#include "effects/lab.hpp"
+#include "io/checkpoint_file.hpp"
+
+namespace tripoint {
+namespace {
+
+struct Journey {
+  lab::Lab lab;
+  std::vector<double> times;  ///< output times, which the steps meet [s]
+};
+
+/// The state at the end of a run, and the states at some of its steps.
+struct Course {
+  Checkpoint end;
+  std::map<long, Checkpoint> cuts;
+  long steps = 0;
+};
+
+Course follow(Simulation& s, const std::vector<double>& times, const std::vector<long>& cut_at) {
+  Course course;
+  const auto between = [&] {
+    if (std::ranges::count(cut_at, s.steps())) course.cuts[s.steps()] = s.checkpoint();
+    return true;
+  };
+  for (const double time : times) s.advance_to(time, between);
+  course.end = s.checkpoint();
+  course.steps = s.steps();
+  return course;
+}
+
+Course unbroken(const Journey& j, int threads, const std::vector<long>& cut_at = {}) {
+  Simulation s(j.lab.scene, j.lab.initial, {.threads = threads});
+  return follow(s, j.times, cut_at);
+}
+
+Course continued(const Journey& j, int threads, const Checkpoint& from, const std::vector<long>& cut_at = {}) {
+  Simulation s(j.lab.scene, j.lab.initial, {.threads = threads}, from);
+  return follow(s, j.times, cut_at);
+}
+
+std::vector<long> random_steps(long last, unsigned seed, std::size_t count = 10) {
+  std::mt19937 random(seed);
+  std::vector<long> steps;
+  while (steps.size() < count) {
+    const long at = 1 + static_cast<long>(random() % static_cast<unsigned>(last - 1));
+    if (!std::ranges::count(steps, at)) steps.push_back(at);
+  }
+  return steps;
+}
+
+/// Names of the arrays whose bits differ.
+std::string differences(const Checkpoint& a, const Checkpoint& b) {
+  std::string names;
+  const auto compare = [&](const auto& x, const auto& y) {
+    for (const auto& [name, values] : x)
+      if (!y.count(name) || std::memcmp(values.data(), y.at(name).data(), values.size() * sizeof(values[0])) != 0) names += name + " ";
+  };
+  compare(a.real, b.real);
+  compare(a.whole, b.whole);
+  return names;
+}
+
+/// Two blocks that spin and conduct past each other in a periodic box, merge, and split again; one end is heated for a while.
+Journey flight_with_events(Mode mode) {
+  lab::Lab lab(1e-3, mode);
+  lab.scene.gravity = {0.0, 0.0, -1e-3};
+  lab.make_periodic({true, true, false}, {0.0, 0.0, 0.0}, {16, 12, 8});
+  lab.add_material(300.0, 5.0, 800.0);
+  lab.add({.name = "a", .count = {6, 6, 6}, .velocity = {0.02, 0.001, 0.0}, .angular_velocity = {0.5, 1.0, 2.0}, .temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; }});
+  lab.add({.name = "b", .material = 1, .corner = {8e-3, 0.0, 0.0}, .count = {5, 6, 6}, .velocity = {-0.02, 0.0, 0.001}, .temperature = [](const Vec3&) { return 350.0; }});
+  Event heat;
+  heat.kind = Event::Kind::heat, heat.time = 0.05, heat.until = 0.21, heat.bodies = {"a"}, heat.temperature = 400.0;
+  Event merge;
+  merge.kind = Event::Kind::merge, merge.time = 0.13, merge.bodies = {"a", "b"};
+  Event split;
+  split.kind = Event::Kind::split, split.time = 0.3, split.name = "born", split.bodies = {"a"}, split.region = Shape{};
+  split.region->kind = Shape::Kind::half_space, split.region->point = {7e-3, 0, 0}, split.region->normal = {1, 0, 0};
+  lab.scene.events = {heat, merge, split};
+  return {lab, {0.1, 0.2, 0.4, 0.5}};
+}
+
+/// A spinning block in vacuum, no pairs: merges with a second and loses a part.
+Journey bodies_only() {
+  lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
+  lab.scene.gravity = {0.0, 0.0, -9.81};
+  lab.scene.time_step = 0.01;
+  lab.add({.name = "second", .corner = {2.0, 0.0, 0.0}, .count = {3, 3, 3}, .velocity = {-1.0, 0.0, 0.0}});
+  Event merge;
+  merge.kind = Event::Kind::merge, merge.time = 0.313, merge.bodies = {"block", "second"};
+  Event split;
+  split.kind = Event::Kind::split, split.time = 0.72, split.name = "born", split.region = Shape{};
+  split.region->kind = Shape::Kind::half_space, split.region->point = {1.0, 0, 0}, split.region->normal = {-1, 0, 0};
+  lab.scene.events = {merge, split};
+  return {lab, {0.25, 0.5, 1.0}};
+}
+
+/// Liquid between walls in a periodic channel with a light free body in it, and gravity.
+Journey liquid_with_body(const std::string& form = "central", bool with_body = true) {
+  lab::Lab lab(0.05);
+  lab.scene.gravity = {0.2, 0.0, -2.0};
+  lab.scene.viscosity_form = form;
+  lab.scene.jitter = 0.0;
+  lab.scene.materials[0].viscosity = 5.0;
+  lab.scene.materials[0].stiffness = 100.0;
+  lab.scene.materials[0].conductivity.reset();
+  lab.add_material(500.0, 1.0, 1.0);
+  lab.scene.materials[1].conductivity.reset();
+  lab.make_periodic({true, true, false}, {0.0, 0.0, 0.0}, {6, 6, 20});
+  lab.add({.name = "water", .count = {6, 6, 8}, .phase = Phase::liquid, .velocity = {0.6, 0.0, 0.0}});
+  lab.add({.name = "floor", .corner = {0.0, 0.0, -0.15}, .count = {6, 6, 3}, .motion = Motion::fixed});
+  if (with_body) lab.add({.name = "float", .material = 1, .corner = {0.1, 0.1, 0.45}, .count = {2, 2, 2}, .velocity = {0.0, 0.0, -0.5}});
+  return {lab, {0.03, 0.1, 0.16}};
+}
+
+/// 10 random cuts; every one continued on 1 and on 2 threads, whatever the unbroken run had.
+void expect_same_bits(const Journey& j, unsigned seed) {
+  const Course whole = unbroken(j, 1);
+  ASSERT_GT(whole.steps, 20) << "too few steps to cut";
+  const std::vector<long> cuts = random_steps(whole.steps, seed);
+  for (const int threads : {1, 2}) {
+    const Course watched = unbroken(j, threads, cuts);
+    ASSERT_EQ(watched.cuts.size(), cuts.size());
+    EXPECT_TRUE(same_bits(watched.end, whole.end)) << "taking checkpoints, on " << threads << " threads: " << differences(whole.end, watched.end);
+    for (const auto& [step, checkpoint] : watched.cuts) {
+      const Course rest = continued(j, 3 - threads, checkpoint);
+      EXPECT_TRUE(same_bits(rest.end, whole.end)) << "cut at step " << step << " of " << whole.steps << ": " << differences(whole.end, rest.end);
+    }
+  }
+}
+
+TEST(Restart, OfBodiesThatMergeAndSplitIsTheUnbrokenRun) { expect_same_bits(bodies_only(), 1); }
+
+TEST(Restart, OfBodiesThatConductWhileTheyMoveMergeAndSplitIsTheUnbrokenRun) {
+  for (const Mode mode : {Mode::corrected, Mode::paper}) {
+    const Journey j = flight_with_events(mode);
+    const auto rebuilds = unbroken(j, 1).end.whole.at("neighbours/rebuilds")[0];
+    EXPECT_GT(rebuilds, 3) << "the lists must have been built anew for this to prove anything";
+    expect_same_bits(j, 2);
+  }
+}
+
+TEST(Restart, OfALiquidWithAFreeBodyIsTheUnbrokenRun) {
+  const Journey j = liquid_with_body();
+  EXPECT_GT(unbroken(j, 1).end.whole.at("neighbours/rebuilds")[0], 2) << "the lists must have been built anew for this to prove anything";
+  expect_same_bits(j, 3);
+}
+
+TEST(Restart, OfALiquidBetweenExtrapolatedWallsIsTheUnbrokenRun) { expect_same_bits(liquid_with_body("laplacian", false), 4); }
+
+TEST(Restart, OfARestartIsTheUnbrokenRun) {
+  for (const Journey& j : {bodies_only(), flight_with_events(Mode::corrected), liquid_with_body()}) {
+    const Course whole = unbroken(j, 1);
+    std::vector<long> cuts = random_steps(whole.steps, 5, 4);
+    std::ranges::sort(cuts);
+    Checkpoint last = unbroken(j, 1, {cuts[0]}).cuts.at(cuts[0]);
+    for (std::size_t n = 1; n < cuts.size(); ++n) last = continued(j, 1 + static_cast<int>(n) % 2, last, {cuts[n]}).cuts.at(cuts[n]);
+    const Course rest = continued(j, 1, last);
+    EXPECT_TRUE(same_bits(rest.end, whole.end)) << differences(whole.end, rest.end);
+  }
+}
+
+TEST(Restart, AtEveryStepOfAShortRunIsTheUnbrokenRun) {
+  Journey j = flight_with_events(Mode::corrected);  // heat begins at 0.05 s and the bodies merge at 0.13 s
+  j.times = {0.06, 0.135};
+  const long last = unbroken(j, 1).steps;
+  std::vector<long> all;
+  for (long step = 1; step <= last; ++step) all.push_back(step);
+  const Course whole = unbroken(j, 2, all);
+  for (const auto& [step, checkpoint] : whole.cuts)
+    EXPECT_TRUE(same_bits(continued(j, 2, checkpoint).end, whole.end)) << "cut at step " << step << " of " << last;
+}
+
+TEST(Restart, KeepsAParticleThatARoundingErrorPutOnTheUpperEdgeOfThePeriodicBox) {
+  lab::Lab lab(1e-3);
+  lab.make_periodic({true, false, false}, {0.5e-3, 0.0, 0.0}, {8, 8, 8});  // the box begins at x = 0
+  lab.add({.name = "a", .count = {4, 4, 4}, .velocity = {0.02, 0.0, 0.0}, .temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; }});
+  for (Vec3& r : lab.initial.position)
+    if (r.x == 0.0) r.x = -1e-20;
+  lab.scene.time_step = 2e-3;
+  const Journey j{lab, {0.05, 0.1}};
+  expect_same_bits(j, 6);
+}
+
+TEST(Restart, TakesNoCheckpointOfAnotherLayoutOrScene) {
+  const Journey warm = flight_with_events(Mode::corrected), printed = flight_with_events(Mode::paper), other = bodies_only();
+  const Checkpoint kept = unbroken(warm, 1, {5}).cuts.at(5);
+  for (const Journey* j : {&printed, &other}) EXPECT_THROW(continued(*j, 1, kept), InputError);
+  Checkpoint twice = kept;
+  twice.whole.at("particles/id")[0] = twice.whole.at("particles/id")[1];
+  EXPECT_THROW(continued(warm, 1, twice), InputError);
+  Checkpoint shorter = kept;
+  shorter.real.at("particles/mass").pop_back();
+  EXPECT_THROW(continued(warm, 1, shorter), InputError);
+}
+
+TEST(Restart, StopsWhereItIsToldToAndGoesOnFromThere) {
+  const Journey j = bodies_only();
+  Simulation s(j.lab.scene, j.lab.initial);
+  EXPECT_FALSE(s.advance_to(1.0, [&] { return s.steps() < 7; }));
+  EXPECT_EQ(s.steps(), 7);
+  EXPECT_TRUE(s.advance_to(1.0));
+  Simulation whole(j.lab.scene, j.lab.initial);
+  whole.advance_to(1.0);
+  EXPECT_TRUE(same_bits(s.checkpoint(), whole.checkpoint()));
+}
+
+}  // namespace
+}  // namespace tripoint
