@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adapters/tripoint/tripoint_engine.hpp"
-#include "effects/rigid/body_forces.hpp"
+#include "effects/body_forces.hpp"
 
 namespace tripoint {
 namespace {
@@ -54,7 +54,7 @@ Snapshot snapshot_of(const Simulation& simulation) {
   s.body = by_id(p, field::body);
   s.material = by_id(p, field::material);
   s.mass = by_id(p, field::mass);
-  const std::vector<rigid::BodyForces> forces = rigid::forces_on_bodies(world);
+  const std::vector<BodyForces> forces = forces_on_bodies(world);
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     s.bodies.push_back(body_state(world.bodies, b));
     if (forces.empty() || !world.bodies[field::body_alive][b]) continue;

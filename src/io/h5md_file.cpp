@@ -60,6 +60,24 @@ std::size_t count(const std::vector<std::size_t>& shape) {
   return n;
 }
 
+/// All frames at once; where that fails, frame by frame up to the first that is torn.
+template <class T>
+void read_whole_frames(hid_t dataset, hid_t type, std::vector<std::size_t>& shape, std::vector<T>& values, const std::string& what) {
+  values.resize(count(shape));
+  if (values.empty() || H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0) return;
+  const std::size_t frames = shape[0], row = values.size() / frames;
+  hsize_t start[3] = {0, 0, 0}, size[3] = {1, 1, 1};
+  for (std::size_t k = 1; k < shape.size(); ++k) size[k] = shape[k];
+  const Handle file_space(H5Dget_space(dataset), H5Sclose, what), memory(H5Screate_simple(static_cast<int>(shape.size()), size, nullptr), H5Sclose, what);
+  for (shape[0] = 0; shape[0] < frames; ++shape[0]) {
+    start[0] = shape[0];
+    check(H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start, nullptr, size, nullptr), what);
+    if (H5Dread(dataset, type, memory.get(), file_space.get(), H5P_DEFAULT, values.data() + shape[0] * row) < 0) break;
+  }
+  values.resize(shape[0] * row);
+  if (shape[0] == 0) throw InputError(what + ": cannot be read (torn, or a checksum does not match)");
+}
+
 void expect_class(hid_t dataset, H5T_class_t wanted, const std::string& what) {
   const Handle type(H5Dget_type(dataset), H5Tclose, what);
   if (H5Tget_class(type.get()) != wanted) throw InputError(what + ": is of the wrong type, expected " + (wanted == H5T_FLOAT ? "floating point" : "integers"));
@@ -143,9 +161,7 @@ Block read_real(hid_t file, const std::string& path, const std::string& name_of_
   expect_class(dataset.get(), H5T_FLOAT, what);
   Block block;
   block.shape = shape_of(dataset.get(), what);
-  block.real.resize(count(block.shape));
-  if (!block.real.empty() && H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.real.data()) < 0)
-    throw InputError(what + ": cannot be read (torn, or a checksum does not match)");
+  read_whole_frames(dataset.get(), H5T_NATIVE_DOUBLE, block.shape, block.real, what);
   return block;
 }
 
@@ -155,9 +171,7 @@ Block read_whole(hid_t file, const std::string& path, const std::string& name_of
   expect_class(dataset.get(), H5T_INTEGER, what);
   Block block;
   block.shape = shape_of(dataset.get(), what);
-  block.whole.resize(count(block.shape));
-  if (!block.whole.empty() && H5Dread(dataset.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, block.whole.data()) < 0)
-    throw InputError(what + ": cannot be read (torn, or a checksum does not match)");
+  read_whole_frames(dataset.get(), H5T_NATIVE_INT, block.shape, block.whole, what);
   return block;
 }
 

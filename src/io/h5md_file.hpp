@@ -60,11 +60,12 @@ void write_text_attribute(hid_t object, const std::string& name, const std::stri
 
 /// Values of a dataset with its shape, as double or int. @throws InputError: missing, linked to another file, of another type or absurdly large
 struct Block {
-  std::vector<std::size_t> shape;
+  std::vector<std::size_t> shape;  ///< shape[0] counts whole frames: one that a killed writer left torn ends the block
   std::vector<double> real;
   std::vector<int> whole;
 };
 [[nodiscard]] bool has(hid_t file, const std::string& path);
+/// @throws InputError also when not even the first frame is whole
 [[nodiscard]] Block read_real(hid_t file, const std::string& path, const std::string& name_of_file);
 [[nodiscard]] Block read_whole(hid_t file, const std::string& path, const std::string& name_of_file);
 [[nodiscard]] std::string unit_of(hid_t file, const std::string& path);

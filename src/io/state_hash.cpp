@@ -53,6 +53,17 @@ void FramesHash::add(const Snapshot& s) {
   hash_ = hash.value();
 }
 
+std::string state_hash(const InitialState& s) {
+  Fnv hash;
+  for (const auto* column : {&s.position, &s.velocity})
+    for (const Vec3& v : *column) hash.add(v);
+  for (const auto* column : {&s.mass, &s.temperature})
+    for (const double v : *column) hash.add(v);
+  for (const auto* column : {&s.phase, &s.body, &s.material, &s.source})
+    for (const int v : *column) hash.add(static_cast<double>(v));
+  return hash.text();
+}
+
 std::string FramesHash::text() const { return fmt::format("{:016x}", hash_); }
 
 std::string state_hash(const Snapshot& s) {

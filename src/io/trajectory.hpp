@@ -74,6 +74,8 @@ void write_xdmf(const std::string& folder, const std::vector<double>& times, con
 
 /// FNV-1a over the bits of positions, velocities, temperatures and bodies, as 16 hex digits.
 [[nodiscard]] std::string state_hash(const Snapshot&);
+/// FNV-1a over the bits of all that was sampled.
+[[nodiscard]] std::string state_hash(const InitialState&);
 /// FNV-1a over the bits of all that these frames show, one after the other; rows that do not exist count for nothing, so that
 /// frames read back hash as they did when written.
 class FramesHash {

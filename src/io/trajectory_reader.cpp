@@ -16,7 +16,11 @@ class Reader {
     time_ = h5::read_real(file_.get(), "/particles/all/position/time", path).real;
     step_ = h5::read_whole(file_.get(), "/particles/all/position/step", path).whole;
     frames_ = std::min(time_.size(), step_.size());
+    whole_ = frames_;
   }
+
+  /// Frames that every block read so far holds whole.
+  [[nodiscard]] std::size_t whole() const { return whole_; }
 
   [[nodiscard]] std::size_t frames() const { return frames_; }
   [[nodiscard]] double time(std::size_t f) const { return time_[f]; }
@@ -41,9 +45,16 @@ class Reader {
   }
 
  private:
-  void expect(h5::Block& block, std::size_t width, const std::string& what) const {
+  /// Blocks that a killed writer left torn are filled up with what can never pass for a value; their frames are cut off at the end.
+  void expect(h5::Block& block, std::size_t width, const std::string& what) {
     if (block.shape.size() < 3) block.shape.resize(3, 1);
-    if (block.shape[0] < frames_) throw InputError(path_ + ": " + what + " has fewer frames than its times");
+    whole_ = std::min(whole_, block.shape[0]);
+    if (block.shape[0] < frames_) {
+      const std::size_t total = frames_ * block.shape[1] * block.shape[2];
+      if (!block.real.empty()) block.real.resize(total, not_a_number);
+      if (!block.whole.empty()) block.whole.resize(total, -1);
+      block.shape[0] = frames_;
+    }
     if (block.shape[2] != width) throw InputError(path_ + ": " + what + " has " + std::to_string(block.shape[2]) + " components, expected " + std::to_string(width));
   }
 
@@ -51,7 +62,7 @@ class Reader {
   h5::Handle file_;
   std::vector<double> time_;
   std::vector<int> step_;
-  std::size_t frames_ = 0;
+  std::size_t frames_ = 0, whole_ = 0;
 };
 
 using Frames = std::vector<Snapshot>;
@@ -162,6 +173,7 @@ Trajectory read_trajectory(const std::string& path) {
   read_wholes(in, "material", frames, &Snapshot::material);
   read_bodies(in, frames);
   read_observables(in, frames);
+  frames.resize(in.whole());
   for (const Snapshot& s : frames) expect_equal_lengths(path, s);
   return trajectory;
 }

@@ -101,6 +101,26 @@ TEST_F(Io, ADamagedFrameIsRefusedByItsChecksum) {
   EXPECT_THROW((void)read_trajectory(path("trajectory.h5")), InputError);
 }
 
+TEST_F(Io, AFrameThatIsTornEndsTheTrajectoryAndLosesNoneBeforeIt) {
+  {
+    TrajectoryWriter writer(path("trajectory.h5"));
+    for (const double t : {0.25, 0.5, 0.75, 1.0}) writer.append(frame_at(t, 400, 1));
+  }
+  std::string bytes;
+  {
+    std::ifstream in(path("trajectory.h5"), std::ios::binary);
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  }
+  const double marker = 0.75 + 200;  // x of particle 200 in the third frame
+  const auto at = bytes.find(std::string(reinterpret_cast<const char*>(&marker), 8));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] = static_cast<char>(bytes[at] ^ 0x10);
+  std::ofstream(path("trajectory.h5"), std::ios::binary) << bytes;
+  const Trajectory read = read_trajectory(path("trajectory.h5"));
+  ASSERT_EQ(read.frames.size(), 2U);
+  EXPECT_EQ(state_hash(read.frames[1]), state_hash(frame_at(0.5, 400, 1)));
+}
+
 TEST_F(Io, RowsOfABodyPlaceItsParticles) {
   InitialState start;
   start.position = {{-1, 0, 0}, {1, 0, 0}};

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/read_case.hpp"
@@ -84,7 +83,7 @@ void measure(World& world, std::size_t b) {
   t[field::body_centre][b] = rotate(q, properties.centre);
   t[field::body_offset][b] += rotate_back(q, t[field::body_centre][b] - centre_before);
   t[field::body_inertia][b] =
-      (1.0 + defect_size("rigid.inertia")) * truncated(properties.principal_inertia, properties.mass, world.scene.spacing);
+      truncated(properties.principal_inertia, properties.mass, world.scene.spacing);
   t[field::body_axes][b] = properties.principal_axes;
   t[field::body_turns][b] = turning_axes(world, rows);
   const auto reference = triple(world.particles, field::reference_x, field::reference_y, field::reference_z);

@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 #include "effects/rigid/bodies.hpp"
-#include "effects/rigid/body_forces.hpp"
+#include "effects/body_forces.hpp"
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/read_case.hpp"
@@ -74,7 +74,8 @@ void turn(World& world, std::size_t b, double dt) {
     return;
   }
   const Quaternion q = principal_to_world(world, b);
-  const Vec3 I = t[field::body_inertia][b];
+  static const double lazier = 1.0 + defect_size("rigid.inertia");
+  const Vec3 I = lazier * t[field::body_inertia][b];
   const auto turned = [&] {
     if (world.scene.mode_of(Term::rotation) == Mode::paper) return rotated_paper(q, I, L, dt);
     return world.axis_order ? rotated_no_squish(q, I, L, dt, *world.axis_order) : rotated_corrected(q, I, L, dt);
@@ -262,7 +263,7 @@ std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<RigidBodies
 
 std::vector<DefectEntry> defects() {
   return {{"rigid.gravity", "gravity times 1 + size", "rigid/ballistic"},
-          {"rigid.inertia", "moments of inertia times 1 + size", "rigid/torque-free"},
+          {"rigid.inertia", "moments of inertia, as the rotation sees them, times 1 + size", "rigid/torque-free"},
           {"rigid.rotation", "rotations about the axes in one sequence, not symmetric: first order", "rigid/torque-free"},
           {"rigid.paper.rotation", "angle of each step of the paper's rotation times 1 + size", "rigid/torque-free"},
           {"rigid.merge", "orbital part of L times 1 + size as bodies merge", "rigid/merge-in-flight"},

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/rigid/body_forces.hpp"
+#include "effects/body_forces.hpp"
 
 #include "core/defect.hpp"
 #include "effects/rigid/bodies.hpp"
 
-namespace tripoint::rigid {
+namespace tripoint {
 namespace {
 
 bool moves(const World& world, std::size_t b) {
@@ -52,4 +52,4 @@ void forces_on_moving_bodies(const World& world, std::vector<BodyForces>& sums) 
   if (any) sum_forces(world, asked, sums);
 }
 
-}  // namespace tripoint::rigid
+}  // namespace tripoint

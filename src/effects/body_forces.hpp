@@ -4,7 +4,7 @@
 
 #include "effects/world.hpp"
 
-namespace tripoint::rigid {
+namespace tripoint {
 
 /// What the members of one body feel from all others (18): sums of pressure and viscous forces, and their torques about the
 /// centre of mass.
@@ -17,4 +17,4 @@ struct BodyForces {
 /// The same for the bodies that move only, zero for others; empty when none does. @param sums is used again from call to call
 void forces_on_moving_bodies(const World&, std::vector<BodyForces>& sums);
 
-}  // namespace tripoint::rigid
+}  // namespace tripoint
