@@ -2,13 +2,14 @@
 #include "effects/body_forces.hpp"
 
 #include "core/defect.hpp"
-#include "effects/rigid/bodies.hpp"
 
 namespace tripoint {
 namespace {
 
 bool moves(const World& world, std::size_t b) {
-  return is_free(world, b) || world.bodies[field::body_velocity][b] != Vec3{} || world.bodies[field::body_angular_velocity][b] != Vec3{};
+  const Columns& t = world.bodies;
+  const bool free = t[field::body_alive][b] != 0 && t[field::body_motion][b] == static_cast<int>(Motion::free);
+  return free || t[field::body_velocity][b] != Vec3{} || t[field::body_angular_velocity][b] != Vec3{};
 }
 
 void sum_forces(const World& world, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
