@@ -196,6 +196,8 @@ CaseReading read_case(const std::string& path, const std::vector<std::string>& s
   for (const auto* node : top.tables("event")) c.scene.events.push_back(read_event(*node, ++n, reading));
   n = 0;
   for (const auto* node : top.tables("inflow")) c.scene.inflows.push_back(read_inflow(*node, ++n, c.scene.end_time, reading));
+  if (const auto stiffness = default_stiffness(c.scene))
+    reading.decisions.push_back({"material.stiffness", show(*stiffness), "(10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 g depth of the liquids)", false, {}});
   read_judgement(top, c, reading);
   check_references(c, reading);
   out.decisions = std::move(reading.decisions);

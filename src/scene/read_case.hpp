@@ -36,6 +36,11 @@ struct RunChoice {
 /// The scene of one run: modes resolved for every term, support ratio by its default rule where the file gives none.
 [[nodiscard]] Scene scene_for(const Case&, const RunChoice&);
 
+/// Stiffness k = (10 v)^2 [m2/s2] of a scene that flows and whose materials give none: v the greatest of initial and prescribed
+/// speeds and sqrt(2 |g| depth of the liquids), so that the speed of sound is ten times what is to be expected. Velocities by
+/// expression do not count. Empty where it is given, nothing flows, or no speed is known.
+[[nodiscard]] std::optional<double> default_stiffness(const Scene&);
+
 /// An effect that a scene calls for, and why.
 struct CalledEffect {
   std::string name;  ///< fluid elastic plastic fracture rigid heat phase surface

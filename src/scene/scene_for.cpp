@@ -19,6 +19,9 @@ Scene scene_for(const Case& c, const RunChoice& choice) {
   const bool paper = std::all_of(s.modes.begin(), s.modes.end(), [](Mode m) { return m == Mode::paper; });
   if (choice.support_ratio) s.support_ratio = *choice.support_ratio, s.support_ratio_given = true;
   else if (!s.support_ratio_given) s.support_ratio = paper ? 2.12 : 2.6;
+  if (const auto stiffness = default_stiffness(s)) {
+    for (Material& m : s.materials) m.stiffness = stiffness;
+  }
   return s;
 }
 
