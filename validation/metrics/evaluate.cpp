@@ -120,8 +120,26 @@ MetricValue over_time(const std::string& norm, const Series& s) {
   return v;
 }
 
+/// Each sample's mean error over the window first, then L2: what is left when a settling medium still swings.
+MetricValue l2_of_means(const MetricInput& in, const Quantity& quantity, const Frames& all, const Frames& chosen) {
+  FrameError sum;
+  for (const auto* now : chosen) {
+    const auto error = quantity.error({in, *now, in.reference.beside(*now), *all.front()});
+    if (!error.problem.empty()) return unformed(error.problem);
+    if (sum.error.empty()) sum = error, std::fill(sum.error.begin(), sum.error.end(), 0.0);
+    if (error.row != sum.row) return unformed("L2mean needs the same samples at all times of its window");
+    for (std::size_t i = 0; i < error.error.size(); ++i) sum.error[i] += error.error[i] / static_cast<double>(chosen.size());
+  }
+  sum.sigma.clear();
+  MetricValue v;
+  v.value = spatial_norm("L2", sum).value;
+  if (!std::isfinite(v.value)) return unformed("no finite mean over the window");
+  return v;
+}
+
 MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Frames& all, const Frames& chosen) {
   const auto& norm = in.choice.norm;
+  if (norm == "L2mean") return l2_of_means(in, quantity, all, chosen);
   const std::string in_space = is_spatial(norm) ? norm : norm == "rms" ? "L2" : "Linf";
   Series series;
   for (const auto* now : chosen) {
@@ -191,6 +209,7 @@ const std::vector<MetricWord>& metric_norms() {
       {"chi", "", "root mean square of error over its stated standard error: 1 when walkers agree with the truth"},
       {"max", "", "largest size over all output times of the window"},
       {"rms", "", "root mean square over time of L2"},
+      {"L2mean", "", "root mean square, by volume, of each sample's mean error over the window"},
       {"mean", "", "mean over the times of the window of a single number, with its sign; of many samples, of the largest size"},
       {"final", "", "at the end; keeps the sign of a single number"},
       {"drift", "", "largest change since the run's own start; needs no reference"},

@@ -27,19 +27,23 @@ FrameError pressure_factor(const FramePair& f) {
   return square > 0 ? single(double(product / square) - 1.0) : problem("the true pressure is zero everywhere");
 }
 
-/// Mean error of pressure of the particles that began within one spacing of the interface.
-FrameError interface_pressure(const FramePair& f) {
-  if (auto why = no_pressure(f); !why.empty()) return problem(why);
+/// Mean error of a column over the particles that began within one spacing of the interface.
+FrameError at_interface(const FramePair& f, std::vector<double> Snapshot::*column, const char* what) {
+  const auto &run = f.now.*column, &truth = f.truth.*column;
+  if (run.size() < f.in.initial.size()) return problem(std::string("the trajectory has no ") + what);
+  if (truth.size() < f.in.initial.size()) return problem(std::string("the reference does not know the ") + what);
   const auto axis = f.in.reference.number("axis"), place = f.in.reference.number("interface");
   if (!axis || !place) return problem("the reference knows no interface");
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < f.in.initial.size(); ++i) {
     const double away = std::abs(f.in.initial.position[i][static_cast<std::size_t>(*axis)] - *place);
-    if (!takes(f.in, i) || std::isnan(f.truth.pressure[i]) || away > f.in.job.scene.spacing) continue;
-    sum += f.now.pressure[i] - f.truth.pressure[i], count += 1.0;
+    if (!takes(f.in, i) || std::isnan(truth[i]) || away > f.in.job.scene.spacing) continue;
+    sum += run[i] - truth[i], count += 1.0;
   }
   return count > 0.0 ? single(sum / count) : problem("no particle of the metric's body begins at the interface");
 }
+FrameError interface_pressure(const FramePair& f) { return at_interface(f, &Snapshot::pressure, "pressure"); }
+FrameError interface_density(const FramePair& f) { return at_interface(f, &Snapshot::density, "density"); }
 
 /// Depth of a floating body's keel below the level that the liquid's volume gives: volume = pool (level - floor) - block (level - keel).
 /// (The top layer of particles is no measure: it lies up to 0.2 dx low.)
@@ -86,6 +90,7 @@ const std::vector<Quantity>& liquid_quantities() {
   static const std::vector<Quantity> list{
       {{"pressure_factor", "1", "least-squares factor of the pressures on the true ones, minus 1"}, pressure_factor},
       {{"interface_pressure", "Pa", "mean error of pressure of the particles that began within a spacing of the reference's interface"}, interface_pressure},
+      {{"interface_density", "kg/m3", "mean error of density of the same particles"}, interface_density},
       {{"draught", "m", "depth of the floating body's keel below the level by volume, minus the true draught"}, draught},
       {{"axial_torque", "N m", "torque on the body about the reference's axis minus the true one"}, axial_torque},
       {{"half_length", "m", "half the extent of the liquid along the reference's axis minus the true one"}, half_length}};
