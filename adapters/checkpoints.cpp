@@ -17,19 +17,6 @@ namespace {
 
 constexpr const char* interval_key = "checkpoint_interval";
 
-class Fnv {
- public:
-  void add(const void* data, std::size_t size) {
-    for (std::size_t k = 0; k < size; ++k) hash_ = (hash_ ^ static_cast<const unsigned char*>(data)[k]) * 1099511628211ULL;
-  }
-  template <class T>
-  void add(const std::vector<T>& values) { add(values.data(), values.size() * sizeof(T)); }
-  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", hash_); }
-
- private:
-  std::uint64_t hash_ = 1469598103934665603ULL;
-};
-
 /// The job without what may change when it is continued.
 std::string scene_hash(Job job) {
   job.case_id = job.particles = job.output = job.resume = "";
@@ -38,17 +25,7 @@ std::string scene_hash(Job job) {
   job.times = {};
   job.scene.end_time = 0.0;
   job.settings.erase(interval_key);
-  Fnv hash;
-  const std::string text = job_text(job);
-  hash.add(text.data(), text.size());
-  return hash.text();
-}
-
-std::string particles_hash(const InitialState& s) {
-  Fnv hash;
-  hash.add(s.position), hash.add(s.velocity), hash.add(s.mass), hash.add(s.temperature);
-  hash.add(s.phase), hash.add(s.body), hash.add(s.material), hash.add(s.source);
-  return hash.text();
+  return text_hash(job_text(job));
 }
 
 std::string earlier_trajectory(const Job& job) { return (fs::path(job.resume).parent_path() / "trajectory.h5").string(); }
@@ -81,7 +58,7 @@ void expect_times(const Job& job, const std::vector<double>& times) {
 }  // namespace
 
 std::vector<std::string> identity_of(const Job& job, const InitialState& initial, const std::string& build) {
-  return {"scene " + scene_hash(job), "particles " + particles_hash(initial), "build " + build};
+  return {"scene " + scene_hash(job), "particles " + state_hash(initial), "build " + build};
 }
 
 Checkpoints::Checkpoints(const Job& job, std::vector<std::string> identity) : job_(job), identity_(std::move(identity)) {

@@ -42,7 +42,7 @@ class Engine {
 class Restartable {
  public:
   virtual ~Restartable() = default;
-  /// Like load(), from a checkpoint that save() filled. @throws InputError naming what does not fit
+  /// After load(): takes the state that save() kept. @throws InputError naming what does not fit
   virtual void resume(const Job&, const InitialState&, const Checkpoint&) = 0;
   /// Like advance_to(time). @param go_on asked after every step with its time [s] and number: false stops there
   /// @return whether `time` was reached

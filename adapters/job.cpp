@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "adapters/scene_json.hpp"
@@ -114,6 +115,12 @@ std::string job_text(const Job& job) {
                    {"output", job.output},
                    {"resume", job.resume.empty() ? json(nullptr) : json(job.resume)}};
   return value.dump(1);
+}
+
+std::string text_hash(const std::string& text) {
+  std::uint64_t hash = 1469598103934665603ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return fmt::format("{:016x}", hash);
 }
 
 void write_job(const std::string& path, const Job& job) { write_durably(path, job_text(job)); }

@@ -51,6 +51,8 @@ struct Job {
 /// @throws InputError naming the key that is missing or of the wrong kind. Relative paths inside count from the file's folder.
 [[nodiscard]] Job read_job(const std::string& path);
 [[nodiscard]] std::string job_text(const Job&);
+/// FNV-1a of a text, as 16 hex digits: tells two jobs apart.
+[[nodiscard]] std::string text_hash(const std::string&);
 void write_job(const std::string& path, const Job&);
 
 struct ReadbackBody {

@@ -130,11 +130,11 @@ class Run {
     const double cpu = cpu_seconds(), wall = wall_seconds();
     const InitialState initial = read_particles(job_.particles);
     if (restartable_) checkpoints_.emplace(job_, identity_of(job_, initial, engine_.info().version + " " + engine_.info().build));
-    if (job_.resume.empty()) engine_.load(job_, initial);
-    else if (!resume(initial)) return false;
+    engine_.load(job_, initial);
+    result_.readback = engine_.readback();  // of the scene as given: bodies of a run that goes on may have merged since
+    if (!job_.resume.empty() && !resume(initial)) return false;
     result_.setup_cpu = cpu_seconds() - cpu;
     result_.setup_wall = wall_seconds() - wall;
-    result_.readback = engine_.readback();
     return true;
   }
 

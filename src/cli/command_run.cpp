@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,8 @@
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "core/errors.hpp"
+#include "scene/units.hpp"
+#include "validation/harness/finished_run.hpp"
 #include "validation/harness/run_one.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
@@ -24,11 +27,13 @@ constexpr const char* description =
     "  tripoint run rigid/ballistic\n"
     "  tripoint run heat/cosine-mode --set scene.spacing='1 mm' --threads 2 --out coarse\n"
     "  tripoint run rigid/ballistic --engine bullet --until 0.5\n"
+    "  tripoint run heat/cosine-mode --checkpoint-interval '10 s'; tripoint run heat/cosine-mode --resume runs/heat/cosine-mode/tripoint\n"
     "DIR then holds job.json, particles.h5, trajectory.h5 (H5MD; trajectory.xdmf opens it in ParaView), result.json and log.txt.\n"
-    "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged.";
+    "Ctrl-C leaves a checkpoint there too. A run that goes on from one has the same bits as one that was never cut, on any number of threads.\n"
+    "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged, 130 Ctrl-C.";
 
 struct RunOptions {
-  std::string what, engine = "tripoint", out, until;
+  std::string what, engine = "tripoint", out, until, resume, checkpoint_interval;
   std::vector<std::string> set;
   int threads = 1;
   double wall_limit = 1e9;
@@ -42,8 +47,48 @@ std::string case_file(const std::string& what) {
   throw InputError(what + ": is no case file and no case id (tripoint list prints the ids)");
 }
 
-int code_of(const Outcome& outcome) {
+/// The checkpoint itself, or the last one in a folder. @throws InputError
+std::string checkpoint_file(const std::string& path) {
+  if (fs::is_regular_file(path)) return fs::absolute(path).string();
+  const auto found = checkpoints_in(path);
+  if (found.empty()) throw InputError(path + ": is no checkpoint, nor a folder with one (a run leaves checkpoint-STEP.h5 with --checkpoint-interval, and at Ctrl-C)");
+  return fs::absolute(found.back()).string();
+}
+
+double seconds_of(const std::string& text) {
+  try {
+    char* end = nullptr;
+    const double plain = std::strtod(text.c_str(), &end);
+    const double value = *end == '\0' ? plain : parse_quantity(text, "s");
+    if (value > 0.0 && std::isfinite(value)) return value;
+  } catch (const std::invalid_argument& e) {
+    throw InputError("--checkpoint-interval " + text + ": " + e.what());
+  }
+  throw InputError("--checkpoint-interval " + text + ": write a time above 0, for example '0.1 s'");
+}
+
+/// As the shell takes it back.
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
+/// How to go on with a run that Ctrl-C has stopped; empty where it left no checkpoint.
+std::string way_on(const RunOptions& o) {
+  const auto found = checkpoints_in(o.out);
+  if (found.empty()) return "";
+  std::string command = "tripoint run " + quoted(o.what);
+  if (o.engine != "tripoint") command += " --engine " + quoted(o.engine);
+  for (const auto& set : o.set) command += " --set " + quoted(set);
+  if (o.threads != 1) command += fmt::format(" --threads {}", o.threads);
+  if (!o.checkpoint_interval.empty()) command += " --checkpoint-interval " + quoted(o.checkpoint_interval);
+  return command + " --resume " + quoted(found.back());
+}
+
+int code_of(const RunOptions& o, const Outcome& outcome) {
   if (outcome.status == "ok") return exit_pass;
+  if (outcome.status == "refused" && !o.resume.empty()) return exit_bad_input;  // it ran before: the checkpoint does not fit
   return outcome.status == "diverged" ? exit_diverged : interrupted() ? exit_interrupted : exit_missing;
 }
 
@@ -83,6 +128,8 @@ int run(RunOptions o) {
   catch_interrupts();
   if (!o.until.empty()) o.set.push_back("scene.end_time=" + o.until);
   const Case value = read_case(shown_path(case_file(o.what)), o.set).value;
+  if (!o.resume.empty()) o.resume = checkpoint_file(o.resume);
+  if (o.out.empty() && !o.resume.empty()) o.out = fs::path(o.resume).parent_path().string();
   if (o.out.empty()) o.out = "runs/" + value.id + "/" + o.engine.substr(o.engine.rfind('/') + 1);
   const auto words = sort_engine_words({o.engine});
   const auto engines = discover_engines(words.paths);
@@ -92,6 +139,8 @@ int run(RunOptions o) {
   const auto initial = sample(scene);
   auto job = make_job(value, plan, base, scene, initial);
   job.threads = o.threads;
+  job.resume = o.resume;
+  if (!o.checkpoint_interval.empty()) job.settings["checkpoint_interval"] = seconds_of(o.checkpoint_interval);
   fs::create_directories(o.out);
   RunRequest request;
   request.engine = plan.entry, request.job = &job, request.initial = &initial, request.wall_limit = o.wall_limit;
@@ -106,7 +155,8 @@ int run(RunOptions o) {
   if (outcome.trajectory) metrics = evaluate_all(value, job, initial, *outcome.trajectory);
   if (o.json) print_json(o, outcome, metrics);
   else print_text(o, outcome, metrics);
-  return code_of(outcome);
+  if (const auto command = interrupted() ? way_on(o) : ""; !command.empty()) say("go on with: " + command);
+  return code_of(o, outcome);
 }
 
 }  // namespace
@@ -120,6 +170,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--threads", o->threads, "threads of the engine; they do not change its bits")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option("--set", o->set, "a.b=VALUE replaces a key of the case file; may be repeated")->take_all()->allow_extra_args(false);
   command->add_option("--until", o->until, "end at this time instead: seconds, or a number with a unit");
+  command->add_option("--resume", o->resume, "go on from this checkpoint, or from the last in this folder; writes there unless --out says otherwise")->type_name("CHECKPOINT");
+  command->add_option("--checkpoint-interval", o->checkpoint_interval, "simulated time between checkpoints: seconds, or a number with a unit; the last two are kept");
   command->add_flag("--quiet", o->quiet, "no progress on stderr");
   command->add_flag("--json", o->json, "print one JSON document");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return run(*o); }); });

@@ -31,6 +31,7 @@ constexpr const char* description =
     "  tripoint validate                                     the commit suite\n"
     "  tripoint validate heat/cosine-mode --jobs 2           one case, two engine processes at a time\n"
     "  tripoint validate my-cases/ --engine ./my-engine      your cases, with your engine beside ours\n"
+    "  tripoint validate --resume                            what an earlier call that was cut left to do\n"
     "  tripoint validate --profile nightly --shard 1/4       a quarter of the suite; tripoint merge joins the four\n"
     "The verdict is the last line; OUT/index.html shows it, OUT/results.json holds it.";
 
@@ -85,6 +86,7 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_option("--jobs", o->suite.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option("--threads", o->suite.threads, "threads of each engine process")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option_function<std::uint64_t>("--seed", [o](std::uint64_t seed) { o->seed = seed, o->seed_given = true; }, "replaces the cases' seeds");
+  command->add_flag("--resume", o->suite.resume, "keep the runs in OUT that have ended, where job and engine are the same; make only the others");
   command->add_option("--shard", o->shard, "i/n: every n-th case, from the i-th");
   command->add_option("--time-limit", o->suite.wall_limit, "seconds for one run; engine setting wall_limit goes before it")->check(CLI::PositiveNumber)->capture_default_str();
   command->add_flag("--json", o->json, "print results.json, and nothing else, on stdout");

@@ -95,7 +95,9 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   request.engine = engine.entry, request.job = &run.job, request.initial = run.initial.get();
   request.folder = fs::absolute(run.folder).string(), request.particles = fs::absolute(run.particles).string();
   request.wall_limit = wall_limit(engine, options), request.environment = options.environment;
+  request.keep_finished = options.resume;
   auto outcome = run_one(request);
+  run.kept = outcome.kept;
   auto& row = run.row;
   row.knobs = knobs_of(run, outcome.result);
   row.levels = run.plan.levels, row.base = run.plan.base, row.group = run.plan.group;

@@ -18,6 +18,7 @@ struct CaseRun {
   std::shared_ptr<const InitialState> initial;
   std::string folder, particles;
   RunRow row;
+  bool kept = false;  ///< taken from an earlier call, not made again
   std::shared_ptr<const Trajectory> trajectory;  ///< kept of base runs, for the comparison of engines
 };
 

@@ -28,6 +28,7 @@ namespace tripoint {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr double grace = 10.0;  // [s] from SIGTERM to SIGKILL, for an engine that writes a checkpoint before it ends
 constexpr std::size_t kept_output = 4u << 20, kept_log = 1u << 20, kept_tail = 4096;
 
 std::atomic<bool> stop_wanted{false};
@@ -211,10 +212,15 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
   const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
   std::array<pollfd, 3> wait{pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}, pollfd{child.get(), POLLIN, 0}};
   bool reaped = false;
+  std::optional<Clock::time_point> asked;
   while (!reaped) {
     const double left = spec.wall_limit - seconds_since(start);
-    if (stop_wanted || left <= 0.0) {
-      end.how = stop_wanted ? ProcessEnd::How::interrupted : ProcessEnd::How::timed_out;
+    if (stop_wanted && !asked) {
+      asked = Clock::now();
+      ::kill(-pid, SIGTERM);
+    }
+    if (left <= 0.0 || (asked && seconds_since(*asked) > grace)) {
+      end.how = ProcessEnd::How::timed_out;
       break;
     }
     ::poll(wait.data(), wait.size(), static_cast<int>(std::min(100.0, 1e3 * left + 1.0)));
@@ -229,6 +235,7 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
       end.code = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
     }
   }
+  if (asked) end.how = ProcessEnd::How::interrupted;
   end_group(pid, end, reaped);
   drain(out, take_output);
   drain(err, take_log);

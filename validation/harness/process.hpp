@@ -39,7 +39,8 @@ struct ProcessEnd {
 /// "exited with code 3", "was killed by signal 9 (Killed)", "was stopped after 600 s", ...
 [[nodiscard]] std::string describe(const ProcessEnd&);
 
-/// From now on Ctrl-C and SIGTERM stop the children and set interrupted(), instead of ending this process.
+/// From now on Ctrl-C and SIGTERM ask the children to end, kill those that have not within 10 s, and set interrupted(), instead of
+/// ending this process.
 void catch_interrupts();
 [[nodiscard]] bool interrupted() noexcept;
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "io/trajectory.hpp"
+#include "validation/harness/finished_run.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -40,13 +41,35 @@ std::string reason_for_refusal(const std::string& check_output) {
   return answer.value("reason", std::string("it gives no reason"));
 }
 
-void prepare_folder(const RunRequest& request) {
-  fs::create_directories(request.folder);
-  for (const char* stale : {"job.json", "result.json", "trajectory.h5", "trajectory.csv", "trajectory.xdmf", "log.txt"}) fs::remove(fs::path(request.folder) / stale);
+/// Job as it is written into the folder.
+Job job_in_folder(const RunRequest& request) {
   Job job = *request.job;
   job.particles = fs::relative(request.particles, request.folder).string();
   job.output = ".";
-  write_job((fs::path(request.folder) / "job.json").string(), job);
+  return job;
+}
+
+/// What an earlier run left goes, except what a run that goes on from a checkpoint in this folder still needs.
+void prepare_folder(const RunRequest& request) {
+  const fs::path folder(request.folder);
+  fs::create_directories(folder);
+  for (const char* stale : {"job.json", "result.json", "outcome.json", "trajectory.csv", "trajectory.xdmf", "log.txt"}) fs::remove(folder / stale);
+  std::error_code ignored;
+  const bool goes_on = !request.job->resume.empty() && fs::equivalent(fs::path(request.job->resume).parent_path(), folder, ignored);
+  if (!goes_on) {
+    fs::remove(folder / "trajectory.h5");
+    for (const auto& checkpoint : checkpoints_in(request.folder)) fs::remove(checkpoint);
+  }
+  write_job((folder / "job.json").string(), job_in_folder(request));
+}
+
+/// What an engine that was stopped by Ctrl-C says last.
+std::string words_of_the_interrupted(const fs::path& result) {
+  try {
+    return "; " + read_result(result.string()).message;
+  } catch (const std::exception&) {
+    return " without a result";
+  }
 }
 
 ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
@@ -100,7 +123,8 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
   if (end.how == How::not_started) return failed(outcome, "error", describe(end));
   if (end.how == How::timed_out) return failed(outcome, "timeout", describe(end) + last_words(end.log_tail));
   const fs::path file = fs::path(request.folder) / "result.json";
-  if (end.how == How::interrupted || !fs::exists(file)) return failed(outcome, "killed", describe(end) + " without a result" + last_words(end.log_tail));
+  if (end.how == How::interrupted) return failed(outcome, "killed", describe(end) + words_of_the_interrupted(file));
+  if (!fs::exists(file)) return failed(outcome, "killed", describe(end) + " without a result" + last_words(end.log_tail));
   try {
     outcome.result = read_result(file.string());
     take_cost(outcome, end);
@@ -116,6 +140,10 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
 }
 
 Outcome run_one(const RunRequest& request) {
+  const std::string hash = run_hash(request, job_text(job_in_folder(request)));
+  if (request.keep_finished) {
+    if (auto kept = finished_run(request, hash)) return std::move(*kept);
+  }
   try {
     prepare_folder(request);
   } catch (const std::exception& e) {
@@ -129,7 +157,10 @@ Outcome run_one(const RunRequest& request) {
   auto spec = call(request, "--run", request.wall_limit);
   spec.log = (fs::path(request.folder) / "log.txt").string();
   spec.progress = request.progress;
-  return read_back(request, run_process(spec));
+  const auto end = run_process(spec);
+  auto outcome = read_back(request, end);
+  record_finished(request, hash, end, outcome);
+  return outcome;
 }
 
 std::map<std::string, MetricValue> evaluate_all(const Case& value, const Job& job, const InitialState& initial, const Trajectory& trajectory) {

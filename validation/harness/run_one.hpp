@@ -21,11 +21,13 @@ struct RunRequest {
   double wall_limit = 600.0;  ///< [s]
   std::map<std::string, std::string> environment;
   std::function<void(double)> progress;
+  bool keep_finished = false;  ///< takes the outcome of an earlier run in the folder, if it was of this very job and engine
 };
 
 struct Outcome {
   std::string status = "ok", reason;  ///< as in results.json
   bool comparable = true;
+  bool kept = false;  ///< of an earlier run, not made again
   Result result;  ///< of the engine, where there is one
   std::shared_ptr<const Trajectory> trajectory;  ///< where status is ok
   Cost cost;

@@ -103,8 +103,8 @@ class Suite {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     ++done_;
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(queued_ - done_);
-    options_.say(fmt::format("[{:3}/{}{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{} ({:.2f} CPU s)", done_, queued_, all_queued_ ? "" : "+", elapsed, left,
-                             all.value->id, all.engines[run.engine].name, run.plan.label, run.row.status, run.row.reason.empty() ? "" : ", " + run.row.reason, run.row.cost.cpu_s));
+    options_.say(fmt::format("[{:3}/{}{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{}{} ({:.2f} CPU s)", done_, queued_, all_queued_ ? "" : "+", elapsed, left,
+                             all.value->id, all.engines[run.engine].name, run.plan.label, run.kept ? "kept, " : "", run.row.status, run.row.reason.empty() ? "" : ", " + run.row.reason, run.row.cost.cpu_s));
   }
 
   const std::vector<Case>& cases_;

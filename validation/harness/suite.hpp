@@ -25,6 +25,7 @@ struct SuiteOptions {
   std::string out = "report";  ///< runs go below out/runs
   int jobs = 1;                ///< engine processes at a time
   int threads = 1;             ///< of each engine process
+  bool resume = false;         ///< runs of an earlier call that have ended, of the same job and engine, are kept
   double wall_limit = 600.0;   ///< [s] for a run whose case says nothing else (engine setting wall_limit)
   std::map<std::string, std::string> environment;  ///< for the engines
   /// Which runs of the plan are made; empty = all.

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/harness/run_one.hpp"
+
+/// Runs that have ended are recorded in outcome.json in their folder, under a hash of all that made them, so that a suite that was
+/// cut need not make them again.
+namespace tripoint {
+
+/// Of the job's text, its particles, the engine's version, build and library, and the environment that it is started with.
+[[nodiscard]] std::string run_hash(const RunRequest&, const std::string& job_text);
+
+/// Leaves outcome.json where the run is ok or diverged: an outcome that the same run would have again.
+void record_finished(const RunRequest&, const std::string& hash, const ProcessEnd&, const Outcome&);
+
+/// The outcome that is recorded under this hash, with the cost that was paid then; nothing when there is none, when the job or the
+/// result is not as it was left, or when the result does not read back to the same status.
+[[nodiscard]] std::optional<Outcome> finished_run(const RunRequest&, const std::string& hash);
+
+/// Paths of the checkpoints in a run's folder, oldest first.
+[[nodiscard]] std::vector<std::string> checkpoints_in(const std::string& folder);
+
+}  // namespace tripoint
