@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs that are cut and continued, as people do it: restart_test.py TRIPOINT SAME_TRAJECTORY [unittest arguments]."""
+import json
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+TRIPOINT, SAME = sys.argv[1:3]
+FLIGHT = """format = 1
+[case]
+title = "Flight"
+requirement = "R"
+claims = "it flies, conducts, and breaks in two"
+profiles = ["commit"]
+[scene]
+end_time = 0.5
+gravity = [0.0, 0.0, -9.81]
+spacing = 0.1
+time_step = 0.002
+output_interval = 0.05
+[[material]]
+name = "stuff"
+density = 1000.0
+conductivity = 5.0
+heat_capacity = 500.0
+[[body]]
+name = "bar"
+material = "stuff"
+phase = "rigid"
+shape = { kind = "box", min = [0.0, 0.0, 0.0], max = [0.8, 0.4, 0.3] }
+velocity = [1.0, 0.0, 2.0]
+angular_velocity = [0.3, 1.0, 2.0]
+temperature = { kind = "step", point = [0.4, 0.0, 0.0], normal = [1.0, 0.0, 0.0], behind = 400.0, ahead = 300.0 }
+[[event]]
+time = 0.2
+kind = "split"
+name = "half"
+region = { kind = "half_space", point = [0.6, 0.0, 0.0], normal = [-1.0, 0.0, 0.0] }
+[[metric]]
+name = "momentum"
+quantity = "ledger.momentum"
+norm = "max"
+unit = "kg m/s"
+[reference]
+kind = "invariant"
+"""
+
+
+def call(*words, **more):
+    return subprocess.run([TRIPOINT, *map(str, words)], capture_output=True, text=True, timeout=300, **more)
+
+
+class Restart(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="tripoint restart ü ")
+        self.path = Path(self.folder.name)
+        self.case = self.path / "cases" / "test" / "flight.toml"
+        self.case.parent.mkdir(parents=True)
+        self.case.write_text(FLIGHT)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def run_case(self, out, *more):
+        return call("run", self.case, "--out", self.path / out, "--quiet", *more)
+
+    def expect_same(self, one, other):
+        same = subprocess.run([SAME, self.path / one / "trajectory.h5", self.path / other / "trajectory.h5"], capture_output=True, text=True)
+        self.assertEqual(same.returncode, 0, same.stdout + same.stderr)
+        one, other = (json.loads((self.path / d / "result.json").read_text()) for d in (one, other))
+        for key in ("state_hash", "steps", "time_reached", "counters", "time_step_bound", "readback"):
+            self.assertEqual(one[key], other[key], key)
+
+    def test_a_run_that_goes_on_is_the_unbroken_run_frame_by_frame(self):
+        self.assertEqual(self.run_case("whole").returncode, 0)
+        for interval in ("0.12", "3 ms"):
+            shutil.rmtree(self.path / "cut", ignore_errors=True)
+            self.assertEqual(self.run_case("cut", "--until", "0.4", "--checkpoint-interval", interval).returncode, 0)
+            self.assertEqual(len(list((self.path / "cut").glob("checkpoint-*.h5"))), 2)
+            for checkpoint in sorted((self.path / "cut").glob("checkpoint-*.h5")):
+                done = self.run_case("again", "--resume", checkpoint, "--threads", 2)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.expect_same("whole", "again")
+            done = call("run", self.case, "--quiet", "--resume", self.path / "cut")  # in the same folder, from the last one
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.expect_same("whole", "cut")
+
+    def test_a_restart_of_a_restart_is_the_unbroken_run(self):
+        self.assertEqual(self.run_case("whole").returncode, 0)
+        self.assertEqual(self.run_case("one", "--until", "0.25", "--checkpoint-interval", "0.06").returncode, 0)
+        self.assertEqual(self.run_case("two", "--until", "0.4", "--resume", sorted((self.path / "one").glob("checkpoint-*.h5"))[0], "--checkpoint-interval", "0.11").returncode, 0)
+        self.assertEqual(self.run_case("three", "--resume", self.path / "two").returncode, 0)
+        self.expect_same("whole", "three")
+
+    def test_another_scene_a_torn_checkpoint_and_lost_frames_are_refused_by_name(self):
+        self.assertEqual(self.run_case("cut", "--checkpoint-interval", "0.2").returncode, 0)
+        checkpoint = sorted((self.path / "cut").glob("checkpoint-*.h5"))[-1]
+
+        def refusal(*more):
+            done = self.run_case("other", "--resume", checkpoint, *more)
+            self.assertEqual(done.returncode, 2, done.stdout + done.stderr)
+            return done.stdout + done.stderr
+        self.assertIn("another scene", refusal("--set", "scene.gravity=[0.0, 0.0, -9.8]"))
+        self.assertIn("no output time", refusal("--until", "0.3"))
+        whole = checkpoint.read_bytes()
+        checkpoint.write_bytes(whole[:1000] + bytes([whole[1000] ^ 4]) + whole[1001:])
+        self.assertIn("torn or altered", refusal())
+        checkpoint.write_bytes(whole[:-1])
+        self.assertIn(checkpoint.name, refusal())
+        checkpoint.write_bytes(whole)
+        (self.path / "cut" / "trajectory.h5").unlink()
+        self.assertIn("trajectory.h5", refusal())
+        self.assertEqual(self.run_case("other", "--resume", self.path / "nowhere").returncode, 2)
+
+    def test_ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on(self):
+        slow = ["--set", "scene.time_step=1e-4", "--until", "0.25"]
+        self.assertEqual(self.run_case("whole", *slow).returncode, 0)
+        process = subprocess.Popen([TRIPOINT, "run", self.case, "--out", self.path / "cut", *slow], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while not (self.path / "cut" / "trajectory.h5").exists():
+            time.sleep(0.01)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, said)
+        self.assertIn("--resume", said)
+        self.assertEqual(json.loads((self.path / "cut" / "result.json").read_text())["status"], "error")
+        command = said[said.index("go on with: tripoint ") + len("go on with: tripoint "):].splitlines()[0]
+        done = subprocess.run(["/bin/sh", "-c", f"'{TRIPOINT}' {command}"], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.expect_same("whole", "cut")
+
+    def test_validate_resume_keeps_what_has_ended_and_makes_the_rest(self):
+        def validate(*more):
+            done = call("validate", self.path / "cases", "--engines", "tripoint", "--out", self.path / "out", *more)
+            result = self.path / "out" / "runs" / "test" / "flight" / "tripoint" / "corrected" / "result.json"
+            return done, result.stat().st_mtime_ns
+        first, made = validate()
+        again, kept = validate("--resume")
+        self.assertEqual((first.returncode, made), (again.returncode, kept))
+        self.assertIn("kept, ok", again.stderr)
+        runs = self.results()["cases"][0]["engines"][0]["runs"]
+        self.assertGreater(runs[0]["cost"]["cpu_s"], 0.0)
+        self.case.write_text(FLIGHT.replace("-9.81", "-9.80"))
+        other, remade = validate("--resume")
+        self.assertNotIn("kept", other.stderr)
+        self.assertNotEqual(remade, made)
+        result = self.path / "out" / "runs" / "test" / "flight" / "tripoint" / "corrected" / "result.json"
+        result.write_text(result.read_text().replace('"ok"', '"ok" '))
+        altered, _ = validate("--resume")
+        self.assertNotIn("kept", altered.stderr)
+        forced, _ = validate()
+        self.assertNotIn("kept", forced.stderr)
+
+    def results(self):
+        return json.loads((self.path / "out" / "results.json").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
