@@ -212,6 +212,22 @@ EffectSpec spec(const Scene& scene) {
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fluid>(scene); }
 
-std::vector<DefectEntry> defects() { return {}; }
+std::vector<DefectEntry> defects() {
+  return {{"fluid.gravity", "gravity on liquids times 1 + size", "fluid/hydrostatic"},
+          {"fluid.density", "number density times 1 + size", "fluid/hydrostatic"},
+          {"fluid.paper.density", "density (4) times 1 + size", "fluid/hydrostatic"},
+          {"fluid.pressure", "corrected pressure force times 1 + size", "fluid/hydrostatic"},
+          {"fluid.paper.pressure", "pressure force (7) times 1 + size", "fluid/hydrostatic"},
+          {"fluid.core", "reach of the core of pairs times 1 + size", "fluid/hydrostatic"},
+          {"walls.pressure", "extrapolated pressure of walls times 1 - size", "fluid/hydrostatic"},
+          {"fluid.state", "scaled pressure of (9) times 1 + size", "fluid/sound-wave"},
+          {"fluid.paper.state", "pressure (9) as printed times 1 + size", "fluid/sound-wave"},
+          {"fluid.viscosity.laplacian", "laplacian viscous force times 1 + size", "fluid/poiseuille"},
+          {"fluid.paper.viscosity", "viscous force (8) times 1 + size", "fluid/poiseuille"},
+          {"walls.velocity", "part of the extrapolated velocity of walls left out", "fluid/poiseuille"},
+          {"fluid.viscosity.central", "part of the central viscous force along the velocity, not the line of centres", "fluid/liquid-ball"},
+          {"bodies.force", "forces of liquids and contact on bodies times 1 - size", "coupling/floating-block-050"},
+          {"bodies.torque", "torques of liquids and contact on bodies times 1 - size", "coupling/oblique"}};
+}
 
 }  // namespace tripoint::fluid

@@ -32,7 +32,8 @@ struct PressureCorrected {
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const double, 2> j, std::span<V, 3> sum) {
-    const V pressure = (i[0] + j[0]) * g.gradient;
+    static const double stronger = 1.0 + defect_size("fluid.pressure");
+    const V pressure = stronger * (i[0] + j[0]) * g.gradient;
     const V f = acts(i[1], j[1]) * (pressure - g.kernels.core.force_over_r(g.r));
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
@@ -47,7 +48,8 @@ struct PressurePaper {
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const double, 3> j, std::span<V, 3> sum) {
-    const V f = acts(i[2], j[2]) * (i[0] * j[0]) * (0.5 * (i[1] + j[1])) * g.kernels.spiky.derivative_over_r(g.r);
+    static const double stronger = 1.0 + defect_size("fluid.paper.pressure");
+    const V f = stronger * acts(i[2], j[2]) * (i[0] * j[0]) * (0.5 * (i[1] + j[1])) * g.kernels.spiky.derivative_over_r(g.r);
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;
@@ -74,8 +76,9 @@ struct ViscosityPaper {
   using adds = ViscousForce;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
+    static const double thicker = 1.0 + defect_size("fluid.paper.viscosity");
     const V mu = 0.5 * (i[1] + j[1]);
-    const V G = acts(i[4], j[4]) * mu * (i[0] * j[0]) * g.kernels.viscosity.laplacian(g.r);
+    const V G = thicker * acts(i[4], j[4]) * mu * (i[0] * j[0]) * g.kernels.viscosity.laplacian(g.r);
     sum[0] += G * (j[5] - i[5]);
     sum[1] += G * (j[6] - i[6]);
     sum[2] += G * (j[7] - i[7]);
@@ -89,8 +92,9 @@ struct ViscosityLaplacian {
   using adds = ViscousForce;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
+    static const double thicker = 1.0 + defect_size("fluid.viscosity.laplacian");
     const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
-    const V G = acts(i[4], j[4]) * mu * (i[0] * i[0] + j[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
+    const V G = thicker * acts(i[4], j[4]) * mu * (i[0] * i[0] + j[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
     sum[0] += G * (j[5] - i[5]);
     sum[1] += G * (j[6] - i[6]);
     sum[2] += G * (j[7] - i[7]);
@@ -104,12 +108,13 @@ struct ViscosityCentral {
   using adds = ViscousForce;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
+    static const double askew = defect_size("fluid.viscosity.central");
     const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
     const V G = acts(i[4], j[4]) * 10.0 * mu * (i[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
     const V approach = ((j[5] - i[5]) * g.dx + (j[6] - i[6]) * g.dy + (j[7] - i[7]) * g.dz) / (g.r * g.r + 1e-300);
-    sum[0] += G * approach * g.dx;
-    sum[1] += G * approach * g.dy;
-    sum[2] += G * approach * g.dz;
+    sum[0] += G * (approach * g.dx + askew * (j[5] - i[5]));
+    sum[1] += G * (approach * g.dy + askew * (j[6] - i[6]));
+    sum[2] += G * (approach * g.dz + askew * (j[7] - i[7]));
   }
 };
 

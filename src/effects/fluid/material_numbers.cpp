@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "sph/lattice.hpp"
 
@@ -35,7 +36,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.lattice_density = moments.density;
   n.gradient_moment = moments.gradient;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
-  n.core_reach = 0.9 * scene.spacing;
+  n.core_reach = 0.9 * (1.0 + defect_size("fluid.core")) * scene.spacing;
   const bool paper_walls = scene.mode_of(Term::walls) == Mode::paper;
   n.extrapolates = !paper_walls && !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   return n;
