@@ -37,13 +37,13 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
 
 std::vector<BodyForces> forces_on_bodies(const World& world) {
   std::vector<BodyForces> sums;
-  if (world.particles.has(field::force_x.name)) sum_forces(world, std::vector<char>(world.bodies.size(), 1), sums);
+  if (world.bodies.size() > 0 && world.particles.has(field::force_x.name)) sum_forces(world, std::vector<char>(world.bodies.size(), 1), sums);
   return sums;
 }
 
 void forces_on_moving_bodies(const World& world, std::vector<BodyForces>& sums) {
   sums.clear();
-  if (!world.particles.has(field::force_x.name)) return;
+  if (world.bodies.size() == 0 || !world.particles.has(field::force_x.name)) return;
   std::vector<char> asked(world.bodies.size());
   bool any = false;
   for (std::size_t b = 0; b < asked.size(); ++b) {
