@@ -128,7 +128,9 @@ TomlNode parse_toml(const std::string& text, const std::string& file) {
   check_text(text, file);
   if (!child_survives(text)) throw InputError({file, 0, 0}, "the TOML parser could not read this text and stopped: simplify its brackets and keys");
   try {
-    return convert_table(toml::parse(text), file);
+    TomlNode root = convert_table(toml::parse(text), file);
+    root.place = {file, static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1, 0};  // what the file lacks is missing at its end
+    return root;
   } catch (const toml::parse_error& error) {
     throw InputError(place_of(error.source(), file), fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists", printable(error.description(), 300)));
   } catch (const std::exception& error) {
