@@ -95,7 +95,8 @@ FrameError ledger(const FramePair& f) {
   const std::string term = f.in.choice.quantity.substr(std::string("ledger.").size());
   const auto now = term_of(f.in, f.now, term);
   if (!now) return problem("the trajectory has no ledger term `" + term + "`");
-  const auto truth = term_of(f.in, term == "residual" ? f.first : f.truth, term);
+  auto truth = term_of(f.in, term == "residual" ? f.first : f.truth, term);
+  if (!truth && term == "kinetic") truth = f.in.reference.number("kinetic_energy");  // a law of conservation knows it without particles
   if (!truth) return problem("the reference does not know the ledger term `" + term + "`: use norm = \"drift\"");
   return single(*now - *truth);
 }

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "references/liquids.hpp"
+#include "validation/references/elliptic_drop.hpp"
+#include "validation/references/plane_shear.hpp"
+
+namespace tripoint {
+namespace {
+
+using test::pi;
+
+/// The same flow by implicit finite differences (backward Euler): speeds at the middles of n cells.
+std::vector<double> differences(const ShearFlow& f, double time, int n, int steps) {
+  const double ds = f.width / n, dt = time / steps, a = f.kinematic_viscosity * dt / (ds * ds);
+  const auto count = static_cast<std::size_t>(n);
+  std::vector<double> u(count, 0.0), c(count), d(count);
+  for (int k = 0; k < steps; ++k) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool first = i == 0, last = i + 1 == count;  // walls half a cell away: twice the conductance
+      const double low = first ? 2 * a : a, high = last ? 2 * a : a, wall = (first ? low * f.low_speed : 0.0) + (last ? high * f.high_speed : 0.0);
+      const double rest = u[i] + dt * f.drive + wall, before = first ? 0.0 : low, pivot = 1 + low + high - (first ? 0.0 : before * c[i - 1]);
+      c[i] = (last ? 0.0 : high) / pivot;
+      d[i] = (rest + (first ? 0.0 : before * d[i - 1])) / pivot;
+    }
+    for (std::size_t i = count; i-- > 0;) u[i] = d[i] + (i + 1 < count ? c[i] * u[i + 1] : 0.0);
+  }
+  return u;
+}
+
+TEST(PlaneShear, IsWhatFiniteDifferencesSay) {
+  for (const ShearFlow& f : {ShearFlow{1.0, 0.01, 0.08, 0, 0}, ShearFlow{1.0, 0.01, 0.0, 0.0, 1.0}, ShearFlow{0.7, 0.02, 0.05, -0.3, 1.0}}) {
+    const auto u = differences(f, 10.0, 100, 4000);
+    for (const int i : {3, 40, 96}) EXPECT_NEAR(f.speed((i + 0.5) * f.width / 100, 10.0), u[static_cast<std::size_t>(i)], 3e-4);  // cells 1 %, steps 1/4000: both below 3e-4
+  }
+}
+
+TEST(PlaneShear, TakesTheChannelFromTheScene) {
+  const auto s = test::channel({0.08, 0, 0}, {});
+  const auto flow = make_reference(test::function("poiseuille"), s.job, s.initial);
+  EXPECT_NEAR(flow->at(1e4).velocity[4].x, 0.08 / 0.02 * 0.45 * 0.55, 1e-9);  // g s (H - s)/(2 nu), fifth layer
+  EXPECT_THROW((void)make_reference(test::function("couette"), s.job, s.initial), InputError);
+  const auto glide = test::channel({}, {2, 0, 0});
+  EXPECT_NEAR(make_reference(test::function("couette"), glide.job, glide.initial)->at(1e4).velocity[9].x, 1.9, 1e-9);
+}
+
+TEST(PlaneShear, JudgesAParticleWhereItIs) {
+  const auto s = test::channel({0.08, 0, 0}, {});
+  const auto flow = make_reference(test::function("poiseuille"), s.job, s.initial);
+  Snapshot now;
+  now.time = 1e4;
+  now.position = s.initial.position;
+  now.position[4].z = 0.25;
+  EXPECT_NEAR(flow->beside(now).velocity[4].x, 0.08 / 0.02 * 0.25 * 0.75, 1e-9);
+}
+
+TEST(Hydrostatic, IsTheIntegralOfTheWeightAbove) {
+  const auto s = test::layers(5.0);
+  const auto rest = make_reference(test::function("hydrostatic"), s.job, s.initial);
+  const auto p = rest->at(0.0).pressure;
+  for (const std::size_t i : {0u, 2u, 64u, 67u}) {
+    double weight = 0.0;
+    const int cells = 80000;
+    for (int n = 0; n < cells; ++n) {
+      const double z = 0.8 * (n + 0.5) / cells;
+      if (z > s.initial.position[i].z) weight += 9.81 * (z < 0.4 ? 1000.0 : 200.0) * 0.8 / cells;
+    }
+    EXPECT_NEAR(p[i], weight, 0.2);  // a cell of the sum: 9810 x 1e-5
+  }
+  EXPECT_NEAR(*rest->number("interface_pressure"), 200 * 9.81 * 0.4, 1e-9);
+  EXPECT_NEAR(make_reference(test::function("hydrostatic", {{"factor", 2.0}}), s.job, s.initial)->at(0.0).pressure[0], 2 * p[0], 1e-9);
+}
+
+TEST(Archimedes, IsTheBalanceOfPressureAndWeight) {
+  const auto s = test::pool(350.0);
+  const auto afloat = make_reference(test::function("archimedes"), s.job, s.initial);
+  const double lift = 1000.0 * 9.81 * *afloat->number("draught") * 0.16;  // pressure on the keel times its area
+  EXPECT_NEAR(lift, s.job.bodies[1].properties.mass * 9.81, 1e-9 * lift);
+  const auto heavy = test::pool(1200.0);
+  EXPECT_THROW((void)make_reference(test::function("archimedes"), heavy.job, heavy.initial), InputError);
+}
+
+TEST(SoundWave, SolvesTheLinearEquationsByItsOwnDifferences) {
+  const auto s = test::swinging(test::sound_start(), 20);
+  const auto wave = make_reference(test::function("sound_wave"), s.job, s.initial);
+  const double h = 1e-5, rho = 1000.0, c2 = 100.0, t = 0.03;
+  Snapshot here;
+  here.time = t, here.position = s.initial.position;
+  const auto at = [&](double dx, double dt) {
+    Snapshot now = here;
+    now.time += dt;
+    now.position[0].x = 0.13 + dx;
+    const auto truth = wave->beside(now);
+    return std::pair{truth.velocity[0].x, truth.pressure[0]};
+  };
+  const double du_dt = (at(0, h).first - at(0, -h).first) / (2 * h), dp_dx = (at(h, 0).second - at(-h, 0).second) / (2 * h);
+  const double dp_dt = (at(0, h).second - at(0, -h).second) / (2 * h), du_dx = (at(h, 0).first - at(-h, 0).first) / (2 * h);
+  EXPECT_NEAR(rho * du_dt, -dp_dx, 1e-5 * std::abs(dp_dx));  // differences of second order: (w h)^2/6
+  EXPECT_NEAR(dp_dt, -rho * c2 * du_dx, 1e-5 * std::abs(dp_dt));
+}
+
+TEST(TaylorGreen, SolvesNavierStokesByItsOwnDifferences) {
+  VelocityField v;
+  v.kind = VelocityField::Kind::taylor_green;
+  v.speed = 1.0, v.wavelength = 1.0;
+  const auto s = test::swinging(v, 20, 10.0);
+  const auto flow = make_reference(test::function("taylor_green"), s.job, s.initial);
+  const auto at = [&](double x, double y, double t) {
+    Snapshot now;
+    now.time = t, now.position = s.initial.position, now.position[0] = {x, y, 0};
+    const auto truth = flow->beside(now);
+    return std::pair{truth.velocity[0].x, std::pair{truth.velocity[0].y, truth.pressure[0]}};
+  };
+  const double x = 0.17, y = 0.31, t = 0.5, h = 1e-4, nu = 0.01;
+  const auto u = [&](double dx, double dy, double dt) { return at(x + dx, y + dy, t + dt).first; };
+  const auto p = [&](double dx) { return at(x + dx, y, t).second.second; };
+  const double w = at(x, y, t).second.first, u0 = u(0, 0, 0);
+  const double inertia = (u(0, 0, h) - u(0, 0, -h)) / (2 * h) + u0 * (u(h, 0, 0) - u(-h, 0, 0)) / (2 * h) + w * (u(0, h, 0) - u(0, -h, 0)) / (2 * h);
+  const double stress = nu * (u(h, 0, 0) + u(-h, 0, 0) + u(0, h, 0) + u(0, -h, 0) - 4 * u0) / (h * h) - (p(h) - p(-h)) / (2 * h) / 1000.0;
+  EXPECT_NEAR(inertia, stress, 1e-5);  // of terms of order 1: (k h)^2/6 and round-off over h^2
+}
+
+TEST(EllipticDrop, KeepsItsEnergyAndVolume) {
+  const double A = 100.0, R = 1.0;
+  for (const double t : {0.002, 0.0076, 0.02}) {
+    const auto s = elliptic_drop(A, R, t);
+    EXPECT_NEAR(s.rate * s.rate * (s.a * s.a + s.b * s.b), 2 * A * A * R * R, 1e-8 * A * A);  // no work is done: the surface is free
+    EXPECT_NEAR(s.a * s.b, R * R, 1e-12);
+  }
+  EXPECT_NEAR(elliptic_drop(A, R, 0.0076).b, 1.95, 0.02);  // Monaghan 1994: b = 1.95 at t = 0.0076, two digits
+}
+
+TEST(AddedMass, IsTheEnergyOfTheDipoleAroundTheSphere) {
+  double energy = 0.0;  // 1/2 rho int |u|^2 outside, u = grad of U R^3 cos/(2 r^2): |u|^2 = (R/r)^6 (cos^2 + sin^2/4)
+  const int n = 400;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double q = (i + 0.5) / n, c = -1 + 2 * (j + 0.5) / n;  // q = R/r
+      energy += 0.5 * std::pow(q, 6) * (c * c + 0.25 * (1 - c * c)) * 2 * pi / std::pow(q, 4) / n * 2 / n;
+    }
+  EXPECT_NEAR(energy / (0.5 * 4.0 / 3.0 * pi), 0.5, 1e-5);
+  auto s = test::pool(500.0);
+  s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
+  EXPECT_NEAR(*make_reference(test::function("added_mass"), s.job, s.initial)->number("acceleration"), 0.5 * 9.81, 1e-12);
+}
+
+TEST(ElasticCollision, KeepsMomentumAndEnergyOfUnequalBodies) {
+  const auto s = test::cubes();
+  const auto hit = make_reference(test::function("elastic_collision"), s.job, s.initial);
+  const auto before = hit->at(0.0).bodies, after = hit->at(0.5).bodies;
+  double momentum = 0.0, energy = 0.0;
+  for (std::size_t b = 0; b < 2; ++b) {
+    momentum += after[b].mass * (after[b].velocity.x - before[b].velocity.x);
+    energy += after[b].mass * (std::pow(after[b].velocity.x, 2) - std::pow(before[b].velocity.x, 2));
+  }
+  EXPECT_NEAR(momentum, 0.0, 1e-12);
+  EXPECT_NEAR(energy, 0.0, 1e-12);
+  EXPECT_NEAR(*hit->number("touch_time"), 0.4 / 1.5, 1e-12);
+  EXPECT_LT(after[0].velocity.x, after[1].velocity.x);
+}
+
+TEST(LiquidBall, BrakesByThePrintedFormAsItsPairSumSays) {
+  // Torque of (8) on a homogeneous ball in rigid rotation: 1/2 mu int int lapW(r) |w x r|^2 = 1/2 mu V w^2 (2/3) int lapW r^2.
+  const double h = 0.2, R = 0.5, nu = 0.005;
+  double moment = 0.0;
+  const int n = 4000;
+  for (int i = 0; i < n; ++i) {
+    const double r = h * (i + 0.5) / n;
+    moment += 4 * pi * r * r * 45.0 / (pi * std::pow(h, 6)) * (h - r) * r * r * h / n;
+  }
+  const double rate = 0.5 * nu * (2.0 / 3.0) * moment / (0.4 * R * R);
+  test::Prepared s;
+  s.job.scene.spacing = 0.1;
+  test::add_matter(s, "ball", Phase::liquid, {{4, 4, 4}, 0.1, {}, 1.0}, {}, 1000.0, 5.0);
+  s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere;
+  s.job.scene.bodies[0].shape.radius = R;
+  s.job.scene.bodies[0].angular_velocity = {0, 0, 1};
+  const auto ball = make_reference(test::function("liquid_ball", {{"form", std::string("paper")}}), s.job, s.initial);
+  EXPECT_NEAR(*ball->number("spin_rate"), rate, 1e-5 * rate);
+  EXPECT_EQ(*make_reference(test::function("liquid_ball"), s.job, s.initial)->number("spin_rate"), 0.0);
+}
+
+}  // namespace
+}  // namespace tripoint
