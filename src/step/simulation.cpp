@@ -36,7 +36,6 @@ bool is_static(const Scene& scene, const InitialState& initial) {
 /// energy that they store is an entry of its own, so that the whole closes; it falls with dt^2.
 void book_mechanical(const Booked& booked, Ledger& sum) {
   if (!sum.energy.count("compression")) return;
-  if (booked.transport_work != 0.0) sum.energy["transport"] -= booked.transport_work;
   sum.energy["viscous"] -= booked.viscous_work + booked.wall_viscous_work;
   sum.energy["walls"] += booked.wall_pressure_work + booked.wall_viscous_work - booked.extrapolated_work;
   const double compression = sum.energy["compression"] - booked.start_compression;

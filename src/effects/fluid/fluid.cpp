@@ -46,7 +46,10 @@ class Fluid : public Effect {
   void state(World&) override;
   void happen(World& world, const Happening&) override { set_groups(world); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
-  void add_to(const World& world, Ledger& ledger) const override { add_fluid(world, numbers_, kernels_, ledger); }
+  void add_to(const World& world, Ledger& ledger) const override {
+    add_fluid(world, numbers_, kernels_, ledger);
+    if (transports_) ledger.energy["transport"] -= world.booked.transport_work;
+  }
 
  private:
   enum Work : std::size_t { by_pressure, by_viscosity, by_gravity, by_wall_pressure, by_transport, works };
@@ -226,6 +229,7 @@ std::vector<DefectEntry> defects() {
           {"fluid.paper.viscosity", "viscous force (8) times 1 + size", "fluid/poiseuille"},
           {"walls.velocity", "part of the extrapolated velocity of walls left out", "fluid/poiseuille"},
           {"fluid.viscosity.central", "part of the central viscous force along the velocity, not the line of centres", "fluid/liquid-ball"},
+          {"fluid.transport_velocity", "background pressure and stress of the transport velocity times 1 - size", "fluid/taylor-green"},
           {"bodies.force", "forces of liquids and contact on bodies times 1 - size", "coupling/floating-block-050"},
           {"bodies.torque", "torques of liquids and contact on bodies times 1 - size", "coupling/oblique"}};
 }
