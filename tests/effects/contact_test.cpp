@@ -15,7 +15,7 @@ lab::Lab two_blocks(double stiffness, double speed, double offset) {
   return lab;
 }
 
-/// Notes: energy to 1.5e-4 at k = 1e3 and dt = 1e-3.
+/// Prototypes: energy to 1.5e-4 at k = 1e3 and dt = 1e-3.
 TEST(HeadOn, EqualBlocksBounceWithTheirEnergyToOneInAThousand) {
   lab::Lab lab = two_blocks(1000.0, 0.5, 0.0);
   lab.scene.time_step = 1e-3;

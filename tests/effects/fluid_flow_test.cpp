@@ -90,13 +90,12 @@ double taylor_green_error(int n, bool transport) {
   return std::sqrt(wrong / right);
 }
 
-/// Notes: 0.141 at 20, 0.095 at 40.
+/// Prototypes: 0.141 at 20, 0.095 at 40; here 0.146 and 0.079.
 TEST(TaylorGreen, DecaysWithTransportVelocityWithinFifteenPercentAtTwenty) {
   const double error = taylor_green_error(20, true);
   EXPECT_LT(error, 0.15);
   EXPECT_LT(error, 0.8 * taylor_green_error(20, false));
 }
-TEST(DISABLED_TaylorGreen, DecaysWithinTenPercentAtForty) { EXPECT_LT(taylor_green_error(40, true), 0.10); }
 
 }  // namespace
 }  // namespace tripoint

@@ -70,7 +70,7 @@ double sound_speed_squared(int n, Mode mode) {
   return c * c / stiffness;
 }
 
-/// Notes: 0.79 / 0.90 / 0.93 at 10 / 20 / 40 corrected, 0.414 / 0.460 / 0.4715 printed (half of the pressure gradient: 0.48).
+/// Prototypes: 0.79 / 0.90 / 0.93 at 10 / 20 / 40 corrected, 0.414 / 0.460 / 0.4715 printed (half of the pressure gradient: 0.48).
 TEST(Sound, TravelsAtTheRootOfTheStiffnessUpToTheLatticeFactor) {
   EXPECT_NEAR(sound_speed_squared(40, Mode::corrected), 0.93, 0.01);
   EXPECT_NEAR(sound_speed_squared(20, Mode::corrected), 0.90, 0.01);
