@@ -37,6 +37,25 @@ TEST(CosineMode, SolvesTheHeatEquationByItsOwnDifferences) {
   EXPECT_NEAR(rate / (D * curvature), 1.0, 0.01);
 }
 
+TEST(CosineCarried, IsTheStillDecaySeenFromAMovingFrame) {
+  const auto s = cosine_bar(20, true, 0.7);
+  auto moving = s;
+  moving.job.bodies[0].velocity = {0.003, 0, 0};
+  const auto still = make_reference(test::function("cosine_mode"), s.job, s.initial);
+  const auto carried = make_reference(test::function("cosine_carried"), moving.job, moving.initial);
+  const auto a = still->at(40.0), b = carried->at(40.0);
+  const double h = 1e-3, k = 2 * pi / 0.1;
+  for (const std::size_t i : {0u, 50u, 300u}) {
+    EXPECT_EQ(a.temperature[i], b.temperature[i]);
+    EXPECT_NEAR(b.position[i].x - s.initial.position[i].x, 0.12, 1e-12);
+    // dT/dt + U dT/dx = D d2T/dx2 of the field at a fixed place, by differences in time: (D k^2 h)^2 and round-off below 1e-7.
+    const auto field = [&](double x, double t) { return 300.0 + 10.0 * std::exp(-D * k * k * t) * std::cos(k * (x - 0.003 * t) + 0.7); };
+    EXPECT_NEAR(field(b.position[i].x, 40.0), b.temperature[i], 1e-9);
+    const double x = b.position[i].x, rate = (field(x, 40 + h) - field(x, 40 - h)) / (2 * h), slope = (field(x + 1e-6, 40) - field(x - 1e-6, 40)) / 2e-6;
+    EXPECT_NEAR(rate + 0.003 * slope, -D * k * k * (b.temperature[i] - 300.0), 1e-6);
+  }
+}
+
 TEST(CosineMode, RefusesAWaveThatDoesNotFit) {
   EXPECT_NO_THROW((void)make_reference(test::function("cosine_mode"), cosine_bar(20, false, 0.0).job, cosine_bar(20, false, 0.0).initial));
   const auto sloped = cosine_bar(20, false, 0.7);
