@@ -169,7 +169,6 @@ CaseReading read_case(const std::string& path, const std::vector<std::string>& s
   std::error_code error;
   reading.folder = std::filesystem::absolute(path, error).parent_path().string();
   TomlNode document = read_toml(path);
-  document.place = {path, 0, 0};
   for (const auto& s : set) apply_override(document, s);
 
   CaseReading out;
