@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "validation/harness/results.hpp"
+#include "validation/references/reference.hpp"
 
 namespace tripoint {
 namespace {
@@ -97,10 +99,19 @@ Json json(const EngineRow& e) {
           {"runs", runs}, {"order", order}, {"gates", gates}};
 }
 
+/// The case's own words, or those of the reference function.
+std::string source_of(const ReferenceChoice& r) {
+  if (!r.source.empty()) return r.source;
+  const auto& all = reference_functions();
+  const std::string& name = r.function.empty() ? r.kind : r.function;
+  const auto f = std::find_if(all.begin(), all.end(), [&](const ReferenceFunction& g) { return g.name == name; });
+  return f == all.end() ? "" : f->source;
+}
+
 Json json(const ReferenceChoice& r) {
   Json args = Json::object();
   for (const auto& [key, value] : r.args) args[key] = json(value);
-  return {{"kind", r.kind}, {"function", r.function}, {"file", r.file}, {"source", r.source}, {"args", args}, {"uncertainty", r.uncertainty}};
+  return {{"kind", r.kind}, {"function", r.function}, {"file", r.file}, {"source", source_of(r)}, {"args", args}, {"uncertainty", r.uncertainty}};
 }
 
 Json json(const Study& s) {
