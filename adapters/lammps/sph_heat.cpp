@@ -12,6 +12,7 @@
 namespace tripoint::lammps {
 namespace {
 
+constexpr double default_support = 3.0;  // [spacings]
 constexpr double diffusion_number = 0.1;  ///< D dt / dx2; explicit, and first order in time
 
 class SphHeat final : public Model {
@@ -45,6 +46,8 @@ class SphHeat final : public Model {
  private:
   [[nodiscard]] double scaled_diffusivity(const Body& b) const { return diffusivity(job_.scene, b) / (job_.scene.spacing * job_.scene.spacing); }
 
+  [[nodiscard]] double cutoff() const { return choice_.cutoff.value_or(default_support); }
+
   /// Periodic directions take the scene's domain; elsewhere the box is wide and particle ends insulate by themselves.
   void make_box() {
     const Scene& scene = job_.scene;
@@ -53,7 +56,7 @@ class SphHeat final : public Model {
       for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], x[k]), hi[k] = std::max(hi[k], x[k]);
     std::string edges;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double margin = choice_.cutoff * scene.spacing;
+      const double margin = cutoff() * scene.spacing;
       const double from = scene.periodic[k] && scene.min ? (*scene.min)[k] : lo[k] - margin, to = scene.periodic[k] && scene.max ? (*scene.max)[k] : hi[k] + margin;
       origin_[k] = from;
       edges += fmt::format(" 0 {:.17g}", (to - from) / scene.spacing);
@@ -84,7 +87,7 @@ class SphHeat final : public Model {
     for (std::size_t a = 0; a < bodies.size(); ++a) {
       for (std::size_t b = a; b < bodies.size(); ++b) {
         const double D_a = scaled_diffusivity(bodies[a]), D_b = scaled_diffusivity(bodies[b]);
-        library_.run(fmt::format("pair_coeff {} {} {:.17g} {:.17g}", a + 1, b + 1, 2.0 * D_a * D_b / (D_a + D_b), choice_.cutoff));
+        library_.run(fmt::format("pair_coeff {} {} {:.17g} {:.17g}", a + 1, b + 1, 2.0 * D_a * D_b / (D_a + D_b), cutoff()));
       }
       if (!bodies[a].temperature_held) live += fmt::format(" {}", a + 1);
     }

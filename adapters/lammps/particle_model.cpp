@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "adapters/lammps/particle_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tripoint::lammps {
+
+double particle_mass(const InitialState& state, int source, const std::string& name) {
+  double mass = 0.0;
+  for (std::size_t i = 0; i < state.size(); ++i) {
+    if (state.source[i] != source) continue;
+    if (mass > 0.0 && std::abs(state.mass[i] - mass) > 1e-12 * mass) throw EngineError(fmt::format("the particles of {} differ in mass, and a LAMMPS type has one mass", name));
+    mass = state.mass[i];
+  }
+  return mass;
+}
+
+ParticleModel::ParticleModel(const Job& job, const InitialState& state, const Units& units, double limit)
+    : job_(job), state_(state), choice_(choice_for(job)), units_(units), limit_(wanted_time_step(job).value_or(limit)), library_(job.output + "/log.lammps"), time_(job.times.front()) {
+  units_.origin = job.scene.min.value_or(state.position.front());
+}
+
+void ParticleModel::make_particles(const std::string& style, const std::string& extra, double margin) {
+  const Scene& scene = job_.scene;
+  Vec3 lo = units_.place(state_.position.front()), hi = lo;
+  for (const Vec3& x : state_.position)
+    for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], units_.place(x)[k]), hi[k] = std::max(hi[k], units_.place(x)[k]);
+  std::string edges, letters;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool wraps = scene.periodic[k] && scene.min && scene.max;
+    edges += fmt::format(" {:.17g} {:.17g}", wraps ? units_.place(*scene.min)[k] : lo[k] - margin, wraps ? units_.place(*scene.max)[k] : hi[k] + margin);
+    letters += wraps ? " p" : " m";  // shrink-wrapped from no less than this box: a single layer is no flat box
+  }
+  library_.run("units lj\n" + style + "\natom_modify map array sort 0 0.0\nboundary" + letters + "\n");
+  library_.run(fmt::format("region box block{}\ncreate_box {} box{}\n", edges, job_.bodies.size(), extra));
+  std::vector<int> type;
+  std::vector<Vec3> position, velocity;
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    const bool held = job_.bodies[static_cast<std::size_t>(state_.source[i])].motion == Motion::fixed;
+    type.push_back(state_.source[i] + 1);
+    position.push_back(units_.place(state_.position[i]));
+    velocity.push_back(held ? Vec3{} : state_.velocity[i] / units_.speed());
+  }
+  library_.create_atoms(type, position, velocity);
+}
+
+std::vector<std::size_t> ParticleModel::members(std::size_t body) const {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < state_.size(); ++i)
+    if (state_.source[i] == static_cast<int>(body)) rows.push_back(i);
+  return rows;
+}
+
+void ParticleModel::make_gravity() {
+  const std::string free = types_where([](const JobBody& b) { return b.motion == Motion::free; });
+  if (free.empty()) throw EngineError("every body of the scene is held");
+  library_.run("group free type" + free);
+  const Vec3 g = job_.scene.gravity / units_.acceleration();
+  if (norm(g) == 0.0) return;
+  library_.run(fmt::format("fix weight free gravity {:.17g} vector {:.17g} {:.17g} {:.17g}", norm(g), g.x, g.y, g.z));
+  library_.run("pair_style zero 1.0 nocoeff\npair_coeff * *\nrun 0 post no");
+  const auto force = library_.vectors("f");
+  const auto first = std::find_if(job_.bodies.begin(), job_.bodies.end(), [](const JobBody& b) { return b.motion == Motion::free; });
+  const std::size_t row = members(static_cast<std::size_t>(first - job_.bodies.begin())).front();
+  gravity_ = (units_.mass * units_.acceleration() / state_.mass[row]) * force[row];
+}
+
+void ParticleModel::advance_to(double time) {
+  clock_.run(library_, steps_in((time - time_) / units_.time, limit_ / units_.time));
+  time_ = time;
+  const std::vector<Vec3> x = library_.vectors("x");
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (!finite(x[i])) throw Diverged(static_cast<long>(i), -1, "position", "run", time, "the position is not finite");
+}
+
+Readback ParticleModel::readback() const {
+  Readback back;
+  back.gravity = gravity_;
+  back.time_step = job_.times.size() > 1 ? steps_in(job_.times[1] - job_.times[0], limit_).size : limit_;
+  return back;
+}
+
+Snapshot ParticleModel::particles() const {
+  Snapshot s;
+  s.time = time_;
+  s.step = clock_.total();
+  s.position = library_.vectors("x");
+  s.velocity = library_.vectors("v");
+  s.phase = state_.phase, s.body = state_.body, s.material = state_.material, s.mass = state_.mass;
+  s.energy["kinetic"] = s.energy["potential"] = 0.0;
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    s.position[i] = units_.origin + units_.length * s.position[i];
+    s.velocity[i] = units_.speed() * s.velocity[i];
+    s.id.push_back(static_cast<int>(i));
+    s.total_mass += s.mass[i];
+    s.momentum += s.mass[i] * s.velocity[i];
+    s.angular_momentum += s.mass[i] * cross(s.position[i], s.velocity[i]);
+    s.energy["kinetic"] += 0.5 * s.mass[i] * dot(s.velocity[i], s.velocity[i]);
+    if (job_.bodies[static_cast<std::size_t>(state_.source[i])].motion == Motion::free) s.energy["potential"] -= s.mass[i] * dot(job_.scene.gravity, s.position[i]);
+  }
+  return s;
+}
+
+}  // namespace tripoint::lammps

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#pragma once
+#include <string>
+#include <vector>
+
+#include "adapters/lammps/model.hpp"
+
+namespace tripoint::lammps {
+
+/// Units in which LAMMPS holds a scene: lengths from an origin in spacings, and a time and a mass that make its own numbers of
+/// order one, because some of its tolerances are absolute.
+struct Units {
+  double length = 1.0, time = 1.0, mass = 1.0;  ///< [m], [s], [kg]
+  Vec3 origin;                                  ///< [m]
+  [[nodiscard]] Vec3 place(const Vec3& x) const { return (x - origin) / length; }
+  [[nodiscard]] double speed() const { return length / time; }                       ///< [m/s]
+  [[nodiscard]] double acceleration() const { return length / (time * time); }       ///< [m/s2]
+  [[nodiscard]] double density() const { return mass / (length * length * length); } ///< [kg/m3]
+  [[nodiscard]] double pressure() const { return density() * speed() * speed(); }    ///< [Pa]
+  [[nodiscard]] double energy() const { return mass * speed() * speed(); }           ///< [J]
+};
+
+/// Mass of every particle of a body of the case. @throws EngineError where they differ: a LAMMPS type has one mass [kg]
+[[nodiscard]] double particle_mass(const InitialState&, int source, const std::string& name);
+
+/// The job's own particles under a style of LAMMPS; a type a body of the case, type = row of [[body]] + 1.
+/// Directions that are not periodic end where the particles end: nothing holds them but what the scene says.
+class ParticleModel : public Model {
+ public:
+  void advance_to(double time) override;
+  [[nodiscard]] Readback readback() const override;
+
+ protected:
+  /// @param limit greatest step [s]
+  ParticleModel(const Job&, const InitialState&, const Units&, double limit);
+  /// Everything up to the particles. @param style atom_style with what has to stand before the box
+  /// @param extra of create_box, e.g. bonds @param margin about the particles at the start [spacings]
+  void make_particles(const std::string& style, const std::string& extra, double margin);
+  /// Gravity on the bodies that are free, measured on them with no pair style: before any other force. Defines the group `free`.
+  void make_gravity();
+  /// " 1 3" for the bodies (types) that satisfy a condition; empty for none.
+  template <class Condition>
+  [[nodiscard]] std::string types_where(Condition condition) const {
+    std::string types;
+    for (std::size_t b = 0; b < job_.bodies.size(); ++b)
+      if (condition(job_.bodies[b])) types += " " + std::to_string(b + 1);
+    return types;
+  }
+  /// Particles of one body of the case.
+  [[nodiscard]] std::vector<std::size_t> members(std::size_t body) const;
+  /// Positions, velocities and what follows from them; phases, bodies and materials as at the start; no bodies' rows.
+  [[nodiscard]] Snapshot particles() const;
+
+  Job job_;
+  InitialState state_;
+  Choice choice_;
+  Units units_;
+  double limit_;  ///< [s]
+  mutable Library library_;
+  Clock clock_;
+  double time_;  ///< [s]
+  Vec3 gravity_;  ///< as LAMMPS holds it [m/s2]
+};
+
+}  // namespace tripoint::lammps
