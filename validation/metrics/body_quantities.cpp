@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "validation/metrics/frame_error.hpp"
+#include "validation/metrics/members.hpp"
 
 namespace tripoint {
 namespace {
@@ -35,7 +35,7 @@ FrameError over_bodies(const FramePair& f, F difference) {
 double alive_count(const Snapshot& s) { return static_cast<double>(std::count_if(s.bodies.begin(), s.bodies.end(), alive)); }
 
 FrameError body_count(const FramePair& f) {
-  if (f.truth.bodies.empty()) return problem("the reference does not know the bodies");
+  if (f.truth.bodies.empty()) return against_truth(f, "body_count", alive_count(f.now));
   return single(alive_count(f.now) - alive_count(f.truth));
 }
 
@@ -68,7 +68,8 @@ FrameError shape(const FramePair& f) {
   FrameError out;
   for (std::size_t b = 0; b < f.in.job.bodies.size(); ++b) {
     const auto& body = f.in.job.bodies[b];
-    if (body.phase != Phase::rigid || (!f.in.choice.body.empty() && f.in.choice.body != body.name)) continue;
+    const bool meant = f.in.choice.body.empty() ? body.phase == Phase::rigid : body.phase != Phase::liquid && f.in.choice.body == body.name;
+    if (!meant) continue;
     std::vector<std::size_t> members;
     for (std::size_t i = 0; i < f.in.initial.size(); ++i)
       if (f.in.initial.source[i] == static_cast<int>(b)) members.push_back(i);
@@ -93,8 +94,8 @@ const std::vector<Quantity>& body_quantities() {
        [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.force - b.force); }); }},
       {{"torque", "N m", "difference of the torques on bodies from all others"},
        [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.torque - b.torque); }); }},
-      {{"body_count", "1", "difference in the number of solid bodies alive"}, body_count},
-      {{"shape", "1", "largest relative change of distances inside a rigid body since the start; needs no reference"}, shape}};
+      {{"body_count", "1", "difference in the number of solid bodies alive, or from the stated value"}, body_count},
+      {{"shape", "1", "largest relative change of distances inside a rigid body, or an elastic one that is named, since the start; needs no reference"}, shape}};
   return list;
 }
 

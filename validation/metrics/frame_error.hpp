@@ -56,6 +56,9 @@ struct Quantity {
 [[nodiscard]] const std::vector<Quantity>& conserved_quantities();
 [[nodiscard]] const std::vector<Quantity>& profile_quantities();
 [[nodiscard]] const std::vector<Quantity>& liquid_quantities();
+[[nodiscard]] const std::vector<Quantity>& solid_quantities();
+[[nodiscard]] const std::vector<Quantity>& contact_quantities();
+[[nodiscard]] const std::vector<Quantity>& phase_quantities();
 
 /// A quantity that needs the whole run: decay_rate, event_time, event_count. The value is signed, run minus truth, in SI.
 struct RunQuantity {
@@ -64,6 +67,8 @@ struct RunQuantity {
 };
 [[nodiscard]] const std::vector<RunQuantity>& run_quantities();
 [[nodiscard]] const std::vector<RunQuantity>& motion_quantities();
+[[nodiscard]] const std::vector<RunQuantity>& solid_run_quantities();
+[[nodiscard]] const std::vector<RunQuantity>& phase_run_quantities();
 
 /// r - r0 by the nearest image in periodic directions [m].
 [[nodiscard]] Vec3 displacement(const Scene&, const Vec3& r, const Vec3& r0);

@@ -139,7 +139,9 @@ MetricValue count_change_time(const Frames& frames, double truth) {
 }
 
 MetricValue event_time(const MetricInput& in, const Frames& frames) {
-  const auto truth = in.reference.number("event_time"), row = in.reference.number("flip_body");
+  auto truth = in.reference.number("event_time");
+  const auto row = in.reference.number("flip_body");
+  if (!truth) truth = in.reference.number("value");
   if (!truth) return unformed("the reference does not know the time of an event");
   if (!row) return count_change_time(frames, *truth);
   std::vector<double> times;

@@ -22,6 +22,8 @@ class Reference {
   [[nodiscard]] virtual Snapshot beside(const Snapshot& now) const { return at(now.time); }
   /// A number it knows by name: decay_rate [1/s], event_time [s], energy_ratio ...; empty when it does not.
   [[nodiscard]] virtual std::optional<double> number(std::string_view quantity) const { (void)quantity; return {}; }
+  /// A number that changes in time: stretch, front_position ...; one that does not is the same at all times.
+  [[nodiscard]] virtual std::optional<double> number_at(std::string_view quantity, double time) const { (void)time; return number(quantity); }
 };
 
 /// One argument of a reference function, for the schema and the reference page.

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "metrics/frames.hpp"
+
+namespace tripoint {
+namespace {
+
+using test::metric;
+using test::Still;
+
+TEST(PhaseMetrics, CountAndWeighTheStatedPhase) {
+  Still f(test::blocks());
+  auto& last = f.run.frames.back();
+  for (std::size_t i = 0; i < 5; ++i) last.phase[i] = 0;
+  last.phase[5] = 2;
+  const auto of = [](const char* phase, double value) { return Settings{{"phase", std::string(phase)}, {"value", value}}; };
+  EXPECT_EQ(f.stated(metric("phase_count", "final"), of("liquid", 8.0)), 5.0);
+  EXPECT_EQ(f.stated(metric("phase_count", "final", "left"), of("elastic", 58.0)), 0.0);
+  EXPECT_EQ(f.stated(metric("phase_count", "final"), of("solid", 123.0)), 0.0);
+  EXPECT_NEAR(f.stated(metric("mass_of_phase", "final", "left"), of("liquid", 4.0)), 1.0, 1e-12);  // 1 kg a particle
+  last.id[0] = -1;
+  EXPECT_NEAR(f.stated(metric("mass_of_phase", "final", "left"), of("liquid", 4.0)), 0.0, 1e-12);
+  EXPECT_THROW((void)f.stated(metric("phase_count", "final"), of("gas", 0.0)), InputError);
+}
+
+TEST(PhaseMetrics, WeighWhatIsInABoxOrOutsideIt) {
+  Still f(test::blocks());
+  const Settings box{{"min", std::vector<double>{0, 0, 0}}, {"max", std::vector<double>{0.4, 0.4, 0.2}}, {"value", 0.0}};
+  EXPECT_NEAR(f.stated(metric("mass_in_region", "final"), box), 32.0, 1e-12);
+  EXPECT_NEAR(f.stated(metric("mass_in_region", "final", "left"), box), 0.0, 1e-12);
+  auto rest = box;
+  rest["outside"] = true, rest["phase"] = std::string("liquid");
+  EXPECT_NEAR(f.stated(metric("mass_in_region", "final"), rest), 8.0, 1e-12);
+  EXPECT_TRUE(std::isnan(f.stated(metric("mass_in_region", "final"), {{"value", 0.0}})));
+}
+
+TEST(PhaseMetrics, LetABoxMoveAndTurnWithABody) {
+  Still f(test::blocks());
+  auto& last = f.run.frames.back();
+  const Quaternion turn = from_rotation_vector({0, 0.5 * std::numbers::pi, 0});
+  last.bodies[0].position += Vec3{3, 0, 1};
+  last.bodies[0].orientation = turn;
+  for (std::size_t i = 0; i < last.position.size(); ++i)
+    if (f.s.initial.source[i] == 0) last.position[i] = last.bodies[0].position + rotate(turn, f.s.initial.position[i] - f.s.job.bodies[0].properties.centre);
+  Settings lower{{"min", std::vector<double>{-0.4, 0, 0}}, {"max", std::vector<double>{0, 0.4, 0.2}}, {"value", 32.0}, {"follows", true}};
+  EXPECT_NEAR(f.stated(metric("mass_in_region", "final", "left"), lower), 0.0, 1e-12);
+  lower["follows"] = false;
+  EXPECT_NEAR(f.stated(metric("mass_in_region", "final", "left"), lower), -32.0, 1e-12);
+}
+
+TEST(PhaseMetrics, CountOnlyWhatTurnsBack) {
+  Still f(test::blocks());
+  EXPECT_EQ(f.stated(metric("toggles", "final")), 0.0);
+  for (std::size_t n = 2; n < 5; ++n) f.run.frames[n].phase[3] = 0;  // melts once
+  EXPECT_EQ(f.stated(metric("toggles", "final")), 0.0);
+  f.run.frames[3].phase[3] = 2;  // freezes to another solid, and melts again
+  EXPECT_EQ(f.stated(metric("toggles", "final")), 2.0);
+  EXPECT_EQ(f.stated(metric("toggles", "final", "right")), 0.0);
+}
+
+}  // namespace
+}  // namespace tripoint

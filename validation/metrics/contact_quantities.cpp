@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "validation/metrics/members.hpp"
+#include "validation/metrics/near_pairs.hpp"
+
+namespace tripoint {
+namespace {
+
+std::string no_solids(const FramePair& f) {
+  const auto n = f.now.position.size();
+  if (n < f.in.initial.size() || n == 0) return "the trajectory has no positions of all particles";
+  if (f.now.phase.size() != n || f.now.body.size() != n) return "the trajectory has no phases and bodies of all particles";
+  return {};
+}
+
+// --- depth of one body in another -----------------------------------------------------------------------------------------
+
+/// The particles of another body within two spacings, seen from one particle.
+struct Facing {
+  Vec3 inward;              // sum of the unit vectors to them
+  std::vector<Vec3> place;  // from the particle [m]
+};
+
+/// Before the other body's outer layer: 1 - least distance / spacing, 0 at one spacing. Past it: 1 + how far past, which no distance shows.
+/// The outer layer is the highest along the line out of the other body; within 0.8 spacings of that line a lattice always has a particle.
+double depth(const Facing& other, double dx) {
+  const double length = norm(other.inward);
+  if (length == 0.0) return 3.0;  // deep inside, no way out to be seen: two spacings and the one before the layer
+  const Vec3 out = (-1.0 / length) * other.inward;
+  double highest = -2.0 * dx, nearest = 2.0 * dx;
+  for (const auto& d : other.place) {
+    const double height = dot(d, out);
+    if (norm(d - height * out) <= 0.8 * dx) highest = std::max(highest, height);
+    nearest = std::min(nearest, norm(d));
+  }
+  return highest > 0.0 ? 1.0 + highest / dx : 1.0 - nearest / dx;
+}
+
+FrameError overlap(const FramePair& f) {
+  if (auto why = no_solids(f); !why.empty()) return problem(why);
+  const double dx = f.in.job.scene.spacing;
+  std::vector<std::size_t> solids;
+  for (std::size_t i = 0; i < f.now.position.size(); ++i)
+    if (is_alive(f.now, i) && f.now.phase[i] != 0 && f.now.body[i] >= 0) solids.push_back(i);
+  std::map<std::pair<std::size_t, int>, Facing> facing;
+  for_near_pairs(f.in.job.scene, f.now.position, solids, 2.0 * dx, [&](std::size_t i, std::size_t j, const Vec3& d) {
+    if (f.now.body[i] == f.now.body[j] || (!takes(f.in, i) && !takes(f.in, j))) return;
+    auto& other = facing[{i, f.now.body[j]}];
+    other.place.push_back(d);
+    if (norm(d) > 0.0) other.inward += (1.0 / norm(d)) * d;
+  });
+  double deepest = 0.0;
+  for (const auto& [who, other] : facing) deepest = std::max(deepest, depth(other, dx));
+  return single(deepest - f.in.reference.number("value").value_or(0.0));
+}
+
+// --- two bodies -----------------------------------------------------------------------------------------------------------
+
+std::pair<RigidBody, RigidBody> both(const FramePair& f) {
+  return {motion_of(f.in, f.now, sampled(f.in, job_body(f.in))), motion_of(f.in, f.now, sampled(f.in, other_body(f.in)))};
+}
+
+FrameError separation(const FramePair& f) {
+  if (auto why = no_solids(f); !why.empty()) return problem(why);
+  const auto [a, b] = both(f);
+  return against_truth(f, "separation", norm(displacement(f.in.job.scene, b.centre, a.centre)));
+}
+
+FrameError relative_motion(const FramePair& f) {
+  if (auto why = no_solids(f); !why.empty()) return problem(why);
+  const auto [a, b] = both(f);
+  const Vec3 carried = a.velocity + cross(a.angular_velocity, displacement(f.in.job.scene, b.centre, a.centre));
+  return single(norm(b.velocity - carried) - f.in.reference.number("value").value_or(0.0));
+}
+
+// --- objects --------------------------------------------------------------------------------------------------------------
+
+std::size_t root(std::vector<std::size_t>& parent, std::size_t i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+FrameError object_count(const FramePair& f) {
+  if (auto why = no_solids(f); !why.empty()) return problem(why);
+  std::vector<std::size_t> parent(f.now.position.size()), members;
+  std::iota(parent.begin(), parent.end(), std::size_t{0});
+  const bool any_phase = f.in.reference.number("phase").has_value();
+  for (std::size_t i = 0; i < parent.size(); ++i)
+    if (is_alive(f.now, i) && takes(f.in, i) && (any_phase ? of_stated_phase(f.in, f.now, i) : f.now.phase[i] != 0)) members.push_back(i);
+  const double reach = f.in.job.scene.merge_distance * f.in.job.scene.spacing;
+  for_near_pairs(f.in.job.scene, f.now.position, members, reach, [&](std::size_t i, std::size_t j, const Vec3&) {
+    const auto a = root(parent, i), b = root(parent, j);
+    parent[std::max(a, b)] = std::min(a, b);
+  });
+  const auto count = std::count_if(members.begin(), members.end(), [&](std::size_t i) { return root(parent, i) == i; });
+  return against_truth(f, "object_count", static_cast<double>(count));
+}
+
+}  // namespace
+
+const std::vector<Quantity>& contact_quantities() {
+  static const std::vector<Quantity> list{
+      {{"overlap", "spacings", "largest depth of a solid particle in another body: 1 - least distance / spacing before its outer layer, over 1 (at most 3) past it"}, overlap},
+      {{"separation", "m", "distance of the centres of the metric's and the other body, of their particles as sampled, minus the stated value"}, separation},
+      {{"relative_motion", "m/s", "speed of the other body's centre seen from the metric's body, |v_b - v_a - w_a x (r_b - r_a)|: 0 when they move as one"}, relative_motion},
+      {{"object_count", "1", "clusters of solid particles (of the stated phase) nearer than merge_distance, minus the stated value; touching bodies count as one"}, object_count}};
+  return list;
+}
+
+}  // namespace tripoint

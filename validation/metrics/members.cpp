@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/metrics/members.hpp"
+
+namespace tripoint {
+
+std::optional<double> truth_of(const MetricInput& in, const char* quantity, double time) {
+  const auto named = in.reference.number_at(quantity, time);
+  return named ? named : in.reference.number("value");
+}
+
+FrameError against_truth(const FramePair& f, const char* quantity, double measured) {
+  const auto truth = truth_of(f.in, quantity, f.now.time);
+  if (!truth) return problem(std::string("the reference does not know the ") + quantity + " and states no value");
+  return single(measured - *truth);
+}
+
+bool is_alive(const Snapshot& s, std::size_t i) { return i >= s.id.size() || s.id[i] != -1; }
+
+bool of_stated_phase(const MetricInput& in, const Snapshot& s, std::size_t i) {
+  const auto phase = in.reference.number("phase");
+  if (!phase) return true;
+  return *phase == 3.0 ? s.phase[i] != 0 : s.phase[i] == static_cast<int>(*phase);
+}
+
+double particle_mass(const MetricInput& in, const Snapshot& s, std::size_t i) {
+  if (i < s.mass.size()) return s.mass[i];
+  return i < in.initial.size() ? in.initial.mass[i] : not_a_number;
+}
+
+std::vector<std::size_t> sampled(const MetricInput& in, std::size_t body) {
+  std::vector<std::size_t> list;
+  for (std::size_t i = 0; i < in.initial.size(); ++i)
+    if (in.initial.source[i] == static_cast<int>(body)) list.push_back(i);
+  return list;
+}
+
+std::size_t job_body(const MetricInput& in) {
+  for (std::size_t b = 0; b < in.job.bodies.size(); ++b)
+    if (in.job.bodies[b].name == in.choice.body) return b;
+  throw InputError(in.choice.place, "metric `" + in.choice.name + "` must name its body");
+}
+
+std::size_t other_body(const MetricInput& in) {
+  const auto other = in.reference.number("other");
+  if (!other) throw InputError(in.choice.place, "metric `" + in.choice.name + "` needs a second body: reference = {function = \"stated\", args = {other = \"NAME\"}}");
+  return static_cast<std::size_t>(*other);
+}
+
+RigidBody motion_of(const MetricInput& in, const Snapshot& s, const std::vector<std::size_t>& members) {
+  std::vector<std::size_t> alive, rows;
+  std::vector<Vec3> position, velocity;
+  std::vector<double> mass;
+  for (const auto i : members)
+    if (is_alive(s, i)) alive.push_back(i);
+  if (alive.empty()) throw InputError(in.choice.place, "metric `" + in.choice.name + "`: its body has no particles left");
+  const Vec3 first = s.position[alive.front()];
+  for (const auto i : alive) {
+    rows.push_back(rows.size());
+    position.push_back(first + displacement(in.job.scene, s.position[i], first));
+    velocity.push_back(s.velocity[i]);
+    mass.push_back(particle_mass(in, s, i));
+  }
+  return rigid_body(rows, position, velocity, mass);
+}
+
+}  // namespace tripoint

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "validation/metrics/frames.hpp"
+#include "validation/metrics/members.hpp"
+
+namespace tripoint {
+namespace {
+
+std::string no_phases(const Snapshot& s) { return s.phase.size() < s.position.size() || s.phase.empty() ? "the trajectory has no phases" : ""; }
+
+template <class Keep>
+double mass_where(const FramePair& f, Keep keep) {
+  long double sum = 0;
+  for (std::size_t i = 0; i < f.now.phase.size(); ++i)
+    if (is_alive(f.now, i) && of_stated_phase(f.in, f.now, i) && keep(i)) sum += particle_mass(f.in, f.now, i);
+  return double(sum);
+}
+
+FrameError mass_of_phase(const FramePair& f) {
+  if (auto why = no_phases(f.now); !why.empty()) return problem(why);
+  return against_truth(f, "mass_of_phase", mass_where(f, [&](std::size_t i) { return takes(f.in, i); }));
+}
+
+// --- mass in a box --------------------------------------------------------------------------------------------------------
+
+/// A box at rest, or one that moves and turns with a body from where that body began.
+struct Box {
+  Vec3 low, high;
+  const BodyState* body = nullptr;  // it follows
+  Vec3 start;                       // that body's first centre
+  [[nodiscard]] bool holds(const Vec3& place) const {
+    const Vec3 r = body ? start + rotate_back(body->orientation, place - body->position) : place;
+    return r.x >= low.x && r.y >= low.y && r.z >= low.z && r.x <= high.x && r.y <= high.y && r.z <= high.z;
+  }
+};
+
+/// What hinders, or an empty text.
+std::string box_of(const FramePair& f, Box& box) {
+  const char* low[] = {"low.x", "low.y", "low.z"};
+  const char* high[] = {"high.x", "high.y", "high.z"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto a = f.in.reference.number(low[k]), b = f.in.reference.number(high[k]);
+    if (!a || !b) return "mass_in_region needs a box: reference = {function = \"stated\", args = {min = [...], max = [...]}}";
+    box.low[k] = *a, box.high[k] = *b;
+  }
+  if (f.in.reference.number("follows").value_or(0.0) == 0.0) return {};
+  const long row = body_row(f.in);
+  if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size() || !finite(f.now.bodies[static_cast<std::size_t>(row)].position)) return "the box follows a solid body that the metric must name, and that must live";
+  box.body = &f.now.bodies[static_cast<std::size_t>(row)];
+  box.start = f.in.job.bodies[job_body(f.in)].properties.centre;
+  return {};
+}
+
+FrameError mass_in_region(const FramePair& f) {
+  Box box;
+  if (auto why = no_phases(f.now); !why.empty()) return problem(why);
+  if (auto why = box_of(f, box); !why.empty()) return problem(why);
+  const bool outside = f.in.reference.number("outside").value_or(0.0) != 0.0;
+  return against_truth(f, "mass_in_region", mass_where(f, [&](std::size_t i) { return (box.body || takes(f.in, i)) && box.holds(f.now.position[i]) != outside; }));
+}
+
+// --- a front --------------------------------------------------------------------------------------------------------------
+
+/// Volume that has changed phase over the bar's cross-section: finer than a particle where it holds a liquid fraction.
+std::string front(const FramePair& f, double& place, double& truth) {
+  const auto bar = f.in.reference.number("bar"), area = f.in.reference.number("area"), melts = f.in.reference.number("melts"), exact = f.in.reference.number_at("front_position", f.now.time);
+  if (!bar || !area || !melts || !exact) return "the reference knows no front";
+  if (auto why = no_phases(f.now); !why.empty() && f.now.liquid_fraction.empty()) return why;
+  long double volume = 0;
+  for (const auto i : sampled(f.in, static_cast<std::size_t>(*bar))) {
+    const double liquid = i < f.now.liquid_fraction.size() ? f.now.liquid_fraction[i] : f.now.phase[i] == 0 ? 1.0 : 0.0;
+    volume += static_cast<long double>(rest_volume(f.in, i)) * (*melts > 0.0 ? liquid : 1.0 - liquid);
+  }
+  place = double(volume) / *area, truth = *exact;
+  return {};
+}
+
+FrameError front_position(const FramePair& f) {
+  double place = 0.0, truth = 0.0;
+  if (auto why = front(f, place, truth); !why.empty()) return problem(why);
+  return single(place - truth);
+}
+
+FrameError front_ratio(const FramePair& f) {
+  double place = 0.0, truth = 0.0;
+  if (auto why = front(f, place, truth); !why.empty()) return problem(why);
+  return truth > 0.0 ? single(place / truth - 1.0) : problem("the front has not started: choose a window or `at` after the start");
+}
+
+// --- back and forth -------------------------------------------------------------------------------------------------------
+
+/// Changes between liquid and solid beyond a particle's first one, the most of any particle.
+MetricValue toggles(const MetricInput& in, const Frames& frames) {
+  std::vector<long> changes(in.initial.size(), 0);
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    if (frames[n]->phase.size() < in.initial.size()) return not_formed("the trajectory has no phases");
+    for (std::size_t i = 0; n > 0 && i < changes.size(); ++i)
+      changes[i] += takes(in, i) && (frames[n]->phase[i] == 0) != (frames[n - 1]->phase[i] == 0) ? 1 : 0;
+  }
+  const auto worst = std::max_element(changes.begin(), changes.end());
+  MetricValue v;
+  v.value = static_cast<double>(std::max(0L, *worst - 1)) - in.reference.number("value").value_or(0.0);
+  v.note = "particle " + std::to_string(worst - changes.begin()) + " changed " + std::to_string(*worst) + " times, seen at output times";
+  return v;
+}
+
+}  // namespace
+
+const std::vector<Quantity>& phase_quantities() {
+  static const std::vector<Quantity> list{
+      {{"mass_of_phase", "kg", "mass of the particles of the stated phase minus the stated value"}, mass_of_phase},
+      {{"mass_in_region", "kg", "mass (of the stated phase) in the stated box, or outside it, minus the stated value"}, mass_in_region},
+      {{"front_position", "m", "volume that has melted (frozen) over the bar's cross-section, minus the true place of the front"}, front_position},
+      {{"front_ratio", "1", "the same over the true place, minus 1"}, front_ratio}};
+  return list;
+}
+
+const std::vector<RunQuantity>& phase_run_quantities() {
+  static const std::vector<RunQuantity> list{
+      {{"toggles", "1", "most times that a particle went back to a phase it had left (liquid or solid, seen at output times), minus the stated value, 0 by default"}, toggles}};
+  return list;
+}
+
+}  // namespace tripoint
