@@ -58,8 +58,8 @@ Snapshot snapshot_of(const Simulation& simulation) {
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     s.bodies.push_back(body_state(world.bodies, b));
     if (forces.empty() || !world.bodies[field::body_alive][b]) continue;
-    s.bodies.back().force = forces[b].pressure + forces[b].viscous;
-    s.bodies.back().torque = forces[b].pressure_torque + forces[b].viscous_torque;
+    s.bodies.back().force = forces[b].force();
+    s.bodies.back().torque = forces[b].torque();
   }
   const Ledger sums = simulation.ledger();
   s.total_mass = sums.mass;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "effects/body_table.hpp"
 #include "effects/density/density.hpp"
 #include "effects/density/density_terms.hpp"
 #include "effects/fluid/fluid.hpp"
@@ -10,6 +11,7 @@
 #include "effects/fluid/material_numbers.hpp"
 #include "effects/heat/heat.hpp"
 #include "effects/heat/heat_terms.hpp"
+#include "effects/motion/motion.hpp"
 #include "effects/rigid/rigid.hpp"
 #include "scene/read_case.hpp"
 
@@ -27,6 +29,7 @@ struct Registered {
 constexpr Registered all_effects[] = {
     {"rigid", rigid::spec, rigid::make, rigid::defects},
     {"fluid", fluid::spec, fluid::make, fluid::defects},
+    {"motion", motion::spec, motion::make, motion::defects},
     {"density", density::spec, density::make, density::defects},
     {"heat", heat::spec, heat::make, heat::defects},
 };
@@ -45,10 +48,12 @@ const Registered* find(std::string_view name) {
 std::vector<CalledEffect> wanted(const Scene& scene) {
   std::vector<CalledEffect> list = called_effects(scene);
   const auto has = [&](std::string_view name) { return std::ranges::find(list, name, &CalledEffect::name) != list.end(); };
-  const std::vector<int> rows = body_rows(scene);
-  if (!has("rigid") && std::ranges::any_of(rows, [](int row) { return row >= 0; }) && !has("elastic")) {
-    list.push_back({"rigid", "fixed and prescribed bodies move as rigid ones"});
-  }
+  const auto driven = [](const Body& b) { return b.phase == Phase::rigid || (b.phase == Phase::elastic && b.motion != Motion::free); };
+  if (!has("rigid") && std::ranges::any_of(scene.bodies, driven)) list.push_back({"rigid", "fixed and prescribed bodies move as rigid ones"});
+  if (!has("rigid") && has("phase") && std::ranges::any_of(scene.materials, [](const Material& m) { return m.t_melt && m.solid == "rigid"; }))
+    list.push_back({"rigid", "what freezes becomes rigid"});
+  const bool wet = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid; }) || !scene.inflows.empty();
+  if ((wet && has("fluid")) || has("elastic") || has("phase")) list.push_back({"motion", "liquids and deformable solids move by the forces on their particles"});
   if (has("heat") && scene.mode_of(Term::heat) == Mode::paper && !has("fluid")) {
     list.push_back({"density", "(21) as printed divides by the summed density (4)"});
   }
@@ -63,6 +68,7 @@ void check_ownership(const std::vector<Active>& effects, bool periodic) {
   };
   std::vector<Owned> owned;
   for (const FieldInfo& f : common_fields(periodic)) owned.push_back({f, "particles"});
+  for (const FieldInfo& f : body_table_fields()) owned.push_back({f, "bodies"});
   const auto owner_of = [&](const FieldInfo& f) { return std::ranges::find(owned, f, &Owned::field); };
   for (const Active& a : effects) {
     for (const FieldInfo& f : a.spec.owns) {
@@ -117,6 +123,8 @@ Plan plan(const Scene& scene) {
     if (f.per == Per::particle) p.bytes_per_particle += f.bytes;
   };
   for (const FieldInfo& f : common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2])) add(f, "particles");
+  if (can_have_bodies(scene))
+    for (const FieldInfo& f : body_table_fields()) add(f, "bodies");
   // What is called for and not in this build is listed all the same: explain says what a scene means.
   for (const CalledEffect& c : wanted(scene)) {
     if (!find(c.name)) p.effects.push_back({c.name, c.why + " (not in this build)", std::string(to_string(scene.mode))});

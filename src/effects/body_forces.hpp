@@ -6,11 +6,13 @@
 
 namespace tripoint {
 
-/// What the members of one body feel from all others (18): sums of pressure and viscous forces, and their torques about the
-/// centre of mass.
+/// What the members of one rigid body feel from all others (18): sums of pressure, viscous and elastic (with hourglass) forces,
+/// and their torques about the centre of mass.
 struct BodyForces {
-  Vec3 pressure, viscous;                ///< [N]
-  Vec3 pressure_torque, viscous_torque;  ///< [N m]
+  Vec3 pressure, viscous, elastic;                       ///< [N]
+  Vec3 pressure_torque, viscous_torque, elastic_torque;  ///< [N m]
+  [[nodiscard]] Vec3 force() const { return pressure + viscous + elastic; }
+  [[nodiscard]] Vec3 torque() const { return pressure_torque + viscous_torque + elastic_torque; }
 };
 /// One entry a body, sums in order of id; empty where no effect of the scene makes forces.
 [[nodiscard]] std::vector<BodyForces> forces_on_bodies(const World&);

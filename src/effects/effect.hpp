@@ -49,6 +49,14 @@ class Effect {
   /// Sets the columns that the pass adds to.
   virtual void clear(World&, PassName) {}
   virtual void state(World&) {}
+  /// Forces of bonds, after all states of the present time.
+  virtual void bonds(World&) {}
+  /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in World::change.
+  virtual void change(World&) {}
+  /// Follows World::change in the columns that the effect owns.
+  virtual void adopt(World&) {}
+  /// Settles what World::change cost or set free, when all have adopted it.
+  virtual void settle(World&) {}
   /// The second stage of two-stage schemes, with rates at the predicted state. @return whether rates must be had again
   virtual bool correct(World&, double /*dt*/) { return false; }
   virtual void happen(World&, const Happening&) {}

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +22,17 @@ struct Lagged {
   int viscous_age = 0;                                             ///< rates since it was formed
 };
 
+/// What changed its phase, its body or its lists in this step: written by phase change and fracture, followed by all. Ids, each
+/// once, ascending.
+struct Change {
+  std::vector<std::uint32_t> melted, frozen;
+  std::vector<std::uint32_t> regrouped;  ///< of another phase or body than before
+  std::vector<std::uint32_t> relisted;   ///< with other bonds or own pairs than before
+  std::vector<std::size_t> bodies;       ///< rows of bodies that gained or lost members, ascending
+  std::map<std::size_t, double> kinetic_lost;  ///< body row -> kinetic energy that joining cost [J], as the rigid effect finds it
+  [[nodiscard]] bool empty() const { return regrouped.empty() && relisted.empty() && bodies.empty(); }
+};
+
 /// All that a step changes, and what it works with.
 struct World {
   Scene scene;
@@ -27,6 +40,9 @@ struct World {
   Columns bodies;                       ///< one row for each solid body that ever existed
   std::vector<std::string> body_names;  ///< of each row
   PeriodicBox box;
+  Bonds bonds;        ///< body neighbours of the members of solids
+  OwnPairs own;       ///< members of deformable bodies that meet through their bonds alone
+  Change change;      ///< of this step
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
   Booked booked;
   Lagged lagged;

@@ -39,6 +39,16 @@ inline constexpr Field<double> shift_x{"shift.x", "m/s"}, shift_y{"shift.y", "m/
 inline constexpr Field<double> background_x{"background.x", "N"}, background_y{"background.y", "N"}, background_z{"background.z", "N"};
 inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, transport_force_y{"transport_force.y", "N"}, transport_force_z{"transport_force.z", "N"};
 
+/// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density (model 8.2)
+inline constexpr Field<double> own_density{"own_density", "1/m3"};
+
+// elastic solids (10)-(17): forces on the particle by the strain energy, and by the hourglass energy
+inline constexpr Field<double> elastic_force_x{"elastic_force.x", "N"}, elastic_force_y{"elastic_force.y", "N"}, elastic_force_z{"elastic_force.z", "N"};
+inline constexpr Field<double> hourglass_force_x{"hourglass_force.x", "N"}, hourglass_force_y{"hourglass_force.y", "N"}, hourglass_force_z{"hourglass_force.z", "N"};
+
+// phase change, Fig. 5
+inline constexpr Field<double> liquid_fraction{"liquid_fraction", "1"};
+
 // heat (21)
 inline constexpr Field<double> temperature{"temperature", "K"}, temperature_rate{"temperature_rate", "K/s"};
 inline constexpr Field<double> enthalpy{"enthalpy", "J"}, heat_rate{"heat_rate", "W"}, heat_rate_before{"heat_rate.before", "W"};
@@ -77,6 +87,7 @@ inline constexpr Field<Vec3> body_start_centre{"body.start_centre", "m", Per::bo
 inline constexpr Field<Vec3> body_offset{"body.offset", "m", Per::body};
 inline constexpr Field<Vec3> body_start_velocity{"body.start_velocity", "m/s", Per::body},
     body_start_spin{"body.start_spin", "rad/s", Per::body};
+inline constexpr Field<int> body_phase{"body.phase", "1", Per::body};  ///< rigid where the particles move as one, else elastic
 inline constexpr Field<int> body_motion{"body.motion", "1", Per::body}, body_alive{"body.alive", "1", Per::body},
     body_source{"body.source", "1", Per::body};
 

@@ -162,7 +162,7 @@ void Neighbours::wrap(Particles& particles) const {
 }
 
 void Neighbours::rebuild(Particles& particles, double time) {
-  if (particles.size() > Entry::row_mask) throw InputError("more than 2^27 particles");
+  if (particles.size() > Entry::row_mask) throw InputError("more than 2^26 particles");
   refuse_not_finite(particles, time);
   wrap(particles);
   sort_and_list(particles);
@@ -217,7 +217,7 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
       const Vec3 s = shift_[image];
       for (std::uint32_t j = from; j < to; ++j) {
         const double dx = (x.x[j] - r.x) + s.x, dy = (x.y[j] - r.y) + s.y, dz = (x.z[j] - r.z) + s.z;
-        if (dx * dx + dy * dy + dz * dz < reach2 && !(j == i && image == 13)) take(Entry{j | image << Entry::row_bits});
+        if (dx * dx + dy * dy + dz * dz < reach2 && !(j == i && image == 13)) take(Entry{j | image << Entry::image_shift});
       }
     });
   };
@@ -234,6 +234,19 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
   for (std::size_t i = 0; i < n; ++i) {
     Entry* out = entries_.data() + start_[i];
     scan(i, [&](Entry e) { *out++ = e; });
+  }
+}
+
+void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {
+  const auto id = particles[field::id];
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const bool any = !own.of(static_cast<std::size_t>(id[i])).empty();
+    for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {
+      Entry& e = entries_[k];
+      e.bits &= ~Entry::own_bit;
+      if (any && are_own(own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[e.row()]))) e.bits |= Entry::own_bit;
+    }
   }
 }
 

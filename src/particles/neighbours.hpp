@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/vec3.hpp"
+#include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
 
 namespace tripoint {
@@ -17,12 +18,14 @@ struct PeriodicBox {
   [[nodiscard]] bool any() const noexcept { return periodic[0] || periodic[1] || periodic[2]; }
 };
 
-/// An entry of a neighbour list: the row of j in the low 27 bits and, above, the image of the box that j is seen in.
+/// An entry of a neighbour list: the row of j in the low 26 bits, whether i and j are an own pair and, above, the image of the box
+/// that j is seen in.
 struct Entry {
   std::uint32_t bits;
-  static constexpr std::uint32_t row_bits = 27, row_mask = (1u << row_bits) - 1;
+  static constexpr std::uint32_t row_bits = 26, row_mask = (1u << row_bits) - 1, own_bit = 1u << row_bits, image_shift = row_bits + 1;
   [[nodiscard]] constexpr std::uint32_t row() const noexcept { return bits & row_mask; }
-  [[nodiscard]] constexpr std::uint32_t image() const noexcept { return bits >> row_bits; }  ///< 0..26, 13 = the box itself
+  [[nodiscard]] constexpr bool own() const noexcept { return (bits & own_bit) != 0; }  ///< members of one deformable body
+  [[nodiscard]] constexpr std::uint32_t image() const noexcept { return bits >> image_shift; }  ///< 0..26, 13 = the box itself
 };
 
 /// Full directed lists: every i lists all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
@@ -43,6 +46,9 @@ class Neighbours {
   /// @param build_positions by row of `particles`, as build_positions() gave them
   /// @param rebuilds as counted until then
   void rebuild_from(Particles&, std::span<const Vec3> build_positions, double time, long rebuilds = 1);
+
+  /// Marks the entries of own pairs; to be called after a rebuild and after a change of these lists.
+  void mark_own(const Particles&, const OwnPairs&);
 
   [[nodiscard]] std::span<const Entry> of(std::size_t i) const {
     return {entries_.data() + start_[i], start_[i + 1] - start_[i]};

@@ -29,6 +29,7 @@ struct PairGeometry {
   V dx, dy, dz;  ///< r_j - r_i [m]
   V r;           ///< |r_j - r_i| [m]
   V gradient;    ///< W'(r)/r of the Wendland kernel [1/m5]
+  V apart;       ///< 0 for an own pair, two members of one deformable body that meet through their bonds alone; else 1
   const PairKernels& kernels;
 };
 
@@ -93,7 +94,7 @@ void fused(Particles& particles, const Neighbours& neighbours, const PairKernels
           const double r2 = dx * dx + dy * dy + dz * dz;
           if (r2 >= support2) continue;
           const double r = std::sqrt(r2);
-          const PairGeometry<double> g{dx, dy, dz, r, kernels.wendland.derivative_over_r(r), kernels};
+          const PairGeometry<double> g{dx, dy, dz, r, kernels.wendland.derivative_over_r(r), e.own() ? 0.0 : 1.0, kernels};
           std::apply([&](auto&... l) { (l.add(g, j), ...); }, locals);
         }
         std::apply([&](auto&... l) { (l.finish(i), ...); }, locals);

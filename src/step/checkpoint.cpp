@@ -53,6 +53,42 @@ void restore_columns(Columns& columns, const std::string& group, const Checkpoin
   });
 }
 
+/// Lists of partners in order of id, as plain numbers.
+template <class Pair>
+void save(const PairLists<Pair>& lists, const std::string& name, Checkpoint& kept) {
+  static_assert(std::is_trivially_copyable_v<Pair> && sizeof(Pair) % sizeof(double) == 0);
+  std::vector<double>& flat = kept.real[name];
+  std::vector<std::int64_t>& counts = kept.whole[name + "/count"];
+  for (std::size_t id = 0; id < lists.particles(); ++id) {
+    const std::vector<double> list = plain(lists.of(id));
+    flat.insert(flat.end(), list.begin(), list.end());
+    counts.push_back(static_cast<std::int64_t>(lists.of(id).size()));
+  }
+}
+
+/// @throws InputError when counts and numbers do not fit each other
+template <class Pair>
+void restore_pairs(PairLists<Pair>& lists, const std::string& name, const Checkpoint& kept) {
+  const auto counts = kept.whole.find(name + "/count");
+  if (counts == kept.whole.end()) throw InputError("the checkpoint has no " + name);
+  std::int64_t pairs = 0;
+  for (const std::int64_t n : counts->second) {
+    if (n < 0) throw InputError("the checkpoint's " + name + " has a list of negative length");
+    pairs += n;
+  }
+  const std::vector<double>& flat = take(kept.real, name, static_cast<std::size_t>(pairs) * sizeof(Pair) / sizeof(double));
+  lists = {};
+  lists.grow(counts->second.size());
+  std::size_t from = 0;
+  for (std::size_t id = 0; id < counts->second.size(); ++id) {
+    std::vector<Pair> list(static_cast<std::size_t>(counts->second[id]));
+    if (list.empty()) continue;
+    std::memcpy(static_cast<void*>(list.data()), flat.data() + from, list.size() * sizeof(Pair));
+    from += list.size() * sizeof(Pair) / sizeof(double);
+    lists.replace(id, list);
+  }
+}
+
 /// Rows as they were, each id once. @throws InputError
 std::vector<std::uint32_t> row_order(const Checkpoint& kept, std::size_t particles) {
   std::vector<std::uint32_t> order;
@@ -109,6 +145,8 @@ Checkpoint Simulation::checkpoint() const {
   save(world_.particles, "particles/", kept);
   save(world_.bodies, "bodies/", kept);
   kept.text["bodies/name"] = world_.body_names;
+  save(world_.bonds, "bonds", kept);
+  save(world_.own, "own_pairs", kept);
   kept.real["step/booked"] = plain(world_.booked);
   kept.real["step/time"] = {world_.time, world_.next_time, dt_, pairs_, bound_.dt, stretch_.start, stretch_.end};
   kept.text["step/bound"] = {bound_.name};
@@ -140,7 +178,12 @@ void Simulation::restore(const Checkpoint& kept) {
   std::memcpy(static_cast<void*>(&world_.booked), take(kept.real, "step/booked", sizeof(Booked) / sizeof(double)).data(), sizeof(Booked));
   const std::vector<std::uint32_t> order = row_order(kept, world_.particles.size());
   world_.particles.permute(order);  // rows were in order of id
-  if (world_.neighbours) restore_lists(world_, kept, order);
+  restore_pairs(world_.bonds, "bonds", kept);
+  restore_pairs(world_.own, "own_pairs", kept);
+  if (world_.neighbours) {
+    restore_lists(world_, kept, order);
+    world_.neighbours->mark_own(world_.particles, world_.own);
+  }
   restore_columns(world_.particles, "particles/", kept);
   restore_bodies(world_, kept);
   const std::vector<double>& lagged = take(kept.real, "step/lagged", 3);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "effects/body_table.hpp"
 #include "step/guard.hpp"
 
 namespace tripoint {
@@ -35,17 +36,25 @@ bool is_static(const Scene& scene, const InitialState& initial) {
 /// The mechanical entries (model 8.11). What a scheme of finite steps leaves between the work of its conservative forces and the
 /// energy that they store is an entry of its own, so that the whole closes; it falls with dt^2.
 void book_mechanical(const Booked& booked, Ledger& sum) {
-  if (!sum.energy.count("compression")) return;
+  const bool presses = sum.energy.count("compression") > 0, deforms = sum.energy.count("elastic") > 0;
+  if (!presses && !deforms) return;
   sum.energy["viscous"] -= booked.viscous_work + booked.wall_viscous_work;
-  sum.energy["walls"] += booked.wall_pressure_work + booked.wall_viscous_work - booked.extrapolated_work;
+  sum.energy["walls"] += booked.wall_pressure_work + booked.wall_viscous_work + booked.wall_elastic_work - booked.extrapolated_work;
   const double compression = sum.energy["compression"] - booked.start_compression;
   const double potential = sum.energy["potential"] - booked.start_potential - booked.driven_potential;
-  const double by_pressure = compression + booked.pressure_work + booked.wall_pressure_work - booked.extrapolated_work;
-  sum.energy["time_integration"] = -by_pressure - (potential + booked.gravity_work) - booked.rotation_drift;
+  const double by_pressure = compression + booked.compression_released + booked.pressure_work + booked.wall_pressure_work - booked.extrapolated_work;
+  const double deformation = (deforms ? sum.energy["elastic"] + sum.energy["hourglass"] : 0.0) - booked.start_deformation;
+  const double by_bonds = deformation + booked.deformation_released + booked.elastic_work + booked.hourglass_work + booked.wall_elastic_work;
+  if (booked.compression_released != 0.0) sum.energy["phase_work"] += booked.compression_released;
+  sum.energy["time_integration"] = -by_pressure - by_bonds - (potential + booked.gravity_work) - booked.rotation_drift;
 }
 
 std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& effects) {
   std::vector<FieldInfo> fields = common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
+  if (can_have_bodies(scene)) {
+    const std::vector<FieldInfo> table = body_table_fields();
+    fields.insert(fields.end(), table.begin(), table.end());
+  }
   for (const Active& a : effects) fields.insert(fields.end(), a.spec.owns.begin(), a.spec.owns.end());
   return fields;
 }
@@ -61,6 +70,7 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   refuse_large_step();
   const Ledger start = ledger();
   if (start.energy.count("compression")) world_.booked.start_compression = start.energy.at("compression");
+  if (start.energy.count("elastic")) world_.booked.start_deformation = start.energy.at("elastic") + start.energy.at("hourglass");
   if (start.energy.count("potential")) world_.booked.start_potential = start.energy.at("potential");
   happen_until_now();
 }
@@ -99,6 +109,7 @@ void Simulation::load(const InitialState& initial) {
     p[field::material][i] = initial.material[i];
     p[field::source][i] = initial.source[i];
   }
+  add_scene_bodies(world_);
   for (const Active& a : effects_) a.effect->load(world_, initial);
 }
 
@@ -176,11 +187,24 @@ void Simulation::step(double end) {
 }
 
 void Simulation::update_rates() {
-  if (world_.neighbours) world_.neighbours->update(world_.particles, world_.time);
+  change();
+  if (world_.neighbours && (world_.neighbours->update(world_.particles, world_.time) || !world_.change.empty()))
+    world_.neighbours->mark_own(world_.particles, world_.own);
   if (world_.moved) pass(PassName::density);  // (4), moments: of places only
   run(&Effect::state);
   world_.moved = false;
-  pass(PassName::rates);  // (21)
+  pass(PassName::rates);  // (7), (8), (21)
+  run(&Effect::bonds);    // (12), hourglass
+}
+
+/// Fig. 5: melt, solidify, merge, split, fracture, before any rate of the new time.
+void Simulation::change() {
+  world_.change = {};
+  run(&Effect::change);
+  if (world_.change.empty()) return;
+  run(&Effect::adopt);
+  run(&Effect::settle);
+  world_.moved = true;
 }
 
 void Simulation::pass(PassName name) {

@@ -70,6 +70,7 @@ class Simulation {
   [[nodiscard]] long steps_to(double time) const;
   void step(double end);
   void update_rates();
+  void change();
   void pass(PassName);
   [[nodiscard]] TimeStepBound next_bound() const;
   void refuse_large_step() const;

@@ -4,32 +4,25 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/body_table.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
 #include "effects/fluid/transport.hpp"
 #include "effects/fluid/viscous_bound.hpp"
 #include "effects/fluid/walls.hpp"
-#include "effects/ordered_sum.hpp"
 #include "sph/pass.hpp"
 
 namespace tripoint::fluid {
 namespace {
 
-template <class P>
-auto pressure_forces(P& p) {
-  return triple(p, field::force_x, field::force_y, field::force_z);
-}
-template <class P>
-auto viscous_forces(P& p) {
-  return triple(p, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
-}
-
-/// -1 for liquids, 0 for all walls, 1 + body for free bodies: members of one group exert nothing on each other.
+/// -1 for liquids, -2 for deformable solids, 0 for all walls, 1 + body for free rigid bodies: members of one group of 0 and above
+/// exert nothing on each other.
 double group_of(const World& world, std::size_t row) {
   const int body = world.particles[field::body][row];
   if (body < 0) return -1.0;
-  const bool free = world.bodies[field::body_motion][static_cast<std::size_t>(body)] == static_cast<int>(Motion::free);
-  return free ? 1.0 + body : 0.0;
+  const auto b = static_cast<std::size_t>(body);
+  if (!is_rigid(world, b)) return -2.0;
+  return world.bodies[field::body_motion][b] == static_cast<int>(Motion::free) ? 1.0 + body : 0.0;
 }
 
 class Fluid : public Effect {
@@ -45,6 +38,7 @@ class Fluid : public Effect {
   void clear(World&, PassName) override;
   void state(World&) override;
   void happen(World& world, const Happening&) override { set_groups(world); }
+  void adopt(World&) override;
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World& world, Ledger& ledger) const override {
     add_fluid(world, numbers_, kernels_, ledger);
@@ -52,7 +46,8 @@ class Fluid : public Effect {
   }
 
  private:
-  enum Work : std::size_t { by_pressure, by_viscosity, by_gravity, by_wall_pressure, by_transport, works };
+  void set_material(World&, std::size_t row) const;
+  void set_own_density(World&, std::size_t row) const;
   void set_groups(World&);
   void book_driven_walls(World&, double dt) const;
 
@@ -61,20 +56,34 @@ class Fluid : public Effect {
   bool transports_;
   bool splits_;  ///< the work of the walls' borrowed pressure is booked
   Walls walls_;
-  std::vector<std::array<double, works>> blocks_;
 };
 
 void Fluid::load(World& world, const InitialState&) {
+  for (std::size_t i = 0; i < world.particles.size(); ++i) set_material(world, i);
+  set_groups(world);
+}
+
+void Fluid::set_material(World& world, std::size_t row) const {
   Particles& p = world.particles;
-  const auto body = p[field::body];
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Body& source = world.scene.bodies.at(static_cast<std::size_t>(p[field::source][i]));
-    const bool liquid = body[i] < 0;
-    p[field::rest_density][i] = world.material_of(i).density;
-    p[field::solid][i] = liquid ? 0.0 : 1.0;
-    p[field::viscosity][i] = liquid ? world.material_of(i).viscosity : world.scene.contact_viscosity;
-    p[field::stick][i] = source.free_slip ? 0.0 : 1.0;
-  }
+  const Body& source = world.scene.bodies.at(static_cast<std::size_t>(p[field::source][row]));
+  const bool liquid = p[field::body][row] < 0;
+  p[field::rest_density][row] = world.material_of(row).density;
+  p[field::solid][row] = liquid ? 0.0 : 1.0;
+  p[field::viscosity][row] = liquid ? world.material_of(row).viscosity : world.scene.contact_viscosity;
+  p[field::stick][row] = source.free_slip ? 0.0 : 1.0;
+}
+
+/// What the own pairs of a particle add to its number density, once and for all (model 8.2).
+void Fluid::set_own_density(World& world, std::size_t row) const {
+  if (!world.particles.has(field::own_density.name)) return;
+  double sum = 0.0;
+  for (const OwnPair& pair : std::as_const(world.own).of(static_cast<std::size_t>(world.particles[field::id][row]))) sum += pair.weight;
+  world.particles[field::own_density][row] = sum;
+}
+
+void Fluid::adopt(World& world) {
+  for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
+  for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
   set_groups(world);
 }
 
@@ -85,35 +94,7 @@ void Fluid::set_groups(World& world) {
   world.lagged.viscous_age = 0;
 }
 
-/// v += dt (F/m + g) for liquids; bodies take the same forces in the rigid effect. The work of each force is booked by its own
-/// formula, dt F.(v- + v+)/2, which sums to the change of kinetic energy to round-off (model 8.11).
 void Fluid::kick(World& world, double dt) {
-  Particles& p = world.particles;
-  const auto v = velocities(p);
-  const auto F = pressure_forces(p), D = viscous_forces(p);
-  const auto T = transports_ ? triple(p, field::transport_force_x, field::transport_force_y, field::transport_force_z) : Triple<double>{};
-  const auto E = splits_ ? triple(p, field::wall_force_x, field::wall_force_y, field::wall_force_z) : Triple<double>{};
-  const auto m = p[field::mass];
-  const auto body = p[field::body];
-  static const double heavier = 1.0 + defect_size("fluid.gravity");
-  const Vec3 g = heavier * world.scene.gravity;
-  const auto sums = ordered_sums(p.size(), world.threads, blocks_, [&](std::size_t i, std::array<double, works>& work) {
-    if (body[i] >= 0) return;
-    const Vec3 stress = transports_ ? T.at(i) : Vec3{}, before = v.at(i);
-    const Vec3 after = before + (dt / m[i]) * (F.at(i) + D.at(i) + stress) + dt * g;
-    const Vec3 way = (0.5 * dt) * (before + after);
-    work[by_pressure] += dot(F.at(i), way);
-    work[by_viscosity] += dot(D.at(i), way);
-    work[by_gravity] += m[i] * dot(g, way);
-    if (splits_) work[by_wall_pressure] += dot(E.at(i), way);
-    if (transports_) work[by_transport] += dot(stress, way);
-    v.set(i, after);
-  });
-  world.booked.pressure_work += sums[by_pressure];
-  world.booked.viscous_work += sums[by_viscosity];
-  world.booked.gravity_work += sums[by_gravity];
-  world.booked.extrapolated_work += sums[by_wall_pressure];
-  world.booked.transport_work += sums[by_transport];
   if (splits_) book_driven_walls(world, dt);
   world.lagged.half_step = dt;
 }
@@ -132,15 +113,7 @@ void Fluid::book_driven_walls(World& world, double dt) const {
 }
 
 void Fluid::drift(World& world, double dt) {
-  Particles& p = world.particles;
   if (transports_) set_shift(world, dt);
-  const auto r = positions(p), v = velocities(p);
-  const auto w = transports_ ? triple(p, field::shift_x, field::shift_y, field::shift_z) : Triple<double>{};
-  const auto body = p[field::body];
-#pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t i = 0; i < p.size(); ++i)
-    if (body[i] < 0) r.set(i, r.at(i) + dt * (transports_ ? v.at(i) + w.at(i) : v.at(i)));
-  world.moved = true;
 }
 
 void Fluid::clear(World& world, PassName pass) {
@@ -149,7 +122,11 @@ void Fluid::clear(World& world, PassName pass) {
     for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x, &field::viscous_force_y, &field::viscous_force_z})
       std::ranges::fill(p[*f], 0.0);
   } else if (world.scene.mode_of(Term::density) == Mode::corrected) {
-    std::ranges::fill(p[field::number_density], kernels_.wendland.value(0.0));
+    const auto delta = p[field::number_density];
+    std::ranges::fill(delta, kernels_.wendland.value(0.0));
+    if (!p.has(field::own_density.name)) return;
+    const auto own = p[field::own_density];
+    for (std::size_t i = 0; i < delta.size(); ++i) delta[i] += own[i];
   } else {
     const auto rho = p[field::density], m = p[field::mass];
     for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * kernels_.poly6.value(0.0);
@@ -168,27 +145,16 @@ void Fluid::state(World& world) {
 }
 
 /// Sound C h/(c + |v|), C = 0.45 corrected, 0.35 with transport velocity (its background pressure adds half to the stiffness),
-/// 0.7 printed; viscosity; acceleration 0.25 sqrt(h/|a|) (model 8.10).
+/// 0.7 printed; viscosity (model 8.10).
 TimeStepBound Fluid::max_dt(const World& world) const {
-  const Particles& p = world.particles;
-  const auto v = velocities(p);
-  const auto F = pressure_forces(p), D = viscous_forces(p);
-  const auto m = p[field::mass];
-  const auto body = p[field::body];
-  const Vec3 g = world.scene.gravity;
-  double v2 = 0.0, a2 = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : v2, a2)
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    v2 = std::max(v2, dot(v.at(i), v.at(i)));
-    if (body[i] >= 0) continue;
-    const Vec3 a = g + (F.at(i) + D.at(i)) / m[i];
-    a2 = std::max(a2, dot(a, a));
-  }
+  const auto v = velocities(world.particles);
+  double v2 = 0.0;
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : v2)
+  for (std::size_t i = 0; i < world.particles.size(); ++i) v2 = std::max(v2, dot(v.at(i), v.at(i)));
   const double courant = world.scene.mode_of(Term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.35 : 0.45;
   TimeStepBound bound;
   tighten(bound, courant * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "sound");
   tighten(bound, world.lagged.viscous_step, "viscosity");
-  if (a2 > 0.0) tighten(bound, 0.25 * std::sqrt(world.support() / std::sqrt(a2)), "acceleration");
   return bound;
 }
 
@@ -204,6 +170,7 @@ EffectSpec spec(const Scene& scene) {
   const auto own = [&](std::initializer_list<FieldInfo> more) { s.owns.insert(s.owns.end(), more); };
   if (scene.mode_of(Term::density) == Mode::corrected) own({field::number_density});
   if (scene.mode_of(Term::pressure) == Mode::corrected) own({field::pressure_share});
+  if (scene.mode_of(Term::density) == Mode::corrected && can_have_deformable_bodies(scene)) own({field::own_density});
   if (scene.mode_of(Term::walls) == Mode::corrected)
     own({field::wall_weight, field::wall_pressure, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z, field::wall_velocity_x,
          field::wall_velocity_y, field::wall_velocity_z, field::wall_force_x, field::wall_force_y, field::wall_force_z});
@@ -216,8 +183,7 @@ EffectSpec spec(const Scene& scene) {
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fluid>(scene); }
 
 std::vector<DefectEntry> defects() {
-  return {{"fluid.gravity", "gravity on liquids times 1 + size", "fluid/hydrostatic"},
-          {"fluid.density", "number density times 1 + size", "fluid/hydrostatic"},
+  return {{"fluid.density", "number density times 1 + size", "fluid/hydrostatic"},
           {"fluid.paper.density", "density (4) times 1 + size", "fluid/hydrostatic"},
           {"fluid.pressure", "corrected pressure force times 1 + size", "fluid/hydrostatic"},
           {"fluid.paper.pressure", "pressure force (7) times 1 + size", "fluid/hydrostatic"},

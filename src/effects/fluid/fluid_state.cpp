@@ -2,6 +2,8 @@
 #include "effects/fluid/fluid_state.hpp"
 
 #include "core/defect.hpp"
+#include "effects/body_table.hpp"
+#include "effects/force_columns.hpp"
 
 namespace tripoint::fluid {
 
@@ -40,19 +42,19 @@ void predict_velocities(World& world) {
   Particles& p = world.particles;
   const double ahead = world.lagged.half_step;
   const Vec3 g = world.scene.gravity;
-  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
-  const auto D = triple(p, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
+  const std::vector<ForceColumns> forces = force_columns(world);
   const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
   const auto x = positions(p), v = velocities(p);
   const auto m = p[field::mass];
   const auto body = p[field::body];
+  const RigidMembers is_member(world);
   const auto of_bodies = [&](const Field<Vec3>& f) { return world.bodies.size() > 0 ? std::as_const(world.bodies)[f] : std::span<const Vec3>{}; };
   const auto centre = of_bodies(field::body_centre), velocity = of_bodies(field::body_velocity), omega = of_bodies(field::body_angular_velocity);
   const auto gained = of_bodies(field::body_acceleration), turned = of_bodies(field::body_angular_acceleration);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (body[i] < 0) {
-      seen.set(i, ahead > 0.0 ? v.at(i) + ahead * (g + (F.at(i) + D.at(i)) / m[i]) : v.at(i));
+    if (!is_member(i)) {
+      seen.set(i, ahead > 0.0 ? v.at(i) + ahead * (g + total_force(forces, i) / m[i]) : v.at(i));
       continue;
     }
     const auto b = static_cast<std::size_t>(body[i]);

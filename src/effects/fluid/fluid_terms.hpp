@@ -7,18 +7,18 @@
 /// d = r_j - r_i, so that grad_i W = -(W'/r) d.
 namespace tripoint {
 
-/// Number density (model 8.2): delta_i = sum_j W(r_ij) [1/m3]; the particle itself is added before the pass, and the
-/// division by the kernel's lattice sum follows it. [Solenthaler & Pajarola 2008]
+/// Number density (model 8.2): delta_i = sum_j W(r_ij) [1/m3]; the particle itself and its own pairs are added before the pass,
+/// and the division by the kernel's lattice sum follows it. [Solenthaler & Pajarola 2008]
 struct NumberDensity {
   using reads = Keys<>;
   using adds = Keys<field::number_density>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 0>, std::span<const double, 0>, std::span<V, 1> sum) {
-    sum[0] += g.kernels.wendland.value(g.r);
+    sum[0] += g.apart * g.kernels.wendland.value(g.r);
   }
 };
 
-/// 1 where a pair acts, 0 where both are members of one rigid body, or both are wall. Liquids have group -1.
+/// 1 where a pair acts, 0 where both are members of one rigid body, or both are wall. Liquids have group -1, deformable solids -2.
 template <class V>
 [[nodiscard]] inline V acts(V group_i, double group_j) noexcept {
   return group_i < 0.0 || group_i != group_j ? 1.0 : 0.0;
@@ -34,7 +34,7 @@ struct PressureCorrected {
   static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const double, 2> j, std::span<V, 3> sum) {
     static const double stronger = 1.0 + defect_size("fluid.pressure");
     const V pressure = stronger * (i[0] + j[0]) * g.gradient;
-    const V f = acts(i[1], j[1]) * (pressure - g.kernels.core.force_over_r(g.r));
+    const V f = g.apart * acts(i[1], j[1]) * (pressure - g.kernels.core.force_over_r(g.r));
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;
@@ -49,7 +49,7 @@ struct PressurePaper {
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const double, 3> j, std::span<V, 3> sum) {
     static const double stronger = 1.0 + defect_size("fluid.paper.pressure");
-    const V f = stronger * acts(i[2], j[2]) * (i[0] * j[0]) * (0.5 * (i[1] + j[1])) * g.kernels.spiky.derivative_over_r(g.r);
+    const V f = stronger * g.apart * acts(i[2], j[2]) * (i[0] * j[0]) * (0.5 * (i[1] + j[1])) * g.kernels.spiky.derivative_over_r(g.r);
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;
@@ -78,7 +78,7 @@ struct ViscosityPaper {
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
     static const double thicker = 1.0 + defect_size("fluid.paper.viscosity");
     const V mu = 0.5 * (i[1] + j[1]);
-    const V G = thicker * acts(i[4], j[4]) * mu * (i[0] * j[0]) * g.kernels.viscosity.laplacian(g.r);
+    const V G = thicker * g.apart * acts(i[4], j[4]) * mu * (i[0] * j[0]) * g.kernels.viscosity.laplacian(g.r);
     sum[0] += G * (j[5] - i[5]);
     sum[1] += G * (j[6] - i[6]);
     sum[2] += G * (j[7] - i[7]);
@@ -94,7 +94,7 @@ struct ViscosityLaplacian {
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
     static const double thicker = 1.0 + defect_size("fluid.viscosity.laplacian");
     const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
-    const V G = thicker * acts(i[4], j[4]) * mu * (i[0] * i[0] + j[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
+    const V G = thicker * g.apart * acts(i[4], j[4]) * mu * (i[0] * i[0] + j[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
     sum[0] += G * (j[5] - i[5]);
     sum[1] += G * (j[6] - i[6]);
     sum[2] += G * (j[7] - i[7]);
@@ -110,7 +110,7 @@ struct ViscosityCentral {
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
     static const double askew = defect_size("fluid.viscosity.central");
     const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
-    const V G = acts(i[4], j[4]) * 10.0 * mu * (i[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
+    const V G = g.apart * acts(i[4], j[4]) * 10.0 * mu * (i[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
     const V approach = ((j[5] - i[5]) * g.dx + (j[6] - i[6]) * g.dy + (j[7] - i[7]) * g.dz) / (g.r * g.r + 1e-300);
     sum[0] += G * (approach * g.dx + askew * (j[5] - i[5]));
     sum[1] += G * (approach * g.dy + askew * (j[6] - i[6]));

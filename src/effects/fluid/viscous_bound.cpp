@@ -22,6 +22,7 @@ Symmetric tensor_of(const World& world, std::size_t i, bool central, Coefficient
     const Vec3 d = (p.position(e.row()) - p.position(i)) + world.neighbours->shift(e.image());
     const double r2 = dot(d, d);
     if (r2 >= world.support() * world.support() || !(r2 > 0.0)) continue;
+    if (e.own()) continue;
     const double G = coefficient(e.row(), std::sqrt(r2));
     if (!central) {
       sum.xx += G;

@@ -11,7 +11,7 @@ namespace {
 constexpr double wall_group = 0.0;
 
 bool has_near(const World& world, std::span<const double> group, std::size_t i, bool liquid) {
-  return std::ranges::any_of(world.neighbours->of(i), [&](Entry e) { return liquid ? group[e.row()] < 0.0 : group[e.row()] == wall_group; });
+  return std::ranges::any_of(world.neighbours->of(i), [&](Entry e) { return liquid ? group[e.row()] == -1.0 : group[e.row()] == wall_group; });
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void Walls::find(const World& world) {
   wet_walls_.clear(), border_.clear();
   const auto group = world.particles[field::group];
   for (std::size_t i = 0; i < group.size(); ++i) {
-    const bool wall = group[i] == wall_group, liquid = group[i] < 0.0;
+    const bool wall = group[i] == wall_group, liquid = group[i] == -1.0;
     if (!(wall && has_near(world, group, i, true)) && !(liquid && has_near(world, group, i, false))) continue;
     border_.push_back(static_cast<std::uint32_t>(i));
     if (wall) wet_walls_.push_back(static_cast<std::uint32_t>(i));

@@ -30,25 +30,14 @@ Vec3 turning_axes(const World& world, const std::vector<std::size_t>& rows) {
 
 }  // namespace
 
-std::vector<std::size_t> members(const World& world, std::size_t body) {
-  std::vector<std::size_t> rows;
-  const auto of = world.particles[field::body];
-  for (std::size_t id = 0; id < of.size(); ++id) {
-    const std::size_t i = world.particles.row(id);
-    if (of[i] == static_cast<int>(body)) rows.push_back(i);
-  }
-  return rows;
-}
-
 BodyMotion motion_of(const World& world, std::size_t b) {
   const Columns& t = world.bodies;
   return {t[field::body_mass][b], t[field::body_centre][b], t[field::body_velocity][b], t[field::body_angular_momentum][b],
           t[field::body_angular_velocity][b]};
 }
 
-bool is_alive(const World& world, std::size_t body) { return world.bodies[field::body_alive][body] != 0; }
 bool is_free(const World& world, std::size_t body) {
-  return is_alive(world, body) && world.bodies[field::body_motion][body] == static_cast<int>(Motion::free);
+  return is_alive(world, body) && is_rigid(world, body) && world.bodies[field::body_motion][body] == static_cast<int>(Motion::free);
 }
 
 Quaternion principal_to_world(const World& world, std::size_t body) {
@@ -124,9 +113,10 @@ void place_members(World& world) {
   const auto centre = world.bodies[field::body_centre];
   const auto orientation = world.bodies[field::body_orientation];
   const auto alive = world.bodies[field::body_alive];
+  const RigidMembers is_member(world);
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (body[i] < 0) continue;
+    if (!is_member(i)) continue;
     const auto b = static_cast<std::size_t>(body[i]);
     if (!alive[b]) continue;
     const Vec3 r = centre[b] + rotate(orientation[b], reference.at(i));
@@ -135,7 +125,7 @@ void place_members(World& world) {
   if (!world.box.any()) return;
   const auto image = images(p);
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (body[i] < 0) continue;
+    if (!is_member(i)) continue;
     Vec3 r = x.at(i);
     const Vec3 n = image.at(i);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -152,35 +142,13 @@ void give_velocities(World& world) {
   const auto body = p[field::body];
   const auto velocity = world.bodies[field::body_velocity], omega = world.bodies[field::body_angular_velocity];
   const auto orientation = world.bodies[field::body_orientation];
+  const RigidMembers is_member(world);
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (body[i] < 0) continue;
+    if (!is_member(i)) continue;
     const auto b = static_cast<std::size_t>(body[i]);
     v.set(i, velocity[b] + cross(omega[b], rotate(orientation[b], reference.at(i))));
   }
-}
-
-std::size_t add_body(World& world, std::string_view name) {
-  Columns& t = world.bodies;
-  t.append_row();
-  const std::size_t b = t.size() - 1;
-  t[field::body_orientation][b] = {};
-  t[field::body_axes][b] = {};
-  t[field::body_turns][b] = {1.0, 1.0, 1.0};
-  t[field::body_alive][b] = 1;
-  t[field::body_source][b] = -1;
-  world.body_names.emplace_back(name);
-  return b;
-}
-
-std::size_t body_row(const World& world, std::string_view name) {
-  const auto place = std::ranges::find(world.body_names, name);
-  if (place == world.body_names.end())
-    throw InputError("an event names the body " + std::string(name) + ", and no solid body has that name");
-  const auto row = static_cast<std::size_t>(place - world.body_names.begin());
-  if (!is_alive(world, row))
-    throw InputError("an event names the body " + std::string(name) + ", which has been absorbed before");
-  return row;
 }
 
 }  // namespace tripoint::rigid

@@ -4,13 +4,10 @@
 #include <string_view>
 #include <vector>
 
-#include "effects/world.hpp"
+#include "effects/body_table.hpp"
 
 /// Rows of the body table: made from their members, and read as one value.
 namespace tripoint::rigid {
-
-/// Rows of the members of one body, in order of id.
-[[nodiscard]] std::vector<std::size_t> members(const World&, std::size_t body);
 
 /// What a body is doing, for the formulas of (18)-(20) and for merging and splitting.
 struct BodyMotion {
@@ -19,8 +16,8 @@ struct BodyMotion {
   [[nodiscard]] Vec3 velocity_at(const Vec3& r) const { return velocity + cross(omega, r - centre); }
 };
 [[nodiscard]] BodyMotion motion_of(const World&, std::size_t body);
+/// Whether it is a rigid body that moves by the forces on it.
 [[nodiscard]] bool is_free(const World&, std::size_t body);
-[[nodiscard]] bool is_alive(const World&, std::size_t body);
 /// Principal frame to world frame.
 [[nodiscard]] Quaternion principal_to_world(const World&, std::size_t body);
 /// Kinetic energy [J], of translation and of the axes that turn.
@@ -39,10 +36,5 @@ void update_spin(World&, std::size_t body);
 /// Places (and speeds) of the members from centre, orientation and reference: rigid to round-off for ever.
 void place_members(World&);
 void give_velocities(World&);
-
-/// A new row, alive, with identity orientation and no members yet. @return its row
-std::size_t add_body(World&, std::string_view name);
-/// Row of the body with this name. @throws InputError when there is none, or it is gone
-[[nodiscard]] std::size_t body_row(const World&, std::string_view name);
 
 }  // namespace tripoint::rigid

@@ -66,7 +66,7 @@ std::vector<std::size_t> bodies_of(const World& world, const Event& event) {
   std::vector<std::size_t> rows;
   for (const std::string& name : event.bodies) rows.push_back(body_row(world, name));
   for (std::size_t b = 0; event.bodies.empty() && b < world.bodies.size(); ++b) {
-    if (is_alive(world, b)) rows.push_back(b);
+    if (is_alive(world, b) && is_rigid(world, b)) rows.push_back(b);
   }
   return rows;
 }
@@ -133,7 +133,7 @@ void split(World& world, const Event& event) {
     owed += parents[b].L + parents[b].mass * cross(parents[b].centre, parents[b].velocity);
     kinetic += kinetic_energy(world, b);
   }
-  add_body(world, event.name);
+  add_body(world, event.name, Phase::rigid);
   measure(world, born);
   world.bodies[field::body_offset][born] = {};
   static const double faster = 1.0 + defect_size("rigid.split");

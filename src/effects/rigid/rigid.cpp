@@ -90,35 +90,33 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   Vec3& v = t[field::body_velocity][b];
   const double m = t[field::body_mass][b];
   const Vec3 v_before = v, omega_before = t[field::body_angular_velocity][b];
-  v += dt * ((f.pressure + f.viscous) / m + g);
-  t[field::body_angular_momentum][b] += dt * (f.pressure_torque + f.viscous_torque);
+  v += dt * (f.force() / m + g);
+  t[field::body_angular_momentum][b] += dt * f.torque();
   update_spin(world, b);
   t[field::body_acceleration][b] = (1.0 / dt) * (v - v_before);
   t[field::body_angular_acceleration][b] = (1.0 / dt) * (t[field::body_angular_velocity][b] - omega_before);
   const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
   world.booked.pressure_work += dt * (dot(f.pressure, mean) + dot(f.pressure_torque, spin));
   world.booked.viscous_work += dt * (dot(f.viscous, mean) + dot(f.viscous_torque, spin));
+  world.booked.elastic_work += dt * (dot(f.elastic, mean) + dot(f.elastic_torque, spin));
   world.booked.gravity_work += dt * m * dot(g, mean);
 }
 
-/// What liquids do to a driven body goes to whoever drives it.
+/// What liquids and bonds do to a driven body goes to whoever drives it.
 void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
   if (forces.empty()) return;
   const Vec3 v = world.bodies[field::body_velocity][b], omega = world.bodies[field::body_angular_velocity][b];
   const BodyForces& f = forces[b];
   world.booked.wall_pressure_work += dt * (dot(f.pressure, v) + dot(f.pressure_torque, omega));
   world.booked.wall_viscous_work += dt * (dot(f.viscous, v) + dot(f.viscous_torque, omega));
+  world.booked.wall_elastic_work += dt * (dot(f.elastic, v) + dot(f.elastic_torque, omega));
 }
 
 void RigidBodies::load(World& world, const InitialState& initial) {
-  const std::vector<int> rows = body_rows(world.scene);
-  for (std::size_t n = 0; n < rows.size(); ++n) {
-    if (rows[n] < 0) continue;
-    const Body& body = world.scene.bodies[n];
-    const std::size_t b = add_body(world, body.name);
+  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+    if (!is_rigid(world, b)) continue;
     Columns& t = world.bodies;
-    t[field::body_source][b] = static_cast<int>(n);
-    t[field::body_motion][b] = static_cast<int>(body.motion);
+    const Body& body = world.scene.bodies[static_cast<std::size_t>(t[field::body_source][b])];
     measure(world, b);
     t[field::body_offset][b] = {};
     t[field::body_start_centre][b] = t[field::body_centre][b];
@@ -146,7 +144,7 @@ void RigidBodies::kick(World& world, double dt) {
   forces_on_moving_bodies(world, forces_);
   bool any = false;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    if (!is_alive(world, b) || is_fixed(world, b)) continue;
+    if (!is_alive(world, b) || !is_rigid(world, b) || is_fixed(world, b)) continue;
     any = true;
     is_free(world, b) ? push(world, b, forces_.empty() ? BodyForces{} : forces_[b], g, dt) : book_wall_work(world, b, forces_, dt);
   }
@@ -157,7 +155,7 @@ void RigidBodies::drift(World& world, double dt) {
   Columns& t = world.bodies;
   bool any = false;
   for (std::size_t b = 0; b < t.size(); ++b) {
-    if (!is_alive(world, b) || t[field::body_motion][b] == static_cast<int>(Motion::fixed)) continue;
+    if (!is_alive(world, b) || !is_rigid(world, b) || is_fixed(world, b)) continue;
     if (is_free(world, b)) {
       if (at_rest(world, b)) continue;
       t[field::body_centre][b] += dt * t[field::body_velocity][b];
@@ -236,7 +234,7 @@ TimeStepBound RigidBodies::max_dt(const World& world) const {
 
 void RigidBodies::add_to(const World& world, Ledger& ledger) const {
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    if (!is_alive(world, b)) continue;
+    if (!is_alive(world, b) || !is_rigid(world, b)) continue;
     const BodyMotion m = motion_of(world, b);
     ledger.momentum += m.mass * m.velocity;
     ledger.angular_momentum += m.L + m.mass * cross(m.centre, m.velocity);
@@ -251,10 +249,7 @@ void RigidBodies::add_to(const World& world, Ledger& ledger) const {
 EffectSpec spec(const Scene& scene) {
   return {"rigid",
           scene.mode_of(Term::rotation),
-          {field::reference_x, field::reference_y, field::reference_z, field::body_mass, field::body_centre, field::body_velocity, field::body_acceleration, field::body_angular_acceleration,
-           field::body_angular_momentum, field::body_angular_velocity, field::body_inertia, field::body_orientation,
-           field::body_axes, field::body_turns, field::body_start_centre, field::body_offset, field::body_start_velocity,
-           field::body_start_spin, field::body_motion, field::body_alive, field::body_source},
+          {field::reference_x, field::reference_y, field::reference_z},
           {field::mass, field::body, field::position_x, field::position_y, field::position_z, field::velocity_x,
            field::velocity_y, field::velocity_z}};
 }

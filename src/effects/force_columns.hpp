@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+#include "effects/world.hpp"
+
+namespace tripoint {
+
+/// The columns of one force on every particle [N], and where the work that it does is booked [J].
+struct ForceColumns {
+  Triple<const double> force;
+  double Booked::*work;
+};
+
+/// All forces that the effects of this scene make, each once, in a fixed order. Valid until particles are sorted anew.
+[[nodiscard]] inline std::vector<ForceColumns> force_columns(const World& world) {
+  const Particles& p = world.particles;
+  std::vector<ForceColumns> list;
+  const auto add = [&](const Field<double>& x, const Field<double>& y, const Field<double>& z, double Booked::*work) {
+    if (p.has(x.name)) list.push_back({triple(p, x, y, z), work});
+  };
+  add(field::force_x, field::force_y, field::force_z, &Booked::pressure_work);
+  add(field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, &Booked::viscous_work);
+  add(field::transport_force_x, field::transport_force_y, field::transport_force_z, &Booked::transport_work);
+  add(field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, &Booked::elastic_work);
+  add(field::hourglass_force_x, field::hourglass_force_y, field::hourglass_force_z, &Booked::hourglass_work);
+  return list;
+}
+
+/// Sum of the forces on one particle [N].
+[[nodiscard]] inline Vec3 total_force(const std::vector<ForceColumns>& forces, std::size_t row) {
+  Vec3 sum;
+  for (const ForceColumns& f : forces) sum += f.force.at(row);
+  return sum;
+}
+
+}  // namespace tripoint

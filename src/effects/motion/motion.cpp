@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/motion/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/body_table.hpp"
+#include "effects/force_columns.hpp"
+#include "effects/ordered_sum.hpp"
+
+namespace tripoint::motion {
+namespace {
+
+constexpr std::size_t most_forces = 5;
+
+class FreeMotion : public Effect {
+ public:
+  void kick(World&, double dt) override;
+  void drift(World&, double dt) override;
+  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
+  void add_to(const World&, Ledger&) const override;
+
+ private:
+  enum Work : std::size_t { by_gravity = most_forces, by_wall_pressure, works };
+  std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
+};
+
+/// v += dt (sum F/m + g). The work of each force is booked by its own formula, dt F.(v- + v+)/2, which sums to the change of
+/// kinetic energy to round-off (model 8.11).
+void FreeMotion::kick(World& world, double dt) {
+  Particles& p = world.particles;
+  const auto v = velocities(p);
+  const std::vector<ForceColumns> forces = force_columns(world);
+  const bool splits = p.has(field::wall_force_x.name);
+  const auto E = splits ? triple(std::as_const(p), field::wall_force_x, field::wall_force_y, field::wall_force_z) : Triple<const double>{};
+  const auto m = p[field::mass];
+  const RigidMembers is_member(world);
+  static const double heavier = 1.0 + defect_size("motion.gravity");
+  const Vec3 g = heavier * world.scene.gravity;
+  const auto sums = ordered_sums(p.size(), world.threads, blocks_, [&](std::size_t i, std::array<double, works>& work) {
+    if (is_member(i)) return;
+    const Vec3 before = v.at(i), after = before + (dt / m[i]) * total_force(forces, i) + dt * g;
+    const Vec3 way = (0.5 * dt) * (before + after);
+    for (std::size_t k = 0; k < forces.size(); ++k) work[k] += dot(forces[k].force.at(i), way);
+    work[by_gravity] += m[i] * dot(g, way);
+    if (splits) work[by_wall_pressure] += dot(E.at(i), way);
+    v.set(i, after);
+  });
+  for (std::size_t k = 0; k < forces.size(); ++k) world.booked.*forces[k].work += sums[k];
+  world.booked.gravity_work += sums[by_gravity];
+  world.booked.extrapolated_work += sums[by_wall_pressure];
+}
+
+/// r += dt v; with the transport velocity of the scene's choice, dt (v + shift).
+void FreeMotion::drift(World& world, double dt) {
+  Particles& p = world.particles;
+  const auto r = positions(p), v = velocities(p);
+  const bool shifts = p.has(field::shift_x.name);
+  const auto w = shifts ? triple(std::as_const(p), field::shift_x, field::shift_y, field::shift_z) : Triple<const double>{};
+  const RigidMembers is_member(world);
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (!is_member(i)) r.set(i, r.at(i) + dt * (shifts ? v.at(i) + w.at(i) : v.at(i)));
+  world.moved = true;
+}
+
+/// 0.25 sqrt(h/|a|max) (model 8.10).
+TimeStepBound FreeMotion::max_dt(const World& world) const {
+  const Particles& p = world.particles;
+  const std::vector<ForceColumns> forces = force_columns(world);
+  const auto m = p[field::mass];
+  const Vec3 g = world.scene.gravity;
+  const RigidMembers is_member(world);
+  double a2 = 0.0;
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : a2)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (is_member(i)) continue;
+    const Vec3 a = g + total_force(forces, i) / m[i];
+    a2 = std::max(a2, dot(a, a));
+  }
+  TimeStepBound bound;
+  if (a2 > 0.0) tighten(bound, 0.25 * std::sqrt(world.support() / std::sqrt(a2)), "acceleration");
+  return bound;
+}
+
+void FreeMotion::add_to(const World& world, Ledger& ledger) const {
+  enum Entry : std::size_t { momentum, angular = 3, kinetic = 6, potential, entries };
+  const Particles& p = world.particles;
+  const auto m = p[field::mass];
+  const auto v = velocities(p);
+  const RigidMembers is_member(world);
+  std::vector<std::array<double, entries>> blocks;
+  const auto add = [](std::array<double, entries>& sum, std::size_t first, const Vec3& a) { sum[first] += a.x, sum[first + 1] += a.y, sum[first + 2] += a.z; };
+  const auto sums = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, entries>& sum) {
+    if (is_member(i)) return;
+    const Vec3 r = world.unwrapped(i), P = m[i] * v.at(i);
+    add(sum, momentum, P);
+    add(sum, angular, cross(r, P));
+    sum[kinetic] += 0.5 * dot(v.at(i), P);
+    sum[potential] -= m[i] * dot(world.scene.gravity, r);
+  });
+  ledger.momentum += {sums[momentum], sums[momentum + 1], sums[momentum + 2]};
+  ledger.angular_momentum += {sums[angular], sums[angular + 1], sums[angular + 2]};
+  ledger.energy["kinetic"] += sums[kinetic];
+  ledger.energy["potential"] += sums[potential];
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene& scene) {
+  return {"motion",
+          scene.mode_of(Term::time),
+          {},
+          {field::mass, field::body, field::position_x, field::position_y, field::position_z, field::velocity_x, field::velocity_y, field::velocity_z}};
+}
+
+std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<FreeMotion>(); }
+
+std::vector<DefectEntry> defects() { return {{"motion.gravity", "gravity on liquids and deformable solids times 1 + size", "fluid/hydrostatic"}}; }
+
+}  // namespace tripoint::motion
