@@ -46,6 +46,15 @@ inline constexpr Field<double> own_density{"own_density", "1/m3"};
 inline constexpr Field<double> elastic_force_x{"elastic_force.x", "N"}, elastic_force_y{"elastic_force.y", "N"}, elastic_force_z{"elastic_force.z", "N"};
 inline constexpr Field<double> hourglass_force_x{"hourglass_force.x", "N"}, hourglass_force_y{"hourglass_force.y", "N"}, hourglass_force_z{"hourglass_force.z", "N"};
 
+/// A_i = pinv M_i of the reference list (model 8.7), symmetric; its rank: 3 solid, 2 sheet, 1 chain, 0 without neighbours.
+inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"}, shape_inverse_yy{"shape_inverse.yy", "1"}, shape_inverse_zz{"shape_inverse.zz", "1"};
+inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"}, shape_inverse_xz{"shape_inverse.xz", "1"}, shape_inverse_xy{"shape_inverse.xy", "1"};
+inline constexpr Field<int> shape_rank{"shape_rank", "1"};
+/// Strain of the present time, total, within the range of M_i; and the part of it that has flowed (model 8.7, 8.8).
+inline constexpr Field<double> strain_xx{"strain.xx", "1"}, strain_yy{"strain.yy", "1"}, strain_zz{"strain.zz", "1"}, strain_yz{"strain.yz", "1"}, strain_xz{"strain.xz", "1"}, strain_xy{"strain.xy", "1"};
+inline constexpr Field<double> plastic_strain_xx{"plastic_strain.xx", "1"}, plastic_strain_yy{"plastic_strain.yy", "1"}, plastic_strain_zz{"plastic_strain.zz", "1"};
+inline constexpr Field<double> plastic_strain_yz{"plastic_strain.yz", "1"}, plastic_strain_xz{"plastic_strain.xz", "1"}, plastic_strain_xy{"plastic_strain.xy", "1"};
+
 // phase change, Fig. 5
 inline constexpr Field<double> liquid_fraction{"liquid_fraction", "1"};
 
