@@ -2,6 +2,7 @@
 // Prints values of the references, one a line: name, arguments ..., = value. The NumPy twins in this folder compute them again.
 #include <cstdio>
 
+#include "validation/references/beam.hpp"
 #include "validation/references/cosine_lattice.hpp"
 #include "validation/references/rigid_body.hpp"
 #include "validation/references/step_images.hpp"
@@ -48,6 +49,20 @@ void print_layers() {
     for (const double x : {0.0005, 0.0069, 0.0075, 0.0099}) std::printf("layers %.17g %.17g = %.17g\n", t, x, s.at(x, t));
 }
 
+void print_beams() {
+  for (const BeamTip& tip : {BeamTip{}, BeamTip{0.02, 0.0, 0.0}, BeamTip{0.5, 2e-4, 0.03}})
+    for (const double height : {0.02, 0.05}) {
+      const Beam b = rectangular_beam(0.2, height, 0.03, 1000.0, 2e6, 0.3975, true, 0.86);
+      const auto sag = beam_sag(b, tip, 9.81, b.length);
+      std::printf("beam %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g = %.17g %.17g %.17g\n", b.length, b.bending, b.shear, b.mass, b.rotary, tip.mass, tip.inertia, tip.offset, 9.81,
+                  sag.displacement, sag.rotation, beam_frequency(b, tip));
+    }
+  for (const double nu : {0.0, 0.3, 0.3975}) {
+    const Beam b = rectangular_beam(10.0, 1.0, 1.0, 1.0, 1.0, nu, true, rectangular_shear_coefficient(nu, true));
+    std::printf("plane %.17g %.17g %.17g = %.17g %.17g\n", 10.0, 1.0, nu, beam_sag(b, {}, 1.0, b.length).displacement, beam_frequency(b, {}));
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -55,4 +70,5 @@ int main() {
   print_lattice();
   print_step();
   print_layers();
+  print_beams();
 }

@@ -6,11 +6,14 @@ torque_free  rotation matrix by an eighth-order Gauss-Legendre integrator (the p
 lattice      conduction operator as a sparse sum over the particles of a periodic block (the program: a sum over one neighbourhood)
 step         cosine series summed to round-off (the program: images of error functions)
 layers       matrix exponential of a finite-volume operator (the program: eigenfunctions or error functions)
+Those of solids and phase change are in solid_twins.py.
 """
 import subprocess
 import sys
 
 import numpy as np
+
+import solid_twins
 
 
 def gauss_legendre(stages):
@@ -123,7 +126,7 @@ def check_layers(arguments, found):
     return abs(np.interp(x, LAYERS["centre"], T) - found[0]), 4e-4  # second order in dx: (dx/front)^2 of a step of 10 K
 
 
-CHECKS = {"torque_free": check_torque_free, "lattice": check_lattice, "step": check_step, "layers": check_layers}
+CHECKS = {"torque_free": check_torque_free, "lattice": check_lattice, "step": check_step, "layers": check_layers, **solid_twins.CHECKS}
 
 
 def main():

@@ -46,6 +46,7 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry taylor_green_entry();
 [[nodiscard]] ReferenceEntry couette_cylinders_entry();
 [[nodiscard]] ReferenceEntry cosine_carried_entry();
+[[nodiscard]] ReferenceEntry cantilever_entry();
 [[nodiscard]] ReferenceEntry stated_entry();
 [[nodiscard]] ReferenceEntry invariant_entry();
 

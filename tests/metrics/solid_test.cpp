@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "metrics/frames.hpp"
+#include "references/solids.hpp"
+
+namespace tripoint {
+namespace {
+
+using test::metric;
+using test::pi;
+using test::Still;
+
+/// Moves the last layer of the beam's particles down, as a bent beam would.
+void bend(Still& f, Snapshot& frame, double by) {
+  for (std::size_t i = 0; i < f.s.initial.size(); ++i)
+    if (f.s.initial.source[i] == 0) frame.position[i].z -= by * std::pow(f.s.initial.position[i].x / 0.195, 2);
+}
+
+TEST(SolidMetrics, ReadTheDeflectionOfTheLastLayer) {
+  Still f(test::beam(2.0));
+  const double truth = *make_reference(test::function("cantilever"), f.s.job, f.s.initial)->number("deflection");
+  bend(f, f.run.frames.back(), truth + 1e-3);
+  EXPECT_NEAR(f.of(metric("deflection", "final"), "cantilever").value, 1e-3, 1e-12);
+  EXPECT_TRUE(std::isnan(f.stated(metric("deflection", "final", "beam"), {{"value", 0.0}})));
+}
+
+TEST(SolidMetrics, ReadTheDeflectionOfARigidTip) {
+  Still f(test::beam(2.0, true));
+  const Settings args{{"tip", std::string("tip")}};
+  const double truth = *make_reference(test::function("cantilever", args), f.s.job, f.s.initial)->number("tip_deflection");
+  f.run.frames.back().bodies[2].position += Vec3{0.01, 0, -truth - 2e-3};
+  EXPECT_NEAR(f.of(metric("deflection", "final", "tip"), "cantilever", args).value, 2e-3, 1e-12);
+}
+
+TEST(SolidMetrics, FindOffsetAndFrequencyOfASwing) {
+  Still f(test::beam(2.0));
+  const auto truth = make_reference(test::function("cantilever"), f.s.job, f.s.initial);
+  const double w = 0.93 * *truth->number("frequency"), sag = 1.08 * *truth->number("deflection");
+  for (auto& frame : f.run.frames) bend(f, frame, sag * (1 - std::cos(w * frame.time)));
+  EXPECT_NEAR(f.of(metric("frequency", "final"), "cantilever").value, -0.07, 1e-8);  // golden section: square root of round-off
+  EXPECT_NEAR(f.of(metric("sag", "final"), "cantilever").value, 0.08, 1e-8);
+  for (auto& frame : f.run.frames) bend(f, frame, 0.03 * sag * std::cos(6.2 * w * frame.time));  // a second mode
+  EXPECT_NEAR(f.of(metric("frequency", "final"), "cantilever").value, -0.07, 2e-3);  // 3 % of another mode over two periods
+  EXPECT_NEAR(f.of(metric("sag", "final"), "cantilever").value, 0.08, 5e-3);
+}
+
+TEST(SolidMetrics, RefuseASwingFarFromTheTruth) {
+  Still f(test::beam(2.0));
+  const double w = 5.0 * *make_reference(test::function("cantilever"), f.s.job, f.s.initial)->number("frequency");
+  for (auto& frame : f.run.frames) bend(f, frame, 1e-3 * std::exp(w * frame.time / 50));
+  EXPECT_TRUE(std::isnan(f.of(metric("frequency", "final"), "cantilever").value));
+}
+
+TEST(SolidMetrics, MeasureAStretchWhateverTheTurn) {
+  Still f(test::beam(0.0));
+  const Quaternion turn = from_rotation_vector({0.3, 1.0, -0.4});
+  for (std::size_t i = 0; i < f.s.initial.size(); ++i) {
+    auto& r = f.run.frames.back().position[i];
+    r = rotate(turn, {1.02 * r.x, r.y, r.z});
+  }
+  f.s.job.scene.periodic = {false, false, false};
+  const Settings stated{{"axis", std::string("x")}, {"value", 1.0}};
+  EXPECT_NEAR(f.stated(metric("stretch", "final", "beam"), stated), 0.02, 1e-12);
+  auto middle = stated;
+  middle["gauge"] = 0.5;
+  EXPECT_NEAR(f.stated(metric("stretch", "final", "beam"), middle), 0.02, 1e-12);
+}
+
+TEST(SolidMetrics, SeeASpinTurnBack) {
+  Still f(test::blocks());
+  const auto& centre = f.s.job.bodies[0].properties.centre;
+  for (auto& frame : f.run.frames)
+    for (std::size_t i = 0; i < f.s.initial.size(); ++i) {
+      const double rate = frame.time < 0.9 ? 2.0 : -1.7;
+      frame.velocity[i] = Vec3{5, 0, 0} + cross({0, rate, 0}, frame.position[i] - centre);
+    }
+  EXPECT_NEAR(f.stated(metric("spin_ratio", "final", "left"), {{"value", 1.0}}), -1.85, 1e-12);
+}
+
+TEST(SolidMetrics, CompareTheShapeOfAnElasticBodyWhenItIsNamed) {
+  Still f(test::blocks());
+  for (std::size_t i = 0; i < f.s.initial.size(); ++i)
+    if (f.s.initial.source[i] == 0) f.run.frames.back().position[i].x *= 1.01;
+  EXPECT_NEAR(f.stated(metric("shape", "final", "left")), 0.01, 1e-12);
+  EXPECT_TRUE(std::isnan(f.stated(metric("shape", "final"))));  // no rigid body, and none is named
+}
+
+}  // namespace
+}  // namespace tripoint

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/references/solid_scene.hpp"
+
+#include "scene/nearest.hpp"
+#include "validation/references/heat_scene.hpp"
+
+namespace tripoint {
+
+ElasticConstants elastic_constants(const Job& job, std::size_t body) {
+  const auto& m = job.scene.material(job.bodies.at(body).material);
+  if (!m.young_modulus || !m.poisson_ratio) throw InputError("material `" + m.name + "` needs young_modulus and poisson_ratio for an exact solution of elasticity");
+  return {*m.young_modulus, *m.poisson_ratio};
+}
+
+std::optional<std::size_t> named_body(const ReferenceInput& in, const char* argument) {
+  const auto name = in.args.word(argument);
+  if (!name) return {};
+  std::vector<std::string> known;
+  for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
+    if (in.job.bodies[b].name == *name) return b;
+    known.push_back(in.job.bodies[b].name);
+  }
+  throw InputError(std::string("argument `") + argument + "` names body `" + printable(*name) + "`" + suggestion(*name, known));
+}
+
+std::size_t elastic_body(const ReferenceInput& in, const char* function) {
+  if (const auto given = named_body(in, "body")) return *given;
+  std::optional<std::size_t> found;
+  for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
+    if (in.job.bodies[b].phase != Phase::elastic) continue;
+    if (found) throw InputError(std::string(function) + " is of one elastic body: name it by the argument `body`");
+    found = b;
+  }
+  if (!found) throw InputError(std::string(function) + " needs an elastic body");
+  return *found;
+}
+
+std::array<double, 3> extents(const ReferenceInput& in, std::size_t body) {
+  std::array<double, 3> size{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& scene = in.job.scene;
+    size[k] = scene.periodic[k] && scene.min && scene.max ? (*scene.max)[k] - (*scene.min)[k] : body_along(k, body, in.job, in.initial).length();
+  }
+  return size;
+}
+
+std::size_t long_axis(const ReferenceInput& in, std::size_t body) {
+  const auto size = extents(in, body);
+  std::size_t axis = 3;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!in.job.scene.periodic[k] && (axis == 3 || size[k] > size[axis])) axis = k;
+  if (axis == 3) throw InputError("body `" + in.job.bodies[body].name + "` has no end: every direction is periodic");
+  return axis;
+}
+
+}  // namespace tripoint
