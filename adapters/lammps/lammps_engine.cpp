@@ -8,6 +8,7 @@
 #include "adapters/lammps/rigid_flight.hpp"
 #include "adapters/lammps/sph_heat.hpp"
 #include "adapters/lammps/sph_liquid.hpp"
+#include "adapters/lammps/tlsph.hpp"
 #include "adapters/lammps/walkers.hpp"
 
 namespace tripoint::lammps {
@@ -35,7 +36,8 @@ const std::vector<Way>& ways() {
       {"langevin", {{"fix", "langevin"}}, why_no_walkers, make_langevin, {"heat", "walkers", "langevin"}},
       {"brownian", {{"fix", "brownian"}}, why_no_walkers, make_brownian, {"brownian"}},
       {"sph", {{"pair", "sph/heatconduction"}}, why_no_sph_heat, make_sph_heat, {"conduction"}},
-      {"taitwater", {{"pair", "sph/taitwater"}, {"pair", "sph/taitwater/morris"}}, why_no_sph_liquid, make_sph_liquid, {"taitwater"}}};
+      {"taitwater", {{"pair", "sph/taitwater"}, {"pair", "sph/taitwater/morris"}}, why_no_sph_liquid, make_sph_liquid, {"taitwater"}},
+      {"tlsph", {{"pair", "smd/tlsph"}, {"atom", "smd"}}, why_no_tlsph, make_tlsph, {"tlsph"}}};
   return list;
 }
 
@@ -68,7 +70,7 @@ bool has(const Job& job, Phase phase) {
 const Way& way_for(const Job& job) {
   const std::string conduction = choice_for(job).conduction;
   const std::string heat = conduction.empty() ? build().has("brownian") ? "brownian" : "langevin" : conduction;
-  const std::string name = has_heat(job) ? heat : has(job, Phase::liquid) ? "taitwater" : "rigid";
+  const std::string name = has_heat(job) ? heat : has(job, Phase::liquid) ? "taitwater" : has(job, Phase::elastic) ? "tlsph" : "rigid";
   return *std::find_if(ways().begin(), ways().end(), [&](const Way& w) { return w.name == name; });
 }
 

@@ -36,7 +36,7 @@ const std::map<std::string, Entry>& entries() {
                       }}},
       {"walkers", {"number of walkers, default 1e5; the job's resolution.walkers goes first",
                    [](Choice& c, const std::string& k, const Setting& v) { c.walkers = positive(k, v); }}},
-      {"cutoff", {"support of the pair styles in spacings; default: sph/heatconduction 3, sph/taitwater and smd/tlsph the scene's, rheo 3", [](Choice& c, const std::string& k, const Setting& v) { c.cutoff = positive(k, v); }}},
+      {"cutoff", {"support of the pair styles in spacings; default: sph/heatconduction 3, sph/taitwater the scene's, smd/tlsph 2.01, rheo 3", [](Choice& c, const std::string& k, const Setting& v) { c.cutoff = positive(k, v); }}},
       {"pool", {"count walkers in whole layers where the start depends on one coordinate only, default true",
                 [](Choice& c, const std::string& k, const Setting& v) {
                   const auto* b = std::get_if<bool>(&v);
@@ -44,7 +44,7 @@ const std::map<std::string, Entry>& entries() {
                   c.pool = *b;
                 }}},
       {"commands", {"LAMMPS commands run after the set-up, default none", [](Choice& c, const std::string& k, const Setting& v) { c.commands = text(k, v); }}},
-      {"time_step", {"rigid: default 1/240 s; sph heat: 0.1 dx2/D; liquids: 0.06 h/c and 0.1 dx2/nu; walkers take only this one, not the job's, default as long as the box allows", [](Choice&, const std::string& k, const Setting& v) { (void)positive(k, v); }}}};
+      {"time_step", {"rigid: default 1/240 s; sph heat: 0.1 dx2/D; liquids: 0.06 h/c and 0.1 dx2/nu; elastic: 0.2 h/c_L; walkers take only this one, not the job's, default as long as the box allows", [](Choice&, const std::string& k, const Setting& v) { (void)positive(k, v); }}}};
   return table;
 }
 

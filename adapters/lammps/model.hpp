@@ -49,6 +49,8 @@ struct Steps {
 class Clock {
  public:
   void run(Library&, const Steps&);
+  /// The scene has changed: the next run begins with its set-up.
+  void set_up_again() { size_ = 0.0; }
   [[nodiscard]] long total() const { return total_; }
 
  private:

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace tripoint::lammps {
 
@@ -22,7 +23,7 @@ ParticleModel::ParticleModel(const Job& job, const InitialState& state, const Un
   units_.origin = job.scene.min.value_or(state.position.front());
 }
 
-void ParticleModel::make_particles(const std::string& style, const std::string& extra, double margin) {
+void ParticleModel::make_particles(const std::string& style, const std::string& extra, double margin, const std::vector<int>& types) {
   const Scene& scene = job_.scene;
   Vec3 lo = units_.place(state_.position.front()), hi = lo;
   for (const Vec3& x : state_.position)
@@ -34,12 +35,12 @@ void ParticleModel::make_particles(const std::string& style, const std::string& 
     letters += wraps ? " p" : " m";  // shrink-wrapped from no less than this box: a single layer is no flat box
   }
   library_.run("units lj\n" + style + "\natom_modify map array sort 0 0.0\nboundary" + letters + "\n");
-  library_.run(fmt::format("region box block{}\ncreate_box {} box{}\n", edges, job_.bodies.size(), extra));
+  library_.run(fmt::format("region box block{}\ncreate_box {} box{}\n", edges, *std::max_element(types.begin(), types.end()), extra));
   std::vector<int> type;
   std::vector<Vec3> position, velocity;
   for (std::size_t i = 0; i < state_.size(); ++i) {
     const bool held = job_.bodies[static_cast<std::size_t>(state_.source[i])].motion == Motion::fixed;
-    type.push_back(state_.source[i] + 1);
+    type.push_back(types[static_cast<std::size_t>(state_.source[i])]);
     position.push_back(units_.place(state_.position[i]));
     velocity.push_back(held ? Vec3{} : state_.velocity[i] / units_.speed());
   }
@@ -53,10 +54,20 @@ std::vector<std::size_t> ParticleModel::members(std::size_t body) const {
   return rows;
 }
 
+std::vector<int> ParticleModel::type_a_body() const {
+  std::vector<int> types(job_.bodies.size());
+  std::iota(types.begin(), types.end(), 1);
+  return types;
+}
+
+/// Rows are sampled body after body.
+std::string ParticleModel::ids_of(std::size_t body) const {
+  const auto rows = members(body);
+  return rows.empty() ? "" : fmt::format(" {}:{}", rows.front() + 1, rows.back() + 1);
+}
+
 void ParticleModel::make_gravity() {
-  const std::string free = types_where([](const JobBody& b) { return b.motion == Motion::free; });
-  if (free.empty()) throw EngineError("every body of the scene is held");
-  library_.run("group free type" + free);
+  if (!make_group("free", [](const JobBody& b) { return b.motion == Motion::free; })) throw EngineError("every body of the scene is held");
   const Vec3 g = job_.scene.gravity / units_.acceleration();
   if (norm(g) == 0.0) return;
   library_.run(fmt::format("fix weight free gravity {:.17g} vector {:.17g} {:.17g} {:.17g}", norm(g), g.x, g.y, g.z));

@@ -23,7 +23,7 @@ struct Units {
 /// Mass of every particle of a body of the case. @throws EngineError where they differ: a LAMMPS type has one mass [kg]
 [[nodiscard]] double particle_mass(const InitialState&, int source, const std::string& name);
 
-/// The job's own particles under a style of LAMMPS; a type a body of the case, type = row of [[body]] + 1.
+/// The job's own particles under a style of LAMMPS; id = row + 1.
 /// Directions that are not periodic end where the particles end: nothing holds them but what the scene says.
 class ParticleModel : public Model {
  public:
@@ -35,17 +35,22 @@ class ParticleModel : public Model {
   ParticleModel(const Job&, const InitialState&, const Units&, double limit);
   /// Everything up to the particles. @param style atom_style with what has to stand before the box
   /// @param extra of create_box, e.g. bonds @param margin about the particles at the start [spacings]
-  void make_particles(const std::string& style, const std::string& extra, double margin);
+  /// @param types of the bodies of the case, 1..n
+  void make_particles(const std::string& style, const std::string& extra, double margin, const std::vector<int>& types);
+  [[nodiscard]] std::vector<int> type_a_body() const;  ///< 1, 2, 3, ...
+  [[nodiscard]] std::vector<int> one_type() const { return std::vector<int>(job_.bodies.size(), 1); }
   /// Gravity on the bodies that are free, measured on them with no pair style: before any other force. Defines the group `free`.
   void make_gravity();
-  /// " 1 3" for the bodies (types) that satisfy a condition; empty for none.
+  /// Makes a group of the bodies that satisfy a condition. @return whether there are any; else there is no group
   template <class Condition>
-  [[nodiscard]] std::string types_where(Condition condition) const {
-    std::string types;
+  bool make_group(const std::string& name, Condition condition) {
+    std::string ids;
     for (std::size_t b = 0; b < job_.bodies.size(); ++b)
-      if (condition(job_.bodies[b])) types += " " + std::to_string(b + 1);
-    return types;
+      if (condition(job_.bodies[b])) ids += ids_of(b);
+    if (!ids.empty()) library_.run("group " + name + " id" + ids);
+    return !ids.empty();
   }
+  [[nodiscard]] std::string ids_of(std::size_t body) const;  ///< " first:last"
   /// Particles of one body of the case.
   [[nodiscard]] std::vector<std::size_t> members(std::size_t body) const;
   /// Positions, velocities and what follows from them; phases, bodies and materials as at the start; no bodies' rows.

@@ -54,7 +54,7 @@ double step_limit(const Job& job) {
 class SphLiquid final : public ParticleModel {
  public:
   SphLiquid(const Job& job, const InitialState& state) : ParticleModel(job, state, units_of(job), step_limit(job)), support_(support_of(job)), viscous_(greatest_viscosity(job.scene) > 0.0) {
-    make_particles("atom_style sph\nnewton on", "", support_);
+    make_particles("atom_style sph\nnewton on", "", support_, type_a_body());
     for (std::size_t b = 0; b < job.bodies.size(); ++b) {  // walls are made of still liquid
       const double mass = job.bodies[b].phase == Phase::liquid ? particle_mass(state, static_cast<int>(b), job.bodies[b].name) : units_.mass;
       library_.run(fmt::format("mass {} {:.17g}", b + 1, mass / units_.mass));
@@ -63,8 +63,7 @@ class SphLiquid final : public ParticleModel {
     make_gravity();
     make_pairs();
     library_.run("fix move free sph");
-    const std::string walls = types_where([](const JobBody& b) { return b.motion == Motion::fixed; });
-    if (!walls.empty()) library_.run("group walls type" + walls + "\nfix walls walls sph/stationary");
+    if (make_group("walls", [](const JobBody& b) { return b.motion == Motion::fixed; })) library_.run("fix walls walls sph/stationary");
     library_.run(choice_.commands);
   }
 
