@@ -43,7 +43,7 @@ const Quantity* find_quantity(const MetricInput& input) {
 }
 
 const RunQuantity* find_run_quantity(const MetricChoice& choice) {
-  for (const auto* list : {&run_quantities(), &motion_quantities(), &solid_run_quantities(), &phase_run_quantities()})
+  for (const auto* list : {&run_quantities(), &motion_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities()})
     for (const auto& q : *list)
       if (q.word.name == choice.quantity) return &q;
   return nullptr;
@@ -158,7 +158,7 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
 
 void scale(MetricValue& v, double by) {
   v.value /= by;
-  for (double* u : {&v.uncertainty.numerical, &v.uncertainty.statistical}) *u /= by;
+  for (double* u : {&v.uncertainty.numerical, &v.uncertainty.statistical, &v.uncertainty.data}) *u /= by;
   for (double& x : v.series) x /= by;
 }
 
@@ -183,7 +183,7 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
     value = of_frames(in, *find_quantity(in), frames.list, chosen);
   }
   scale(value, choice.scale);
-  value.uncertainty.data = (choice.reference ? *choice.reference : job.reference).uncertainty;
+  if (value.uncertainty.data == 0.0) value.uncertainty.data = (choice.reference ? *choice.reference : job.reference).uncertainty;
   return value;
 }
 
@@ -194,7 +194,7 @@ const std::vector<MetricWord>& metric_quantities() {
                               &profile_quantities()})
       for (const auto& q : *group)
         if (!q.word.meaning.empty()) list.push_back(q.word);
-    for (const auto* group : {&run_quantities(), &motion_quantities(), &solid_run_quantities(), &phase_run_quantities()})
+    for (const auto* group : {&run_quantities(), &motion_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities()})
       for (const auto& q : *group) list.push_back(q.word);
     return list;
   }();

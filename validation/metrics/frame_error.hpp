@@ -67,6 +67,7 @@ struct RunQuantity {
 };
 [[nodiscard]] const std::vector<RunQuantity>& run_quantities();
 [[nodiscard]] const std::vector<RunQuantity>& motion_quantities();
+[[nodiscard]] const std::vector<RunQuantity>& front_quantities();
 [[nodiscard]] const std::vector<RunQuantity>& solid_run_quantities();
 [[nodiscard]] const std::vector<RunQuantity>& phase_run_quantities();
 

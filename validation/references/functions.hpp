@@ -13,6 +13,7 @@ struct ReferenceInput {
   const Arguments& args;
   const Job& job;
   const InitialState& initial;
+  std::string file = {};  ///< data beside the case; empty = none
 };
 
 /// A reference function: its description and its maker. One file each; `all_references()` is the one list.
@@ -48,6 +49,7 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry cosine_carried_entry();
 [[nodiscard]] ReferenceEntry cantilever_entry();
 [[nodiscard]] ReferenceEntry stated_entry();
+[[nodiscard]] ReferenceEntry experiment_entry();
 [[nodiscard]] ReferenceEntry invariant_entry();
 
 [[nodiscard]] const std::vector<ReferenceEntry>& all_references();

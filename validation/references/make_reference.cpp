@@ -13,7 +13,7 @@ const std::vector<ReferenceEntry>& all_references() {
       cosine_mode_lattice_entry(), sine_held_ends_entry(), step_insulated_entry(),      two_conductivities_entry(), hydrostatic_entry(), poiseuille_entry(), couette_entry(), sound_wave_entry(),
       liquid_ball_entry(), archimedes_entry(), added_mass_entry(), elastic_collision_entry(),
       resting_entry(), elliptic_drop_entry(), taylor_green_entry(), couette_cylinders_entry(),
-      cosine_carried_entry(), cantilever_entry(), stated_entry(), invariant_entry()};
+      cosine_carried_entry(), cantilever_entry(), stated_entry(), experiment_entry(), invariant_entry()};
   return entries;
 }
 
@@ -27,7 +27,7 @@ const std::vector<ReferenceFunction>& reference_functions() {
 }
 
 std::unique_ptr<Reference> make_reference(const ReferenceChoice& choice, const Job& job, const InitialState& initial) {
-  const std::string name = choice.function.empty() && choice.kind == "invariant" ? "invariant" : choice.function;
+  const std::string name = choice.function.empty() && (choice.kind == "invariant" || choice.kind == "experiment") ? choice.kind : choice.function;
   if (name.empty()) throw InputError("the reference of kind " + choice.kind + " names no function: no truth to compare with");
   const auto& entries = all_references();
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.function.name == name; });
@@ -37,7 +37,7 @@ std::unique_ptr<Reference> make_reference(const ReferenceChoice& choice, const J
     throw InputError("unknown reference function `" + printable(name) + "`" + suggestion(name, known));
   }
   const Arguments args(choice, found->function);
-  return found->make({args, job, initial});
+  return found->make({args, job, initial, choice.file});
 }
 
 }  // namespace tripoint

@@ -11,6 +11,11 @@
 
 namespace tripoint {
 
+/// What an experiment saw of a quantity, in SI.
+struct MeasuredCurve {
+  std::vector<double> time, value, uncertainty;  ///< times rise; standard uncertainty of each value
+};
+
 /// Truth, as far as it is known: what an exact (or exactly discrete) solution says of this job's particles and bodies.
 class Reference {
  public:
@@ -22,6 +27,8 @@ class Reference {
   [[nodiscard]] virtual Snapshot beside(const Snapshot& now) const { return at(now.time); }
   /// A number it knows by name: decay_rate [1/s], event_time [s], energy_ratio ...; empty when it does not.
   [[nodiscard]] virtual std::optional<double> number(std::string_view quantity) const { (void)quantity; return {}; }
+  /// Measured values by the name of their column; nullptr when it has none.
+  [[nodiscard]] virtual const MeasuredCurve* measured(std::string_view column) const { (void)column; return nullptr; }
   /// A number that changes in time: stretch, front_position ...; one that does not is the same at all times.
   [[nodiscard]] virtual std::optional<double> number_at(std::string_view quantity, double time) const { (void)time; return number(quantity); }
 };

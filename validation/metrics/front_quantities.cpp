@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "validation/metrics/frame_error.hpp"
+
+/// The front of a liquid that runs along an axis, against measured positions of it.
+namespace tripoint {
+namespace {
+
+MetricValue unformed(const std::string& why) {
+  MetricValue v;
+  v.value = std::numeric_limits<double>::quiet_NaN();
+  v.note = why;
+  return v;
+}
+
+/// Two companions within 1.5 spacings: a drop that flies alone is not the front.
+bool belongs_to_the_liquid(const MetricInput& in, const Snapshot& s, std::size_t particle) {
+  int companions = 0;
+  for (std::size_t j = 0; j < in.initial.size() && companions < 2; ++j)
+    companions += j != particle && takes(in, j) && norm(displacement(in.job.scene, s.position[j], s.position[particle])) < 1.5 * in.job.scene.spacing;
+  return companions == 2;
+}
+
+/// Place of the foremost particle that is no lone drop, half a spacing added [m]; NaN where there is none.
+double front_of(const MetricInput& in, const Snapshot& s, std::size_t axis) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < in.initial.size(); ++i)
+    if (takes(in, i) && finite(s.position[i])) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return s.position[a][axis] > s.position[b][axis]; });
+  for (const auto i : order)
+    if (belongs_to_the_liquid(in, s, i)) return s.position[i][axis] + 0.5 * in.job.scene.spacing;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The run's front where the experiment saw its own.
+struct Fronts {
+  std::vector<double> time, run, measured, uncertainty;
+  std::string problem;
+};
+
+/// Fronts at the measured times, by straight lines between output times; never beyond them.
+Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames) {
+  const auto axis = in.reference.number("axis");
+  const auto* curve = in.reference.measured("front");
+  if (!axis || !curve) return {{}, {}, {}, {}, "the reference has no measured front, or names no axis along which it runs"};
+  std::vector<double> t, x;
+  for (const auto* s : frames) t.push_back(s->time), x.push_back(front_of(in, *s, static_cast<std::size_t>(*axis)));
+  Fronts f;
+  for (std::size_t n = 0; n < curve->time.size(); ++n) {
+    const auto next = std::lower_bound(t.begin(), t.end(), curve->time[n]);
+    if (next == t.end() || next == t.begin()) return {{}, {}, {}, {}, "a front was measured at t = " + std::to_string(curve->time[n]) + " s, which the run's frames do not enclose"};
+    const auto k = static_cast<std::size_t>(next - t.begin());
+    const double share = (curve->time[n] - t[k - 1]) / (t[k] - t[k - 1]);
+    f.time.push_back(curve->time[n]), f.run.push_back(x[k - 1] + share * (x[k] - x[k - 1]));
+    f.measured.push_back(curve->value[n]), f.uncertainty.push_back(curve->uncertainty[n]);
+    if (!std::isfinite(f.run.back())) return {{}, {}, {}, {}, "the liquid has no front at t = " + std::to_string(f.time.back()) + " s"};
+  }
+  return f;
+}
+
+MetricValue front_lead(const MetricInput& in, const std::vector<const Snapshot*>& frames) {
+  const auto f = fronts(in, frames);
+  if (!f.problem.empty()) return unformed(f.problem);
+  MetricValue v;
+  std::size_t worst = 0;
+  for (std::size_t n = 0; n < f.time.size(); ++n) {
+    v.times.push_back(f.time[n]), v.series.push_back(f.run[n] - f.measured[n]);
+    if (std::abs(v.series[n]) > std::abs(v.series[worst])) worst = n;
+  }
+  v.value = v.series[worst], v.uncertainty.data = f.uncertainty[worst];
+  v.note = "at t = " + std::to_string(f.time[worst]) + " s";
+  return v;
+}
+
+MetricValue front_speed(const MetricInput& in, const std::vector<const Snapshot*>& frames) {
+  const auto f = fronts(in, frames);
+  if (!f.problem.empty()) return unformed(f.problem);
+  if (f.time.size() < 2) return unformed("a speed needs two measured fronts or more");
+  const double way = f.measured.back() - f.measured.front(), span = f.time.back() - f.time.front(), own = f.run.back() - f.run.front();
+  if (!(way > 0.0)) return unformed("the measured front does not advance");
+  MetricValue v;
+  v.value = own / way - 1.0;
+  v.uncertainty.data = std::abs(own) / (way * way) * std::hypot(f.uncertainty.front(), f.uncertainty.back());
+  v.note = std::to_string(own / span) + " m/s against " + std::to_string(way / span);
+  return v;
+}
+
+}  // namespace
+
+const std::vector<RunQuantity>& front_quantities() {
+  static const std::vector<RunQuantity> list{
+      {{"front_lead", "m", "front of the liquid minus the measured one, where it is largest in size; its uncertainty is the data's"}, front_lead},
+      {{"front_speed", "1", "mean speed of the front from the first measured place to the last over the measured one, minus 1"}, front_speed}};
+  return list;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/references/experiment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "scene/nearest.hpp"
+#include "validation/references/functions.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr std::uintmax_t largest_file = 1 << 20;  // [bytes]
+constexpr std::string_view hash_key = "# hash:";
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::size_t from = 0;
+  for (std::size_t at = 0; at != std::string::npos; from = at + 1) {
+    at = line.find(',', from);
+    cells.push_back(trimmed(std::string_view(line).substr(from, at == std::string::npos ? at : at - from)));
+  }
+  return cells;
+}
+
+/// A number as the header words it: `scale` turns values of a column into SI, or says their uncertainty.
+struct Stated {
+  double number = 0.0;
+  std::string rest;
+};
+
+/// Reads line by line; whatever is wrong is said with file and line.
+class Reader {
+ public:
+  explicit Reader(const std::string& path) : place_{path} {}
+
+  ExperimentFile read(const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      ++place_.line;
+      if (!line.empty() && line.back() == '\r') line.pop_back();
+      if (line.starts_with('#')) comment(line);
+      else if (trimmed(line).empty()) continue;
+      else if (columns_.empty()) head(line);
+      else row(line);
+    }
+    place_.line = 0;
+    check(text);
+    return finished();
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(place_, what); }
+
+  Stated stated(const std::string& text) const {
+    Stated s;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), s.number);
+    if (error != std::errc() || !std::isfinite(s.number)) refuse("`" + printable(text) + "` does not begin with a number");
+    s.rest = trimmed(std::string_view(text).substr(static_cast<std::size_t>(end - text.data())));
+    return s;
+  }
+
+  /// "# source: ...", "# unit COLUMN: ...", "# uncertainty COLUMN: ...", "# hash: ..."; all else is free text.
+  void comment(const std::string& line) {
+    const auto colon = line.find(':');
+    if (colon == std::string::npos) return;
+    std::istringstream words(line.substr(1, colon - 1));
+    std::string key, column, more;
+    words >> key >> column >> more;
+    const std::string value = trimmed(std::string_view(line).substr(colon + 1));
+    if (!more.empty()) return;
+    if (key == "source" && column.empty()) source_ = value;
+    else if (key == "hash" && column.empty()) hash_ = value;
+    else if (key == "unit" && !column.empty()) units_[column] = unit(value);
+    else if (key == "uncertainty" && !column.empty()) uncertainty_[column] = uncertainty(value), words_[column] = value;
+  }
+
+  double unit(const std::string& value) const {
+    const auto s = stated(value);
+    if (!(s.number > 0.0) || s.rest.empty()) refuse("write a unit as a size greater than 0 in SI and the SI unit's name, like `0.05715 m`");
+    return s.number;
+  }
+
+  Stated uncertainty(const std::string& value) const {
+    const auto s = stated(value);
+    if (!(s.number >= 0.0) || (!s.rest.empty() && s.rest != "%")) refuse("write a standard uncertainty as `0.05` in the column's unit or as `2 %` of each value");
+    return s;
+  }
+
+  void head(const std::string& line) {
+    columns_ = split(line);
+    if (columns_.size() < 2 || columns_.front() != "time") refuse("the first line of the table names the columns: `time` and at least one that was measured");
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      if (columns_[c].empty() || std::count(columns_.begin(), columns_.end(), columns_[c]) > 1) refuse(fmt::format("column {} has no name of its own", c + 1));
+      if (!units_.count(columns_[c])) refuse(fmt::format("no line `# unit {}: ...` stands above the table", printable(columns_[c])));
+      if (c > 0 && !uncertainty_.count(columns_[c])) refuse(fmt::format("no line `# uncertainty {}: ...` stands above the table", printable(columns_[c])));
+    }
+  }
+
+  void row(const std::string& line) {
+    const auto cells = split(line);
+    if (cells.size() != columns_.size()) refuse(fmt::format("{} values where the table has {} columns", cells.size(), columns_.size()));
+    std::vector<double> values;
+    for (const auto& cell : cells) {
+      const auto s = stated(cell);
+      if (!s.rest.empty()) refuse("`" + printable(cell) + "` is not a number");
+      values.push_back(s.number);
+    }
+    if (!rows_.empty() && !(values[0] > rows_.back()[0])) refuse("times must rise from row to row");
+    rows_.push_back(std::move(values));
+  }
+
+  void check(const std::string& text) const {
+    if (source_.empty()) refuse("no line `# source: ...`: where do the data come from?");
+    if (columns_.empty() || rows_.empty()) refuse("the table has no row");
+    const auto now = experiment_hash(text);
+    if (hash_.empty()) refuse(fmt::format("no line `# hash: ...`; of these data it is {}", now));
+    if (hash_ != now) refuse(fmt::format("the data hash to {}, the file says {}: they changed since they were entered", now, printable(hash_)));
+  }
+
+  [[nodiscard]] ExperimentFile finished() const {
+    ExperimentFile file;
+    file.source = source_, file.uncertainty = words_;
+    for (std::size_t c = 1; c < columns_.size(); ++c) {
+      const auto& u = uncertainty_.at(columns_[c]);
+      const double unit = units_.at(columns_[c]);
+      auto& curve = file.curves[columns_[c]];
+      for (const auto& values : rows_) {
+        curve.time.push_back(values[0] * units_.at("time")), curve.value.push_back(values[c] * unit);
+        curve.uncertainty.push_back(u.rest == "%" ? 0.01 * u.number * std::abs(values[c]) * unit : u.number * unit);
+      }
+    }
+    return file;
+  }
+
+  SourcePlace place_;
+  std::string source_, hash_;
+  std::map<std::string, double> units_;
+  std::map<std::string, Stated> uncertainty_;
+  std::map<std::string, std::string> words_;
+  std::vector<std::string> columns_;
+  std::vector<std::vector<double>> rows_;
+};
+
+std::string text_of(const std::string& path) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  if (none) throw InputError(path + ": cannot be read");
+  if (size > largest_file) throw InputError(path + ": is larger than 1 MiB, which no table of measured values is");
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// What was measured: curves in time. Numbers: axis (0, 1, 2).
+class Experiment : public Reference {
+ public:
+  Experiment(ExperimentFile file, std::optional<double> axis) : file_(std::move(file)), axis_(axis) {}
+  [[nodiscard]] Snapshot at(double time) const override {
+    Snapshot out;
+    out.time = time;
+    return out;
+  }
+  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override { return quantity == "axis" ? axis_ : std::nullopt; }
+  [[nodiscard]] const MeasuredCurve* measured(std::string_view column) const override {
+    const auto found = file_.curves.find(std::string(column));
+    return found == file_.curves.end() ? nullptr : &found->second;
+  }
+
+ private:
+  ExperimentFile file_;
+  std::optional<double> axis_;
+};
+
+std::unique_ptr<Reference> make_experiment(const ReferenceInput& in) {
+  std::optional<double> axis;
+  if (const auto word = in.args.word("axis")) {
+    if (*word != "x" && *word != "y" && *word != "z") throw InputError("argument `axis` of reference function experiment must be \"x\", \"y\" or \"z\"");
+    axis = (*word)[0] - 'x';
+  }
+  if (in.file.empty()) throw InputError("reference function experiment needs the key `file`: the data beside the case");
+  return std::make_unique<Experiment>(read_experiment(in.file), axis);
+}
+
+}  // namespace
+
+std::string experiment_hash(const std::string& text) {
+  std::uint64_t hash = 1469598103934665603ULL;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(hash_key)) continue;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    for (const char c : line + "\n") hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  }
+  return fmt::format("fnv1a64:{:016x}", hash);
+}
+
+ExperimentFile read_experiment(const std::string& path) { return Reader(path).read(text_of(path)); }
+
+ReferenceChoice with_source_of_file(ReferenceChoice choice) {
+  if (choice.kind != "experiment" || !choice.source.empty()) return choice;
+  const auto file = read_experiment(choice.file);
+  choice.source = file.source;
+  for (const auto& [column, words] : file.uncertainty) choice.source += fmt::format("; standard uncertainty of {}: {}", column, words);
+  return choice;
+}
+
+ReferenceEntry experiment_entry() {
+  return {{"experiment", "experiment", "the source that the data file states", "measured values in time, from the file beside the case",
+           {{"axis", "", "x, y or z: along which the measured length runs"}}},
+          make_experiment};
+}
+
+}  // namespace tripoint

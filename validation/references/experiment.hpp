@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "validation/references/reference.hpp"
+
+/// Measured data: a table beside the case, `<case>.ref.csv`, that says where it comes from, in what unit and how well it is known.
+///
+///     # source: J. C. Martin, W. J. Moyce, Phil. Trans. R. Soc. Lond. A 244 (1952) 312, figure 3
+///     # unit time: 0.0539706 s           a value of the column times this is in SI
+///     # unit front: 0.05715 m
+///     # uncertainty front: 2 %           standard: of each value; without the sign, in the column's unit
+///     # hash: fnv1a64:0123456789abcdef   of all other lines, so that no number changes unseen
+///     time,front
+///     1.219,1.474
+///
+/// Other comments are free text. The first column is the time, and it rises.
+namespace tripoint {
+
+/// A data file as read.
+struct ExperimentFile {
+  std::string source;
+  std::map<std::string, MeasuredCurve> curves;     ///< by column; SI
+  std::map<std::string, std::string> uncertainty;  ///< by column, as the file words it
+};
+
+/// @throws InputError naming file and line: what is missing, unknown, not a number, not rising, of another width, or changed since it was hashed
+[[nodiscard]] ExperimentFile read_experiment(const std::string& path);
+
+/// FNV-1a over the lines without the one that begins with "# hash:" and without carriage returns, as it stands in the file.
+[[nodiscard]] std::string experiment_hash(const std::string& text);
+
+/// The choice of a case with the source that its data file states, where the case names none.
+[[nodiscard]] ReferenceChoice with_source_of_file(ReferenceChoice);
+
+}  // namespace tripoint
