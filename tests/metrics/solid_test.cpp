@@ -86,5 +86,50 @@ TEST(SolidMetrics, CompareTheShapeOfAnElasticBodyWhenItIsNamed) {
   EXPECT_TRUE(std::isnan(f.stated(metric("shape", "final"))));  // no rigid body, and none is named
 }
 
+/// The bar as the truth says, with the force on the held and the pulled block.
+Still stretched_bar(const test::Prepared& s, const Settings& args = {}) {
+  Still f(s);
+  const auto truth = make_reference(test::function("tension", args), f.s.job, f.s.initial);
+  for (auto& frame : f.run.frames) {
+    for (std::size_t i = 0; i < f.s.initial.size(); ++i)
+      if (f.s.initial.source[i] == 0) frame.position[i].x *= *truth->number_at("stretch", frame.time);
+    frame.bodies[0].force = {*truth->number_at("reaction", frame.time), 0, 0};
+    frame.bodies.resize(3);
+    frame.bodies[1].force = frame.bodies[0].force;
+    frame.bodies[2].force = -1.0 * frame.bodies[0].force;
+    frame.bodies[1].position = f.s.job.bodies[1].properties.centre, frame.bodies[2].position = f.s.job.bodies[2].properties.centre;
+  }
+  return f;
+}
+
+TEST(SolidMetrics, ReadModulusAndReactionAtBothEnds) {
+  auto f = stretched_bar(test::driven_bar(1.02));
+  auto window = [](MetricChoice m) {
+    m.window = {0.5, 1.5};
+    return m;
+  };
+  for (const char* end : {"held", "pulled"}) {
+    EXPECT_NEAR(f.of(metric("reaction", "max", end), "tension").value, 0.0, 1e-6) << end;
+    EXPECT_NEAR(f.of(window(metric("modulus", "mean", end)), "tension").value, 0.0, 1e-9) << end;
+  }
+  EXPECT_NEAR(f.of(metric("stretch", "max"), "tension").value, 0.0, 1e-12);
+  for (auto& frame : f.run.frames)
+    for (auto& b : frame.bodies) b.force = 0.81 * b.force;
+  EXPECT_NEAR(f.of(window(metric("modulus", "mean", "held")), "tension").value, -0.19, 1e-9);
+  EXPECT_TRUE(std::isnan(f.of(metric("modulus", "mean", "held"), "tension").value));  // the first frame has no stretch
+}
+
+TEST(SolidMetrics, FindTheResidualStretchOfACycle) {
+  auto s = test::driven_bar(1.03);
+  s.job.scene.materials[0].elastic_limit = 0.0106;
+  const auto f = stretched_bar(s);
+  EXPECT_NEAR(f.of(metric("residual_stretch", "final", "held"), "tension").value, 0.0, 1e-6);  // straight between frames: half a step squared, 9e-8
+  auto g = f;
+  for (auto& frame : g.run.frames) frame.bodies[1].force -= Vec3{100, 0, 0};
+  EXPECT_GT(g.of(metric("residual_stretch", "final", "held"), "tension").value, 1e-3);
+  const auto elastic = stretched_bar(test::driven_bar(1.03));
+  EXPECT_TRUE(std::isnan(elastic.of(metric("residual_stretch", "final", "held"), "tension").value));
+}
+
 }  // namespace
 }  // namespace tripoint

@@ -2,6 +2,7 @@
 // Prints values of the references, one a line: name, arguments ..., = value. The NumPy twins in this folder compute them again.
 #include <cstdio>
 
+#include "validation/references/bar_law.hpp"
 #include "validation/references/beam.hpp"
 #include "validation/references/cosine_lattice.hpp"
 #include "validation/references/rigid_body.hpp"
@@ -63,6 +64,24 @@ void print_beams() {
   }
 }
 
+/// Stretched, let back and stretched again: state at the end of each way.
+void print_bars() {
+  for (const double ratio : {2.0, 2.12, 2.5, 2.6}) {
+    const auto f = elastic_lattice_factors(ratio);
+    std::printf("factors %.17g = %.17g %.17g\n", ratio, f.moment, f.volume);
+  }
+  for (const auto sides : {BarSides::free, BarSides::confined})
+    for (const double cap : {1.0, 0.015})
+      for (const double form : {0.5, 1.0}) {
+        BarLaw law{1e7, 0.3, sides, 0.004, cap, form, form == 0.5 ? 1.0 : 0.9, form == 0.5 ? 1.0 : 0.95};
+        BarState s;
+        for (const double stretch : {1.03, 0.98, 1.02}) {
+          s = stretched(law, s, stretch);
+          std::printf("bar %d %.17g %.17g %.17g %.17g %.17g = %.17g %.17g %.17g %.17g\n", sides == BarSides::free ? 0 : 1, cap, form, law.moment, law.volume, stretch, s.plastic, s.force, s.elastic, s.dissipated);
+        }
+      }
+}
+
 }  // namespace
 
 int main() {
@@ -71,4 +90,5 @@ int main() {
   print_step();
   print_layers();
   print_beams();
+  print_bars();
 }

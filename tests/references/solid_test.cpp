@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "references/solids.hpp"
+#include "validation/references/bar_law.hpp"
 #include "validation/references/beam.hpp"
 #include "validation/references/reference.hpp"
 
@@ -66,6 +67,84 @@ TEST(Cantilever, CarriesARigidTip) {
   EXPECT_GT(*truth->number("tip_deflection"), *truth->number("deflection"));
   EXPECT_GT(*truth->number("deflection"), *bare->number("deflection"));
   EXPECT_THROW((void)make_reference(function("cantilever", {{"tip", std::string("clamp")}}), s.job, s.initial), InputError);
+}
+
+TEST(BarLaw, IsTheGradientOfItsEnergy) {
+  for (const auto sides : {BarSides::free, BarSides::plane_strain, BarSides::confined})
+    for (const double form : {0.5, 1.0}) {
+      const BarLaw law{1e7, 0.3, sides, 1.0 / 0.0, 1.0 / 0.0, form, form == 0.5 ? 1.0 : 0.9, 1.0};
+      const double h = 1e-5, x = 1.07, slope = (stretched(law, {}, x + h).elastic - stretched(law, {}, x - h).elastic) / (2 * h);
+      EXPECT_NEAR(stretched(law, {}, x).force, slope, 1e-8 * slope);  // second order: h^2 and round-off over h
+      EXPECT_NEAR(stretched(law, {}, 1.0 + 1e-7).force / 1e-7, law.modulus(), 1e-6 * law.modulus());
+    }
+}
+
+TEST(BarLaw, KeepsTheResidualStretchOfTheClosedForm) {
+  // E = 1e7, yield at 1e5, stretch 1.03: sqrt(1 + 2 (E_G - sigma_y/E)) = 1.02025, dissipated sigma_y (E_G - sigma_y/E) per volume.
+  BarLaw law{1e7, 0.3};
+  law.elastic_limit = 1e5 / (std::sqrt(6.0) * 1e7 / 2.6);
+  EXPECT_NEAR(law.yield_stress(), 1e5, 1e-9);
+  const auto far = stretched(law, {}, 1.03);
+  EXPECT_NEAR(unloaded_stretch(law, far), std::sqrt(1 + 2 * (0.03045 - 0.01)), 1e-12);
+  EXPECT_NEAR(unloaded_stretch(law, far), 1.02025, 1e-5);
+  EXPECT_NEAR(far.dissipated, 1e5 * 0.02045, 1e-9);
+  EXPECT_NEAR(far.force, 1.03 * 1e5, 1e-9);
+}
+
+TEST(BarLaw, BalancesTheWorkOfACycle) {
+  for (const auto sides : {BarSides::free, BarSides::confined}) {
+    BarLaw law{1e7, 0.3, sides};
+    law.elastic_limit = 0.004;
+    BarState s;
+    double work = 0.0;
+    const int n = 20000;
+    for (int i = 1; i <= 4 * n; ++i) {
+      const double phase = 0.5 * test::pi * i / n, stretch = 1.0 + 0.03 * std::sin(phase);
+      const auto next = stretched(law, s, stretch);
+      work += 0.5 * (s.force + next.force) * (next.stretch - s.stretch);
+      s = next;
+    }
+    EXPECT_NEAR(work, s.elastic + s.dissipated, 1e-6 * work);  // the trapezoid's (1/n)^2, the kinks at yield 1/n^2 each
+    EXPECT_GT(s.dissipated, 5.0 * s.elastic);
+  }
+}
+
+TEST(Tension, PullsByTheKeyframes) {
+  const auto s = test::driven_bar(1.02);
+  const auto bar = make_reference(function("tension"), s.job, s.initial);
+  EXPECT_NEAR(*bar->number_at("stretch", 0.5), 1.01, 1e-12);
+  EXPECT_NEAR(*bar->number_at("reaction", 1.0), 1.02 * 1e7 * 0.5 * (1.02 * 1.02 - 1) * 16e-4, 1e-6);
+  EXPECT_NEAR(bar->at(1.0).energy.at("elastic"), 0.5 * 1e7 * std::pow(0.5 * (1.02 * 1.02 - 1), 2) * 16e-4 * 0.2, 1e-9);
+  EXPECT_NEAR(*bar->number_at("reaction", 2.0), 0.0, 1e-9);
+  EXPECT_FALSE(bar->number("residual_stretch"));
+  const auto held = test::driven_bar(1.02, {false, true, false}), confined = test::driven_bar(1.02, {false, true, true});
+  EXPECT_NEAR(*make_reference(function("tension"), held.job, held.initial)->number("modulus"), 1e7 / 0.91, 1e-6);
+  EXPECT_NEAR(*make_reference(function("tension"), confined.job, confined.initial)->number("modulus"), 1e7 * 0.7 / (1.3 * 0.4), 1e-6);
+}
+
+TEST(Tension, PredictsThePrintedModulus) {
+  const auto s = test::driven_bar(1.001);
+  const auto bar = make_reference(function("tension", {{"form", std::string("paper")}, {"support_ratio", 2.12}}), s.job, s.initial);
+  const double M = 0.901, v = 0.947;  // numerics note, three digits
+  EXPECT_NEAR(*bar->number("modulus") / (4 * M * M * v * 1e7), 1.0, 2e-3);
+}
+
+TEST(Tension, KnowsTheTearAndTheRestAfterARelease) {
+  auto s = test::driven_bar(1.1);
+  s.job.scene.materials[0].fracture_stretch = 1.04;
+  const auto torn = make_reference(function("tension"), s.job, s.initial);
+  EXPECT_NEAR(*torn->number("event_time"), 0.4, 1e-12);
+  EXPECT_EQ(*torn->number_at("reaction", 0.5), 0.0);
+  EXPECT_NEAR(torn->at(0.5).energy.at("elastic"), 0.0, 1e-9);
+  s.job.scene.materials[0].fracture_stretch.reset();
+  s.job.scene.materials[0].elastic_limit = 0.01;
+  Event let_go;
+  let_go.kind = Event::Kind::release, let_go.time = 1.0, let_go.bodies = {"pulled"};
+  s.job.scene.events.push_back(let_go);
+  const auto kept = make_reference(function("tension"), s.job, s.initial);
+  const double yield = 3 * 0.01 / (std::sqrt(6.0) * 1.3);
+  EXPECT_NEAR(*kept->number_at("stretch", 1.5), std::sqrt(1 + 2 * (0.5 * (1.21 - 1) - yield)), 1e-9);
+  EXPECT_NEAR(*kept->number("residual_stretch"), *kept->number_at("stretch", 1.5), 1e-12);
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry couette_cylinders_entry();
 [[nodiscard]] ReferenceEntry cosine_carried_entry();
 [[nodiscard]] ReferenceEntry cantilever_entry();
+[[nodiscard]] ReferenceEntry tension_entry();
 [[nodiscard]] ReferenceEntry stated_entry();
 [[nodiscard]] ReferenceEntry experiment_entry();
 [[nodiscard]] ReferenceEntry invariant_entry();

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "validation/references/bar_law.hpp"
+#include "validation/references/heat_scene.hpp"
+#include "validation/references/solid_scene.hpp"
+
+namespace tripoint {
+namespace {
+
+/// The bar between its ends: where they are in time, and what the law makes of it.
+struct Bar {
+  std::size_t row = 0, axis = 0;
+  double length = 0.0, area = 0.0;
+  double gauge = 0.5, stretch_gauge = 1.0;  ///< middle shares of the length: for the modulus, for other stretches
+  BarLaw law;
+  std::optional<std::size_t> low, high;   ///< rows in Job::bodies of what holds its ends
+  double release = std::numeric_limits<double>::infinity();  ///< time at which an end is let go [s]
+  double tear = std::numeric_limits<double>::infinity();     ///< stretch at which it parts
+};
+
+/// Displacement along an axis of a held body [m]: of its keyframes, straight between them, else at its constant velocity.
+double displaced(const JobBody& body, std::size_t axis, double time) {
+  if (body.motion == Motion::fixed) return 0.0;
+  const auto& keys = body.keyframes;
+  if (keys.empty()) return body.velocity[axis] * time;
+  const double start = body.properties.centre[axis];
+  if (time <= keys.front().time) return keys.front().position[axis] - start;
+  for (std::size_t n = 1; n < keys.size(); ++n) {
+    if (time > keys[n].time) continue;
+    const double share = (time - keys[n - 1].time) / (keys[n].time - keys[n - 1].time);
+    return keys[n - 1].position[axis] + share * (keys[n].position[axis] - keys[n - 1].position[axis]) - start;
+  }
+  return keys.back().position[axis] - start;
+}
+
+/// A homogeneous bar between driven ends. Numbers: bar, axis, area [m2], gauge, modulus [Pa], yield_stress [Pa], residual_stretch, event_time of
+/// the tear [s]; in time: stretch, reaction [N]. The ledger's terms elastic and plastic [J] are in its snapshots.
+class Tension : public Reference {
+ public:
+  Tension(const Job& job, Bar bar) : job_(job), bar_(std::move(bar)) {
+    times_.insert(0.0);
+    for (const auto& end : {bar_.low, bar_.high})
+      for (std::size_t n = 0; end && n < job_.bodies[*end].keyframes.size(); ++n) times_.insert(job_.bodies[*end].keyframes[n].time);
+    find_tear();
+    find_residual();
+  }
+  [[nodiscard]] Snapshot at(double time) const override {
+    const auto s = state(time);
+    Snapshot out;
+    out.time = time;
+    out.energy["elastic"] = s.elastic * bar_.area * bar_.length;
+    out.energy["plastic"] = s.dissipated * bar_.area * bar_.length;
+    return out;
+  }
+  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
+    if (quantity == "bar") return static_cast<double>(bar_.row);
+    if (quantity == "axis") return static_cast<double>(bar_.axis);
+    if (quantity == "area") return bar_.area;
+    if (quantity == "gauge") return bar_.gauge;
+    if (quantity == "stretch_gauge") return bar_.stretch_gauge;
+    if (quantity == "modulus") return bar_.law.modulus();
+    if (quantity == "yield_stress" && std::isfinite(bar_.law.elastic_limit)) return bar_.law.yield_stress();
+    if (quantity == "residual_stretch") return residual_;
+    if (quantity == "event_time") return torn_;
+    return {};
+  }
+  [[nodiscard]] std::optional<double> number_at(std::string_view quantity, double time) const override {
+    if (quantity == "stretch") return state(time).stretch;
+    if (quantity == "reaction") return state(time).force * bar_.area;
+    return number(quantity);
+  }
+
+ private:
+  [[nodiscard]] double driven_stretch(double time) const {
+    const auto end = [&](const std::optional<std::size_t>& body) { return body ? displaced(job_.bodies[*body], bar_.axis, time) : 0.0; };
+    return 1.0 + (end(bar_.high) - end(bar_.low)) / bar_.length;
+  }
+  /// Between the keyframes the stretch is monotone, so that each is one step of the law.
+  [[nodiscard]] BarState driven(double time) const {
+    BarState s;
+    for (const double t : times_)
+      if (t < time) s = stretched(bar_.law, s, driven_stretch(t));
+    return stretched(bar_.law, s, driven_stretch(time));
+  }
+  /// Torn or let go, and at rest again, it bears nothing and keeps its plastic strain.
+  [[nodiscard]] BarState state(double time) const {
+    const double free_from = std::min(bar_.release, torn_.value_or(std::numeric_limits<double>::infinity()));
+    if (time < free_from) return driven(time);
+    const auto last = driven(free_from);
+    auto rest = stretched(bar_.law, last, unloaded_stretch(bar_.law, last));
+    rest.force = 0.0;  // round-off of the bisection
+    return rest;
+  }
+  void find_tear() {
+    double before = 0.0;
+    for (const double t : times_) {
+      if (driven_stretch(t) >= bar_.tear && t > before) {
+        const double a = driven_stretch(before), b = driven_stretch(t);
+        torn_ = before + (bar_.tear - a) / (b - a) * (t - before);
+        return;
+      }
+      before = t;
+    }
+  }
+  void find_residual() {
+    if (!std::isfinite(bar_.law.elastic_limit) || times_.size() < 2) return;
+    const double longest = *std::max_element(times_.begin(), times_.end(), [&](double a, double b) { return driven_stretch(a) < driven_stretch(b); });
+    if (driven_stretch(longest) > 1.0) residual_ = unloaded_stretch(bar_.law, driven(longest));
+  }
+
+  Job job_;
+  Bar bar_;
+  std::set<double> times_;
+  std::optional<double> residual_, torn_;
+};
+
+BarSides sides_of(const ReferenceInput& in, std::size_t axis) {
+  if (const auto word = in.args.word("sides")) {
+    if (*word == "free") return BarSides::free;
+    if (*word == "plane_strain") return BarSides::plane_strain;
+    if (*word == "confined") return BarSides::confined;
+    throw InputError("argument `sides` of reference function tension must be \"free\", \"plane_strain\" or \"confined\"");
+  }
+  int held = 0;
+  for (std::size_t k = 0; k < 3; ++k) held += k != axis && in.job.scene.periodic[k] ? 1 : 0;
+  return held == 0 ? BarSides::free : held == 1 ? BarSides::plane_strain : BarSides::confined;
+}
+
+BarLaw law_of(const ReferenceInput& in, std::size_t bar, std::size_t axis) {
+  const auto elastic = elastic_constants(in.job, bar);
+  const auto& material = in.job.scene.material(in.job.bodies[bar].material);
+  BarLaw law;
+  law.young = elastic.young, law.poisson_ratio = elastic.poisson_ratio;
+  law.sides = sides_of(in, axis);
+  law.elastic_limit = material.elastic_limit.value_or(law.elastic_limit);
+  law.plastic_limit = material.plastic_limit.value_or(law.plastic_limit);
+  const auto form = in.args.word("form").value_or(in.job.scene.mode_of(Term::elastic) == Mode::paper ? "paper" : "corrected");
+  if (form != "paper" && form != "corrected") throw InputError("argument `form` must be \"paper\" or \"corrected\"");
+  if (form == "corrected") return law;
+  const double given = in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
+  const auto lattice = elastic_lattice_factors(in.args.number("support_ratio").value_or(given));
+  law.strain_factor = 1.0, law.moment = lattice.moment, law.volume = lattice.volume;
+  return law;
+}
+
+void find_ends(const ReferenceInput& in, Bar& bar) {
+  const double middle = in.job.bodies[bar.row].properties.centre[bar.axis];
+  for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
+    const auto& body = in.job.bodies[b];
+    if (b == bar.row || body.phase != Phase::rigid || body.motion == Motion::free) continue;
+    auto& end = body.properties.centre[bar.axis] < middle ? bar.low : bar.high;
+    if (end) throw InputError("tension: two bodies hold the same end of the bar");
+    end = b;
+  }
+  if (!bar.low || !bar.high) throw InputError("tension: the bar needs a fixed or prescribed rigid body at each end");
+  for (const auto& event : in.job.scene.events) {
+    if (event.kind != Event::Kind::release) continue;
+    for (const auto& name : event.bodies)
+      if (name == in.job.bodies[*bar.low].name || name == in.job.bodies[*bar.high].name) bar.release = std::min(bar.release, event.time);
+  }
+}
+
+std::unique_ptr<Reference> make_tension(const ReferenceInput& in) {
+  Bar bar;
+  bar.row = elastic_body(in, "tension");
+  bar.axis = long_axis(in, bar.row);
+  const auto size = extents(in, bar.row);
+  bar.length = in.args.number("length").value_or(size[bar.axis]);
+  bar.area = in.args.number("area").value_or(size[(bar.axis + 1) % 3] * size[(bar.axis + 2) % 3]);
+  bar.gauge = in.args.number("gauge").value_or(bar.gauge);
+  bar.stretch_gauge = in.args.number("gauge").value_or(bar.stretch_gauge);
+  if (!(bar.gauge > 0.0) || bar.gauge > 1.0) throw InputError("argument `gauge` of reference function tension must be above 0 and at most 1");
+  bar.law = law_of(in, bar.row, bar.axis);
+  bar.tear = in.job.scene.material(in.job.bodies[bar.row].material).fracture_stretch.value_or(bar.tear);
+  find_ends(in, bar);
+  return std::make_unique<Tension>(in.job, bar);
+}
+
+}  // namespace
+
+ReferenceEntry tension_entry() {
+  return {{"tension", "analytic", "homogeneous bar of St Venant-Kirchhoff material in Green strain, von Mises flow as O'Brien, Bargteil, Hodgins 2002; as printed with the lattice's gradient moment (17)",
+           "reaction, stretch, stored and dissipated energy of an elastic box between two held ends, driven by keyframes, to the tear",
+           {{"body", "", "the bar; default the scene's only elastic body"},
+            {"length", "m", "between the held ends; default of the bar's box"},
+            {"area", "m2", "cross-section; default of the bar's box or the periodic domain"},
+            {"sides", "", "free, plane_strain (one direction held) or confined (both); default by the periodic directions"},
+            {"form", "", "paper or corrected; default the run's mode of the elastic term"},
+            {"support_ratio", "", "h/dx of the printed form; default the run's"},
+            {"gauge", "", "middle share of the length over which stretches are measured; default 0.5 for the modulus, 1 for others"}}},
+          make_tension};
+}
+
+}  // namespace tripoint
