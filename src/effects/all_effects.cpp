@@ -6,6 +6,7 @@
 #include "effects/body_table.hpp"
 #include "effects/density/density.hpp"
 #include "effects/density/density_terms.hpp"
+#include "effects/elastic/elastic.hpp"
 #include "effects/fluid/fluid.hpp"
 #include "effects/fluid/fluid_terms.hpp"
 #include "effects/fluid/material_numbers.hpp"
@@ -31,6 +32,7 @@ constexpr Registered all_effects[] = {
     {"fluid", fluid::spec, fluid::make, fluid::defects},
     {"motion", motion::spec, motion::make, motion::defects},
     {"density", density::spec, density::make, density::defects},
+    {"elastic", elastic::spec, elastic::make, elastic::defects},
     {"heat", heat::spec, heat::make, heat::defects},
 };
 

@@ -50,6 +50,11 @@ inline constexpr Field<double> hourglass_force_x{"hourglass_force.x", "N"}, hour
 inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"}, shape_inverse_yy{"shape_inverse.yy", "1"}, shape_inverse_zz{"shape_inverse.zz", "1"};
 inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"}, shape_inverse_xz{"shape_inverse.xz", "1"}, shape_inverse_xy{"shape_inverse.xy", "1"};
 inline constexpr Field<int> shape_rank{"shape_rank", "1"};
+inline constexpr Field<double> solid_volume{"solid_volume", "m3"};  ///< v_i: m/rho0, printed (11)
+/// 1 where the lists of this particle and of its neighbours mirror each other and none of them is a sheet or a chain.
+inline constexpr Field<int> regular_bonds{"regular_bonds", "1"};
+/// Square of the frequency that the bonds give this particle while its neighbours stay [1/s2]; 0 while its list is the first one.
+inline constexpr Field<double> bond_frequency{"bond_frequency", "1/s2"};
 /// Strain of the present time, total, within the range of M_i; and the part of it that has flowed (model 8.7, 8.8).
 inline constexpr Field<double> strain_xx{"strain.xx", "1"}, strain_yy{"strain.yy", "1"}, strain_zz{"strain.zz", "1"}, strain_yz{"strain.yz", "1"}, strain_xz{"strain.xz", "1"}, strain_xy{"strain.xy", "1"};
 inline constexpr Field<double> plastic_strain_xx{"plastic_strain.xx", "1"}, plastic_strain_yy{"plastic_strain.yy", "1"}, plastic_strain_zz{"plastic_strain.zz", "1"};

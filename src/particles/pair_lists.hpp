@@ -59,11 +59,7 @@ class PairLists {
     replace(id, list);
   }
 
- private:
-  struct List {
-    std::size_t start = 0, count = 0, room = 0;
-  };
-  /// Lists in order of id, without gaps.
+  /// Puts the lists in order of id, without room to grow, so that they stream by.
   void compact() {
     std::vector<Pair> packed;
     packed.reserve(pairs_);
@@ -76,6 +72,10 @@ class PairLists {
     wasted_ = 0;
   }
 
+ private:
+  struct List {
+    std::size_t start = 0, count = 0, room = 0;
+  };
   std::vector<List> lists_;
   std::vector<Pair> pool_;
   std::size_t pairs_ = 0, wasted_ = 0;

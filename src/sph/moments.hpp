@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <span>
+#include "core/matrix3.hpp"
 
 namespace tripoint {
-
-/// Symmetric 3x3 matrix by its six components.
-struct Symmetric {
-  double xx = 0.0, yy = 0.0, zz = 0.0, yz = 0.0, xz = 0.0, xy = 0.0;
-};
 
 /// Pseudo-inverse by eigenvalues; those below `cut` times the largest count as none. The zero matrix gives zero.
 /// @param m positive semidefinite   @param cut in 0..1 (0.05 for heat, model 8.6)

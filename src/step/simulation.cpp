@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "effects/body_table.hpp"
+#include "effects/solid_particles.hpp"
 #include "step/guard.hpp"
 
 namespace tripoint {
@@ -110,6 +111,7 @@ void Simulation::load(const InitialState& initial) {
     p[field::source][i] = initial.source[i];
   }
   add_scene_bodies(world_);
+  solid::connect_solids(world_);
   for (const Active& a : effects_) a.effect->load(world_, initial);
 }
 

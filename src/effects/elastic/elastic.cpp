@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/elastic/elastic.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "effects/elastic/bond_forces.hpp"
+#include "effects/ordered_sum.hpp"
+#include "scene/read_case.hpp"
+
+namespace tripoint::elastic {
+namespace {
+
+/// Of h/c_L, 0.47 to 0.57 of the frontier (model 8.10).
+constexpr double courant = 0.3, courant_with_hourglass = 0.25;
+
+class Elastic : public Effect {
+ public:
+  explicit Elastic(const Scene& scene) : forms_(scene) {}
+  void load(World&, const InitialState&) override;
+  void state(World& world) override { deform(world, forms_, deformations_); }
+  void bonds(World& world) override { add_forces(world, forms_, deformations_); }
+  void adopt(World&) override;
+  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
+  void add_to(const World&, Ledger&) const override;
+
+ private:
+  solid::ElasticForms forms_;
+  Deformations deformations_;  ///< memory that is used again
+};
+
+void Elastic::load(World& world, const InitialState&) {
+  std::vector<std::uint32_t> ids(world.particles.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  solid::refresh_shapes(world, ids, true);
+}
+
+void Elastic::adopt(World& world) {
+  std::vector<std::uint32_t> ids = world.change.relisted;
+  ids.insert(ids.end(), world.change.regrouped.begin(), world.change.regrouped.end());
+  std::ranges::sort(ids);
+  ids.erase(std::ranges::unique(ids).begin(), ids.end());
+  solid::refresh_shapes(world, ids);
+}
+
+/// 0.25 h/c_L, 0.3 without hourglass; and for lists that were changed 1/(2 max of the local frequency) (model 8.10).
+TimeStepBound Elastic::max_dt(const World& world) const {
+  TimeStepBound bound;
+  const double a = forms_.hourglass(), share = a > 0.0 ? courant_with_hourglass / std::sqrt(std::max(1.0, a)) : courant;
+  for (const Body& b : world.scene.bodies) {
+    const Material& m = world.scene.material(b.material);
+    if (b.phase == Phase::rigid || !m.young_modulus || !m.poisson_ratio) continue;
+    const solid::ElasticConstants c = solid::elastic_constants(*m.young_modulus, *m.poisson_ratio);
+    tighten(bound, share * solid::bond_ratio * world.scene.spacing / std::sqrt((c.lambda + 2.0 * c.mu) / m.density), "elastic wave");
+  }
+  if (!world.particles.has(field::bond_frequency.name)) return bound;
+  const double greatest = std::ranges::max(world.particles[field::bond_frequency]);
+  if (greatest > 0.0) tighten(bound, 0.5 * 2.0 / std::sqrt(2.0 * greatest), "bonds");
+  return bound;
+}
+
+void Elastic::add_to(const World& world, Ledger& ledger) const {
+  std::vector<std::array<double, 2>> blocks;
+  const auto sums = ordered_sums(world.particles.size(), world.threads, blocks, [&](std::size_t id, std::array<double, 2>& sum) {
+    const solid::DeformationEnergy energy = solid::deformation_energy(world, forms_, static_cast<std::uint32_t>(id));
+    sum[0] += energy.elastic;
+    sum[1] += energy.hourglass;
+  });
+  ledger.energy["elastic"] += sums[0];
+  ledger.energy["hourglass"] += sums[1];
+}
+
+bool can_freeze(const Scene& scene) {
+  return std::ranges::any_of(called_effects(scene), [](const CalledEffect& e) { return e.name == "phase"; });
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene& scene) {
+  EffectSpec s{"elastic",
+               scene.mode_of(Term::elastic),
+               {field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, field::shape_inverse_xx, field::shape_inverse_yy, field::shape_inverse_zz,
+                field::shape_inverse_yz, field::shape_inverse_xz, field::shape_inverse_xy, field::shape_rank, field::solid_volume, field::regular_bonds,
+                field::strain_xx, field::strain_yy, field::strain_zz, field::strain_yz, field::strain_xz, field::strain_xy},
+               {field::mass, field::body, field::material, field::position_x, field::position_y, field::position_z}};
+  if (can_freeze(scene)) s.owns.emplace_back(field::bond_frequency);
+  return s;
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Elastic>(scene); }
+
+std::vector<DefectEntry> defects() { return {}; }
+
+}  // namespace tripoint::elastic

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/solid_particles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/defect.hpp"
+
+namespace tripoint::solid {
+namespace {
+
+constexpr int no_partner_rank = 3;  ///< members of rigid bodies have no energy of their own: their lists need no special form
+
+void set_shape_inverse(Particles& p, std::size_t row, const Symmetric& A) {
+  p[field::shape_inverse_xx][row] = A.xx, p[field::shape_inverse_yy][row] = A.yy, p[field::shape_inverse_zz][row] = A.zz;
+  p[field::shape_inverse_yz][row] = A.yz, p[field::shape_inverse_xz][row] = A.xz, p[field::shape_inverse_xy][row] = A.xy;
+}
+
+/// v_i [m3]: m/rho0; printed (11) m_i / sum_j m_j W(x_ij), for particles that have all their body neighbours in the list.
+double volume_of(const World& world, bool paper, bool elastic, std::uint32_t id) {
+  const std::size_t i = world.particles.row(id);
+  const auto m = world.particles[field::mass];
+  if (!paper || !elastic) return m[i] / world.material_of(i).density;
+  double sum = m[i] * bond_kernel(world.scene).value(0.0);
+  for (const Bond& b : world.bonds.of(id)) sum += m[world.particles.row(b.other)] * b.weight;
+  return m[i] / sum;
+}
+
+/// M_i = sum_j v_j gradW(x_ij)(x_j - x_i)^T
+Symmetric moment_of(const World& world, std::uint32_t id) {
+  const auto volume = world.particles[field::solid_volume];
+  Symmetric M;
+  for (const Bond& b : world.bonds.of(id)) M = M + symmetric_part(-volume[world.particles.row(b.other)] * outer(b.gradient, b.x));
+  return M;
+}
+
+bool is_regular(const World& world, std::uint32_t id) {
+  const auto rank = world.particles[field::shape_rank];
+  if (rank[world.particles.row(id)] != 3) return false;
+  return std::ranges::all_of(world.bonds.of(id), [&](const Bond& b) {
+    return rank[world.particles.row(b.other)] == 3 && world.bonds.of(b.other)[b.twin].x == -b.x;
+  });
+}
+
+/// What one energy U_k adds to K_ii, with d = d_ki: v_k (mu |d|^2 + (lambda + mu) d d^T).
+Symmetric stiffness(double volume, const ElasticConstants& c, const Vec3& d) {
+  const double isotropic = volume * c.mu * dot(d, d);
+  return (volume * (c.lambda + c.mu)) * square(d) + Symmetric{isotropic, isotropic, isotropic, 0.0, 0.0, 0.0};
+}
+
+/// lambda_max(K_ii)/m_i [1/s2]: how fast a particle swings while its neighbours stay, by its own energy and those of its partners.
+double frequency_of(const World& world, const ElasticForms& forms, std::uint32_t id) {
+  const Particles& p = world.particles;
+  const ElasticParticles is_elastic(world);
+  const auto volume = p[field::solid_volume];
+  const std::size_t i = p.row(id);
+  const Symmetric A = shape_inverse_of(p, i);
+  Vec3 own;
+  Symmetric K;
+  double springs = 0.0;
+  for (const Bond& b : world.bonds.of(id)) {
+    const std::size_t j = p.row(b.other);
+    const auto spring = [&](std::size_t k, const Bond& of) {
+      return 0.5 * forms.hourglass() * forms.constants(world, k).young * volume[i] * volume[j] * of.weight / dot(of.x, of.x);
+    };
+    own += volume[j] * (A * b.gradient);
+    if (is_elastic(i)) springs += spring(i, b);
+    if (!is_elastic(j)) continue;
+    const Bond& twin = world.bonds.of(b.other)[b.twin];
+    springs += spring(j, twin);
+    K = K + stiffness(volume[j], forms.constants(world, j), volume[i] * (shape_inverse_of(p, j) * twin.gradient));
+  }
+  if (is_elastic(i)) K = K + stiffness(volume[i], forms.constants(world, i), own);
+  return (largest_eigenvalue(K) + springs) / p[field::mass][i];
+}
+
+/// These ids and their partners, ascending, each once.
+std::vector<std::uint32_t> with_partners(const World& world, std::span<const std::uint32_t> ids) {
+  std::vector<std::uint32_t> all(ids.begin(), ids.end());
+  for (const std::uint32_t id : ids)
+    for (const Bond& b : world.bonds.of(id)) all.push_back(b.other);
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  return all;
+}
+
+}  // namespace
+
+Symmetric shape_inverse_of(const Particles& p, std::size_t row) {
+  return {p[field::shape_inverse_xx][row], p[field::shape_inverse_yy][row], p[field::shape_inverse_zz][row],
+          p[field::shape_inverse_yz][row], p[field::shape_inverse_xz][row], p[field::shape_inverse_xy][row]};
+}
+
+Symmetric plastic_strain_of(const Particles& p, std::size_t row) {
+  if (!p.has(field::plastic_strain_xx.name)) return {};
+  return {p[field::plastic_strain_xx][row], p[field::plastic_strain_yy][row], p[field::plastic_strain_zz][row],
+          p[field::plastic_strain_yz][row], p[field::plastic_strain_xz][row], p[field::plastic_strain_xy][row]};
+}
+
+ElasticForms::ElasticForms(const Scene& scene)
+    : paper_(scene.mode_of(Term::elastic) == Mode::paper),
+      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0 : scene.hourglass * (1.0 - defect_size("elastic.hourglass"))),
+      factor_(paper_ ? 2.0 * (1.0 - defect_size("elastic.paper.factor")) : 1.0 - defect_size("elastic.force")) {
+  for (const Material& m : scene.materials) {
+    constants_.push_back(m.young_modulus && m.poisson_ratio ? elastic_constants(*m.young_modulus, *m.poisson_ratio) : ElasticConstants{});
+    softens_.push_back(m.softens || (scene.mode_of(Term::phase) == Mode::paper && m.t_melt.has_value()));
+  }
+}
+
+ElasticConstants ElasticForms::constants(const World& world, std::size_t row) const {
+  const auto m = static_cast<std::size_t>(world.particles[field::material][row]);
+  if (!softens_[m] || !world.particles.has(field::liquid_fraction.name)) return constants_[m];
+  return (1.0 - std::clamp(world.particles[field::liquid_fraction][row], 0.0, 1.0)) * constants_[m];
+}
+
+Symmetric ElasticForms::projector(const Symmetric& shape_inverse, int rank) const {
+  constexpr Symmetric all{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+  static const double left_out = defect_size("elastic.projector");
+  const Symmetric P = range_projector(shape_inverse, rank);
+  return left_out == 0.0 ? P : P + left_out * (all - P);
+}
+
+Symmetric ElasticForms::strain(const Matrix3& F, const Symmetric& P, int rank) const {
+  static const double larger = 1.0 + defect_size("elastic.strain"), linear = defect_size("elastic.rotation");
+  Symmetric eps = larger * (paper_ ? strain_paper(F) : green_strain(F));
+  if (linear != 0.0) eps = eps - (0.5 * linear) * symmetric_part(transposed(F - identity3) * (F - identity3));
+  return rank == 3 ? eps : between(P, eps);
+}
+
+Symmetric ElasticForms::stress(const Symmetric& elastic_strain, const Symmetric& P, int rank, const ElasticConstants& c) const {
+  static const double stiffer = 1.0 + defect_size("elastic.stress"), paper_stiffer = 1.0 + defect_size("elastic.paper.stress");
+  static const bool unreduced = defect_size("elastic.reduced") > 0.0;
+  return (paper_ ? paper_stiffer : stiffer) * solid::stress(elastic_strain, P, unreduced && rank > 0 ? 3 : rank, c);
+}
+
+void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first) {
+  Particles& p = world.particles;
+  const ElasticForms forms(world.scene);
+  const ElasticParticles is_elastic(world);
+  static const double crooked = 1.0 + defect_size("elastic.shape");
+  for (const std::uint32_t id : ids) p[field::solid_volume][p.row(id)] = volume_of(world, forms.paper(), is_elastic(p.row(id)), id);
+  for (const std::uint32_t id : ids) {
+    const std::size_t i = p.row(id);
+    ShapeInverse shape{{}, is_elastic(i) || world.bonds.of(id).empty() ? 0 : no_partner_rank};
+    if (is_elastic(i) && forms.paper()) shape = {{1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3};
+    if (is_elastic(i) && !forms.paper()) shape = shape_inverse(moment_of(world, id));
+    set_shape_inverse(p, i, crooked * shape.inverse);
+    p[field::shape_rank][i] = shape.rank;
+  }
+  const bool needs_frequency = !first && p.has(field::bond_frequency.name);
+  for (const std::uint32_t id : with_partners(world, ids)) {
+    const std::size_t i = p.row(id);
+    p[field::regular_bonds][i] = is_regular(world, id);
+    if (needs_frequency) p[field::bond_frequency][i] = frequency_of(world, forms, id);
+  }
+}
+
+Deformation deformation_of(const World& world, const ElasticForms& forms, std::uint32_t id) {
+  const Particles& p = world.particles;
+  const std::size_t i = p.row(id);
+  Deformation d;
+  d.rank = p[field::shape_rank][i];
+  if (!ElasticParticles(world)(i)) return d;
+  const auto volume = p[field::solid_volume];
+  const Symmetric A = shape_inverse_of(p, i);
+  Matrix3 sum;
+  for (const Bond& b : world.bonds.of(id)) {
+    const std::size_t j = p.row(b.other);
+    sum = sum + outer(separation(world, i, j) + b.x, volume[j] * b.gradient);
+  }
+  d.F = deformation_gradient(sum, A);
+  d.P = forms.projector(A, d.rank);
+  d.strain = forms.strain(d.F, d.P, d.rank);
+  return d;
+}
+
+Deformation deformation_of(const World& world, std::uint32_t id) { return deformation_of(world, ElasticForms(world.scene), id); }
+
+DeformationEnergy deformation_energy(const World& world, const ElasticForms& forms, std::uint32_t id) {
+  const Particles& p = world.particles;
+  const std::size_t i = p.row(id);
+  if (!ElasticParticles(world)(i)) return {};
+  const Deformation d = deformation_of(world, forms, id);
+  const auto volume = p[field::solid_volume];
+  const ElasticConstants c = forms.constants(world, i);
+  const Symmetric elastic = between(d.P, d.strain - plastic_strain_of(p, i));
+  DeformationEnergy energy{0.5 * volume[i] * contraction(elastic, forms.stress(elastic, d.P, d.rank, c)), 0.0};
+  if (forms.hourglass() == 0.0) return energy;
+  for (const Bond& b : world.bonds.of(id)) {
+    const std::size_t j = p.row(b.other);
+    const Vec3 r = separation(world, i, j), x = -b.x;
+    const Vec3 e = hourglass_residual(d.F, x, r);
+    const double flat = hourglass_residual_flat(d.strain, x, r);
+    energy.hourglass += 0.25 * forms.hourglass() * c.young * volume[i] * volume[j] * b.weight * (d.rank == 3 ? dot(e, e) / dot(x, x) : flat * flat);
+  }
+  return energy;
+}
+
+DeformationEnergy deformation_energy(const World& world, std::uint32_t id) { return deformation_energy(world, ElasticForms(world.scene), id); }
+
+}  // namespace tripoint::solid
