@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "metrics/frames.hpp"
+#include "references/melting.hpp"
 
 namespace tripoint {
 namespace {
@@ -59,6 +60,37 @@ TEST(PhaseMetrics, CountOnlyWhatTurnsBack) {
   f.run.frames[3].phase[3] = 2;  // freezes to another solid, and melts again
   EXPECT_EQ(f.stated(metric("toggles", "final")), 2.0);
   EXPECT_EQ(f.stated(metric("toggles", "final", "right")), 0.0);
+}
+
+TEST(PhaseMetrics, FindTheFrontFinerThanAParticle) {
+  Still f(test::stefan_bar({}));
+  const auto truth = make_reference(test::function("stefan"), f.s.job, f.s.initial);
+  for (auto& frame : f.run.frames) frame.liquid_fraction = truth->at(frame.time).liquid_fraction, frame.phase = truth->at(frame.time).phase;
+  EXPECT_NEAR(f.of(metric("front_position", "max"), "stefan").value, 0.0, 1e-12);
+  EXPECT_NEAR(f.of(metric("phase_count", "max"), "stefan").value, 0.0, 1e-12);
+  EXPECT_TRUE(std::isnan(f.of(metric("front_ratio", "max"), "stefan").value));  // nothing has melted at the start
+  auto& last = f.run.frames.back().liquid_fraction;
+  for (std::size_t i = 4 * 20; i < 4 * 22; ++i) last[i] += 0.25;  // two layers, a quarter each
+  const double X = *truth->number_at("front_position", 20.0);
+  EXPECT_NEAR(f.of(metric("front_position", "final"), "stefan").value, 0.5e-3, 1e-12);
+  EXPECT_NEAR(f.of(metric("front_ratio", "Linf"), "stefan").value, 0.5e-3 / X, 1e-9);
+}
+
+TEST(PhaseMetrics, FindTheFrontByPhasesWhereThereIsNoFraction) {
+  Still f(test::stefan_bar({}));
+  const auto truth = make_reference(test::function("stefan"), f.s.job, f.s.initial);
+  for (auto& frame : f.run.frames) frame.phase = truth->at(frame.time).phase;
+  EXPECT_NEAR(f.of(metric("front_position", "final"), "stefan").value, 0.0, 1e-3);  // one layer
+}
+
+TEST(PhaseMetrics, FollowAHysteresisLoop) {
+  Still f(test::heated_block());
+  const auto truth = make_reference(test::function("hysteresis"), f.s.job, f.s.initial);
+  for (auto& frame : f.run.frames) frame.phase = truth->at(frame.time).phase;
+  EXPECT_EQ(f.of(metric("phase_count", "max"), "hysteresis").value, 0.0);
+  EXPECT_EQ(f.stated(metric("toggles", "final"), {{"value", 1.0}}), 0.0);  // out and back
+  for (auto& frame : f.run.frames) frame.phase[0] = 1;
+  EXPECT_EQ(f.of(metric("phase_count", "max"), "hysteresis").value, 1.0);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "validation/references/bar_law.hpp"
 #include "validation/references/beam.hpp"
 #include "validation/references/cosine_lattice.hpp"
+#include "validation/references/neumann.hpp"
 #include "validation/references/rigid_body.hpp"
 #include "validation/references/step_images.hpp"
 #include "validation/references/torque_free.hpp"
@@ -82,6 +83,11 @@ void print_bars() {
       }
 }
 
+void print_fronts() {
+  for (const NeumannFront& f : {NeumannFront{1.0, 0.0, 0.0, 1.0, 1.0}, NeumannFront{1.0, 0.0, -0.5, 1.0, 0.5}, NeumannFront{-1.0, 0.0, 0.7, 1.0, 2.0}})
+    std::printf("front %.17g %.17g %.17g = %.17g\n", f.surface, f.far, f.latent_over_capacity, f.lambda());
+}
+
 }  // namespace
 
 int main() {
@@ -91,4 +97,5 @@ int main() {
   print_layers();
   print_beams();
   print_bars();
+  print_fronts();
 }

@@ -49,6 +49,10 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry cosine_carried_entry();
 [[nodiscard]] ReferenceEntry cantilever_entry();
 [[nodiscard]] ReferenceEntry tension_entry();
+[[nodiscard]] ReferenceEntry spinning_rod_entry();
+[[nodiscard]] ReferenceEntry pressed_block_entry();
+[[nodiscard]] ReferenceEntry stefan_entry();
+[[nodiscard]] ReferenceEntry hysteresis_entry();
 [[nodiscard]] ReferenceEntry stated_entry();
 [[nodiscard]] ReferenceEntry experiment_entry();
 [[nodiscard]] ReferenceEntry invariant_entry();

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "references/melting.hpp"
+#include "references/solids.hpp"
+#include "validation/references/neumann.hpp"
+#include "validation/references/reference.hpp"
+
+namespace tripoint {
+namespace {
+
+using test::function;
+
+TEST(Neumann, HasThePrintedSolutionsOfStefansProblem) {
+  const double printed[][2] = {{0.1, 0.22002}, {0.5, 0.46479}, {1.0, 0.62006}, {2.0, 0.80060}};
+  for (const auto& [stefan, lambda] : printed) EXPECT_NEAR((NeumannFront{300 + 50 * stefan, 300, 300, 1e-6, 50}.lambda()), lambda, 5e-6) << stefan;
+}
+
+TEST(Neumann, BalancesTheHeatAtTheFrontByItsOwnDifferences) {
+  for (const NeumannFront& f : {NeumannFront{400, 300, 300, 2e-6, 100}, NeumannFront{400, 300, 250, 2e-6, 100}, NeumannFront{250, 290, 340, 2e-6, 50}}) {
+    const double t = 30.0, X = f.front(t), h = 1e-7, flow = f.surface > f.far ? 1.0 : -1.0;
+    const double before = (f.temperature(X - h, t) - f.temperature(X - 2 * h, t)) / h, after = (f.temperature(X + 2 * h, t) - f.temperature(X + h, t)) / h;
+    const double speed = (f.front(t + 1e-3) - f.front(t - 1e-3)) / 2e-3;
+    EXPECT_NEAR(-f.diffusivity * (before - after), flow * f.latent_over_capacity * speed, 1e-4 * f.latent_over_capacity * speed);  // one-sided, h/X
+    EXPECT_NEAR(f.temperature(0.0, t), f.surface, 1e-12);
+    EXPECT_NEAR(f.temperature(X * (1 - 1e-12), t), f.change, 1e-8);
+    EXPECT_NEAR(f.temperature(40 * X, t), f.far, 1e-8);
+    for (const double x : {0.4 * X, 2.0 * X}) {
+      const double d = 1e-5, T = f.temperature(x, t), curvature = (f.temperature(x + d, t) + f.temperature(x - d, t) - 2 * T) / (d * d);
+      EXPECT_NEAR((f.temperature(x, t + 0.01) - f.temperature(x, t - 0.01)) / 0.02, f.diffusivity * curvature, 1e-4);  // of rates of 1 K/s
+    }
+  }
+}
+
+TEST(Stefan, TakesBarAndWallFromTheScene) {
+  const auto s = test::stefan_bar({});
+  const auto bar = make_reference(function("stefan"), s.job, s.initial);
+  const double X = 2 * 0.62006 * std::sqrt(2e-6 * 20);
+  EXPECT_NEAR(*bar->number_at("front_position", 20.0), X, 1e-5 * X);
+  EXPECT_EQ(*bar->number("melts"), 1.0);
+  const auto end = bar->at(20.0);
+  double melted = 0.0;
+  for (std::size_t i = 0; i < s.initial.size(); ++i) melted += s.initial.source[i] == 0 ? 1e-9 * end.liquid_fraction[i] : 0.0;
+  EXPECT_NEAR(melted / *bar->number("area"), *bar->number_at("front_position", 20.0), 1e-15);
+  EXPECT_EQ(end.phase[0], 0);
+  EXPECT_EQ(end.phase[4 * 39], 2);
+  EXPECT_NEAR(end.temperature[4 * 39], 300.0, 1e-12);
+  EXPECT_EQ(end.temperature.back(), 400.0);
+}
+
+TEST(Stefan, FreezesFromAColdWallAtTheHighEnd) {
+  const auto s = test::stefan_bar({230.0, 300.0, true});
+  const auto bar = make_reference(function("stefan"), s.job, s.initial);
+  EXPECT_EQ(*bar->number("melts"), 0.0);
+  const auto end = bar->at(20.0);
+  EXPECT_EQ(end.phase[0], 0);
+  EXPECT_EQ(end.phase[4 * 39], 2);  // beside the wall
+  EXPECT_EQ(end.liquid_fraction[4 * 39], 0.0);
+  EXPECT_LT(end.temperature[4 * 39], 240.0);
+}
+
+TEST(Stefan, RefusesABarThatIsTooShort) {
+  auto s = test::stefan_bar({});
+  s.job.scene.end_time = 1000.0;
+  EXPECT_THROW((void)make_reference(function("stefan"), s.job, s.initial), InputError);
+  const auto between = test::stefan_bar({299.0, 295.0, false});  // hotter than the bar, below the melting point
+  EXPECT_THROW((void)make_reference(function("stefan"), between.job, between.initial), InputError);
+}
+
+TEST(Hysteresis, RemembersTheLastThresholdPassed) {
+  const auto s = test::heated_block();
+  const auto loop = make_reference(function("hysteresis"), s.job, s.initial);
+  const double times[] = {0.5, 1.5, 2.5, 3.5, 4.5};
+  const int phases[] = {1, 0, 0, 1, 1};
+  for (std::size_t n = 0; n < 5; ++n) EXPECT_EQ(loop->at(times[n]).phase[3], phases[n]) << times[n];
+  auto part = s;
+  part.job.scene.events[0].region = Shape{};
+  EXPECT_THROW((void)make_reference(function("hysteresis"), part.job, part.initial), InputError);
+}
+
+TEST(KnownStretch, OfASpinningRodIsTheSumOfThePullOfItsParts) {
+  auto s = test::beam(0.0);
+  s.job.bodies[0].angular_velocity = {0, 0, 3};
+  const double E = 2e6;
+  const int n = 2000;
+  double stretch = 0.0;  // strain at x is the pull of all that lies farther out, rho w^2 x dx each, over E
+  for (int i = 0; i < n; ++i) {
+    const double x = (i + 0.5) * 0.095 / n;
+    stretch += 1000 * 9 * 0.5 * (0.1 * 0.1 - x * x) / E / n;
+  }
+  EXPECT_NEAR(*make_reference(function("spinning_rod"), s.job, s.initial)->number("stretch"), 1.0 + stretch, 1e-10);
+  EXPECT_NEAR(*make_reference(function("pressed_block", {{"pressure", 2e4}}), s.job, s.initial)->number("stretch"), 1.0 - 2e4 * 0.205 / E, 1e-12);
+  s.job.bodies[0].angular_velocity = {3, 0, 0};
+  EXPECT_THROW((void)make_reference(function("spinning_rod"), s.job, s.initial), InputError);
+}
+
+}  // namespace
+}  // namespace tripoint
