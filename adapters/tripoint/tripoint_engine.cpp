@@ -86,10 +86,6 @@ EngineInfo TripointEngine::info() const {
 std::string TripointEngine::refusal(const Job& job) const {
   if (const std::string missing = missing_effect(job.scene); !missing.empty())
     return "tripoint: the " + missing + " effect is not in this build";
-  if (!job.scene.inflows.empty()) return "tripoint: inflows are not in this build";
-  for (const Event& e : job.scene.events) {
-    if (e.kind == Event::Kind::grip) return "tripoint: grip events are not in this build";
-  }
   if (job.ranks != 1) return "tripoint: runs in one process, ranks = " + std::to_string(job.ranks) + " is not possible";
   return why_it_cannot_start(job);
 }

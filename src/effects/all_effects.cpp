@@ -13,6 +13,8 @@
 #include "effects/heat/heat.hpp"
 #include "effects/heat/heat_terms.hpp"
 #include "effects/motion/motion.hpp"
+#include "effects/phase/phase.hpp"
+#include "effects/prescribed/prescribed.hpp"
 #include "effects/rigid/rigid.hpp"
 #include "scene/read_case.hpp"
 
@@ -31,9 +33,11 @@ constexpr Registered all_effects[] = {
     {"rigid", rigid::spec, rigid::make, rigid::defects},
     {"fluid", fluid::spec, fluid::make, fluid::defects},
     {"motion", motion::spec, motion::make, motion::defects},
+    {"prescribed", prescribed::spec, prescribed::make, prescribed::defects},
     {"density", density::spec, density::make, density::defects},
     {"elastic", elastic::spec, elastic::make, elastic::defects},
     {"heat", heat::spec, heat::make, heat::defects},
+    {"phase", phase::spec, phase::make, phase::defects},
 };
 
 /// The slots of each pass, one line each.
@@ -46,6 +50,14 @@ const Registered* find(std::string_view name) {
   return place == std::end(all_effects) ? nullptr : place;
 }
 
+/// Whether an event holds or grips particles that are no members of rigid bodies for good.
+bool moves_particles(const Scene& scene) {
+  const auto loose = [&](const std::string& name) { return scene.body(name).phase != Phase::rigid; };
+  return std::ranges::any_of(scene.events, [&](const Event& e) {
+    return e.kind == Event::Kind::grip || (e.kind == Event::Kind::hold && std::ranges::any_of(e.bodies, loose));
+  });
+}
+
 /// What the scene calls for, and what that in turn needs.
 std::vector<CalledEffect> wanted(const Scene& scene) {
   std::vector<CalledEffect> list = called_effects(scene);
@@ -56,6 +68,8 @@ std::vector<CalledEffect> wanted(const Scene& scene) {
     list.push_back({"rigid", "what freezes becomes rigid"});
   const bool wet = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid; }) || !scene.inflows.empty();
   if ((wet && has("fluid")) || has("elastic") || has("phase")) list.push_back({"motion", "liquids and deformable solids move by the forces on their particles"});
+  if (has("motion") && !scene.inflows.empty()) list.push_back({"prescribed", "an inflow brings particles in"});
+  else if (has("motion") && moves_particles(scene)) list.push_back({"prescribed", "a hold or a grip moves particles"});
   if (has("heat") && scene.mode_of(Term::heat) == Mode::paper && !has("fluid")) {
     list.push_back({"density", "(21) as printed divides by the summed density (4)"});
   }

@@ -12,7 +12,7 @@ std::vector<FieldInfo> body_table_fields() {
   return {field::body_phase,        field::body_mass,           field::body_centre,  field::body_velocity, field::body_acceleration,   field::body_angular_acceleration,
           field::body_angular_momentum, field::body_angular_velocity, field::body_inertia, field::body_orientation, field::body_axes, field::body_turns,
           field::body_start_centre, field::body_offset,         field::body_start_velocity, field::body_start_spin, field::body_motion, field::body_alive,
-          field::body_source};
+          field::body_source, field::body_grip, field::body_grip_centre, field::body_grip_orientation};
 }
 
 namespace {

@@ -9,21 +9,22 @@ namespace tripoint {
 /// The columns of one force on every particle [N], and where the work that it does is booked [J].
 struct ForceColumns {
   Triple<const double> force;
-  double Booked::*work;
+  double Booked::*work;            ///< on what moves by forces
+  double Booked::*work_on_driven;  ///< on what the scene moves
 };
 
 /// All forces that the effects of this scene make, each once, in a fixed order. Valid until particles are sorted anew.
 [[nodiscard]] inline std::vector<ForceColumns> force_columns(const World& world) {
   const Particles& p = world.particles;
   std::vector<ForceColumns> list;
-  const auto add = [&](const Field<double>& x, const Field<double>& y, const Field<double>& z, double Booked::*work) {
-    if (p.has(x.name)) list.push_back({triple(p, x, y, z), work});
+  const auto add = [&](const Field<double>& x, const Field<double>& y, const Field<double>& z, double Booked::*work, double Booked::*on_driven) {
+    if (p.has(x.name)) list.push_back({triple(p, x, y, z), work, on_driven});
   };
-  add(field::force_x, field::force_y, field::force_z, &Booked::pressure_work);
-  add(field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, &Booked::viscous_work);
-  add(field::transport_force_x, field::transport_force_y, field::transport_force_z, &Booked::transport_work);
-  add(field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, &Booked::elastic_work);
-  add(field::hourglass_force_x, field::hourglass_force_y, field::hourglass_force_z, &Booked::hourglass_work);
+  add(field::force_x, field::force_y, field::force_z, &Booked::pressure_work, &Booked::wall_pressure_work);
+  add(field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, &Booked::viscous_work, &Booked::wall_viscous_work);
+  add(field::transport_force_x, field::transport_force_y, field::transport_force_z, &Booked::transport_work, &Booked::transport_work);
+  add(field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, &Booked::elastic_work, &Booked::wall_elastic_work);
+  add(field::hourglass_force_x, field::hourglass_force_y, field::hourglass_force_z, &Booked::hourglass_work, &Booked::wall_elastic_work);
   return list;
 }
 

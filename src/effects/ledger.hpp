@@ -33,6 +33,7 @@ struct Booked {
   double rotation_drift = 0.0;      ///< change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly [J]
   double driven_potential = 0.0;    ///< change of the potential energy of driven bodies [J]
   double start_compression = 0.0, start_potential = 0.0, start_deformation = 0.0;  ///< stored at time 0 [J]
+  double inflow = 0.0;            ///< kinetic, potential and thermal energy that flowed in [J]
   double merging = 0.0;           ///< kinetic energy lost as bodies became one [J]
   double walls = 0.0;             ///< taken by what is held, fixed or prescribed from outside [J]
   Vec3 undelivered_spin;          ///< angular momentum about truncated axes that a split could not hand on [kg m2/s]

@@ -25,12 +25,14 @@ struct Lagged {
 /// What changed its phase, its body or its lists in this step: written by phase change and fracture, followed by all. Ids, each
 /// once, ascending.
 struct Change {
+  std::vector<std::uint32_t> born;  ///< flowed in: new particles, whose columns are still zero
   std::vector<std::uint32_t> melted, frozen;
   std::vector<std::uint32_t> regrouped;  ///< of another phase or body than before
   std::vector<std::uint32_t> relisted;   ///< with other bonds or own pairs than before
+  std::map<std::uint32_t, int> came_from;  ///< regrouped by phase change: row of the body before, -1 for liquid
   std::vector<std::size_t> bodies;       ///< rows of bodies that gained or lost members, ascending
   std::map<std::size_t, double> kinetic_lost;  ///< body row -> kinetic energy that joining cost [J], as the rigid effect finds it
-  [[nodiscard]] bool empty() const { return regrouped.empty() && relisted.empty() && bodies.empty(); }
+  [[nodiscard]] bool empty() const { return born.empty() && regrouped.empty() && relisted.empty() && bodies.empty(); }
 };
 
 /// All that a step changes, and what it works with.

@@ -42,6 +42,10 @@ inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, tran
 /// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density (model 8.2)
 inline constexpr Field<double> own_density{"own_density", "1/m3"};
 
+/// Who moves a particle that forces do not: 0 nobody, else a code of those below; and where a grip took it.
+inline constexpr Field<int> driven{"driven", "1"};
+inline constexpr Field<double> grip_x{"grip.x", "m"}, grip_y{"grip.y", "m"}, grip_z{"grip.z", "m"};
+
 // elastic solids (10)-(17): forces on the particle by the strain energy, and by the hourglass energy
 inline constexpr Field<double> elastic_force_x{"elastic_force.x", "N"}, elastic_force_y{"elastic_force.y", "N"}, elastic_force_z{"elastic_force.z", "N"};
 inline constexpr Field<double> hourglass_force_x{"hourglass_force.x", "N"}, hourglass_force_y{"hourglass_force.y", "N"}, hourglass_force_z{"hourglass_force.z", "N"};
@@ -102,7 +106,18 @@ inline constexpr Field<Vec3> body_offset{"body.offset", "m", Per::body};
 inline constexpr Field<Vec3> body_start_velocity{"body.start_velocity", "m/s", Per::body},
     body_start_spin{"body.start_spin", "rad/s", Per::body};
 inline constexpr Field<int> body_phase{"body.phase", "1", Per::body};  ///< rigid where the particles move as one, else elastic
+/// Number of the event that grips it + 1, 0 for none; its centre and orientation as it was gripped.
+inline constexpr Field<int> body_grip{"body.grip", "1", Per::body};
+inline constexpr Field<Vec3> body_grip_centre{"body.grip_centre", "m", Per::body};
+inline constexpr Field<Quaternion> body_grip_orientation{"body.grip_orientation", "1", Per::body};
 inline constexpr Field<int> body_motion{"body.motion", "1", Per::body}, body_alive{"body.alive", "1", Per::body},
     body_source{"body.source", "1", Per::body};
 
 }  // namespace tripoint::field
+
+namespace tripoint {
+
+/// Values of field::driven: flowing in, held in place, and from there on the number of the event that grips.
+inline constexpr int driven_in = -1, driven_still = 1, driven_grip = 2;
+
+}  // namespace tripoint

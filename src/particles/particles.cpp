@@ -12,6 +12,14 @@ Particles::Particles(std::size_t count, std::span<const FieldInfo> fields)
   std::iota(id.begin(), id.end(), 0);
 }
 
+std::size_t Particles::append() {
+  const std::size_t row = size();
+  append_row();
+  (*this)[field::id][row] = static_cast<int>(row);
+  row_of_id_.push_back(static_cast<std::uint32_t>(row));
+  return row;
+}
+
 void Particles::permute(std::span<const std::uint32_t> order) {
   Columns::permute(order);
   const auto id = (*this)[field::id];

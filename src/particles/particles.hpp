@@ -19,6 +19,8 @@ class Particles : public Columns {
 
   /// Row of the particle with this id, which is in 0..size()-1.
   [[nodiscard]] std::size_t row(std::size_t id) const noexcept { return row_of_id_[id]; }
+  /// One particle more, all zero, with the next id. @return its row
+  std::size_t append();
   /// Reorders every column and the map from ids to rows.
   void permute(std::span<const std::uint32_t> order);
 

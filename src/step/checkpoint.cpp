@@ -176,6 +176,8 @@ void Simulation::restore(const Checkpoint& kept) {
   steps_ = n[0], next_moment_ = static_cast<std::size_t>(n[1]), stretch_.count = n[2], stretch_.done = n[3], world_.moved = n[4] != 0;
   if (next_moment_ > moments_.size()) throw InputError("the checkpoint has seen more events than the scene has");
   std::memcpy(static_cast<void*>(&world_.booked), take(kept.real, "step/booked", sizeof(Booked) / sizeof(double)).data(), sizeof(Booked));
+  if (const auto ids = kept.whole.find("particles/id"); ids != kept.whole.end())
+    while (world_.particles.size() < ids->second.size()) world_.particles.append();  // those that had flowed in
   const std::vector<std::uint32_t> order = row_order(kept, world_.particles.size());
   world_.particles.permute(order);  // rows were in order of id
   restore_pairs(world_.bonds, "bonds", kept);

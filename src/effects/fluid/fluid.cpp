@@ -7,6 +7,7 @@
 #include "effects/body_table.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
+#include "effects/fluid/phase_jump.hpp"
 #include "effects/fluid/transport.hpp"
 #include "effects/fluid/viscous_bound.hpp"
 #include "effects/fluid/walls.hpp"
@@ -68,12 +69,13 @@ void Fluid::load(World& world, const InitialState&) {
 
 void Fluid::set_material(World& world, std::size_t row) const {
   Particles& p = world.particles;
-  const Body& source = world.scene.bodies.at(static_cast<std::size_t>(p[field::source][row]));
+  const auto source = static_cast<std::size_t>(p[field::source][row]);
+  const bool slips = source < world.scene.bodies.size() && world.scene.bodies[source].free_slip;
   const bool liquid = p[field::body][row] < 0;
   p[field::rest_density][row] = world.material_of(row).density;
   p[field::solid][row] = liquid ? 0.0 : 1.0;
   p[field::viscosity][row] = liquid ? world.material_of(row).viscosity : world.scene.contact_viscosity;
-  p[field::stick][row] = source.free_slip ? 0.0 : 1.0;
+  p[field::stick][row] = slips ? 0.0 : 1.0;
 }
 
 /// What the own pairs of a particle add to its number density, once and for all (model 8.2).
@@ -85,6 +87,8 @@ void Fluid::set_own_density(World& world, std::size_t row) const {
 }
 
 void Fluid::adopt(World& world) {
+  world.booked.compression_released -= compression_jump(world, numbers_, kernels_, [&](std::size_t i) { return group_of(world, i); });
+  for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
   set_groups(world);

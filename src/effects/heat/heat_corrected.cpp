@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/thermal_particles.hpp"
 #include "sph/moments.hpp"
@@ -13,28 +14,48 @@ namespace {
 
 constexpr double moment_cut = 0.05;  ///< eigenvalues of M_i below this share of the largest count as none (model 8.6)
 
-double set_temperature(Particles& p, std::size_t row, double temperature) {
+/// H = m (c_p T + L f) [J] at the particle's temperature.
+double heat_content(const World& world, std::size_t row) {
+  const Particles& p = world.particles;
+  const double sensible = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
+  return p.has(field::liquid_fraction.name) ? sensible + latent_heat(world, row) : sensible;
+}
+
+double set_temperature(World& world, std::size_t row, double temperature) {
+  Particles& p = world.particles;
   const double before = p[field::enthalpy][row];
+  set_melted(world, row, temperature);
   p[field::temperature][row] = temperature;
-  p[field::enthalpy][row] = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], temperature);
+  p[field::enthalpy][row] = heat_content(world, row);
   return p[field::enthalpy][row] - before;
 }
 
-/// H_i += change(i), T from H; what a held particle would have taken goes to the walls. Sums in order of id.
+enum class Stage { first, last };
+
+/// H_i += change(i), T from H, and with the last stage f; what a held particle would have taken goes to the walls. Sums in order
+/// of id. Of the first stage only T is taken: f follows the heat of the whole step, whatever the way between.
 template <class Change>
-void add_heat(World& world, Change change) {
+void add_heat(World& world, Stage stage, Change change) {
   Particles& p = world.particles;
   const auto H = p[field::enthalpy], T = p[field::temperature], m = p[field::mass], c_p = p[field::heat_capacity];
-  const auto held = p[field::held];
+  const auto held = p[field::held], material = p[field::material];
+  const bool melts = p.has(field::liquid_fraction.name);
+  const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
+  const std::vector<Fusion> fusions = melts ? fusions_of(world.scene) : std::vector<Fusion>{};
   static const bool leaks = defect_size("heat.held") > 0.0;
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (held[i] && !leaks) {
       world.booked.walls += change(i);
-    } else {
-      H[i] += change(i);
-      T[i] = temperature_of(m[i], c_p[i], H[i]);
+      continue;
     }
+    H[i] += change(i);
+    T[i] = temperature_of(m[i], c_p[i], H[i]);
+    if (!melts) continue;
+    const Fusion& fusion = fusions[static_cast<std::size_t>(material[i])];
+    const ThermalState state = settled(fusion, T[i] - fusion.heat * f[i], f[i]);
+    T[i] = state.temperature;
+    if (stage == Stage::last) f[i] = state.liquid_fraction;
   }
 }
 
@@ -42,13 +63,24 @@ void add_heat(World& world, Change change) {
 
 void CorrectedHeat::load(World& world, const InitialState& initial) {
   load_common(world, initial);
+  for (std::size_t i = 0; i < world.particles.size(); ++i) set_material(world, i);
+}
+
+void CorrectedHeat::set_material(World& world, std::size_t row) const {
   Particles& p = world.particles;
-  const auto k = p[field::conductivity], V = p[field::rest_volume], H = p[field::enthalpy];
-  const double factor = 1.0 + defect_size("heat.conductivity");
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    k[i] = factor * *world.material_of(i).conductivity;
-    V[i] = p[field::mass][i] / world.material_of(i).density;
-    H[i] = enthalpy_of(p[field::mass][i], p[field::heat_capacity][i], p[field::temperature][i]);
+  static const double factor = 1.0 + defect_size("heat.conductivity");
+  p[field::conductivity][row] = factor * *world.material_of(row).conductivity;
+  p[field::rest_volume][row] = p[field::mass][row] / world.material_of(row).density;
+  p[field::enthalpy][row] = heat_content(world, row);
+}
+
+/// What flowed in brings its heat.
+void CorrectedHeat::adopt(World& world) {
+  for (const std::uint32_t id : world.change.born) {
+    const std::size_t i = world.particles.row(id);
+    load_particle(world, i, inflow_temperature(world, i));
+    set_material(world, i);
+    world.booked.inflow += world.particles[field::enthalpy][i];
   }
 }
 
@@ -56,15 +88,18 @@ void CorrectedHeat::load(World& world, const InitialState& initial) {
 void CorrectedHeat::drift(World& world, double dt) {
   const auto rate = world.particles[field::heat_rate];
   std::ranges::copy(rate, world.particles[field::heat_rate_before].begin());
-  add_heat(world, [&](std::size_t i) { return dt * rate[i]; });
+  add_heat(world, Stage::first, [&](std::size_t i) { return dt * rate[i]; });
 }
 
 /// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1.
 bool CorrectedHeat::correct(World& world, double dt) {
   static const bool skipped = defect_size("heat.first_order") > 0.0;
-  if (skipped) return false;
+  if (skipped) {
+    add_heat(world, Stage::last, [](std::size_t) { return 0.0; });
+    return false;
+  }
   const auto rate = world.particles[field::heat_rate], before = world.particles[field::heat_rate_before];
-  add_heat(world, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
+  add_heat(world, Stage::last, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
   return true;
 }
 
@@ -115,9 +150,16 @@ TimeStepBound CorrectedHeat::max_dt(const World& world) const {
 
 void CorrectedHeat::add_to(const World& world, Ledger& ledger) const {
   const auto H = world.particles[field::enthalpy];
-  double sum = 0.0;
-  for (std::size_t id = 0; id < H.size(); ++id) sum += H[world.particles.row(id)];
+  const bool melts = world.particles.has(field::liquid_fraction.name);
+  double sum = 0.0, latent = 0.0;
+  for (std::size_t id = 0; id < H.size(); ++id) {
+    const std::size_t i = world.particles.row(id);
+    const double bound = melts ? latent_heat(world, i) : 0.0;
+    sum += H[i] - bound;
+    latent += bound;
+  }
   ledger.energy["thermal"] += sum;
+  if (melts) ledger.energy["latent"] += latent;
 }
 
 }  // namespace tripoint::heat

@@ -3,42 +3,71 @@
 
 #include <algorithm>
 
+#include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/thermal_particles.hpp"
 
 namespace tripoint::heat {
 namespace {
 
-double set_temperature(Particles& p, std::size_t row, double temperature) {
+/// m (c_p T + L f) [J]
+double heat_content(const World& world, std::size_t row) {
+  const Particles& p = world.particles;
+  const double sensible = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
+  return p.has(field::liquid_fraction.name) ? sensible + latent_heat(world, row) : sensible;
+}
+
+double set_temperature(World& world, std::size_t row, double temperature) {
+  Particles& p = world.particles;
   const double given = p[field::mass][row] * p[field::heat_capacity][row] * (temperature - p[field::temperature][row]);
   p[field::temperature][row] = temperature;
-  return given;
+  const double bound = p.has(field::liquid_fraction.name) ? latent_heat(world, row) : 0.0;
+  set_melted(world, row, temperature);
+  return p.has(field::liquid_fraction.name) ? given + latent_heat(world, row) - bound : given;
 }
 
 }  // namespace
 
 void PaperHeat::load(World& world, const InitialState& initial) {
   load_common(world, initial);
-  const auto c = world.particles[field::diffusivity];
-  const double density = 1.0 + defect_size("heat.paper.density");
-  const double faster = 1.0 + defect_size("heat.paper.diffusivity");
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    const Material& m = world.material_of(i);
-    c[i] = faster * *m.conductivity / (m.density * density * *m.heat_capacity);  // the paper's c [m2/s]
+  for (std::size_t i = 0; i < world.particles.size(); ++i) set_material(world, i);
+}
+
+void PaperHeat::set_material(World& world, std::size_t row) const {
+  static const double density = 1.0 + defect_size("heat.paper.density");
+  static const double faster = 1.0 + defect_size("heat.paper.diffusivity");
+  const Material& m = world.material_of(row);
+  world.particles[field::diffusivity][row] = faster * *m.conductivity / (m.density * density * *m.heat_capacity);  // the paper's c [m2/s]
+}
+
+/// What flowed in brings its heat.
+void PaperHeat::adopt(World& world) {
+  const Particles& p = world.particles;
+  for (const std::uint32_t id : world.change.born) {
+    const std::size_t i = p.row(id);
+    load_particle(world, i, inflow_temperature(world, i));
+    set_material(world, i);
+    world.booked.inflow += heat_content(world, i);
   }
 }
 
 void PaperHeat::drift(World& world, double dt) {
   Particles& p = world.particles;
   const auto T = p[field::temperature], rate = p[field::temperature_rate], m = p[field::mass], c_p = p[field::heat_capacity];
-  const auto held = p[field::held];
+  const auto held = p[field::held], material = p[field::material];
+  const bool melts = p.has(field::liquid_fraction.name);
+  const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
+  const std::vector<Fusion> fusions = melts ? fusions_of(world.scene) : std::vector<Fusion>{};
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (held[i]) {
       world.booked.walls += enthalpy_of(m[i], c_p[i], rate[i] * dt);
-    } else {
-      T[i] += dt * rate[i];
+      continue;
     }
+    T[i] += dt * rate[i];
+    if (!melts) continue;
+    const ThermalState state = settled(fusions[static_cast<std::size_t>(material[i])], T[i], f[i]);
+    T[i] = state.temperature, f[i] = state.liquid_fraction;
   }
 }
 
@@ -65,12 +94,15 @@ TimeStepBound PaperHeat::max_dt(const World& world) const {
 
 void PaperHeat::add_to(const World& world, Ledger& ledger) const {
   const Particles& p = world.particles;
-  double sum = 0.0;
+  const bool melts = p.has(field::liquid_fraction.name);
+  double sum = 0.0, latent = 0.0;
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     sum += enthalpy_of(p[field::mass][i], p[field::heat_capacity][i], p[field::temperature][i]);
+    if (melts) latent += latent_heat(world, i);
   }
   ledger.energy["thermal"] += sum;
+  if (melts) ledger.energy["latent"] += latent;
 }
 
 }  // namespace tripoint::heat

@@ -13,6 +13,10 @@ class PaperHeat : public Effect {
   void happen(World&, const Happening&) override;
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World&, Ledger&) const override;
+  void adopt(World&) override;
+
+ private:
+  void set_material(World&, std::size_t row) const;
 };
 
 }  // namespace tripoint::heat

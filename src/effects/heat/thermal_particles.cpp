@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/fusion.hpp"
 #include "scene/geometry.hpp"
 
 namespace tripoint::heat {
@@ -19,21 +20,41 @@ namespace {
 void load_common(World& world, const InitialState& initial) {
   if (initial.temperature.size() != initial.size())
     throw InputError("the scene conducts heat, and has no temperatures: give each body a temperature");
+  for (std::size_t i = 0; i < world.particles.size(); ++i)
+    load_particle(world, i, initial.temperature[static_cast<std::size_t>(world.particles[field::id][i])]);
+}
+
+void load_particle(World& world, std::size_t row, double temperature) {
   Particles& p = world.particles;
-  const auto T = p[field::temperature], c_p = p[field::heat_capacity];
-  const auto held = p[field::held];
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const Material& material = world.material_of(i);
-    if (!material.heat_capacity || !material.conductivity) {
-      throw InputError("the scene conducts heat, and the material " + material.name +
-                       " has no heat_capacity or no conductivity: give both");
-    }
-    c_p[i] = *material.heat_capacity;
-    T[i] = initial.temperature[static_cast<std::size_t>(p[field::id][i])];
-    if (!std::isfinite(T[i]))
-      throw InputError("particle " + std::to_string(p[field::id][i]) + " has no temperature: give its body one");
-    held[i] = held_by_scene(world, i);
+  const Material& material = world.material_of(row);
+  if (!material.heat_capacity || !material.conductivity) {
+    throw InputError("the scene conducts heat, and the material " + material.name +
+                     " has no heat_capacity or no conductivity: give both");
   }
+  p[field::heat_capacity][row] = *material.heat_capacity;
+  p[field::temperature][row] = temperature;
+  if (!std::isfinite(temperature))
+    throw InputError("particle " + std::to_string(p[field::id][row]) + " has no temperature: give its body or inflow one");
+  p[field::held][row] = held_by_scene(world, row);
+  if (p.has(field::liquid_fraction.name)) p[field::liquid_fraction][row] = p[field::phase][row] == static_cast<int>(Phase::liquid) ? 1.0 : 0.0;
+}
+
+double latent_heat(const World& world, std::size_t row) {
+  const Particles& p = world.particles;
+  return p[field::mass][row] * p[field::heat_capacity][row] * fusion_of(world.scene, world.material_of(row)).heat * p[field::liquid_fraction][row];
+}
+
+void set_melted(World& world, std::size_t row, double temperature) {
+  if (!world.particles.has(field::liquid_fraction.name)) return;
+  const Fusion fusion = fusion_of(world.scene, world.material_of(row));
+  double& f = world.particles[field::liquid_fraction][row];
+  if (temperature > fusion.melts) f = 1.0;
+  if (temperature < fusion.solidifies) f = 0.0;
+}
+
+double inflow_temperature(const World& world, std::size_t row) {
+  const auto source = static_cast<std::size_t>(world.particles[field::source][row]);
+  return world.scene.inflows.at(source - world.scene.bodies.size()).temperature.value_or(not_a_number);
 }
 
 void hold_temperature(World& world, const Happening& now, SetTemperature set) {
@@ -45,9 +66,9 @@ void hold_temperature(World& world, const Happening& now, SetTemperature set) {
     const std::size_t i = p.row(id);
     const auto source = static_cast<std::size_t>(p[field::source][i]);
     const auto& names = now.event.bodies;
-    const bool named = names.empty() || std::find(names.begin(), names.end(), world.scene.bodies[source].name) != names.end();
+    const bool named = names.empty() || (source < world.scene.bodies.size() && std::find(names.begin(), names.end(), world.scene.bodies[source].name) != names.end());
     if (!named || !inside(world.unwrapped(i))) continue;
-    if (now.begins) world.booked.walls -= set(p, i, *now.event.temperature);
+    if (now.begins) world.booked.walls -= set(world, i, *now.event.temperature);
     held[i] = now.begins || held_by_scene(world, i);
   }
 }

@@ -8,9 +8,18 @@ namespace tripoint::heat {
 /// Heat capacity, temperature and what is held, from the scene and the sampled state.
 /// @throws InputError naming the material without heat capacity or conductivity, or a scene without temperatures
 void load_common(World&, const InitialState&);
+/// Columns of one particle. @throws InputError when its material does not conduct, or its temperature [K] is not finite
+void load_particle(World&, std::size_t row, double temperature);
+/// Temperature of a particle that flowed in [K]; NaN where its inflow has none.
+[[nodiscard]] double inflow_temperature(const World&, std::size_t row);
 
 /// Sets one particle's temperature, and with it the state of the form that is on. @return heat given to it [J]
-using SetTemperature = double (*)(Particles&, std::size_t row, double temperature);
+using SetTemperature = double (*)(World&, std::size_t row, double temperature);
+
+/// m L f [J] of a particle of a scene that has phase change.
+[[nodiscard]] double latent_heat(const World&, std::size_t row);
+/// Melts or freezes a particle whose temperature is set from outside [K]; nothing where the scene has no phase change.
+void set_melted(World&, std::size_t row, double temperature);
 
 /// An event `heat`: its particles take the temperature and hold it until the end; the heat given is booked at the walls.
 void hold_temperature(World&, const Happening&, SetTemperature);

@@ -21,7 +21,7 @@ class FreeMotion : public Effect {
   void add_to(const World&, Ledger&) const override;
 
  private:
-  enum Work : std::size_t { by_gravity = most_forces, by_wall_pressure, works };
+  enum Work : std::size_t { by_gravity = most_forces, by_wall_pressure, works_on_free, works = works_on_free + most_forces };
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
 };
 
@@ -37,8 +37,14 @@ void FreeMotion::kick(World& world, double dt) {
   const RigidMembers is_member(world);
   static const double heavier = 1.0 + defect_size("motion.gravity");
   const Vec3 g = heavier * world.scene.gravity;
+  const bool guided = p.has(field::driven.name);
+  const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
   const auto sums = ordered_sums(p.size(), world.threads, blocks_, [&](std::size_t i, std::array<double, works>& work) {
     if (is_member(i)) return;
+    if (guided && driven[i] != 0) {  // whoever moves it takes the work
+      for (std::size_t k = 0; k < forces.size(); ++k) work[works_on_free + k] += dt * dot(forces[k].force.at(i), v.at(i));
+      return;
+    }
     const Vec3 before = v.at(i), after = before + (dt / m[i]) * total_force(forces, i) + dt * g;
     const Vec3 way = (0.5 * dt) * (before + after);
     for (std::size_t k = 0; k < forces.size(); ++k) work[k] += dot(forces[k].force.at(i), way);
@@ -46,7 +52,10 @@ void FreeMotion::kick(World& world, double dt) {
     if (splits) work[by_wall_pressure] += dot(E.at(i), way);
     v.set(i, after);
   });
-  for (std::size_t k = 0; k < forces.size(); ++k) world.booked.*forces[k].work += sums[k];
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    world.booked.*forces[k].work += sums[k];
+    world.booked.*forces[k].work_on_driven += sums[works_on_free + k];
+  }
   world.booked.gravity_work += sums[by_gravity];
   world.booked.extrapolated_work += sums[by_wall_pressure];
 }
@@ -58,9 +67,11 @@ void FreeMotion::drift(World& world, double dt) {
   const bool shifts = p.has(field::shift_x.name);
   const auto w = shifts ? triple(std::as_const(p), field::shift_x, field::shift_y, field::shift_z) : Triple<const double>{};
   const RigidMembers is_member(world);
+  const bool guided = p.has(field::driven.name);
+  const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i)
-    if (!is_member(i)) r.set(i, r.at(i) + dt * (shifts ? v.at(i) + w.at(i) : v.at(i)));
+    if (!is_member(i) && !(guided && driven[i] != 0)) r.set(i, r.at(i) + dt * (shifts ? v.at(i) + w.at(i) : v.at(i)));
   world.moved = true;
 }
 

@@ -53,8 +53,9 @@ double potential_energy(const World& world, std::size_t b) {
   return -world.bodies[field::body_mass][b] * dot(world.scene.gravity, world.bodies[field::body_centre][b]);
 }
 
-void measure(World& world, std::size_t b) {
-  const std::vector<std::size_t> rows = members(world, b);
+void measure(World& world, std::size_t b) { measure(world, b, members(world, b)); }
+
+void measure(World& world, std::size_t b, const std::vector<std::size_t>& rows) {
   Columns& t = world.bodies;
   t[field::body_alive][b] = !rows.empty();
   t[field::body_mass][b] = 0.0;
@@ -103,6 +104,13 @@ Vec3 spin_momentum(const World& world, std::size_t b) {
   const Quaternion q = principal_to_world(world, b);
   const Vec3 w = rotate_back(q, world.bodies[field::body_angular_velocity][b]), I = world.bodies[field::body_inertia][b];
   return rotate(q, {I.x * w.x, I.y * w.y, I.z * w.z});
+}
+
+void go_on_driven(World& world, std::size_t b, const BodyMotion& old) {
+  Columns& t = world.bodies;
+  t[field::body_velocity][b] = old.velocity_at(t[field::body_centre][b]);
+  t[field::body_angular_velocity][b] = old.omega;
+  t[field::body_angular_momentum][b] = spin_momentum(world, b);
 }
 
 void place_members(World& world) {

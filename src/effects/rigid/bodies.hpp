@@ -28,6 +28,8 @@ struct BodyMotion {
 /// Mass, centre, inertia and the members' reference places from where the members are now; the orientation stays.
 /// What the body does is not touched. A body without members dies.
 void measure(World&, std::size_t body);
+/// The same from the rows of its members, in order of id.
+void measure(World&, std::size_t body, const std::vector<std::size_t>& rows);
 
 /// Angular velocity from L (19), within the axes that the body may turn about.
 void update_spin(World&, std::size_t body);
@@ -36,5 +38,7 @@ void update_spin(World&, std::size_t body);
 /// Places (and speeds) of the members from centre, orientation and reference: rigid to round-off for ever.
 void place_members(World&);
 void give_velocities(World&);
+/// Lets a fixed or prescribed body, already measured, go on as its outside drives it. @param old what it did before
+void go_on_driven(World&, std::size_t body, const BodyMotion& old);
 
 }  // namespace tripoint::rigid

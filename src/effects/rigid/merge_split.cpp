@@ -54,14 +54,6 @@ void hand_on(World& world, std::size_t b, const Share& share) {
   update_spin(world, b);
 }
 
-/// Lets a fixed or prescribed body, already measured, go on as its outside drives it.
-void go_on_driven(World& world, std::size_t b, const BodyMotion& old) {
-  Columns& t = world.bodies;
-  t[field::body_velocity][b] = old.velocity_at(t[field::body_centre][b]);
-  t[field::body_angular_velocity][b] = old.omega;
-  t[field::body_angular_momentum][b] = spin_momentum(world, b);
-}
-
 std::vector<std::size_t> bodies_of(const World& world, const Event& event) {
   std::vector<std::size_t> rows;
   for (const std::string& name : event.bodies) rows.push_back(body_row(world, name));

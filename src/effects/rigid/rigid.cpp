@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/rigid/rigid.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "effects/rigid/adopt.hpp"
 #include "effects/rigid/bodies.hpp"
 #include "effects/body_forces.hpp"
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
+#include "scene/geometry.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint::rigid {
@@ -19,6 +22,7 @@ class RigidBodies : public Effect {
   void kick(World&, double dt) override;
   void drift(World&, double dt) override;
   void happen(World&, const Happening&) override;
+  void adopt(World& world) override { adopt_members(world); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World&, Ledger&) const override;
 
@@ -40,6 +44,19 @@ void refuse_blocked_spin(const World& world, std::size_t b) {
   }
 }
 
+/// A gripped body at a time: carried by the grip's keyframes from where it was when the grip took it.
+PrescribedState gripped_state(const World& world, std::size_t b, double time) {
+  const Columns& t = world.bodies;
+  const auto& keyframes = world.scene.events[static_cast<std::size_t>(t[field::body_grip][b] - 1)].keyframes;
+  PrescribedState s = prescribed_state(keyframes, {}, {}, {}, time);
+  const Quaternion turned = s.rotation * conjugate(keyframes.front().rotation);
+  const Vec3 arm = rotate(turned, t[field::body_grip_centre][b] - keyframes.front().position);
+  s.velocity += cross(s.angular_velocity, arm);
+  s.position += arm;
+  s.rotation = turned * t[field::body_grip_orientation][b];
+  return s;
+}
+
 /// A driven body at a time: its keyframes, or constant velocity and angular velocity for ever.
 void drive(World& world, std::size_t b, double time) {
   Columns& t = world.bodies;
@@ -47,8 +64,9 @@ void drive(World& world, std::size_t b, double time) {
   static const std::vector<Keyframe> none;
   const auto& keyframes = source >= 0 ? world.scene.bodies[static_cast<std::size_t>(source)].keyframes : none;
   static const double faster = 1.0 + defect_size("rigid.prescribed");
-  const PrescribedState s = prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b],
-                                             t[field::body_start_spin][b], faster * time);
+  PrescribedState s = t[field::body_grip][b] > 0 ? gripped_state(world, b, time)
+                                                 : prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b],
+                                                                    t[field::body_start_spin][b], faster * time);
   const Vec3 lever = rotate(s.rotation, t[field::body_offset][b]);
   t[field::body_orientation][b] = s.rotation;
   t[field::body_centre][b] = s.position + lever;
@@ -194,6 +212,45 @@ void set_motion(World& world, std::size_t b, Motion motion) {
   world.booked.walls += before - kinetic_energy(world, b);
 }
 
+/// Free bodies with most of their members in the region are driven by the grip from now on.
+void grip(World& world, const Event& event) {
+  const auto inside = inside_of(*event.region, world.scene.spacing);
+  Columns& t = world.bodies;
+  for (std::size_t b = 0; b < t.size(); ++b) {
+    if (!is_free(world, b)) continue;
+    const std::vector<std::size_t> rows = members(world, b);
+    if (2 * std::ranges::count_if(rows, [&](std::size_t i) { return inside(world.unwrapped(i)); }) <= std::ssize(rows)) continue;
+    t[field::body_grip][b] = 1 + static_cast<int>(&event - world.scene.events.data());
+    t[field::body_grip_centre][b] = t[field::body_centre][b];
+    t[field::body_grip_orientation][b] = t[field::body_orientation][b];
+    t[field::body_offset][b] = {};
+    set_motion(world, b, Motion::prescribed);
+  }
+}
+
+/// What a grip drove goes on freely as it moves.
+void let_go(World& world, const Event& event) {
+  Columns& t = world.bodies;
+  for (std::size_t b = 0; b < t.size(); ++b) {
+    if (!is_alive(world, b) || t[field::body_grip][b] != 1 + static_cast<int>(&event - world.scene.events.data())) continue;
+    t[field::body_grip][b] = 0;
+    set_motion(world, b, Motion::free);
+  }
+}
+
+bool is_liquid(const Scene& scene, const std::string& name) {
+  const auto body = std::ranges::find(scene.bodies, name, &Body::name);
+  return body != scene.bodies.end() && body->phase == Phase::liquid;
+}
+
+/// A body, or all that a grip of that name holds.
+void release(World& world, const std::string& name) {
+  for (const Event& e : world.scene.events)
+    if (e.kind == Event::Kind::grip && e.name == name) return let_go(world, e);
+  if (is_liquid(world.scene, name)) return;
+  if (const std::size_t b = body_row(world, name); is_rigid(world, b)) set_motion(world, b, Motion::free);
+}
+
 void RigidBodies::happen(World& world, const Happening& now) {
   switch (now.event.kind) {
     case Event::Kind::merge:
@@ -203,16 +260,19 @@ void RigidBodies::happen(World& world, const Happening& now) {
       split(world, now.event);
       break;
     case Event::Kind::release:
-      for (const std::string& name : now.event.bodies) set_motion(world, body_row(world, name), Motion::free);
+      for (const std::string& name : now.event.bodies) release(world, name);
       break;
     case Event::Kind::hold:
       for (const std::string& name : now.event.bodies) {
+        if (is_liquid(world.scene, name)) continue;
         const std::size_t b = body_row(world, name);
-        set_motion(world, b, now.begins ? Motion::fixed : own_motion(world, b));
+        if (is_rigid(world, b)) set_motion(world, b, now.begins ? Motion::fixed : own_motion(world, b));
       }
       break;
-    case Event::Kind::heat:
     case Event::Kind::grip:
+      now.begins ? grip(world, now.event) : let_go(world, now.event);
+      break;
+    case Event::Kind::heat:
       return;
   }
   for (std::size_t b = 0; b < world.bodies.size(); ++b) refuse_blocked_spin(world, b);
@@ -263,6 +323,7 @@ std::vector<DefectEntry> defects() {
           {"rigid.paper.rotation", "angle of each step of the paper's rotation times 1 + size", "rigid/torque-free"},
           {"rigid.merge", "orbital part of L times 1 + size as bodies merge", "rigid/merge-in-flight"},
           {"rigid.split", "velocity of the split part times 1 + size", "rigid/split-in-flight"},
+          {"rigid.adopt.spin", "what melts off a turning body leaves with the velocity of its centre", "phase/split-by-melting"},
           {"rigid.prescribed", "keyframes play 1 + size times as fast", "rigid/prescribed-board"}};
 }
 

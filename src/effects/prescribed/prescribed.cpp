@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/prescribed/prescribed.hpp"
+
+#include <algorithm>
+
+#include "effects/body_table.hpp"
+#include "effects/prescribed/inflow.hpp"
+#include "scene/geometry.hpp"
+#include "scene/read_case.hpp"
+
+namespace tripoint::prescribed {
+namespace {
+
+class Prescribed : public Effect {
+ public:
+  void load(World&, const InitialState&) override;
+  void drift(World&, double dt) override;
+  void change(World&) override;
+  void adopt(World&) override;
+  void happen(World&, const Happening&) override;
+  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["inflow"] -= world.booked.inflow; }
+
+ private:
+  std::vector<Entrance> entrances_;
+};
+
+/// Kinetic and potential energy of a particle [J].
+double energy_of(const World& world, std::size_t row) {
+  const Vec3 v = world.particles.velocity(row);
+  return world.particles[field::mass][row] * (0.5 * dot(v, v) - dot(world.scene.gravity, world.unwrapped(row)));
+}
+
+/// A particle as its guide moves it; what that costs is booked at the walls.
+void guide(World& world, std::size_t row, const Vec3& place, const Vec3& velocity) {
+  const double before = energy_of(world, row);
+  const Vec3 way = place - world.unwrapped(row);
+  const auto r = positions(world.particles);
+  r.set(row, r.at(row) + way);
+  velocities(world.particles).set(row, velocity);
+  world.booked.walls -= energy_of(world, row) - before;
+  world.booked.driven_potential -= world.particles[field::mass][row] * dot(world.scene.gravity, way);
+}
+
+/// Where a grip has brought a place, and how fast it moves there.
+PrescribedState gripped(const Event& grip, const Vec3& place, double time) {
+  const Keyframe& from = grip.keyframes.front();
+  PrescribedState s = prescribed_state(grip.keyframes, {}, {}, {}, time);
+  const Vec3 arm = rotate(s.rotation * conjugate(from.rotation), place - from.position);
+  s.velocity += cross(s.angular_velocity, arm);
+  s.position += arm;
+  return s;
+}
+
+void Prescribed::load(World& world, const InitialState&) {
+  entrances_.clear();
+  for (std::size_t n = 0; n < world.scene.inflows.size(); ++n) entrances_.emplace_back(world.scene, n);
+}
+
+void Prescribed::drift(World& world, double dt) {
+  Particles& p = world.particles;
+  const auto driven = p[field::driven];
+  const RigidMembers is_member(world);
+  for (std::size_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    if (driven[i] == 0 || driven[i] == driven_still || is_member(i)) continue;
+    if (driven[i] == driven_in) {
+      const Vec3 v = entrances_[static_cast<std::size_t>(inflow_of(world, i))].velocity();
+      guide(world, i, world.unwrapped(i) + dt * v, v);
+    } else {
+      const Event& grip = world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)];
+      const PrescribedState s = gripped(grip, p.vector(i, field::grip_x, field::grip_y, field::grip_z), world.next_time);
+      guide(world, i, s.position, s.velocity);
+    }
+    world.moved = true;
+  }
+}
+
+/// New layers enter; those that have left the shape are free.
+void Prescribed::change(World& world) {
+  if (entrances_.empty()) return;
+  let_in(world, entrances_);
+  Particles& p = world.particles;
+  const auto driven = p[field::driven];
+  std::vector<long> order(entrances_.size(), 0);
+  for (std::size_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    const int from = inflow_of(world, i);
+    if (from < 0) continue;
+    const Entrance& e = entrances_[static_cast<std::size_t>(from)];
+    const long layer = order[static_cast<std::size_t>(from)]++ / static_cast<long>(e.section().size());
+    if (driven[i] == driven_in && !e.inside(layer, world.time)) driven[i] = 0;
+  }
+}
+
+/// What became a member of a rigid body moves with it.
+void Prescribed::adopt(World& world) {
+  const RigidMembers is_member(world);
+  const auto driven = world.particles[field::driven];
+  for (const std::uint32_t id : world.change.regrouped)
+    if (const std::size_t i = world.particles.row(id); is_member(i)) driven[i] = 0;
+}
+
+bool named(const Event& event, const std::string& name) { return std::ranges::find(event.bodies, name) != event.bodies.end(); }
+
+void Prescribed::happen(World& world, const Happening& now) {
+  const Event& event = now.event;
+  const bool holds = event.kind == Event::Kind::hold, grips = event.kind == Event::Kind::grip, releases = event.kind == Event::Kind::release;
+  if (!holds && !grips && !releases) return;
+  Particles& p = world.particles;
+  const auto driven = p[field::driven], body = p[field::body];
+  const int number = driven_grip + static_cast<int>(&event - world.scene.events.data());
+  const auto inside = grips ? inside_of(*event.region, world.scene.spacing) : [](const Vec3&) { return true; };
+  const RigidMembers is_member(world);
+  const auto place = triple(p, field::grip_x, field::grip_y, field::grip_z);
+  for (std::size_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    if (is_member(i)) continue;
+    if (grips && now.begins && body[i] >= 0 && inside(world.unwrapped(i))) {
+      driven[i] = number;
+      place.set(i, world.unwrapped(i));
+    } else if (grips && !now.begins && driven[i] == number) {
+      driven[i] = 0;
+    } else if (releases && driven[i] >= driven_grip && named(event, world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)].name)) {
+      driven[i] = 0;
+    } else if (holds || releases) {
+      const auto source = static_cast<std::size_t>(p[field::source][i]);
+      if (source >= world.scene.bodies.size() || !named(event, world.scene.bodies[source].name)) continue;
+      if (holds && now.begins && driven[i] == 0) driven[i] = driven_still, guide(world, i, world.unwrapped(i), {});
+      else if (driven[i] == driven_still) driven[i] = 0;
+    }
+  }
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene& scene) {
+  return {"prescribed", scene.mode_of(Term::time), {field::driven, field::grip_x, field::grip_y, field::grip_z}, {field::mass, field::body, field::source}};
+}
+
+std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<Prescribed>(); }
+
+std::vector<DefectEntry> defects() { return {}; }
+
+}  // namespace tripoint::prescribed
