@@ -50,6 +50,7 @@ Snapshot snapshot_of(const Simulation& simulation) {
   s.temperature = by_id(p, field::temperature);
   s.density = by_id(p, field::density);
   s.pressure = by_id(p, field::pressure);
+  s.liquid_fraction = by_id(p, field::liquid_fraction);
   s.phase = by_id(p, field::phase);
   s.body = by_id(p, field::body);
   s.material = by_id(p, field::material);

@@ -108,7 +108,22 @@ std::vector<CalledEffect> called_effects(const Scene& s) {
     if (!has_heat(b, m) || !m.t_melt || b.temperature_held) return false;
     return b.phase == Phase::liquid ? range.least < *m.t_solid : range.greatest > *m.t_melt;
   };
-  call("phase", bodies_where(s, changes), "the scene's temperatures pass t_melt or t_solid of the material");
+  std::string changing = bodies_where(s, changes);
+  const auto poured = [&](const Inflow& f) {
+    const Material& m = s.material(f.material);
+    return f.temperature && m.t_melt && m.conductivity && m.heat_capacity && range.least < *m.t_solid;
+  };
+  if (changing.empty() && std::any_of(s.inflows.begin(), s.inflows.end(), poured)) changing = "an inflow";
+  call("phase", changing, "the scene's temperatures pass t_melt or t_solid of the material");
+  if (changing.empty()) return out;
+  const auto has = [&](std::string_view name) { return std::any_of(out.begin(), out.end(), [&](const CalledEffect& e) { return e.name == name; }); };
+  const bool stiff = std::any_of(s.materials.begin(), s.materials.end(), [](const Material& m) { return m.stiffness.has_value(); });
+  if (!has("fluid") && (stiff || s.gravity != Vec3{})) call("fluid", changing, "what melts flows");
+  const auto freezes_elastic = [&](const Body& b, const Material& m) { return changes(b, m) && m.solid == "elastic" && m.young_modulus; };
+  std::string elastic_later = bodies_where(s, freezes_elastic);
+  const auto pours_elastic = [&](const Inflow& f) { return poured(f) && s.material(f.material).solid == "elastic" && s.material(f.material).young_modulus; };
+  if (elastic_later.empty() && std::any_of(s.inflows.begin(), s.inflows.end(), pours_elastic)) elastic_later = "an inflow";
+  if (!has("elastic")) call("elastic", elastic_later, "what freezes is elastic");
   return out;
 }
 

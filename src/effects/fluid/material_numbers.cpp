@@ -5,6 +5,7 @@
 
 #include "core/defect.hpp"
 #include "core/errors.hpp"
+#include "scene/read_case.hpp"
 #include "sph/lattice.hpp"
 
 namespace tripoint::fluid {
@@ -38,7 +39,8 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
   n.core_reach = 0.9 * (1.0 + defect_size("fluid.core")) * scene.spacing;
   const bool paper_walls = scene.mode_of(Term::walls) == Mode::paper;
-  n.extrapolates = !paper_walls && !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
+  const bool freezes = std::ranges::any_of(called_effects(scene), [](const CalledEffect& e) { return e.name == "phase"; });
+  n.extrapolates = !paper_walls && !freezes && !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   return n;
 }
 

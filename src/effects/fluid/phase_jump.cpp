@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/fluid/phase_jump.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "effects/fluid/fluid_terms.hpp"
+
+namespace tripoint::fluid {
+namespace {
+
+/// Rows of all that changed, in order of id.
+std::vector<std::size_t> changed_rows(const World& world) {
+  std::vector<std::uint32_t> ids = world.change.regrouped;
+  ids.insert(ids.end(), world.change.relisted.begin(), world.change.relisted.end());
+  std::ranges::sort(ids);
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  std::vector<std::size_t> rows;
+  for (const std::uint32_t id : ids) rows.push_back(world.particles.row(id));
+  return rows;
+}
+
+}  // namespace
+
+double compression_jump(const World& world, const SceneNumbers& n, const PairKernels& kernels, const std::function<double(std::size_t)>& group_now) {
+  const bool core = world.scene.mode_of(Term::pressure) == Mode::corrected, numbers = world.scene.mode_of(Term::density) == Mode::corrected;
+  if (!world.neighbours || world.neighbours->rebuilds() == 0 || !(core || numbers)) return 0.0;
+  const Particles& p = world.particles;
+  const std::vector<std::size_t> rows = changed_rows(world);
+  std::vector<char> changed(p.size(), 0);
+  for (const std::size_t i : rows) changed[i] = 1;
+  const auto x = positions(p);
+  const auto group = p[field::group], m = p[field::mass], rest = p[field::rest_density];
+  const auto id = p[field::id];
+  const auto own_before = numbers && p.has(field::own_density.name) ? p[field::own_density] : std::span<const double>{};
+  double jump = 0.0;
+  for (const std::size_t i : rows) {
+    double before = kernels.wendland.value(0.0), after = before;
+    if (!own_before.empty()) before += own_before[i];
+    for (const OwnPair& pair : world.own.of(static_cast<std::size_t>(id[i]))) after += pair.weight;
+    for (const Entry e : world.neighbours->of(i)) {
+      const std::size_t j = e.row();
+      const double r = norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image()));
+      const bool own_now = are_own(world.own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j]));
+      const double W = kernels.wendland.value(r);
+      if (!e.own()) before += W;
+      if (!own_now) after += W;
+      if (!core) continue;
+      const double acted = e.own() ? 0.0 : acts(group[i], group[j]), acts_now = own_now ? 0.0 : acts(group_now(i), group_now(j));
+      jump += (changed[j] ? 0.5 : 1.0) * (acts_now - acted) * kernels.core.energy(r);
+    }
+    if (!numbers || before == after) continue;
+    const EquationOfState state = state_of(n, rest[i], world.scene.clamp);
+    const auto energy = [&](double delta) { return compression_energy(state, m[i], m[i] * delta / n.lattice_density); };
+    jump += energy(after) - energy(before);
+  }
+  return jump;
+}
+
+}  // namespace tripoint::fluid

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+
+#include "effects/fluid/material_numbers.hpp"
+#include "effects/world.hpp"
+
+namespace tripoint::fluid {
+
+/// What the energy of compression, with the core's, jumps by as World::change ends and makes own pairs and groups [J]: of the
+/// changed particles and their pairs alone, at the present places. To be called while the columns `group` and `own_density` and
+/// the marks of the neighbour lists still tell of before. @param group_now group of a row after the change
+[[nodiscard]] double compression_jump(const World&, const SceneNumbers&, const PairKernels&, const std::function<double(std::size_t)>& group_now);
+
+}  // namespace tripoint::fluid

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <vector>
+
+#include "core/defect.hpp"
+#include "effects/world.hpp"
+
+/// Melting and freezing of one particle, the state (H, f) of model 8.9: H = m (c_p T + L f), 0 <= f <= 1.
+namespace tripoint {
+
+/// What a material's phase change is made of. It melts at one temperature and freezes at another, not higher: a true hysteresis.
+struct Fusion {
+  double melts = std::numeric_limits<double>::infinity();       ///< t_melt [K]
+  double solidifies = -std::numeric_limits<double>::infinity();  ///< t_solid [K]
+  double heat = 0.0;                                            ///< L/c_p: what the heat of fusion is worth in temperature [K]
+};
+
+/// Of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides, at t_melt
+/// (between t_solid and t_melt an elastic solid is soft; a rigid one is rigid up to t_melt).
+[[nodiscard]] inline Fusion fusion_of(const Scene& scene, const Material& m) {
+  if (!m.t_melt || !m.heat_capacity) return {};
+  static const double scale = 1.0 - defect_size("phase.latent");
+  static const bool no_loop = defect_size("phase.hysteresis") > 0.0;
+  if (scene.mode_of(Term::phase) == Mode::paper) {
+    static const double later = defect_size("phase.paper.melting");
+    return {*m.t_melt + later, *m.t_melt + later, 0.0};
+  }
+  return {*m.t_melt, no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt), scale * m.latent_heat.value_or(0.0) / *m.heat_capacity};
+}
+/// By row in Scene::materials.
+[[nodiscard]] inline std::vector<Fusion> fusions_of(const Scene& scene) {
+  std::vector<Fusion> list;
+  for (const Material& m : scene.materials) list.push_back(fusion_of(scene, m));
+  return list;
+}
+
+/// T [K] and f [1].
+struct ThermalState {
+  double temperature, liquid_fraction;
+};
+
+/// The state of a particle whose liquid fraction was f and whose temperature would be `trial` if f stayed: heated above t_melt f
+/// grows, cooled below t_solid it falls, and between the two it keeps (model 8.9). c_p T + L f is kept. With L = 0 f jumps.
+[[nodiscard]] inline ThermalState settled(const Fusion& fusion, double trial, double f) noexcept {
+  assert(f >= 0.0 && f <= 1.0);
+  double next = f;
+  if (trial > fusion.melts && f < 1.0) next = fusion.heat > 0.0 ? std::min(1.0, f + (trial - fusion.melts) / fusion.heat) : 1.0;
+  if (trial < fusion.solidifies && f > 0.0) next = fusion.heat > 0.0 ? std::max(0.0, f - (fusion.solidifies - trial) / fusion.heat) : 0.0;
+  return {trial + fusion.heat * (f - next), next};
+}
+
+/// Gives heat to one particle [J], of either sign, in the state of the form that is on (H, or as printed T). While a step of H is
+/// under way f waits for its end, as for all other heat.
+inline void give_heat(World& world, std::size_t row, double joules) {
+  Particles& p = world.particles;
+  const double capacity = p[field::mass][row] * p[field::heat_capacity][row];
+  const Fusion fusion = fusion_of(world.scene, world.material_of(row));
+  double& T = p[field::temperature][row];
+  double& f = p[field::liquid_fraction][row];
+  if (p.has(field::enthalpy.name)) {
+    double& H = p[field::enthalpy][row];
+    H += joules;
+    T = settled(fusion, H / capacity - fusion.heat * f, f).temperature;
+  } else {
+    const ThermalState state = settled(fusion, T + joules / capacity, f);
+    T = state.temperature, f = state.liquid_fraction;
+  }
+}
+
+}  // namespace tripoint

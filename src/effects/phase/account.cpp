@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/phase/account.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "effects/fusion.hpp"
+
+namespace tripoint::phase {
+namespace {
+
+/// Divides energy equally among particles. @param ids at least one
+void share(World& world, const std::vector<std::uint32_t>& ids, double joules) {
+  static const double kept = 1.0 - defect_size("phase.account");
+  for (const std::uint32_t id : ids) give_heat(world, world.particles.row(id), kept * joules / static_cast<double>(ids.size()));
+}
+
+/// What melted from, or froze to, the body in this step; all events where none did.
+std::vector<std::uint32_t> events_of_body(const World& world, std::size_t body) {
+  const Change& change = world.change;
+  const auto now = world.particles[field::body];
+  std::vector<std::uint32_t> ids;
+  for (const std::uint32_t id : change.frozen)
+    if (now[world.particles.row(id)] == static_cast<int>(body)) ids.push_back(id);
+  if (!ids.empty()) return ids;
+  std::set<int> parents{static_cast<int>(body)};
+  for (const auto& [id, from] : change.came_from)
+    if (now[world.particles.row(id)] == static_cast<int>(body)) parents.insert(from);
+  for (const std::uint32_t id : change.melted)
+    if (parents.contains(change.came_from.at(id))) ids.push_back(id);
+  if (!ids.empty()) return ids;
+  ids = change.melted;
+  ids.insert(ids.end(), change.frozen.begin(), change.frozen.end());
+  return ids;
+}
+
+}  // namespace
+
+void Account::touch(std::uint32_t id) {
+  if (entries_.contains(id)) return;
+  entries_[id].before = energy_(id);
+}
+
+void Account::touch(std::uint32_t id, std::uint32_t event) {
+  touch(id);
+  std::vector<std::uint32_t>& events = entries_.at(id).events;
+  if (std::ranges::find(events, event) == events.end()) events.push_back(event);
+}
+
+void Account::settle(World& world) const {
+  settle_deformation(world);
+  settle_joining(world);
+}
+
+void Account::settle_deformation(World& world) const {
+  std::map<std::uint32_t, double> difference;
+  for (const auto& [id, entry] : entries_) difference[id] = entry.before - energy_(id);
+  for (const auto& [id, entry] : entries_) {
+    if (difference.at(id) == 0.0) continue;
+    world.booked.deformation_released += difference.at(id);
+    std::vector<std::uint32_t> events = entry.events;
+    std::ranges::sort(events);
+    share(world, events.empty() ? std::vector{id} : events, difference.at(id));
+  }
+}
+
+void Account::settle_joining(World& world) const {
+  for (const auto& [body, lost] : world.change.kinetic_lost)
+    if (lost != 0.0) share(world, events_of_body(world, body), lost);
+}
+
+}  // namespace tripoint::phase

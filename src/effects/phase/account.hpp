@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "effects/world.hpp"
+
+namespace tripoint::phase {
+
+/// Whose energy the events of one step change, and to whom it goes (model 8.9): what a particle's bonds store, before less after, is
+/// divided equally among the events that touched it; what a rigid body's joining cost equally among the events of that body. So the
+/// result does not depend on any order.
+class Account {
+ public:
+  using Energy = std::function<double(std::uint32_t id)>;  ///< of deformation, as the lists are [J]
+
+  explicit Account(Energy energy) : energy_(std::move(energy)) {}
+  /// To be called ahead of a change to the lists of a particle: remembers its energy the first time.
+  void touch(std::uint32_t id);
+  /// The same, by the melting or freezing of `event`.
+  void touch(std::uint32_t id, std::uint32_t event);
+  /// Gives every difference to the heat of the events, and books it. To be called when all effects have adopted the change.
+  void settle(World&) const;
+
+ private:
+  struct Entry {
+    double before = 0.0;                ///< [J]
+    std::vector<std::uint32_t> events;  ///< ids, each once
+  };
+  void settle_deformation(World&) const;
+  void settle_joining(World&) const;
+
+  Energy energy_;
+  std::map<std::uint32_t, Entry> entries_;
+};
+
+}  // namespace tripoint::phase

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/phase/joining.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "core/defect.hpp"
+#include "effects/solid_particles.hpp"
+
+namespace tripoint::phase {
+namespace {
+
+/// By cofactors. @param a det a > 0
+Matrix3 inverse(const Matrix3& a) {
+  const double per_det = 1.0 / determinant(a);
+  return per_det * Matrix3{a.yy * a.zz - a.yz * a.zy, a.xz * a.zy - a.xy * a.zz, a.xy * a.yz - a.xz * a.yy,
+                           a.yz * a.zx - a.yx * a.zz, a.xx * a.zz - a.xz * a.zx, a.xz * a.yx - a.xx * a.yz,
+                           a.yx * a.zy - a.yy * a.zx, a.xy * a.zx - a.xx * a.zy, a.xx * a.yy - a.xy * a.yx};
+}
+
+void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
+  if (!p.has(field::plastic_strain_xx.name)) return;
+  const Symmetric e = symmetric_part(R * full(solid::plastic_strain_of(p, row)) * transposed(R));
+  p[field::plastic_strain_xx][row] = e.xx, p[field::plastic_strain_yy][row] = e.yy, p[field::plastic_strain_zz][row] = e.zz;
+  p[field::plastic_strain_yz][row] = e.yz, p[field::plastic_strain_xz][row] = e.xz, p[field::plastic_strain_xy][row] = e.xy;
+}
+
+/// Turns the list of a deformable solid, and what has flowed in it, into the present frame: no energy changes, and F has an inverse
+/// also for chains and sheets. @return F^-1 of what is left, the stretch
+Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
+  static const bool skipped = defect_size("phase.frame") > 0.0;
+  if (skipped) return identity3;
+  solid::refresh_shapes(world, std::array{id});  // it may have lost bonds in this step
+  const solid::Deformation before = solid::deformation_of(world, id);
+  if (before.rank == 0) return identity3;
+  const Matrix3 R = solid::rotation_of(before.F, before.P, before.rank);
+  for (Bond& bond : world.bonds.of(id)) bond.x = R * bond.x, bond.gradient = R * bond.gradient;
+  turn_plastic_strain(world.particles, world.particles.row(id), R);
+  solid::refresh_shapes(world, std::array{id});
+  return inverse(solid::deformation_of(world, id).F);
+}
+
+bool has_deformable(const World& world) { return world.particles.has(field::shape_rank.name); }
+
+}  // namespace
+
+void bond(World& world, const std::vector<Joint>& joints) {
+  std::map<std::uint32_t, Matrix3> to_reference;  // of those that were solid before
+  if (has_deformable(world)) {
+    const solid::ElasticParticles is_elastic(world);
+    std::set<std::uint32_t> ids;
+    for (const Joint& joint : joints)
+      if (!joint.both && is_elastic(world.particles.row(joint.j))) ids.insert(joint.j);
+    for (const std::uint32_t id : ids) to_reference[id] = turn_into_present_frame(world, id);
+  }
+  const ElasticityKernel kernel = solid::bond_kernel(world.scene);
+  for (const Joint& joint : joints) {
+    const auto at = to_reference.find(joint.j);
+    const Vec3 back = at == to_reference.end() ? -joint.r : at->second * -joint.r;
+    connect(world.bonds, joint.i, joint.j, solid::bond_of(kernel, joint.r), solid::bond_of(kernel, back));
+  }
+}
+
+void make_own_pairs(World& world, const std::vector<std::uint32_t>& frozen) {
+  Particles& p = world.particles;
+  if (!p.has(field::own_density.name) && !(has_deformable(world) && p.has(field::force_x.name))) return;
+  const solid::ElasticParticles is_elastic(world);
+  const auto body = p[field::body];
+  const double reach = std::max(world.support(), solid::bond_ratio * world.scene.spacing);
+  for (const std::uint32_t id : frozen) {
+    const std::size_t i = p.row(id);
+    std::set<int> object{body[i]};
+    for (const Bond& bond : std::as_const(world.bonds).of(id)) object.insert(body[p.row(bond.other)]);
+    std::vector<std::uint32_t> paired;
+    for (const Entry e : world.neighbours->of(i)) {
+      const std::size_t j = e.row();
+      if (j == i || body[j] < 0 || !object.contains(body[j]) || !(is_elastic(i) || is_elastic(j))) continue;
+      const double r = norm(solid::separation(world, i, j));
+      if (r >= reach) continue;
+      const auto other = static_cast<std::uint32_t>(p[field::id][j]);
+      make_own(world.own, id, other, solid::own_weight(world.scene, r));
+      paired.push_back(other);
+    }
+    world.change.relisted.insert(world.change.relisted.end(), paired.begin(), paired.end());
+  }
+}
+
+}  // namespace tripoint::phase

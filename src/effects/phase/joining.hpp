@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "effects/world.hpp"
+
+/// Bonds and own pairs of what freezes (model 8.9).
+namespace tripoint::phase {
+
+/// A pair that becomes body neighbours.
+struct Joint {
+  std::uint32_t i, j;  ///< ids: i freezes
+  Vec3 r;              ///< r_i - r_j now [m]
+  bool both;           ///< j freezes too: neither has a reference of its own yet
+};
+
+/// Makes the bonds. What freezes takes the present vectors. A deformable solid j that was there before first turns its list into
+/// the present frame, and takes the new vector in its reference, F_j^-1 r_ji: nothing of j jumps.
+void bond(World&, const std::vector<Joint>&);
+
+/// What froze and is deformable meets the near members of its body through their bonds alone from now on.
+void make_own_pairs(World&, const std::vector<std::uint32_t>& frozen);
+
+}  // namespace tripoint::phase

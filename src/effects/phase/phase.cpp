@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/phase/phase.hpp"
+
+#include "core/errors.hpp"
+#include "effects/body_table.hpp"
+#include "effects/phase/transition.hpp"
+#include "effects/solid_particles.hpp"
+
+namespace tripoint::phase {
+namespace {
+
+class PhaseChange : public Effect {
+ public:
+  void change(World&) override;
+  void settle(World&) override;
+
+ private:
+  std::optional<Account> account_;  ///< of the step that is being taken
+};
+
+/// What a particle's bonds store; nothing where no body can deform.
+Account::Energy energy_of(const World& world) {
+  if (!world.particles.has(field::shape_rank.name)) return [](std::uint32_t) { return 0.0; };
+  return [&world, forms = solid::ElasticForms(world.scene)](std::uint32_t id) { return solid::deformation_energy(world, forms, id).total(); };
+}
+
+void PhaseChange::change(World& world) {
+  account_.reset();
+  const bool begins = world.neighbours->rebuilds() == 0;
+  if (begins) {
+    world.neighbours->update(world.particles, world.time);
+    connect_rigid_bodies(world);
+  }
+  const Events events = events_of(world);
+  if (events.empty()) return;
+  if (world.neighbours->update(world.particles, world.time) || begins) world.neighbours->mark_own(world.particles, world.own);
+  account_.emplace(energy_of(world));
+  carry_out(world, events, *account_);
+}
+
+void PhaseChange::settle(World& world) {
+  if (account_) account_->settle(world);
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene& scene) {
+  return {"phase", scene.mode_of(Term::phase), {field::liquid_fraction}, {field::mass, field::body, field::phase, field::material, field::temperature, field::heat_capacity}};
+}
+
+std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<PhaseChange>(); }
+
+std::vector<DefectEntry> defects() {
+  return {{"phase.latent", "latent heat times 1 - size", "phase/stefan"},
+          {"phase.hysteresis", "freezing at t_melt: no hysteresis", "phase/hysteresis"},
+          {"phase.paper.melting", "the printed form melts and freezes size kelvin later", "phase/hysteresis"},
+          {"phase.merging", "what freezes joins nothing", "phase/freeze-merge"},
+          {"phase.account", "share of 0..1 of the energy of joining that never becomes heat", "phase/freeze-merge"}};
+}
+
+}  // namespace tripoint::phase

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/phase/transition.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "core/defect.hpp"
+#include "effects/body_table.hpp"
+#include "effects/objects.hpp"
+#include "effects/phase/joining.hpp"
+
+namespace tripoint::phase {
+namespace {
+
+/// A solid nearer than the distance that joins.
+struct Partner {
+  std::uint32_t id;
+  Vec3 r;  ///< r_i - r_j, the shortest of the periodic images [m]
+};
+
+/// In order of id, each once.
+std::vector<Partner> partners_of(const World& world, std::uint32_t id) {
+  const Particles& p = world.particles;
+  const std::size_t i = p.row(id);
+  const auto x = positions(p);
+  const auto phase = p[field::phase];
+  const double reach = joining_distance(world.scene);
+  static const bool aloof = defect_size("phase.merging") > 0.0;
+  std::map<std::uint32_t, Vec3> nearest;
+  for (const Entry e : world.neighbours->of(i)) {
+    const std::size_t j = e.row();
+    if (j == i || aloof || phase[j] == static_cast<int>(Phase::liquid) || !may_join(world, j)) continue;
+    const Vec3 r = -1.0 * ((x.at(j) - x.at(i)) + world.neighbours->shift(e.image()));
+    if (norm(r) >= reach) continue;
+    const auto [at, first] = nearest.try_emplace(static_cast<std::uint32_t>(p[field::id][j]), r);
+    if (!first && dot(r, r) < dot(at->second, at->second)) at->second = r;
+  }
+  std::vector<Partner> list;
+  for (const auto& [other, r] : nearest) list.push_back({other, r});
+  return list;
+}
+
+/// Whether what a list loses or gains changes the volume of its particle, and with it the energies of all that list it.
+bool volumes_follow_lists(const World& world) { return world.scene.mode_of(Term::elastic) == Mode::paper; }
+
+class Transition {
+ public:
+  Transition(World& world, Account& account) : world_(world), account_(account) {
+    const auto body = world.particles[field::body];
+    for (std::size_t id = 0; id < body.size(); ++id) body_before_.push_back(body[world.particles.row(id)]);
+  }
+  void melt(std::uint32_t id);
+  void freeze(const std::vector<std::uint32_t>& ids);
+  void regroup_bodies(const std::vector<std::uint32_t>& frozen);
+  void tell(const Events&);
+
+ private:
+  void touch_with_partners(std::uint32_t id, std::uint32_t event);
+
+  World& world_;
+  Account& account_;
+  Touched touched_;
+  std::vector<int> body_before_;  ///< by id
+};
+
+void Transition::touch_with_partners(std::uint32_t id, std::uint32_t event) {
+  account_.touch(id, event);
+  for (const Bond& bond : std::as_const(world_.bonds).of(id)) {
+    account_.touch(bond.other, event);
+    if (!volumes_follow_lists(world_)) continue;
+    for (const Bond& next : std::as_const(world_.bonds).of(bond.other)) account_.touch(next.other, event);
+  }
+}
+
+void Transition::melt(std::uint32_t id) {
+  const std::size_t i = world_.particles.row(id);
+  Change& change = world_.change;
+  touch_with_partners(id, id);
+  const std::vector<std::uint32_t> lost = disconnect(world_.bonds, id, [](const Bond&) { return true; });
+  change.relisted.insert(change.relisted.end(), lost.begin(), lost.end());
+  const auto own = std::as_const(world_.own).of(id);
+  const std::vector<OwnPair> pairs(own.begin(), own.end());
+  for (const OwnPair& pair : pairs) {
+    end_own(world_.own, id, pair.other);
+    change.relisted.push_back(pair.other);
+  }
+  change.relisted.push_back(id);
+  change.regrouped.push_back(id);
+  const auto body = static_cast<std::size_t>(world_.particles[field::body][i]);
+  touched_.bodies.push_back(body);
+  change.bodies.push_back(body);
+  world_.particles[field::body][i] = -1;
+  world_.particles[field::phase][i] = static_cast<int>(Phase::liquid);
+}
+
+/// All become solid at first, so that two that freeze at once are partners.
+void Transition::freeze(const std::vector<std::uint32_t>& ids) {
+  Particles& p = world_.particles;
+  for (const std::uint32_t id : ids) {
+    const std::size_t i = p.row(id);
+    const Phase phase = world_.material_of(i).solid == "rigid" ? Phase::rigid : Phase::elastic;
+    p[field::phase][i] = static_cast<int>(phase);
+    world_.change.relisted.push_back(id);
+    world_.change.regrouped.push_back(id);
+  }
+  std::vector<Joint> joints;
+  for (const std::uint32_t id : ids) {
+    account_.touch(id, id);
+    for (const Partner& partner : partners_of(world_, id)) {
+      const bool both_freeze = std::ranges::binary_search(ids, partner.id);
+      if (both_freeze && partner.id < id) continue;
+      joints.push_back({id, partner.id, partner.r, both_freeze});
+      volumes_follow_lists(world_) ? touch_with_partners(partner.id, id) : account_.touch(partner.id, id);
+      world_.change.relisted.push_back(partner.id);
+      if (const int body = p[field::body][p.row(partner.id)]; body >= 0) touched_.bodies.push_back(static_cast<std::size_t>(body));
+    }
+  }
+  bond(world_, joints);
+}
+
+void Transition::regroup_bodies(const std::vector<std::uint32_t>& frozen) {
+  touched_.frozen = frozen;
+  regroup(world_, touched_, [&](std::uint32_t id) { account_.touch(id); });
+  make_own_pairs(world_, frozen);
+}
+
+void Transition::tell(const Events& events) {
+  Change& change = world_.change;
+  change.melted.insert(change.melted.end(), events.melted.begin(), events.melted.end());
+  change.frozen.insert(change.frozen.end(), events.frozen.begin(), events.frozen.end());
+  sort_once(change.regrouped);
+  sort_once(change.relisted);
+  sort_once(change.bodies);
+  for (const std::uint32_t id : change.regrouped) change.came_from[id] = body_before_[id];
+}
+
+}  // namespace
+
+Events events_of(const World& world) {
+  const Particles& p = world.particles;
+  const auto f = p[field::liquid_fraction];
+  const auto body = p[field::body];
+  const bool guided = p.has(field::driven.name);
+  const auto driven = guided ? p[field::driven] : std::span<const int>{};
+  Events events;
+  for (std::uint32_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    if (body[i] >= 0 ? f[i] < 1.0 : f[i] > 0.0) continue;
+    if (body[i] < 0 && guided && driven[i] != 0) continue;  // while the scene moves it, it flows
+    (body[i] >= 0 ? events.melted : events.frozen).push_back(id);
+  }
+  return events;
+}
+
+bool may_join(const World& world, std::size_t row) {
+  if (world.material_of(row).t_melt) return true;
+  const auto source = static_cast<std::size_t>(world.particles[field::source][row]);
+  return source < world.scene.bodies.size() && world.scene.bodies[source].joins;
+}
+
+void carry_out(World& world, const Events& events, Account& account) {
+  Transition transition(world, account);
+  for (const std::uint32_t id : events.melted) transition.melt(id);
+  transition.freeze(events.frozen);
+  transition.regroup_bodies(events.frozen);
+  transition.tell(events);
+}
+
+void connect_rigid_bodies(World& world) {
+  const Particles& p = world.particles;
+  const RigidMembers is_member(world);
+  const auto x = positions(p);
+  const auto body = p[field::body];
+  std::vector<Joint> joints;
+  for (std::uint32_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    if (!is_member(i)) continue;
+    std::map<std::uint32_t, Vec3> nearest;
+    for (const Entry e : world.neighbours->of(i)) {
+      const std::size_t j = e.row();
+      const auto other = static_cast<std::uint32_t>(p[field::id][j]);
+      if (body[j] != body[i] || other <= id || !(world.material_of(i).t_melt || world.material_of(j).t_melt)) continue;
+      const Vec3 r = -1.0 * ((x.at(j) - x.at(i)) + world.neighbours->shift(e.image()));
+      if (norm(r) < joining_distance(world.scene)) nearest.try_emplace(other, r);
+    }
+    for (const auto& [other, r] : nearest) joints.push_back({id, other, r, true});
+  }
+  bond(world, joints);
+}
+
+}  // namespace tripoint::phase

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "effects/phase/account.hpp"
+
+/// The melts and freezes of one step, taken together (model 8.9).
+namespace tripoint::phase {
+
+/// Ids of what changes its phase, ascending.
+struct Events {
+  std::vector<std::uint32_t> melted, frozen;
+  [[nodiscard]] bool empty() const { return melted.empty() && frozen.empty(); }
+};
+/// Liquid at f = 1, solid at f = 0; between the two a particle keeps its phase.
+[[nodiscard]] Events events_of(const World&);
+
+/// Whether what freezes beside this solid joins it: it can melt itself, or its body has `joins = true`.
+[[nodiscard]] bool may_join(const World&, std::size_t row);
+
+/// Bonds between the members of rigid bodies that can melt, up to the distance that joins, so that splitting is seen.
+void connect_rigid_bodies(World&);
+
+/// Ends bonds and own pairs of what melts, bonds what freezes to what it touches, makes bodies of what hangs together, and tells it
+/// all in World::change. Neighbour lists must be of the present places.
+void carry_out(World&, const Events&, Account&);
+
+}  // namespace tripoint::phase
