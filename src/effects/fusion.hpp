@@ -52,10 +52,14 @@ struct ThermalState {
   return {trial + fusion.heat * (f - next), next};
 }
 
-/// Gives heat to one particle [J], of either sign, in the state of the form that is on (H, or as printed T). While a step of H is
-/// under way f waits for its end, as for all other heat.
+/// Gives heat to one particle [J], of either sign, in the state of the form that is on (H, or as printed T); one whose temperature is
+/// held hands it on to who holds it. While a step of H is under way f waits for its end, as for all other heat.
 inline void give_heat(World& world, std::size_t row, double joules) {
   Particles& p = world.particles;
+  if (p[field::held][row] != 0) {
+    world.booked.walls += joules;
+    return;
+  }
   const double capacity = p[field::mass][row] * p[field::heat_capacity][row];
   const Fusion fusion = fusion_of(world.scene, world.material_of(row));
   double& T = p[field::temperature][row];

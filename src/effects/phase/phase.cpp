@@ -45,7 +45,7 @@ void PhaseChange::settle(World& world) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  return {"phase", scene.mode_of(Term::phase), {field::liquid_fraction}, {field::mass, field::body, field::phase, field::material, field::temperature, field::heat_capacity}};
+  return {"phase", scene.mode_of(Term::phase), {field::liquid_fraction}, {field::mass, field::body, field::phase, field::material, field::temperature, field::heat_capacity, field::held}};
 }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<PhaseChange>(); }
@@ -55,6 +55,7 @@ std::vector<DefectEntry> defects() {
           {"phase.hysteresis", "freezing at t_melt: no hysteresis", "phase/hysteresis"},
           {"phase.paper.melting", "the printed form melts and freezes size kelvin later", "phase/hysteresis"},
           {"phase.merging", "what freezes joins nothing", "phase/freeze-merge"},
+          {"phase.frame", "new bonds of a turned or strained solid are written in the present frame", "phase/melt-elastic"},
           {"phase.account", "share of 0..1 of the energy of joining that never becomes heat", "phase/freeze-merge"}};
 }
 

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "effects/phase/joining.hpp"
+#include "effects/phase_lab.hpp"
+#include "effects/solid_particles.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr double hot = 400.0, cold = 300.0, dx = 0.1, young = 1e5;
+const auto constant = [](double T) { return [T](const Vec3&) { return T; }; };
+
+/// A block of elastic matter and one liquid particle beside it, as it is when it has been loaded.
+World block_and_drop(std::array<int, 3> count, const Vec3& drop) {
+  lab::Lab lab = lab::melting_lab(dx, {.solid = "elastic"});
+  lab.scene.materials[0].stiffness = 1e-12;
+  lab.add({.name = "block", .count = count, .phase = Phase::elastic, .temperature = constant(cold)});
+  lab.add({.name = "drop", .corner = drop, .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(345.0)});
+  lab.scene.materials[0].t_solid = 340.0;
+  const Simulation s(lab.scene, lab.initial);
+  return s.world();
+}
+
+double energy_of_all(const World& world) {
+  double sum = 0.0;
+  for (std::uint32_t id = 0; id < world.particles.size(); ++id) sum += solid::deformation_energy(world, id).total();
+  return sum;
+}
+
+/// Moves every particle by a turn of 90 degrees and a stretch of 5 % along x.
+void turn_and_stretch(World& world, double stretch) {
+  const auto x = positions(world.particles);
+  const Quaternion q = from_rotation_vector(0.5 * std::numbers::pi * Vec3{1.0, 2.0, -0.5} / norm(Vec3{1.0, 2.0, -0.5}));
+  for (std::size_t i = 0; i < world.particles.size(); ++i) {
+    Vec3 r = x.at(i);
+    r.x *= 1.0 + stretch, r.y *= 1.0 - 0.3 * stretch;
+    x.set(i, rotate(q, r));
+  }
+}
+
+/// What the energy of the block jumps by as the drop freezes to it.
+double jump(World world) {
+  const std::uint32_t drop = static_cast<std::uint32_t>(world.particles.size() - 1);
+  std::vector<phase::Joint> joints;
+  for (std::uint32_t j = 0; j < drop; ++j) {
+    const Vec3 r = world.particles.position(world.particles.row(drop)) - world.particles.position(world.particles.row(j));
+    if (norm(r) < 1.5 * dx) joints.push_back({drop, j, r, false});
+  }
+  EXPECT_GT(joints.size(), 0u);
+  const double before = energy_of_all(world);
+  phase::bond(world, joints);
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t id = 0; id <= drop; ++id) ids.push_back(id);
+  world.particles[field::body][world.particles.row(drop)] = 0;
+  world.particles[field::phase][world.particles.row(drop)] = 1;
+  solid::refresh_shapes(world, ids);
+  return energy_of_all(world) - before;
+}
+
+TEST(Freezing, BesideATurnedAndStretchedSolidMakesNothingJump) {
+  for (const double stretch : {0.0, 0.05}) {
+    World block = block_and_drop({5, 5, 5}, {0.2, 0.2, 0.5});
+    turn_and_stretch(block, stretch);
+    EXPECT_NEAR(jump(block), 0.0, 1e-12 * young * dx * dx * dx);  // present vectors instead: 0.05 E dx^3
+  }
+}
+
+TEST(Freezing, BesideTurnedChainsAndSheetsMakesNothingJump) {
+  for (const auto& [count, drop] : {std::pair{std::array{6, 1, 1}, Vec3{0.6, 0.0, 0.0}}, std::pair{std::array{5, 5, 1}, Vec3{0.5, 0.2, 0.0}}}) {
+    World block = block_and_drop(count, drop);
+    turn_and_stretch(block, 0.0);
+    EXPECT_NEAR(jump(block), 0.0, 1e-12 * young * dx * dx * dx);
+  }
+}
+
+/// A bar of 8 x 3 x 3 that swings along itself, and melts or freezes as heat events say.
+lab::Lab swinging_bar(double latent_heat = 2e4) {
+  lab::Lab lab = lab::melting_lab(dx, {.latent_heat = latent_heat, .solid = "elastic"});
+  lab.scene.materials[0].stiffness = 1e-12;
+  lab.scene.time_step = 5e-4;
+  lab.add({.name = "bar", .count = {8, 3, 3}, .phase = Phase::elastic, .temperature = constant(cold)});
+  lab.scene.bodies[0].temperature->value = hot;
+  for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i] = {2.0 * (lab.initial.position[i].x - 0.35), 0.0, 0.0};
+  return lab;
+}
+
+Event heat(double time, double temperature, std::optional<double> beyond = {}) {
+  Event e;
+  e.kind = Event::Kind::heat;
+  e.time = time;
+  e.until = time + 1e-4;
+  e.temperature = temperature;
+  if (!beyond) return e;
+  e.region.emplace();
+  e.region->kind = Shape::Kind::half_space;
+  e.region->point = {*beyond, 0.0, 0.0};
+  e.region->normal = {-1.0, 0.0, 0.0};
+  return e;
+}
+
+TEST(Melting, OfAStrainedBarGivesItsEnergyToHeatAndFreezingMakesNoStress) {
+  lab::Lab lab = swinging_bar();
+  lab.scene.events = {heat(0.03, hot), heat(0.031, 250.0)};
+  Simulation s(lab.scene, lab.initial);
+  s.advance_to(0.0299);
+  const Ledger strained = s.ledger();
+  const double stored = strained.energy.at("elastic") + strained.energy.at("hourglass");
+  EXPECT_GT(stored, 0.02 * strained.energy.at("kinetic"));
+  s.advance_to(0.0305);
+  const Ledger molten = s.ledger();
+  for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 0);
+  EXPECT_EQ(molten.energy.at("elastic") + molten.energy.at("hourglass"), 0.0);
+  const double released = s.world().booked.deformation_released;
+  EXPECT_NEAR(released / stored, 1.0, 0.02);  // a step of swinging lies between
+  EXPECT_NEAR(lab::total_energy(molten) / lab::total_energy(strained), 1.0, 1e-12);
+  s.advance_to(0.0311);
+  const Ledger frozen = s.ledger();
+  for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 1);
+  EXPECT_EQ(lab::living_bodies(s), 1u);
+  EXPECT_LT(frozen.energy.at("elastic") + frozen.energy.at("hourglass"), 1e-3 * stored);  // what one step of motion strains
+  EXPECT_NEAR(lab::total_energy(frozen) / lab::total_energy(strained), 1.0, 1e-12);
+  EXPECT_NEAR(norm(frozen.momentum - strained.momentum), 0.0, 1e-12 * 72.0);
+}
+
+TEST(Melting, OfHalfABarLeavesTheBondsOfTheOtherHalf) {
+  lab::Lab lab = swinging_bar(0.0);
+  lab.scene.events = {heat(0.03, hot, 0.35), heat(0.032, 250.0, 0.0)};
+  Simulation s(lab.scene, lab.initial);
+  const World before = s.world();
+  s.advance_to(0.031);
+  const auto phase = lab::integers_by_id(s, field::phase);
+  EXPECT_EQ(std::count(phase.begin(), phase.end(), 0), 36);
+  std::size_t kept = 0;
+  for (std::uint32_t id = 0; id < phase.size(); ++id) {
+    for (const Bond& bond : s.world().bonds.of(id)) {
+      EXPECT_EQ(phase[id], 1);
+      EXPECT_EQ(phase[bond.other], 1);
+      const auto old = before.bonds.of(id);
+      const auto at = std::ranges::find(old, bond.other, &Bond::other);
+      ASSERT_NE(at, old.end());
+      EXPECT_EQ(at->x, bond.x);
+      ++kept;
+    }
+  }
+  EXPECT_GT(kept, 300u);
+  const double stored = energy_of_all(s.world());
+  s.advance_to(0.0321);  // frozen again: of two kinds of bonds one body
+  EXPECT_EQ(lab::living_bodies(s), 1u);
+  EXPECT_NEAR(energy_of_all(s.world()), stored, 0.05 * stored);  // 2 steps of swinging
+  const World& now = s.world();
+  for (std::uint32_t id = 0; id < phase.size(); ++id) {
+    if (phase[id] == 1) continue;
+    double strain = 0.0;
+    for (const Bond& bond : now.bonds.of(id)) {
+      const Vec3 r = now.particles.position(now.particles.row(id)) - now.particles.position(now.particles.row(bond.other));
+      strain = std::max(strain, norm(r - bond.x) / dx);
+    }
+    EXPECT_LT(strain, 0.01);  // moved since by at most a step's way
+  }
+}
+
+TEST(Melting, OfAMiddleLayerCutsAnElasticBarAndKeepsItsMomenta) {
+  lab::Lab lab = swinging_bar(0.0);
+  for (std::size_t i = 0; i < lab.initial.size(); ++i) {
+    lab.initial.velocity[i] += cross(Vec3{0.0, 0.0, 3.0}, lab.initial.position[i]);
+    if (std::abs(lab.initial.position[i].x - 0.3) < 0.01) lab.initial.temperature[i] = hot;
+  }
+  const Simulation start(lab.scene, lab.initial);
+  Simulation s = lab.run(0.02);
+  EXPECT_EQ(lab::living_bodies(s), 2u);
+  EXPECT_NEAR(norm(s.ledger().momentum - start.ledger().momentum), 0.0, 1e-12 * 72.0);
+  EXPECT_NEAR(norm(s.ledger().angular_momentum - start.ledger().angular_momentum), 0.0, 1e-12 * 72.0);
+  EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(start.ledger()), 1.0, 1e-12);
+}
+
+TEST(Phase, OfDeformableSolidsDoesNotDependOnTheOrderOfParticlesOrOnThreads) {
+  lab::Lab lab = swinging_bar(0.0);
+  lab.scene.materials[0].stiffness = 100.0;
+  lab.scene.events = {heat(0.01, hot, 0.45), heat(0.012, 250.0, 0.0)};
+  for (std::size_t i = 0; i < lab.initial.size(); i += 7) lab.initial.temperature[i] = hot;
+  const Simulation s = lab.run(0.02), threaded = lab.run(0.02, 2);
+  EXPECT_EQ(lab::places(s), lab::places(threaded));
+  EXPECT_EQ(s.ledger().energy, threaded.ledger().energy);
+  lab::Lab other = lab;
+  const std::vector<std::size_t> now = lab::shuffle(other, 5);
+  const Simulation t = other.run(0.02);
+  const std::vector<Vec3> x = lab::places(s), z = lab::places(t);
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(norm(z[now[i]] - x[i]), 0.0, 1e-11);
+  EXPECT_EQ(lab::living_bodies(s), lab::living_bodies(t));
+}
+
+}  // namespace
+}  // namespace tripoint
