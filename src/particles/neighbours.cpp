@@ -198,6 +198,7 @@ void Neighbours::sort_and_list(Particles& particles) {
   grid.cell.resize(n);
   for (std::size_t i = 0; i < n; ++i) grid.cell[i] = cell_of[order[i]];
   particles.permute(order);
+  marked_ = false;
 
   const auto sorted = positions(particles);
   built_.resize(n);
@@ -238,6 +239,7 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
 }
 
 void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {
+  marked_ = true;
   const auto id = particles[field::id];
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t i = 0; i < particles.size(); ++i) {

@@ -49,6 +49,8 @@ class Neighbours {
 
   /// Marks the entries of own pairs; to be called after a rebuild and after a change of these lists.
   void mark_own(const Particles&, const OwnPairs&);
+  /// Whether that was done since the last rebuild.
+  [[nodiscard]] bool marked() const noexcept { return marked_; }
 
   [[nodiscard]] std::span<const Entry> of(std::size_t i) const {
     return {entries_.data() + start_[i], start_[i + 1] - start_[i]};
@@ -76,6 +78,7 @@ class Neighbours {
   std::vector<Entry> entries_;
   std::vector<Vec3> built_;
   long rebuilds_ = 0;
+  bool marked_ = false;
 };
 
 }  // namespace tripoint

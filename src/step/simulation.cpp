@@ -49,7 +49,7 @@ void book_mechanical(const Booked& booked, Ledger& sum) {
   const double by_pressure = compression + booked.compression_released + booked.pressure_work + booked.wall_pressure_work - booked.extrapolated_work;
   const double deformation = (deforms ? sum.energy["elastic"] + sum.energy["hourglass"] : 0.0) - booked.start_deformation;
   const double by_bonds = deformation + booked.deformation_released + booked.elastic_work + booked.hourglass_work + booked.wall_elastic_work;
-  if (booked.compression_released != 0.0) sum.energy["phase_work"] += booked.compression_released;
+  if (sum.energy.count("latent") > 0 || booked.compression_released != 0.0) sum.energy["phase_work"] += booked.compression_released;
   sum.energy["time_integration"] = -by_pressure - by_bonds - (potential + booked.gravity_work) - booked.rotation_drift;
 }
 
@@ -193,8 +193,10 @@ void Simulation::step(double end) {
 
 void Simulation::update_rates() {
   change();
-  if (world_.neighbours && (world_.neighbours->update(world_.particles, world_.time) || !world_.change.empty()))
-    world_.neighbours->mark_own(world_.particles, world_.own);
+  if (world_.neighbours) {
+    world_.neighbours->update(world_.particles, world_.time);
+    if (!world_.neighbours->marked() || !world_.change.empty()) world_.neighbours->mark_own(world_.particles, world_.own);
+  }
   if (world_.moved) pass(PassName::density);  // (4), moments: of places only
   run(&Effect::state);
   world_.moved = false;
