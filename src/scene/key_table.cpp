@@ -29,7 +29,7 @@ constexpr auto keys = std::to_array<Key>({
     {"", "study", tables, "", any, "=", "one run an engine", "study", "convergence studies"},
     {"", "gate", tables, "", any, "=", "nothing is judged", "gate", "limits"},
     {"", "defect", tables, "", any, "=", "none", "defect", "faults that this case must catch"},
-    {"", "harmless", tables, "", any, "=", "none", "harmless", "defects that this case cannot see"},
+    {"", "harmless", tables, "", any, "=", "none", "harmless", "changes that this case must not feel"},
     // [case]
     {"case", "id", text, "", any, "=", "folder and name of the file", "", "name of the case: subject/case"},
     {"case", "title", text, "", any, "=", "the id", "", "one line for people"},
@@ -198,7 +198,7 @@ constexpr auto keys = std::to_array<Key>({
     {"defect", "name", text, "", any, "!", "", "", "a registered defect: heat.conductivity ..."},
     {"defect", "size", number, "", any, "!", "", "", "of the fault"},
     {"defect", "killed_by", text_or_texts, "", any, "[]", "any gate", "", "metrics whose gates must fail"},
-    {"harmless", "name", text, "", any, "!", "", "", "a registered defect"},
+    {"harmless", "name", word, "", any, "!", "", "threads order ulp boost mirror rotation units", "threads: 2 instead of 1; order: of the particles; ulp: of each coordinate; boost: a velocity added to all of a closed scene; mirror: in x; rotation: x to y to z to x; units: powers of 2"},
 });
 
 constexpr auto tables_of_case = std::to_array<TableInfo>({
@@ -230,7 +230,7 @@ constexpr auto tables_of_case = std::to_array<TableInfo>({
     {"study", "[[study]]", "A ladder of runs."},
     {"gate", "[[gate]]", "A limit that decides."},
     {"defect", "[[defect]]", "A fault that this case must catch."},
-    {"harmless", "[[harmless]]", "A defect that this case cannot see."},
+    {"harmless", "[[harmless]]", "A change that physics does not feel: `tripoint gate selftest` runs the changed scene, and no gate may turn and no metric change."},
 });
 
 constexpr std::array type_texts{"number", "integer", "true or false", "text", "word", "[x, y, z]", "array of numbers", "array of texts", "number or \"auto\"",

@@ -208,7 +208,7 @@ size = 0.05
 killed_by = "error"
 
 [[harmless]]
-name = "rigid.order"
+name = "order"
 )toml";
 
 }  // namespace tripoint::test

@@ -59,7 +59,7 @@ TEST(ReadCase, ReadsEveryKeyOfTheContract) {
   EXPECT_EQ(c.studies.at(0).levels, (std::vector<double>{0.1, 0.05, 0.025}));
   EXPECT_EQ((*c.gates.at(1).band)[1], 2.2);
   EXPECT_EQ(c.defects.at(0).killed_by, (std::vector<std::string>{"error"}));
-  EXPECT_EQ(c.harmless, (std::vector<std::string>{"rigid.order"}));
+  EXPECT_EQ(c.harmless, (std::vector<std::string>{"order"}));
 }
 
 TEST(ReadCase, NamesFileLineColumnAndTheNearestKey) {

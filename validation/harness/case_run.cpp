@@ -63,6 +63,27 @@ std::string repeat_command(const Case& value, const SuiteOptions& options) {
   return command;
 }
 
+std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePlan& engine, const CaseRun& run, const HarmlessChange& change) {
+  ChangedScene changed{run.job.scene, *run.initial, run.job.threads};
+  change.apply(changed);
+  auto made = std::make_shared<ChangedRun>();
+  made->job = make_job(value, engine, run.plan, changed.scene, changed.initial);
+  made->job.threads = changed.threads;
+  made->particles = fs::path(run.particles).replace_extension(fmt::format("{}.h5", change.name)).string();
+  made->initial = std::move(changed.initial);
+  const std::lock_guard lock(no_spawn_mutex());
+  fs::remove(made->particles);
+  write_particles(made->particles, made->initial);
+  return made;
+}
+
+/// The frames as the unchanged scene would have made them.
+std::shared_ptr<const Trajectory> taken_back(const CaseRun& run, const HarmlessChange& change, const Trajectory& frames) {
+  auto back = std::make_shared<Trajectory>(frames);
+  change.take_back({run.job.scene, *run.initial, run.job.threads}, *back);
+  return back;
+}
+
 }  // namespace
 
 CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, const SuiteOptions& options) {
@@ -82,6 +103,7 @@ CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, 
       run.engine = e, run.plan = plan, run.initial = initial, run.particles = file;
       run.job = make_job(value, engine, plan, scene, *initial);
       run.job.threads = options.threads;
+      if (options.change) run.changed = changed_run(value, engine, run, *options.change);
       run.folder = (folder / engine.name / (engine.preset == "default" ? plan.label : engine.preset + "-" + plan.label)).string();
       all.runs.push_back(std::move(run));
     }
@@ -93,10 +115,12 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   const auto& engine = all.engines[run.engine];
   RunRequest request;
   request.engine = engine.entry, request.job = &run.job, request.initial = run.initial.get();
-  request.folder = fs::absolute(run.folder).string(), request.particles = fs::absolute(run.particles).string();
+  if (run.changed) request.job = &run.changed->job, request.initial = &run.changed->initial;
+  request.folder = fs::absolute(run.folder).string(), request.particles = fs::absolute(run.changed ? run.changed->particles : run.particles).string();
   request.wall_limit = wall_limit(engine, options), request.environment = options.environment;
   request.keep_finished = options.resume;
   auto outcome = run_one(request);
+  if (run.changed && outcome.trajectory) outcome.trajectory = taken_back(run, *options.change, *outcome.trajectory);
   run.kept = outcome.kept;
   auto& row = run.row;
   row.knobs = knobs_of(run, outcome.result);

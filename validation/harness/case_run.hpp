@@ -10,12 +10,20 @@
 /// The parts of the suite that look at one case.
 namespace tripoint {
 
+/// What is run in the place of a run whose scene is changed.
+struct ChangedRun {
+  Job job;
+  InitialState initial;
+  std::string particles;
+};
+
 /// One run of a case, ready to be made; and what came of it.
 struct CaseRun {
   std::size_t engine = 0;  ///< row in CaseRuns::engines
   RunPlan plan;
   Job job;
   std::shared_ptr<const InitialState> initial;
+  std::shared_ptr<const ChangedRun> changed;  ///< what is run in its place; empty = itself
   std::string folder, particles;
   RunRow row;
   bool kept = false;  ///< taken from an earlier call, not made again

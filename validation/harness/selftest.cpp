@@ -104,8 +104,11 @@ SelftestOutcome run_selftest(const SelftestOptions& options) {
   check_registry(cases, engine, options.what.empty(), outcome);
   for (const auto& value : cases)
     for (const auto& defect : value.defects) outcome.defects.push_back(try_defect(value, defect, engine, options));
-  const bool survived = std::any_of(outcome.defects.begin(), outcome.defects.end(), [](const auto& d) { return !d.killed; });
-  if (outcome.defects.empty()) outcome.problems.push_back("no case declares a defect: nothing was proven");
+  for (const auto& value : cases)
+    for (auto& row : try_harmless(value, engine, options)) outcome.harmless.push_back(std::move(row));
+  const bool survived = std::any_of(outcome.defects.begin(), outcome.defects.end(), [](const auto& d) { return !d.killed; }) ||
+                        std::any_of(outcome.harmless.begin(), outcome.harmless.end(), [](const auto& h) { return !h.borne; });
+  if (outcome.defects.empty() && outcome.harmless.empty()) outcome.problems.push_back("no case declares a defect or a harmless change: nothing was proven");
   outcome.exit_code = survived || !outcome.problems.empty() ? exit_selftest : exit_pass;
   return outcome;
 }
@@ -115,8 +118,11 @@ std::string selftest_table(const SelftestOutcome& outcome) {
   for (const auto& d : outcome.defects)
     text += fmt::format("{:9} {:24} {:<9g} {:26} {}{}\n", d.killed ? "killed" : "SURVIVES", d.defect, d.size, d.case_id, d.found, d.killed ? "" : "  (" + to_string(d.place) + ")");
   for (const auto& p : outcome.problems) text += "PROBLEM   " + p + "\n";
+  for (const auto& h : outcome.harmless)
+    text += fmt::format("{:9} {:24} {:<9.2g} {:26} {}\n", h.borne ? "borne" : "FELT", h.change, h.greatest, h.case_id, h.found);
+  const auto borne = std::count_if(outcome.harmless.begin(), outcome.harmless.end(), [](const auto& h) { return h.borne; });
   const auto killed = std::count_if(outcome.defects.begin(), outcome.defects.end(), [](const auto& d) { return d.killed; });
-  return text + fmt::format("{} of {} defects killed, exit {}\n", killed, outcome.defects.size(), outcome.exit_code);
+  return text + fmt::format("{} of {} defects killed, {} of {} harmless changes borne, exit {}\n", killed, outcome.defects.size(), borne, outcome.harmless.size(), outcome.exit_code);
 }
 
 }  // namespace tripoint

@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "validation/harness/discover.hpp"
+#include "validation/harness/harmless.hpp"
+#include "validation/harness/results.hpp"
 
-/// Proof that the gates can fail: faults are put into the test build of our solver, and must turn the gates red that say so.
+/// Proof that the gates can fail, and only where they should: faults are put into the test build of our solver and must turn the
+/// gates red that say so; changes that physics does not feel must leave them green.
 namespace tripoint {
 
 struct SelftestOptions {
@@ -26,15 +29,31 @@ struct DefectOutcome {
   SourcePlace place;
 };
 
+/// One [[harmless]] of one case.
+struct HarmlessOutcome {
+  std::string change, case_id;
+  bool borne = false;
+  double greatest = 0.0;  ///< change of any metric of any mode, in the metric's scaled unit
+  double tolerance = 0.0;
+  std::string found;      ///< which metric changed most, or what went wrong
+};
+
 struct SelftestOutcome {
   std::vector<DefectOutcome> defects;
+  std::vector<HarmlessOutcome> harmless;
   std::vector<std::string> problems;  ///< defects that no case declares, or that the engine does not have
   int exit_code = 0;                  ///< 0 or 5
 };
 
-/// Runs each case once without and once with each of its defects: every metric in killed_by must be green without, and red with it.
+/// Runs each case once without and once with each of its defects: every metric in killed_by must be green without, and red with it;
+/// and once with each of its harmless changes: every gate must stay green, and no metric may change by more than round-off.
 /// @throws EngineError when the test build is missing
 [[nodiscard]] SelftestOutcome run_selftest(const SelftestOptions&);
 [[nodiscard]] std::string selftest_table(const SelftestOutcome&);
+
+/// The case's own resolution in each of its modes, with and without each harmless change that the case names.
+[[nodiscard]] std::vector<HarmlessOutcome> try_harmless(const Case&, const EngineEntry&, const SelftestOptions&);
+/// What a change did to the results of a case: both hold the same runs.
+[[nodiscard]] HarmlessOutcome judge_harmless(const HarmlessChange&, const CaseResult& without, const CaseResult& with);
 
 }  // namespace tripoint

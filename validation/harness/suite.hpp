@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/harness/harmless.hpp"
 #include "validation/harness/plan_runs.hpp"
 #include "validation/harness/results.hpp"
 
@@ -28,6 +29,7 @@ struct SuiteOptions {
   bool resume = false;         ///< runs of an earlier call that have ended, of the same job and engine, are kept
   double wall_limit = 600.0;   ///< [s] for a run whose case says nothing else (engine setting wall_limit)
   std::map<std::string, std::string> environment;  ///< for the engines
+  const HarmlessChange* change = nullptr;          ///< every scene is run changed, and its frames are taken back before they are judged
   /// Which runs of the plan are made; empty = all.
   std::function<bool(const EnginePlan&, const RunPlan&)> wanted;
   std::function<void(const std::string&)> say;           ///< progress, one line a call, from any thread

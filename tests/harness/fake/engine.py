@@ -99,6 +99,8 @@ def run(path):
         result(folder, job, status="diverged", message="blew up", time_reached=0.1, divergence={"particle": 3, "body": -1, "field": "velocity", "stage": "kick", "time": 0.1})
         sys.exit(7)
     g = [(1.01 if WRONG == "one per cent of gravity" else 1.0) * c for c in gravity]
+    if WRONG == "knows which way is up":
+        g[2] *= 1.01
     rows = flight(job, g, times)
     if WRONG == "is killed":
         write(folder, rows[:2])
