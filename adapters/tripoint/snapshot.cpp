@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adapters/tripoint/tripoint_engine.hpp"
 #include "effects/body_forces.hpp"
+#include "effects/solid_particles.hpp"
 
 namespace tripoint {
 namespace {
@@ -20,12 +21,19 @@ std::vector<int> by_id(const Particles& p, const Field<int>& f) {
   return values;
 }
 
-BodyState body_state(const Columns& bodies, std::size_t b) {
+BodyState body_state(const World& world, std::size_t b) {
+  const Columns& bodies = world.bodies;
   if (!bodies[field::body_alive][b]) {
     constexpr Vec3 nowhere{not_a_number, not_a_number, not_a_number};
     return {nowhere, nowhere, nowhere, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, nowhere, nowhere};
   }
   BodyState s;
+  if (!is_rigid(world, b)) {
+    const WholeMotion whole = whole_motion(world, b);
+    s.position = whole.centre, s.velocity = whole.velocity, s.angular_velocity = whole.spin, s.mass = whole.mass;
+    s.orientation = solid::orientation_of(world, b);
+    return s;
+  }
   s.position = bodies[field::body_centre][b];
   s.velocity = bodies[field::body_velocity][b];
   s.angular_velocity = bodies[field::body_angular_velocity][b];
@@ -57,7 +65,7 @@ Snapshot snapshot_of(const Simulation& simulation) {
   s.mass = by_id(p, field::mass);
   const std::vector<BodyForces> forces = forces_on_bodies(world);
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-    s.bodies.push_back(body_state(world.bodies, b));
+    s.bodies.push_back(body_state(world, b));
     if (forces.empty() || !world.bodies[field::body_alive][b]) continue;
     s.bodies.back().force = forces[b].force();
     s.bodies.back().torque = forces[b].torque();

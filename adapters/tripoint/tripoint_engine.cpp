@@ -72,7 +72,7 @@ EngineInfo TripointEngine::info() const {
   info.library_path = std::filesystem::read_symlink("/proc/self/exe", ignored).string();  // the solver is this program
   info.capabilities = {"rigid-free-flight", "gravity",  "merge", "split",     "release", "hold",
                        "prescribed",        "periodic", "heat",  "heat-held", "paper",   "corrected", "restart",
-                       "liquid", "contact", "viscosity", "walls", "transport-velocity", "phase"};
+                       "liquid", "contact", "viscosity", "walls", "transport-velocity", "elastic", "phase"};
   info.presets = {"default"};
   for (const char* axes : {"012", "021", "102", "120", "201", "210"}) info.presets.push_back(std::string(no_squish) + axes);
   info.settings = {{"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},

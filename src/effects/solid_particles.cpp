@@ -198,4 +198,15 @@ DeformationEnergy deformation_energy(const World& world, const ElasticForms& for
 
 DeformationEnergy deformation_energy(const World& world, std::uint32_t id) { return deformation_energy(world, ElasticForms(world.scene), id); }
 
+Quaternion orientation_of(const World& world, std::size_t body) {
+  if (!world.particles.has(field::shape_rank.name)) return {};
+  const ElasticForms forms(world.scene);
+  Matrix3 sum;
+  for (const std::size_t i : members(world, body)) {
+    const Deformation d = deformation_of(world, forms, static_cast<std::uint32_t>(world.particles[field::id][i]));
+    sum = sum + world.particles[field::mass][i] * rotation_of(d.F, d.P, d.rank);
+  }
+  return quaternion_of(rotation_of(sum, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3));
+}
+
 }  // namespace tripoint::solid

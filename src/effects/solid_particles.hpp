@@ -88,4 +88,8 @@ struct DeformationEnergy {
 [[nodiscard]] DeformationEnergy deformation_energy(const World&, const ElasticForms&, std::uint32_t id);
 [[nodiscard]] DeformationEnergy deformation_energy(const World&, std::uint32_t id);
 
+/// Orientation of a deformable body: the rotation of the sum of its particles' rotations, weighted by mass. It starts at the
+/// identity, and again for a list that freezing has turned into the present frame.
+[[nodiscard]] Quaternion orientation_of(const World&, std::size_t body);
+
 }  // namespace tripoint::solid

@@ -53,18 +53,6 @@ TEST(Plan, ListsExactlyTheColumnsThatTheRunHas) {
   }
 }
 
-TEST(Plan, NamesAnEffectThatIsNotInThisBuild) {
-  lab::Lab lab(0.01);
-  lab.add({.name = "block", .count = {3, 3, 3}, .phase = Phase::elastic});
-  EXPECT_EQ(missing_effect(lab.scene), "elastic");
-  try {
-    const Simulation s(lab.scene, lab.initial);
-    FAIL();
-  } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(), "tripoint: the elastic effect is not in this build");
-  }
-}
-
 TEST(Heat, WithoutAHeatCapacityNamesTheMaterial) {
   lab::Lab lab = warm(Mode::corrected);
   lab.add_material(2000.0, 1.0, 1.0);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Forces are the gradient of the stored energy, and keep momentum and angular momentum, for lists of every kind.
+#include <gtest/gtest.h>
+
+#include "effects/solid_lab.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr double dx = 0.1;
+
+lab::Lab block(const std::array<int, 3>& count, Mode mode = Mode::corrected, double jitter = 0.1) {
+  lab::Lab lab = lab::elastic_lab(dx, 0.3, mode);
+  lab.add({.count = count, .phase = Phase::elastic});
+  lab::jitter_all(lab, jitter, {count[0] > 1 ? 1.0 : 0.0, count[1] > 1 ? 1.0 : 0.0, count[2] > 1 ? 1.0 : 0.0});
+  return lab;
+}
+
+/// Turned by a radian and strained by some 5 %, differently everywhere.
+Vec3 bent(const Vec3& r) {
+  const Vec3 s = r + Vec3{0.3 * r.x * r.y + 0.05 * r.x, 0.2 * r.x * r.x - 0.04 * r.y, 0.25 * r.y * r.z + 0.1 * r.x * r.y};
+  return rotate(from_rotation_vector({0.3, 0.8, -0.5}), s);
+}
+
+/// Worst difference of the forces from central differences of the energy, over the greatest force.
+double worst_gradient_error(lab::Deformable& body) {
+  double worst = 0.0;
+  const double scale = body.greatest_force(), step = 1e-6 * dx;
+  for (std::size_t id = 0; id < body.size(); id += 1 + body.size() / 12) {
+    const Vec3 f = body.force(id);
+    for (std::size_t a = 0; a < 3; ++a) {
+      Vec3 by;
+      by[a] = step;
+      body.move(id, by);
+      const double above = body.energy();
+      body.move(id, -2.0 * by);
+      const double below = body.energy();
+      body.move(id, by);
+      worst = std::max(worst, std::abs(f[a] + (above - below) / (2.0 * step)) / scale);
+    }
+  }
+  return worst;
+}
+
+TEST(ElasticForce, IsMinusTheGradientOfTheEnergyForSolidsSheetsAndChains) {
+  for (const std::array<int, 3>& count : {std::array{5, 4, 4}, std::array{5, 5, 1}, std::array{7, 1, 1}, std::array{2, 1, 1}}) {
+    lab::Deformable body(block(count));
+    body.place(bent);
+    EXPECT_LT(worst_gradient_error(body), 1e-7) << count[0] << count[1] << count[2];  // noise of differences: 1e-16 U/(step f)
+  }
+}
+
+TEST(ElasticForce, OfASolidWithFlatPartsIsTheGradientToo) {
+  lab::Lab lab = block({4, 4, 3});
+  lab.add({.name = "fin", .corner = {4.0 * dx, 0.0, dx}, .count = {3, 4, 1}, .phase = Phase::elastic});
+  lab.scene.bodies.back().joined_to = {"block"};
+  lab::Deformable body(lab);
+  body.place(bent);
+  EXPECT_LT(worst_gradient_error(body), 1e-7);
+}
+
+TEST(ElasticForce, AsPrintedIsTheGradientOfThePrintedEnergy) {
+  lab::Deformable body(block({4, 4, 4}, Mode::paper));
+  body.place(bent);
+  EXPECT_LT(worst_gradient_error(body), 1e-7);
+}
+
+TEST(ElasticForce, WithoutHourglassIsTheGradientToo) {
+  lab::Lab lab = block({4, 4, 4});
+  lab.scene.hourglass = 0.0;
+  lab::Deformable body(lab);
+  body.place(bent);
+  EXPECT_LT(worst_gradient_error(body), 1e-7);
+}
+
+TEST(ElasticForce, KeepsMomentumAndAngularMomentumToRoundOff) {
+  for (const std::array<int, 3>& count : {std::array{5, 4, 4}, std::array{5, 5, 1}, std::array{7, 1, 1}}) {
+    lab::Deformable body(block(count));
+    body.place(bent);
+    Vec3 sum, torque;
+    double forces = 0.0, torques = 0.0;
+    for (std::size_t id = 0; id < body.size(); ++id) {
+      const Vec3 f = body.force(id), r = body.world().particles.position(body.world().particles.row(id));
+      sum += f, torque += cross(r, f);
+      forces += norm(f), torques += norm(r) * norm(f);
+    }
+    EXPECT_LT(norm(sum) / forces, 1e-13);
+    EXPECT_LT(norm(torque) / torques, 1e-13);
+  }
+}
+
+TEST(ElasticForce, OfListsThatDoNotMirrorEachOtherIsTheGradientStill) {
+  lab::Deformable body(block({4, 4, 4}));
+  World& w = body.world();
+  // One particle keeps its list in a frame of its own, as after freezing (x_ij != -x_ji).
+  const Quaternion q = from_rotation_vector({0.2, 0.9, -0.4});
+  const ElasticityKernel kernel = solid::bond_kernel(w.scene);
+  for (Bond& b : w.bonds.of(21)) {
+    const Bond turned = solid::bond_of(kernel, 1.02 * rotate(q, b.x));
+    b.x = turned.x, b.gradient = turned.gradient, b.weight = turned.weight;
+  }
+  solid::refresh_shapes(w, std::vector<std::uint32_t>{21});
+  body.place(bent);
+  EXPECT_LT(worst_gradient_error(body), 1e-7);
+}
+
+TEST(ElasticForce, AcrossTheSeamOfAPeriodicBoxIsThatOfTheSameBarElsewhere) {
+  const auto bar = [](double offset) {
+    lab::Lab lab = lab::elastic_lab(dx);
+    lab.add({.corner = {0.05, 0.05, 0.05}, .count = {4, 6, 3}, .phase = Phase::elastic});
+    lab.make_periodic({false, true, false}, {0.05, 0.05, 0.05}, {4, 6, 3});
+    for (Vec3& r : lab.initial.position) r.y = std::fmod(r.y + offset, 0.6);
+    return lab;
+  };
+  lab::Deformable here(bar(0.0)), there(bar(0.3));
+  const auto squeezed = [](const Vec3& r) { return Vec3{1.02 * r.x, r.y, 0.98 * r.z}; };
+  here.place(squeezed);
+  there.place(squeezed);
+  for (std::size_t id = 0; id < here.size(); ++id) EXPECT_NEAR(norm(here.force(id) - there.force(id)), 0.0, 1e-13 * dx * dx);
+  EXPECT_GT(here.greatest_force(), 1e-3 * dx * dx);
+}
+
+TEST(ElasticForce, OnTheMembersOfARigidBodyIsWhatTheirElasticPartnersGive) {
+  lab::Lab lab = block({4, 4, 4});
+  lab.add({.name = "clamp", .corner = {-2.0 * dx, 0.0, 0.0}, .count = {2, 4, 4}, .phase = Phase::elastic, .motion = Motion::fixed});
+  lab.scene.bodies[0].joined_to = {"clamp"};
+  lab::Deformable body(lab);
+  body.place(bent);
+  EXPECT_LT(worst_gradient_error(body), 1e-7);
+  Vec3 on_clamp, on_block;
+  for (std::size_t id = 0; id < body.size(); ++id) (id < 64 ? on_block : on_clamp) += body.force(id);
+  EXPECT_GT(norm(on_clamp), 1e-3 * dx * dx);
+  EXPECT_NEAR(norm(on_clamp + on_block), 0.0, 1e-13 * dx * dx);
+}
+
+}  // namespace
+}  // namespace tripoint

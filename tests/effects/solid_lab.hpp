@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "effects/elastic/elastic.hpp"
+#include "effects/fluid_lab.hpp"
+#include "effects/solid_particles.hpp"
+
+/// Small scenes of deformable solids.
+namespace tripoint::lab {
+
+/// Material 0 is elastic: E = 1 Pa, rho = 1 kg/m3 unless said; no stiffness, so that bodies do not touch.
+inline Lab elastic_lab(double spacing, double poisson = 0.3, Mode mode = Mode::corrected) {
+  Lab lab(spacing, mode);
+  Material& m = lab.scene.materials[0];
+  m.density = 1.0;
+  m.conductivity.reset(), m.heat_capacity.reset();
+  m.young_modulus = 1.0, m.poisson_ratio = poisson;
+  m.solid = "elastic";
+  return lab;
+}
+
+/// Moves every particle by up to `amplitude` spacings, before the solver measures reference vectors.
+inline void jitter_all(Lab& lab, double amplitude, const Vec3& along = {1.0, 1.0, 1.0}) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> uniform(-amplitude * lab.scene.spacing, amplitude * lab.scene.spacing);
+  for (Vec3& r : lab.initial.position) r += {along.x * uniform(random), along.y * uniform(random), along.z * uniform(random)};
+}
+
+/// The solids of a scene, put where a test wants them: strain, forces and energy as the solver finds them there.
+class Deformable {
+ public:
+  explicit Deformable(const Lab& lab, int threads = 1) : world_(Simulation(lab.scene, lab.initial, {.threads = threads}).world()), effect_(elastic::make(lab.scene)), start_(lab.initial.position) {
+    place([](const Vec3& r) { return r; });
+  }
+  /// Each particle at to(its place at the start).
+  template <class Place>
+  void place(Place to) {
+    for (std::size_t id = 0; id < start_.size(); ++id) positions(world_.particles).set(world_.particles.row(id), to(start_[id]));
+    update();
+  }
+  void move(std::size_t id, const Vec3& by) {
+    const std::size_t row = world_.particles.row(id);
+    positions(world_.particles).set(row, world_.particles.position(row) + by);
+    update();
+  }
+  [[nodiscard]] Vec3 force(std::size_t id) const {
+    return world_.particles.vector(world_.particles.row(id), field::elastic_force_x, field::elastic_force_y, field::elastic_force_z);
+  }
+  [[nodiscard]] double energy() const {
+    double sum = 0.0;
+    for (std::size_t id = 0; id < start_.size(); ++id) sum += solid::deformation_energy(world_, static_cast<std::uint32_t>(id)).total();
+    return sum;
+  }
+  /// Greatest Frobenius norm of the strains.
+  [[nodiscard]] double greatest_strain() const {
+    double most = 0.0;
+    for (std::size_t id = 0; id < start_.size(); ++id) {
+      const Symmetric e = strain(id);
+      most = std::max(most, std::sqrt(contraction(e, e)));
+    }
+    return most;
+  }
+  [[nodiscard]] double greatest_force() const {
+    double most = 0.0;
+    for (std::size_t id = 0; id < start_.size(); ++id) most = std::max(most, norm(force(id)));
+    return most;
+  }
+  [[nodiscard]] Symmetric strain(std::size_t id) const {
+    const Particles& p = world_.particles;
+    const std::size_t i = p.row(id);
+    return {p[field::strain_xx][i], p[field::strain_yy][i], p[field::strain_zz][i], p[field::strain_yz][i], p[field::strain_xz][i], p[field::strain_xy][i]};
+  }
+  [[nodiscard]] std::size_t size() const { return start_.size(); }
+  [[nodiscard]] World& world() { return world_; }
+  void update() {
+    effect_->state(world_);
+    effect_->bonds(world_);
+  }
+
+ private:
+  World world_;
+  std::unique_ptr<Effect> effect_;
+  std::vector<Vec3> start_;
+};
+
+}  // namespace tripoint::lab
