@@ -19,6 +19,8 @@ std::string moving(const Job& job) {
   return {};
 }
 
+}  // namespace
+
 std::string changing_phase(const Scene& scene) {
   double least = INFINITY, greatest = -INFINITY;
   for (const Body& b : scene.bodies) {
@@ -26,13 +28,13 @@ std::string changing_phase(const Scene& scene) {
     const Range r = range_of(*b.temperature, {});
     least = std::min(least, r.least), greatest = std::max(greatest, r.greatest);
   }
+  for (const Event& e : scene.events)
+    if (e.temperature) least = std::min(least, *e.temperature), greatest = std::max(greatest, *e.temperature);
   for (const Material& m : scene.materials)
     for (const auto& t : {m.t_melt, m.t_solid})
       if (t && least <= *t && *t <= greatest) return fmt::format("{} changes phase at {} K within the scene's temperatures; LAMMPS runs conduction only", m.name, *t);
   return {};
 }
-
-}  // namespace
 
 std::string why_no_conduction(const Job& job) {
   const Scene& scene = job.scene;

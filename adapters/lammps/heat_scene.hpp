@@ -14,6 +14,9 @@ namespace tripoint::lammps {
 /// Why this is no scene of pure conduction at rest; empty = it is.
 [[nodiscard]] std::string why_no_conduction(const Job&);
 
+/// Which material melts or freezes within the temperatures of the bodies and of the events; empty = none does.
+[[nodiscard]] std::string changing_phase(const Scene&);
+
 /// k/(rho c) of a body [m2/s].
 [[nodiscard]] double diffusivity(const Scene&, const Body&);
 /// rho c of a body [J/m3/K].

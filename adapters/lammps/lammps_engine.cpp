@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "adapters/lammps/heat_scene.hpp"
+#include "adapters/lammps/rheo.hpp"
 #include "adapters/lammps/rigid_flight.hpp"
 #include "adapters/lammps/sph_heat.hpp"
 #include "adapters/lammps/sph_liquid.hpp"
@@ -37,7 +39,8 @@ const std::vector<Way>& ways() {
       {"brownian", {{"fix", "brownian"}}, why_no_walkers, make_brownian, {"brownian"}},
       {"sph", {{"pair", "sph/heatconduction"}}, why_no_sph_heat, make_sph_heat, {"conduction"}},
       {"taitwater", {{"pair", "sph/taitwater"}, {"pair", "sph/taitwater/morris"}}, why_no_sph_liquid, make_sph_liquid, {"taitwater"}},
-      {"tlsph", {{"pair", "smd/tlsph"}, {"atom", "smd"}}, why_no_tlsph, make_tlsph, {"tlsph"}}};
+      {"tlsph", {{"pair", "smd/tlsph"}, {"atom", "smd"}}, why_no_tlsph, make_tlsph, {"tlsph"}},
+      {"rheo", {{"fix", "rheo/thermal"}, {"pair", "rheo/solid"}, {"bond", "bpm/spring"}}, why_no_rheo, make_rheo, {"rheo"}}};
   return list;
 }
 
@@ -66,10 +69,16 @@ bool has(const Job& job, Phase phase) {
   return std::any_of(job.bodies.begin(), job.bodies.end(), [&](const JobBody& b) { return b.phase == phase; });
 }
 
+/// Matter that melts or freezes, or that is free to move and could.
+bool changes_phase(const Job& job) {
+  const auto could = [&](const JobBody& b) { return b.motion == Motion::free && job.scene.material(b.material).t_melt; };
+  return !changing_phase(job.scene).empty() || std::any_of(job.bodies.begin(), job.bodies.end(), could);
+}
+
 /// The way of a scene: heat where there is any, else by its matter. @throws InputError on a wrong setting
 const Way& way_for(const Job& job) {
   const std::string conduction = choice_for(job).conduction;
-  const std::string heat = conduction.empty() ? build().has("brownian") ? "brownian" : "langevin" : conduction;
+  const std::string heat = !conduction.empty() ? conduction : changes_phase(job) ? "rheo" : build().has("brownian") ? "brownian" : "langevin";
   const std::string name = has_heat(job) ? heat : has(job, Phase::liquid) ? "taitwater" : has(job, Phase::elastic) ? "tlsph" : "rigid";
   return *std::find_if(ways().begin(), ways().end(), [&](const Way& w) { return w.name == name; });
 }

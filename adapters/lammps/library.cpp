@@ -81,11 +81,22 @@ std::vector<Vec3> Library::vectors(const char* name) const {
   return by_id;
 }
 
-std::vector<double> Library::scalars(const char* name) const {
-  const auto* x = static_cast<const double*>(lammps_extract_atom(handle_, name));
-  std::vector<double> by_id(static_cast<std::size_t>(local_count()));
-  for (int i = 0; i < local_count(); ++i) by_id.at(static_cast<std::size_t>(ids()[i] - 1)) = x[i];
-  return by_id;
+template <class T>
+std::vector<T> Library::by_id(const void* column, const char* name) const {
+  if (!column) throw EngineError(std::string("LAMMPS has no column ") + name);
+  const auto* x = static_cast<const T*>(column);
+  std::vector<T> rows(static_cast<std::size_t>(local_count()));
+  for (int i = 0; i < local_count(); ++i) rows.at(static_cast<std::size_t>(ids()[i] - 1)) = x[i];
+  return rows;
+}
+
+std::vector<double> Library::scalars(const char* name) const { return by_id<double>(lammps_extract_atom(handle_, name), name); }
+std::vector<int> Library::integers(const char* name) const { return by_id<int>(lammps_extract_atom(handle_, name), name); }
+
+std::vector<double> Library::compute(const char* id) const {
+  const void* column = lammps_extract_compute(handle_, id, LMP_STYLE_ATOM, LMP_TYPE_VECTOR);
+  check();
+  return by_id<double>(column, id);
 }
 
 void Library::set_scalars(const char* name, const std::vector<double>& by_id) {

@@ -25,6 +25,10 @@ class Library {
   [[nodiscard]] std::vector<Vec3> vectors(const char* name) const;
   /// A scalar column (esph), row = id - 1.
   [[nodiscard]] std::vector<double> scalars(const char* name) const;
+  /// A column of whole numbers (rheo_status), row = id - 1.
+  [[nodiscard]] std::vector<int> integers(const char* name) const;
+  /// A compute of one number a particle at the present step, row = id - 1.
+  [[nodiscard]] std::vector<double> compute(const char* id) const;
   void set_scalars(const char* name, const std::vector<double>& by_id);
   /// Positions in LAMMPS's own order, without a copy by id: for walkers, which are only counted.
   [[nodiscard]] std::vector<Vec3> unordered_positions() const;
@@ -39,6 +43,8 @@ class Library {
   [[nodiscard]] int local_count() const;
   [[nodiscard]] const int* ids() const;
   void check() const;
+  template <class T>
+  [[nodiscard]] std::vector<T> by_id(const void* column, const char* name) const;
   void* handle_ = nullptr;
 };
 

@@ -22,10 +22,11 @@ class Model {
 
 /// Settings of a case for LAMMPS, checked.
 struct Choice {
-  std::string conduction;   ///< brownian | langevin | sph; empty = the library's default
+  std::string conduction;   ///< brownian | langevin | sph | rheo; empty = the library's default
   double walkers = 1e5;
   std::optional<double> cutoff;  ///< support radius of pair styles [spacings]; empty = the model's own
   bool pool = true;         ///< walkers of a field of one coordinate are counted in layers
+  std::optional<double> rigid_modulus;  ///< of the bonds that stand in for rigid matter that melts [Pa]
   std::string commands;     ///< LAMMPS commands after the set-up
 };
 [[nodiscard]] std::map<std::string, std::string> setting_help();

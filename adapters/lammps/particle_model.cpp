@@ -18,6 +18,29 @@ double particle_mass(const InitialState& state, int source, const std::string& n
   return mass;
 }
 
+Drive drive_at(const JobBody& b, double time, double end) {
+  if (b.motion == Motion::fixed) return {{}, end};
+  if (b.keyframes.empty()) return {b.velocity, end};
+  const double first = b.keyframes.front().time;
+  if (time < first * (1.0 - 1e-12)) return {{}, first};
+  for (std::size_t k = 1; k < b.keyframes.size(); ++k) {
+    const Keyframe &from = b.keyframes[k - 1], &to = b.keyframes[k];
+    if (time < to.time - 1e-9 * (to.time - from.time)) return {(to.position - from.position) / (to.time - from.time), to.time};
+  }
+  return {{}, end};
+}
+
+bool is_turned(const JobBody& b) {
+  if (b.motion != Motion::prescribed) return false;
+  const auto turns = [](const Keyframe& k) { return std::abs(std::abs(k.rotation.w) - 1.0) > 1e-12; };
+  return std::any_of(b.keyframes.begin(), b.keyframes.end(), turns) || (b.keyframes.empty() && norm(b.angular_velocity) > 0.0);
+}
+
+bool are_joined(const Body& a, const Body& b) {
+  const auto names = [](const Body& x, const Body& y) { return std::find(x.joined_to.begin(), x.joined_to.end(), y.name) != x.joined_to.end(); };
+  return names(a, b) || names(b, a);
+}
+
 ParticleModel::ParticleModel(const Job& job, const InitialState& state, const Units& units, double limit)
     : job_(job), state_(state), choice_(choice_for(job)), units_(units), limit_(wanted_time_step(job).value_or(limit)), library_(job.output + "/log.lammps"), time_(job.times.front()) {
   units_.origin = job.scene.min.value_or(state.position.front());
@@ -67,7 +90,10 @@ std::string ParticleModel::ids_of(std::size_t body) const {
 }
 
 void ParticleModel::make_gravity() {
-  if (!make_group("free", [](const JobBody& b) { return b.motion == Motion::free; })) throw EngineError("every body of the scene is held");
+  if (!make_group("free", [](const JobBody& b) { return b.motion == Motion::free; })) {
+    gravity_ = job_.scene.gravity;  // acts on nothing
+    return;
+  }
   const Vec3 g = job_.scene.gravity / units_.acceleration();
   if (norm(g) == 0.0) return;
   library_.run(fmt::format("fix weight free gravity {:.17g} vector {:.17g} {:.17g} {:.17g}", norm(g), g.x, g.y, g.z));

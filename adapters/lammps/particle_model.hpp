@@ -20,6 +20,18 @@ struct Units {
   [[nodiscard]] double energy() const { return mass * speed() * speed(); }           ///< [J]
 };
 
+/// Velocity of a held or driven body from a time on, until its keyframes change it. [m/s], [s]
+struct Drive {
+  Vec3 velocity;
+  double until;
+};
+[[nodiscard]] Drive drive_at(const JobBody&, double time, double end);
+/// Whether its keyframes or its velocity turn a driven body.
+[[nodiscard]] bool is_turned(const JobBody&);
+
+/// Whether one is joined_to the other.
+[[nodiscard]] bool are_joined(const Body&, const Body&);
+
 /// Mass of every particle of a body of the case. @throws EngineError where they differ: a LAMMPS type has one mass [kg]
 [[nodiscard]] double particle_mass(const InitialState&, int source, const std::string& name);
 

@@ -40,23 +40,6 @@ double step_limit(const Job& job) {
   return courant * support_of(job) * job.resolution.spacing / wave_speed(elastic_material(job));
 }
 
-/// Velocity of a driven body's keyframes in the interval that begins at or before a time, and that interval's end. [m/s], [s]
-struct Drive {
-  Vec3 velocity;
-  double until;
-};
-Drive drive_at(const JobBody& b, double time, double end) {
-  if (b.motion == Motion::fixed) return {{}, end};
-  if (b.keyframes.empty()) return {b.velocity, end};
-  const double first = b.keyframes.front().time;
-  if (time < first * (1.0 - 1e-12)) return {{}, first};
-  for (std::size_t k = 1; k < b.keyframes.size(); ++k) {
-    const Keyframe &from = b.keyframes[k - 1], &to = b.keyframes[k];
-    if (time < to.time - 1e-9 * (to.time - from.time)) return {(to.position - from.position) / (to.time - from.time), to.time};
-  }
-  return {{}, end};
-}
-
 class Tlsph final : public ParticleModel {
  public:
   Tlsph(const Job& job, const InitialState& state) : ParticleModel(job, state, units_of(job), step_limit(job)) {
@@ -119,9 +102,7 @@ std::string why_not_matter(const Job& job, const JobBody& b) {
   const Material& m = job.scene.material(b.material);
   if (b.phase == Phase::liquid) return fmt::format("{} is liquid; smd/tlsph runs elastic objects alone", b.name);
   if (b.phase == Phase::rigid && b.motion == Motion::free) return fmt::format("{} is a free rigid body; smd/tlsph knows held and driven ends only", b.name);
-  for (const Keyframe& k : b.keyframes)
-    if (std::abs(std::abs(k.rotation.w) - 1.0) > 1e-12) return fmt::format("{} is turned by its keyframes; fix smd/setvel sets one velocity for all", b.name);
-  if (b.motion == Motion::prescribed && norm(b.angular_velocity) > 0.0) return fmt::format("{} is turned; fix smd/setvel sets one velocity for all", b.name);
+  if (is_turned(b)) return fmt::format("{} is turned; fix smd/setvel sets one velocity for all", b.name);
   if (b.phase != Phase::elastic) return {};
   if (!m.young_modulus || !m.poisson_ratio) return fmt::format("{} has no Young's modulus or no Poisson's ratio", m.name);
   if (m.elastic_limit || m.fracture_stretch) return fmt::format("{} yields or breaks; smd/tlsph's laws of plasticity and damage are others", m.name);
@@ -133,13 +114,9 @@ std::string why_not_matter(const Job& job, const JobBody& b) {
 /// Bodies that hang together with the first, by joined_to, one way or the other.
 std::string why_not_one_object(const Scene& scene) {
   std::vector<std::size_t> reached{0};
-  const auto joined = [](const Body& a, const Body& b) {
-    const auto names = [](const Body& x, const Body& y) { return std::find(x.joined_to.begin(), x.joined_to.end(), y.name) != x.joined_to.end(); };
-    return names(a, b) || names(b, a);
-  };
   for (std::size_t n = 0; n < reached.size(); ++n)
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      if (std::find(reached.begin(), reached.end(), b) == reached.end() && joined(scene.bodies[reached[n]], scene.bodies[b])) reached.push_back(b);
+      if (std::find(reached.begin(), reached.end(), b) == reached.end() && are_joined(scene.bodies[reached[n]], scene.bodies[b])) reached.push_back(b);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (std::find(reached.begin(), reached.end(), b) == reached.end())
       return fmt::format("{} is not joined to {}, and contact in MACHDYN is a penalty of its own that is not set up here", scene.bodies[b].name, scene.bodies.front().name);

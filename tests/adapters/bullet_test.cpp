@@ -199,6 +199,8 @@ TEST(Bullet, SaysWhyItRefuses) {
   EXPECT_NE(reason([](Job& j) { j.scene.periodic[1] = true; }).find("periodic"), std::string::npos);
   EXPECT_NE(reason([](Job& j) { j.preset = "soft"; }).find("no preset 'soft'"), std::string::npos);
   EXPECT_NE(reason([](Job& j) { j.settings["gyro"] = std::string("maybe"); }).find("gyro"), std::string::npos);
+  for (const char* key : {"friction", "rolling_friction", "spinning_friction"})
+    EXPECT_NE(reason([&](Job& j) { j.settings[key] = 0.5; }).find("law of Coulomb"), std::string::npos) << key;
   EXPECT_NE(reason([](Job& j) { j.bodies[0].angular_velocity = {0, 0, 100}; }).find("pi/4"), std::string::npos);
 }
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#pragma once
+#include "adapters/job.hpp"
+#include "adapters/lammps/particle_model.hpp"
+
+/// A scene's matter in RHEO's terms.
+namespace tripoint::lammps {
+
+/// Spacing, mass of a free particle, and the time of sound over a spacing (of the bonds, where nothing flows).
+[[nodiscard]] Units rheo_units(const Job&);
+
+/// Matter of one body in RHEO's units; energy is temperature.
+struct RheoMatter {
+  double viscosity = 0.0, conductivity = 0.0;
+  bool melts = false;
+  double melting = 0.0, latent = 0.0;  ///< [K]; latent heat over heat capacity
+};
+[[nodiscard]] RheoMatter rheo_matter(const Job&, std::size_t body);
+/// Young's modulus of the bonds, of the stiffest solid that is free, in RHEO's units.
+[[nodiscard]] double bond_modulus(const Job&);
+/// What a body that is heated to the event's temperature holds [K].
+[[nodiscard]] double rheo_energy(const Job&, const Event&);
+
+}  // namespace tripoint::lammps
