@@ -37,19 +37,31 @@ bool is_static(const Scene& scene, const InitialState& initial) {
   return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) && scene.events.empty();
 }
 
+/// Whether an energy stands behind the pressure: its forces are the gradient of one where one kernel serves density and force and the
+/// particles move with their own velocity (model 8.3). Printed (4), (7) and (9) and the transport velocity have none.
+bool stores_compression(const Scene& scene) {
+  const auto corrected = [&](Term term) { return scene.mode_of(term) == Mode::corrected; };
+  return corrected(Term::density) && corrected(Term::state) && corrected(Term::pressure) && !scene.transport_velocity;
+}
+
 /// The mechanical entries (model 8.11). What a scheme of finite steps leaves between the work of its conservative forces and the
-/// energy that they store is an entry of its own, so that the whole closes; it falls with dt^2.
-void book_mechanical(const Booked& booked, Ledger& sum) {
+/// energy that they store is an entry of its own, so that the whole closes; it falls with dt^2. Work of pressure that no energy stores
+/// does not: it stands in the entry pressure_work, and there is no compression.
+void book_mechanical(const Scene& scene, const Booked& booked, Ledger& sum) {
   const bool presses = sum.energy.count("compression") > 0, deforms = sum.energy.count("elastic") > 0;
   if (!presses && !deforms) return;
   sum.energy["viscous"] -= booked.viscous_work + booked.wall_viscous_work;
   sum.energy["walls"] += booked.wall_pressure_work + booked.wall_viscous_work + booked.wall_elastic_work - booked.extrapolated_work;
   const double compression = sum.energy["compression"] - booked.start_compression;
   const double potential = sum.energy["potential"] - booked.start_potential - booked.driven_potential;
-  const double by_pressure = compression + booked.compression_released + booked.pressure_work + booked.wall_pressure_work - booked.extrapolated_work;
+  const double pressure_work = booked.pressure_work + booked.wall_pressure_work - booked.extrapolated_work;
+  const bool stored = stores_compression(scene);
+  const double by_pressure = stored ? compression + booked.compression_released + pressure_work : 0.0;
+  if (!stored) sum.energy.erase("compression"), sum.energy["pressure_work"] -= pressure_work;
   const double deformation = (deforms ? sum.energy["elastic"] + sum.energy["hourglass"] : 0.0) - booked.start_deformation;
   const double by_bonds = deformation + booked.deformation_released + booked.elastic_work + booked.hourglass_work + booked.wall_elastic_work;
-  if (sum.energy.count("latent") > 0 || booked.compression_released != 0.0) sum.energy["phase_work"] += booked.compression_released;
+  const double released = stored ? booked.compression_released : 0.0;
+  if (sum.energy.count("latent") > 0 || released != 0.0) sum.energy["phase_work"] += released;
   sum.energy["time_integration"] = -by_pressure - by_bonds - (potential + booked.gravity_work) - booked.rotation_drift;
 }
 
@@ -247,7 +259,7 @@ Ledger Simulation::ledger() const {
   const auto m = world_.particles[field::mass];
   for (std::size_t id = 0; id < m.size(); ++id) sum.mass += m[world_.particles.row(id)];
   for (const Active& a : effects_) a.effect->add_to(world_, sum);
-  book_mechanical(world_.booked, sum);
+  book_mechanical(world_.scene, world_.booked, sum);
   sum.energy["merging"] += world_.booked.merging;
   sum.energy["walls"] += world_.booked.walls;
   return sum;
