@@ -35,7 +35,7 @@ void set_pressure(World& world, const SceneNumbers& n) {
 void set_pressure_shares(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure];
-  for (std::size_t i = 0; i < share.size(); ++i) share[i] = V[i] * V[i] * pressure[i] / n.lattice_density;
+  for (std::size_t i = 0; i < share.size(); ++i) share[i] = V[i] * V[i] * pressure[i] / n.gradient_moment;
 }
 
 void predict_velocities(World& world) {

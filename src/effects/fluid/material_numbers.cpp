@@ -36,6 +36,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   const LatticeMoments moments = wendland_moments(scene.support_ratio);
   n.lattice_density = moments.density;
   n.gradient_moment = moments.gradient;
+  if (scene.mode_of(Term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
   n.core_reach = 0.9 * (1.0 + defect_size("fluid.core")) * scene.spacing;
   const bool paper_walls = scene.mode_of(Term::walls) == Mode::paper;

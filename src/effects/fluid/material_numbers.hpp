@@ -13,6 +13,7 @@ struct SceneNumbers {
   double sound_speed = 0.0;        ///< [m/s]
   double lattice_density = 1.0;    ///< S0 of the kernel at the scene's h/dx
   double gradient_moment = 1.0;    ///< of the kernel at the scene's h/dx
+  double pressure_work = 1.0;      ///< energy of compression a p dV: lattice_density/gradient_moment, 1 as printed
   double core_stiffness = 0.0;     ///< kappa = 0.03 k rho_ref dx [N/m]
   double core_reach = 0.0;         ///< 0.9 dx [m]
   bool extrapolates = false;       ///< walls take the liquid's pressure: no free body in the scene
@@ -24,7 +25,7 @@ struct SceneNumbers {
 [[nodiscard]] PairKernels pair_kernels(const Scene&);
 
 [[nodiscard]] inline EquationOfState state_of(const SceneNumbers& n, double rest_density, bool clamp) {
-  return {n.stiffness, rest_density, n.reference_density, clamp};
+  return {n.stiffness, rest_density, n.reference_density, clamp, n.pressure_work};
 }
 
 }  // namespace tripoint::fluid
