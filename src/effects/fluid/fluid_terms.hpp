@@ -25,8 +25,8 @@ template <class V>
 }
 
 /// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of
-/// compression_energy(); `pressure_share` is V^2 p over the kernel's lattice sum. With it the core energy
-/// 1/2 kappa (0.9 dx - r)^2 that keeps pairs apart where the clamp leaves no repulsion.
+/// compression_energy(); `pressure_share` is V^2 p over the kernel's lattice moment, so that p is the force on an area also on
+/// the lattice (decision 6). With it the core energy 1/2 kappa (0.9 dx - r)^2 that keeps pairs apart where the clamp leaves no repulsion.
 struct PressureCorrected {
   using reads = Keys<field::pressure_share, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
