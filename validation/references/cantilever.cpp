@@ -37,12 +37,12 @@ double free_end(const ReferenceInput& in, std::size_t bar, std::size_t axis) {
   const double middle = in.job.bodies[bar].properties.centre[axis];
   double end = 0.0;
   for (const auto& b : in.job.bodies) {
-    if (b.phase != Phase::rigid || b.motion == Motion::free) continue;
+    if (b.phase == Phase::liquid || b.motion == Motion::free) continue;
     const double side = b.properties.centre[axis] < middle ? 1.0 : -1.0;
     if (end != 0.0 && side != end) throw InputError("cantilever: the beam is held at both ends");
     end = side;
   }
-  if (end == 0.0) throw InputError("cantilever: no fixed or prescribed rigid body holds the beam");
+  if (end == 0.0) throw InputError("cantilever: no fixed or prescribed solid body holds the beam");
   return end;
 }
 
@@ -106,8 +106,8 @@ std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
 
 ReferenceEntry cantilever_entry() {
   return {{"cantilever", "analytic", "Timoshenko, Phil. Mag. 41, 1921: beam with shear and rotary inertia; shear coefficient of Cowper, J. Appl. Mech. 33, 1966",
-           "static sag and lowest frequency of an elastic box clamped at one end by a fixed or prescribed rigid body, small deflections; with a rigid tip too",
-           {{"body", "", "the beam; default the scene's only elastic body"},
+           "static sag and lowest frequency of an elastic box clamped at one end by a fixed or prescribed solid body, small deflections; with a rigid tip too",
+           {{"body", "", "the beam; default the scene's only free elastic body"},
             {"tip", "", "name of a rigid body at the free end; default none"},
             {"length", "m", "free length; default of the beam's box"},
             {"direction", "", "of the deflection; default gravity's, without gravity the thinner side"},

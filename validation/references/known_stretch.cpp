@@ -52,13 +52,13 @@ std::unique_ptr<Reference> make_pressed(const ReferenceInput& in) {
 ReferenceEntry spinning_rod_entry() {
   return {{"spinning_rod", "analytic", "Timoshenko & Goodier, Theory of Elasticity: rod in rotation, u = rho w^2 (R^2 x - x^3/3)/(2 E)",
            "steady stretch of a slender elastic box that spins about its centre across its length, small strains",
-           {{"body", "", "the rod; default the scene's only elastic body"}}},
+           {{"body", "", "the rod; default the scene's only free elastic body"}}},
           make_rod};
 }
 
 ReferenceEntry pressed_block_entry() {
   return {{"pressed_block", "analytic", "Hooke: strain -p (1 - 2 nu)/E under pressure from all sides", "stretch of an elastic block under an even pressure, small strains",
-           {{"pressure", "Pa", "on all sides; required"}, {"body", "", "the block; default the scene's only elastic body"}}},
+           {{"pressure", "Pa", "on all sides; required"}, {"body", "", "the block; default the scene's only free elastic body"}}},
           make_pressed};
 }
 

@@ -27,11 +27,11 @@ std::size_t elastic_body(const ReferenceInput& in, const char* function) {
   if (const auto given = named_body(in, "body")) return *given;
   std::optional<std::size_t> found;
   for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
-    if (in.job.bodies[b].phase != Phase::elastic) continue;
-    if (found) throw InputError(std::string(function) + " is of one elastic body: name it by the argument `body`");
+    if (in.job.bodies[b].phase != Phase::elastic || in.job.bodies[b].motion != Motion::free) continue;
+    if (found) throw InputError(std::string(function) + " is of one free elastic body: name it by the argument `body`");
     found = b;
   }
-  if (!found) throw InputError(std::string(function) + " needs an elastic body");
+  if (!found) throw InputError(std::string(function) + " needs a free elastic body");
   return *found;
 }
 

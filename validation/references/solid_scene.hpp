@@ -15,7 +15,7 @@ struct ElasticConstants {
 };
 [[nodiscard]] ElasticConstants elastic_constants(const Job&, std::size_t body);
 
-/// Row in Job::bodies of the argument `body`, else of the scene's only elastic body. @throws InputError
+/// Row in Job::bodies of the argument `body`, else of the scene's only free elastic body. @throws InputError
 [[nodiscard]] std::size_t elastic_body(const ReferenceInput&, const char* function);
 
 /// Row of the body that an argument names; empty when it is not given. @throws InputError for a name that the job does not have

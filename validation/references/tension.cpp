@@ -151,12 +151,12 @@ void find_ends(const ReferenceInput& in, Bar& bar) {
   const double middle = in.job.bodies[bar.row].properties.centre[bar.axis];
   for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
     const auto& body = in.job.bodies[b];
-    if (b == bar.row || body.phase != Phase::rigid || body.motion == Motion::free) continue;
+    if (b == bar.row || body.phase == Phase::liquid || body.motion == Motion::free) continue;
     auto& end = body.properties.centre[bar.axis] < middle ? bar.low : bar.high;
     if (end) throw InputError("tension: two bodies hold the same end of the bar");
     end = b;
   }
-  if (!bar.low || !bar.high) throw InputError("tension: the bar needs a fixed or prescribed rigid body at each end");
+  if (!bar.low || !bar.high) throw InputError("tension: the bar needs a fixed or prescribed solid body at each end");
   for (const auto& event : in.job.scene.events) {
     if (event.kind != Event::Kind::release) continue;
     for (const auto& name : event.bodies)
@@ -185,7 +185,7 @@ std::unique_ptr<Reference> make_tension(const ReferenceInput& in) {
 ReferenceEntry tension_entry() {
   return {{"tension", "analytic", "homogeneous bar of St Venant-Kirchhoff material in Green strain, von Mises flow as O'Brien, Bargteil, Hodgins 2002; as printed with the lattice's gradient moment (17)",
            "reaction, stretch, stored and dissipated energy of an elastic box between two held ends, driven by keyframes, to the tear",
-           {{"body", "", "the bar; default the scene's only elastic body"},
+           {{"body", "", "the bar; default the scene's only free elastic body"},
             {"length", "m", "between the held ends; default of the bar's box"},
             {"area", "m2", "cross-section; default of the bar's box or the periodic domain"},
             {"sides", "", "free, plane_strain (one direction held) or confined (both); default by the periodic directions"},
