@@ -11,6 +11,7 @@
 #include "scene/nearest.hpp"
 #include "scene/read_case.hpp"
 #include "validation/metrics/metric.hpp"
+#include "validation/references/experiment.hpp"
 #include "validation/references/reference.hpp"
 
 namespace tripoint {
@@ -41,6 +42,7 @@ void check_words(const Case& c) {
 int check(const std::string& file, const std::vector<std::string>& set) {
   const CaseReading reading = read_case(file, set);
   check_words(reading.value);
+  check_data_files(reading.value);
   const Scene scene = scene_for(reading.value, {});
   static_cast<void>(plan(scene));
   const InitialState state = sample(scene);

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "validation/harness/judge.hpp"
+#include "validation/references/experiment.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -50,7 +51,7 @@ Knobs knobs_of(const CaseRun& run, const Result& result) {
 EngineRow row_of(const EnginePlan& plan) {
   EngineRow row;
   row.name = plan.name, row.preset = plan.preset, row.required = plan.required;
-  if (plan.entry) row.version = plan.entry->version;
+  if (plan.entry) row.version = plan.entry->version, row.library_path = plan.entry->library_path, row.library_hash = plan.entry->library_hash;
   if (!plan.entry) row.status = "missing", row.reason = fmt::format("there is no engine-{} beside the program or in TRIPOINT_ENGINE_PATH", plan.name);
   else if (!plan.entry->available) row.status = "missing", row.reason = plan.entry->reason;
   return row;
@@ -87,6 +88,7 @@ std::shared_ptr<const Trajectory> taken_back(const CaseRun& run, const HarmlessC
 }  // namespace
 
 CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, const SuiteOptions& options) {
+  check_data_files(value);
   CaseRuns all;
   all.value = &value;
   all.engines = plan_runs(value, found, options.selection);
@@ -136,7 +138,7 @@ CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   const auto& value = *all.value;
   CaseResult result;
   result.id = value.id, result.title = value.title, result.kind = value.kind, result.requirement = value.requirement;
-  result.claims = value.claims, result.file = value.file, result.expect = value.expect, result.reference = value.reference;
+  result.claims = value.claims, result.file = value.file, result.expect = value.expect, result.reference = with_source_of_file(value.reference), result.tags = value.tags;
   result.metrics = value.metrics, result.studies = value.studies, result.gates = value.gates;
   result.repeat = repeat_command(value, options);
   for (std::size_t e = 0; e < all.engines.size(); ++e) {

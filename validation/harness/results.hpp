@@ -66,6 +66,7 @@ struct GateRow {
 /// One row of the matrix: an engine with a preset.
 struct EngineRow {
   std::string name, version, preset = "default";
+  std::string library_path, library_hash;  ///< of the engine's own library, as it told; empty = it told none
   bool required = false;
   std::string status = "ok", reason;
   std::vector<RunRow> runs;
@@ -84,6 +85,7 @@ struct EquivalenceRow {
 struct CaseResult {
   std::string id, title, kind, requirement, claims, file, verdict, expect = "pass";
   int exit_code = 0;
+  std::vector<std::string> tags;  ///< as declared
   ReferenceChoice reference;
   std::vector<MetricChoice> metrics;  ///< as declared
   std::vector<Study> studies;         ///< as declared

@@ -123,6 +123,7 @@ Gate gate(const Json& from) {
 EngineRow engine_row(const Json& from) {
   EngineRow e;
   e.name = text(from, "name"), e.version = text(from, "version"), e.preset = text(from, "preset");
+  e.library_path = text(member(from, "library"), "path"), e.library_hash = text(member(from, "library"), "hash");
   e.required = flag(from, "required", false);
   e.status = text(from, "status"), e.reason = text(from, "reason");
   if (e.status.empty()) e.status = "error", e.reason = "the results give no status";
@@ -175,6 +176,7 @@ CaseResult case_result(const Json& from) {
   c.id = text(from, "id"), c.title = text(from, "title"), c.kind = text(from, "kind"), c.requirement = text(from, "requirement");
   c.claims = text(from, "claims"), c.file = text(from, "file"), c.repeat = text(from, "repeat");
   c.expect = text(from, "expect").empty() ? "pass" : text(from, "expect");
+  c.tags = strings(from, "tags");
   c.reference = reference(member(from, "reference"));
   c.metrics = rows<MetricChoice>(from, "metrics", metric_choice);
   c.studies = rows<Study>(from, "studies", study);

@@ -95,8 +95,10 @@ Json json(const EngineRow& e) {
   for (const auto& o : e.order)
     if (std::isfinite(o.order.value) && std::isfinite(o.order.low) && std::isfinite(o.order.high)) order.push_back(json(o));
   for (const auto& g : e.gates) gates.push_back(json(g));
-  return {{"name", e.name}, {"version", e.version}, {"preset", e.preset}, {"required", e.required}, {"status", e.status}, {"reason", e.reason},
-          {"runs", runs}, {"order", order}, {"gates", gates}};
+  Json out{{"name", e.name}, {"version", e.version}, {"preset", e.preset}, {"required", e.required}, {"status", e.status}, {"reason", e.reason}};
+  if (!e.library_path.empty()) out["library"] = {{"path", e.library_path}, {"hash", e.library_hash}};
+  out["runs"] = runs, out["order"] = order, out["gates"] = gates;
+  return out;
 }
 
 /// The case's own words, or those of the reference function.
@@ -139,7 +141,7 @@ Json json(const CaseResult& c) {
   for (const auto& e : c.engines) engines.push_back(json(e));
   for (const auto& q : c.equivalence) equivalence.push_back(json(q));
   for (const auto& [term, value] : c.ledger) put(ledger, term.c_str(), value);
-  return {{"id", c.id}, {"title", c.title}, {"kind", c.kind}, {"requirement", c.requirement}, {"claims", c.claims}, {"file", c.file},
+  return {{"id", c.id}, {"title", c.title}, {"kind", c.kind}, {"requirement", c.requirement}, {"claims", c.claims}, {"tags", c.tags}, {"file", c.file},
           {"expect", c.expect}, {"verdict", c.verdict}, {"exit_code", c.exit_code}, {"problems", c.problems}, {"reference", json(c.reference)},
           {"metrics", metrics}, {"studies", studies}, {"gates", gates}, {"engines", engines}, {"equivalence", equivalence}, {"ledger", ledger},
           {"repeat", c.repeat}};

@@ -208,11 +208,24 @@ std::string experiment_hash(const std::string& text) {
 
 ExperimentFile read_experiment(const std::string& path) { return Reader(path).read(text_of(path)); }
 
+void check_data_files(const Case& value) {
+  const auto check = [](const ReferenceChoice& choice) {
+    if (choice.kind == "experiment") (void)read_experiment(choice.file);
+  };
+  check(value.reference);
+  for (const auto& m : value.metrics)
+    if (m.reference) check(*m.reference);
+}
+
 ReferenceChoice with_source_of_file(ReferenceChoice choice) {
   if (choice.kind != "experiment" || !choice.source.empty()) return choice;
-  const auto file = read_experiment(choice.file);
-  choice.source = file.source;
-  for (const auto& [column, words] : file.uncertainty) choice.source += fmt::format("; standard uncertainty of {}: {}", column, words);
+  try {
+    const auto file = read_experiment(choice.file);
+    choice.source = file.source;
+    for (const auto& [column, words] : file.uncertainty) choice.source += fmt::format("; standard uncertainty of {}: {}", column, words);
+  } catch (const InputError&) {  // gone or changed since the case began: check_data_files() saw it whole
+    choice.source.clear();
+  }
   return choice;
 }
 

@@ -32,7 +32,11 @@ struct ExperimentFile {
 /// FNV-1a over the lines without the one that begins with "# hash:" and without carriage returns, as it stands in the file.
 [[nodiscard]] std::string experiment_hash(const std::string& text);
 
-/// The choice of a case with the source that its data file states, where the case names none.
+/// Reads the data files of a case's references, so that nothing runs against data that cannot be used.
+/// @throws InputError as read_experiment does
+void check_data_files(const Case&);
+
+/// The choice of a case with the source that its data file states, where the case names none and the file can be read.
 [[nodiscard]] ReferenceChoice with_source_of_file(ReferenceChoice);
 
 }  // namespace tripoint
