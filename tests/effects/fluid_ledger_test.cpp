@@ -28,7 +28,8 @@ Account account(lab::Lab lab, double time, double step) {
   for (int n = 1; n <= 20; ++n) {
     s.advance_to(time * n / 20);
     const Ledger now = s.ledger();
-    for (const char* name : {"kinetic", "potential", "compression"}) a.exchanged = std::max(a.exchanged, std::abs(now.energy.at(name) - start.energy.at(name)));
+    for (const char* name : {"kinetic", "potential", "compression"})
+      if (now.energy.count(name) > 0) a.exchanged = std::max(a.exchanged, std::abs(now.energy.at(name) - start.energy.at(name)));
     drift = std::max(drift, std::abs(sum_of(now) - sum_of(start)));
     scheme = std::max(scheme, std::abs(now.energy.at("time_integration")));
   }
@@ -77,6 +78,24 @@ INSTANTIATE_TEST_SUITE_P(Scenes, FluidLedger,
                          testing::Values(Scene_{"column", falling_column, 0.3, 1e-3}, Scene_{"block", floating_block, 0.3, 2e-3},
                                          Scene_{"collision", head_on_collision, 1.0, 1e-3}),
                          [](const auto& scene) { return std::string(scene.param.name); });
+
+lab::Lab printed_column() { return lab::column(8, 4, 5.0, 1000.0, 10.0, Mode::paper); }
+
+/// No energy stands behind (7): what it does is booked as work, and nothing of it is left to the scheme, however long the step.
+TEST(FluidLedger, BooksThePrintedPressureAsWorkAndLeavesToTheSchemeOnlyWhatFallsWithTheSquareOfTheStep) {
+  const Account coarse = account(printed_column(), 0.3, 1e-3), fine = account(printed_column(), 0.3, 5e-4);
+  EXPECT_LT(coarse.residual, 1e-12);  // round-off of 300 steps
+  EXPECT_LT(fine.residual, 1e-12);
+  EXPECT_LT(coarse.time_integration, 1e-3);
+  EXPECT_GT(coarse.time_integration / fine.time_integration, 3.0);
+  lab::Lab lab = printed_column();
+  lab.scene.time_step = 1e-3;
+  Simulation s(lab.scene, lab.initial);
+  s.advance_to(0.3);
+  const Ledger end = s.ledger();
+  EXPECT_EQ(end.energy.count("compression"), 0u);
+  EXPECT_GT(std::abs(end.energy.at("pressure_work")), 100.0 * std::abs(end.energy.at("time_integration")));
+}
 
 }  // namespace
 }  // namespace tripoint
