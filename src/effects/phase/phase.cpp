@@ -55,6 +55,7 @@ std::vector<DefectEntry> defects() {
           {"phase.hysteresis", "freezing at t_melt: no hysteresis", "phase/hysteresis"},
           {"phase.paper.melting", "the printed form melts and freezes size kelvin later", "phase/hysteresis"},
           {"phase.merging", "what freezes joins nothing", "phase/freeze-merge"},
+          {"phase.own_pairs", "frozen solids press on themselves as on others", "phase/press-and-freeze"},
           {"phase.frame", "new bonds of a turned or strained solid are written in the present frame", "phase/freeze-turned"},
           {"phase.account", "share of 0..1 of the energy of joining that never becomes heat", "phase/freeze-merge"}};
 }
