@@ -87,7 +87,7 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   const Ledger start = ledger();
   if (start.energy.count("compression")) world_.booked.start_compression = start.energy.at("compression");
   if (start.energy.count("elastic")) world_.booked.start_deformation = start.energy.at("elastic") + start.energy.at("hourglass");
-  if (start.energy.count("potential")) world_.booked.start_potential = start.energy.at("potential");
+  if (start.energy.count("potential")) world_.booked.start_potential = start.energy.at("potential") - world_.booked.driven_potential;
   happen_until_now();
 }
 
