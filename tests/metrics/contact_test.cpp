@@ -28,6 +28,13 @@ TEST(ContactMetrics, SeeAContactThroughAPeriodicSeam) {
   EXPECT_NEAR(f.stated(metric("overlap", "final")), 0.5, 1e-12);
 }
 
+TEST(ContactMetrics, CompareOverlapsWithTheRunsOwnStart) {
+  Still f(test::blocks());
+  for (auto& frame : f.run.frames) f.shift(frame, 1, {-0.02, 0, 0});
+  f.shift(f.run.frames[3], 1, {-0.01, 0, 0});
+  EXPECT_NEAR(f.of(metric("overlap", "drift"), "stated").value, 0.1, 1e-12);
+}
+
 TEST(ContactMetrics, CountNoOverlapWithinOneBody) {
   Still f(test::blocks());
   for (auto& frame : f.run.frames) {

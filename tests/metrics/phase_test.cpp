@@ -89,6 +89,8 @@ TEST(PhaseMetrics, FollowAHysteresisLoop) {
   for (auto& frame : f.run.frames) frame.phase = truth->at(frame.time).phase;
   EXPECT_EQ(f.of(metric("phase_count", "max"), "hysteresis").value, 0.0);
   EXPECT_EQ(f.stated(metric("toggles", "final"), {{"value", 1.0}}), 0.0);  // out and back
+  EXPECT_EQ(f.stated(metric("toggles", "final")), 1.0);
+  EXPECT_EQ(f.of(metric("toggles", "final"), "hysteresis").value, 0.0);  // as the loop itself
   for (auto& frame : f.run.frames) frame.phase[0] = 1;
   EXPECT_EQ(f.of(metric("phase_count", "max"), "hysteresis").value, 1.0);
 }

@@ -10,12 +10,8 @@
 namespace tripoint {
 namespace {
 
-std::string no_solids(const FramePair& f) {
-  const auto n = f.now.position.size();
-  if (n < f.in.initial.size() || n == 0) return "the trajectory has no positions of all particles";
-  if (f.now.phase.size() != n || f.now.body.size() != n) return "the trajectory has no phases and bodies of all particles";
-  return {};
-}
+bool shows_solids(const Snapshot& s, std::size_t n) { return s.position.size() >= n && n > 0 && s.phase.size() == s.position.size() && s.body.size() == s.position.size(); }
+std::string no_solids(const FramePair& f) { return shows_solids(f.now, f.in.initial.size()) ? "" : "the trajectory has no positions, phases and bodies of all particles"; }
 
 // --- depth of one body in another -----------------------------------------------------------------------------------------
 
@@ -40,22 +36,29 @@ double depth(const Facing& other, double dx) {
   return highest > 0.0 ? 1.0 + highest / dx : 1.0 - nearest / dx;
 }
 
-FrameError overlap(const FramePair& f) {
-  if (auto why = no_solids(f); !why.empty()) return problem(why);
-  const double dx = f.in.job.scene.spacing;
+double deepest(const MetricInput& in, const Snapshot& s) {
+  const double dx = in.job.scene.spacing;
   std::vector<std::size_t> solids;
-  for (std::size_t i = 0; i < f.now.position.size(); ++i)
-    if (is_alive(f.now, i) && f.now.phase[i] != 0 && f.now.body[i] >= 0) solids.push_back(i);
+  for (std::size_t i = 0; i < s.position.size(); ++i)
+    if (is_alive(s, i) && s.phase[i] != 0 && s.body[i] >= 0) solids.push_back(i);
   std::map<std::pair<std::size_t, int>, Facing> facing;
-  for_near_pairs(f.in.job.scene, f.now.position, solids, 2.0 * dx, [&](std::size_t i, std::size_t j, const Vec3& d) {
-    if (f.now.body[i] == f.now.body[j] || (!takes(f.in, i) && !takes(f.in, j))) return;
-    auto& other = facing[{i, f.now.body[j]}];
+  for_near_pairs(in.job.scene, s.position, solids, 2.0 * dx, [&](std::size_t i, std::size_t j, const Vec3& d) {
+    if (s.body[i] == s.body[j] || (!takes(in, i) && !takes(in, j))) return;
+    auto& other = facing[{i, s.body[j]}];
     other.place.push_back(d);
     if (norm(d) > 0.0) other.inward += (1.0 / norm(d)) * d;
   });
-  double deepest = 0.0;
-  for (const auto& [who, other] : facing) deepest = std::max(deepest, depth(other, dx));
-  return single(deepest - f.in.reference.number("value").value_or(0.0));
+  double most = 0.0;
+  for (const auto& [who, other] : facing) most = std::max(most, depth(other, dx));
+  return most;
+}
+
+/// From the stated value, else from another run's overlap, else from none.
+FrameError overlap(const FramePair& f) {
+  if (auto why = no_solids(f); !why.empty()) return problem(why);
+  const auto stated = f.in.reference.number("value");
+  const double truth = stated ? *stated : shows_solids(f.truth, f.in.initial.size()) ? deepest(f.in, f.truth) : 0.0;
+  return single(deepest(f.in, f.now) - truth);
 }
 
 // --- two bodies -----------------------------------------------------------------------------------------------------------

@@ -91,18 +91,28 @@ FrameError front_ratio(const FramePair& f) {
 
 // --- back and forth -------------------------------------------------------------------------------------------------------
 
-/// Changes between liquid and solid beyond a particle's first one, the most of any particle.
-MetricValue toggles(const MetricInput& in, const Frames& frames) {
-  std::vector<long> changes(in.initial.size(), 0);
-  for (std::size_t n = 0; n < frames.size(); ++n) {
-    if (frames[n]->phase.size() < in.initial.size()) return not_formed("the trajectory has no phases");
-    for (std::size_t i = 0; n > 0 && i < changes.size(); ++i)
-      changes[i] += takes(in, i) && (frames[n]->phase[i] == 0) != (frames[n - 1]->phase[i] == 0) ? 1 : 0;
+/// How often each particle changes between liquid and solid; empty when a frame has no phases.
+std::vector<long> changes(const MetricInput& in, const std::vector<std::vector<int>>& phases) {
+  std::vector<long> count(in.initial.size(), 0);
+  for (std::size_t n = 0; n < phases.size(); ++n) {
+    if (phases[n].size() < count.size()) return {};
+    for (std::size_t i = 0; n > 0 && i < count.size(); ++i) count[i] += takes(in, i) && (phases[n][i] == 0) != (phases[n - 1][i] == 0) ? 1 : 0;
   }
-  const auto worst = std::max_element(changes.begin(), changes.end());
+  return count;
+}
+
+/// Changes beyond a particle's first one, the most of any particle: less the stated value, else those of the truth's phases, else none.
+MetricValue toggles(const MetricInput& in, const Frames& frames) {
+  std::vector<std::vector<int>> run, true_phases;
+  for (const auto* s : frames) run.push_back(s->phase), true_phases.push_back(in.reference.beside(*s).phase);
+  const auto count = changes(in, run), truth = changes(in, true_phases);
+  if (count.empty()) return not_formed("the trajectory has no phases");
+  const auto returns = [](const std::vector<long>& list) { return list.empty() ? 0L : std::max(0L, *std::max_element(list.begin(), list.end()) - 1); };
+  const auto stated = in.reference.number("value");
+  const auto worst = std::max_element(count.begin(), count.end());
   MetricValue v;
-  v.value = static_cast<double>(std::max(0L, *worst - 1)) - in.reference.number("value").value_or(0.0);
-  v.note = "particle " + std::to_string(worst - changes.begin()) + " changed " + std::to_string(*worst) + " times, seen at output times";
+  v.value = static_cast<double>(returns(count)) - (stated ? *stated : static_cast<double>(returns(truth)));
+  v.note = "particle " + std::to_string(worst - count.begin()) + " changed " + std::to_string(*worst) + " times, seen at output times";
   return v;
 }
 
@@ -119,7 +129,7 @@ const std::vector<Quantity>& phase_quantities() {
 
 const std::vector<RunQuantity>& phase_run_quantities() {
   static const std::vector<RunQuantity> list{
-      {{"toggles", "1", "most times that a particle went back to a phase it had left (liquid or solid, seen at output times), minus the stated value, 0 by default"}, toggles}};
+      {{"toggles", "1", "most times that a particle went back to a phase it had left (liquid or solid, seen at output times), minus the stated value or the reference's"}, toggles}};
   return list;
 }
 
