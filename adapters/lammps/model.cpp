@@ -43,8 +43,14 @@ const std::map<std::string, Entry>& entries() {
                   if (!b) refuse(k, "true or false");
                   c.pool = *b;
                 }}},
+      {"freezing", {"rheo: t_melt | t_solid, the one temperature at which matter that has two both melts and freezes; default none, and such a scene is refused",
+                    [](Choice& c, const std::string& k, const Setting& v) {
+                      c.freezing = text(k, v);
+                      if (c.freezing != "t_melt" && c.freezing != "t_solid") refuse(k, "t_melt or t_solid");
+                    }}},
       {"rigid_modulus", {"rheo: Young's modulus in Pa of the bonds that stand in for matter that is rigid when solid; default none, and such a scene is refused",
                          [](Choice& c, const std::string& k, const Setting& v) { c.rigid_modulus = positive(k, v); }}},
+      {"sound_speed", {"rheo: speed of sound of the liquid in m/s, default the scene's", [](Choice& c, const std::string& k, const Setting& v) { c.sound_speed = positive(k, v); }}},
       {"commands", {"LAMMPS commands run after the set-up, default none", [](Choice& c, const std::string& k, const Setting& v) { c.commands = text(k, v); }}},
       {"time_step", {"rigid: default 1/240 s; sph heat: 0.1 dx2/D; liquids: 0.06 h/c and 0.1 dx2/nu; elastic: 0.2 h/c_L; walkers take only this one, not the job's, default as long as the box allows", [](Choice&, const std::string& k, const Setting& v) { (void)positive(k, v); }}}};
   return table;

@@ -27,6 +27,8 @@ struct Choice {
   std::optional<double> cutoff;  ///< support radius of pair styles [spacings]; empty = the model's own
   bool pool = true;         ///< walkers of a field of one coordinate are counted in layers
   std::optional<double> rigid_modulus;  ///< of the bonds that stand in for rigid matter that melts [Pa]
+  std::optional<double> sound_speed;    ///< of RHEO's liquid [m/s]
+  std::string freezing;     ///< t_melt | t_solid: which of them RHEO takes for both; empty = it takes none that differ
   std::string commands;     ///< LAMMPS commands after the set-up
 };
 [[nodiscard]] std::map<std::string, std::string> setting_help();

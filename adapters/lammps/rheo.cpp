@@ -22,7 +22,7 @@ constexpr double default_support = 3.0;    ///< [spacings]
 constexpr double bonds_within = 1.5;       ///< [spacings]: first and second neighbours of the cubic lattice
 constexpr double damping = 0.1;            ///< of bonds and contacts, of the critical one
 constexpr double surface_share = 0.79;     ///< of a full set of neighbours, the share of RHEO's examples (22 of 28 in 2D)
-constexpr double courant = 0.1, diffusion_number = 0.1;
+constexpr double courant = 0.25, diffusion_number = 0.1;
 
 class Rheo final : public ParticleModel {
  public:
@@ -46,6 +46,7 @@ class Rheo final : public ParticleModel {
     while (time_ < time - 1e-12 * job_.times.back()) {
       ParticleModel::advance_to(std::min(time, hold_from(time_)));
     }
+    refuse_molten_walls();
     bodies_.follow(pieces());
   }
 
@@ -68,6 +69,8 @@ class Rheo final : public ParticleModel {
   /// Sets velocities and temperatures that the scene holds from a time on. @return when they next change
   double hold_from(double time);
   void hold(const std::string& name, const std::string& ids, const std::string& command);
+  bool heat(const Event&, const std::string& name);
+  void refuse_molten_walls() const;
   [[nodiscard]] double stiffness() const { return 0.4 * bond_modulus(job_); }  ///< E = 5/2 k/dx
   [[nodiscard]] std::vector<int> pieces() const;
 
@@ -75,6 +78,7 @@ class Rheo final : public ParticleModel {
   bool flows_ = false;  ///< some body is free: only then are liquid particles shifted off their places
   RheoBodies bodies_;
   std::map<std::string, std::string> held_;
+  std::map<std::size_t, bool> ovens_;  ///< heating events that are on
 };
 
 double Rheo::step_limit(const Job& job) {
@@ -130,7 +134,7 @@ void Rheo::set_state() {
     const RheoMatter m = rheo_matter(job_, b);
     if (job_.bodies[b].phase != Phase::liquid) library_.run(fmt::format("set group body{} rheo/status 1", b));
     for (const std::size_t i : members(b))
-      if (m.melts && job_.bodies[b].phase == Phase::liquid) energy[i] += m.latent;
+      energy[i] += m.melts && job_.bodies[b].phase == Phase::liquid ? m.latent : 0.0;
   }
   library_.set_scalars("esph", energy);
 }
@@ -157,18 +161,44 @@ double Rheo::hold_from(double time) {
   }
   for (std::size_t e = 0; e < job_.scene.events.size(); ++e) {
     const Event& event = job_.scene.events[e];
-    const double stop = event.until.value_or(end);
-    const std::string name = fmt::format("oven{}", e);
-    std::string ids;
-    for (std::size_t b = 0; b < job_.bodies.size(); ++b)
-      if (std::find(event.bodies.begin(), event.bodies.end(), job_.bodies[b].name) != event.bodies.end()) ids += ids_of(b);
-    const bool on = event.time <= time + 1e-9 * end && time < stop - 1e-9 * end;
-    if (on) hold(name, ids, fmt::format("set group {0} sph/e {1:.17g}\nfix {0} {0} add/heat constant 0.0 overwrite yes", name, rheo_energy(job_, event)));
-    if (!on && !held_[name].empty() && held_[name].rfind("unfix", 0) != 0) hold(name, ids, "unfix " + name);
+    const double stop = event.until.value_or(end), now = 1e-9 * end;
+    bool& burns = ovens_[e];
+    if (!burns && event.time <= time + now && time < stop - now) burns = heat(event, fmt::format("oven{}", e));
+    if (burns && time >= stop - now) burns = false, library_.run(fmt::format("unfix oven{}", e)), clock_.set_up_again();
     for (const double change : {event.time, stop})
-      if (change > time + 1e-9 * end) until = std::min(until, change);
+      if (change > time + now) until = std::min(until, change);
   }
   return until;
+}
+
+/// From now on the particles that the event takes now keep its temperature. @return whether it takes any
+bool Rheo::heat(const Event& event, const std::string& name) {
+  const std::vector<Vec3> place = clock_.total() > 0 ? library_.vectors("x") : std::vector<Vec3>();
+  std::vector<double> energy = library_.scalars("esph");
+  std::string ids;
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    const auto source = static_cast<std::size_t>(state_.source[i]);
+    const Vec3 r = place.empty() ? state_.position[i] : units_.origin + units_.length * place[i];
+    if (!takes(event, job_.bodies[source].name, r)) continue;
+    energy[i] = rheo_energy(rheo_matter(job_, source), *event.temperature);
+    ids += fmt::format(" {}", i + 1);
+  }
+  if (ids.empty()) return false;
+  library_.set_scalars("esph", energy);
+  library_.run("group " + name + " id" + ids + "\nfix " + name + " " + name + " add/heat constant 0.0 overwrite yes");
+  clock_.set_up_again();
+  return true;
+}
+
+/// They were given no melting point.
+void Rheo::refuse_molten_walls() const {
+  if (!flows_) return;
+  const std::vector<double> T = library_.scalars("temperature");
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    const JobBody& b = job_.bodies[static_cast<std::size_t>(state_.source[i])];
+    const auto& melting = job_.scene.material(b.material).t_melt;
+    if (b.motion != Motion::free && melting && T[i] > *melting) throw EngineError(fmt::format("{} is held and would melt by t = {:.6g} s; RHEO shifts molten particles beside free ones", b.name, time_));
+  }
 }
 
 constexpr int solid_bit = 1;

@@ -48,6 +48,7 @@ double fastest_diffusion(const Job& job) {
 
 /// Of the liquid, else of the bonds; where everything is held nothing sounds, and heat sets the time [m/s].
 double speed_of_sound(const Job& job) {
+  if (const auto given = choice_for(job).sound_speed) return *given;
   double k = 0.0;
   for (const Material& m : job.scene.materials) k = std::max(k, m.stiffness.value_or(0.0));
   if (k == 0.0) k = modulus(job) / density_of(job);
@@ -64,7 +65,7 @@ double viscosity_of(const Job& job, std::size_t body) {
 
 std::string why_not_event(const Event& e) {
   if (e.kind != Event::Kind::heat) return "of the events RHEO is handed heating only: no merge, split, release, hold or grip";
-  if (e.region || e.bodies.empty()) return "RHEO heats whole bodies here, and an event heats a region";
+  if (e.region && e.region->kind != Shape::Kind::box && e.region->kind != Shape::Kind::sphere) return "RHEO heats boxes and spheres here, and the region of an event is neither";
   return {};
 }
 
@@ -76,9 +77,10 @@ std::string why_not_matter(const Job& job, std::size_t body) {
   if (std::abs(heat_per_volume(job.scene, job.scene.bodies[body]) / heat_per_volume(job.scene, job.scene.bodies.front()) - 1.0) > 1e-9)
     return fmt::format("RHEO conserves heat between equal heat capacities only, and that of {} differs from that of {}", b.name, job.bodies.front().name);
   if (is_turned(b)) return fmt::format("{} is turned; RHEO is handed driven bodies that are shifted only", b.name);
-  if (b.motion != Motion::free) return anything_free(job) && m.t_melt ? fmt::format("{} is held and may melt; RHEO shifts molten particles beside free ones", b.name) : "";
+  if (b.motion != Motion::free) return {};
   if (m.density != density_of(job)) return fmt::format("{} has another density; RHEO is run here with one", b.name);
-  if (m.t_melt && m.t_solid && *m.t_solid < *m.t_melt) return fmt::format("{} freezes below its melting point; RHEO knows one temperature for both", m.name);
+  if (m.t_melt && m.t_solid && *m.t_solid < *m.t_melt && choice_for(job).freezing.empty())
+    return fmt::format("{} freezes below its melting point; RHEO knows one temperature for both, which the setting freezing picks", m.name);
   if (m.elastic_limit || m.fracture_stretch) return fmt::format("{} yields or breaks; bonds of RHEO are run here without either", m.name);
   if ((b.phase != Phase::liquid || m.t_melt) && !modulus_of(job, body))
     return fmt::format("{} is rigid when solid, and RHEO has bonds only; the setting rigid_modulus gives them a modulus", m.name);
@@ -109,21 +111,22 @@ RheoMatter rheo_matter(const Job& job, std::size_t body) {
   RheoMatter r;
   r.viscosity = std::max(viscosity_of(job, body) / (u.pressure() * u.time), least_viscosity);
   r.conductivity = diffusivity(job.scene, job.scene.bodies[body]) * u.time / (u.length * u.length);
-  r.melts = m.t_melt.has_value();
-  r.melting = m.t_melt.value_or(0.0);
+  r.melts = m.t_melt && (job.bodies[body].motion == Motion::free || !anything_free(job));
+  r.melting = (choice_for(job).freezing == "t_solid" ? m.t_solid : m.t_melt).value_or(0.0);
   r.latent = m.latent_heat.value_or(0.0) / *m.heat_capacity;
   return r;
 }
 
 double bond_modulus(const Job& job) { return modulus(job) / rheo_units(job).pressure(); }
 
-double rheo_energy(const Job& job, const Event& event) {
-  for (std::size_t b = 0; b < job.bodies.size(); ++b) {
-    if (job.bodies[b].name != event.bodies.front()) continue;
-    const RheoMatter m = rheo_matter(job, b);
-    return *event.temperature + (m.melts && *event.temperature > m.melting ? m.latent : 0.0);
-  }
-  return event.temperature.value_or(0.0);
+double rheo_energy(const RheoMatter& m, double temperature) { return temperature + (m.melts && temperature > m.melting ? m.latent : 0.0); }
+
+bool takes(const Event& e, const std::string& body, const Vec3& r) {
+  if (!e.bodies.empty() && std::find(e.bodies.begin(), e.bodies.end(), body) == e.bodies.end()) return false;
+  if (!e.region) return true;
+  if (e.region->kind == Shape::Kind::sphere) return norm(r - e.region->centre) <= e.region->radius;
+  const Vec3 &lo = e.region->min, &hi = e.region->max;
+  return lo.x <= r.x && r.x <= hi.x && lo.y <= r.y && r.y <= hi.y && lo.z <= r.z && r.z <= hi.z;
 }
 
 std::string why_no_rheo(const Job& job) {

@@ -17,10 +17,13 @@ struct RheoMatter {
   bool melts = false;
   double melting = 0.0, latent = 0.0;  ///< [K]; latent heat over heat capacity
 };
+/// A body that is held beside free ones is given no melting point: RHEO would shift it. refuse_molten_walls() watches over that.
 [[nodiscard]] RheoMatter rheo_matter(const Job&, std::size_t body);
 /// Young's modulus of the bonds, of the stiffest solid that is free, in RHEO's units.
 [[nodiscard]] double bond_modulus(const Job&);
-/// What a body that is heated to the event's temperature holds [K].
-[[nodiscard]] double rheo_energy(const Job&, const Event&);
+/// Energy of a particle of a body at a temperature, liquid above its melting point [K].
+[[nodiscard]] double rheo_energy(const RheoMatter&, double temperature);
+/// Whether an event takes a particle of a body of the case that is at a place.
+[[nodiscard]] bool takes(const Event&, const std::string& body, const Vec3& place);
 
 }  // namespace tripoint::lammps

@@ -150,7 +150,10 @@ TEST(LammpsPhase, SaysWhatItCannotRun) {
   };
   refused([](Scene& s) { s.materials[0].solid = "rigid"; }, "rigid_modulus");
   refused([](Scene& s) { s.materials[0].t_solid = 320.0; }, "one temperature for both");
-  refused([](Scene& s) { s.events[0].region = test::box({}, {1, 1, 1}); }, "heats a region");
+  refused([](Scene& s) {
+    s.events[0].region = Shape{};
+    s.events[0].region->kind = Shape::Kind::cylinder;
+  }, "boxes and spheres");
   refused([](Scene& s) { s.events.push_back(s.events[0]), s.events[1].kind = Event::Kind::grip; }, "heating only");
   refused([](Scene& s) { s.materials[0].plastic_limit = s.materials[0].elastic_limit = 0.1; }, "yields or breaks");
 }
