@@ -63,6 +63,24 @@ void refuse_narrow_box(const World& world) {
   }
 }
 
+/// Which candidates are members of rigid bodies with a particle of a deformable body within reach: these own strain energy, and
+/// need their mates for it.
+std::vector<char> joints_of(const World& world, const Joins& joined, const Candidates& found, const Neighbours& near, double reach) {
+  std::vector<char> at_joint(found.ids.size(), 0);
+  const ElasticParticles is_elastic(world);
+  const auto body = world.particles[field::body];
+  const auto place = found.places[field::id];
+  for (std::size_t n = 0; n < found.ids.size(); ++n) {
+    const std::size_t i = world.particles.row(found.ids[n]);
+    if (is_elastic(i)) continue;
+    at_joint[n] = std::ranges::any_of(near.of(found.places.row(n)), [&](Entry e) {
+      const std::size_t j = world.particles.row(found.ids[static_cast<std::size_t>(place[e.row()])]);
+      return is_elastic(j) && joined(body[i], body[j]) && norm(separation(world, j, i)) < reach;
+    });
+  }
+  return at_joint;
+}
+
 void set_twins(Bonds& bonds, std::span<const std::uint32_t> ids) {
   for (const std::uint32_t id : ids) {
     for (Bond& b : bonds.of(id)) {
@@ -88,10 +106,7 @@ Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
 double own_weight(const Scene& scene, double distance) { return WendlandC2(scene.support_ratio * scene.spacing).value(distance); }
 
 Vec3 separation(const World& world, std::size_t i, std::size_t j) {
-  Vec3 d = world.particles.position(j) - world.particles.position(i);
-  for (std::size_t a = 0; a < 3; ++a)
-    if (world.box.periodic[a]) d[a] -= world.box.width[a] * std::round(d[a] / world.box.width[a]);
-  return d;
+  return nearest_image(world.box, world.particles.position(j) - world.particles.position(i));
 }
 
 void connect_solids(World& world) {
@@ -105,6 +120,7 @@ void connect_solids(World& world) {
   const double reach = bond_ratio * world.scene.spacing, search = meets && !paper ? std::max(reach, world.support()) : reach;
   Neighbours near(search, 0.0, world.box, world.threads);
   near.update(found.places, 0.0);
+  const std::vector<char> at_joint = joints_of(world, joined, found, near, reach);
   const ElasticityKernel kernel = bond_kernel(world.scene);
   const auto body = world.particles[field::body];
   const auto place = found.places[field::id];
@@ -113,14 +129,15 @@ void connect_solids(World& world) {
     std::vector<Bond> bonds;
     std::vector<OwnPair> own;
     for (const Entry e : near.of(row)) {
-      const std::uint32_t other = found.ids[static_cast<std::size_t>(place[e.row()])];
-      const std::size_t j = world.particles.row(other);
-      if (!joined(body[i], body[j])) continue;
+      const auto other = static_cast<std::size_t>(place[e.row()]);
+      const std::size_t j = world.particles.row(found.ids[other]);
+      const bool mates = body[i] == body[j] && (at_joint[n] || at_joint[other]);
+      if (!joined(body[i], body[j]) && !mates) continue;
       const Vec3 x = separation(world, j, i);
       const double r = norm(x);
       const bool bonded = r < reach;
-      if (bonded) bonds.push_back(bond_of(kernel, x)), bonds.back().other = other;
-      if (meets && (bonded || !paper)) own.push_back({other, paper ? 0.0 : own_weight(world.scene, r)});
+      if (bonded) bonds.push_back(bond_of(kernel, x)), bonds.back().other = found.ids[other];
+      if (meets && !mates && (bonded || !paper)) own.push_back({found.ids[other], paper ? 0.0 : own_weight(world.scene, r)});
     }
     std::ranges::sort(bonds, {}, &Bond::other);
     std::ranges::sort(own, {}, &OwnPair::other);

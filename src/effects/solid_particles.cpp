@@ -3,24 +3,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/defect.hpp"
 
 namespace tripoint::solid {
 namespace {
 
-constexpr int no_partner_rank = 3;  ///< members of rigid bodies have no energy of their own: their lists need no special form
+constexpr int no_energy_rank = 3;  ///< members of rigid bodies without energy: their lists need no special form
 
-void set_shape_inverse(Particles& p, std::size_t row, const Symmetric& A) {
-  p[field::shape_inverse_xx][row] = A.xx, p[field::shape_inverse_yy][row] = A.yy, p[field::shape_inverse_zz][row] = A.zz;
-  p[field::shape_inverse_yz][row] = A.yz, p[field::shape_inverse_xz][row] = A.xz, p[field::shape_inverse_xy][row] = A.xy;
+/// Which material's constants a particle's energy has, and how many times: its own, or for a member of a rigid body that of the
+/// elastic partner with the lowest id.
+void set_stiffness(World& world, const ElasticParticles& is_elastic, std::uint32_t id) {
+  Particles& p = world.particles;
+  const std::size_t i = p.row(id);
+  p[field::solid_material][i] = p[field::material][i];
+  p[field::solid_stiffness][i] = is_elastic(i) ? 1.0 : 0.0;
+  if (is_elastic(i) || p[field::body][i] < 0) return;
+  static const double looser = 1.0 - defect_size("elastic.joint");
+  std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
+  for (const Bond& b : std::as_const(world.bonds).of(id))
+    if (is_elastic(p.row(b.other))) lowest = std::min(lowest, b.other);
+  if (lowest == std::numeric_limits<std::uint32_t>::max()) return;
+  p[field::solid_material][i] = p[field::material][p.row(lowest)];
+  p[field::solid_stiffness][i] = looser * joint_stiffness;
 }
 
 /// v_i [m3]: m/rho0; printed (11) m_i / sum_j m_j W(x_ij), for particles that have all their body neighbours in the list.
-double volume_of(const World& world, bool paper, bool elastic, std::uint32_t id) {
+double volume_of(const World& world, bool paper, bool owns, std::uint32_t id) {
   const std::size_t i = world.particles.row(id);
   const auto m = world.particles[field::mass];
-  if (!paper || !elastic) return m[i] / world.material_of(i).density;
+  if (!paper || !owns) return m[i] / world.material_of(i).density;
   double sum = m[i] * bond_kernel(world.scene).value(0.0);
   for (const Bond& b : world.bonds.of(id)) sum += m[world.particles.row(b.other)] * b.weight;
   return m[i] / sum;
@@ -51,7 +65,7 @@ Symmetric stiffness(double volume, const ElasticConstants& c, const Vec3& d) {
 /// lambda_max(K_ii)/m_i [1/s2]: how fast a particle swings while its neighbours stay, by its own energy and those of its partners.
 double frequency_of(const World& world, const ElasticForms& forms, std::uint32_t id) {
   const Particles& p = world.particles;
-  const ElasticParticles is_elastic(world);
+  const EnergyOwners owns(world);
   const auto volume = p[field::solid_volume];
   const std::size_t i = p.row(id);
   const Symmetric A = shape_inverse_of(p, i);
@@ -64,13 +78,13 @@ double frequency_of(const World& world, const ElasticForms& forms, std::uint32_t
       return 0.5 * forms.hourglass() * forms.constants(world, k).young * volume[i] * volume[j] * of.weight / dot(of.x, of.x);
     };
     own += volume[j] * (A * b.gradient);
-    if (is_elastic(i)) springs += spring(i, b);
-    if (!is_elastic(j)) continue;
+    if (owns(i)) springs += spring(i, b);
+    if (!owns(j)) continue;
     const Bond& twin = world.bonds.of(b.other)[b.twin];
     springs += spring(j, twin);
     K = K + stiffness(volume[j], forms.constants(world, j), volume[i] * (shape_inverse_of(p, j) * twin.gradient));
   }
-  if (is_elastic(i)) K = K + stiffness(volume[i], forms.constants(world, i), own);
+  if (owns(i)) K = K + stiffness(volume[i], forms.constants(world, i), own);
   return (largest_eigenvalue(K) + springs) / p[field::mass][i];
 }
 
@@ -87,14 +101,19 @@ std::vector<std::uint32_t> with_partners(const World& world, std::span<const std
 }  // namespace
 
 Symmetric shape_inverse_of(const Particles& p, std::size_t row) {
-  return {p[field::shape_inverse_xx][row], p[field::shape_inverse_yy][row], p[field::shape_inverse_zz][row],
-          p[field::shape_inverse_yz][row], p[field::shape_inverse_xz][row], p[field::shape_inverse_xy][row]};
+  return shape_inverses(p).at(row);
 }
 
 Symmetric plastic_strain_of(const Particles& p, std::size_t row) {
-  if (!p.has(field::plastic_strain_xx.name)) return {};
-  return {p[field::plastic_strain_xx][row], p[field::plastic_strain_yy][row], p[field::plastic_strain_zz][row],
-          p[field::plastic_strain_yz][row], p[field::plastic_strain_xz][row], p[field::plastic_strain_xy][row]};
+  return p.has(field::plastic_strain_xx.name) ? plastic_strains(p).at(row) : Symmetric{};
+}
+
+void set_plastic_strain(Particles& p, std::size_t row, const Symmetric& e) {
+  plastic_strains(p).set(row, e);
+}
+
+Symmetric strain_of(const Particles& p, std::size_t row) {
+  return strains(p).at(row);
 }
 
 ElasticForms::ElasticForms(const Scene& scene)
@@ -107,10 +126,15 @@ ElasticForms::ElasticForms(const Scene& scene)
   }
 }
 
-ElasticConstants ElasticForms::constants(const World& world, std::size_t row) const {
-  const auto m = static_cast<std::size_t>(world.particles[field::material][row]);
-  if (!softens_[m] || !world.particles.has(field::liquid_fraction.name)) return constants_[m];
-  return (1.0 - std::clamp(world.particles[field::liquid_fraction][row], 0.0, 1.0)) * constants_[m];
+ElasticForms::Constants::Constants(const ElasticForms& forms, const World& world)
+    : forms_(forms), stiffness_(world.particles[field::solid_stiffness]), material_(world.particles[field::solid_material]) {
+  if (world.particles.has(field::liquid_fraction.name)) liquid_fraction_ = world.particles[field::liquid_fraction];
+}
+
+ElasticConstants ElasticForms::Constants::operator()(std::size_t row) const {
+  const auto m = static_cast<std::size_t>(material_[row]);
+  const bool softer = forms_.softens_[m] && !liquid_fraction_.empty();
+  return (softer ? stiffness_[row] * (1.0 - std::clamp(liquid_fraction_[row], 0.0, 1.0)) : stiffness_[row]) * forms_.constants_[m];
 }
 
 Symmetric ElasticForms::projector(const Symmetric& shape_inverse, int rank) const {
@@ -137,14 +161,16 @@ void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first
   Particles& p = world.particles;
   const ElasticForms forms(world.scene);
   const ElasticParticles is_elastic(world);
+  const EnergyOwners owns(world);
   static const double crooked = 1.0 + defect_size("elastic.shape");
-  for (const std::uint32_t id : ids) p[field::solid_volume][p.row(id)] = volume_of(world, forms.paper(), is_elastic(p.row(id)), id);
+  for (const std::uint32_t id : ids) set_stiffness(world, is_elastic, id);
+  for (const std::uint32_t id : ids) p[field::solid_volume][p.row(id)] = volume_of(world, forms.paper(), owns(p.row(id)), id);
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
-    ShapeInverse shape{{}, is_elastic(i) || world.bonds.of(id).empty() ? 0 : no_partner_rank};
-    if (is_elastic(i) && forms.paper()) shape = {{1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3};
-    if (is_elastic(i) && !forms.paper()) shape = shape_inverse(moment_of(world, id));
-    set_shape_inverse(p, i, crooked * shape.inverse);
+    ShapeInverse shape{{}, owns(i) || world.bonds.of(id).empty() ? 0 : no_energy_rank};
+    if (owns(i) && forms.paper()) shape = {{1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3};
+    if (owns(i) && !forms.paper()) shape = shape_inverse(moment_of(world, id));
+    shape_inverses(p).set(i, crooked * shape.inverse);
     p[field::shape_rank][i] = shape.rank;
   }
   const bool needs_frequency = !first && p.has(field::bond_frequency.name);
@@ -160,7 +186,7 @@ Deformation deformation_of(const World& world, const ElasticForms& forms, std::u
   const std::size_t i = p.row(id);
   Deformation d;
   d.rank = p[field::shape_rank][i];
-  if (!ElasticParticles(world)(i)) return d;
+  if (!EnergyOwners(world)(i)) return d;
   const auto volume = p[field::solid_volume];
   const Symmetric A = shape_inverse_of(p, i);
   Matrix3 sum;
@@ -179,7 +205,7 @@ Deformation deformation_of(const World& world, std::uint32_t id) { return deform
 DeformationEnergy deformation_energy(const World& world, const ElasticForms& forms, std::uint32_t id) {
   const Particles& p = world.particles;
   const std::size_t i = p.row(id);
-  if (!ElasticParticles(world)(i)) return {};
+  if (!EnergyOwners(world)(i)) return {};
   const Deformation d = deformation_of(world, forms, id);
   const auto volume = p[field::solid_volume];
   const ElasticConstants c = forms.constants(world, i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,12 @@ inline constexpr double bond_ratio = 2.12;  ///< reach of the first bonds, and s
 [[nodiscard]] ElasticityKernel bond_kernel(const Scene&);
 /// W of the density kernel: the weight of an own pair at this distance [1/m3].
 [[nodiscard]] double own_weight(const Scene&, double distance);
+/// A difference of places [m] as the nearest images have it.
+[[nodiscard]] inline Vec3 nearest_image(const PeriodicBox& box, Vec3 d) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box.periodic[a]) d[a] -= box.width[a] * std::round(d[a] / box.width[a]);
+  return d;
+}
 /// r_j - r_i [m] of the nearest images. @param i,j rows
 [[nodiscard]] Vec3 separation(const World&, std::size_t i, std::size_t j);
 
@@ -25,7 +32,7 @@ inline constexpr double bond_ratio = 2.12;  ///< reach of the first bonds, and s
 /// @throws InputError when a periodic direction is too narrow for bonds to be told apart
 void connect_solids(World&);
 
-/// Tells of rows whether they are particles of deformable bodies: these own strain energy.
+/// Tells of rows whether they are particles of deformable bodies.
 class ElasticParticles {
  public:
   explicit ElasticParticles(const World& world) : body_(world.particles[field::body]), is_rigid_(world) {}
@@ -36,7 +43,23 @@ class ElasticParticles {
   RigidMembers is_rigid_;
 };
 
-/// Volume, A_i and rank of these particles by their present lists and bodies, zero where they are no elastic particles; with
+/// How many times as stiff a member of a rigid body is as the elastic partner that it is bonded to. Such members own strain energy
+/// too: force passes a cut by the stress on both sides of it, so that without theirs the joint bears twice the strain, and gives way
+/// as 2.5 spacings of the bar more would (as 0.9 with 1, 0.2 with 4, 0 with 10, at the price of the time step).
+inline constexpr double joint_stiffness = 4.0;
+
+/// Tells of rows whether they own strain energy: particles of deformable bodies, and members of rigid ones that are bonded to such.
+/// Valid as the lists were when shapes were last refreshed.
+class EnergyOwners {
+ public:
+  explicit EnergyOwners(const World& world) : stiffness_(world.particles[field::solid_stiffness]) {}
+  [[nodiscard]] bool operator()(std::size_t row) const { return stiffness_[row] > 0.0; }
+
+ private:
+  std::span<const double> stiffness_;
+};
+
+/// Volume, stiffness, A_i and rank of these particles by their present lists and bodies, zero where they own no strain energy; with
 /// their partners, which lists mirror each other and, where the scene can freeze, the frequency of each particle.
 /// @param first lists are those of the start: no frequency is needed
 void refresh_shapes(World&, std::span<const std::uint32_t> ids, bool first = false);
@@ -56,8 +79,20 @@ class ElasticForms {
   [[nodiscard]] bool paper() const noexcept { return paper_; }
   /// Coefficient a of the hourglass energy, 0 = none.
   [[nodiscard]] double hourglass() const noexcept { return hourglass_; }
-  /// Constants of a particle [Pa], softened where its material softens.
-  [[nodiscard]] ElasticConstants constants(const World&, std::size_t row) const;
+  /// Constants of particles by rows, softened where their material softens; zero where they own no strain energy.
+  class Constants {
+   public:
+    [[nodiscard]] ElasticConstants operator()(std::size_t row) const;
+
+   private:
+    friend class ElasticForms;
+    Constants(const ElasticForms& forms, const World& world);
+    const ElasticForms& forms_;
+    std::span<const double> stiffness_, liquid_fraction_;
+    std::span<const int> material_;
+  };
+  [[nodiscard]] Constants constants(const World& world) const { return {*this, world}; }
+  [[nodiscard]] ElasticConstants constants(const World& world, std::size_t row) const { return constants(world)(row); }
   [[nodiscard]] Symmetric projector(const Symmetric& shape_inverse, int rank) const;
   /// Strain within P of a particle with this F.
   [[nodiscard]] Symmetric strain(const Matrix3& F, const Symmetric& P, int rank) const;
@@ -73,9 +108,35 @@ class ElasticForms {
   std::vector<char> softens_;
 };
 
+/// Six columns of a symmetric field.
+template <class T>
+struct SymmetricColumns {
+  std::span<T> xx, yy, zz, yz, xz, xy;
+  [[nodiscard]] Symmetric at(std::size_t row) const { return {xx[row], yy[row], zz[row], yz[row], xz[row], xy[row]}; }
+  void set(std::size_t row, const Symmetric& e) const { xx[row] = e.xx, yy[row] = e.yy, zz[row] = e.zz, yz[row] = e.yz, xz[row] = e.xz, xy[row] = e.xy; }
+};
+template <class P>
+[[nodiscard]] auto shape_inverses(P& p) {
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::shape_inverse_xx], p[field::shape_inverse_yy], p[field::shape_inverse_zz],
+                                                                                        p[field::shape_inverse_yz], p[field::shape_inverse_xz], p[field::shape_inverse_xy]};
+}
+template <class P>
+[[nodiscard]] auto strains(P& p) {
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::strain_xx], p[field::strain_yy], p[field::strain_zz],
+                                                                                        p[field::strain_yz], p[field::strain_xz], p[field::strain_xy]};
+}
+template <class P>
+[[nodiscard]] auto plastic_strains(P& p) {
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::plastic_strain_xx], p[field::plastic_strain_yy], p[field::plastic_strain_zz],
+                                                                                        p[field::plastic_strain_yz], p[field::plastic_strain_xz], p[field::plastic_strain_xy]};
+}
 [[nodiscard]] Symmetric shape_inverse_of(const Particles&, std::size_t row);
 /// eps_p, zero where nothing flows.
 [[nodiscard]] Symmetric plastic_strain_of(const Particles&, std::size_t row);
+/// To be called where the scene has plastic flow only.
+void set_plastic_strain(Particles&, std::size_t row, const Symmetric&);
+/// Total strain as the elastic effect last found it.
+[[nodiscard]] Symmetric strain_of(const Particles&, std::size_t row);
 
 [[nodiscard]] Deformation deformation_of(const World&, const ElasticForms&, std::uint32_t id);
 [[nodiscard]] Deformation deformation_of(const World&, std::uint32_t id);
@@ -84,7 +145,7 @@ struct DeformationEnergy {
   double elastic = 0.0, hourglass = 0.0;  ///< [J]
   [[nodiscard]] double total() const noexcept { return elastic + hourglass; }
 };
-/// U_i (10) and the hourglass energy of a particle; zero unless it is one of a deformable body.
+/// U_i (10) and the hourglass energy of a particle; zero unless it owns some.
 [[nodiscard]] DeformationEnergy deformation_energy(const World&, const ElasticForms&, std::uint32_t id);
 [[nodiscard]] DeformationEnergy deformation_energy(const World&, std::uint32_t id);
 

@@ -55,6 +55,9 @@ inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"}, shape_
 inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"}, shape_inverse_xz{"shape_inverse.xz", "1"}, shape_inverse_xy{"shape_inverse.xy", "1"};
 inline constexpr Field<int> shape_rank{"shape_rank", "1"};
 inline constexpr Field<double> solid_volume{"solid_volume", "m3"};  ///< v_i: m/rho0, printed (11)
+/// Whose constants the strain energy of a particle has, and how many times: 0 where it owns none.
+inline constexpr Field<int> solid_material{"solid_material", "1"};
+inline constexpr Field<double> solid_stiffness{"solid_stiffness", "1"};
 /// 1 where the lists of this particle and of its neighbours mirror each other and none of them is a sheet or a chain.
 inline constexpr Field<int> regular_bonds{"regular_bonds", "1"};
 /// Square of the frequency that the bonds give this particle while its neighbours stay [1/s2]; 0 while its list is the first one.

@@ -2,6 +2,7 @@
 #include "effects/elastic/bond_forces.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace tripoint::elastic {
 namespace {
@@ -55,34 +56,29 @@ Matrix3 flat_hourglass(const World& world, const Deformations& all, std::uint32_
   return -1.0 * (F * sum);
 }
 
-void set_strain(Particles& p, std::size_t row, const Symmetric& e) {
-  p[field::strain_xx][row] = e.xx, p[field::strain_yy][row] = e.yy, p[field::strain_zz][row] = e.zz;
-  p[field::strain_yz][row] = e.yz, p[field::strain_xz][row] = e.xz, p[field::strain_xy][row] = e.xy;
-}
-Symmetric strain_at(const Particles& p, std::size_t row) {
-  return {p[field::strain_xx][row], p[field::strain_yy][row], p[field::strain_zz][row], p[field::strain_yz][row], p[field::strain_xz][row], p[field::strain_xy][row]};
-}
-
 template <bool periodic, bool hourglass>
 void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
   Particles& p = world.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank];
-  const solid::ElasticParticles is_elastic(world);
+  const solid::EnergyOwners owns(world);
+  const auto constants = forms.constants(world);
+  const auto shape = solid::shape_inverses(std::as_const(p));
+  const auto strain_of = solid::strains(p);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
     const auto id = static_cast<std::uint32_t>(id_of[row]);
     Deformed& i = all.deformed[id];
     i = {all.places[id].r, all.places[id].volume, {}, {}, 0.0, 0.0};
-    if (!is_elastic(row)) continue;
+    if (!owns(row)) continue;
     const int rank = rank_of[row];
     const ListSums sums = sums_of<periodic, hourglass>(world, all, id);
-    const Symmetric A = solid::shape_inverse_of(p, row), P = forms.projector(A, rank);
+    const Symmetric A = shape.at(row), P = forms.projector(A, rank);
     const Matrix3 F = solid::deformation_gradient(sums.displacement, A);
     const Symmetric strain = forms.strain(F, P, rank);
-    set_strain(p, row, strain);
+    strain_of.set(row, strain);
     i.strained = F - identity3;
     if constexpr (!hourglass) continue;
-    const double stiff = 0.5 * forms.hourglass() * forms.constants(world, row).young;
+    const double stiff = 0.5 * forms.hourglass() * constants(row).young;
     (rank == 3 ? i.full : i.flat) = stiff;
     i.T = rank == 3 ? (stiff * i.volume) * (i.strained * sums.moment - sums.swept) : flat_hourglass<periodic>(world, all, id, i, strain, P, F);
   }
@@ -92,15 +88,18 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
 void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
   const Particles& p = world.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank];
-  const solid::ElasticParticles is_elastic(world);
+  const solid::EnergyOwners owns(world);
+  const auto constants = forms.constants(world);
+  const auto shape = solid::shape_inverses(p), strain_of = solid::strains(p);
   const bool flows = p.has(field::plastic_strain_xx.name);
+  const auto plastic_of = flows ? solid::plastic_strains(p) : solid::SymmetricColumns<const double>{};
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
-    if (!is_elastic(row)) continue;
+    if (!owns(row)) continue;
     Deformed& i = all.deformed[static_cast<std::size_t>(id_of[row])];
-    const Symmetric A = solid::shape_inverse_of(p, row), P = forms.projector(A, rank_of[row]), total = strain_at(p, row);
-    const Symmetric elastic = flows ? between(P, total - solid::plastic_strain_of(p, row)) : total;
-    const Symmetric S = forms.stress(elastic, P, rank_of[row], forms.constants(world, row));
+    const Symmetric A = shape.at(row), P = forms.projector(A, rank_of[row]), total = strain_of.at(row);
+    const Symmetric elastic = flows ? between(P, total - plastic_of.at(row)) : total;
+    const Symmetric S = forms.stress(elastic, P, rank_of[row], constants(row));
     i.T = ((forms.force_factor() * i.volume) * ((identity3 + i.strained) * S) + i.T) * A;
     if (rank_of[row] != 3) i.strained = full(total);
   }

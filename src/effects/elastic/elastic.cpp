@@ -81,7 +81,7 @@ EffectSpec spec(const Scene& scene) {
   EffectSpec s{"elastic",
                scene.mode_of(Term::elastic),
                {field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, field::shape_inverse_xx, field::shape_inverse_yy, field::shape_inverse_zz,
-                field::shape_inverse_yz, field::shape_inverse_xz, field::shape_inverse_xy, field::shape_rank, field::solid_volume, field::regular_bonds,
+                field::shape_inverse_yz, field::shape_inverse_xz, field::shape_inverse_xy, field::shape_rank, field::solid_volume, field::solid_material, field::solid_stiffness, field::regular_bonds,
                 field::strain_xx, field::strain_yy, field::strain_zz, field::strain_yz, field::strain_xz, field::strain_xy},
                {field::mass, field::body, field::material, field::position_x, field::position_y, field::position_z}};
   if (can_freeze(scene)) s.owns.emplace_back(field::bond_frequency);

@@ -49,10 +49,10 @@ bool has_deformable(const World& world) { return world.particles.has(field::shap
 void bond(World& world, const std::vector<Joint>& joints) {
   std::map<std::uint32_t, Matrix3> to_reference;  // of those that were solid before
   if (has_deformable(world)) {
-    const solid::ElasticParticles is_elastic(world);
+    const solid::EnergyOwners owns(world);
     std::set<std::uint32_t> ids;
     for (const Joint& joint : joints)
-      if (!joint.both && is_elastic(world.particles.row(joint.j))) ids.insert(joint.j);
+      if (!joint.both && owns(world.particles.row(joint.j))) ids.insert(joint.j);
     for (const std::uint32_t id : ids) to_reference[id] = turn_into_present_frame(world, id);
   }
   const ElasticityKernel kernel = solid::bond_kernel(world.scene);
