@@ -10,10 +10,12 @@
 #include "effects/fluid/fluid.hpp"
 #include "effects/fluid/fluid_terms.hpp"
 #include "effects/fluid/material_numbers.hpp"
+#include "effects/fracture/fracture.hpp"
 #include "effects/heat/heat.hpp"
 #include "effects/heat/heat_terms.hpp"
 #include "effects/motion/motion.hpp"
 #include "effects/phase/phase.hpp"
+#include "effects/plastic/plastic.hpp"
 #include "effects/prescribed/prescribed.hpp"
 #include "effects/rigid/rigid.hpp"
 #include "scene/read_case.hpp"
@@ -36,6 +38,8 @@ constexpr Registered all_effects[] = {
     {"prescribed", prescribed::spec, prescribed::make, prescribed::defects},
     {"density", density::spec, density::make, density::defects},
     {"elastic", elastic::spec, elastic::make, elastic::defects},
+    {"plastic", plastic::spec, plastic::make, plastic::defects},
+    {"fracture", fracture::spec, fracture::make, fracture::defects},
     {"heat", heat::spec, heat::make, heat::defects},
     {"phase", phase::spec, phase::make, phase::defects},
 };

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/fracture/fracture.hpp"
+
+#include <map>
+#include <utility>
+
+#include "effects/fracture/bond_limit.hpp"
+#include "effects/objects.hpp"
+#include "effects/solid_particles.hpp"
+
+namespace tripoint::fracture {
+namespace {
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+class Fracture : public Effect {
+ public:
+  explicit Fracture(const Scene& scene) : limits_(scene) {}
+  void drift(World&, double dt) override { drifted_ = dt; }
+  void change(World&) override;
+  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["fracture"] += world.booked.fracture; }
+
+ private:
+  [[nodiscard]] std::vector<Pair> broken(const World&);
+
+  BondLimits limits_;
+  double drifted_ = 0.0;          ///< since the last forces, within a step [s]
+  std::vector<char> has_broken_;  ///< memory that is used again, by id
+};
+
+/// Bonds that are beyond their limit, as lower and higher id, in order. Members of rigid bodies cannot move apart.
+std::vector<Pair> Fracture::broken(const World& world) {
+  const Particles& p = world.particles;
+  const solid::ElasticParticles is_elastic(world);
+  const auto material = p[field::material];
+  const auto x = positions(p);
+  const auto ends = [&](std::size_t i, const Bond& bond) {
+    const std::size_t j = p.row(bond.other);
+    return limits_.breaks(solid::nearest_image(world.box, x.at(i) - x.at(j)), bond, static_cast<std::size_t>(material[i]), static_cast<std::size_t>(material[j]));
+  };
+  has_broken_.assign(p.size(), 0);
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    if (is_elastic(i)) has_broken_[id] = std::ranges::any_of(world.bonds.of(id), [&](const Bond& b) { return ends(i, b); });
+  }
+  std::vector<Pair> pairs;
+  for (std::uint32_t id = 0; id < p.size(); ++id) {
+    if (!has_broken_[id]) continue;
+    for (const Bond& b : world.bonds.of(id))
+      if (ends(p.row(id), b)) pairs.push_back(std::minmax(id, b.other));
+  }
+  sort_once(pairs);
+  return pairs;
+}
+
+/// Puts all particles half a drift back, and where they were at its end. Of the kicks around a drift the first has the force of a bond
+/// and the second has not, so it broke half way: what it stored there is what it lets go, to second order in the step.
+class HalfWay {
+ public:
+  HalfWay(World& world, double drifted) : world_(world) {
+    const auto x = positions(world.particles), v = velocities(world.particles);
+    for (std::size_t i = 0; i < world.particles.size(); ++i) {
+      place_.push_back(x.at(i));
+      x.set(i, x.at(i) - (0.5 * drifted) * v.at(i));
+    }
+  }
+  ~HalfWay() {
+    const auto x = positions(world_.particles);
+    for (std::size_t i = 0; i < place_.size(); ++i) x.set(i, place_[i]);
+  }
+  HalfWay(const HalfWay&) = delete;
+  HalfWay& operator=(const HalfWay&) = delete;
+
+ private:
+  World& world_;
+  std::vector<Vec3> place_;
+};
+
+/// What stored energy and elastic strain were before bonds broke, and what becomes of them.
+class Release {
+ public:
+  explicit Release(World& world) : world_(world), forms_(world.scene) {}
+
+  /// To be called ahead of a change to the list of a particle. As printed its partners change with it: its volume is a sum over the list.
+  void touch(std::uint32_t id) {
+    remember(id);
+    if (!forms_.paper()) return;
+    for (const Bond& b : std::as_const(world_.bonds).of(id)) remember(b.other);
+  }
+  /// Shapes and plastic strain by the lists of now; the energy let go is booked.
+  void settle() {
+    std::vector<std::uint32_t> ids;
+    for (const auto& [id, before] : before_) ids.push_back(id);
+    solid::refresh_shapes(world_, ids);
+    if (world_.particles.has(field::plastic_strain_xx.name))
+      for (const std::uint32_t id : ids) keep_elastic_strain(id);
+    double let_go = 0.0;
+    for (const auto& [id, before] : before_) let_go += before.energy - solid::deformation_energy(world_, forms_, id).total();
+    static const double booked = 1.0 - defect_size("fracture.energy");
+    world_.booked.fracture += booked * let_go;
+    world_.booked.deformation_released += booked * let_go;
+  }
+
+ private:
+  struct Before {
+    double energy = 0.0;         ///< [J]
+    Symmetric elastic, plastic;  ///< strains
+  };
+  void remember(std::uint32_t id) {
+    if (before_.contains(id)) return;
+    const solid::Deformation d = solid::deformation_of(world_, forms_, id);
+    const Symmetric plastic = solid::plastic_strain_of(world_.particles, world_.particles.row(id));
+    before_[id] = {solid::deformation_energy(world_, forms_, id).total(), between(d.P, d.strain - plastic), plastic};
+  }
+  /// A particle that has flowed and loses bonds sees another strain at once: eps_p goes with it, so that P (eps - eps_p) P does not
+  /// jump. Without this the tear of a plastic bar creates energy.
+  void keep_elastic_strain(std::uint32_t id) {
+    const Before& before = before_.at(id);
+    if (before.plastic == Symmetric{}) return;
+    const solid::Deformation d = solid::deformation_of(world_, forms_, id);
+    solid::set_plastic_strain(world_.particles, world_.particles.row(id), between(d.P, d.strain - before.elastic));
+  }
+
+  World& world_;
+  solid::ElasticForms forms_;
+  std::map<std::uint32_t, Before> before_;
+};
+
+/// Rows of the deformable bodies that these particles are of.
+std::vector<std::size_t> bodies_of(const World& world, const std::vector<Pair>& pairs) {
+  std::vector<std::size_t> rows;
+  const auto body = world.particles[field::body];
+  for (const Pair& pair : pairs)
+    for (const std::uint32_t id : {pair.first, pair.second})
+      if (const std::size_t i = world.particles.row(id); solid::ElasticParticles(world)(i)) rows.push_back(static_cast<std::size_t>(body[i]));
+  sort_once(rows);
+  return rows;
+}
+
+void Fracture::change(World& world) {
+  const std::vector<Pair> pairs = broken(world);
+  const double drifted = std::exchange(drifted_, 0.0);
+  if (pairs.empty()) return;
+  const HalfWay half_way(world, drifted);
+  Release release(world);
+  for (const auto& [i, j] : pairs) release.touch(i), release.touch(j);
+  for (const auto& [i, j] : pairs) {
+    disconnect(world.bonds, i, [&, j = j](const Bond& b) { return b.other == j; });
+    end_own(world.own, i, j);
+    world.change.relisted.insert(world.change.relisted.end(), {i, j});
+  }
+  regroup(world, {bodies_of(world, pairs), {}}, [&](std::uint32_t id) { release.touch(id); });
+  release.settle();
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene& scene) {
+  return {"fracture", scene.mode_of(Term::elastic), {}, {field::body, field::material, field::solid_volume, field::shape_rank, field::position_x, field::position_y, field::position_z}};
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fracture>(scene); }
+
+std::vector<DefectEntry> defects() {
+  return {{"fracture.stretch", "bonds bear 1 + size times their stretch", "solid/torn-bar"},
+          {"fracture.distance", "as printed: bonds bear 1 + size times their distance", "solid/torn-bar"},
+          {"fracture.energy", "share of 0..1 of the energy let go that is not booked", "solid/torn-bar"}};
+}
+
+}  // namespace tripoint::fracture

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/plastic/plastic.hpp"
+
+#include <array>
+
+#include "effects/ordered_sum.hpp"
+#include "effects/plastic/flow.hpp"
+#include "effects/solid_particles.hpp"
+
+namespace tripoint::plastic {
+namespace {
+
+class PlasticFlow : public Effect {
+ public:
+  explicit PlasticFlow(const Scene&);
+  void state(World&) override;
+  void adopt(World&) override;
+  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["plastic"] += world.booked.plastic; }
+
+ private:
+  double flow(World&, std::size_t row) const;
+
+  solid::ElasticForms forms_;
+  std::vector<YieldLimits> limits_;           ///< of each material
+  std::vector<std::array<double, 1>> blocks_;  ///< memory that is used again
+};
+
+PlasticFlow::PlasticFlow(const Scene& scene) : forms_(scene) {
+  static const double later = 1.0 + defect_size("plastic.elastic_limit"), farther = 1.0 + defect_size("plastic.plastic_limit");
+  for (const Material& m : scene.materials) {
+    YieldLimits limits;
+    if (m.elastic_limit) limits.elastic = later * *m.elastic_limit;
+    if (m.plastic_limit) limits.plastic = farther * *m.plastic_limit;
+    limits_.push_back(limits);
+  }
+}
+
+/// @return energy that it turned to heat [J]
+double PlasticFlow::flow(World& world, std::size_t row) const {
+  Particles& p = world.particles;
+  const YieldLimits& limits = limits_[static_cast<std::size_t>(p[field::material][row])];
+  const int rank = p[field::shape_rank][row];
+  if (rank == 0 || !std::isfinite(limits.elastic)) return 0.0;
+  const Symmetric strain = solid::strain_of(p, row), plastic = solid::plastic_strain_of(p, row);
+  const Symmetric P = forms_.projector(solid::shape_inverse_of(p, row), rank), elastic = between(P, strain - plastic);
+  const solid::ElasticConstants c = forms_.constants(world, row);
+  const auto flat = [&] { return flowed_flat(elastic, forms_.stress(elastic, P, rank, c), plastic, rank, yield_stress(c.mu, limits.elastic), limits.plastic); };
+  const Symmetric after = rank == 3 ? flowed(strain, plastic, limits) : flat();
+  if (after == plastic) return 0.0;
+  solid::set_plastic_strain(p, row, after);
+  const Symmetric step = between(P, after - plastic);
+  return p[field::solid_volume][row] * dissipated(forms_.stress(elastic - step, P, rank, c), step);
+}
+
+/// After the strain of the present time is known, before its stress.
+void PlasticFlow::state(World& world) {
+  const solid::ElasticParticles is_elastic(world);
+  static const double booked = 1.0 - defect_size("plastic.dissipation");
+  const auto lost = ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
+    if (is_elastic(row)) sum[0] += flow(world, row);
+  });
+  world.booked.plastic += booked * lost[0];
+  world.booked.deformation_released += booked * lost[0];
+}
+
+/// What melts forgets how it has flowed.
+void PlasticFlow::adopt(World& world) {
+  for (const auto* list : {&world.change.melted, &world.change.born})
+    for (const std::uint32_t id : *list) solid::set_plastic_strain(world.particles, world.particles.row(id), {});
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene& scene) {
+  return {"plastic",
+          scene.mode_of(Term::elastic),
+          {field::plastic_strain_xx, field::plastic_strain_yy, field::plastic_strain_zz, field::plastic_strain_yz, field::plastic_strain_xz, field::plastic_strain_xy},
+          {field::body, field::material, field::solid_volume, field::shape_rank, field::shape_inverse_xx, field::strain_xx}};
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<PlasticFlow>(scene); }
+
+std::vector<DefectEntry> defects() {
+  return {{"plastic.elastic_limit", "flow begins at 1 + size times the elastic limit", "solid/plastic-cycle"},
+          {"plastic.dissipation", "share of 0..1 of the energy lost by flow that is not booked", "solid/plastic-cycle"},
+          {"plastic.plastic_limit", "flow ends at 1 + size times the plastic limit", "solid/plastic-cap"}};
+}
+
+}  // namespace tripoint::plastic
