@@ -16,19 +16,21 @@ struct Fusion {
   double melts = std::numeric_limits<double>::infinity();       ///< t_melt [K]
   double solidifies = -std::numeric_limits<double>::infinity();  ///< t_solid [K]
   double heat = 0.0;                                            ///< L/c_p: what the heat of fusion is worth in temperature [K]
+  bool soft_band = false;  ///< printed (Fig. 5): f follows T between the two, solid below t_melt and the softer the nearer to it
 };
 
-/// Of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides, at t_melt
-/// (between t_solid and t_melt an elastic solid is soft; a rigid one is rigid up to t_melt).
+/// Of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides, at t_melt.
+/// An elastic solid is soft between t_solid and t_melt; a rigid one is rigid up to t_melt.
 [[nodiscard]] inline Fusion fusion_of(const Scene& scene, const Material& m) {
   if (!m.t_melt || !m.heat_capacity) return {};
   static const double scale = 1.0 - defect_size("phase.latent");
   static const bool no_loop = defect_size("phase.hysteresis") > 0.0;
   if (scene.mode_of(Term::phase) == Mode::paper) {
     static const double later = defect_size("phase.paper.melting");
-    return {*m.t_melt + later, *m.t_melt + later, 0.0};
+    const bool band = m.solid == "elastic" && m.t_solid.value_or(*m.t_melt) < *m.t_melt;
+    return {*m.t_melt + later, band ? *m.t_solid + later : *m.t_melt + later, 0.0, band};
   }
-  return {*m.t_melt, no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt), scale * m.latent_heat.value_or(0.0) / *m.heat_capacity};
+  return {*m.t_melt, no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt), scale * m.latent_heat.value_or(0.0) / *m.heat_capacity, false};
 }
 /// By row in Scene::materials.
 [[nodiscard]] inline std::vector<Fusion> fusions_of(const Scene& scene) {
@@ -46,10 +48,17 @@ struct ThermalState {
 /// grows, cooled below t_solid it falls, and between the two it keeps (model 8.9). c_p T + L f is kept. With L = 0 f jumps.
 [[nodiscard]] inline ThermalState settled(const Fusion& fusion, double trial, double f) noexcept {
   assert(f >= 0.0 && f <= 1.0);
+  if (fusion.soft_band) return {trial, std::clamp((trial - fusion.solidifies) / (fusion.melts - fusion.solidifies), 0.0, 1.0)};
   double next = f;
   if (trial > fusion.melts && f < 1.0) next = fusion.heat > 0.0 ? std::min(1.0, f + (trial - fusion.melts) / fusion.heat) : 1.0;
   if (trial < fusion.solidifies && f > 0.0) next = fusion.heat > 0.0 ? std::max(0.0, f - (fusion.solidifies - trial) / fusion.heat) : 0.0;
   return {trial + fusion.heat * (f - next), next};
+}
+
+/// Whether a particle that is liquid, or solid, changes its phase at this liquid fraction.
+[[nodiscard]] inline bool changes_phase(const Fusion& fusion, bool solid, double f) noexcept {
+  if (solid) return f >= 1.0;
+  return fusion.soft_band ? f < 1.0 : f <= 0.0;
 }
 
 /// Gives heat to one particle [J], of either sign, in the state of the form that is on (H, or as printed T); one whose temperature is

@@ -116,25 +116,29 @@ Symmetric strain_of(const Particles& p, std::size_t row) {
   return strains(p).at(row);
 }
 
+bool softens(const Scene& scene, const Material& m) {
+  if (!m.t_melt || m.solid != "elastic") return false;
+  return m.softens || (scene.mode_of(Term::phase) == Mode::paper && m.t_solid.value_or(*m.t_melt) < *m.t_melt);
+}
+
 ElasticForms::ElasticForms(const Scene& scene)
     : paper_(scene.mode_of(Term::elastic) == Mode::paper),
       hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0 : scene.hourglass * (1.0 - defect_size("elastic.hourglass"))),
       factor_(paper_ ? 2.0 * (1.0 - defect_size("elastic.paper.factor")) : 1.0 - defect_size("elastic.force")) {
   for (const Material& m : scene.materials) {
     constants_.push_back(m.young_modulus && m.poisson_ratio ? elastic_constants(*m.young_modulus, *m.poisson_ratio) : ElasticConstants{});
-    softens_.push_back(m.softens || (scene.mode_of(Term::phase) == Mode::paper && m.t_melt.has_value()));
+    softens_.push_back(softens(scene, m));
   }
 }
 
 ElasticForms::Constants::Constants(const ElasticForms& forms, const World& world)
     : forms_(forms), stiffness_(world.particles[field::solid_stiffness]), material_(world.particles[field::solid_material]) {
-  if (world.particles.has(field::liquid_fraction.name)) liquid_fraction_ = world.particles[field::liquid_fraction];
+  if (world.particles.has(field::stiffness_share.name)) share_ = world.particles[field::stiffness_share];
 }
 
 ElasticConstants ElasticForms::Constants::operator()(std::size_t row) const {
   const auto m = static_cast<std::size_t>(material_[row]);
-  const bool softer = forms_.softens_[m] && !liquid_fraction_.empty();
-  return (softer ? stiffness_[row] * (1.0 - std::clamp(liquid_fraction_[row], 0.0, 1.0)) : stiffness_[row]) * forms_.constants_[m];
+  return (forms_.softens_[m] && !share_.empty() ? stiffness_[row] * share_[row] : stiffness_[row]) * forms_.constants_[m];
 }
 
 Symmetric ElasticForms::projector(const Symmetric& shape_inverse, int rank) const {

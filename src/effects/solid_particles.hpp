@@ -72,6 +72,9 @@ struct Deformation {
   int rank = 0;
 };
 
+/// Whether the stiffness of this material falls as it melts: marked so, or, printed (Fig. 5), between t_solid and t_melt.
+[[nodiscard]] bool softens(const Scene&, const Material&);
+
 /// The scene's forms of elasticity, prepared once. Functions of one particle; `of` reads no column but bonds, volumes and A_i.
 class ElasticForms {
  public:
@@ -88,7 +91,7 @@ class ElasticForms {
     friend class ElasticForms;
     Constants(const ElasticForms& forms, const World& world);
     const ElasticForms& forms_;
-    std::span<const double> stiffness_, liquid_fraction_;
+    std::span<const double> stiffness_, share_;
     std::span<const int> material_;
   };
   [[nodiscard]] Constants constants(const World& world) const { return {*this, world}; }

@@ -69,6 +69,8 @@ inline constexpr Field<double> plastic_strain_yz{"plastic_strain.yz", "1"}, plas
 
 // phase change, Fig. 5
 inline constexpr Field<double> liquid_fraction{"liquid_fraction", "1"};
+/// What is left of E and mu of a solid that softens.
+inline constexpr Field<double> stiffness_share{"stiffness_share", "1"};
 
 // heat (21)
 inline constexpr Field<double> temperature{"temperature", "K"}, temperature_rate{"temperature_rate", "K/s"};

@@ -174,6 +174,32 @@ TEST(Melting, OfAMiddleLayerCutsAnElasticBarAndKeepsItsMomenta) {
   EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(start.ledger()), 1.0, 1e-12);
 }
 
+TEST(Softening, TakesStiffnessWithTheLiquidFractionAndClosesTheLedger) {
+  for (const bool printed : {false, true}) {
+    lab::Lab lab = swinging_bar();
+    Material& m = lab.scene.materials[0];
+    m.t_solid = 320.0, m.t_melt = 360.0;
+    if (printed) lab.scene.modes[static_cast<std::size_t>(Term::phase)] = Mode::paper;
+    else m.softens = true;
+    // printed: held half way through the band; else heat for a quarter of the fusion, 20 K worth of L
+    lab.scene.events = {heat(0.03, 340.0)};
+    lab.initial.temperature.assign(lab.initial.size(), printed ? 300.0 : 365.0);
+    Simulation s(lab.scene, lab.initial);
+    s.advance_to(printed ? 0.0299 : 1e-3);
+    const Ledger before = s.ledger();
+    s.advance_to(0.0306);
+    const double left = printed ? 0.5 : 0.75;
+    for (const double share : lab::by_id(s, field::stiffness_share)) EXPECT_NEAR(share, left, 1e-6);
+    for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 1);
+    const World& world = s.world();
+    World stiff = world;
+    for (double& share : stiff.particles[field::stiffness_share]) share = 1.0;
+    EXPECT_NEAR(energy_of_all(world) / energy_of_all(stiff), left, 1e-6);
+    EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(before), 1.0, 1e-12);
+    EXPECT_NE(world.booked.deformation_released, 0.0);
+  }
+}
+
 TEST(Phase, OfDeformableSolidsDoesNotDependOnTheOrderOfParticlesOrOnThreads) {
   lab::Lab lab = swinging_bar(0.0);
   lab.scene.materials[0].stiffness = 100.0;

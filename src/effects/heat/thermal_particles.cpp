@@ -36,7 +36,9 @@ void load_particle(World& world, std::size_t row, double temperature) {
   if (!std::isfinite(temperature))
     throw InputError("particle " + std::to_string(p[field::id][row]) + " has no temperature: give its body or inflow one");
   p[field::held][row] = held_by_scene(world, row);
-  if (p.has(field::liquid_fraction.name)) p[field::liquid_fraction][row] = p[field::phase][row] == static_cast<int>(Phase::liquid) ? 1.0 : 0.0;
+  if (!p.has(field::liquid_fraction.name)) return;
+  p[field::liquid_fraction][row] = p[field::phase][row] == static_cast<int>(Phase::liquid) ? 1.0 : 0.0;
+  if (const Fusion fusion = fusion_of(world.scene, material); fusion.soft_band) p[field::liquid_fraction][row] = settled(fusion, temperature, 0.0).liquid_fraction;
 }
 
 double latent_heat(const World& world, std::size_t row) {
@@ -48,8 +50,9 @@ void set_melted(World& world, std::size_t row, double temperature) {
   if (!world.particles.has(field::liquid_fraction.name)) return;
   const Fusion fusion = fusion_of(world.scene, world.material_of(row));
   double& f = world.particles[field::liquid_fraction][row];
-  if (temperature > fusion.melts) f = 1.0;
-  if (temperature < fusion.solidifies) f = 0.0;
+  if (fusion.soft_band) f = settled(fusion, temperature, f).liquid_fraction;
+  else if (temperature > fusion.melts) f = 1.0;
+  else if (temperature < fusion.solidifies) f = 0.0;
 }
 
 double inflow_temperature(const World& world, std::size_t row) {

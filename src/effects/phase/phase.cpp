@@ -3,6 +3,7 @@
 
 #include "core/errors.hpp"
 #include "effects/body_table.hpp"
+#include "effects/phase/softening.hpp"
 #include "effects/phase/transition.hpp"
 #include "effects/solid_particles.hpp"
 
@@ -11,10 +12,15 @@ namespace {
 
 class PhaseChange : public Effect {
  public:
+  explicit PhaseChange(const Scene& scene) : softens_(any_softens(scene)) {}
+  void load(World& world, const InitialState&) override {
+    if (softens_) load_stiffness(world);
+  }
   void change(World&) override;
   void settle(World&) override;
 
  private:
+  bool softens_;
   std::optional<Account> account_;  ///< of the step that is being taken
 };
 
@@ -31,6 +37,7 @@ void PhaseChange::change(World& world) {
     world.neighbours->update(world.particles, world.time);
     connect_rigid_bodies(world);
   }
+  if (softens_) follow_stiffness(world);
   const Events events = events_of(world);
   if (events.empty()) return;
   if (world.neighbours->update(world.particles, world.time) || begins) world.neighbours->mark_own(world.particles, world.own);
@@ -45,10 +52,12 @@ void PhaseChange::settle(World& world) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  return {"phase", scene.mode_of(Term::phase), {field::liquid_fraction}, {field::mass, field::body, field::phase, field::material, field::temperature, field::heat_capacity, field::held}};
+  EffectSpec s{"phase", scene.mode_of(Term::phase), {field::liquid_fraction}, {field::mass, field::body, field::phase, field::material, field::temperature, field::heat_capacity, field::held}};
+  if (any_softens(scene)) s.owns.emplace_back(field::stiffness_share);
+  return s;
 }
 
-std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<PhaseChange>(); }
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<PhaseChange>(scene); }
 
 std::vector<DefectEntry> defects() {
   return {{"phase.latent", "latent heat times 1 - size", "phase/stefan"},
@@ -57,6 +66,7 @@ std::vector<DefectEntry> defects() {
           {"phase.merging", "what freezes joins nothing", "phase/freeze-merge"},
           {"phase.own_pairs", "frozen solids press on themselves as on others", "phase/press-and-freeze"},
           {"phase.frame", "new bonds of a turned or strained solid are written in the present frame", "phase/freeze-turned"},
+          {"phase.softening", "share of 0..1 of the softening left out", "phase/softening"},
           {"phase.account", "share of 0..1 of the energy of joining that never becomes heat", "phase/freeze-merge"}};
 }
 

@@ -6,8 +6,10 @@
 
 #include "core/defect.hpp"
 #include "effects/body_table.hpp"
+#include "effects/fusion.hpp"
 #include "effects/objects.hpp"
 #include "effects/phase/joining.hpp"
+#include "effects/solid_particles.hpp"
 
 namespace tripoint::phase {
 namespace {
@@ -100,6 +102,7 @@ void Transition::freeze(const std::vector<std::uint32_t>& ids) {
     const std::size_t i = p.row(id);
     const Phase phase = world_.material_of(i).solid == "rigid" ? Phase::rigid : Phase::elastic;
     p[field::phase][i] = static_cast<int>(phase);
+    if (p.has(field::plastic_strain_xx.name)) solid::set_plastic_strain(p, i, {});
     world_.change.relisted.push_back(id);
     world_.change.regrouped.push_back(id);
   }
@@ -140,12 +143,14 @@ Events events_of(const World& world) {
   const Particles& p = world.particles;
   const auto f = p[field::liquid_fraction];
   const auto body = p[field::body];
+  const auto material = p[field::material];
   const bool guided = p.has(field::driven.name);
   const auto driven = guided ? p[field::driven] : std::span<const int>{};
+  const std::vector<Fusion> fusions = fusions_of(world.scene);
   Events events;
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
-    if (body[i] >= 0 ? f[i] < 1.0 : f[i] > 0.0) continue;
+    if (!changes_phase(fusions[static_cast<std::size_t>(material[i])], body[i] >= 0, f[i])) continue;
     if (body[i] < 0 && guided && driven[i] != 0) continue;  // while the scene moves it, it flows
     (body[i] >= 0 ? events.melted : events.frozen).push_back(id);
   }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/phase/softening.hpp"
+
+#include <algorithm>
+
+#include "core/defect.hpp"
+#include "effects/fusion.hpp"
+#include "effects/solid_particles.hpp"
+
+namespace tripoint::phase {
+namespace {
+
+double share_of(const World& world, std::size_t row) {
+  static const double stiff = defect_size("phase.softening");
+  if (!solid::softens(world.scene, world.material_of(row))) return 1.0;
+  return 1.0 - (1.0 - stiff) * world.particles[field::liquid_fraction][row];
+}
+
+}  // namespace
+
+bool any_softens(const Scene& scene) {
+  return can_have_deformable_bodies(scene) && std::ranges::any_of(scene.materials, [&](const Material& m) { return solid::softens(scene, m); });
+}
+
+void load_stiffness(World& world) {
+  for (std::size_t i = 0; i < world.particles.size(); ++i) world.particles[field::stiffness_share][i] = share_of(world, i);
+}
+
+void follow_stiffness(World& world) {
+  Particles& p = world.particles;
+  const auto share = p[field::stiffness_share];
+  const solid::ElasticForms forms(world.scene);
+  const solid::ElasticParticles is_elastic(world);
+  for (std::uint32_t id = 0; id < p.size(); ++id) {
+    const std::size_t i = p.row(id);
+    const double now = share_of(world, i);
+    if (now == share[i] || p[field::liquid_fraction][i] >= 1.0) continue;  // what melts in this step gives all that it stores
+    const double before = is_elastic(i) ? solid::deformation_energy(world, forms, id).total() : 0.0;
+    share[i] = now;
+    if (!is_elastic(i)) continue;
+    const double released = before - solid::deformation_energy(world, forms, id).total();
+    world.booked.deformation_released += released;
+    give_heat(world, i, released);
+  }
+}
+
+}  // namespace tripoint::phase

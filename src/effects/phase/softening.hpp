@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "effects/world.hpp"
+
+/// Solids whose stiffness falls as they melt: `softens`, and the printed band between t_solid and t_melt (Fig. 5).
+namespace tripoint::phase {
+
+/// Whether any deformable solid of the scene softens.
+[[nodiscard]] bool any_softens(const Scene&);
+/// The share of E and mu that the state of each particle leaves, at the start.
+void load_stiffness(World&);
+/// The same as the state has moved on, at the present strain: what the bonds store less is heat of the particle, and what they store
+/// more is taken from it.
+void follow_stiffness(World&);
+
+}  // namespace tripoint::phase
