@@ -23,7 +23,7 @@ class Figure:
     """One measured number in the row's unit, or why there is none."""
     value: float | None = None
     uncertainty: float | None = None
-    resolution: str = ""
+    resolution: list = field(default_factory=list)
     why: str = ""
 
 
@@ -84,7 +84,7 @@ def figure(wanted, mode, engine, level):
 
 def steps(run):
     """Spacing and time step in short: the case's section has the rest."""
-    return ", ".join(part for part in run.size.split(", ") if part.startswith(("dx ", "dt ")))
+    return [part for part in run.size.split(", ") if part.startswith(("dx ", "dt "))]
 
 
 def judge(row, name, engine):
