@@ -144,6 +144,33 @@ TEST(AddedMass, IsTheEnergyOfTheDipoleAroundTheSphere) {
   EXPECT_NEAR(*make_reference(test::function("added_mass"), s.job, s.initial)->number("acceleration"), 0.5 * 9.81, 1e-12);
 }
 
+TEST(AddedMass, TakesLiquidInLayersOfOneDensityOnly) {
+  const auto layered = [](double density) {
+    auto s = test::pool(500.0);
+    s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
+    test::add_matter(s, "second", Phase::liquid, {{10, 10, 2}, 0.1, {0, 0, 1.5}, 1.0}, {}, density);
+    return s;
+  };
+  const auto same = layered(1000.0), other = layered(900.0);
+  EXPECT_NEAR(*make_reference(test::function("added_mass"), same.job, same.initial)->number("acceleration"), 0.5 * 9.81, 1e-12);
+  EXPECT_THROW((void)make_reference(test::function("added_mass"), other.job, other.initial), InputError);
+}
+
+/// Spheres in a square array move as each other's wall: the backflow of the dipoles beside one, -R^3/2 sum 1/r^3, raises its added mass by 3/2 of it.
+TEST(AddedMass, OfASquareArrayIsThatOfAWallAtTheDistanceOfItsLatticeSum) {
+  double sum = 0.0;  // the rest beyond n is 2 pi/n by an integral
+  const int n = 400;
+  for (int i = -n; i <= n; ++i)
+    for (int j = -n; j <= n; ++j)
+      if (const double r2 = i * i + j * j; r2 > 0.0 && r2 <= n * n) sum += std::pow(r2, -1.5);
+  sum += 2.0 * pi / n;
+  const double spacing = 5.0, backflow = 0.5 * sum / std::pow(spacing, 3);  // of the speed, at 5 radii apart
+  auto s = test::pool(500.0);
+  s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
+  const double a = *make_reference(test::function("added_mass", {{"radius_over_wall", 0.3306}}), s.job, s.initial)->number("acceleration");
+  EXPECT_NEAR(a, 0.5 * 9.81 / (0.5 + 0.5 * (1.0 + 3.0 * backflow)), 1e-4 * 9.81);  // four digits of 0.3306
+}
+
 TEST(ElasticCollision, KeepsMomentumAndEnergyOfUnequalBodies) {
   const auto s = test::cubes();
   const auto hit = make_reference(test::function("elastic_collision"), s.job, s.initial);

@@ -145,11 +145,11 @@ const std::vector<HarmlessChange>& harmless_changes() {
   constexpr std::string_view sums = "sums in another order: round-off, grown over the steps of a run that is not chaotic";
   static const std::vector<HarmlessChange> list{
       {"threads", "2 threads instead of 1", 0.0, "every sum has a fixed order: the same bits", always, two_threads, as_it_is},
-      {"order", "the particles in another order", 1e-9, sums, always, shuffle, sort_back},
-      {"ulp", "each coordinate one unit in the last place up or down", 1e-9, "round-off of the start, grown over the steps of a run that is not chaotic", always, nudge, as_it_is},
-      {"boost", "every velocity plus one constant, seen from the moving frame", 1e-9, "round-off of places that lie further out, grown over the steps", is_not_closed, boost, ride_along},
-      {"mirror", "the scene, its gravity and its domain mirrored in x", 1e-9, sums, has_places, mirror, mirror_back},
-      {"rotation", "the scene, its gravity and its domain turned, x to y to z to x", 1e-9, sums, has_places, rotate_axes, rotate_back_axes},
+      {"order", "the particles in another order", 1e-10, sums, always, shuffle, sort_back},
+      {"ulp", "each coordinate one unit in the last place up or down", 1e-10, "round-off of the start, grown over the steps of a run that is not chaotic", always, nudge, as_it_is},
+      {"boost", "every velocity plus one constant, seen from the moving frame", 1e-10, "round-off of places that lie further out, grown over the steps", is_not_closed, boost, ride_along},
+      {"mirror", "the scene, its gravity and its domain mirrored in x", 1e-10, sums, has_places, mirror, mirror_back},
+      {"rotation", "the scene, its gravity and its domain turned, x to y to z to x", 1e-10, sums, has_places, rotate_axes, rotate_back_axes},
       {"units", "length, time and mass in units of 1/1024 m, 1/16 s, 1/4096 kg: powers of 2, so that only a number with a unit in the code shows", 1e-12,
        "library functions whose last bit depends on the exponent", has_other_numbers, other_measures, own_measures}};
   return list;

@@ -26,14 +26,24 @@ class AddedMass : public LiquidReference {
   double up_, acceleration_;
 };
 
+/// Rest density of the liquid, which may come in several bodies [kg/m3].
+double liquid_density(const Job& job) {
+  const auto liquids = liquid_bodies(job);
+  if (liquids.empty()) throw InputError("added_mass: the scene has no liquid");
+  const double density = material_of_body(job, liquids.front()).density;
+  for (const auto b : liquids)
+    if (material_of_body(job, b).density != density) throw InputError("added_mass holds for liquid of one density");
+  return density;
+}
+
 std::unique_ptr<Reference> make_added_mass(const ReferenceInput& in) {
   if (norm(in.job.scene.gravity) == 0.0) throw InputError("added_mass: the scene has no gravity");
   const auto axis = axis_of(in.job.scene.gravity, "added_mass: gravity");
-  const auto liquid = only_liquid(in.job, "added_mass"), ball = solid_body(in, Motion::free, "added_mass");
+  const auto ball = solid_body(in, Motion::free, "added_mass");
   const auto& shape = in.job.scene.bodies.at(ball).shape;
   if (shape.kind != Shape::Kind::sphere) throw InputError("added_mass holds for a sphere");
   // The sphere that the particles are: their mass, and their volume, not the drawn one's.
-  const double s = material_of_body(in.job, ball).density / material_of_body(in.job, liquid).density;
+  const double s = material_of_body(in.job, ball).density / liquid_density(in.job);
   const double coefficient = 0.5 * (1.0 + 3.0 * std::pow(in.args.number("radius_over_wall").value_or(0.0), 3));
   return std::make_unique<AddedMass>(in, axis, (1.0 - s) / (s + coefficient) * norm(in.job.scene.gravity));
 }
