@@ -39,6 +39,20 @@ void turn_and_stretch(World& world, double stretch) {
   }
 }
 
+Event heat(double time, double temperature, std::optional<double> beyond = {}) {
+  Event e;
+  e.kind = Event::Kind::heat;
+  e.time = time;
+  e.until = time + 1e-4;
+  e.temperature = temperature;
+  if (!beyond) return e;
+  e.region.emplace();
+  e.region->kind = Shape::Kind::half_space;
+  e.region->point = {*beyond, 0.0, 0.0};
+  e.region->normal = {-1.0, 0.0, 0.0};
+  return e;
+}
+
 /// What the energy of the block jumps by as the drop freezes to it.
 double jump(World world) {
   const std::uint32_t drop = static_cast<std::uint32_t>(world.particles.size() - 1);
@@ -74,6 +88,26 @@ TEST(Freezing, BesideTurnedChainsAndSheetsMakesNothingJump) {
   }
 }
 
+TEST(Freezing, OfElasticMatterBesideATurnedRigidBodyMakesNothingJump) {
+  lab::Lab lab = lab::melting_lab(dx, {.t_solid = 340.0, .solid = "elastic"});
+  lab.scene.materials[0].stiffness = 1e-12;
+  lab.scene.materials.push_back(lab.scene.materials[0]);
+  lab.scene.materials[1].name = "rigid wax", lab.scene.materials[1].solid = "rigid";
+  lab.scene.time_step = 2e-4;
+  lab.add({.name = "rigid", .material = 1, .corner = {-0.1, -0.1, -0.1}, .count = {3, 3, 3}, .angular_velocity = {5.0, 0.0, 5.0}, .temperature = constant(cold)});
+  lab.add({.name = "drops", .corner = {-0.1, -0.1, 0.25}, .count = {3, 3, 2}, .phase = Phase::liquid, .temperature = constant(345.0)});
+  Event cool = heat(0.2, 300.0);
+  lab.scene.events = {cool};
+  Simulation s(lab.scene, lab.initial);
+  s.advance_to(0.2004);
+  EXPECT_EQ(lab::living_bodies(s), 2u);
+  double bonds_across = 0.0;
+  for (std::uint32_t id = 0; id < 27; ++id)
+    for (const Bond& bond : s.world().bonds.of(id)) bonds_across += bond.other >= 27 ? 1.0 : 0.0;
+  EXPECT_GT(bonds_across, 0.0);
+  EXPECT_LT(energy_of_all(s.world()), 1e-4 * young * dx * dx * dx);  // what a step of turning strains
+}
+
 /// A bar of 8 x 3 x 3 that swings along itself, and melts or freezes as heat events say.
 lab::Lab swinging_bar(double latent_heat = 2e4) {
   lab::Lab lab = lab::melting_lab(dx, {.latent_heat = latent_heat, .solid = "elastic"});
@@ -83,20 +117,6 @@ lab::Lab swinging_bar(double latent_heat = 2e4) {
   lab.scene.bodies[0].temperature->value = hot;
   for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i] = {2.0 * (lab.initial.position[i].x - 0.35), 0.0, 0.0};
   return lab;
-}
-
-Event heat(double time, double temperature, std::optional<double> beyond = {}) {
-  Event e;
-  e.kind = Event::Kind::heat;
-  e.time = time;
-  e.until = time + 1e-4;
-  e.temperature = temperature;
-  if (!beyond) return e;
-  e.region.emplace();
-  e.region->kind = Shape::Kind::half_space;
-  e.region->point = {*beyond, 0.0, 0.0};
-  e.region->normal = {-1.0, 0.0, 0.0};
-  return e;
 }
 
 TEST(Melting, OfAStrainedBarGivesItsEnergyToHeatAndFreezingMakesNoStress) {

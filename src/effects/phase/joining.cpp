@@ -28,10 +28,10 @@ void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
 }
 
 /// Turns the list of a deformable solid, and what has flowed in it, into the present frame: no energy changes, and F has an inverse
-/// also for chains and sheets. @return F^-1 of what is left, the stretch
+/// also for chains and sheets. Printed, nothing is turned: beside a turned solid that strains it. @return F^-1 of what is left
 Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
   static const bool skipped = defect_size("phase.frame") > 0.0;
-  if (skipped) return identity3;
+  if (skipped || world.scene.mode_of(Term::phase) == Mode::paper) return identity3;
   solid::refresh_shapes(world, std::array{id});  // it may have lost bonds in this step
   const solid::Deformation before = solid::deformation_of(world, id);
   if (before.rank == 0) return identity3;
@@ -39,7 +39,19 @@ Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
   for (Bond& bond : world.bonds.of(id)) bond.x = R * bond.x, bond.gradient = R * bond.gradient;
   turn_plastic_strain(world.particles, world.particles.row(id), R);
   solid::refresh_shapes(world, std::array{id});
-  return inverse(solid::deformation_of(world, id).F);
+  const Matrix3 F = solid::deformation_of(world, id).F;
+  return determinant(F) > 0.1 ? inverse(F) : identity3;  // what is crushed or turned inside out has no inverse worth having
+}
+
+/// A member of a rigid body that gets its first deformable partner: the vectors to its mates, which are as they were but for the
+/// body's turn, become the present ones.
+void see_mates_as_they_are(World& world, const ElasticityKernel& kernel, std::uint32_t id) {
+  const std::size_t i = world.particles.row(id);
+  for (Bond& bond : world.bonds.of(id)) {
+    Bond now = solid::bond_of(kernel, solid::separation(world, world.particles.row(bond.other), i));
+    now.other = bond.other, now.twin = bond.twin;
+    bond = now;
+  }
 }
 
 bool has_deformable(const World& world) { return world.particles.has(field::shape_rank.name); }
@@ -47,15 +59,18 @@ bool has_deformable(const World& world) { return world.particles.has(field::shap
 }  // namespace
 
 void bond(World& world, const std::vector<Joint>& joints) {
+  const ElasticityKernel kernel = solid::bond_kernel(world.scene);
   std::map<std::uint32_t, Matrix3> to_reference;  // of those that were solid before
   if (has_deformable(world)) {
     const solid::EnergyOwners owns(world);
     std::set<std::uint32_t> ids;
     for (const Joint& joint : joints)
-      if (!joint.both && owns(world.particles.row(joint.j))) ids.insert(joint.j);
-    for (const std::uint32_t id : ids) to_reference[id] = turn_into_present_frame(world, id);
+      if (!joint.both) ids.insert(joint.j);
+    for (const std::uint32_t id : ids) {
+      if (owns(world.particles.row(id))) to_reference[id] = turn_into_present_frame(world, id);
+      else see_mates_as_they_are(world, kernel, id);
+    }
   }
-  const ElasticityKernel kernel = solid::bond_kernel(world.scene);
   for (const Joint& joint : joints) {
     const auto at = to_reference.find(joint.j);
     const Vec3 back = at == to_reference.end() ? -joint.r : at->second * -joint.r;

@@ -181,10 +181,12 @@ void connect_rigid_bodies(World& world) {
     const std::size_t i = p.row(id);
     if (!is_member(i)) continue;
     std::map<std::uint32_t, Vec3> nearest;
+    const auto bonds = std::as_const(world.bonds).of(id);
     for (const Entry e : world.neighbours->of(i)) {
       const std::size_t j = e.row();
       const auto other = static_cast<std::uint32_t>(p[field::id][j]);
       if (body[j] != body[i] || other <= id || !(world.material_of(i).t_melt || world.material_of(j).t_melt)) continue;
+      if (std::ranges::find(bonds, other, &Bond::other) != bonds.end()) continue;  // near an elastic joint
       const Vec3 r = -1.0 * ((x.at(j) - x.at(i)) + world.neighbours->shift(e.image()));
       if (norm(r) < joining_distance(world.scene)) nearest.try_emplace(other, r);
     }
