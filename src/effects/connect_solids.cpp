@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "effects/solid_particles.hpp"
 
@@ -103,7 +104,10 @@ Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
   return b;
 }
 
-double own_weight(const Scene& scene, double distance) { return WendlandC2(scene.support_ratio * scene.spacing).value(distance); }
+double own_weight(const Scene& scene, double distance) {
+  static const double heavier = 1.0 + defect_size("elastic.own_pairs");
+  return heavier * WendlandC2(scene.support_ratio * scene.spacing).value(distance);
+}
 
 Vec3 separation(const World& world, std::size_t i, std::size_t j) {
   return nearest_image(world.box, world.particles.position(j) - world.particles.position(i));

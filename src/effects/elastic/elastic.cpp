@@ -90,6 +90,20 @@ EffectSpec spec(const Scene& scene) {
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Elastic>(scene); }
 
-std::vector<DefectEntry> defects() { return {}; }
+std::vector<DefectEntry> defects() {
+  return {{"elastic.strain", "strain times 1 + size", "solid/tension"},
+          {"elastic.rotation", "that share of the quadratic part of Green's strain left out", "solid/rotation"},
+          {"elastic.stress", "stress times 1 + size", "solid/tension"},
+          {"elastic.force", "force of the strain energy (12) times 1 - size", "solid/tension"},
+          {"elastic.shape", "A_i times 1 + size", "solid/tension"},
+          {"elastic.joint", "strain energy of members of rigid bodies at joints times 1 - size", "solid/tension"},
+          {"elastic.projector", "that share of the missing directions added to P of sheets and chains", "solid/rotation-thin"},
+          {"elastic.reduced", "sheets and chains with the moduli of a solid", "solid/sheet"},
+          {"elastic.hourglass", "hourglass energy times 1 - size", "solid/tension-jitter"},
+          {"elastic.own_pairs", "weight of own pairs in the number density times 1 + size", "solid/contact"},
+          {"elastic.paper.factor", "the printed factor 2 times 1 - size", "solid/tension"},
+          {"elastic.paper.stress", "printed stress times 1 + size", "solid/tension"},
+          {"bodies.bonds", "forces and torques of bonds on bodies times 1 - size", "solid/heavy-tip"}};
+}
 
 }  // namespace tripoint::elastic
