@@ -131,5 +131,18 @@ TEST(SolidMetrics, FindTheResidualStretchOfACycle) {
   EXPECT_TRUE(std::isnan(elastic.of(metric("residual_stretch", "final", "held"), "tension").value));
 }
 
+TEST(SolidMetrics, FindTheFrequencyOfAShearWave) {
+  auto s = test::beam(0.0);
+  auto& start = s.job.scene.bodies[0].velocity;
+  start.kind = VelocityField::Kind::cosine;
+  start.amplitude = {0, 0, 0.01}, start.wave_vector = {10 * pi, 0, 0};
+  test::set_times(s, 0.05, 100);
+  Still f(s);
+  const double w = 0.9 * *make_reference(test::function("elastic_wave"), s.job, s.initial)->number("frequency");
+  for (auto& frame : f.run.frames)
+    for (std::size_t i = 0; i < f.s.initial.size(); ++i) frame.velocity[i] = {0.5, 0, 0.01 * std::cos(10 * pi * f.s.initial.position[i].x) * std::cos(w * frame.time)};
+  EXPECT_NEAR(f.of(metric("frequency_squared", "final", "beam"), "elastic_wave").value, 0.81 - 1.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace tripoint

@@ -147,5 +147,26 @@ TEST(Tension, KnowsTheTearAndTheRestAfterARelease) {
   EXPECT_NEAR(*kept->number("residual_stretch"), *kept->number_at("stretch", 1.5), 1e-12);
 }
 
+TEST(ElasticWave, HasTheSpeedsOfTheRodThePlateAndTheBody) {
+  auto s = test::beam(0.0);
+  auto& start = s.job.scene.bodies[0].velocity;
+  start.kind = VelocityField::Kind::cosine;
+  start.amplitude = {0.01, 0, 0}, start.wave_vector = {10, 0, 0};
+  const double E = 2e6, nu = 0.3975, rho = 1000.0, lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
+  const auto speed = [&] { return *make_reference(function("elastic_wave"), s.job, s.initial)->number("frequency") / 10; };
+  EXPECT_NEAR(speed(), std::sqrt(4 * mu * (lambda + mu) / (lambda + 2 * mu) / rho), 1e-9);  // a plate: periodic in y
+  s.job.scene.periodic = {true, false, false};
+  EXPECT_NEAR(speed(), std::sqrt(E / rho), 1e-9);
+  s.job.scene.periodic = {true, true, true};
+  EXPECT_NEAR(speed(), std::sqrt((lambda + 2 * mu) / rho), 1e-9);
+  start.amplitude = {0, 0, 0.01};
+  EXPECT_NEAR(speed(), std::sqrt(mu / rho), 1e-9);
+  s.job.scene.modes[static_cast<std::size_t>(Term::elastic)] = Mode::paper;
+  s.job.scene.support_ratio = s.job.resolution.support_ratio = 2.12;
+  EXPECT_NEAR(speed() / std::sqrt(mu / rho), std::sqrt(4 * 0.901 * 0.901 * 0.947), 2e-3);  // three digits of the numerics note
+  start.amplitude = {0.01, 0, 0.01};
+  EXPECT_THROW((void)speed(), InputError);
+}
+
 }  // namespace
 }  // namespace tripoint

@@ -76,13 +76,20 @@ MetricValue touch_time(const MetricInput& in, const Frames& frames) {
 
 // --- a standing wave ------------------------------------------------------------------------------------------------------
 
-/// Amplitude of the mode in the velocities along the wave vector, at the particles' own places.
+/// Which way the particles of a standing wave swing: as the reference says, else along the wave vector.
+Vec3 swing_direction(const MetricInput& in, const Vec3& k) {
+  const auto x = in.reference.number("polarisation.x"), y = in.reference.number("polarisation.y"), z = in.reference.number("polarisation.z");
+  return x && y && z ? Vec3{*x, *y, *z} : (1.0 / norm(k)) * k;
+}
+
+/// Amplitude of the mode in the velocities along a direction, at the particles' own places.
 double mode_amplitude(const MetricInput& in, const Snapshot& s, const Vec3& k, double phase) {
+  const Vec3 direction = swing_direction(in, k);
   long double product = 0, square = 0;
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
     if (!takes(in, i)) continue;
     const double shape = std::cos(dot(k, s.position[i]) + phase), w = rest_volume(in, i);
-    product += static_cast<long double>(w) * shape * dot(s.velocity[i], k) / norm(k);
+    product += static_cast<long double>(w) * shape * dot(s.velocity[i], direction);
     square += static_cast<long double>(w) * shape * shape;
   }
   return double(product / square);

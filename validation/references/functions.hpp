@@ -53,6 +53,7 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry pressed_block_entry();
 [[nodiscard]] ReferenceEntry stefan_entry();
 [[nodiscard]] ReferenceEntry hysteresis_entry();
+[[nodiscard]] ReferenceEntry elastic_wave_entry();
 [[nodiscard]] ReferenceEntry stated_entry();
 [[nodiscard]] ReferenceEntry experiment_entry();
 [[nodiscard]] ReferenceEntry invariant_entry();

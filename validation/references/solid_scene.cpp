@@ -53,4 +53,33 @@ std::size_t long_axis(const ReferenceInput& in, std::size_t body) {
   return axis;
 }
 
+BarSides bar_sides(const ReferenceInput& in, std::size_t axis) {
+  if (const auto word = in.args.word("sides")) {
+    if (*word == "free") return BarSides::free;
+    if (*word == "plane_strain") return BarSides::plane_strain;
+    if (*word == "confined") return BarSides::confined;
+    throw InputError("argument `sides` must be \"free\", \"plane_strain\" or \"confined\"");
+  }
+  int held = 0;
+  for (std::size_t k = 0; k < 3; ++k) held += k != axis && in.job.scene.periodic[k] ? 1 : 0;
+  return held == 0 ? BarSides::free : held == 1 ? BarSides::plane_strain : BarSides::confined;
+}
+
+BarLaw bar_law(const ReferenceInput& in, std::size_t bar, std::size_t axis) {
+  const auto elastic = elastic_constants(in.job, bar);
+  const auto& material = in.job.scene.material(in.job.bodies[bar].material);
+  BarLaw law;
+  law.young = elastic.young, law.poisson_ratio = elastic.poisson_ratio;
+  law.sides = bar_sides(in, axis);
+  law.elastic_limit = material.elastic_limit.value_or(law.elastic_limit);
+  law.plastic_limit = material.plastic_limit.value_or(law.plastic_limit);
+  const auto form = in.args.word("form").value_or(in.job.scene.mode_of(Term::elastic) == Mode::paper ? "paper" : "corrected");
+  if (form != "paper" && form != "corrected") throw InputError("argument `form` must be \"paper\" or \"corrected\"");
+  if (form == "corrected") return law;
+  const double given = in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
+  const auto lattice = elastic_lattice_factors(in.args.number("support_ratio").value_or(given));
+  law.strain_factor = 1.0, law.moment = lattice.moment, law.volume = lattice.volume;
+  return law;
+}
+
 }  // namespace tripoint

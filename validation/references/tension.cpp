@@ -4,7 +4,6 @@
 #include <limits>
 #include <set>
 
-#include "validation/references/bar_law.hpp"
 #include "validation/references/heat_scene.hpp"
 #include "validation/references/solid_scene.hpp"
 
@@ -118,35 +117,6 @@ class Tension : public Reference {
   std::optional<double> residual_, torn_;
 };
 
-BarSides sides_of(const ReferenceInput& in, std::size_t axis) {
-  if (const auto word = in.args.word("sides")) {
-    if (*word == "free") return BarSides::free;
-    if (*word == "plane_strain") return BarSides::plane_strain;
-    if (*word == "confined") return BarSides::confined;
-    throw InputError("argument `sides` of reference function tension must be \"free\", \"plane_strain\" or \"confined\"");
-  }
-  int held = 0;
-  for (std::size_t k = 0; k < 3; ++k) held += k != axis && in.job.scene.periodic[k] ? 1 : 0;
-  return held == 0 ? BarSides::free : held == 1 ? BarSides::plane_strain : BarSides::confined;
-}
-
-BarLaw law_of(const ReferenceInput& in, std::size_t bar, std::size_t axis) {
-  const auto elastic = elastic_constants(in.job, bar);
-  const auto& material = in.job.scene.material(in.job.bodies[bar].material);
-  BarLaw law;
-  law.young = elastic.young, law.poisson_ratio = elastic.poisson_ratio;
-  law.sides = sides_of(in, axis);
-  law.elastic_limit = material.elastic_limit.value_or(law.elastic_limit);
-  law.plastic_limit = material.plastic_limit.value_or(law.plastic_limit);
-  const auto form = in.args.word("form").value_or(in.job.scene.mode_of(Term::elastic) == Mode::paper ? "paper" : "corrected");
-  if (form != "paper" && form != "corrected") throw InputError("argument `form` must be \"paper\" or \"corrected\"");
-  if (form == "corrected") return law;
-  const double given = in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
-  const auto lattice = elastic_lattice_factors(in.args.number("support_ratio").value_or(given));
-  law.strain_factor = 1.0, law.moment = lattice.moment, law.volume = lattice.volume;
-  return law;
-}
-
 void find_ends(const ReferenceInput& in, Bar& bar) {
   const double middle = in.job.bodies[bar.row].properties.centre[bar.axis];
   for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
@@ -174,7 +144,7 @@ std::unique_ptr<Reference> make_tension(const ReferenceInput& in) {
   bar.gauge = in.args.number("gauge").value_or(bar.gauge);
   bar.stretch_gauge = in.args.number("gauge").value_or(bar.stretch_gauge);
   if (!(bar.gauge > 0.0) || bar.gauge > 1.0) throw InputError("argument `gauge` of reference function tension must be above 0 and at most 1");
-  bar.law = law_of(in, bar.row, bar.axis);
+  bar.law = bar_law(in, bar.row, bar.axis);
   bar.tear = in.job.scene.material(in.job.bodies[bar.row].material).fracture_stretch.value_or(bar.tear);
   find_ends(in, bar);
   return std::make_unique<Tension>(in.job, bar);
