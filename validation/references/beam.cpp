@@ -2,6 +2,7 @@
 #include "validation/references/beam.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "core/errors.hpp"
