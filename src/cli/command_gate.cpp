@@ -16,11 +16,13 @@ namespace {
 constexpr const char* description =
     "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored verdict.\n"
     "  tripoint gate report/results.json     exit 0 only when every gate is green\n"
-    "  tripoint gate selftest                proves that the gates can fail";
+    "  tripoint gate selftest                proves that the gates can fail, and only where they should";
 
 constexpr const char* selftest_description =
     "Runs every defect that the cases declare in the test build of our solver, and expects the gates named in killed_by to turn red;\n"
-    "and asks that every defect which a physical term registers has a case that kills it. Exit 5 when one survives.\n"
+    "and asks that every defect which a physical term registers has a case that kills it. Then runs every harmless change that the cases\n"
+    "declare (threads, order, ulp, boost, mirror, rotation, units): no gate may turn and no metric may change by more than round-off.\n"
+    "Exit 5 when a defect survives or a harmless change is felt.\n"
     "  tripoint gate selftest                every case\n"
     "  tripoint gate selftest heat/cosine-mode --jobs 2";
 

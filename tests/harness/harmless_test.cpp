@@ -196,5 +196,19 @@ TEST(Harmless, ASolverWithAnAxisOfItsOwnFeelsTheRotation) {
   EXPECT_NEAR(rows[0].greatest, 0.5 * 0.01 * 9.81 * 0.5 * 0.5, 1e-9) << rows[0].found;  // its error along z, gone along x
 }
 
+TEST(Harmless, AFeltChangeEndsTheSelfTestWithFive) {
+  const TestFolder folder;
+  SelftestOptions options;
+  options.out = folder / "out";
+  options.what = {folder / "cases/test/flight.toml"};
+  write_text(options.what.front(), flight_case("[[harmless]]\nname = \"rotation\"\n"));
+  options.engine = fake_engine(folder, "nothing", "tripoint");
+  EXPECT_EQ(run_selftest(options).exit_code, exit_pass);
+  options.engine = fake_engine(folder, "knows which way is up", "tripoint");
+  const auto outcome = run_selftest(options);
+  EXPECT_EQ(outcome.exit_code, exit_selftest);
+  EXPECT_NE(selftest_table(outcome).find("FELT"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tripoint
