@@ -99,6 +99,15 @@ std::vector<double> Library::compute(const char* id) const {
   return by_id<double>(column, id);
 }
 
+double Library::fix_value(const std::string& id, int index) const {
+  auto* value = static_cast<double*>(lammps_extract_fix(handle_, id.c_str(), LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR, index, 0));
+  check();
+  if (!value) throw EngineError("LAMMPS has no value of fix " + id);
+  const double copy = *value;
+  lammps_free(value);
+  return copy;
+}
+
 void Library::set_scalars(const char* name, const std::vector<double>& by_id) {
   auto* x = static_cast<double*>(lammps_extract_atom(handle_, name));
   if (!x) throw EngineError(std::string("LAMMPS has no column ") + name);

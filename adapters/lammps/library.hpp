@@ -29,6 +29,8 @@ class Library {
   [[nodiscard]] std::vector<int> integers(const char* name) const;
   /// A compute of one number a particle at the present step, row = id - 1.
   [[nodiscard]] std::vector<double> compute(const char* id) const;
+  /// One number of a fix's global vector.
+  [[nodiscard]] double fix_value(const std::string& id, int index) const;
   void set_scalars(const char* name, const std::vector<double>& by_id);
   /// Positions in LAMMPS's own order, without a copy by id: for walkers, which are only counted.
   [[nodiscard]] std::vector<Vec3> unordered_positions() const;

@@ -48,16 +48,18 @@ ParticleModel::ParticleModel(const Job& job, const InitialState& state, const Un
 
 void ParticleModel::make_particles(const std::string& style, const std::string& extra, double margin, const std::vector<int>& types) {
   const Scene& scene = job_.scene;
+  if (flat_) units_.origin.z = state_.position.front().z;
   Vec3 lo = units_.place(state_.position.front()), hi = lo;
   for (const Vec3& x : state_.position)
     for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], units_.place(x)[k]), hi[k] = std::max(hi[k], units_.place(x)[k]);
   std::string edges, letters;
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < (flat_ ? 2 : 3); ++k) {
     const bool wraps = scene.periodic[k] && scene.min && scene.max;
     edges += fmt::format(" {:.17g} {:.17g}", wraps ? units_.place(*scene.min)[k] : lo[k] - margin, wraps ? units_.place(*scene.max)[k] : hi[k] + margin);
     letters += wraps ? " p" : " m";  // shrink-wrapped from no less than this box: a single layer is no flat box
   }
-  library_.run("units lj\n" + style + "\natom_modify map array sort 0 0.0\nboundary" + letters + "\n");
+  if (flat_) edges += " -0.1 0.1", letters += " p";
+  library_.run("units lj\n" + std::string(flat_ ? "dimension 2\n" : "") + style + "\natom_modify map array sort 0 0.0\nboundary" + letters + "\n");
   library_.run(fmt::format("region box block{}\ncreate_box {} box{}\n", edges, *std::max_element(types.begin(), types.end()), extra));
   std::vector<int> type;
   std::vector<Vec3> position, velocity;

@@ -76,6 +76,7 @@ class ParticleModel : public Model {
   mutable Library library_;
   Clock clock_;
   double time_;  ///< [s]
+  bool flat_ = false;  ///< two dimensions: all particles at the z of the first
   Vec3 gravity_;  ///< as LAMMPS holds it [m/s2]
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "adapters/lammps/body_fit.hpp"
+#include "adapters/lammps/layer.hpp"
 #include "adapters/lammps/particle_model.hpp"
 
 namespace tripoint::lammps {
@@ -42,7 +43,8 @@ double step_limit(const Job& job) {
 
 class Tlsph final : public ParticleModel {
  public:
-  Tlsph(const Job& job, const InitialState& state) : ParticleModel(job, state, units_of(job), step_limit(job)) {
+  Tlsph(const Job& job, const InitialState& whole, Layer layer) : ParticleModel(job, layer.state, units_of(job), step_limit(job)), whole_(whole), layer_(std::move(layer)) {
+    flat_ = job.scene.periodic[2];
     make_particles("atom_style smd\nnewton off\ncomm_modify vel yes", "", 3.0 * support_of(job), one_type());
     library_.run(fmt::format("set group all mol 1 volume 1.0 diameter {:.17g} smd/mass/density 1.0", support_of(job)));
     library_.run(fmt::format("neighbor {:.17g} bin\nneigh_modify every 10 delay 0 check yes\nthermo 0", support_of(job)));
@@ -68,9 +70,15 @@ class Tlsph final : public ParticleModel {
   }
 
   [[nodiscard]] Snapshot observe() const override {
-    Snapshot s = particles();
+    Snapshot s = flat_ ? all_layers(layer_, whole_, particles()) : particles();
     s.bodies.resize(job_.bodies.size());
-    for (std::size_t b = 0; b < job_.bodies.size(); ++b) s.bodies[b] = fit_body(job_.bodies[b].properties, members(b), state_, s);
+    for (std::size_t b = 0; b < job_.bodies.size(); ++b) {
+      std::vector<std::size_t> members;
+      for (std::size_t i = 0; i < whole_.size(); ++i)
+        if (whole_.source[i] == static_cast<int>(b)) members.push_back(i);
+      s.bodies[b] = fit_body(job_.bodies[b].properties, members, whole_, s);
+      if (held_.count(b)) s.bodies[b].force = force_on_end(b);
+    }
     return s;
   }
 
@@ -78,10 +86,17 @@ class Tlsph final : public ParticleModel {
     result.steps = clock_.total();
     result.time_step_bound = wanted_time_step(job_) ? "given" : "elastic wave";
     result.extra["support_in_spacings"] = support_of(job_);
-    result.message = fmt::format("smd/tlsph, support {:g} dx, hourglass {:g}, no artificial viscosity", support_of(job_), hourglass);
+    result.message = fmt::format("smd/tlsph, support {:g} dx, hourglass {:g}, no artificial viscosity{}", support_of(job_), hourglass, flat_ ? "; one layer in plane strain stands for all along z" : "");
   }
 
  private:
+  /// What the object exerts on an end, which fix smd/setvel keeps from moving it [N].
+  [[nodiscard]] Vec3 force_on_end(std::size_t b) const {
+    Vec3 force;
+    for (std::size_t k = 0; k < 3; ++k) force[k] = static_cast<double>(layer_.count) * units_.mass * units_.acceleration() * library_.fix_value(fmt::format("end{}", b), static_cast<int>(k));
+    return force;
+  }
+
   void hold(std::size_t b, const Vec3& velocity) {
     const Vec3 v = velocity / units_.speed();
     const std::string command = fmt::format("fix end{0} end{0} smd/setvel {1:.17g} {2:.17g} {3:.17g}", b, v.x, v.y, v.z);
@@ -95,6 +110,8 @@ class Tlsph final : public ParticleModel {
     last = command;
   }
 
+  InitialState whole_;
+  Layer layer_;
   std::map<std::size_t, std::string> held_;
 };
 
@@ -138,9 +155,14 @@ std::string why_no_tlsph(const Job& job) {
     material = b.material;
   }
   if (!free) return "no elastic body is free";
+  const auto& wraps = job.scene.periodic;
+  if (wraps[0] || wraps[1] || wraps[2])
+    if (const std::string reason = why_no_layer(job); !reason.empty()) return reason;
   return why_not_one_object(job.scene);
 }
 
-std::unique_ptr<Model> make_tlsph(const Job& job, const InitialState& state) { return std::make_unique<Tlsph>(job, state); }
+std::unique_ptr<Model> make_tlsph(const Job& job, const InitialState& state) {
+  return std::make_unique<Tlsph>(job, state, job.scene.periodic[2] ? lowest_layer(job, state) : Layer{state, {}, 1});
+}
 
 }  // namespace tripoint::lammps
