@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "effects/body_table.hpp"
+#include "effects/grip.hpp"
 #include "effects/prescribed/inflow.hpp"
 #include "scene/geometry.hpp"
-#include "scene/read_case.hpp"
 
 namespace tripoint::prescribed {
 namespace {
@@ -41,16 +41,6 @@ void guide(World& world, std::size_t row, const Vec3& place, const Vec3& velocit
   world.booked.driven_potential -= world.particles[field::mass][row] * dot(world.scene.gravity, way);
 }
 
-/// Where a grip has brought a place, and how fast it moves there.
-PrescribedState gripped(const Event& grip, const Vec3& place, double time) {
-  const Keyframe& from = grip.keyframes.front();
-  PrescribedState s = prescribed_state(grip.keyframes, {}, {}, {}, time);
-  const Vec3 arm = rotate(s.rotation * conjugate(from.rotation), place - from.position);
-  s.velocity += cross(s.angular_velocity, arm);
-  s.position += arm;
-  return s;
-}
-
 void Prescribed::load(World& world, const InitialState&) {
   entrances_.clear();
   for (std::size_t n = 0; n < world.scene.inflows.size(); ++n) entrances_.emplace_back(world.scene, n);
@@ -68,7 +58,7 @@ void Prescribed::drift(World& world, double dt) {
       guide(world, i, world.unwrapped(i) + dt * v, v);
     } else {
       const Event& grip = world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)];
-      const PrescribedState s = gripped(grip, p.vector(i, field::grip_x, field::grip_y, field::grip_z), world.next_time);
+      const PrescribedState s = carried(grip, p.vector(i, field::grip_x, field::grip_y, field::grip_z), world.next_time);
       guide(world, i, s.position, s.velocity);
     }
     world.moved = true;
@@ -139,6 +129,9 @@ EffectSpec spec(const Scene& scene) {
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<Prescribed>(); }
 
-std::vector<DefectEntry> defects() { return {}; }
+std::vector<DefectEntry> defects() {
+  return {{"prescribed.grip", "grips follow their keyframes 1 - size times as fast", "paper/fig-01-merge"},
+          {"prescribed.inflow", "layers flow in 1 + size times as fast", "paper/fig-12"}};
+}
 
 }  // namespace tripoint::prescribed

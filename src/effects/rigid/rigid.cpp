@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "effects/rigid/adopt.hpp"
+#include "effects/grip.hpp"
 #include "effects/rigid/bodies.hpp"
 #include "effects/body_forces.hpp"
 #include "effects/rigid/merge_split.hpp"
@@ -44,16 +45,11 @@ void refuse_blocked_spin(const World& world, std::size_t b) {
   }
 }
 
-/// A gripped body at a time: carried by the grip's keyframes from where it was when the grip took it.
+/// A gripped body at a time: carried from where it was when the grip took it.
 PrescribedState gripped_state(const World& world, std::size_t b, double time) {
   const Columns& t = world.bodies;
-  const auto& keyframes = world.scene.events[static_cast<std::size_t>(t[field::body_grip][b] - 1)].keyframes;
-  PrescribedState s = prescribed_state(keyframes, {}, {}, {}, time);
-  const Quaternion turned = s.rotation * conjugate(keyframes.front().rotation);
-  const Vec3 arm = rotate(turned, t[field::body_grip_centre][b] - keyframes.front().position);
-  s.velocity += cross(s.angular_velocity, arm);
-  s.position += arm;
-  s.rotation = turned * t[field::body_grip_orientation][b];
+  PrescribedState s = carried(world.scene.events[static_cast<std::size_t>(t[field::body_grip][b] - 1)], t[field::body_grip_centre][b], time);
+  s.rotation = s.rotation * t[field::body_grip_orientation][b];
   return s;
 }
 
