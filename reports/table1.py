@@ -66,7 +66,7 @@ def tags(case):
 
 def entry(case, engine, mode):
     made = Entry(case, engine.label, engine.status, tone(engine.status))
-    gates = [gate for gate in engine.gates if not mode or gate.mode in (mode, "")]
+    gates = sorted((gate for gate in engine.gates if not mode or gate.mode in (mode, "")), key=lambda gate: (gate.verdict == "PASS", not gate.reason.startswith(PREDICTED)))  # what is not as claimed first
     if engine.status != "ok" and not gates:
         made.lines = [engine.reason or "no reason stated"]
         return made
