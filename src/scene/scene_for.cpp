@@ -106,7 +106,9 @@ std::vector<CalledEffect> called_effects(const Scene& s) {
   const auto range = temperatures_of(s);
   const auto changes = [&](const Body& b, const Material& m) {
     if (!has_heat(b, m) || !m.t_melt || b.temperature_held) return false;
-    return b.phase == Phase::liquid ? range.least < *m.t_solid : range.greatest > *m.t_melt;
+    if (b.phase == Phase::liquid) return range.least < *m.t_solid;
+    const bool band = s.mode_of(Term::phase) == Mode::paper && b.phase == Phase::elastic;  // soft from t_solid on (Fig. 5)
+    return range.greatest > (band ? *m.t_solid : *m.t_melt);
   };
   std::string changing = bodies_where(s, changes);
   const auto poured = [&](const Inflow& f) {
