@@ -34,6 +34,17 @@ TEST(ResultsFile, JudgedFromTheFileTheVerdictIsTheSame) {
   EXPECT_NE(results_text(r).find("\"finite\": false"), std::string::npos);
 }
 
+TEST(ResultsFile, KeepsTheLibraryOfAnEngineAndTheTagsOfACase) {
+  auto r = green();
+  r.cases[0].tags = {"table1", "feature-fluids"};
+  r.cases[0].engines[0].library_path = "/lib/libx.so", r.cases[0].engines[0].library_hash = "fnv1a64:0123";
+  const auto stored = written_and_read(r);
+  EXPECT_EQ(stored.cases[0].tags, r.cases[0].tags);
+  EXPECT_EQ(stored.cases[0].engines[0].library_path, "/lib/libx.so");
+  EXPECT_EQ(stored.cases[0].engines[0].library_hash, "fnv1a64:0123");
+  EXPECT_EQ(results_text(green()).find("\"library\""), std::string::npos);  // an engine that tells none has no such key
+}
+
 TEST(ResultsFile, AStoredVerdictIsNotTrusted) {
   auto r = green();
   judge(r);
