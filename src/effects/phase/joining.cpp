@@ -32,13 +32,13 @@ void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
 Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
   static const bool skipped = defect_size("phase.frame") > 0.0;
   if (skipped || world.scene.mode_of(Term::phase) == Mode::paper) return identity3;
-  solid::refresh_shapes(world, std::array{id});  // it may have lost bonds in this step
+  solid::refresh_shapes(world, std::array{id}, true);  // it may have lost bonds in this step; frequencies follow with all others
   const solid::Deformation before = solid::deformation_of(world, id);
   if (before.rank == 0) return identity3;
   const Matrix3 R = solid::rotation_of(before.F, before.P, before.rank);
   for (Bond& bond : world.bonds.of(id)) bond.x = R * bond.x, bond.gradient = R * bond.gradient;
   turn_plastic_strain(world.particles, world.particles.row(id), R);
-  solid::refresh_shapes(world, std::array{id});
+  solid::refresh_shapes(world, std::array{id}, true);
   const Matrix3 F = solid::deformation_of(world, id).F;
   return determinant(F) > 0.1 ? inverse(F) : identity3;  // what is crushed or turned inside out has no inverse worth having
 }
