@@ -53,10 +53,11 @@ void restore_columns(Columns& columns, const std::string& group, const Checkpoin
   });
 }
 
-/// Lists of partners in order of id, as plain numbers.
+/// Lists of partners in order of id, as plain numbers; nothing where all are empty.
 template <class Pair>
 void save(const PairLists<Pair>& lists, const std::string& name, Checkpoint& kept) {
   static_assert(std::is_trivially_copyable_v<Pair> && sizeof(Pair) % sizeof(double) == 0);
+  if (lists.empty()) return;
   std::vector<double>& flat = kept.real[name];
   std::vector<std::int64_t>& counts = kept.whole[name + "/count"];
   for (std::size_t id = 0; id < lists.particles(); ++id) {
@@ -70,14 +71,14 @@ void save(const PairLists<Pair>& lists, const std::string& name, Checkpoint& kep
 template <class Pair>
 void restore_pairs(PairLists<Pair>& lists, const std::string& name, const Checkpoint& kept) {
   const auto counts = kept.whole.find(name + "/count");
-  if (counts == kept.whole.end()) throw InputError("the checkpoint has no " + name);
+  lists = {};
+  if (counts == kept.whole.end()) return;
   std::int64_t pairs = 0;
   for (const std::int64_t n : counts->second) {
     if (n < 0) throw InputError("the checkpoint's " + name + " has a list of negative length");
     pairs += n;
   }
   const std::vector<double>& flat = take(kept.real, name, static_cast<std::size_t>(pairs) * sizeof(Pair) / sizeof(double));
-  lists = {};
   lists.grow(counts->second.size());
   std::size_t from = 0;
   for (std::size_t id = 0; id < counts->second.size(); ++id) {
