@@ -148,6 +148,7 @@ Checkpoint Simulation::checkpoint() const {
   kept.text["bodies/name"] = world_.body_names;
   save(world_.bonds, "bonds", kept);
   save(world_.own, "own_pairs", kept);
+  kept.whole["step/pairs"] = {static_cast<std::int64_t>(world_.bonds.pairs()), static_cast<std::int64_t>(world_.own.pairs())};
   kept.real["step/booked"] = plain(world_.booked);
   kept.real["step/time"] = {world_.time, world_.next_time, dt_, pairs_, bound_.dt, stretch_.start, stretch_.end};
   kept.text["step/bound"] = {bound_.name};
@@ -183,6 +184,9 @@ void Simulation::restore(const Checkpoint& kept) {
   world_.particles.permute(order);  // rows were in order of id
   restore_pairs(world_.bonds, "bonds", kept);
   restore_pairs(world_.own, "own_pairs", kept);
+  const std::vector<std::int64_t>& pairs = take(kept.whole, "step/pairs", 2);
+  if (pairs[0] != static_cast<std::int64_t>(world_.bonds.pairs()) || pairs[1] != static_cast<std::int64_t>(world_.own.pairs()))
+    throw InputError("the checkpoint lacks some of its bonds or own pairs");
   if (world_.neighbours) {
     restore_lists(world_, kept, order);
     world_.neighbours->mark_own(world_.particles, world_.own);
