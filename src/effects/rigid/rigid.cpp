@@ -54,15 +54,19 @@ PrescribedState gripped_state(const World& world, std::size_t b, double time) {
 }
 
 /// A driven body at a time: its keyframes, or constant velocity and angular velocity for ever.
-void drive(World& world, std::size_t b, double time) {
-  Columns& t = world.bodies;
+PrescribedState driven_state(const World& world, std::size_t b, double time) {
+  const Columns& t = world.bodies;
+  if (t[field::body_grip][b] > 0) return gripped_state(world, b, time);
   const auto source = t[field::body_source][b];
   static const std::vector<Keyframe> none;
   const auto& keyframes = source >= 0 ? world.scene.bodies[static_cast<std::size_t>(source)].keyframes : none;
   static const double faster = 1.0 + defect_size("rigid.prescribed");
-  PrescribedState s = t[field::body_grip][b] > 0 ? gripped_state(world, b, time)
-                                                 : prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b],
-                                                                    t[field::body_start_spin][b], faster * time);
+  return prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b], t[field::body_start_spin][b], faster * time);
+}
+
+void drive(World& world, std::size_t b, double time) {
+  Columns& t = world.bodies;
+  const PrescribedState s = driven_state(world, b, time);
   const Vec3 lever = rotate(s.rotation, t[field::body_offset][b]);
   t[field::body_orientation][b] = s.rotation;
   t[field::body_centre][b] = s.position + lever;
@@ -116,10 +120,13 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   world.booked.gravity_work += dt * m * dot(g, mean);
 }
 
-/// What liquids and bonds do to a driven body goes to whoever drives it.
+/// What liquids and bonds do to a driven body goes to whoever drives it. Half a kick works along the drift that it is beside: at a
+/// keyframe the one before goes with the old velocity and the one after with the new.
 void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
   if (forces.empty()) return;
-  const Vec3 v = world.bodies[field::body_velocity][b], omega = world.bodies[field::body_angular_velocity][b];
+  const bool ends_step = world.time == world.next_time;
+  const PrescribedState s = driven_state(world, b, ends_step ? world.time - dt : world.time + dt);
+  const Vec3 omega = s.angular_velocity, v = s.velocity + cross(omega, rotate(s.rotation, world.bodies[field::body_offset][b]));
   const BodyForces& f = forces[b];
   world.booked.wall_pressure_work += dt * (dot(f.pressure, v) + dot(f.pressure_torque, omega));
   world.booked.wall_viscous_work += dt * (dot(f.viscous, v) + dot(f.viscous_torque, omega));
