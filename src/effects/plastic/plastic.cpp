@@ -83,7 +83,7 @@ std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Plast
 std::vector<DefectEntry> defects() {
   return {{"plastic.elastic_limit", "flow begins at 1 + size times the elastic limit", "solid/plastic-cycle"},
           {"plastic.dissipation", "share of 0..1 of the energy lost by flow that is not booked", "solid/plastic-cycle"},
-          {"plastic.plastic_limit", "flow ends at 1 + size times the plastic limit", "solid/plastic-cap"}};
+          {"plastic.plastic_limit", "flow ends at 1 + size times the plastic limit", "solid/plastic-chain"}};
 }
 
 }  // namespace tripoint::plastic
