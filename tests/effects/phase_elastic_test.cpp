@@ -220,6 +220,23 @@ TEST(Softening, TakesStiffnessWithTheLiquidFractionAndClosesTheLedger) {
   }
 }
 
+TEST(Phase, OfDeformableSolidsGoesOnFromACheckpointBitForBit) {
+  lab::Lab lab = swinging_bar(0.0);
+  lab.scene.materials[0].stiffness = 100.0;
+  lab.scene.events = {heat(0.01, hot, 0.45), heat(0.012, 250.0, 0.0)};
+  for (const double cut : {0.0101, 0.0112, 0.0125}) {
+    Simulation whole(lab.scene, lab.initial), first(lab.scene, lab.initial);
+    whole.advance_to(cut), whole.advance_to(0.02);
+    first.advance_to(cut);
+    const Checkpoint kept = first.checkpoint();
+    Simulation second(lab.scene, lab.initial, {}, kept);
+    second.advance_to(0.02);
+    EXPECT_EQ(lab::places(second), lab::places(whole));
+    EXPECT_EQ(lab::by_id(second, field::enthalpy), lab::by_id(whole, field::enthalpy));
+    EXPECT_EQ(second.ledger().energy, whole.ledger().energy);
+  }
+}
+
 TEST(Phase, OfDeformableSolidsDoesNotDependOnTheOrderOfParticlesOrOnThreads) {
   lab::Lab lab = swinging_bar(0.0);
   lab.scene.materials[0].stiffness = 100.0;
