@@ -87,7 +87,8 @@ void Fluid::set_own_density(World& world, std::size_t row) const {
 }
 
 void Fluid::adopt(World& world) {
-  world.booked.compression_released -= compression_jump(world, numbers_, kernels_, [&](std::size_t i) { return group_of(world, i); });
+  static const double told = 1.0 - defect_size("fluid.phase_jump");
+  world.booked.compression_released -= told * compression_jump(world, numbers_, kernels_, [&](std::size_t i) { return group_of(world, i); });
   for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
@@ -196,6 +197,7 @@ std::vector<DefectEntry> defects() {
           {"fluid.paper.pressure", "pressure force (7) times 1 + size", "fluid/hydrostatic"},
           {"fluid.core", "reach of the core of pairs times 1 + size", "fluid/hydrostatic"},
           {"walls.pressure", "extrapolated pressure of walls times 1 - size", "fluid/hydrostatic"},
+          {"fluid.phase_jump", "share of 0..1 of the compression that changes of phase let go left untold", "phase/melt-elastic"},
           {"fluid.state", "scaled pressure of (9) times 1 + size", "fluid/sound-wave"},
           {"fluid.paper.state", "pressure (9) as printed times 1 + size", "fluid/sound-wave"},
           {"fluid.viscosity.laplacian", "laplacian viscous force times 1 + size", "fluid/poiseuille"},
