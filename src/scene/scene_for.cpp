@@ -126,6 +126,14 @@ std::vector<CalledEffect> called_effects(const Scene& s) {
   const auto pours_elastic = [&](const Inflow& f) { return poured(f) && s.material(f.material).solid == "elastic" && s.material(f.material).young_modulus; };
   if (elastic_later.empty() && std::any_of(s.inflows.begin(), s.inflows.end(), pours_elastic)) elastic_later = "an inflow";
   if (!has("elastic")) call("elastic", elastic_later, "what freezes is elastic");
+  const auto call_later = [&](const char* name, auto limited, const char* why) {
+    std::string who = bodies_where(s, [&](const Body& b, const Material& m) { return freezes_elastic(b, m) && limited(m); });
+    const auto pours = [&](const Inflow& f) { return pours_elastic(f) && limited(s.material(f.material)); };
+    if (who.empty() && std::any_of(s.inflows.begin(), s.inflows.end(), pours)) who = "an inflow";
+    if (!has(name)) call(name, who, why);
+  };
+  call_later("plastic", [](const Material& m) { return m.elastic_limit.has_value(); }, "what freezes can yield");
+  call_later("fracture", [](const Material& m) { return m.fracture_stretch || m.fracture_distance; }, "what freezes can break");
   return out;
 }
 

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "effects/phase_lab.hpp"
+#include "effects/solid_particles.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr double dx = 0.1, hot = 400.0, cold = 300.0;
+
+Event heat(double time, double temperature, double beyond) {
+  Event e;
+  e.kind = Event::Kind::heat;
+  e.time = time;
+  e.temperature = temperature;
+  e.region.emplace();
+  e.region->kind = Shape::Kind::box;
+  e.region->min = {beyond, -10.0, -10.0}, e.region->max = {10.0, 10.0, 10.0};
+  return e;
+}
+
+/// A bar of 8 x 3 x 3 that swings along itself beyond its elastic limit.
+lab::Lab yielding_bar() {
+  lab::Lab lab = lab::melting_lab(dx, {.latent_heat = 2e4, .solid = "elastic"});
+  lab.scene.materials[0].stiffness = 1e-12;
+  lab.scene.materials[0].elastic_limit = 0.01;
+  lab.scene.time_step = 5e-4;
+  lab.add({.name = "bar", .count = {8, 3, 3}, .phase = Phase::elastic, .temperature = [](const Vec3&) { return cold; }});
+  lab.scene.bodies[0].temperature->value = hot;
+  for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i] = {4.0 * (lab.initial.position[i].x - 0.35), 0.0, 0.0};
+  return lab;
+}
+
+TEST(PlasticMelting, ClosesTheEnergyAndForgetsTheFlowOfWhatMelts) {
+  lab::Lab lab = yielding_bar();
+  lab.scene.events = {heat(0.03, hot, 0.35), heat(0.032, 250.0, 0.35)};
+  Simulation s(lab.scene, lab.initial);
+  s.advance_to(0.0299);
+  const Ledger strained = s.ledger();
+  EXPECT_GT(strained.energy.at("plastic"), 0.05 * strained.energy.at("kinetic"));
+  s.advance_to(0.0305);
+  const World& w = s.world();
+  std::size_t molten = 0, flowed = 0;
+  for (std::size_t i = 0; i < w.particles.size(); ++i) {
+    const bool liquid = w.particles[field::phase][i] == 0;
+    molten += liquid ? 1 : 0;
+    if (liquid) EXPECT_EQ(solid::plastic_strain_of(w.particles, i), Symmetric{});
+    else flowed += solid::plastic_strain_of(w.particles, i) == Symmetric{} ? 0 : 1;
+  }
+  EXPECT_EQ(molten, 36u);
+  EXPECT_GT(flowed, 18u);
+  EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(strained), 1.0, 1e-12);
+  s.advance_to(0.04);
+  for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 1);
+  EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(strained), 1.0, 1e-12);
+  EXPECT_LT(std::abs(s.ledger().energy.at("time_integration")), 0.02 * strained.energy.at("kinetic"));
+}
+
+TEST(PlasticFreezing, CallsForPlasticFlowAndFractureWhereWhatFreezesCanYieldAndBreak) {
+  lab::Lab lab = lab::melting_lab(dx, {.solid = "elastic"});
+  lab.add({.name = "pool", .count = {3, 3, 3}, .phase = Phase::liquid, .temperature = [](const Vec3&) { return 300.0; }});
+  lab.scene.bodies[0].temperature->value = 300.0;
+  const auto calls = [&](std::string_view name) {
+    return std::ranges::any_of(called_effects(lab.scene), [&](const CalledEffect& e) { return e.name == name; });
+  };
+  EXPECT_TRUE(calls("elastic"));
+  EXPECT_FALSE(calls("plastic"));
+  EXPECT_FALSE(calls("fracture"));
+  lab.scene.materials[0].elastic_limit = 0.01;
+  lab.scene.materials[0].fracture_stretch = 1.2;
+  EXPECT_TRUE(calls("plastic"));
+  EXPECT_TRUE(calls("fracture"));
+}
+
+}  // namespace
+}  // namespace tripoint
