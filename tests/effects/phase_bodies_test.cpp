@@ -166,6 +166,22 @@ TEST(Merging, JoinsOnlyThroughWhatFreezes) {
   EXPECT_EQ(s.world().bodies[field::body_mass][2], 1.0);
 }
 
+TEST(Merging, ByAnEventHoldsWhereBodiesTouchAsOneOfThemMelts) {
+  lab::Lab lab = lab::melting_lab(0.1);
+  lab.scene.time_step = 1e-3;
+  lab.add({.name = "left", .corner = {-0.3, 0.0, 0.0}, .count = {3, 3, 3}, .temperature = constant(cold)});
+  lab.add({.name = "right", .corner = {0.0, 0.0, 0.0}, .count = {3, 3, 3}, .temperature = constant(cold)});
+  lab.scene.bodies[0].temperature->value = hot;
+  lab.initial.temperature[0] = hot;  // a corner of the left one
+  Event together;
+  together.kind = Event::Kind::merge;
+  together.bodies = {"left", "right"};
+  lab.scene.events = {together};
+  const Simulation s = lab.run(0.01);
+  EXPECT_EQ(lab::integers_by_id(s, field::body).front(), -1);
+  EXPECT_EQ(lab::living_bodies(s), 1u);
+}
+
 TEST(Merging, NeedsMatterThatMeltsOrABodyThatJoins) {
   for (const bool joins : {false, true}) {
     lab::Lab lab = wet_lab();

@@ -18,6 +18,7 @@ class PhaseChange : public Effect {
   }
   void change(World&) override;
   void settle(World&) override;
+  void happen(World&, const Happening&) override;
 
  private:
   bool softens_;
@@ -32,21 +33,28 @@ Account::Energy energy_of(const World& world) {
 
 void PhaseChange::change(World& world) {
   account_.reset();
-  const bool begins = world.neighbours->rebuilds() == 0;
-  if (begins) {
+  if (world.neighbours->rebuilds() == 0) {  // the run begins
     world.neighbours->update(world.particles, world.time);
     connect_rigid_bodies(world);
   }
   if (softens_) follow_stiffness(world);
   const Events events = events_of(world);
   if (events.empty()) return;
-  if (world.neighbours->update(world.particles, world.time) || begins) world.neighbours->mark_own(world.particles, world.own);
+  world.neighbours->update(world.particles, world.time);
+  if (!world.neighbours->marked()) world.neighbours->mark_own(world.particles, world.own);  // as they are before the change
   account_.emplace(energy_of(world));
   carry_out(world, events, *account_);
 }
 
 void PhaseChange::settle(World& world) {
   if (account_) account_->settle(world);
+}
+
+/// Bodies that an event has united hold together by bonds where they touch.
+void PhaseChange::happen(World& world, const Happening& now) {
+  if (now.event.kind != Event::Kind::merge || !now.begins) return;
+  world.neighbours->update(world.particles, world.time);
+  connect_rigid_bodies(world);
 }
 
 }  // namespace
