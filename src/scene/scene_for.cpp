@@ -78,11 +78,15 @@ bool moves(const Body& b, const Scene& s) {
   return std::any_of(s.events.begin(), s.events.end(), [](const Event& e) { return e.kind == Event::Kind::release || e.kind == Event::Kind::grip; });
 }
 
-/// Bodies that can meet others: contact needs a stiffness, two bodies, and one of them free.
+/// Bodies that can meet others: contact needs a stiffness, two bodies, or one that can break in two, and one of them free.
 std::string bodies_that_touch(const Scene& s) {
   const bool stiff = std::any_of(s.materials.begin(), s.materials.end(), [](const Material& m) { return m.stiffness.has_value(); });
   const bool any_free = std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.motion == Motion::free; });
-  if (!stiff || !any_free || s.bodies.size() < 2) return "";
+  const auto breaks = [&](const Body& b) {
+    const Material& m = s.material(b.material);
+    return b.phase == Phase::elastic && (m.fracture_stretch || m.fracture_distance);
+  };
+  if (!stiff || !any_free || (s.bodies.size() < 2 && std::none_of(s.bodies.begin(), s.bodies.end(), breaks))) return "";
   return bodies_where(s, [](const Body&, const Material&) { return true; });
 }
 
