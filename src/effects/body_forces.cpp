@@ -35,7 +35,6 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
   static const double weaker = 1.0 - defect_size("bodies.force"), turned = 1.0 - defect_size("bodies.torque"), looser = 1.0 - defect_size("bodies.bonds");
   const MaybeForce F(p, field::force_x, field::force_y, field::force_z), D(p, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
   const MaybeForce E(p, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z);
-  const MaybeForce H(p, field::hourglass_force_x, field::hourglass_force_y, field::hourglass_force_z);
   sums.clear();
   if (!F.there() && !E.there()) return;
   sums.assign(world.bodies.size(), {});
@@ -46,7 +45,7 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
     if (body[i] < 0 || !asked[static_cast<std::size_t>(body[i])]) continue;
     const auto b = static_cast<std::size_t>(body[i]);
     const Vec3 arm = world.unwrapped(i) - centre[b];
-    const Vec3 pressure = weaker * F.at(i), viscous = weaker * D.at(i), elastic = looser * (E.at(i) + H.at(i));
+    const Vec3 pressure = weaker * F.at(i), viscous = weaker * D.at(i), elastic = looser * E.at(i);
     sums[b].pressure += pressure;
     sums[b].viscous += viscous;
     sums[b].elastic += elastic;

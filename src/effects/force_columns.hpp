@@ -24,7 +24,6 @@ struct ForceColumns {
   add(field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, &Booked::viscous_work, &Booked::wall_viscous_work);
   add(field::transport_force_x, field::transport_force_y, field::transport_force_z, &Booked::transport_work, &Booked::transport_work);
   add(field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, &Booked::elastic_work, &Booked::wall_elastic_work);
-  add(field::hourglass_force_x, field::hourglass_force_y, field::hourglass_force_z, &Booked::hourglass_work, &Booked::wall_elastic_work);
   return list;
 }
 

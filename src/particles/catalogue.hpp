@@ -46,11 +46,11 @@ inline constexpr Field<double> own_density{"own_density", "1/m3"};
 inline constexpr Field<int> driven{"driven", "1"};
 inline constexpr Field<double> grip_x{"grip.x", "m"}, grip_y{"grip.y", "m"}, grip_z{"grip.z", "m"};
 
-// elastic solids (10)-(17): forces on the particle by the strain energy, and by the hourglass energy
+// elastic solids (10)-(17): force on the particle by strain energy and hourglass energy
 inline constexpr Field<double> elastic_force_x{"elastic_force.x", "N"}, elastic_force_y{"elastic_force.y", "N"}, elastic_force_z{"elastic_force.z", "N"};
-inline constexpr Field<double> hourglass_force_x{"hourglass_force.x", "N"}, hourglass_force_y{"hourglass_force.y", "N"}, hourglass_force_z{"hourglass_force.z", "N"};
 
-/// A_i = pinv M_i of the reference list (model 8.7), symmetric; its rank: 3 solid, 2 sheet, 1 chain, 0 without neighbours.
+/// A_i = pinv M_i of the reference list (model 8.7), symmetric; its rank: 3 solid (and members of rigid bodies that own no strain
+/// energy), 2 sheet, 1 chain, 0 without neighbours.
 inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"}, shape_inverse_yy{"shape_inverse.yy", "1"}, shape_inverse_zz{"shape_inverse.zz", "1"};
 inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"}, shape_inverse_xz{"shape_inverse.xz", "1"}, shape_inverse_xy{"shape_inverse.xy", "1"};
 inline constexpr Field<int> shape_rank{"shape_rank", "1"};

@@ -59,7 +59,7 @@ void book_mechanical(const Scene& scene, const Booked& booked, Ledger& sum) {
   const double by_pressure = stored ? compression + booked.compression_released + pressure_work : 0.0;
   if (!stored) sum.energy.erase("compression"), sum.energy["pressure_work"] -= pressure_work;
   const double deformation = (deforms ? sum.energy["elastic"] + sum.energy["hourglass"] : 0.0) - booked.start_deformation;
-  const double by_bonds = deformation + booked.deformation_released + booked.elastic_work + booked.hourglass_work + booked.wall_elastic_work;
+  const double by_bonds = deformation + booked.deformation_released + booked.elastic_work + booked.wall_elastic_work;
   const double released = stored ? booked.compression_released : 0.0;
   if (sum.energy.count("latent") > 0 || released != 0.0) sum.energy["phase_work"] += released;
   sum.energy["time_integration"] = -by_pressure - by_bonds - (potential + booked.gravity_work) - booked.rotation_drift;
