@@ -55,6 +55,7 @@ class Fluid : public Effect {
   SceneNumbers numbers_;
   PairKernels kernels_;
   bool transports_;
+  double drifted_ = 0.0;  ///< since the last forces, within a step [s]
   bool splits_;  ///< the work of the walls' borrowed pressure is booked
   Walls walls_;
 };
@@ -88,7 +89,7 @@ void Fluid::set_own_density(World& world, std::size_t row) const {
 
 void Fluid::adopt(World& world) {
   static const double told = 1.0 - defect_size("fluid.phase_jump");
-  world.booked.compression_released -= told * compression_jump(world, numbers_, kernels_, [&](std::size_t i) { return group_of(world, i); });
+  world.booked.compression_released -= told * compression_jump(world, numbers_, kernels_, [&](std::size_t i) { return group_of(world, i); }, 0.5 * drifted_);
   for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
@@ -103,6 +104,7 @@ void Fluid::set_groups(World& world) {
 }
 
 void Fluid::kick(World& world, double dt) {
+  drifted_ = 0.0;
   if (splits_) book_driven_walls(world, dt);
   world.lagged.half_step = dt;
 }
@@ -121,6 +123,7 @@ void Fluid::book_driven_walls(World& world, double dt) const {
 }
 
 void Fluid::drift(World& world, double dt) {
+  drifted_ = dt;
   if (transports_) set_shift(world, dt);
 }
 

@@ -22,14 +22,15 @@ std::vector<std::size_t> changed_rows(const World& world) {
 
 }  // namespace
 
-double compression_jump(const World& world, const SceneNumbers& n, const PairKernels& kernels, const std::function<double(std::size_t)>& group_now) {
+double compression_jump(const World& world, const SceneNumbers& n, const PairKernels& kernels, const std::function<double(std::size_t)>& group_now, double back) {
   const bool core = world.scene.mode_of(Term::pressure) == Mode::corrected, numbers = world.scene.mode_of(Term::density) == Mode::corrected;
   if (!world.neighbours || world.neighbours->rebuilds() == 0 || !(core || numbers)) return 0.0;
   const Particles& p = world.particles;
   const std::vector<std::size_t> rows = changed_rows(world);
   std::vector<char> changed(p.size(), 0);
   for (const std::size_t i : rows) changed[i] = 1;
-  const auto x = positions(p);
+  const auto x = positions(p), v = velocities(p);
+  const auto place = [&](std::size_t row) { return x.at(row) - back * v.at(row); };
   const auto group = p[field::group], m = p[field::mass], rest = p[field::rest_density];
   const auto id = p[field::id];
   const auto own_before = numbers && p.has(field::own_density.name) ? p[field::own_density] : std::span<const double>{};
@@ -40,7 +41,7 @@ double compression_jump(const World& world, const SceneNumbers& n, const PairKer
     for (const OwnPair& pair : world.own.of(static_cast<std::size_t>(id[i]))) after += pair.weight;
     for (const Entry e : world.neighbours->of(i)) {
       const std::size_t j = e.row();
-      const double r = norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image()));
+      const double r = norm((place(j) - place(i)) + world.neighbours->shift(e.image()));
       const bool own_now = are_own(world.own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j]));
       const double W = kernels.wendland.value(r);
       if (!e.own()) before += W;

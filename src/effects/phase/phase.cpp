@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/phase/phase.hpp"
 
-#include "core/errors.hpp"
+#include <utility>
+#include <vector>
+
 #include "effects/body_table.hpp"
 #include "effects/phase/softening.hpp"
 #include "effects/phase/transition.hpp"
@@ -16,23 +18,39 @@ class PhaseChange : public Effect {
   void load(World& world, const InitialState&) override {
     if (softens_) load_stiffness(world);
   }
+  void drift(World&, double dt) override { drifted_ = dt; }
   void change(World&) override;
   void settle(World&) override;
   void happen(World&, const Happening&) override;
 
  private:
   bool softens_;
+  double drifted_ = 0.0;            ///< since the last forces, within a step [s]
   std::optional<Account> account_;  ///< of the step that is being taken
 };
 
-/// What a particle's bonds store; nothing where no body can deform.
-Account::Energy energy_of(const World& world) {
+/// What a particle's bonds store half a drift back; nothing where no body can deform. Of the kicks around a drift the first has the
+/// forces of before the change and the second those of after it: what the change itself lets go is, to second order in the step, the
+/// difference half way.
+Account::Energy energy_of(World& world, double back) {
   if (!world.particles.has(field::shape_rank.name)) return [](std::uint32_t) { return 0.0; };
-  return [&world, forms = solid::ElasticForms(world.scene)](std::uint32_t id) { return solid::deformation_energy(world, forms, id).total(); };
+  return [&world, back, forms = solid::ElasticForms(world.scene)](std::uint32_t id) {
+    const auto x = positions(world.particles), v = velocities(world.particles);
+    std::vector<std::pair<std::size_t, Vec3>> places{{world.particles.row(id), {}}};
+    for (const Bond& bond : std::as_const(world.bonds).of(id)) places.emplace_back(world.particles.row(bond.other), Vec3{});
+    for (auto& [row, place] : places) {
+      place = x.at(row);
+      x.set(row, place - back * v.at(row));
+    }
+    const double energy = solid::deformation_energy(world, forms, id).total();
+    for (const auto& [row, place] : places) x.set(row, place);
+    return energy;
+  };
 }
 
 void PhaseChange::change(World& world) {
   account_.reset();
+  const double drifted = std::exchange(drifted_, 0.0);
   if (world.neighbours->rebuilds() == 0) {  // the run begins
     world.neighbours->update(world.particles, world.time);
     connect_rigid_bodies(world);
@@ -42,7 +60,7 @@ void PhaseChange::change(World& world) {
   if (events.empty()) return;
   world.neighbours->update(world.particles, world.time);
   if (!world.neighbours->marked()) world.neighbours->mark_own(world.particles, world.own);  // as they are before the change
-  account_.emplace(energy_of(world));
+  account_.emplace(energy_of(world, 0.5 * drifted));
   carry_out(world, events, *account_);
 }
 
