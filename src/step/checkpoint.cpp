@@ -58,7 +58,7 @@ template <class Pair>
 void save(const PairLists<Pair>& lists, const std::string& name, Checkpoint& kept) {
   static_assert(std::is_trivially_copyable_v<Pair> && sizeof(Pair) % sizeof(double) == 0);
   if (lists.empty()) return;
-  std::vector<double>& flat = kept.real[name];
+  std::vector<double>& flat = kept.real[name + "/list"];
   std::vector<std::int64_t>& counts = kept.whole[name + "/count"];
   for (std::size_t id = 0; id < lists.particles(); ++id) {
     const std::vector<double> list = plain(lists.of(id));
@@ -78,7 +78,7 @@ void restore_pairs(PairLists<Pair>& lists, const std::string& name, const Checkp
     if (n < 0) throw InputError("the checkpoint's " + name + " has a list of negative length");
     pairs += n;
   }
-  const std::vector<double>& flat = take(kept.real, name, static_cast<std::size_t>(pairs) * sizeof(Pair) / sizeof(double));
+  const std::vector<double>& flat = take(kept.real, name + "/list", static_cast<std::size_t>(pairs) * sizeof(Pair) / sizeof(double));
   lists.grow(counts->second.size());
   std::size_t from = 0;
   for (std::size_t id = 0; id < counts->second.size(); ++id) {
