@@ -116,8 +116,9 @@ class Release {
   /// A particle that has flowed and loses bonds sees another strain at once: eps_p goes with it, so that P (eps - eps_p) P does not
   /// jump. Without this the tear of a plastic bar creates energy.
   void keep_elastic_strain(std::uint32_t id) {
+    static const bool left_as_it_was = defect_size("fracture.plastic_strain") > 0.0;
     const Before& before = before_.at(id);
-    if (before.plastic == Symmetric{}) return;
+    if (before.plastic == Symmetric{} || left_as_it_was) return;
     const solid::Deformation d = solid::deformation_of(world_, forms_, id);
     solid::set_plastic_strain(world_.particles, world_.particles.row(id), between(d.P, d.strain - before.elastic));
   }
@@ -165,7 +166,8 @@ std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fract
 std::vector<DefectEntry> defects() {
   return {{"fracture.stretch", "bonds bear 1 + size times their stretch", "solid/torn-bar"},
           {"fracture.distance", "as printed: bonds bear 1 + size times their distance", "solid/torn-bar"},
-          {"fracture.energy", "share of 0..1 of the energy let go that is not booked", "solid/torn-bar"}};
+          {"fracture.energy", "share of 0..1 of the energy let go that is not booked", "solid/torn-bar"},
+          {"fracture.plastic_strain", "plastic strain of what loses bonds stays as it was", "solid/torn-ductile"}};
 }
 
 }  // namespace tripoint::fracture
