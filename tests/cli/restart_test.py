@@ -51,6 +51,60 @@ kind = "invariant"
 """
 
 
+# An elastic block melts from below while liquid is poured on it: bonds end, rows are added.
+MELTING = """format = 1
+[case]
+title = "an elastic block melts under a jet"
+requirement = "R-T-2"
+claims = "a restart continues bit for bit"
+[scene]
+end_time = 0.2
+gravity = [0.0, 0.0, -9.81]
+spacing = 0.01
+output_interval = 0.04
+[[material]]
+name = "wax"
+density = 1000.0
+viscosity = 2.0
+sound_speed = 20.0
+young_modulus = 5e4
+poisson_ratio = 0.3
+conductivity = 5000.0
+heat_capacity = 1000.0
+t_melt = 400.0
+t_solid = 390.0
+latent_heat = 5e4
+[[material]]
+name = "stone"
+density = 1000.0
+sound_speed = 20.0
+conductivity = 5000.0
+heat_capacity = 1000.0
+[[body]]
+name = "ground"
+material = "stone"
+phase = "rigid"
+motion = "fixed"
+temperature = 700.0
+temperature_held = true
+shape = { kind = "box", min = [-0.04, -0.04, -0.02], max = [0.04, 0.04, 0.0] }
+[[body]]
+name = "block"
+material = "wax"
+phase = "elastic"
+temperature = 300.0
+shape = { kind = "box", min = [-0.02, -0.02, 0.0], max = [0.02, 0.02, 0.04] }
+[[inflow]]
+material = "wax"
+shape = { kind = "box", min = [-0.01, -0.01, 0.06], max = [0.01, 0.01, 0.08] }
+velocity = [0.0, 0.0, -0.5]
+stop = 0.2
+temperature = 500.0
+[engines.tripoint]
+required = true
+"""
+
+
 def call(*words, **more):
     return subprocess.run([TRIPOINT, *map(str, words)], capture_output=True, text=True, timeout=300, **more)
 
@@ -96,6 +150,16 @@ class Restart(unittest.TestCase):
         self.assertEqual(self.run_case("two", "--until", "0.4", "--resume", sorted((self.path / "one").glob("checkpoint-*.h5"))[0], "--checkpoint-interval", "0.11").returncode, 0)
         self.assertEqual(self.run_case("three", "--resume", self.path / "two").returncode, 0)
         self.expect_same("whole", "three")
+
+    def test_bonds_phases_and_what_flowed_in_go_on_too(self):
+        self.case.write_text(MELTING)
+        done = self.run_case("whole")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(self.run_case("cut", "--until", "0.16", "--checkpoint-interval", "0.033").returncode, 0)
+        for checkpoint in sorted((self.path / "cut").glob("checkpoint-*.h5")):
+            done = self.run_case("again", "--resume", checkpoint, "--threads", 2)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.expect_same("whole", "again")
 
     def test_another_scene_a_torn_checkpoint_and_lost_frames_are_refused_by_name(self):
         self.assertEqual(self.run_case("cut", "--checkpoint-interval", "0.2").returncode, 0)
