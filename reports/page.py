@@ -94,8 +94,8 @@ def render_printed(results):
 
 def render_table1(results):
     """@return HTML of the paper's table of features beside what was measured"""
-    features, systems, notes = table1.read(results)
-    return fill("table1.html.j2", results, features=features, systems=systems, notes=notes, columns=table1.COLUMNS, predicted=table1.PREDICTED)
+    features, systems, films, notes = table1.read(results)
+    return fill("table1.html.j2", results, features=features, systems=systems, films=films, notes=notes, columns=table1.COLUMNS, predicted=table1.PREDICTED)
 
 
 def render(results, pictures, notes, suite, missing_libraries):

@@ -10,6 +10,7 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import animation
 from model import Case, number, rows, text
 from summary import tone, worst
 
@@ -39,13 +40,13 @@ class Feature:
 
 
 def read(results, path=ROWS):
-    """@return (features, systems, notes)"""
+    """@return (features, systems, films, notes)"""
     try:
         document = tomllib.loads(Path(path).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        return [], [], [f"{Path(path).name} cannot be read: {error}"]
+        return [], [], [], [f"{Path(path).name} cannot be read: {error}"]
     systems = [text(name) for name in document.get("systems", [])]
-    return [feature(raw, results, len(systems)) for raw in rows(document.get("feature"))], systems, []
+    return [feature(raw, results, len(systems)) for raw in rows(document.get("feature"))], systems, animation.films(results, rows(document.get("animation"))), []
 
 
 def feature(raw, results, systems):
