@@ -63,7 +63,7 @@ def seen(position, phase, material):
     there = np.isfinite(position).all(axis=2)
     moved = np.max(np.abs(position - position[:1]), axis=(0, 2), initial=0.0, where=there[:, :, None])
     still = there.all(axis=0) & (moved < 1e-9 * np.ptp(position[0][there[0]]))
-    first = material[-1][(phase == 0).any(axis=0)].min(initial=0)
+    first = material[-1][(phase == 0).any(axis=0)].min(initial=material.max())
     kinds = np.where(still, 5, np.where(phase == 0, np.where(material == first, 1, 2), np.where(phase == 1, 3, 4))) * there
     shown = np.flatnonzero(~still | (position[0, :, 1] > np.nanmean(position[..., 1])))
     shown = shown[np.argsort(-np.nanmean(position[:, shown, 1], axis=0))]  # what is behind is drawn first

@@ -22,13 +22,13 @@ class Films(unittest.TestCase):
         position[:, 3, 2] = 3.0                     # in front, and never moves
         phase = np.array([[2, 0, 0, 1]] * 3)
         phase[2, 1] = 2                             # freezes
-        self.places, self.kinds, self.height, self.diameter = animation.seen(position, phase, np.zeros((3, 4), int))
+        self.places, self.kinds, self.height, self.diameter = animation.seen(position, phase, np.array([[0, 1, 2, 0]] * 3))
 
     def test_the_half_in_front_of_what_never_moves_is_left_out(self):
         self.assertEqual(self.kinds.shape, (3, 3))
 
     def test_kinds_follow_the_phase_and_what_is_not_there_yet_is_not_drawn(self):
-        self.assertEqual(sorted(map(tuple, self.kinds.T.tolist())), [(0, 0, 1), (1, 1, 4), (5, 5, 5)])
+        self.assertEqual(sorted(map(tuple, self.kinds.T.tolist())), [(0, 0, 2), (1, 1, 4), (5, 5, 5)])
 
     def test_what_falls_goes_down_the_picture_evenly_and_stays_inside(self):
         heights = self.places[:, self.kinds.T.tolist().index([1, 1, 4]), 1]
