@@ -44,7 +44,7 @@ int check(const std::string& file, const std::vector<std::string>& set) {
   check_words(reading.value);
   check_data_files(reading.value);
   const Scene scene = scene_for(reading.value, {});
-  static_cast<void>(plan(scene));
+  static_cast<void>(plan_of(reading));
   const InitialState state = sample(scene);
   const auto findings = preflight(reading.value, scene, state);
   long errors = 0;

@@ -65,7 +65,7 @@ json as_json(const CaseReading& reading, const Plan& plan) {
 
 int explain(const std::string& file, const std::vector<std::string>& set, bool as_document) {
   const CaseReading reading = read_case(file, set);
-  const Plan planned = plan(scene_for(reading.value, {}));
+  const Plan planned = plan_of(reading);
   if (as_document) {
     print(as_json(reading, planned).dump(2, ' ', false, json::error_handler_t::replace) + "\n");
     return 0;

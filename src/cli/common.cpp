@@ -62,4 +62,13 @@ void remember_command_line(int argc, char** argv) {
 
 const std::string& command_line() { return remembered(); }
 
+Plan plan_of(const CaseReading& reading) {
+  try {
+    return plan(scene_for(reading.value, {}));
+  } catch (const InputError& e) {
+    if (!e.place().file.empty()) throw;
+    throw InputError({reading.value.file, 0, 0}, e.what());
+  }
+}
+
 }  // namespace tripoint

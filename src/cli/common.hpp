@@ -4,11 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "effects/plan.hpp"
+#include "scene/read_case.hpp"
+
 /// What the commands share: how errors become exit codes, and how lists and progress look.
 namespace tripoint {
 
 /// Calls the command and turns its exceptions into messages on stderr and the exit codes of the contract.
 [[nodiscard]] int guarded(const std::function<int()>& command);
+
+/// What a case simulates and stores. @throws InputError naming its file, also where the scene as a whole asks for what cannot be
+[[nodiscard]] Plan plan_of(const CaseReading&);
 
 /// One line on stderr.
 void say(const std::string& line);
