@@ -1,36 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "validation/references/beam.hpp"
 #include "validation/references/heat_scene.hpp"
+#include "validation/references/number_table.hpp"
 #include "validation/references/solid_scene.hpp"
 
 namespace tripoint {
 namespace {
 
-using Numbers = std::map<std::string, double, std::less<>>;
-
 /// Sag and lowest frequency of a clamped beam. Numbers: deflection [m] of the last layer of particles, half a spacing inside the end, and
 /// tip_deflection of a rigid tip's centre (both where the scene has gravity); frequency [rad/s], period [s]; bar, axis, end (+1 or -1: where the
 /// free end lies), direction.x, .y, .z.
-class Cantilever : public Reference {
- public:
-  explicit Cantilever(Numbers numbers) : numbers_(std::move(numbers)) {}
-  [[nodiscard]] Snapshot at(double time) const override {
-    Snapshot out;
-    out.time = time;
-    return out;
-  }
-  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    const auto found = numbers_.find(quantity);
-    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
-  }
-
- private:
-  Numbers numbers_;
-};
+using Cantilever = NumberTable;
 
 /// Where the beam is free: away from the body that holds it.
 double free_end(const ReferenceInput& in, std::size_t bar, std::size_t axis) {

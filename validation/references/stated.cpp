@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <map>
-
 #include "scene/nearest.hpp"
 #include "validation/references/functions.hpp"
 #include "validation/references/heat_scene.hpp"
+#include "validation/references/number_table.hpp"
 
 namespace tripoint {
 namespace {
@@ -11,22 +10,7 @@ namespace {
 /// What a case states itself: a claim, and what a quantity must know to be measured. It computes nothing, so that a metric says in the case
 /// file what it is compared with. Numbers: value, axis, phase (3 = any solid), other (row in the job's bodies), gauge, outside, follows,
 /// low.x ... high.z [m].
-class Stated : public Reference {
- public:
-  explicit Stated(std::map<std::string, double, std::less<>> numbers) : numbers_(std::move(numbers)) {}
-  [[nodiscard]] Snapshot at(double time) const override {
-    Snapshot out;
-    out.time = time;
-    return out;
-  }
-  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    const auto found = numbers_.find(quantity);
-    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
-  }
-
- private:
-  std::map<std::string, double, std::less<>> numbers_;
-};
+using Stated = NumberTable;
 
 double phase_number(const std::string& word) {
   if (word == "solid") return 3.0;
@@ -52,7 +36,7 @@ double body_number(const Job& job, const std::string& name) {
 }
 
 std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {
-  std::map<std::string, double, std::less<>> n;
+  Numbers n;
   for (const char* name : {"value", "gauge"})
     if (const auto value = in.args.number(name)) n[name] = *value;
   for (const char* name : {"outside", "follows"}) n[name] = in.args.flag(name).value_or(false) ? 1.0 : 0.0;
