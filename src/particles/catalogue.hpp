@@ -19,7 +19,7 @@ inline constexpr Field<double> density{"density", "kg/m3"};
 
 // liquids and contact (4), (7)-(9)
 inline constexpr Field<double> number_density{"number_density", "1/m3"}, volume{"volume", "m3"}, pressure{"pressure", "Pa"};
-inline constexpr Field<double> pressure_share{"pressure_share", "Pa m6"};  ///< V^2 p over the kernel's lattice sum
+inline constexpr Field<double> pressure_share{"pressure_share", "Pa m6"};  ///< V^2 p over the kernel's lattice moment
 inline constexpr Field<double> force_x{"force.x", "N"}, force_y{"force.y", "N"}, force_z{"force.z", "N"};  ///< of pressure
 inline constexpr Field<double> viscous_force_x{"viscous_force.x", "N"}, viscous_force_y{"viscous_force.y", "N"}, viscous_force_z{"viscous_force.z", "N"};
 /// Velocity that viscous pairs see: predicted to the full step for liquids, extrapolated for walls.
