@@ -155,7 +155,9 @@ void Simulation::happen_until_now() {
 bool Simulation::advance_to(double time, const std::function<bool()>& go_on) {
   while (world_.time < time) {
     const double stop = next_moment_ < moments_.size() ? std::min(time, moments_[next_moment_].time) : time;
+    clock_.start();
     if (stretch_is_over(stop)) plan_stretch(stop);
+    clock_.ends(Stage::bound);
     step(stretch_.next_end(dt_));
     ++stretch_.done;
     happen_until_now();
@@ -189,31 +191,44 @@ long Simulation::steps_to(double time) const {
 /// Rates and dt_ hold for the time on entry, and again on exit, at `end`.
 void Simulation::step(double end) {
   world_.next_time = end;
+  clock_.start();
   static const bool no_first_kick = defect_size("time.first_kick") > 0.0;
   const bool starts_late = steps_ == 0 && (no_first_kick || world_.scene.mode_of(Term::time) == Mode::paper);
   if (!starts_late) run(&Effect::kick, 0.5 * dt_);  // v of bodies; the paper's leapfrog starts without its half kick
+  clock_.ends(Stage::kick);
   run(&Effect::drift, dt_);                         // r; rotation (19)-(20); prescribed motion; T or H by its rate (21)
+  clock_.ends(Stage::drift);
   world_.time = end;
   update_rates();
   bool again = false;
   for (const Active& a : effects_) again = a.effect->correct(world_, dt_) || again;
   if (again) pass(PassName::rates);  // second stage of two-stage schemes
+  clock_.ends(Stage::correct);
   run(&Effect::kick, 0.5 * dt_);
+  clock_.ends(Stage::kick);
   ++steps_;
   check_finite(world_);
+  clock_.ends(Stage::check);
 }
 
 void Simulation::update_rates() {
+  clock_.start();
   change();
+  clock_.ends(Stage::change);
   if (world_.neighbours) {
     world_.neighbours->update(world_.particles, world_.time);
     if (!world_.neighbours->marked() || !world_.change.empty()) world_.neighbours->mark_own(world_.particles, world_.own);
   }
+  clock_.ends(Stage::search);
   if (world_.moved) pass(PassName::density);  // (4), moments: of places only
+  clock_.ends(Stage::density);
   run(&Effect::state);
   world_.moved = false;
+  clock_.ends(Stage::state);
   pass(PassName::rates);  // (7), (8), (21)
-  run(&Effect::bonds);    // (12), hourglass
+  clock_.ends(Stage::rates);
+  run(&Effect::bonds);  // (12), hourglass
+  clock_.ends(Stage::bonds);
 }
 
 /// Fig. 5: melt, solidify, merge, split, fracture, before any rate of the new time.

@@ -10,6 +10,7 @@
 #include "effects/all_effects.hpp"
 #include "effects/world.hpp"
 #include "scene/initial_state.hpp"
+#include "step/stage_clock.hpp"
 
 namespace tripoint {
 
@@ -18,6 +19,7 @@ struct SimulationOptions {
   bool force_time_step = false;                            ///< run with the scene's time step though it is above a bound
   double skin = 0.1;                                       ///< of the neighbour lists, in support radii; static scenes need none
   std::optional<std::array<std::size_t, 3>> axis_order{};  ///< rotation by NO_SQUISH in this order instead of the better default
+  StageSeconds* stage_seconds = nullptr;                   ///< where to add what each stage takes; it must outlive the simulation
 };
 
 /// A scene in motion: kick, drift, kick, with the effects that it calls for.
@@ -81,6 +83,7 @@ class Simulation {
 
   World world_;
   SimulationOptions options_;
+  StageClock clock_{options_.stage_seconds};
   std::vector<Active> effects_;
   Passes passes_;
   std::vector<Moment> moments_;  ///< in order of time
