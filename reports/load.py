@@ -12,7 +12,7 @@ from pathlib import Path
 from model import Case, Engine, Gate, Metric, Order, Results, Run, combined, is_number, number, rows, table, text
 
 STATUSES = ("ok", "refused", "missing", "diverged", "killed", "timeout", "error")
-COSTS = ("cpu_s", "wall_s", "setup_cpu_s", "peak_bytes", "pairs", "steps", "instructions")
+COSTS = ("cpu_s", "wall_s", "setup_cpu_s", "peak_bytes", "pairs", "steps", "simulated_s", "particles", "instructions")
 
 
 class Unreadable(Exception):

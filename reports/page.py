@@ -6,6 +6,7 @@ import math
 import time
 from pathlib import Path
 
+import paper_figures
 import printed
 import summary
 import table1
@@ -96,6 +97,13 @@ def render_table1(results):
     """@return HTML of the paper's table of features beside what was measured"""
     features, systems, films, notes = table1.read(results)
     return fill("table1.html.j2", results, features=features, systems=systems, films=films, notes=notes, columns=table1.COLUMNS, predicted=table1.PREDICTED)
+
+
+def render_figures(results):
+    """@return HTML of the paper's figures: claims met, and the time of a frame"""
+    rows = paper_figures.read(results)
+    full = any("full-size" in table1.tags(row.case) for row in rows)
+    return fill("paper_figures.html.j2", results, rows=rows, full=full, notes=[], papers_frame=paper_figures.PAPERS_FRAME)
 
 
 def render(results, pictures, notes, suite, missing_libraries):

@@ -2,7 +2,7 @@
 """Writes the report of a validation run: python3 report.py RESULTS.json [--out DIR] [--jobs N]
 
 results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is one self-contained file,
-as are the pages that it links to: DIR/printed-equations.html and DIR/table-1.html. DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
+as are the pages that it links to: DIR/printed-equations.html, DIR/table-1.html and DIR/paper-figures.html. DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
 Exit: 0 the page is written, whatever it says; 2 there is nothing to report on.
 """
 from __future__ import annotations
@@ -78,6 +78,7 @@ def main(arguments=None):
     else:
         write(out / "printed-equations.html", page.render_printed(results))
         write(out / "table-1.html", page.render_table1(results))
+        write(out / "paper-figures.html", page.render_figures(results))
         write(out / "index.html", page.render(results, pictures, notes, suite, missing))
     print(out / "index.html")
     return 0

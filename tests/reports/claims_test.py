@@ -45,7 +45,7 @@ class Claims(unittest.TestCase):
             path.write_text(json.dumps({"format": 1, "cases": cases}))
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
                 self.assertEqual(report.main([str(path), "--jobs", "1"]), 0)
-            self.index, self.printed, self.table1 = (Path(folder, name).read_text(encoding="utf-8") for name in ("index.html", "printed-equations.html", "table-1.html"))
+            self.index, self.printed, self.table1, self.figures = (Path(folder, name).read_text(encoding="utf-8") for name in ("index.html", "printed-equations.html", "table-1.html", "paper-figures.html"))
 
     def row(self, page, words):
         """The text of the table row that holds these words."""
@@ -132,12 +132,39 @@ class Table1(Claims):
         self.assertIn("3 is above 1", row)
 
 
+class Figures(Claims):
+    def figure(self, tags=("paper",), gates=(), **cost):
+        run = run_of("corrected", {})
+        run["knobs"].update(support_ratio=2.12, threads=2)
+        run["cost"] = {"particles": 40000, "steps": 400, "wall_s": 81.0, "setup_cpu_s": 1.0, "simulated_s": 2.0, **cost}
+        return case_of("paper/fig-9", [engine_of(runs=[run], gates=gates)], tags=list(tags))
+
+    def test_a_frame_takes_its_share_of_the_time_that_the_scene_took(self):
+        self.write([self.figure()])
+        row = self.row(self.figures, "Title of paper/fig-9")
+        self.assertIn("corrected measured, not judged 40000 40 2 400 1.35 2 200 1.333 0.5", row)  # 80 s over 400 steps, and over the 60 frames of 2 s
+
+    def test_a_number_that_was_not_measured_is_no_zero(self):
+        self.write([self.figure(simulated_s=None, steps=0)])
+        self.assertIn("40000 40 — — 1.35 2 — — 0.5", self.row(self.figures, "Title of paper/fig-9"))
+
+    def test_a_claim_that_fails_is_seen_beside_the_time(self):
+        self.write([self.figure(gates=[gate_of("bodies", "corrected", 3.0, "fail")])])
+        self.assertIn("FAIL", self.row(self.figures, "Title of paper/fig-9"))
+
+    def test_it_says_when_only_the_small_versions_were_run(self):
+        self.write([self.figure()])
+        self.assertIn("small versions only", Reader(self.figures).text)
+        self.write([self.figure(tags=("paper", "full-size"))])
+        self.assertNotIn("small versions only", Reader(self.figures).text)
+
+
 class Both(Claims):
     def test_the_index_leads_to_them_and_they_lead_back_to_its_cases(self):
-        self.write([case_of("fluid/hydrostatic", [engine_of(runs=[run_of("paper", {"factor": 1.0})])], tags=["feature-fluids"])])
+        self.write([case_of("fluid/hydrostatic", [engine_of(runs=[run_of("paper", {"factor": 1.0})])], tags=["feature-fluids", "paper"])])
         index = Reader(self.index)
-        self.assertTrue({"printed-equations.html", "table-1.html"} <= set(index.links))
-        for page in (self.printed, self.table1):
+        self.assertTrue({"printed-equations.html", "table-1.html", "paper-figures.html"} <= set(index.links))
+        for page in (self.printed, self.table1, self.figures):
             read = Reader(page)
             self.assertEqual(read.open, [])
             self.assertIn("index.html#case-1", read.links)
@@ -148,12 +175,13 @@ class Both(Claims):
 
     def test_text_of_strangers_is_text_and_values_of_the_wrong_kind_do_not_stop_them(self):
         hostile = "<script>alert(1)</script>"
-        self.write([case_of("x", [engine_of(gates=[gate_of(hostile, "corrected", None, reason=hostile, why=hostile)], runs=[run_of("corrected", {})])], title=hostile, tags=["feature-rigids"])])
+        self.write([case_of("x", [engine_of(gates=[gate_of(hostile, "corrected", None, reason=hostile, why=hostile)], runs=[run_of("corrected", {})])], title=hostile, tags=["feature-rigids", "paper"])])
         self.assertNotIn("<script", self.table1)
         self.assertIn(html.escape(hostile), self.table1)
+        self.assertNotIn("<script", self.figures)
         for wrong in (None, 7, "text", [], {}, [None], True):
             self.write([case_of("fluid/hydrostatic", [engine_of(runs=[{"knobs": wrong, "metrics": wrong, "levels": wrong}], gates=[{"metric": "factor_printed", "mode": "paper", "value": wrong}])], tags=wrong),
-                        {"id": "a", "engines": wrong, "tags": ["feature-rigids", wrong]}])
+                        {"id": "a", "engines": wrong, "tags": ["feature-rigids", "paper", wrong]}])
 
 
 if __name__ == "__main__":

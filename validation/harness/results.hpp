@@ -16,6 +16,9 @@ struct Cost {
   double cpu_s = 0.0, wall_s = 0.0, setup_cpu_s = 0.0;  ///< [s]
   double peak_bytes = 0.0;
   double pairs = 0.0, steps = 0.0, iterations = 0.0;  ///< counted by the engine
+  double simulated_s = 0.0;  ///< time of the scene that the steps took it through [s]
+  double particles = 0.0;    ///< at the end: with what flowed in, without what is no more
+  double instructions = 0.0;  ///< of the whole process, counted in a second run of its own; 0 = not counted
 };
 
 struct Knobs {

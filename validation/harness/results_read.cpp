@@ -93,7 +93,8 @@ Knobs knobs(const Json& from) {
 
 Cost cost(const Json& from) {
   return {number_or(from, "cpu_s", 0.0), number_or(from, "wall_s", 0.0), number_or(from, "setup_cpu_s", 0.0), number_or(from, "peak_bytes", 0.0),
-          number_or(from, "pairs", 0.0), number_or(from, "steps", 0.0), number_or(from, "iterations", 0.0)};
+          number_or(from, "pairs", 0.0), number_or(from, "steps", 0.0), number_or(from, "iterations", 0.0),
+          number_or(from, "simulated_s", 0.0), number_or(from, "particles", 0.0), number_or(from, "instructions", 0.0)};
 }
 
 RunRow run_row(const Json& from) {

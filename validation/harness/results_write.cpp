@@ -57,7 +57,8 @@ Json json(const RunRow& r) {
   return {{"knobs", json(r.knobs)}, {"levels", levels}, {"base", r.base}, {"group", r.group}, {"status", r.status}, {"reason", r.reason}, {"comparable", r.comparable},
           {"metrics", metrics},
           {"cost", {{"cpu_s", r.cost.cpu_s}, {"wall_s", r.cost.wall_s}, {"setup_cpu_s", r.cost.setup_cpu_s}, {"peak_bytes", r.cost.peak_bytes},
-                    {"pairs", r.cost.pairs}, {"steps", r.cost.steps}, {"iterations", r.cost.iterations}, {"instructions", nullptr}}},
+                    {"pairs", r.cost.pairs}, {"steps", r.cost.steps}, {"iterations", r.cost.iterations},
+                    {"simulated_s", r.cost.simulated_s}, {"particles", r.cost.particles}, {"instructions", r.cost.instructions > 0.0 ? Json(r.cost.instructions) : Json(nullptr)}}},
           {"state_hash", r.state_hash}, {"time_step_bound", r.time_step_bound}, {"folder", r.folder}};
 }
 

@@ -84,7 +84,7 @@ ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
 
 void take_cost(Outcome& outcome, const ProcessEnd& end) {
   const auto& r = outcome.result;
-  outcome.cost = {end.cpu_s, end.wall_s, r.setup_cpu, end.peak_bytes, r.pairs, static_cast<double>(r.steps), r.iterations};
+  outcome.cost = {end.cpu_s, end.wall_s, r.setup_cpu, end.peak_bytes, r.pairs, static_cast<double>(r.steps), r.iterations, r.time_reached, 0.0};
 }
 
 std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
@@ -94,6 +94,11 @@ std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request)
   const auto& bodies = request.job->bodies;
   const auto solids = std::count_if(bodies.begin(), bodies.end(), [](const auto& b) { return b.index >= 0; });
   return std::make_shared<Trajectory>(read_trajectory_csv((folder / "trajectory.csv").string(), *request.initial, static_cast<std::size_t>(solids)));
+}
+
+double alive_at_the_end(const Trajectory& trajectory) {
+  const auto& id = trajectory.frames.back().id;
+  return static_cast<double>(std::ranges::count_if(id, [](int i) { return i >= 0; }));
 }
 
 std::string describe(const Divergence& d) {
@@ -106,6 +111,7 @@ Outcome read_trajectory_of(const RunRequest& request, Outcome outcome) {
   if (!(std::abs(outcome.result.time_reached - end) <= 1e-9 * end))
     return failed(outcome, "error", fmt::format("time not reached: {:g} s of {:g} s", outcome.result.time_reached, end));
   outcome.trajectory = read_any_trajectory(request);
+  outcome.cost.particles = alive_at_the_end(*outcome.trajectory);
   if (const auto wrong = audit(job, *request.initial, *outcome.trajectory); !wrong.empty()) return failed(outcome, "error", wrong);
   if (const auto other = audit_scene(job, outcome.result.readback); !other.empty()) {
     outcome.comparable = false;
