@@ -1,22 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <fstream>
 #include <memory>
+#include <set>
 
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "core/errors.hpp"
+#include "validation/harness/baseline.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
 #include "validation/harness/selftest.hpp"
+#include "validation/harness/slack.hpp"
+#include "validation/harness/verdict.hpp"
 
 namespace tripoint {
 namespace {
 
 constexpr const char* description =
-    "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored verdict.\n"
+    "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored verdict. Then it judges the\n"
+    "limits: none more than 10 times its error (above 3 times warns) unless its reason is dated, none looser than the accepted baseline,\n"
+    "no run with more than 1 % more pairs, steps or instructions than accepted.\n"
     "  tripoint gate report/results.json     exit 0 only when every gate is green\n"
+    "  tripoint gate accept report/results.json --reason 'who decided what, and why'     the only writer of baselines\n"
     "  tripoint gate selftest                proves that the gates can fail, and only where they should";
+
+constexpr const char* accept_description =
+    "Accepts the figures of green cases as their baselines (baselines/<subject>/<case>.toml beside the folder cases), and prints what changes:\n"
+    "old limit, new limit, and the sum of all loosenings since the first baseline.\n"
+    "  tripoint gate accept --reason 'kernel moments corrected, decision 006' report/results.json heat/cosine-mode";
 
 constexpr const char* selftest_description =
     "Runs every defect that the cases declare in the test build of our solver, and expects the gates named in killed_by to turn red;\n"
@@ -27,17 +41,46 @@ constexpr const char* selftest_description =
     "  tripoint gate selftest heat/cosine-mode --jobs 2";
 
 struct GateOptions {
-  std::string results;
+  std::string results, history;
+  bool annotations = false;
   SelftestOptions selftest;
+  std::vector<std::string> accepted;  ///< a results.json and ids, in any order
+  std::string reason;
 };
 
-int judge_file(const std::string& path) {
+Results judged(const std::string& path) {
   auto results = read_results(path);
   judge(results);
+  return results;
+}
+
+bool on_github() {
+  const char* set = std::getenv("GITHUB_ACTIONS");
+  return set && std::string(set) == "true";
+}
+
+int judge_file(const GateOptions& o) {
+  const auto results = judged(o.results);
+  auto remarks = verdict_remarks(results);
+  for (const auto& list : {slack_remarks(results), baseline_remarks(results)}) remarks.insert(remarks.end(), list.begin(), list.end());
+  std::set<int> codes{results.exit_code};
+  for (const auto& r : remarks)
+    if (r.error) codes.insert(r.code);
+  const int code = first_of(codes);
   for (const auto& c : results.cases) print(case_line(c) + "\n");
-  for (const auto& p : results.problems) print(p + "\n");
-  print("verdict " + results.verdict + " exit " + std::to_string(results.exit_code) + "\n");
-  return results.exit_code;
+  print(o.annotations || on_github() ? annotations_text(remarks) : remarks_text(remarks));
+  if (!o.history.empty()) std::ofstream(o.history, std::ios::app) << history_line(results);
+  print("verdict " + verdict_word(code) + " exit " + std::to_string(code) + "\n");
+  return code;
+}
+
+int accept_file(const GateOptions& o) {
+  std::string path = "report/results.json";
+  std::vector<std::string> ids;
+  for (const auto& word : o.accepted) (word.ends_with(".json") ? path = word : ids.emplace_back(word));
+  const auto results = judged(path);
+  print(accept(results, ids, {results.date.substr(0, 10), results.tool.commit, o.reason}));
+  return exit_pass;
 }
 
 int selftest(SelftestOptions options) {
@@ -54,6 +97,11 @@ void add_gate(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("gate", description);
   auto o = std::make_shared<GateOptions>();
   command->add_option("RESULTS", o->results, "a results.json");
+  command->add_flag("--annotations", o->annotations, "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, the worst first");
+  command->add_option("--history", o->history, "append a line of JSON with every value and count to this file");
+  auto* accepts = command->add_subcommand("accept", accept_description);
+  accepts->add_option("--reason", o->reason, "who decided what, and why")->required();
+  accepts->add_option("RESULTS|ID", o->accepted, "a results.json (default report/results.json), and the ids of the cases; none = all");
   auto* self = command->add_subcommand("selftest", selftest_description);
   self->add_option("CASE", o->selftest.what, "case files, folders or ids; none = every case")->type_name("CASE|DIR");
   self->add_option("--out", o->selftest.out, "folder of the runs")->capture_default_str();
@@ -61,8 +109,9 @@ void add_gate(CLI::App& app, int& exit_code) {
   command->callback([=, &exit_code] {
     exit_code = guarded([&] {
       if (self->parsed()) return selftest(o->selftest);
-      if (o->results.empty()) throw InputError("gate: name a results.json, or selftest");
-      return judge_file(o->results);
+      if (accepts->parsed()) return accept_file(*o);
+      if (o->results.empty()) throw InputError("gate: name a results.json, or accept, or selftest");
+      return judge_file(*o);
     });
   });
 }

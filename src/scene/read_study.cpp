@@ -90,6 +90,7 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
     g.band = std::array<double, 2>{(*band)[0], (*band)[1]};
   }
   if (!g.limit && !g.at_least && !g.band) in.refuse("", fmt::format("the gate on \"{}\" has no limit and would pass anything: give limit, at_least or band", printable(g.metric)));
+  g.place = in.place(g.limit ? "limit" : g.at_least ? "at_least" : "band");  // the line that a red gate points at
   g.level = in.maybe_number("level");
   g.reason = in.text("reason");
   if (g.reason.find_first_not_of(" \t\n") == std::string::npos) in.refuse("reason", "a limit needs a reason: say where the number comes from");

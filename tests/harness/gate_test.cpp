@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "fakes.hpp"
+#include "judged.hpp"
+#include "validation/harness/baseline.hpp"
+#include "validation/harness/remarks.hpp"
+#include "validation/harness/slack.hpp"
+
+namespace tripoint {
+namespace {
+
+Results judged(Results r) {
+  judge(r);
+  return r;
+}
+
+/// A measured value under this limit.
+Results used(double measured, double most) {
+  auto r = green();
+  error(r).value = measured;
+  r.cases[0].gates[0].limit = most;
+  return judged(r);
+}
+
+TEST(Remarks, PointAtTheLineOfTheLimitInTheCaseFile) {
+  auto r = green();
+  error(r).value = 0.3;
+  r.cases[0].gates[0].place = {"cases/test/one.toml", 17, 9};
+  const auto text = annotations_text(verdict_remarks(judged(r)));
+  EXPECT_EQ(text.rfind("::error file=cases/test/one.toml,line=17,title=test/one tripoint error::fail: 0.3", 0), 0u) << text;
+}
+
+TEST(Remarks, TheTenWorstAreAnnotatedAndTheLastSaysHowManyMoreThereAre) {
+  auto r = green();
+  const auto c = r.cases[0];
+  r.cases.clear();
+  for (int k = 0; k < 14; ++k) {
+    r.cases.push_back(c);
+    r.cases.back().id = "test/" + std::to_string(k);
+    r.cases.back().engines[0].runs[0].metrics["error"] = value(0.2 + k);
+  }
+  r.planned.clear();
+  const auto text = annotations_text(verdict_remarks(judged(r)));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10);
+  EXPECT_NE(text.find("test/13 "), std::string::npos);  // the farthest out
+  EXPECT_EQ(text.find("test/3 "), std::string::npos);
+  EXPECT_NE(text.find("and 4 more"), std::string::npos);
+}
+
+TEST(Remarks, WhatWouldEndAWorkflowCommandIsEscaped) {
+  const std::vector<Remark> list{{true, 1, {"a,b:c.toml", 3, 0}, "t:1,2", "100 %\nnext", 1.0}};
+  EXPECT_EQ(annotations_text(list), "::error file=a%2Cb%3Ac.toml,line=3,title=t%3A1%2C2::100 %25%0Anext\n");
+}
+
+TEST(Slack, ALimitThreeTimesTheErrorWarnsAndTenTimesFails) {
+  EXPECT_TRUE(slack_remarks(used(0.05, 0.1)).empty());
+  EXPECT_FALSE(slack_remarks(used(0.02, 0.1)).at(0).error);
+  EXPECT_TRUE(slack_remarks(used(0.009, 0.1)).at(0).error);
+  EXPECT_TRUE(slack_remarks(used(0.0, 0.1)).at(0).error);  // a metric that is dead is the slackest of all
+}
+
+TEST(Slack, TheUncertaintyCountsAsUsed) {
+  auto r = green();
+  error(r) = value(0.001, 0.02);
+  EXPECT_TRUE(slack_remarks(judged(r)).empty());  // 0.1 over 0.041
+}
+
+TEST(Slack, ADatedReasonIsShownAndDoesNotFail) {
+  auto r = used(0.001, 0.1);
+  r.cases[0].gates[0].date = "2026-11-21";
+  const auto remarks = slack_remarks(judged(r));
+  EXPECT_FALSE(remarks.at(0).error);
+  EXPECT_NE(remarks[0].text.find("2026-11-21"), std::string::npos);
+}
+
+TEST(Slack, TheRunThatUsesMostOfAGateDecides) {
+  auto r = green();
+  auto coarse = engine(r).runs[0];
+  coarse.base = false, coarse.group = "coarse";
+  engine(r).runs.push_back(coarse);
+  error(r).value = 1e-4;
+  EXPECT_TRUE(slack_remarks(judged(r)).empty());
+}
+
+TEST(Slack, LimitsOfRoundOffAndCountsHaveNoneToGive) {
+  EXPECT_TRUE(slack_remarks(used(1e-16, 1e-10)).empty());
+  EXPECT_FALSE(slack_remarks(used(1e-16, 1e-9)).empty());
+  auto r = used(0.0, 0.5);
+  EXPECT_FALSE(slack_remarks(r).empty());
+  r.cases[0].metrics[0].quantity = "body_count";
+  EXPECT_TRUE(slack_remarks(r).empty());
+}
+
+TEST(Slack, ABandIsAskedOnBothSides) {
+  auto r = green();
+  auto& gate = r.cases[0].gates[0];
+  gate.limit.reset(), gate.band = {0.01, 0.06};
+  EXPECT_EQ(slack_of(r.cases[0], judged(r).cases[0].engines[0].gates[0]).value(), 5.0);  // 0.05 / 0.01
+}
+
+/// A suite in a folder of its own, which keeps baselines.
+struct Kept {
+  TestFolder folder;
+  Results r = green();
+  Kept() {
+    write_text(folder / "cases/test/one.toml", "format = 1\n");
+    std::filesystem::create_directories(folder / "baselines");
+    r.cases[0].file = folder / "cases/test/one.toml";
+    engine(r).runs[0].cost.pairs = 1000.0, engine(r).runs[0].cost.steps = 10.0, engine(r).runs[0].folder = "runs/test/one/tripoint/corrected";
+    judge(r);
+  }
+  std::string accept_all() { return accept(r, {}, {"2026-11-21", "abc", "a test"}); }
+};
+
+TEST(Baselines, AreMissedWhereTheSuiteKeepsThemAndNowhereElse) {
+  Kept kept;
+  EXPECT_EQ(baseline_remarks(kept.r).at(0).code, exit_missing);
+  std::filesystem::remove(kept.folder / "baselines");
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+}
+
+TEST(Baselines, WhatIsAcceptedIsReadBackAsItWas) {
+  Kept kept;
+  (void)kept.accept_all();
+  const auto b = read_baseline(kept.folder / "baselines/test/one.toml");
+  EXPECT_EQ(baseline_text(b), baseline_text(accepted_from(kept.r.cases[0], kept.r.seed, nullptr, {"2026-11-21", "abc", "a test"})));
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+}
+
+TEST(Baselines, ALooserLimitIsRedUntilItIsAccepted) {
+  Kept kept;
+  (void)kept.accept_all();
+  kept.r.cases[0].gates[0].limit = 0.2;
+  judge(kept.r);
+  EXPECT_EQ(baseline_remarks(kept.r).at(0).code, exit_missing);
+  const auto said = kept.accept_all();
+  EXPECT_NE(said.find("limit 0.1 -> limit 0.2, LOOSER by a factor 2"), std::string::npos) << said;
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+}
+
+TEST(Baselines, TheSumOfAllLooseningsIsKeptAndTighteningTakesNothingOff) {
+  Kept kept;
+  std::string said;
+  for (const double limit : {0.1, 0.2, 0.1, 0.3}) {
+    kept.r.cases[0].gates[0].limit = limit;
+    judge(kept.r);
+    said = kept.accept_all();
+  }
+  const auto b = read_baseline(kept.folder / "baselines/test/one.toml");
+  EXPECT_NEAR(b.gates.at(0).loosened, std::log(2.0) + std::log(3.0), 1e-12);  // round-off
+  EXPECT_EQ(b.gates[0].first_room, 0.1);
+  EXPECT_EQ(b.accepted.size(), 4u);
+  EXPECT_NE(said.find("in all by a factor 6"), std::string::npos) << said;
+}
+
+TEST(Baselines, CreepIsSeenAgainstTheFirstValueToo) {
+  Kept kept;
+  for (const double v : {0.05, 0.053, 0.056}) {  // each step below a tenth
+    error(kept.r).value = v;
+    judge(kept.r);
+    EXPECT_EQ(v > 0.055, !baseline_remarks(kept.r).empty() && v != 0.05) << v;
+    (void)kept.accept_all();
+  }
+}
+
+TEST(Baselines, CostIsJudgedOnCountsAtTheSameSeedAndNeverOnSeconds) {
+  Kept kept;
+  (void)kept.accept_all();
+  engine(kept.r).runs[0].cost.cpu_s = 1e6;
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+  engine(kept.r).runs[0].cost.pairs = 1009.0;  // within 1 %
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+  engine(kept.r).runs[0].cost.pairs = 1020.0;
+  EXPECT_EQ(baseline_remarks(kept.r).at(0).code, exit_cost);
+  kept.r.seed = 2;
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+}
+
+TEST(Baselines, WhatIsNotGreenOrHasNoReasonIsNotAccepted) {
+  Kept kept;
+  EXPECT_THROW((void)accept(kept.r, {}, {"2026-11-21", "abc", " "}), InputError);
+  EXPECT_THROW((void)accept(kept.r, {"test/two"}, {"2026-11-21", "abc", "why"}), InputError);
+  error(kept.r).value = 1.0;
+  judge(kept.r);
+  EXPECT_THROW((void)kept.accept_all(), InputError);
+  EXPECT_FALSE(std::filesystem::exists(kept.folder / "baselines/test/one.toml"));
+}
+
+}  // namespace
+}  // namespace tripoint

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "validation/harness/remarks.hpp"
+
+/// The last accepted figures of a case: `baselines/<subject>/<case>.toml` beside the folder `cases`. `tripoint gate accept` writes it, nothing else does.
+namespace tripoint {
+
+/// One gate as it was accepted: what it judges, what it allows, what was measured then.
+struct AcceptedGate {
+  std::string metric, engine, preset, mode, allows;  ///< allows: "limit 0.01", as the gate describes itself
+  std::optional<double> level;
+  double room = 0.0;  ///< how much it lets pass, one number: room_of()
+  double value = 0.0, uncertainty = 0.0;  ///< in the row that uses most of it
+  std::string fit_class;                  ///< of an order
+  double first_room = 0.0, first_value = 0.0;  ///< of the first baseline: against creep
+  double loosened = 0.0;  ///< sum of ln(new/old) of every loosening since then; tightening takes nothing off
+};
+
+/// What one run counted. Never seconds: they belong to the machine.
+struct AcceptedCost {
+  std::string run;  ///< engine and folder
+  double pairs = 0.0, steps = 0.0, instructions = 0.0;
+};
+
+struct Acceptance {
+  std::string date, commit, reason;
+};
+
+struct Baseline {
+  std::string id, case_hash;  ///< of the case file's text
+  std::uint64_t seed = 1;
+  std::vector<Acceptance> accepted;  ///< oldest first
+  std::vector<AcceptedGate> gates;
+  std::vector<AcceptedCost> cost;
+};
+
+/// Where the baseline of a case file lies: below the folder `baselines` beside the nearest folder `cases` above it; else in `baselines` beside the file.
+[[nodiscard]] std::string baseline_file(const std::string& case_file);
+/// Whether the suite that a case belongs to keeps baselines at all: the folder is there.
+[[nodiscard]] bool keeps_baselines(const std::string& case_file);
+
+/// @throws InputError with the place of what is wrong
+[[nodiscard]] Baseline read_baseline(const std::string& file);
+[[nodiscard]] std::string baseline_text(const Baseline&);
+
+/// The room that a gate leaves: its limit; half the width of a band; 1/at_least (of an order, and of anything else).
+[[nodiscard]] double room_of(const Gate&);
+
+/// The baseline that these results would be, after the one that was accepted before.
+[[nodiscard]] Baseline accepted_from(const CaseResult&, std::uint64_t seed, const Baseline* before, const Acceptance&);
+
+/// Results against their baselines. Missing baseline of a suite that keeps them, or a limit looser than the accepted one: error, exit 4.
+/// More than 1 % more pairs, steps or instructions at the accepted seed: error, exit 6. A value that has got worse than the accepted or the
+/// first one by more than a tenth and its uncertainty, another class of convergence, another case file: warning.
+[[nodiscard]] std::vector<Remark> baseline_remarks(const Results&);
+
+/// Accepts the cases with these ids (empty: all). @return what changed, old and new, and the sum of all loosenings since the first baseline
+/// @throws InputError for an id that the results do not hold, and where a case is not green
+[[nodiscard]] std::string accept(const Results&, const std::vector<std::string>& ids, const Acceptance&);
+
+/// One line of JSON for the history: commit, date, machine, and every gated value and count of the cases.
+[[nodiscard]] std::string history_line(const Results&);
+
+}  // namespace tripoint

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/remarks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Size of a value over what its gate allows; of a band, distance from its middle over half its width.
+double excess_of(const GateRow& row) {
+  const Gate& g = row.gate;
+  if (!std::isfinite(row.value)) return infinity;
+  if (g.limit) return *g.limit > 0.0 ? std::abs(row.value) / *g.limit : infinity;
+  if (g.band) {
+    const double half = 0.5 * ((*g.band)[1] - (*g.band)[0]);
+    return half > 0.0 ? std::abs(row.value - 0.5 * ((*g.band)[0] + (*g.band)[1])) / half : infinity;
+  }
+  return g.at_least && *g.at_least > 0.0 && row.value > 0.0 ? *g.at_least / row.value : infinity;
+}
+
+int code_of(const std::string& verdict) {
+  if (verdict == "fail") return exit_fail;
+  if (verdict == "inconclusive") return exit_inconclusive;
+  return verdict == "diverged" ? exit_diverged : exit_missing;
+}
+
+Remark remark_on(const CaseResult& c, const EngineRow& e, const GateRow& row) {
+  Remark remark;
+  remark.code = code_of(row.verdict), remark.place = row.gate.place, remark.excess = excess_of(row);
+  remark.title = fmt::format("{} {}{}{} {}{}", c.id, e.name, e.preset == "default" ? "" : " (" + e.preset + ")", row.mode.empty() ? "" : " " + row.mode, row.metric,
+                             row.level ? fmt::format(" at {:g}", *row.level) : "");
+  remark.text = fmt::format("{}: {}; the limit is there because: {}", row.verdict, row.why, row.gate.reason);
+  return remark;
+}
+
+/// Of a workflow command: what would end the line, and in a property also what would end the property.
+std::string escaped(const std::string& text, bool property) {
+  std::string out;
+  for (const char c : text) switch (c) {
+      case '%': out += "%25"; break;
+      case '\r': out += "%0D"; break;
+      case '\n': out += "%0A"; break;
+      case ':': out += property ? "%3A" : ":"; break;
+      case ',': out += property ? "%2C" : ","; break;
+      default: out += c;
+    }
+  return out;
+}
+
+std::string command(const Remark& r, std::size_t more) {
+  std::string place;
+  if (!r.place.file.empty()) place = fmt::format(" file={},line={},", escaped(r.place.file, true), std::max(r.place.line, 1));
+  else place = " ";
+  const std::string rest = more > 0 ? fmt::format(" (and {} more, which results.json lists)", more) : "";
+  return fmt::format("::{}{}title={}::{}\n", r.error ? "error" : "warning", place, escaped(r.title, true), escaped(r.text + rest, false));
+}
+
+}  // namespace
+
+std::vector<Remark> verdict_remarks(const Results& results) {
+  std::vector<Remark> list;
+  for (const auto& c : results.cases) {
+    for (const auto& p : c.problems) list.push_back({true, c.exit_code, {c.file, 1, 0}, c.id, p, infinity});
+    for (const auto& e : c.engines)
+      for (const auto& row : e.gates)
+        if (row.verdict != "pass") list.push_back(remark_on(c, e, row));
+  }
+  for (const auto& p : results.problems) list.push_back({true, results.exit_code, {}, "the results", p, infinity});
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.excess > b.excess; });
+  return list;
+}
+
+std::string remarks_text(const std::vector<Remark>& list) {
+  std::string text;
+  for (const auto& r : list) text += fmt::format("{}: {}{}: {}\n", r.error ? "error" : "warning", r.place.file.empty() ? "" : to_string(r.place) + ": ", r.title, r.text);
+  return text;
+}
+
+std::string annotations_text(const std::vector<Remark>& list, std::size_t most) {
+  std::string text;
+  for (const bool error : {true, false}) {
+    std::vector<const Remark*> kind;
+    for (const auto& r : list)
+      if (r.error == error) kind.push_back(&r);
+    for (std::size_t k = 0; k < std::min(most, kind.size()); ++k) text += command(*kind[k], k + 1 == most ? kind.size() - most : 0);
+  }
+  return text;
+}
+
+}  // namespace tripoint

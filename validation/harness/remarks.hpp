@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "validation/harness/results.hpp"
+
+/// What a gate has to say about results, one sentence each, with the line of the case file that it is about.
+namespace tripoint {
+
+struct Remark {
+  bool error = true;    ///< else a warning, which turns nothing red
+  int code = 0;         ///< exit code of the contract; 0 for a warning
+  SourcePlace place;    ///< of the limit in the case file; line 0 = the file as a whole, no file = the suite
+  std::string title;    ///< case and what is judged
+  std::string text;     ///< one sentence
+  double excess = 0.0;  ///< how far beyond the limit, to put the worst first: |value|/limit; infinite where there is no value
+};
+
+/// Every gate that is not green, and every problem of a case or the suite, worst first.
+[[nodiscard]] std::vector<Remark> verdict_remarks(const Results&);
+
+/// "error: file:line: title: text", one line each.
+[[nodiscard]] std::string remarks_text(const std::vector<Remark>&);
+
+/// The same as workflow commands of GitHub (`::error file=...,line=...`), which it draws beside the line of the limit. It shows ten of
+/// a kind a step: the ten worst errors are written, the last of them saying how many more there are, then likewise the warnings.
+[[nodiscard]] std::string annotations_text(const std::vector<Remark>&, std::size_t most = 10);
+
+}  // namespace tripoint

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/slack.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "validation/harness/apply_gate.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool is_count(const CaseResult& c, const std::string& metric) {
+  static constexpr std::array<std::string_view, 5> counts{"body_count", "object_count", "phase_count", "event_count", "toggles"};
+  const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const MetricChoice& m) { return m.name == metric; });
+  return at != c.metrics.end() && at->scale == 1.0 && std::find(counts.begin(), counts.end(), at->quantity) != counts.end();
+}
+
+/// The value farthest from zero that the gate lets pass; infinite where it has no ceiling.
+double ceiling(const Gate& g) {
+  double most = g.limit.value_or(infinity);
+  if (g.band) most = std::min(most, std::max(std::abs((*g.band)[0]), std::abs((*g.band)[1])));
+  return most;
+}
+
+/// The least positive value that it lets pass; 0 where it has no floor.
+double floor_of(const Gate& g) { return std::max({g.at_least.value_or(0.0), g.band ? (*g.band)[0] : 0.0, 0.0}); }
+
+/// The gate, wherever it is applied.
+std::string key_of(const CaseResult& c, const Gate& g) {
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", c.id, g.place.line, g.metric, g.engine, g.mode, g.preset, g.level.value_or(0.0));
+}
+
+Remark remark_on(const CaseResult& c, const GateRow& row, double slack) {
+  Remark r;
+  r.error = slack > slack_fails && row.gate.date.empty();
+  r.code = r.error ? exit_fail : exit_pass, r.place = row.gate.place, r.excess = slack;
+  r.title = fmt::format("{} {} is slack", c.id, row.metric);
+  r.text = fmt::format("{}, and {:.3g} with standard uncertainty {:.2g} uses one part in {:.3g} of it{}", describe(row.gate), row.value, row.uncertainty, slack,
+                       r.error ? "; tighten it, or give the reason a date" : row.gate.date.empty() ? "" : " (dated " + row.gate.date + ")");
+  return r;
+}
+
+}  // namespace
+
+std::optional<double> slack_of(const CaseResult& c, const GateRow& row) {
+  const Gate& g = row.gate;
+  if (row.verdict != "pass" || !row.expect.empty() || row.metric.ends_with(".order") || !std::isfinite(row.value)) return {};
+  double used = std::abs(row.value) + 2.0 * row.uncertainty;
+  const double most = ceiling(g), least = floor_of(g);
+  if (most <= roundoff_limit) return {};
+  if (is_count(c, row.metric)) used = std::max(used, 0.5);
+  double slack = 0.0;
+  if (std::isfinite(most)) slack = used > 0.0 ? most / used : infinity;
+  if (least > 0.0) slack = std::max(slack, (row.value + 2.0 * row.uncertainty) / least);
+  if (slack == 0.0) return {};
+  return slack;
+}
+
+std::vector<Remark> slack_remarks(const Results& results) {
+  std::vector<Remark> list;
+  for (const auto& c : results.cases) {
+    std::map<std::string, std::pair<double, const GateRow*>> tightest;
+    for (const auto& e : c.engines)
+      for (const auto& row : e.gates) {
+        const auto slack = slack_of(c, row);
+        const double s = slack.value_or(0.0);  // one row that is no matter of slack settles the gate
+        const auto [at, is_new] = tightest.try_emplace(key_of(c, row.gate), s, &row);
+        if (!is_new && s < at->second.first) at->second = {s, &row};
+      }
+    for (const auto& [key, found] : tightest)
+      if (found.first > slack_warns) list.push_back(remark_on(c, *found.second, found.first));
+  }
+  std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.excess > b.excess; });
+  return list;
+}
+
+}  // namespace tripoint
