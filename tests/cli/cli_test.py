@@ -157,19 +157,21 @@ class Cli(unittest.TestCase):
                 self.assertEqual(spoilt(change), code)
 
     def test_shards_merge_into_the_verdict_and_numbers_of_the_whole(self):
-        self.write_cases("a", "b", "c")
+        self.write_cases(*"abcdefg")  # seven over four: shards of two and of one
         engine = self.fake()
         common = ["validate", self.path / "cases", "--engines", "fake", "--engine", engine]
-        for k in (1, 2):
-            self.assertEqual(call(*common, "--shard", f"{k}/2", "--out", self.path / f"s{k}").returncode, 0)
-        self.assertEqual(call("merge", self.path / "s2", self.path / "s1", "--out", self.path / "merged").returncode, 0)
-        self.assertEqual(call(*common, "--out", self.path / "whole").returncode, 0)
+        for k in (1, 2, 3, 4):
+            self.assertEqual(call(*common, "--shard", f"{k}/4", "--out", self.path / f"s{k}").returncode, 0)
+        merged = call("merge", *(self.path / f"s{k}" for k in (2, 4, 1, 3)), "--out", self.path / "merged")
+        self.assertEqual(merged.returncode, 0)
+        whole = call(*common, "--out", self.path / "whole")
+        self.assertEqual(merged.stdout.splitlines()[:-1], whole.stdout.splitlines()[:-1])  # the last line names the folder
         merged, whole = (json.loads((self.path / d / "results.json").read_text()) for d in ("merged", "whole"))
 
         def numbers(results):
             return [(c["id"], e["name"], r["metrics"], g["verdict"]) for c in results["cases"] for e in c["engines"] for r in e["runs"] for g in e["gates"]]
         self.assertEqual(numbers(merged), numbers(whole))
-        self.assertEqual(len(whole["cases"]), 3)
+        self.assertEqual(len(whole["cases"]), 7)
         self.assertEqual(call("merge", self.path / "s1", "--out", self.path / "part").returncode, 2)
 
     def test_ctrl_c_ends_130_kills_the_engines_and_leaves_what_was_done(self):
