@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -19,10 +20,18 @@ enum class Per { particle, bond, body };
   return per == Per::particle ? "particle" : per == Per::bond ? "bond" : "body";
 }
 
+/// What a column is found by: FNV-1a of its name, at compile time where the name is a constant.
+[[nodiscard]] constexpr std::uint64_t key_of(std::string_view name) noexcept {
+  std::uint64_t key = 14695981039346656037u;
+  for (const char c : name) key = (key ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return key;
+}
+
 template <class T>
 struct Field {
   std::string_view name, unit;
   Per per = Per::particle;
+  std::uint64_t key = key_of(name);
 };
 
 enum class FieldType { real, integer, vector, quaternion };
@@ -33,11 +42,12 @@ struct FieldInfo {
   Per per = Per::particle;
   FieldType type = FieldType::real;
   std::size_t bytes = 0;  ///< of one value
+  std::uint64_t key = 0;
 
   FieldInfo() = default;
   template <class T>
   constexpr FieldInfo(const Field<T>& f) noexcept
-      : name(f.name), unit(f.unit), per(f.per), type(type_of<T>()), bytes(sizeof(T)) {}
+      : name(f.name), unit(f.unit), per(f.per), type(type_of<T>()), bytes(sizeof(T)), key(f.key) {}
   bool operator==(const FieldInfo& other) const noexcept { return name == other.name && per == other.per; }
 
  private:

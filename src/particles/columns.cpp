@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "particles/columns.hpp"
 
-#include <algorithm>
-
 namespace tripoint {
 namespace {
 
@@ -12,7 +10,7 @@ constexpr std::size_t padding = vector_bytes / sizeof(double);  ///< rows beyond
 
 Columns::Columns(std::size_t rows, Per per, std::span<const FieldInfo> fields) : rows_(rows), per_(per) {
   for (const FieldInfo& f : fields) {
-    if (f.per != per || has(f.name)) continue;
+    if (f.per != per || find(f.key)) continue;
     const std::size_t n = rows + padding;
     switch (f.type) {
       case FieldType::real:
@@ -28,7 +26,16 @@ Columns::Columns(std::size_t rows, Per per, std::span<const FieldInfo> fields) :
         columns_.push_back({f, AlignedVector<Quaternion>(n)});
         break;
     }
+    enter(f.key);
   }
+}
+
+/// The last column by its key.
+void Columns::enter(std::uint64_t key) {
+  assert(columns_.size() < places_of_keys / 2);
+  std::size_t s = key % places_of_keys;
+  while (number_[s] != 0) s = (s + 1) % places_of_keys;
+  number_[s] = static_cast<std::uint8_t>(columns_.size());
 }
 
 std::vector<FieldInfo> Columns::fields() const {
@@ -37,17 +44,14 @@ std::vector<FieldInfo> Columns::fields() const {
   return list;
 }
 
-const Columns::Column* Columns::find(std::string_view name) const noexcept {
-  const auto place = std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.info.name == name; });
-  return place == columns_.end() ? nullptr : &*place;
-}
-
-void Columns::permute(std::span<const std::uint32_t> order) {
+void Columns::permute(std::span<const std::uint32_t> order, int threads) {
   assert(order.size() == rows_);
   for (Column& c : columns_) {
     std::visit(
-        [&](auto& values) {
-          auto moved = values;
+        [&]<class T>(AlignedVector<T>& values) {
+          auto& moved = std::get<AlignedVector<T>>(moved_);
+          moved.resize(values.size());
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
           for (std::size_t n = 0; n < rows_; ++n) moved[n] = values[order[n]];
           values.swap(moved);
         },

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cassert>
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -20,7 +22,11 @@ class Columns {
   Columns(std::size_t rows, Per per, std::span<const FieldInfo> fields);
 
   [[nodiscard]] std::size_t size() const noexcept { return rows_; }
-  [[nodiscard]] bool has(std::string_view name) const noexcept { return find(name) != nullptr; }
+  [[nodiscard]] bool has(std::string_view name) const noexcept { return find(key_of(name)) != nullptr; }
+  template <class T>
+  [[nodiscard]] bool has(const Field<T>& key) const noexcept {
+    return find(key.key) != nullptr;
+  }
   [[nodiscard]] std::vector<FieldInfo> fields() const;
 
   /// @throws MissingField by name when no effect of this scene owns it
@@ -45,7 +51,7 @@ class Columns {
 
   /// Row n becomes what was row order[n], in every column; spans taken before are no longer valid. @param order a permutation of
   /// 0..size()-1
-  void permute(std::span<const std::uint32_t> order);
+  void permute(std::span<const std::uint32_t> order, int threads = 1);
   /// Adds a row of zeros to every column; spans taken before are no longer valid.
   void append_row();
 
@@ -55,11 +61,17 @@ class Columns {
     FieldInfo info;
     Values values;
   };
-  [[nodiscard]] const Column* find(std::string_view name) const noexcept;
+  [[nodiscard]] const Column* find(std::uint64_t key) const noexcept {
+    for (std::size_t s = key % places_of_keys;; s = (s + 1) % places_of_keys) {
+      if (number_[s] == 0) return nullptr;
+      if (const Column& c = columns_[number_[s] - 1u]; c.info.key == key) return &c;
+    }
+  }
+  void enter(std::uint64_t key);
 
   template <class T, class Self>
   static auto& values(Self& self, const Field<T>& key) {
-    auto* column = const_cast<std::conditional_t<std::is_const_v<Self>, const Column, Column>*>(self.find(key.name));
+    auto* column = const_cast<std::conditional_t<std::is_const_v<Self>, const Column, Column>*>(self.find(key.key));
     if (!column) throw MissingField(key.name, key.per);
     return std::get<AlignedVector<T>>(column->values);
   }
@@ -67,6 +79,9 @@ class Columns {
   std::size_t rows_ = 0;
   Per per_ = Per::particle;
   std::vector<Column> columns_;
+  static constexpr std::size_t places_of_keys = 512;     ///< more than twice as many as there are fields: few keys share a place
+  std::array<std::uint8_t, places_of_keys> number_{};    ///< open addressing: 1 + the column whose key has, or shares, this place
+  std::tuple<AlignedVector<double>, AlignedVector<int>, AlignedVector<Vec3>, AlignedVector<Quaternion>> moved_;  ///< memory of permute()
 };
 
 }  // namespace tripoint

@@ -20,8 +20,8 @@ std::size_t Particles::append() {
   return row;
 }
 
-void Particles::permute(std::span<const std::uint32_t> order) {
-  Columns::permute(order);
+void Particles::permute(std::span<const std::uint32_t> order, int threads) {
+  Columns::permute(order, threads);
   const auto id = (*this)[field::id];
   for (std::uint32_t n = 0; n < size(); ++n) row_of_id_[static_cast<std::size_t>(id[n])] = n;
 }

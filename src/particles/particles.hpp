@@ -22,7 +22,7 @@ class Particles : public Columns {
   /// One particle more, all zero, with the next id. @return its row
   std::size_t append();
   /// Reorders every column and the map from ids to rows.
-  void permute(std::span<const std::uint32_t> order);
+  void permute(std::span<const std::uint32_t> order, int threads = 1);
 
   [[nodiscard]] Vec3 position(std::size_t row) const {
     return vector(row, field::position_x, field::position_y, field::position_z);
