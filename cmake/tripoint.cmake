@@ -13,6 +13,25 @@ function(tripoint_room name)
   target_link_libraries(tripoint_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE} tripoint::warnings)
 endfunction()
 
+# Adds FILES to a room once for each vector unit; code chooses at run time (core/machine.hpp). At -O1 at least: unoptimised, shared
+# inline functions of such a file could be taken for the whole program.
+# tripoint_units(TARGET a.cpp ... [DEFECTS]); DEFECTS: as the test build has them
+function(tripoint_units target)
+  cmake_parse_arguments(U "DEFECTS" "" "" ${ARGN})
+  foreach(unit "Avx2;4;-mavx2" "Avx512;8;-mavx512f -mavx512dq -mprefer-vector-width=512")
+    list(GET unit 0 name)
+    list(GET unit 1 lanes)
+    list(GET unit 2 options)
+    separate_arguments(options)
+    add_library(${target}_${name} OBJECT ${U_UNPARSED_ARGUMENTS})
+    target_include_directories(${target}_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR})
+    target_compile_definitions(${target}_${name} PRIVATE TRIPOINT_UNIT=${name} TRIPOINT_UNIT_LANES=${lanes} $<$<BOOL:${U_DEFECTS}>:TRIPOINT_DEFECTS>)
+    target_compile_options(${target}_${name} PRIVATE ${options} -Wno-maybe-uninitialized $<$<CONFIG:Debug>:-O1>)
+    target_link_libraries(${target}_${name} PRIVATE OpenMP::OpenMP_CXX tripoint::warnings)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${target}_${name}>)
+  endforeach()
+endfunction()
+
 # An engine executable: build/libexec/tripoint/engine-NAME
 function(tripoint_engine name)
   cmake_parse_arguments(ENGINE "" "" "SOURCES;PRIVATE" ${ARGN})

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__AVX2__) || defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
+/// Vectors of doubles, a lane a particle. With one lane a vector is a double: the same source, the oracle of the others.
+namespace tripoint {
+
+/// The vector unit that a file is compiled for. It is part of the type of what is compiled for several, so that the linker never
+/// takes one for another; in what is compiled for any machine it is `Any`.
+#ifndef TRIPOINT_UNIT
+#define TRIPOINT_UNIT Any
+#define TRIPOINT_UNIT_LANES 1
+#endif
+struct Any;
+struct Avx2;
+struct Avx512;
+using Unit = TRIPOINT_UNIT;
+
+template <int L>
+struct Lanes {
+  typedef double Real __attribute__((vector_size(8 * L)));
+  typedef long long Mask __attribute__((vector_size(8 * L)));  ///< all bits of a lane set, or none
+};
+template <>
+struct Lanes<1> {
+  using Real = double;
+  using Mask = bool;
+};
+
+template <int L>
+[[nodiscard, gnu::always_inline]] inline typename Lanes<L>::Real load_lanes(const double* from) noexcept {
+  typename Lanes<L>::Real v;
+  std::memcpy(&v, from, sizeof v);
+  return v;
+}
+
+/// Square root of each lane, rounded as IEEE asks.
+template <class V>
+[[nodiscard, gnu::always_inline]] inline V root(V v) noexcept {
+  if constexpr (sizeof(V) == sizeof(double)) {
+    return std::sqrt(v);
+#ifdef __AVX512F__
+  } else if constexpr (sizeof(V) == 64) {
+    return reinterpret_cast<V>(_mm512_sqrt_pd(reinterpret_cast<__m512d>(v)));
+#endif
+#ifdef __AVX2__
+  } else if constexpr (sizeof(V) == 32) {
+    return reinterpret_cast<V>(_mm256_sqrt_pd(reinterpret_cast<__m256d>(v)));
+#endif
+  } else {
+    for (std::size_t l = 0; l < sizeof(V) / sizeof(double); ++l) v[l] = std::sqrt(v[l]);
+    return v;
+  }
+}
+
+/// Lane l where bit l is set.
+template <int L>
+[[nodiscard, gnu::always_inline]] inline typename Lanes<L>::Mask mask_of(unsigned bits) noexcept {
+  if constexpr (L == 1) {
+    return (bits & 1u) != 0;
+  } else {
+    typename Lanes<L>::Mask power;
+    for (int l = 0; l < L; ++l) power[l] = 1LL << l;
+    return (power & static_cast<long long>(bits)) == power;
+  }
+}
+
+/// Bit l where lane l is set.
+template <int L>
+[[nodiscard, gnu::always_inline]] inline unsigned bits_of(typename Lanes<L>::Mask mask) noexcept {
+  if constexpr (L == 1) {
+    return mask ? 1u : 0u;
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  } else if constexpr (L == 8) {
+    return static_cast<unsigned>(_mm512_movepi64_mask(reinterpret_cast<__m512i>(mask)));
+#endif
+#ifdef __AVX2__
+  } else if constexpr (L == 4) {
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+#endif
+  } else {
+    unsigned bits = 0;
+    for (int l = 0; l < L; ++l) bits |= mask[l] != 0 ? 1u << l : 0u;
+    return bits;
+  }
+}
+
+}  // namespace tripoint
