@@ -84,7 +84,7 @@ std::vector<char> joints_of(const World& world, const Joins& joined, const Candi
 
 void set_twins(Bonds& bonds, std::span<const std::uint32_t> ids) {
   for (const std::uint32_t id : ids) {
-    for (Bond& b : bonds.of(id)) {
+    for (Bond& b : bonds.edit(id)) {
       const auto list = std::as_const(bonds).of(b.other);
       b.twin = static_cast<std::uint32_t>(std::ranges::lower_bound(list, id, {}, &Bond::other) - list.begin());
     }

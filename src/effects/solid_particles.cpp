@@ -51,9 +51,7 @@ Symmetric moment_of(const World& world, std::uint32_t id) {
 bool is_regular(const World& world, std::uint32_t id) {
   const auto rank = world.particles[field::shape_rank];
   if (rank[world.particles.row(id)] != 3) return false;
-  return std::ranges::all_of(world.bonds.of(id), [&](const Bond& b) {
-    return rank[world.particles.row(b.other)] == 3 && world.bonds.of(b.other)[b.twin].x == -b.x;
-  });
+  return std::ranges::all_of(world.bonds.of(id), [&](const Bond& b) { return rank[world.particles.row(b.other)] == 3; });
 }
 
 /// What one energy U_k adds to K_ii, with d = d_ki: v_k (mu |d|^2 + (lambda + mu) d d^T).

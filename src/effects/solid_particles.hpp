@@ -60,7 +60,7 @@ class EnergyOwners {
 };
 
 /// Volume, stiffness, A_i and rank of these particles by their present lists and bodies, zero where they own no strain energy; with
-/// their partners, which lists mirror each other and, where the scene can freeze, the frequency of each particle.
+/// their partners, which of them are regular and, where the scene can freeze, the frequency of each particle.
 /// @param first lists are those of the start: no frequency is needed
 void refresh_shapes(World&, std::span<const std::uint32_t> ids, bool first = false);
 

@@ -58,7 +58,7 @@ inline constexpr Field<double> solid_volume{"solid_volume", "m3"};  ///< v_i: m/
 /// Whose constants the strain energy of a particle has, and how many times: 0 where it owns none.
 inline constexpr Field<int> solid_material{"solid_material", "1"};
 inline constexpr Field<double> solid_stiffness{"solid_stiffness", "1"};
-/// 1 where the lists of this particle and of its neighbours mirror each other and none of them is a sheet or a chain.
+/// 1 where neither this particle nor any of its body neighbours is a sheet or a chain.
 inline constexpr Field<int> regular_bonds{"regular_bonds", "1"};
 /// Square of the frequency that the bonds give this particle while its neighbours stay [1/s2]; 0 while its list is the first one.
 inline constexpr Field<double> bond_frequency{"bond_frequency", "1/s2"};

@@ -12,7 +12,7 @@
 namespace tripoint {
 
 /// Lists of partners by particle id, each a stretch of one pool in order of insertion: a change costs what it changes, and
-/// neither threads nor the order of rows touch the order of a list.
+/// neither threads nor the order of rows touch the order of a list. Changes are counted, so that what is made from lists can follow.
 template <class Pair>
 class PairLists {
  public:
@@ -27,14 +27,23 @@ class PairLists {
     if (id >= lists_.size()) return {};
     return {pool_.data() + lists_[id].start, lists_[id].count};
   }
-  [[nodiscard]] std::span<Pair> of(std::size_t id) {
+  /// The same to write to: the list counts as changed.
+  [[nodiscard]] std::span<Pair> edit(std::size_t id) {
     if (id >= lists_.size()) return {};
+    lists_[id].changed = ++changes_;
     return {pool_.data() + lists_[id].start, lists_[id].count};
   }
+  /// Changes of all lists until now; that of them which was the last of this list.
+  [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
+  [[nodiscard]] std::uint64_t changed(std::size_t id) const noexcept { return lists_[id].changed; }
+  /// Where a list begins in the pool, and places that the pool has.
+  [[nodiscard]] std::size_t start(std::size_t id) const noexcept { return lists_[id].start; }
+  [[nodiscard]] std::size_t places() const noexcept { return pool_.size(); }
   /// The list becomes `pairs`; spans taken before are no longer valid. @param pairs none of this object's own
   void replace(std::size_t id, std::span<const Pair> pairs) {
     grow(id + 1);
     List& list = lists_[id];
+    list.changed = ++changes_;
     pairs_ += pairs.size();
     pairs_ -= list.count;
     if (pairs.size() > list.room) {
@@ -51,6 +60,7 @@ class PairLists {
     grow(id + 1);
     if (lists_[id].count < lists_[id].room) {
       pool_[lists_[id].start + lists_[id].count++] = pair;
+      lists_[id].changed = ++changes_;
       ++pairs_;
       return;
     }
@@ -63,10 +73,11 @@ class PairLists {
   void compact() {
     std::vector<Pair> packed;
     packed.reserve(pairs_);
+    ++changes_;
     for (List& list : lists_) {
       const std::size_t start = packed.size();
       packed.insert(packed.end(), pool_.begin() + static_cast<std::ptrdiff_t>(list.start), pool_.begin() + static_cast<std::ptrdiff_t>(list.start + list.count));
-      list = {start, list.count, list.count};
+      list = {start, list.count, list.count, changes_};
     }
     pool_.swap(packed);
     wasted_ = 0;
@@ -75,10 +86,12 @@ class PairLists {
  private:
   struct List {
     std::size_t start = 0, count = 0, room = 0;
+    std::uint64_t changed = 0;
   };
   std::vector<List> lists_;
   std::vector<Pair> pool_;
   std::size_t pairs_ = 0, wasted_ = 0;
+  std::uint64_t changes_ = 0;
 };
 
 /// A body neighbour j of i: one line of the cache, so that reference data stream by.
@@ -119,7 +132,7 @@ std::vector<std::uint32_t> disconnect(Bonds& bonds, std::uint32_t i, Ends ends) 
       if (!gone(b)) kept.push_back(b);
     bonds.replace(id, kept);
     const auto list = bonds.of(id);
-    for (std::size_t n = 0; n < list.size(); ++n) bonds.of(list[n].other)[list[n].twin].twin = static_cast<std::uint32_t>(n);
+    for (std::size_t n = 0; n < list.size(); ++n) bonds.edit(list[n].other)[list[n].twin].twin = static_cast<std::uint32_t>(n);
   };
   for (const Bond& b : bonds.of(i))
     if (ends(b)) lost.push_back(b.other);

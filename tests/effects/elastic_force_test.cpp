@@ -95,7 +95,7 @@ TEST(ElasticForce, OfListsThatDoNotMirrorEachOtherIsTheGradientStill) {
   // One particle keeps its list in a frame of its own, as after freezing (x_ij != -x_ji).
   const Quaternion q = from_rotation_vector({0.2, 0.9, -0.4});
   const ElasticityKernel kernel = solid::bond_kernel(w.scene);
-  for (Bond& b : w.bonds.of(21)) {
+  for (Bond& b : w.bonds.edit(21)) {
     const Bond turned = solid::bond_of(kernel, 1.02 * rotate(q, b.x));
     b.x = turned.x, b.gradient = turned.gradient, b.weight = turned.weight;
   }

@@ -36,7 +36,7 @@ Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
   const solid::Deformation before = solid::deformation_of(world, id);
   if (before.rank == 0) return identity3;
   const Matrix3 R = solid::rotation_of(before.F, before.P, before.rank);
-  for (Bond& bond : world.bonds.of(id)) bond.x = R * bond.x, bond.gradient = R * bond.gradient;
+  for (Bond& bond : world.bonds.edit(id)) bond.x = R * bond.x, bond.gradient = R * bond.gradient;
   turn_plastic_strain(world.particles, world.particles.row(id), R);
   solid::refresh_shapes(world, std::array{id}, true);
   const Matrix3 F = solid::deformation_of(world, id).F;
@@ -47,7 +47,7 @@ Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
 /// body's turn, become the present ones.
 void see_mates_as_they_are(World& world, const ElasticityKernel& kernel, std::uint32_t id) {
   const std::size_t i = world.particles.row(id);
-  for (Bond& bond : world.bonds.of(id)) {
+  for (Bond& bond : world.bonds.edit(id)) {
     Bond now = solid::bond_of(kernel, solid::separation(world, world.particles.row(bond.other), i));
     now.other = bond.other, now.twin = bond.twin;
     bond = now;

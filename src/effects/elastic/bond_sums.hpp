@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstring>
+
+#include "core/lanes.hpp"
+#include "core/matrix3.hpp"
+#include "effects/elastic/bond_lists.hpp"
+
+/// The two loops over the bonds of one particle: three components side by side in a vector of four lanes. What the fourth lane holds
+/// means nothing. They are compiled for each vector unit; the bits are the same.
+namespace tripoint::elastic {
+
+#ifdef __AVX2__
+typedef double Quad __attribute__((vector_size(32)));
+#else
+/// The same in two halves, as any machine has them.
+struct Quad {
+  typedef double Half __attribute__((vector_size(16)));
+  Half low, high;
+  friend Quad operator+(const Quad& a, const Quad& b) noexcept { return {a.low + b.low, a.high + b.high}; }
+  friend Quad operator-(const Quad& a, const Quad& b) noexcept { return {a.low - b.low, a.high - b.high}; }
+  friend Quad operator*(double s, const Quad& a) noexcept { return {s * a.low, s * a.high}; }
+  Quad& operator+=(const Quad& b) noexcept { return *this = *this + b; }
+  Quad& operator-=(const Quad& b) noexcept { return *this = *this - b; }
+};
+#endif
+
+/// A column of a matrix, and a number that is stored beside it.
+struct alignas(sizeof(Quad)) Column {
+  double x = 0.0, y = 0.0, z = 0.0, beside = 0.0;
+  operator Vec3() const noexcept { return {x, y, z}; }
+};
+/// A matrix by columns.
+struct Columned {
+  Column x, y, z;
+  Columned& operator=(const Matrix3& a) noexcept {
+    x.x = a.xx, x.y = a.yx, x.z = a.zx, y.x = a.xy, y.y = a.yy, y.z = a.zy, z.x = a.xz, z.y = a.yz, z.z = a.zz;
+    return *this;
+  }
+  operator Matrix3() const noexcept { return {x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z}; }
+};
+
+/// Where a particle is [m], and its v_i [m3].
+struct alignas(sizeof(Quad)) Place {
+  Vec3 r;
+  double volume = 0.0;
+};
+
+/// What the partners of a particle see of it: three lines of the cache.
+struct alignas(vector_bytes) Deformed {
+  Columned strained;  ///< F - I; with the stress, that of a sheet or chain becomes its strain
+  Columned T;         ///< H until the stress is known, then (v F S + H) A: force of i on j is -v_j T gradW(x_ij), and of the residual [N m]
+  [[nodiscard]] double full() const noexcept { return T.x.beside; }  ///< a E/2 where the hourglass energy is that of a solid [Pa]
+  [[nodiscard]] double flat() const noexcept { return T.y.beside; }  ///< the same where it is that of a sheet or chain [Pa]
+  [[nodiscard]] double glass() const noexcept { return strained.x.beside; }  ///< v_i full [J]
+  void set_glass(double full, double flat, double volume) noexcept { T.x.beside = full, T.y.beside = flat, strained.x.beside = volume * full; }
+};
+static_assert(sizeof(Deformed) == 3 * vector_bytes);
+
+/// Half of the box and the box where a direction is periodic, infinity and 0 where it is not [m].
+struct Seam {
+  Column half, width;
+};
+
+/// What a list tells, with x = x_ij, u = u_ji, w = v_j W(x)/|x|^2.
+struct ListSums {
+  Columned displacement;  ///< sum v_j u gradW^T
+  Columned swept;         ///< sum w u x^T
+  Columned moment;        ///< sum w x x^T
+  Column gradient;        ///< sum v_j gradW
+  Column glass;           ///< sum w x
+  Column residual;        ///< sum w u
+};
+
+/// What the energies of the partners of a particle do to it, for a volume of 1: force [N/m3].
+struct PartnerForces {
+  Column stress, glass;
+};
+
+/// The loops of one scene.
+struct BondSums {
+  void (*list)(const BondLists::List&, const BondShape*, const Place*, const Place&, const Seam&, ListSums&);
+  void (*partners)(const BondLists::List&, const BondShape*, const Place*, const Deformed*, const Place&, const Seam&, PartnerForces&);
+};
+/// Those that this machine runs fastest.
+[[nodiscard]] BondSums bond_sums(bool periodic, bool hourglass);
+/// Those that are compiled for a vector unit.
+template <class ForUnit>
+[[nodiscard]] BondSums bond_sums_for(bool periodic, bool hourglass);
+template <>
+BondSums bond_sums_for<Any>(bool periodic, bool hourglass);
+template <>
+BondSums bond_sums_for<Avx2>(bool periodic, bool hourglass);
+
+namespace detail {
+
+[[gnu::always_inline]] inline void load(Quad& to, const void* from) noexcept { std::memcpy(&to, from, sizeof to); }
+[[gnu::always_inline]] inline void store(void* to, const Quad& from) noexcept { std::memcpy(to, &from, sizeof from); }
+
+struct Quads {
+  Quad x{}, y{}, z{};
+};
+[[gnu::always_inline]] inline void store(Columned& to, const Quads& from) noexcept { store(&to.x, from.x), store(&to.y, from.y), store(&to.z, from.z); }
+
+/// A difference of places as the nearest images have it: both lie in the box, or apart by less than a bond.
+template <bool periodic>
+[[gnu::always_inline]] inline void nearest(Quad& d, const Seam& seam) noexcept {
+  if constexpr (periodic) {
+    Column c;
+    store(&c, d);
+    const auto shift = [](double along, double half, double box) { return along > half ? box : along < -half ? -box : 0.0; };
+    Quad by;
+    const Column widths{shift(c.x, seam.half.x, seam.width.x), shift(c.y, seam.half.y, seam.width.y), shift(c.z, seam.half.z, seam.width.z)};
+    load(by, &widths);
+    d -= by;
+  }
+}
+
+}  // namespace detail
+
+/// @param at place of i   @param places by id
+template <bool periodic, bool hourglass, class ForUnit>
+void sum_list(const BondLists::List& list, const BondShape* shapes, const Place* places, const Place& at, const Seam& seam, ListSums& out) {
+  using namespace detail;
+  Quads displacement, swept, moment;
+  Quad i, gradient{}, glass{}, residual{};
+  load(i, &at);
+  for (std::size_t n = 0; n < list.count; ++n) {
+    const BondShape& bond = shapes[list.shape[n]];
+    const Place& j = places[list.other[n]];
+    Quad x, u;
+    load(x, &bond), load(u, &j);
+    u -= i;
+    nearest<periodic>(u, seam);
+    u += x;
+    const Quad ux = bond.x.x * u, uy = bond.x.y * u, uz = bond.x.z * u;
+    const double slope = j.volume * bond.slope;
+    displacement.x += slope * ux, displacement.y += slope * uy, displacement.z += slope * uz;
+    gradient += slope * x;
+    if constexpr (hourglass) {
+      const double w = j.volume * bond.glass;
+      const Quad wx = w * x;
+      swept.x += w * ux, swept.y += w * uy, swept.z += w * uz;
+      moment.x += bond.x.x * wx, moment.y += bond.x.y * wx, moment.z += bond.x.z * wx;
+      glass += wx;
+      residual += w * u;
+    }
+  }
+  store(out.displacement, displacement), store(out.swept, swept), store(out.moment, moment);
+  store(&out.gradient, gradient), store(&out.glass, glass), store(&out.residual, residual);
+}
+
+/// sum_j -T_j gradW(x_ji), and sum_j -k_j v_j W(x_ji)/|x_ji|^2 ((F_j - I) x_ji + u_ij), k = a E/2: x_ji as j has it in its list.
+/// @param at place of i   @param places,deformed by id
+template <bool periodic, bool hourglass, class ForUnit>
+void sum_partners(const BondLists::List& list, const BondShape* shapes, const Place* places, const Deformed* deformed, const Place& at, const Seam& seam, PartnerForces& out) {
+  using namespace detail;
+  Quad i, stress{}, glass{};
+  load(i, &at);
+  for (std::size_t n = 0; n < list.count; ++n) {
+    const BondShape& bond = shapes[list.seen[n]];
+    const Deformed& j = deformed[list.other[n]];
+    const Vec3& x = bond.x;
+    Quads T;
+    load(T.x, &j.T.x), load(T.y, &j.T.y), load(T.z, &j.T.z);
+    stress -= bond.slope * (x.x * T.x + x.y * T.y + x.z * T.z);
+    if constexpr (hourglass) {
+      Quads G;
+      Quad u, r;
+      load(G.x, &j.strained.x), load(G.y, &j.strained.y), load(G.z, &j.strained.z);
+      load(u, &bond), load(r, &places[list.other[n]]);
+      r = i - r;
+      nearest<periodic>(r, seam);
+      u += r;
+      glass -= (j.glass() * bond.glass) * (x.x * G.x + x.y * G.y + x.z * G.z + u);
+    }
+  }
+  store(&out.stress, stress), store(&out.glass, glass);
+}
+
+template <class ForUnit>
+[[nodiscard]] BondSums pick_bond_sums(bool periodic, bool hourglass) {
+  if (periodic) return hourglass ? BondSums{&sum_list<true, true, ForUnit>, &sum_partners<true, true, ForUnit>} : BondSums{&sum_list<true, false, ForUnit>, &sum_partners<true, false, ForUnit>};
+  return hourglass ? BondSums{&sum_list<false, true, ForUnit>, &sum_partners<false, true, ForUnit>} : BondSums{&sum_list<false, false, ForUnit>, &sum_partners<false, false, ForUnit>};
+}
+
+}  // namespace tripoint::elastic
