@@ -38,6 +38,7 @@ SimulationOptions options_of(const Job& job) {
   options.force_time_step = setting(job, "force_time_step", false);
   options.axis_order = axis_order_of(job.preset);
   options.skin = setting(job, "skin", options.skin);
+  options.lanes = static_cast<int>(setting(job, "lanes", 0.0));
   return options;
 }
 
@@ -77,6 +78,7 @@ EngineInfo TripointEngine::info() const {
   for (const char* axes : {"012", "021", "102", "120", "201", "210"}) info.presets.push_back(std::string(no_squish) + axes);
   info.settings = {{"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
                    {"skin", "skin of the neighbour lists in support radii; default 0.1"},
+                   {"lanes", "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"},
                    {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"}};
   info.deterministic = true;
   info.defects = registered_defects();

@@ -5,19 +5,18 @@
 
 #include "effects/body_table.hpp"
 #include "effects/density/density.hpp"
-#include "effects/density/density_terms.hpp"
 #include "effects/elastic/elastic.hpp"
 #include "effects/fluid/fluid.hpp"
-#include "effects/fluid/fluid_terms.hpp"
 #include "effects/fluid/material_numbers.hpp"
 #include "effects/fracture/fracture.hpp"
 #include "effects/heat/heat.hpp"
-#include "effects/heat/heat_terms.hpp"
 #include "effects/motion/motion.hpp"
+#include "effects/pair_passes.hpp"
 #include "effects/phase/phase.hpp"
 #include "effects/plastic/plastic.hpp"
 #include "effects/prescribed/prescribed.hpp"
 #include "effects/rigid/rigid.hpp"
+#include "effects/run_pass.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint {
@@ -43,11 +42,6 @@ constexpr Registered all_effects[] = {
     {"heat", heat::spec, heat::make, heat::defects},
     {"phase", phase::spec, phase::make, phase::defects},
 };
-
-/// The slots of each pass, one line each.
-using DensityPass = Pass<Slot<DensityPaper, NumberDensity>, Slot<None, HeatMoment>>;
-using RatePass = Pass<Slot<PressurePaper, PressureCorrected>, Slot<ViscosityPaper, ViscosityCentral>, Slot<None, ViscosityLaplacian>,
-                      Slot<HeatFlowPaper, HeatFlowCorrected>>;
 
 const Registered* find(std::string_view name) {
   const auto* place = std::ranges::find(all_effects, name, &Registered::name);
@@ -108,9 +102,10 @@ void check_ownership(const std::vector<Active>& effects, bool periodic) {
   }
 }
 
-Form form_of(const Scene& scene, const std::vector<Active>& effects, std::string_view effect, Term term) {
-  if (std::ranges::find(effects, effect, &Active::name) == effects.end()) return Form::off;
-  return scene.mode_of(term) == Mode::paper ? Form::paper : Form::corrected;
+/// Place of a form in its slot: 0 = off, 1 = as printed, 2 = corrected.
+int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_view effect, Term term) {
+  if (std::ranges::find(effects, effect, &Active::name) == effects.end()) return 0;
+  return scene.mode_of(term) == Mode::paper ? 1 : 2;
 }
 
 }  // namespace
@@ -170,35 +165,29 @@ std::vector<DefectEntry> registered_defects() {
 }
 
 struct Passes::Impl {
-  DensityPass density;
-  RatePass rates;
+  PassFunction density, rates, heat;
   PairKernels kernels;
 };
 
-Passes::Passes(const Scene& scene, const std::vector<Active>& effects) {
-  const Form heat = form_of(scene, effects, "heat", Term::heat);
-  const bool summed = form_of(scene, effects, "density", Term::heat) != Form::off;
-  const Form density = summed ? Form::paper : form_of(scene, effects, "fluid", Term::density);
-  const Form pressure = form_of(scene, effects, "fluid", Term::pressure), viscosity = form_of(scene, effects, "fluid", Term::viscosity);
-  const bool laplacian = viscosity == Form::corrected && scene.viscosity_form == "laplacian";
-  impl_ = std::make_unique<Impl>(Impl{DensityPass({density, heat == Form::corrected ? heat : Form::off}),
-                                      RatePass({pressure, laplacian ? Form::off : viscosity, laplacian ? viscosity : Form::off, heat}),
-                                      pressure == Form::off ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene)});
+Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes) {
+  const int heat = form_of(scene, effects, "heat", Term::heat), pressure = form_of(scene, effects, "fluid", Term::pressure);
+  const bool summed = form_of(scene, effects, "density", Term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
+  const int density = summed ? 1 : form_of(scene, effects, "fluid", Term::density);
+  const int viscosity = scene.mode_of(Term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : 2;
+  const PairPasses passes = pair_passes(lanes);
+  impl_ = std::make_unique<Impl>(Impl{passes.density({density, heat == 2 ? 1 : 0}), passes.rates({pressure == 0 ? 0 : 3 * (pressure - 1) + viscosity, heat}),
+                                      passes.rates({0, heat}), pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene)});
 }
 Passes::~Passes() = default;
 Passes::Passes(Passes&&) noexcept = default;
 Passes& Passes::operator=(Passes&&) noexcept = default;
 
-bool Passes::needed() const { return !impl_->density.idle() || !impl_->rates.idle(); }
+bool Passes::needed() const { return impl_->density.run != nullptr || impl_->rates.run != nullptr; }
 
 void Passes::run(PassName name, World& world) const {
   if (!needed()) return;
-  const PairKernels& kernels = impl_->kernels;
-  if (name == PassName::density) {
-    impl_->density(world.particles, *world.neighbours, kernels, world.threads);
-  } else {
-    impl_->rates(world.particles, *world.neighbours, kernels, world.threads);
-  }
+  const PassFunction& pass = name == PassName::density ? impl_->density : name == PassName::rates ? impl_->rates : impl_->heat;
+  run_pass(pass, world.particles, *world.neighbours, impl_->kernels, world.threads);
 }
 
 }  // namespace tripoint

@@ -6,7 +6,6 @@
 
 #include "effects/effect.hpp"
 #include "effects/plan.hpp"
-#include "sph/pass.hpp"
 
 namespace tripoint {
 
@@ -25,7 +24,8 @@ struct Active {
 /// The fused pair passes, as the scene's modes choose them.
 class Passes {
  public:
-  Passes(const Scene&, const std::vector<Active>&);
+  /// @param lanes particles of a cluster, as in the neighbours that it will run over
+  Passes(const Scene&, const std::vector<Active>&, int lanes);
   ~Passes();
   Passes(Passes&&) noexcept;
   Passes& operator=(Passes&&) noexcept;

@@ -29,7 +29,8 @@ inline void tighten(TimeStepBound& bound, double dt, std::string_view name) {
   if (dt < bound.dt) bound = {dt, std::string(name)};
 }
 
-enum class PassName { density, rates };
+/// heat: the rates of heat alone, for its second stage.
+enum class PassName { density, rates, heat };
 
 /// An event of the scene as it begins or, where it lasts, ends.
 struct Happening {
@@ -57,7 +58,7 @@ class Effect {
   virtual void adopt(World&) {}
   /// Settles what World::change cost or set free, when all have adopted it.
   virtual void settle(World&) {}
-  /// The second stage of two-stage schemes, with rates at the predicted state. @return whether rates must be had again
+  /// The second stage of two-stage schemes, with rates at the predicted state. @return whether rates of heat must be had again
   virtual bool correct(World&, double /*dt*/) { return false; }
   virtual void happen(World&, const Happening&) {}
   [[nodiscard]] virtual TimeStepBound max_dt(const World&) const { return {}; }

@@ -2,6 +2,7 @@
 #include "particles/neighbours.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/defect.hpp"
@@ -28,36 +29,35 @@ void refuse_not_finite(const Particles& particles, double time) {
 
 }  // namespace
 
-/// Cells at least as wide as the list's reach, so that neighbours of i are in the 27 cells around it.
+/// Cells finer than the list's reach: half of it in y and z, a quarter in x, which runs fastest, so that the particles of a cluster are
+/// near to each other and what is near to them is few whole rows of cells.
 struct Neighbours::Grid {
+  static constexpr std::array<double, 3> cells_a_reach{4.0, 2.0, 2.0};
+  static constexpr double slack = 1e-9;  ///< of the reach, far above the rounding of cell numbers
+
   std::array<int, 3> count{1, 1, 1};
   Vec3 origin, width;
-  std::vector<std::uint32_t> cell;   // of each row
   std::vector<std::uint32_t> first;  // row that starts each cell, one more at the end
 
-  [[nodiscard]] std::uint32_t index(const std::array<int, 3>& c) const {
-    return static_cast<std::uint32_t>(c[0] + count[0] * (c[1] + count[1] * c[2]));
+  [[nodiscard]] std::size_t index(const std::array<int, 3>& c) const {
+    return static_cast<std::size_t>(c[0]) + static_cast<std::size_t>(count[0]) * (static_cast<std::size_t>(c[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(c[2]));
   }
+  [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(count[0]) * count[1] * count[2]; }
   [[nodiscard]] std::array<int, 3> place(const Vec3& r) const {
     std::array<int, 3> c{};
-    for (std::size_t a = 0; a < 3; ++a) {
-      c[a] = std::clamp(static_cast<int>((r[a] - origin[a]) / width[a]), 0, count[a] - 1);
-    }
+    for (std::size_t a = 0; a < 3; ++a) c[a] = std::clamp(static_cast<int>((r[a] - origin[a]) / width[a]), 0, count[a] - 1);
     return c;
-  }
-  [[nodiscard]] std::array<int, 3> place(std::uint32_t index) const {
-    const int i = static_cast<int>(index);
-    return {i % count[0], i / count[0] % count[1], i / count[0] / count[1]};
   }
 
   /// @param low, high corners of all positions   @param reach of a list
   static Grid over(const Vec3& low, const Vec3& high, double reach, const PeriodicBox& box, std::size_t particles) {
     Grid g;
     // A particle far away must not ask for a mountain of empty cells: then all become wider.
-    const double most_cells = 8.0 * static_cast<double>(particles) + 64.0;
-    for (double least = reach;; least *= 2.0) {
+    const double most_cells = 16.0 * static_cast<double>(particles) + 1024.0;
+    for (double scale = 1.0;; scale *= 2.0) {
       double cells = 1.0;
       for (std::size_t a = 0; a < 3; ++a) {
+        const double least = scale * reach / cells_a_reach[a];
         const double extent = box.periodic[a] ? box.width[a] : std::max(high[a] - low[a], 0.0);
         const double n = std::max(1.0, std::floor(extent / least) + (box.periodic[a] ? 0.0 : 1.0));
         g.origin[a] = box.periodic[a] ? box.min[a] : low[a];
@@ -69,33 +69,51 @@ struct Neighbours::Grid {
     }
   }
 
-  /// Calls visit(first row, past the last row, image) for the cells around c, in the order of cells.
-  template <class Visit>
-  void around(const std::array<int, 3>& c, const PeriodicBox& box, Visit visit) const {
-    std::array<int, 3> d{};
-    for (d[2] = -1; d[2] <= 1; ++d[2]) {
-      for (d[1] = -1; d[1] <= 1; ++d[1]) {
-        for (d[0] = -1; d[0] <= 1; ++d[0]) {
-          std::array<int, 3> at{}, image{};
-          bool there = true;
-          for (std::size_t a = 0; a < 3; ++a) {
-            at[a] = c[a] + d[a];
-            if (at[a] >= 0 && at[a] < count[a]) continue;
-            there = there && box.periodic[a];
-            image[a] = at[a] < 0 ? -1 : 1;
-            at[a] -= image[a] * count[a];
-          }
-          if (!there) continue;
-          const std::uint32_t k = index(at);
-          visit(first[k], first[k + 1], static_cast<std::uint32_t>(13 + image[0] + 3 * image[1] + 9 * image[2]));
-        }
+  /// Numbers of the cells that [low, high] along an axis touches; beyond 0..count-1 in periodic directions, where they mean images.
+  [[nodiscard]] std::array<int, 2> touched(std::size_t a, double low, double high, bool periodic) const {
+    const double from = std::floor((low - origin[a]) / width[a]), to = std::floor((high - origin[a]) / width[a]);
+    const double least = periodic ? -count[a] : 0.0, most = periodic ? 2.0 * count[a] - 1.0 : count[a] - 1.0;
+    return {static_cast<int>(std::clamp(from, least, most)), static_cast<int>(std::clamp(to, least, most))};
+  }
+  [[nodiscard]] int image(std::size_t a, int cell) const { return cell < 0 ? -1 : cell >= count[a] ? 1 : 0; }
+  /// Distance of an interval to a cell along an axis; 0 where they touch.
+  [[nodiscard]] double gap(std::size_t a, int cell, double low, double high) const {
+    const double begin = origin[a] + cell * width[a], end = begin + width[a];
+    return std::max({0.0, begin - high, low - end});
+  }
+
+  /// The rows of cells within reach of a box, in the order of cells.
+  void candidates(const Vec3& low, const Vec3& high, double reach, const PeriodicBox& box, std::vector<CandidateRange>& ranges) const {
+    ranges.clear();
+    const double wide = reach * (1.0 + slack);
+    const auto zs = touched(2, low.z - wide, high.z + wide, box.periodic[2]), ys = touched(1, low.y - wide, high.y + wide, box.periodic[1]);
+    for (int z = zs[0]; z <= zs[1]; ++z) {
+      const double dz = gap(2, z, low.z, high.z);
+      for (int y = ys[0]; y <= ys[1]; ++y) {
+        const double dy = gap(1, y, low.y, high.y), left = wide * wide - dy * dy - dz * dz;
+        if (left < 0.0) continue;
+        const double along = std::sqrt(left);
+        const auto xs = touched(0, low.x - along, high.x + along, box.periodic[0]);
+        add_row(xs, y, z, ranges);
       }
+    }
+  }
+
+ private:
+  void add_row(const std::array<int, 2>& xs, int y, int z, std::vector<CandidateRange>& ranges) const {
+    const int iy = image(1, y), iz = image(2, z);
+    for (int ix = image(0, xs[0]); ix <= image(0, xs[1]); ++ix) {
+      const int from = std::max(xs[0] - ix * count[0], 0), to = std::min(xs[1] - ix * count[0], count[0] - 1);
+      const std::array<int, 3> start{from, y - iy * count[1], z - iz * count[2]}, end{to, start[1], start[2]};
+      const std::uint32_t first_row = first[index(start)], past = first[index(end) + 1];
+      if (first_row != past) ranges.push_back({first_row, past, static_cast<std::uint32_t>(13 + ix + 3 * iy + 9 * iz)});
     }
   }
 };
 
-Neighbours::Neighbours(double support, double skin, const PeriodicBox& box, int threads)
-    : support_(support), skin_(skin), box_(box), threads_(threads) {
+Neighbours::Neighbours(double support, double skin, const PeriodicBox& box, int threads, int lanes)
+    : support_(support), skin_(skin), box_(box), threads_(threads), scan_(scan_of(lanes)) {
+  clusters_.lanes = lanes;
   for (std::size_t a = 0; a < 3; ++a) {
     if (!box.periodic[a] || box.width[a] >= support + skin) continue;
     throw InputError(std::string("the periodic direction ") + axis_names[a] + " is " + std::to_string(box.width[a]) +
@@ -182,72 +200,108 @@ void Neighbours::sort_and_list(Particles& particles) {
   Grid grid = Grid::over(low, high, support_ + skin_, box_, n);
 
   // Counting sort by cell of the particles in order of id: rows come out ordered by (cell, id).
-  const std::size_t cells = static_cast<std::size_t>(grid.count[0]) * grid.count[1] * grid.count[2];
-  grid.first.assign(cells + 1, 0);
+  grid.first.assign(grid.cells() + 1, 0);
   std::vector<std::uint32_t> cell_of(n), order(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    cell_of[i] = grid.index(grid.place(x.at(i)));
-    ++grid.first[cell_of[i] + 1];
-  }
-  for (std::size_t c = 0; c < cells; ++c) grid.first[c + 1] += grid.first[c];
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t i = 0; i < n; ++i) cell_of[i] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(i))));
+  for (std::size_t i = 0; i < n; ++i) ++grid.first[cell_of[i] + 1];
+  for (std::size_t c = 0; c < grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
   std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
   for (std::size_t id = 0; id < n; ++id) {
     const auto row = static_cast<std::uint32_t>(particles.row(id));
     order[next[cell_of[row]]++] = row;
   }
-  grid.cell.resize(n);
-  for (std::size_t i = 0; i < n; ++i) grid.cell[i] = cell_of[order[i]];
   particles.permute(order);
   marked_ = false;
 
   const auto sorted = positions(particles);
   built_.resize(n);
   for (std::size_t i = 0; i < n; ++i) built_[i] = sorted.at(i);
+  form_clusters(grid);
   list(particles, grid);
 }
 
-/// Two passes, one that counts and one that fills: every row writes only its own part.
-void Neighbours::list(const Particles& particles, const Grid& grid) {
-  const std::size_t n = particles.size();
-  const double reach = support_ + skin_, reach2 = reach * reach;
-  const auto x = positions(particles);
-  const auto scan = [&](std::size_t i, auto take) {
-    const Vec3 r = x.at(i);
-    grid.around(grid.place(grid.cell[i]), box_, [&](std::uint32_t from, std::uint32_t to, std::uint32_t image) {
-      if (drops_seam() && image != 13) return;
-      const Vec3 s = shift_[image];
-      for (std::uint32_t j = from; j < to; ++j) {
-        const double dx = (x.x[j] - r.x) + s.x, dy = (x.y[j] - r.y) + s.y, dz = (x.z[j] - r.z) + s.z;
-        if (dx * dx + dy * dy + dz * dz < reach2 && !(j == i && image == 13)) take(Entry{j | image << Entry::image_shift});
-      }
-    });
-  };
-  start_.assign(n + 1, 0);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t i = 0; i < n; ++i) {
-    std::size_t count = 0;
-    scan(i, [&](Entry) { ++count; });
-    start_[i + 1] = count;
+/// Clusters end with a row of cells, so that what is near to their members has the same order for each of them.
+void Neighbours::form_clusters(const Grid& grid) {
+  Clusters& c = clusters_;
+  c.first.clear();
+  c.of_row.resize(built_.size());
+  const auto along = static_cast<std::size_t>(grid.count[0]);
+  for (std::size_t cell = 0; cell < grid.cells(); cell += along) {
+    const std::uint32_t end = grid.first[cell + along];
+    for (std::uint32_t i = grid.first[cell]; i < end; ++i) {
+      if ((i - grid.first[cell]) % static_cast<std::uint32_t>(c.lanes) == 0) c.first.push_back(i);
+      c.of_row[i] = static_cast<std::uint32_t>(c.first.size() - 1);
+    }
   }
-  for (std::size_t i = 0; i < n; ++i) start_[i + 1] += start_[i];
-  entries_.resize(start_[n]);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t i = 0; i < n; ++i) {
-    Entry* out = entries_.data() + start_[i];
-    scan(i, [&](Entry e) { *out++ = e; });
+  c.first.push_back(static_cast<std::uint32_t>(built_.size()));
+}
+
+/// Each thread lists a run of clusters; the parts are then laid end to end.
+void Neighbours::list(const Particles& particles, const Grid& grid) {
+  Clusters& c = clusters_;
+  const auto x = positions(particles);
+  const double reach = support_ + skin_;
+  c.start.assign(c.size() + 1, 0);
+  c.own.clear();
+  parts_.resize(static_cast<std::size_t>(threads_));
+  const auto past = [&](std::size_t part) { return c.size() * part / parts_.size(); };
+  std::size_t pairs = 0;
+#pragma omp parallel for schedule(static, 1) num_threads(threads_) reduction(+ : pairs)
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
+    auto& [entries, near] = parts_[part];
+    std::size_t size = 0;
+    std::vector<CandidateRange> ranges;
+    for (std::size_t k = past(part); k < past(part + 1); ++k) {
+      Vec3 low = x.at(c.first[k]), high = low;
+      for (std::size_t i = c.first[k] + 1; i < c.first[k + 1]; ++i) {
+        for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], x.at(i)[a]), high[a] = std::max(high[a], x.at(i)[a]);
+      }
+      grid.candidates(low, high, reach, box_, ranges);
+      if (drops_seam()) std::erase_if(ranges, [](const CandidateRange& r) { return r.image != 13; });
+      std::size_t room = size;
+      for (const CandidateRange& r : ranges) room += r.to - r.from;
+      if (entries.size() < room) entries.resize(room + room / 2), near.resize(entries.size());
+      const unsigned members = (1u << (c.first[k + 1] - c.first[k])) - 1u;
+      const Scan task{x.x.data(), x.y.data(), x.z.data(), c.first[k], members, ranges.data(), ranges.size(), shift_.data(), reach * reach};
+      const std::size_t found = scan_(task, entries.data() + size, near.data() + size);
+      for (std::size_t e = size; e < size + found; ++e) pairs += static_cast<std::size_t>(std::popcount(near[e]));
+      c.start[k + 1] = found;
+      size += found;
+    }
+  }
+  pairs_ = pairs;
+  for (std::size_t k = 0; k < c.size(); ++k) c.start[k + 1] += c.start[k];
+  c.entries.resize(c.start.back());
+  c.near.resize(c.start.back());
+#pragma omp parallel for schedule(static, 1) num_threads(threads_)
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
+    const std::size_t from = c.start[past(part)], count = c.start[past(part + 1)] - from;
+    std::copy_n(parts_[part].entries.begin(), count, c.entries.begin() + static_cast<std::ptrdiff_t>(from));
+    std::copy_n(parts_[part].near.begin(), count, c.near.begin() + static_cast<std::ptrdiff_t>(from));
   }
 }
 
 void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {
   marked_ = true;
+  Clusters& c = clusters_;
   const auto id = particles[field::id];
+  const auto has_own = [&](std::size_t row) { return !own.of(static_cast<std::size_t>(id[row])).empty(); };
+  bool any = false;
+#pragma omp parallel for schedule(static) num_threads(threads_) reduction(|| : any)
+  for (std::size_t i = 0; i < particles.size(); ++i) any = any || has_own(i);
+  c.own.assign(any ? c.entries.size() : 0, 0);
+  if (!any) return;
 #pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const bool any = !own.of(static_cast<std::size_t>(id[i])).empty();
-    for (std::size_t k = start_[i]; k < start_[i + 1]; ++k) {
-      Entry& e = entries_[k];
-      e.bits &= ~Entry::own_bit;
-      if (any && are_own(own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[e.row()]))) e.bits |= Entry::own_bit;
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) {
+      if (!has_own(i)) continue;
+      const unsigned lane = i - c.first[k];
+      for (std::size_t e = c.start[k]; e < c.start[k + 1]; ++e) {
+        if ((c.near[e] >> lane & 1u) == 0) continue;
+        const std::size_t j = Entry{c.entries[e]}.row();
+        if (are_own(own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j]))) c.own[e] = static_cast<std::uint8_t>(c.own[e] | 1u << lane);
+      }
     }
   }
 }

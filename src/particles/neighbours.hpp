@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "core/vec3.hpp"
 #include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
+#include "particles/scan.hpp"
 
 namespace tripoint {
 
@@ -28,15 +30,72 @@ struct Entry {
   [[nodiscard]] constexpr std::uint32_t image() const noexcept { return bits >> image_shift; }  ///< 0..26, 13 = the box itself
 };
 
-/// Full directed lists: every i lists all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
+/// Clusters of up to `lanes` consecutive rows, each with one list of the rows that are near to any of its members: what a vector of
+/// particles is worked on with.
+struct Clusters {
+  int lanes = 1;
+  std::vector<std::uint32_t> first;  ///< first row of each cluster, and one past the last row
+  std::vector<std::uint32_t> of_row;
+  std::vector<std::size_t> start;     ///< first entry of each cluster, and one past the last
+  std::vector<std::uint32_t> entries;  ///< row and image, as in Entry
+  std::vector<std::uint8_t> near;      ///< of each entry: bit l where it is near to member l; a particle is not near to itself
+  std::vector<std::uint8_t> own;       ///< of each entry: bit l where it is an own pair of member l; empty where there is none
+  [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
+};
+
+/// The entries of one row, in list order.
+class RowEntries {
+ public:
+  class iterator {
+   public:
+    using value_type = Entry;
+    using difference_type = std::ptrdiff_t;
+    iterator() = default;
+    iterator(const Clusters* list, std::size_t at, std::size_t end, unsigned lane) : list_(list), at_(at), end_(end), lane_(lane) { skip(); }
+    Entry operator*() const {
+      const bool own = !list_->own.empty() && (list_->own[at_] >> lane_ & 1u) != 0;
+      return {list_->entries[at_] | (own ? Entry::own_bit : 0u)};
+    }
+    iterator& operator++() {
+      ++at_;
+      skip();
+      return *this;
+    }
+    iterator operator++(int) {
+      const iterator before = *this;
+      ++*this;
+      return before;
+    }
+    bool operator==(const iterator& other) const { return at_ == other.at_; }
+
+   private:
+    void skip() {
+      while (at_ != end_ && (list_->near[at_] >> lane_ & 1u) == 0) ++at_;
+    }
+    const Clusters* list_ = nullptr;
+    std::size_t at_ = 0, end_ = 0;
+    unsigned lane_ = 0;
+  };
+  RowEntries(const Clusters& list, std::size_t row) : list_(&list), cluster_(list.of_row[row]), lane_(static_cast<unsigned>(row - list.first[cluster_])) {}
+  [[nodiscard]] iterator begin() const { return {list_, list_->start[cluster_], list_->start[cluster_ + 1], lane_}; }
+  [[nodiscard]] iterator end() const { return {list_, list_->start[cluster_ + 1], list_->start[cluster_ + 1], lane_}; }
+
+ private:
+  const Clusters* list_;
+  std::size_t cluster_;
+  unsigned lane_;
+};
+
+/// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
 /// a sum over them has the same bits whatever the threads or the order of particles before. Periodic images count each;
 /// a particle may be its own neighbour through the seam.
 class Neighbours {
  public:
   /// @param support radius beyond which pairs do nothing [m]
   /// @param skin kept around it, so that lists last; 0 for particles that never move [m]
-  /// @throws InputError when a periodic direction is narrower than support + skin
-  Neighbours(double support, double skin, const PeriodicBox& box, int threads);
+  /// @param lanes particles of a cluster: the lists of each row are the same, and in the same order, whatever it is
+  /// @throws InputError when a periodic direction is narrower than support + skin, or there is no such width
+  Neighbours(double support, double skin, const PeriodicBox& box, int threads, int lanes = 1);
 
   /// Sorts the particles and lists them anew when one has moved by more than skin/2 since the last time.
   /// @throws Diverged when a position is not finite
@@ -52,13 +111,13 @@ class Neighbours {
   /// Whether that was done since the last rebuild.
   [[nodiscard]] bool marked() const noexcept { return marked_; }
 
-  [[nodiscard]] std::span<const Entry> of(std::size_t i) const {
-    return {entries_.data() + start_[i], start_[i + 1] - start_[i]};
-  }
+  [[nodiscard]] RowEntries of(std::size_t i) const { return {clusters_, i}; }
+  [[nodiscard]] const Clusters& clusters() const noexcept { return clusters_; }
   /// r_j - r_i of an entry is (x_j - x_i) + shift: in this order it is exactly antisymmetric in i and j.
   [[nodiscard]] const Vec3& shift(std::uint32_t image) const noexcept { return shift_[image]; }
+  [[nodiscard]] const std::array<Vec3, 27>& shifts() const noexcept { return shift_; }
   [[nodiscard]] double support() const noexcept { return support_; }
-  [[nodiscard]] std::size_t entries() const noexcept { return entries_.size(); }
+  [[nodiscard]] std::size_t entries() const noexcept { return pairs_; }  ///< directed pairs within support + skin
   [[nodiscard]] long rebuilds() const noexcept { return rebuilds_; }
   [[nodiscard]] std::span<const Vec3> build_positions() const noexcept { return built_; }
 
@@ -68,14 +127,21 @@ class Neighbours {
   void wrap(Particles&) const;
   void rebuild(Particles&, double time);
   void sort_and_list(Particles&);
+  void form_clusters(const Grid&);
   void list(const Particles&, const Grid&);
 
   double support_, skin_;
   PeriodicBox box_;
   int threads_;
   std::array<Vec3, 27> shift_{};
-  std::vector<std::size_t> start_;
-  std::vector<Entry> entries_;
+  struct Part {  ///< lists of one thread's clusters, kept as memory that is used again
+    std::vector<std::uint32_t> entries;
+    std::vector<std::uint8_t> near;
+  };
+  Clusters clusters_;
+  ScanFunction scan_;
+  std::vector<Part> parts_;
+  std::size_t pairs_ = 0;
   std::vector<Vec3> built_;
   long rebuilds_ = 0;
   bool marked_ = false;

@@ -13,8 +13,9 @@ class Poly6 {
  public:
   explicit Poly6(double h) noexcept : h_(h), c_(315.0 / (64.0 * std::numbers::pi * std::pow(h, 9))) { assert(h > 0.0); }
   /// W(r) [1/m3]
-  [[nodiscard]] double value(double r) const noexcept {
-    const double q = h_ * h_ - r * r;
+  template <class V>
+  [[nodiscard]] V value(V r) const noexcept {
+    const V q = h_ * h_ - r * r;
     return r < h_ ? c_ * q * q * q : 0.0;
   }
 
@@ -27,11 +28,14 @@ class Spiky {
  public:
   explicit Spiky(double h) noexcept : h_(h), c_(15.0 / (std::numbers::pi * std::pow(h, 6))) { assert(h > 0.0); }
   /// W(r) [1/m3]
-  [[nodiscard]] double value(double r) const noexcept { return r < h_ ? c_ * (h_ - r) * (h_ - r) * (h_ - r) : 0.0; }
+  template <class V>
+  [[nodiscard]] V value(V r) const noexcept { return r < h_ ? c_ * (h_ - r) * (h_ - r) * (h_ - r) : 0.0; }
   /// W'(r) [1/m4]
-  [[nodiscard]] double derivative(double r) const noexcept { return r < h_ ? -3.0 * c_ * (h_ - r) * (h_ - r) : 0.0; }
+  template <class V>
+  [[nodiscard]] V derivative(V r) const noexcept { return r < h_ ? -3.0 * c_ * (h_ - r) * (h_ - r) : 0.0; }
   /// W'(r)/r [1/m5]; 0 at r = 0, where the force has no direction
-  [[nodiscard]] double derivative_over_r(double r) const noexcept { return r > 0.0 ? derivative(r) / r : 0.0; }
+  template <class V>
+  [[nodiscard]] V derivative_over_r(V r) const noexcept { return r > 0.0 ? derivative(r) / r : 0.0; }
 
  private:
   double h_, c_;
@@ -48,7 +52,8 @@ class ViscosityKernel {
     return 15.0 / (2.0 * std::numbers::pi * h_ * h_ * h_) * (-0.5 * q * q * q + q * q + 0.5 / q - 1.0);
   }
   /// lap W(r) = 45/(pi h^6) (h - r) [1/m5]
-  [[nodiscard]] double laplacian(double r) const noexcept { return r < h_ ? c_ * (h_ - r) : 0.0; }
+  template <class V>
+  [[nodiscard]] V laplacian(V r) const noexcept { return r < h_ ? c_ * (h_ - r) : 0.0; }
 
  private:
   double h_, c_;
@@ -87,17 +92,20 @@ class WendlandC2 {
     assert(h > 0.0);
   }
   /// W(r) [1/m3]
-  [[nodiscard]] double value(double r) const noexcept {
-    const double q = r * per_h_, t = 1.0 - q;
+  template <class V>
+  [[nodiscard]] V value(V r) const noexcept {
+    const V q = r * per_h_, t = 1.0 - q;
     return r < h_ ? c_ * t * t * t * t * (1.0 + 4.0 * q) : 0.0;
   }
   /// W'(r)/r = -210/(pi h^5) (1 - q)^3 [1/m5]: finite at r = 0, no division
-  [[nodiscard]] double derivative_over_r(double r) const noexcept {
-    const double t = 1.0 - r * per_h_;
+  template <class V>
+  [[nodiscard]] V derivative_over_r(V r) const noexcept {
+    const V t = 1.0 - r * per_h_;
     return r < h_ ? -g_ * t * t * t : 0.0;
   }
   /// W'(r) [1/m4]
-  [[nodiscard]] double derivative(double r) const noexcept { return r * derivative_over_r(r); }
+  template <class V>
+  [[nodiscard]] V derivative(V r) const noexcept { return r * derivative_over_r(r); }
 
  private:
   double h_, per_h_, c_, g_;
@@ -108,8 +116,12 @@ class WendlandC2 {
 struct Core {
   double stiffness = 0.0;  ///< kappa [N/m]
   double reach = 0.0;      ///< 0.9 dx [m]
-  /// Repulsion over r [N/m]
-  [[nodiscard]] double force_over_r(double r) const noexcept { return r < reach && r > 0.0 ? stiffness * (reach - r) / r : 0.0; }
+  /// Repulsion over r [N/m]; 0 at r = 0, where it has no direction. @param per_r2 1/r^2 [1/m2]
+  template <class V>
+  [[nodiscard]] V force_over_r(V r, V per_r2) const noexcept {
+    const V repulsion = r < reach ? stiffness * (reach * (r * per_r2) - 1.0) : 0.0;
+    return r > 0.0 ? repulsion : 0.0;
+  }
   /// [J]
   [[nodiscard]] double energy(double r) const noexcept { return r < reach ? 0.5 * stiffness * (reach - r) * (reach - r) : 0.0; }
 };

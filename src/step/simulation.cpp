@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "effects/body_table.hpp"
+#include "effects/pair_passes.hpp"
 #include "effects/solid_particles.hpp"
 #include "scene/read_case.hpp"
 #include "step/guard.hpp"
@@ -65,6 +66,8 @@ void book_mechanical(const Scene& scene, const Booked& booked, Ledger& sum) {
   sum.energy["time_integration"] = -by_pressure - by_bonds - (potential + booked.gravity_work) - booked.rotation_drift;
 }
 
+int lanes_of(const SimulationOptions& options) { return options.lanes > 0 ? options.lanes : best_lanes(); }
+
 std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& effects) {
   std::vector<FieldInfo> fields = common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
   if (can_have_bodies(scene)) {
@@ -78,7 +81,7 @@ std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& 
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options)
-    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_) {
+    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, lanes_of(options)) {
   set_up(scene, initial);
   update_rates();
   check_finite(world_);
@@ -92,7 +95,7 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
 }
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options, const Checkpoint& checkpoint)
-    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_) {
+    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, lanes_of(options)) {
   set_up(scene, initial);
   restore(checkpoint);
 }
@@ -105,7 +108,7 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   load(initial);
   if (passes_.needed()) {
     world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.box,
-                              options_.threads);
+                              options_.threads, lanes_of(options_));
   }
   plan_events();
 }
@@ -202,7 +205,7 @@ void Simulation::step(double end) {
   update_rates();
   bool again = false;
   for (const Active& a : effects_) again = a.effect->correct(world_, dt_) || again;
-  if (again) pass(PassName::rates);  // second stage of two-stage schemes
+  if (again) pass(PassName::heat);  // second stage of two-stage schemes
   clock_.ends(Stage::correct);
   run(&Effect::kick, 0.5 * dt_);
   clock_.ends(Stage::kick);
@@ -245,7 +248,7 @@ void Simulation::pass(PassName name) {
   if (!passes_.needed()) return;
   run(&Effect::clear, name);
   passes_.run(name, world_);
-  if (name == PassName::rates) pairs_ += static_cast<double>(world_.neighbours->entries());
+  if (name != PassName::density) pairs_ += static_cast<double>(world_.neighbours->entries());
 }
 
 TimeStepBound Simulation::next_bound() const {

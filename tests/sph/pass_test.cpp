@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+
+#include "effects/run_pass.hpp"
 
 namespace tripoint {
 namespace {
@@ -26,7 +29,16 @@ struct Second {
     sum[1] += g.kernels.poly6.value(g.r);
   }
 };
-using Both = Pass<Slot<First, None>, Slot<None, Second>>;
+using Both = Pass<Slot<First>, Slot<Second>>;
+
+PassFunction of(int lanes, const std::array<int, 2>& forms) {
+  switch (lanes) {
+    case 2: return Both::choose<2, Any>(forms);
+    case 4: return Both::choose<4, Any>(forms);
+    case 8: return Both::choose<8, Any>(forms);
+    default: return Both::choose<1, Any>(forms);
+  }
+}
 
 struct PassTest : testing::Test {
   Particles particles;
@@ -46,22 +58,27 @@ struct PassTest : testing::Test {
     }
     neighbours.update(particles, 0.0);
   }
-  std::vector<double> run(const Both& pass, int threads) {
+  void clear() {
     std::ranges::fill(particles[field::heat_rate], 0.0);
     std::ranges::fill(particles[field::density], 0.0);
-    pass(particles, neighbours, kernels, threads);
-    std::vector<double> sums(particles[field::heat_rate].begin(), particles[field::heat_rate].end());
-    sums.insert(sums.end(), particles[field::density].begin(), particles[field::density].end());
-    return sums;
+  }
+  std::vector<double> run(const std::array<int, 2>& forms, int threads) {
+    clear();
+    run_pass(of(neighbours.clusters().lanes, forms), particles, neighbours, kernels, threads);
+    return sums();
+  }
+  std::vector<double> sums() const {
+    std::vector<double> both(particles[field::heat_rate].begin(), particles[field::heat_rate].end());
+    both.insert(both.end(), particles[field::density].begin(), particles[field::density].end());
+    return both;
   }
 };
 
 TEST_F(PassTest, GivesTheSameBitsFusedAndOneTermAfterTheOther) {
-  const auto fused = run(Both({Form::paper, Form::corrected}), 1);
-  std::ranges::fill(particles[field::heat_rate], 0.0);
-  std::ranges::fill(particles[field::density], 0.0);
-  Both({Form::paper, Form::off})(particles, neighbours, kernels, 1);
-  Both({Form::off, Form::corrected})(particles, neighbours, kernels, 1);
+  const auto fused = run({1, 1}, 1);
+  clear();
+  run_pass(of(1, {1, 0}), particles, neighbours, kernels, 1);
+  run_pass(of(1, {0, 1}), particles, neighbours, kernels, 1);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     ASSERT_EQ(particles[field::heat_rate][i], fused[i]);
     ASSERT_EQ(particles[field::density][i], fused[particles.size() + i]);
@@ -69,19 +86,40 @@ TEST_F(PassTest, GivesTheSameBitsFusedAndOneTermAfterTheOther) {
 }
 
 TEST_F(PassTest, GivesTheSameBitsOnAnyNumberOfThreads) {
-  const Both pass({Form::paper, Form::corrected});
-  const auto one = run(pass, 1);
-  for (const int threads : {2, 3, 7}) EXPECT_EQ(run(pass, threads), one) << threads << " threads";
+  const auto one = run({1, 1}, 1);
+  for (const int threads : {2, 3, 7}) EXPECT_EQ(run({1, 1}, threads), one) << threads << " threads";
+}
+
+TEST_F(PassTest, GivesTheSameBitsInVectorsOfAnyWidth) {
+  const auto oracle = run({1, 1}, 1);
+  const PeriodicBox box{};
+  for (const int lanes : {2, 4, 8}) {
+    neighbours = Neighbours(0.25, 0.05, box, 2, lanes);
+    neighbours.update(particles, 0.0);
+    EXPECT_EQ(run({1, 1}, 2), oracle) << lanes << " lanes";
+  }
+}
+
+TEST_F(PassTest, ForSomeRowsLeavesTheOthersAsTheyWere) {
+  const auto all = run({1, 1}, 1);
+  for (const int lanes : {1, 4, 8}) {
+    neighbours = Neighbours(0.25, 0.05, {}, 2, lanes);
+    neighbours.update(particles, 0.0);
+    clear();
+    const std::vector<std::uint32_t> rows{3, 4, 17, 250, 599};
+    run_pass(of(lanes, {1, 1}), particles, neighbours, kernels, 2, rows);
+    const auto some = sums();
+    for (std::uint32_t i = 0; i < 600; ++i) EXPECT_EQ(some[i], std::ranges::count(rows, i) ? all[i] : 0.0) << lanes << " lanes, row " << i;
+  }
 }
 
 TEST_F(PassTest, LeavesOutWhatASlotDoesNotHave) {
-  const Both none({Form::corrected, Form::paper});  // neither form exists
-  for (const double sum : run(none, 1)) EXPECT_EQ(sum, 0.0);
-  EXPECT_TRUE(Both({Form::off, Form::off}).idle());
+  for (const double sum : run({2, 2}, 1)) EXPECT_EQ(sum, 0.0);  // neither has a second form
+  EXPECT_EQ(of(1, {0, 0}).run, nullptr);
 }
 
 TEST_F(PassTest, IsTheSumOverAllPairsTriedOneByOne) {
-  const auto fused = run(Both({Form::paper, Form::corrected}), 2);
+  const auto fused = run({1, 1}, 2);
   const auto x = positions(particles);
   for (std::size_t i = 0; i < particles.size(); i += 37) {
     double heat = 0.0, density = 0.0;
@@ -101,7 +139,7 @@ TEST_F(PassTest, NamesTheFieldThatATermReadsAndNobodyOwns) {
   Particles bare(4, common_fields(false));
   Neighbours n(0.25, 0.0, {}, 1);
   n.update(bare, 0.0);
-  EXPECT_THROW(Both({Form::off, Form::corrected})(bare, n, kernels, 1), MissingField);
+  EXPECT_THROW(run_pass(of(1, {0, 1}), bare, n, kernels, 1), MissingField);
 }
 
 }  // namespace

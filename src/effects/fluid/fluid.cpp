@@ -129,6 +129,7 @@ void Fluid::drift(World& world, double dt) {
 
 void Fluid::clear(World& world, PassName pass) {
   Particles& p = world.particles;
+  if (pass == PassName::heat) return;
   if (pass == PassName::rates) {
     for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x, &field::viscous_force_y, &field::viscous_force_z})
       std::ranges::fill(p[*f], 0.0);

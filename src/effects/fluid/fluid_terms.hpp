@@ -21,7 +21,8 @@ struct NumberDensity {
 /// 1 where a pair acts, 0 where both are members of one rigid body, or both are wall. Liquids have group -1, deformable solids -2.
 template <class V>
 [[nodiscard]] inline V acts(V group_i, double group_j) noexcept {
-  return group_i < 0.0 || group_i != group_j ? 1.0 : 0.0;
+  const V differ = group_i != group_j ? V{} + 1.0 : V{};
+  return group_j < 0.0 ? V{} + 1.0 : differ;
 }
 
 /// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of
@@ -34,7 +35,7 @@ struct PressureCorrected {
   static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const double, 2> j, std::span<V, 3> sum) {
     static const double stronger = 1.0 + defect_size("fluid.pressure");
     const V pressure = stronger * (i[0] + j[0]) * g.gradient;
-    const V f = g.apart * acts(i[1], j[1]) * (pressure - g.kernels.core.force_over_r(g.r));
+    const V f = g.apart * acts(i[1], j[1]) * (pressure - g.kernels.core.force_over_r(g.r, g.per_r2));
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;
@@ -49,7 +50,7 @@ struct PressurePaper {
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const double, 3> j, std::span<V, 3> sum) {
     static const double stronger = 1.0 + defect_size("fluid.paper.pressure");
-    const V f = stronger * g.apart * acts(i[2], j[2]) * (i[0] * j[0]) * (0.5 * (i[1] + j[1])) * g.kernels.spiky.derivative_over_r(g.r);
+    const V f = stronger * g.apart * acts(i[2], j[2]) * (i[0] * j[0]) * (0.5 * (i[1] + j[1])) * (g.kernels.spiky.derivative(g.r) * (g.r * g.per_r2));
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;
@@ -111,7 +112,7 @@ struct ViscosityCentral {
     static const double askew = defect_size("fluid.viscosity.central");
     const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
     const V G = g.apart * acts(i[4], j[4]) * 10.0 * mu * (i[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
-    const V approach = ((j[5] - i[5]) * g.dx + (j[6] - i[6]) * g.dy + (j[7] - i[7]) * g.dz) / (g.r * g.r + 1e-300);
+    const V approach = ((j[5] - i[5]) * g.dx + (j[6] - i[6]) * g.dy + (j[7] - i[7]) * g.dz) * g.per_r2;
     sum[0] += G * (approach * g.dx + askew * (j[5] - i[5]));
     sum[1] += G * (approach * g.dy + askew * (j[6] - i[6]));
     sum[2] += G * (approach * g.dz + askew * (j[7] - i[7]));

@@ -33,8 +33,8 @@ struct WallPressureForce {
   using adds = Keys<field::wall_force_x, field::wall_force_y, field::wall_force_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const double, 2> j, std::span<V, 3> sum) {
-    const bool i_is_wall = i[1] == 0.0 && j[1] < 0.0, j_is_wall = j[1] == 0.0 && i[1] < 0.0;
-    const V share = i_is_wall ? i[0] : j_is_wall ? j[0] : 0.0;
+    const V of_i = i[1] == 0.0 ? i[0] : V{}, of_j = i[1] < 0.0 ? V{} + j[0] : V{};
+    const V share = j[1] < 0.0 ? of_i : j[1] == 0.0 ? of_j : V{};
     const V f = share * g.gradient;
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;

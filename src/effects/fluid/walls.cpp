@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "effects/fluid/wall_terms.hpp"
+#include "effects/pair_passes.hpp"
+#include "effects/run_pass.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -41,8 +42,7 @@ void Walls::extrapolate(World& world, const SceneNumbers& n, const PairKernels& 
   if (wet_walls_.empty()) return;
   Particles& p = world.particles;
   for (const Field<double>* f : WallExtrapolation::adds::list) std::ranges::fill(p[*f], 0.0);
-  static const Pass<Slot<None, WallExtrapolation>> pass({Form::corrected});
-  pass(p, *world.neighbours, kernels, world.threads, wet_walls_);
+  run_pass(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads, wet_walls_);
 
   const auto weight = p[field::wall_weight], sum = p[field::wall_pressure], pressure = p[field::pressure];
   const auto lever = triple(p, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z);
@@ -65,8 +65,7 @@ void Walls::split_forces(World& world, const PairKernels& kernels) {
   find(world);
   if (border_.empty()) return;
   for (const Field<double>* f : WallPressureForce::adds::list) std::ranges::fill(world.particles[*f], 0.0);
-  static const Pass<Slot<None, WallPressureForce>> pass({Form::corrected});
-  pass(world.particles, *world.neighbours, kernels, world.threads, border_);
+  run_pass(pair_passes(world.neighbours->clusters().lanes).wall_force, world.particles, *world.neighbours, kernels, world.threads, border_);
 }
 
 }  // namespace tripoint::fluid

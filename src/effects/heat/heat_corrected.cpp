@@ -105,7 +105,7 @@ bool CorrectedHeat::correct(World& world, double dt) {
 
 void CorrectedHeat::clear(World& world, PassName pass) {
   Particles& p = world.particles;
-  if (pass == PassName::rates) {
+  if (pass != PassName::density) {
     for (const auto* f : {&field::heat_rate, &field::conductance}) std::ranges::fill(p[*f], 0.0);
   } else {
     for (const auto* f :

@@ -72,7 +72,7 @@ void PaperHeat::drift(World& world, double dt) {
 }
 
 void PaperHeat::clear(World& world, PassName pass) {
-  if (pass != PassName::rates) return;
+  if (pass == PassName::density) return;
   std::ranges::fill(world.particles[field::temperature_rate], 0.0);
   std::ranges::fill(world.particles[field::exchange], 0.0);
 }

@@ -37,9 +37,6 @@ struct HeatMoment {
   }
 };
 
-inline const bool harmonic_broken = defect_size("heat.harmonic_mean") > 0.0;
-inline const double one_sided = defect_size("heat.one_sided");  // share of the own value in the means
-
 /// Conduction between i and j, (21) corrected (model 8.6) [W]: equal and opposite for each pair, so that sum H is kept:
 /// G_ij (T_j - T_i), G_ij = V_i V_j [2 k_i k_j/(k_i + k_j)] [1/2 e^T (pinv M_i + pinv M_j) e] K.
 struct HeatFlowCorrected {
@@ -49,6 +46,8 @@ struct HeatFlowCorrected {
   using adds = Keys<field::heat_rate, field::conductance>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 9> i, std::span<const double, 9> j, std::span<V, 2> sum) {
+    static const bool harmonic_broken = defect_size("heat.harmonic_mean") > 0.0;
+    static const double one_sided = defect_size("heat.one_sided");  // share of the own value in the means
     const double V_j = j[0], k_j = j[1], T_j = j[2];
     const V V_i = i[0], k_i = i[1], T_i = i[2];
     V k = 2.0 * k_i * k_j / (k_i + k_j + 1e-300);  // two insulators: 0, not 0/0
@@ -57,7 +56,7 @@ struct HeatFlowCorrected {
     // e^T A e = r^T A r / r^2, with the sum of both matrices taken first, so that it is the same seen from i and from j.
     const V along = (i[3] + j[3]) * g.dx * g.dx + (i[4] + j[4]) * g.dy * g.dy + (i[5] + j[5]) * g.dz * g.dz +
                     2.0 * ((i[6] + j[6]) * g.dy * g.dz + (i[7] + j[7]) * g.dx * g.dz + (i[8] + j[8]) * g.dx * g.dy);
-    V moment = 0.5 * along / (g.r * g.r + 1e-300);
+    V moment = 0.5 * along * g.per_r2;
     if (one_sided > 0.0) moment *= 1.0 + one_sided * (i[3] - j[3]) / (i[3] + j[3]);
     const V G = V_i * V_j * k * moment * (-2.0 * g.gradient);
     sum[0] += G * (T_j - T_i);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "core/lanes.hpp"
+#include "core/vec3.hpp"
+
+namespace tripoint {
+
+/// Rows [from, to) seen in one image of the box: where neighbours of a cluster may be.
+struct CandidateRange {
+  std::uint32_t from, to, image;
+};
+
+/// What a cluster's list is made from.
+struct Scan {
+  const double *x, *y, *z;  ///< positions by row, readable a whole vector past the last [m]
+  std::size_t first;        ///< first row of the cluster
+  unsigned members;         ///< bit l where first + l is a member
+  const CandidateRange* ranges;
+  std::size_t count;
+  const Vec3* shift;  ///< of each image [m]
+  double reach2;      ///< [m2]
+};
+
+/// Writes what is within reach of any member, in the order of the ranges: `row | image << image_shift`, and to `near` the bits of the
+/// members that it is near to. @return how many; both must have room for all candidates
+using ScanFunction = std::size_t (*)(const Scan&, std::uint32_t* rows, std::uint8_t* near);
+
+template <int L, class ForUnit>
+[[gnu::flatten]] std::size_t scan(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
+  using V = typename Lanes<L>::Real;
+  constexpr std::uint32_t own_image = 13, image_shift = 27;
+  const V xi = load_lanes<L>(s.x + s.first), yi = load_lanes<L>(s.y + s.first), zi = load_lanes<L>(s.z + s.first);
+  std::size_t n = 0;
+  for (const CandidateRange* range = s.ranges; range != s.ranges + s.count; ++range) {
+    const Vec3 shift = s.shift[range->image];
+    for (std::uint32_t j = range->from; j < range->to; ++j) {
+      const V dx = (s.x[j] - xi) + shift.x, dy = (s.y[j] - yi) + shift.y, dz = (s.z[j] - zi) + shift.z;
+      const V r2 = dx * dx + dy * dy + dz * dz;
+      unsigned bits = bits_of<L>(r2 < s.reach2) & s.members;
+      if (j - s.first < static_cast<std::size_t>(L) && range->image == own_image) bits &= ~(1u << (j - s.first));  // itself
+      rows[n] = j | range->image << image_shift;
+      near[n] = static_cast<std::uint8_t>(bits);
+      n += bits != 0;
+    }
+  }
+  return n;
+}
+
+/// The scan that is compiled for a vector unit, for clusters as wide as it.
+template <class ForUnit>
+[[nodiscard]] ScanFunction scan_for();
+
+/// The scan for clusters of that many particles, made for the machine's vectors where there are some.
+/// @param lanes 1, 2, 4 or 8   @throws InputError for another
+[[nodiscard]] ScanFunction scan_of(int lanes);
+
+}  // namespace tripoint
