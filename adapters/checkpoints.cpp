@@ -100,6 +100,8 @@ std::string Checkpoints::write(Checkpoint kept, double time, long step, const Pr
   return path;
 }
 
+std::string Checkpoints::last() const { return kept_.empty() ? "" : fs::path(kept_.back()).filename().string(); }
+
 Checkpoint open_checkpoint(const Job& job, const std::vector<std::string>& identity) {
   Checkpoint kept = read_checkpoint(job.resume);
   const std::vector<std::string>& theirs = take(kept.text, "run/identity", job.resume);

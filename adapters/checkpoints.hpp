@@ -35,6 +35,8 @@ class Checkpoints {
   /// Adds what the run knows, writes the file durably, and removes what is older than the one before.
   /// @return its path   @throws EngineError
   std::string write(Checkpoint, double time, long step, const Progress&);
+  /// Name of the last file written, empty = none.
+  [[nodiscard]] std::string last() const;
 
  private:
   [[nodiscard]] long multiples(double time) const;

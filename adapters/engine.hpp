@@ -34,6 +34,8 @@ class Engine {
   virtual void advance_to(double time) = 0;                         ///< [s] @throws Diverged, EngineError
   [[nodiscard]] virtual Snapshot observe() const = 0;               ///< SI, world frame, particles by id
   [[nodiscard]] virtual Readback readback() const = 0;              ///< what the engine itself holds, read from it
+  /// After Diverged: leaves the culprit and what is around it in `folder`, as a file that ParaView opens. @return its name, empty = none
+  [[nodiscard]] virtual std::string show_failure(const Diverged&, const std::string& /*folder*/) const { return {}; }
   /// Fills steps, counters and extra of the result at the end of a run.
   virtual void account(Result&) const {}
 };

@@ -46,7 +46,7 @@ std::string below(const std::string& folder, const std::string& path) {
 }
 
 Divergence divergence_from(const JsonObject& o) {
-  return {static_cast<long>(o.number_or("particle", -1)), static_cast<long>(o.number_or("body", -1)), o.text_or("field", ""), o.text_or("stage", ""), o.number_or("time", 0.0)};
+  return {static_cast<long>(o.number_or("particle", -1)), static_cast<long>(o.number_or("body", -1)), o.text_or("field", ""), o.text_or("stage", ""), o.number_or("time", 0.0), o.text_or("guard", ""), o.text_or("file", ""), o.text_or("checkpoint", "")};
 }
 
 Readback readback_from(const JsonObject& o) {
@@ -162,7 +162,8 @@ void write_result(const std::string& path, const Result& r) {
              {"divergence", nullptr},
              {"extra", r.extra}};
   if (r.divergence)
-    value["divergence"] = {{"particle", r.divergence->particle}, {"body", r.divergence->body}, {"field", r.divergence->field}, {"stage", r.divergence->stage}, {"time", r.divergence->time}};
+    value["divergence"] = {{"particle", r.divergence->particle}, {"body", r.divergence->body}, {"field", r.divergence->field}, {"stage", r.divergence->stage}, {"time", r.divergence->time},
+                           {"guard", r.divergence->guard}, {"file", r.divergence->file}, {"checkpoint", r.divergence->checkpoint}};
   write_durably(path, value.dump(1));
 }
 

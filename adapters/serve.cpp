@@ -112,8 +112,7 @@ class Run {
       account();
       return finish("error", Exit::interrupted);
     } catch (const Diverged& e) {
-      result_.message = e.what();
-      result_.divergence = Divergence{e.particle, e.body, e.field, e.stage, e.time};
+      tell_failure(e);
       account();
       return finish("diverged", Exit::diverged);
     } catch (const std::exception& e) {
@@ -195,6 +194,14 @@ class Run {
       if (stop_wanted) throw Interrupted{path, now};
       return true;
     });
+  }
+
+  void tell_failure(const Diverged& e) {
+    Divergence d{e.particle, e.body, e.field, e.stage, e.time, e.guard, engine_.show_failure(e, job_.output), checkpoints_ ? checkpoints_->last() : ""};
+    result_.message = e.what();
+    if (!d.file.empty()) result_.message += fmt::format("; {} shows it and what is around it", d.file);
+    result_.message += d.checkpoint.empty() ? fmt::format("; last good frame at t = {:.9g} s, no checkpoint was kept (checkpoint_interval)", result_.time_reached) : "; last good checkpoint " + d.checkpoint;
+    result_.divergence = std::move(d);
   }
 
   void account() { engine_.account(result_); }

@@ -75,6 +75,7 @@ Snapshot snapshot_of(const Simulation& simulation) {
   s.momentum = sums.momentum;
   s.angular_momentum = sums.angular_momentum;
   s.energy = sums.energy;
+  if (world.scene.recovers) s.counts["recoveries"] = static_cast<double>(simulation.recovery().count());
   return s;
 }
 

@@ -115,11 +115,19 @@ Readback TripointEngine::readback() const {
   Readback held;
   held.gravity = world.scene.gravity;
   held.time_step = world.scene.time_step.value_or(simulation_->bound().dt);
-  for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+  const auto of_scene = static_cast<std::size_t>(std::ranges::count_if(world.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
+  for (std::size_t b = 0; b < of_scene; ++b) {  // what is cold from the start has frozen to bodies of its own by now
     held.bodies.push_back({world.body_names[b], world.bodies[field::body_mass][b], world.bodies[field::body_centre][b],
                            world.bodies[field::body_inertia][b], 0.0, 0.0, 0.0, 0.0});
   }
   return held;
+}
+
+std::string TripointEngine::show_failure(const Diverged& failure, const std::string& folder) const {
+  if (!simulation_) return {};
+  constexpr const char* name = "culprits.vtp";
+  write_vtp(folder + "/" + name, culprits_of(simulation_->world(), failure));
+  return name;
 }
 
 void TripointEngine::account(Result& result) const {
@@ -129,6 +137,10 @@ void TripointEngine::account(Result& result) const {
   result.time_step_bound = simulation_->time_step_set_by();
   result.extra["time_step"] = simulation_->time_step();
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
+  if (const Recovery& recovery = simulation_->recovery(); recovery.count() > 0) {
+    result.extra["recoveries"] = static_cast<double>(recovery.count());
+    if (result.message.empty()) result.message = "recovered " + std::to_string(recovery.count()) + (recovery.count() == 1 ? " time" : " times") + ", last when " + recovery.last();
+  }
   if (const auto& lists = simulation_->world().neighbours)
     result.extra["neighbour_rebuilds"] = static_cast<double>(lists->rebuilds());
 }

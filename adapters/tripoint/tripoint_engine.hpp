@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "adapters/engine.hpp"
+#include "io/point_cloud.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint {
@@ -16,6 +17,7 @@ class TripointEngine : public Engine, public Restartable {
   void advance_to(double time) override;
   [[nodiscard]] Snapshot observe() const override;
   [[nodiscard]] Readback readback() const override;
+  [[nodiscard]] std::string show_failure(const Diverged&, const std::string& folder) const override;
   void account(Result&) const override;
   void resume(const Job&, const InitialState&, const Checkpoint&) override;
   bool advance_to(double time, const std::function<bool(double, long)>& go_on) override;
@@ -24,6 +26,10 @@ class TripointEngine : public Engine, public Restartable {
  private:
   std::optional<Simulation> simulation_;
 };
+
+/// The culprit of a failure with all that is within two support radii of it (of no single particle: everything), every column of
+/// the solver as an array; as listed last where a place is not finite.
+[[nodiscard]] PointCloud culprits_of(const World&, const Diverged&);
 
 /// What the world shows: rows by id, places not put back into a periodic box.
 [[nodiscard]] Snapshot snapshot_of(const Simulation&);

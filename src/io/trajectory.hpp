@@ -33,6 +33,7 @@ struct Snapshot {
   double total_mass = 0.0;
   Vec3 momentum, angular_momentum;        ///< about the origin
   std::map<std::string, double> energy;   ///< TERM of the ledger -> [J]
+  std::map<std::string, double> counts;   ///< of what happened so far [1]: recoveries
 };
 
 /// A whole trajectory in memory: frames in order of time. Frames may have unequal row counts only by inflow (later ones longer).

@@ -138,9 +138,12 @@ void read_observables(Reader& in, Frames& frames) {
   numbers("mass", "kg", [](Snapshot& s, const double* v, std::size_t) { s.total_mass = *v; });
   numbers("momentum", "kg m s-1", [&](Snapshot& s, const double* v, std::size_t n) { s.momentum = three(v, n); });
   numbers("angular_momentum", "kg m2 s-1", [&](Snapshot& s, const double* v, std::size_t n) { s.angular_momentum = three(v, n); });
-  const std::string prefix = "energy_";
-  for (const std::string& name : in.members("/observables"))
-    if (name.rfind(prefix, 0) == 0) numbers(name, "J", [&](Snapshot& s, const double* v, std::size_t) { s.energy[name.substr(prefix.size())] = *v; });
+  const auto family = [&](const std::string& prefix, const std::string& unit, std::map<std::string, double> Snapshot::*members) {
+    for (const std::string& name : in.members("/observables"))
+      if (name.rfind(prefix, 0) == 0) numbers(name, unit, [&](Snapshot& s, const double* v, std::size_t) { (s.*members)[name.substr(prefix.size())] = *v; });
+  };
+  family("energy_", "J", &Snapshot::energy);
+  family("count_", "1", &Snapshot::counts);
 }
 
 void expect_equal_lengths(const std::string& path, const Snapshot& s) {

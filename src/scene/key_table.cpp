@@ -38,7 +38,7 @@ constexpr auto keys = std::to_array<Key>({
     {"case", "kind", word, "", any, "\"verification\"", "against an exact solution", "verification validation comparison", "verification: exact solution; validation: experiment; comparison: another engine"},
     {"case", "profiles", words, "", any, "[\"commit\"]", "runs with every change", "commit nightly release", "when it runs"},
     {"case", "tags", texts, "", any, "[]", "none", "", "words to choose cases by"},
-    {"case", "expect", word, "", any, "\"pass\"", "a case is meant to pass", "pass diverges defect", "what must be measured for the case to pass"},
+    {"case", "expect", word, "", any, "\"pass\"", "a case is meant to pass", "pass diverges paper-diverges defect", "what must be measured for the case to pass; paper-diverges: the printed form does, the corrected one does not"},
     {"case", "modes", words, "", any, "=", "the scene's mode", "corrected paper", "forms of the model that run: one set of runs each"},
     // [scene]
     {"scene", "end_time", number, "s", positive, "!", "", "", "time that is simulated"},
@@ -60,6 +60,8 @@ constexpr auto keys = std::to_array<Key>({
     {"scene", "merge_distance", number, "", positive, "1.5", "nearest and diagonal neighbours of the lattice", "", "how near a freezing particle joins, in spacings"},
     {"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "", "coefficient of the energy against zero-energy modes"},
     {"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "", "viscosity between solids that touch"},
+    {"scene", "on_failure", word, "", any, "\"stop\"", "a run that has gone wrong is no result", "stop recover", "what a guard does that trips: stop with exit code 7; or go back to the last good state and on with half the step, counted in the results"},
+    {"scene", "unguarded", words, "", any, "[]", "every guard is on", "inversion overlap escape ledger time_step", "guards that are off: det F <= 0; a solid or liquid pressed to more than two coinciding layers; a particle leaving min..max; energy made or lost by the scheme; a time step that collapses"},
     // [[material]]
     {"material", "name", text, "", any, "!", "", "", "its name; a name of the library brings the library's values, which keys here replace"},
     {"material", "density", number, "kg/m3", positive, "!", "", "", "rest density, one for both phases"},

@@ -82,6 +82,7 @@ void read_scene(TableReader& in, Scene& s) {
   if (s.end_time / s.output_interval > 1e6) in.refuse("output_interval", fmt::format("{:.3g} frames would be written; at most 1e6: lengthen it", s.end_time / s.output_interval));
   s.viscosity_form = in.text("viscosity_form"), s.transport_velocity = in.flag("transport_velocity"), s.clamp = in.flag("clamp");
   s.merge_distance = in.number("merge_distance"), s.hourglass = in.number("hourglass"), s.contact_viscosity = in.number("contact_viscosity");
+  s.recovers = in.text("on_failure") == "recover", s.unguarded = in.texts("unguarded");
 }
 
 void resolve_modes(TableReader& in, Scene& s) {

@@ -147,6 +147,8 @@ struct Scene {
   bool transport_velocity = false, clamp = true;
   double merge_distance = 1.5;  ///< [spacings]
   double hourglass = 1.0, contact_viscosity = 0.0;
+  bool recovers = false;                ///< a guard that trips sends the run back to a good state, with half the step
+  std::vector<std::string> unguarded;  ///< guards that are off
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<Event> events;

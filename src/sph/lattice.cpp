@@ -25,11 +25,12 @@ void for_lattice(double q, Visit visit) {
 template <class Value, class Derivative, class Laplacian>
 LatticeMoments moments(double q, double self, Value value, Derivative derivative, Laplacian laplacian) {
   LatticeMoments m;
-  m.density = self;
+  m.density = m.layer = self;
   for_lattice(q, [&](const Vec3& x) {
     const double r = norm(x);
     ++m.neighbours;
     m.density += value(r);
+    if (x.z == 0.0) m.layer += value(r);
     m.gradient -= r * derivative(r) / 3.0;
     m.laplacian += r * r * laplacian(r) / 6.0;
   });

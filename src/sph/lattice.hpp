@@ -11,6 +11,7 @@ namespace tripoint {
 struct LatticeMoments {
   int neighbours = 0;      ///< with r < h
   double density = 0.0;    ///< S0 = sum_j W dx^3, the particle itself included
+  double layer = 0.0;      ///< the part of S0 that the plane through the particle gives
   double gradient = 0.0;   ///< -1/3 sum_j V r W'(r); also that of the Laplacian -2 W'/r
   double laplacian = 0.0;  ///< 1/6 sum_j V r^2 lap W (viscosity kernel only, else 0)
 };

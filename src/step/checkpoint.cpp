@@ -141,6 +141,12 @@ std::vector<std::string> Simulation::layout() const {
 }
 
 Checkpoint Simulation::checkpoint() const {
+  Checkpoint kept = state();
+  if (world_.scene.recovers) recovery_.save(kept);
+  return kept;
+}
+
+Checkpoint Simulation::state() const {
   Checkpoint kept;
   kept.text["step/layout"] = layout();
   save(world_.particles, "particles/", kept);
@@ -155,6 +161,7 @@ Checkpoint Simulation::checkpoint() const {
   kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(next_moment_), stretch_.count, stretch_.done, world_.moved ? 1 : 0};
   const Lagged& lagged = world_.lagged;
   kept.real["step/lagged"] = {lagged.half_step, lagged.viscous_step, static_cast<double>(lagged.viscous_age)};
+  kept.real["step/guards"] = {guards_.turned_over, guards_.first_step};
   if (world_.neighbours) {
     kept.real["neighbours/build_positions"] = plain(world_.neighbours->build_positions());
     kept.whole["neighbours/rebuilds"] = {world_.neighbours->rebuilds()};
@@ -194,6 +201,8 @@ void Simulation::restore(const Checkpoint& kept) {
   restore_columns(world_.particles, "particles/", kept);
   restore_bodies(world_, kept);
   const std::vector<double>& lagged = take(kept.real, "step/lagged", 3);
+  const std::vector<double>& guards = take(kept.real, "step/guards", 2);
+  guards_ = {guards[0], guards[1]};
   world_.lagged = {lagged[0], lagged[1], static_cast<int>(lagged[2])};
 }
 

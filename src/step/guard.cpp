@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "step/guard.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
 
-#include "core/errors.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace tripoint {
 namespace {
@@ -28,6 +29,54 @@ bool all_finite(std::span<const double> values) {
   return zero == 0.0;
 }
 
+void refuse_cold(const World& world) {
+  const Particles& p = world.particles;
+  if (!p.has(field::temperature)) return;
+  const auto T = p[field::temperature];
+  double least = 1.0;
+  for (const double t : T) least = std::min(least, t);
+  if (least > 0.0) return;
+  for (std::size_t id = 0; id < p.size(); ++id)
+    if (const std::size_t i = p.row(id); !(T[i] > 0.0)) fail(world, "temperature", i, "temperature", "drift", fmt::format("is at {:.4g} K, below absolute zero", T[i]));
+}
+
+/// Whether forces move a particle: not a wall, not held, gripped or flowing in.
+class Movable {
+ public:
+  explicit Movable(const World& world) : world_(world), body_(world.particles[field::body]) {
+    if (world.particles.has(field::driven)) driven_ = world.particles[field::driven];
+  }
+  bool operator()(std::size_t row) const {
+    if (!driven_.empty() && driven_[row] != 0) return false;
+    return body_[row] < 0 || world_.bodies[field::body_motion][static_cast<std::size_t>(body_[row])] == static_cast<int>(Motion::free);
+  }
+
+ private:
+  const World& world_;
+  std::span<const int> body_, driven_;
+};
+
+/// The row of the greatest kinetic energy: who is looked at where no single particle is to blame.
+std::size_t fastest(const World& world) {
+  const auto v = velocities(world.particles);
+  const auto m = world.particles[field::mass];
+  double most = -1.0;
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < m.size(); ++i)
+    if (const double e = m[i] * dot(v.at(i), v.at(i)); e > most) most = e, row = i;
+  return row;
+}
+
+/// Sizes of all entries but heat, which dwarfs what moves, and what the scheme made.
+double turnover(const Ledger& ledger, double start_potential) {
+  double sum = 0.0;
+  for (const auto& [entry, energy] : ledger.energy) {
+    if (entry == "thermal" || entry == "latent" || entry == "inflow" || entry == "time_integration") continue;
+    sum += std::abs(entry == "potential" ? energy - start_potential : energy);
+  }
+  return sum;
+}
+
 }  // namespace
 
 void check_finite(const World& world) {
@@ -36,14 +85,53 @@ void check_finite(const World& world) {
     if (!p.has(g.field->name)) continue;
     const auto values = p[*g.field];
     if (all_finite(values)) continue;
-    for (std::size_t id = 0; id < p.size(); ++id) {
-      const std::size_t i = p.row(id);
-      if (std::isfinite(values[i])) continue;
-      throw Diverged(static_cast<long>(id), p[field::body][i], g.name, g.stage, world.time,
-                     std::string(g.name) + " of particle " + std::to_string(id) + " is not finite after " + g.stage + " at " +
-                         std::to_string(world.time) + " s");
+    for (std::size_t id = 0; id < p.size(); ++id)
+      if (const std::size_t i = p.row(id); !std::isfinite(values[i])) fail(world, "finite", i, g.name, g.stage, fmt::format("has no finite {}", g.name));
+  }
+  refuse_cold(world);
+}
+
+void check_escape(const World& world) {
+  const Scene& s = world.scene;
+  if (!s.min || !s.max || is_off(s, "escape")) return;
+  const auto x = positions(world.particles);
+  const std::array<std::span<const double>, 3> r{x.x, x.y, x.z};
+  const Movable movable(world);
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (s.periodic[a]) continue;
+    const double low = (*s.min)[a] - s.spacing, high = (*s.max)[a] + s.spacing;
+    for (std::size_t i = 0; i < r[a].size(); ++i) {
+      if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
+      fail(world, "escape", i, "position", "drift", fmt::format("has left the domain: {} = {:.6g} m is outside {:.6g} m .. {:.6g} m", "xyz"[a], r[a][i], (*s.min)[a], (*s.max)[a]));
     }
   }
+}
+
+void check_energy(const World& world, const Ledger& ledger, double dt, GuardMemory& memory) {
+  const auto made = ledger.energy.find("time_integration");
+  if (made == ledger.energy.end() || is_off(world.scene, "ledger")) return;
+  memory.turned_over = std::max(memory.turned_over, turnover(ledger, world.booked.start_potential));
+  const double grid_speed = world.scene.spacing / dt, least = 1e-10 * ledger.mass * grid_speed * grid_speed;
+  if (std::abs(made->second) <= 0.5 * std::max(memory.turned_over, least)) return;
+  const std::size_t i = fastest(world);
+  fail(world, "ledger", i, "energy", "kick",
+       fmt::format("moves fastest ({:.4g} m/s) where the scheme itself has {} {:.4g} J, {:.2g} of all the energy that the scene has turned over: a smaller time step", norm(world.particles.velocity(i)),
+                   made->second > 0.0 ? "made" : "lost", std::abs(made->second), std::abs(made->second) / memory.turned_over));
+}
+
+void check_step(const World& world, const TimeStepBound& bound, GuardMemory& memory) {
+  if (memory.first_step == 0.0 && std::isfinite(bound.dt)) memory.first_step = bound.dt;
+  if (bound.dt >= 1e-5 * memory.first_step || (is_off(world.scene, "time_step") && bound.dt > 0.0)) return;
+  const std::size_t i = fastest(world);
+  fail(world, "time_step", i, "time_step", "bound",
+       fmt::format("moves fastest ({:.4g} m/s) where the bound of {} has shrunk the time step to {:.3g} s, from {:.3g} s at first", norm(world.particles.velocity(i)), bound.name, bound.dt, memory.first_step));
+}
+
+void refuse_step(const World& world, double dt, double bound, const std::string& name) {
+  const std::size_t i = fastest(world);
+  fail(world, "time_step", i, "time_step", "bound",
+       fmt::format("moves fastest ({:.4g} m/s) where the scene's time_step, {:.4g} s, has come to lie above the bound of {}, {:.4g} s: make it smaller, or set force_time_step to run all the same",
+                   norm(world.particles.velocity(i)), dt, name, bound));
 }
 
 }  // namespace tripoint

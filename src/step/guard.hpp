@@ -1,11 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "effects/effect.hpp"
+#include "effects/failure.hpp"
 #include "effects/world.hpp"
 
+/// Guards that belong to no single effect; those of effects are in their check(). Each names particle, body, field, stage and time,
+/// and changes nothing.
 namespace tripoint {
 
-/// Looks for values that are not finite, in the order in which a step writes fields, so that the first that went wrong is named.
-/// @throws Diverged with particle, body, field, stage and time
+/// Looks for values that are not finite, in the order in which a step writes fields, so that the first that went wrong is named; and
+/// for temperatures at or below 0 K, which conduction never makes of a start above it.
+/// @throws Diverged
 void check_finite(const World&);
+
+/// Looks for particles that no keyframe moves and that are outside the scene's domain, where it is not periodic, by more than one
+/// spacing. @throws Diverged
+void check_escape(const World&);
+
+/// What guards must remember of a run; a checkpoint keeps it.
+struct GuardMemory {
+  double turned_over = 0.0;  ///< greatest sum of the sizes of all entries of the ledger so far [J]
+  double first_step = 0.0;   ///< first finite bound [s]
+};
+
+/// Energy that the scheme makes or loses, the entry "time_integration", against all that the scene has turned over: more than half of
+/// that is no error of integration any more. Below a ten-billionth of the energy that the mass would have at one spacing a step
+/// nothing is told apart from round-off.
+/// @throws Diverged naming the particle of the greatest kinetic energy
+void check_energy(const World&, const Ledger&, double dt, GuardMemory&);
+
+/// A step that shrinks to a hundred-thousandth of the first goes on, if at all, for ever.
+/// @throws Diverged naming the bound and the particle of the greatest kinetic energy
+void check_step(const World&, const TimeStepBound&, GuardMemory&);
+
+/// @throws Diverged: the step that the scene chose has come to lie above a bound
+[[noreturn]] void refuse_step(const World&, double dt, double bound, const std::string& name);
 
 }  // namespace tripoint

@@ -83,6 +83,7 @@ std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options)
     : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, lanes_of(options)) {
   set_up(scene, initial);
+  if (scene.recovers) start_ = initial;
   update_rates();
   check_finite(world_);
   bound_ = next_bound();
@@ -92,11 +93,13 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   if (start.energy.count("elastic")) world_.booked.start_deformation = start.energy.at("elastic") + start.energy.at("hourglass");
   if (start.energy.count("potential")) world_.booked.start_potential = start.energy.at("potential") - world_.booked.driven_potential;
   happen_until_now();
+  keep_good_state();
 }
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options, const Checkpoint& checkpoint)
     : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, lanes_of(options)) {
   set_up(scene, initial);
+  if (scene.recovers) start_ = initial, recovery_.restore(checkpoint);
   restore(checkpoint);
 }
 
@@ -157,16 +160,41 @@ void Simulation::happen_until_now() {
 
 bool Simulation::advance_to(double time, const std::function<bool()>& go_on) {
   while (world_.time < time) {
-    const double stop = next_moment_ < moments_.size() ? std::min(time, moments_[next_moment_].time) : time;
-    clock_.start();
-    if (stretch_is_over(stop)) plan_stretch(stop);
-    clock_.ends(Stage::bound);
-    step(stretch_.next_end(dt_));
-    ++stretch_.done;
-    happen_until_now();
+    try {
+      move_on(time);
+    } catch (const Diverged& failure) {
+      if (!world_.scene.recovers) throw;
+      go_back(failure);
+    }
     if (go_on && !go_on()) return world_.time >= time;
   }
   return true;
+}
+
+void Simulation::move_on(double time) {
+  const double stop = next_moment_ < moments_.size() ? std::min(time, moments_[next_moment_].time) : time;
+  clock_.start();
+  if (stretch_is_over(stop)) plan_stretch(stop);
+  clock_.ends(Stage::bound);
+  step(stretch_.next_end(dt_));
+  ++stretch_.done;
+  happen_until_now();
+  if (world_.scene.recovers && steps_ % Recovery::steps_between_states == 0) keep_good_state();
+}
+
+void Simulation::keep_good_state() {
+  if (world_.scene.recovers) recovery_.keep(state(), world_.time);
+}
+
+/// Everything as it was at a good state, but for the share of the step.
+void Simulation::go_back(const Diverged& failure) {
+  const Checkpoint& good = recovery_.go_back(failure);
+  const Scene scene = std::move(world_.scene);
+  world_ = World{};
+  moments_.clear();
+  set_up(scene, start_);
+  restore(good);
+  stretch_ = {};
 }
 
 bool Simulation::stretch_is_over(double stop) const {
@@ -178,6 +206,7 @@ bool Simulation::stretch_is_over(double stop) const {
 void Simulation::plan_stretch(double stop) {
   bound_ = next_bound();
   refuse_large_step();
+  check_step(world_, bound_, guards_);
   const long n = steps_to(stop);
   stretch_ = {world_.time, stop, n, 0};
   dt_ = (stop - world_.time) / static_cast<double>(n);
@@ -185,9 +214,7 @@ void Simulation::plan_stretch(double stop) {
 
 /// Equal steps, none longer than the scene's own or the bound.
 long Simulation::steps_to(double time) const {
-  const double length = time - world_.time, most = world_.scene.time_step.value_or(bound_.dt);
-  if (!(most > 0.0))
-    throw Diverged(-1, -1, "time_step", bound_.name, world_.time, "the bound of " + bound_.name + " leaves no time step");
+  const double length = time - world_.time, most = recovery_.share() * world_.scene.time_step.value_or(bound_.dt);
   return std::max(1L, static_cast<long>(std::ceil(length / most - 1e-9)));
 }
 
@@ -210,8 +237,17 @@ void Simulation::step(double end) {
   run(&Effect::kick, 0.5 * dt_);
   clock_.ends(Stage::kick);
   ++steps_;
-  check_finite(world_);
+  check();
   clock_.ends(Stage::check);
+}
+
+/// Guards, none of which changes anything; energy is summed over all particles and bonds, so only now and then.
+void Simulation::check() {
+  constexpr long steps_between_ledgers = 128;
+  check_finite(world_);
+  check_escape(world_);
+  for (const Active& a : effects_) a.effect->check(world_);
+  if (steps_ % steps_between_ledgers == 0) check_energy(world_, ledger(), dt_, guards_);
 }
 
 void Simulation::update_rates() {
@@ -262,7 +298,8 @@ TimeStepBound Simulation::next_bound() const {
 
 void Simulation::refuse_large_step() const {
   const auto& given = world_.scene.time_step;
-  if (!given || options_.force_time_step || *given <= bound_.dt * (1.0 + 1e-9)) return;
+  if (!given || options_.force_time_step || recovery_.share() * *given <= bound_.dt * (1.0 + 1e-9)) return;
+  if (steps_ > 0) refuse_step(world_, recovery_.share() * *given, bound_.dt, bound_.name);
   throw InputError("time_step " + std::to_string(*given) + " s is above the bound of " + bound_.name + ", " +
                    std::to_string(bound_.dt) + " s: make it smaller, or set force_time_step to run all the same");
 }

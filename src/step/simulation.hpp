@@ -10,6 +10,8 @@
 #include "effects/all_effects.hpp"
 #include "effects/world.hpp"
 #include "scene/initial_state.hpp"
+#include "step/guard.hpp"
+#include "step/recovery.hpp"
 #include "step/stage_clock.hpp"
 
 namespace tripoint {
@@ -40,6 +42,8 @@ class Simulation {
   bool advance_to(double time, const std::function<bool()>& go_on = {});
   /// All that a continued run needs. Taking it changes nothing.
   [[nodiscard]] Checkpoint checkpoint() const;
+  /// How often a guard sent the run back, and why the last time.
+  [[nodiscard]] const Recovery& recovery() const noexcept { return recovery_; }
 
   [[nodiscard]] const World& world() const noexcept { return world_; }
   [[nodiscard]] Ledger ledger() const;
@@ -65,6 +69,11 @@ class Simulation {
   void set_up(const Scene&, const InitialState&);
   void load(const InitialState&);
   void restore(const Checkpoint&);
+  [[nodiscard]] Checkpoint state() const;
+  void move_on(double time);
+  void check();
+  void keep_good_state();
+  void go_back(const Diverged&);
   [[nodiscard]] std::vector<std::string> layout() const;
   void plan_events();
   void happen_until_now();
@@ -93,6 +102,9 @@ class Simulation {
   double dt_ = 0.0, pairs_ = 0.0;
   TimeStepBound bound_;
   long steps_ = 0;
+  GuardMemory guards_;
+  Recovery recovery_;
+  InitialState start_;  ///< what a run that recovers is set up from again; else empty
 };
 
 }  // namespace tripoint

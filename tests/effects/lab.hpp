@@ -46,12 +46,14 @@ struct Lab {
     m.solid = "rigid";
     scene.materials.push_back(m);
   }
-  /// Domain from corner - dx/2, periodic where asked.
+  /// Domain from corner - dx/2, periodic where asked; elsewhere so wide that nothing leaves it.
   void make_periodic(const std::array<bool, 3>& periodic, const Vec3& corner, const std::array<int, 3>& count) {
     const double dx = scene.spacing;
     scene.periodic = periodic;
     scene.min = corner - Vec3{0.5 * dx, 0.5 * dx, 0.5 * dx};
     scene.max = *scene.min + Vec3{count[0] * dx, count[1] * dx, count[2] * dx};
+    for (std::size_t a = 0; a < 3; ++a)
+      if (!periodic[a]) (*scene.min)[a] -= 1e6 * dx, (*scene.max)[a] += 1e6 * dx;
   }
   /// A body of particles at any places; their velocities are those of rigid motion.
   void add_points(const Block& b, const std::vector<Vec3>& points, double mass) {

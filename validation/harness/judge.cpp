@@ -24,6 +24,11 @@ struct Findings {
 
 std::string name_of(const EngineRow& e) { return e.preset == "default" ? e.name : e.name + " (" + e.preset + ")"; }
 
+/// Whether the case declares that this form of the model diverges.
+bool may_diverge(const CaseResult& result, const std::string& mode) {
+  return result.expect == "diverges" || (result.expect == "paper-diverges" && mode == "paper");
+}
+
 /// The row says what its worst run says; a row that claims to be ok and has no run is a hole in the results.
 void settle_status(const CaseResult& result, EngineRow& engine, Findings& findings) {
   if (engine.runs.empty() && engine.status == "ok") {
@@ -31,7 +36,7 @@ void settle_status(const CaseResult& result, EngineRow& engine, Findings& findin
     findings.add(exit_missing, name_of(engine) + ": " + engine.reason);
   }
   for (const auto& run : engine.runs) {
-    if (run.status == "diverged" && result.expect != "diverges")
+    if (run.status == "diverged" && !may_diverge(result, run.knobs.mode))
       findings.add(exit_diverged, fmt::format("{}{}{} diverged: {}", name_of(engine), run.knobs.mode.empty() ? "" : " ", run.knobs.mode, run.reason));
     if (!run.comparable) findings.add(exit_missing, name_of(engine) + " is not comparable: " + run.reason);
   }
@@ -71,7 +76,7 @@ void count_gates(CaseResult& result, Findings& findings) {
       two_sided += row.gate.band || row.gate.at_least;
       if (row.verdict == "fail") findings.codes.insert(exit_fail);
       else if (row.verdict == "inconclusive") findings.codes.insert(exit_inconclusive);
-      else if (row.verdict == "diverged") findings.codes.insert(result.expect == "diverges" ? exit_pass : exit_diverged);
+      else if (row.verdict == "diverged") findings.codes.insert(may_diverge(result, row.mode) ? exit_pass : exit_diverged);
       else if (row.verdict != "pass") findings.codes.insert(exit_missing);
     }
   if (judged == 0 && result.expect != "diverges") findings.add(exit_missing, "no gate judges this case");
@@ -80,10 +85,10 @@ void count_gates(CaseResult& result, Findings& findings) {
 }
 
 void check_divergence(const CaseResult& result, Findings& findings) {
-  if (result.expect != "diverges") return;
+  if (!may_diverge(result, "paper")) return;
   for (const auto& engine : result.engines)
     for (const auto& run : engine.runs)
-      if (run.status == "diverged") return;
+      if (run.status == "diverged" && may_diverge(result, run.knobs.mode)) return;
   findings.add(exit_fail, "is declared to diverge, and no run did");
 }
 

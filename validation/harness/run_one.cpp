@@ -136,9 +136,10 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
     take_cost(outcome, end);
     const auto& r = outcome.result;
     if (r.status == "refused") return failed(outcome, "refused", r.message.empty() ? "it gives no reason" : r.message);
-    if (r.status == "diverged") return failed(outcome, "diverged", r.divergence ? describe(*r.divergence) : r.message.empty() ? "it gives no place" : r.message);
+    if (r.status == "diverged") return failed(outcome, "diverged", r.divergence ? describe(*r.divergence) + (r.message.empty() ? "" : ": " + r.message) : r.message.empty() ? "it gives no place" : r.message);
     if (r.status != "ok") return failed(outcome, "error", (r.message.empty() ? "status " + r.status : r.message) + last_words(end.log_tail));
     if (end.how != How::exited || end.code != 0) return failed(outcome, "error", "says ok but " + describe(end) + last_words(end.log_tail));
+    if (r.extra.contains("recoveries")) outcome.reason = r.message;
     return read_trajectory_of(request, outcome);
   } catch (const std::exception& e) {
     return failed(outcome, "error", e.what());

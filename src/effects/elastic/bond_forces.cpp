@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/elastic/bond_forces.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 #include <utility>
+
+#include "effects/failure.hpp"
 
 namespace tripoint::elastic {
 namespace {
@@ -161,6 +165,23 @@ void deform(World& world, const ElasticForms& forms, Deformations& all) {
   all.lists.follow(world.bonds);
   set_places(world, all);
   deform_all(world, forms, all);
+}
+
+void refuse_inversion(const World& world, const ElasticForms& forms, const Deformations& all) {
+  const Particles& p = world.particles;
+  if (forms.paper() || all.deformed.size() != p.size() || is_off(world.scene, "inversion")) return;
+  const solid::EnergyOwners owns(world);
+  const auto rank_of = p[field::shape_rank], id_of = p[field::id];
+  double least = 1.0;
+  std::size_t worst = 0;
+  for (std::size_t row = 0; row < p.size(); ++row) {
+    if (rank_of[row] != 3 || !owns(row)) continue;
+    const double J = determinant(identity3 + Matrix3(all.deformed[static_cast<std::size_t>(id_of[row])].strained));
+    if (J < least) least = J, worst = row;
+  }
+  if (least > 0.0) return;
+  fail(world, "inversion", worst, "deformation", "state",
+       fmt::format("is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = [\"inversion\"] to go on", least));
 }
 
 void add_forces(World& world, const ElasticForms& forms, Deformations& all) {

@@ -21,6 +21,9 @@ struct Deformations {
 
 /// F, strain and the hourglass part H = sum_j c_ij (F x_ji - r_ji) x_ji^T of all particles of deformable bodies.
 void deform(World&, const solid::ElasticForms&, Deformations&);
+/// @throws Diverged where a particle of a solid is turned inside out: det F <= 0. Printed strain is no measure of F (a rotation alone
+/// changes its sign), and F of a sheet or chain is that within its plane or line: neither is looked at.
+void refuse_inversion(const World&, const solid::ElasticForms&, const Deformations&);
 /// (12) and the gradient of the hourglass energies, on every particle that has bonds, rigid or not.
 void add_forces(World&, const solid::ElasticForms&, Deformations&);
 

@@ -22,6 +22,7 @@ class Elastic : public Effect {
   void state(World& world) override { deform(world, forms_, deformations_); }
   void bonds(World& world) override { add_forces(world, forms_, deformations_); }
   void adopt(World&) override;
+  void check(const World& world) const override { refuse_inversion(world, forms_, deformations_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World&, Ledger&) const override;
 

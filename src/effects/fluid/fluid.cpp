@@ -40,6 +40,7 @@ class Fluid : public Effect {
   void state(World&) override;
   void happen(World& world, const Happening&) override { set_groups(world); }
   void adopt(World&) override;
+  void check(const World& world) const override { refuse_overlap(world, numbers_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World& world, Ledger& ledger) const override {
     add_fluid(world, numbers_, kernels_, ledger);

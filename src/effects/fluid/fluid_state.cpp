@@ -1,11 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/fluid/fluid_state.hpp"
 
+#include <fmt/format.h>
+
 #include "core/defect.hpp"
 #include "effects/body_table.hpp"
+#include "effects/failure.hpp"
 #include "effects/force_columns.hpp"
 
 namespace tripoint::fluid {
+
+void refuse_overlap(const World& world, const SceneNumbers& n) {
+  const Particles& p = world.particles;
+  if (!p.has(field::number_density) || is_off(world.scene, "overlap")) return;
+  const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
+  double most = 0.0;
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < rho.size(); ++i) {
+    const double pressed = group[i] == 0.0 ? 0.0 : rho[i] / rest[i];
+    if (pressed > most) most = pressed, worst = i;
+  }
+  if (most <= n.overlap_density) return;
+  fail(world, "overlap", worst, "density", "density",
+       fmt::format("is pressed to {:.3g} times its rest density, as where two bodies overlap by one spacing ({:.3g}): a stiffer contact (speed of sound above 10 times that of the "
+                   "impact), walls of 3 layers, or a smaller step",
+                   most, n.overlap_density));
+}
 
 void set_density(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;

@@ -6,6 +6,9 @@
 /// What follows from places and velocities of one time, particle by particle: before the rate pass.
 namespace tripoint::fluid {
 
+/// @throws Diverged where a particle that is no wall is pressed to the density of two layers in one plane: its body or liquid and
+/// another overlap by one spacing. Printed (4) sums masses, which tells an overlap from a heavy neighbour by nothing: no such limit.
+void refuse_overlap(const World&, const SceneNumbers&);
 /// rho and V from the sums of the density pass: delta = sum W / S0, rho = m delta (model 8.2), or (4) as printed.
 void set_density(World&, const SceneNumbers&);
 /// (9), printed or scaled (model 8.3).

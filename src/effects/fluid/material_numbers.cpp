@@ -35,6 +35,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, lightest, false));
   const LatticeMoments moments = wendland_moments(scene.support_ratio);
   n.lattice_density = moments.density;
+  n.overlap_density = 1.0 + moments.layer / moments.density;
   n.gradient_moment = moments.gradient;
   if (scene.mode_of(Term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;

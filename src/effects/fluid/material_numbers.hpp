@@ -12,6 +12,7 @@ struct SceneNumbers {
   double reference_density = 0.0;  ///< largest rest density of the liquids, of the solids where there is none [kg/m3]
   double sound_speed = 0.0;        ///< [m/s]
   double lattice_density = 1.0;    ///< S0 of the kernel at the scene's h/dx
+  double overlap_density = 2.0;    ///< of a particle in the outermost layer of two bodies that overlap by one spacing, over its rest density
   double gradient_moment = 1.0;    ///< of the kernel at the scene's h/dx
   double pressure_work = 1.0;      ///< energy of compression a p dV: lattice_density/gradient_moment, 1 as printed
   double core_stiffness = 0.0;     ///< kappa = 0.03 k rho_ref dx [N/m]
