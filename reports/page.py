@@ -6,8 +6,12 @@ import math
 import time
 from pathlib import Path
 
+import ablation
+import digit_cost
 import paper_figures
 import printed
+import side_by_side
+import signable
 import summary
 import table1
 from model import is_number, number
@@ -104,6 +108,32 @@ def render_figures(results):
     rows = paper_figures.read(results)
     full = any("full-size" in table1.tags(row.case) for row in rows)
     return fill("paper_figures.html.j2", results, rows=rows, full=full, notes=[], papers_frame=paper_figures.PAPERS_FRAME)
+
+
+def render_digit_cost(results, out):
+    """@return HTML of what a tenth of the error costs, over cases and engines"""
+    ladders, notes = digit_cost.read(results), []
+    try:
+        picture = digit_cost.draw(ladders, out)
+    except Exception as error:  # no library, or odd data: the table stands without its figure
+        picture, notes = None, [f"the figure could not be drawn: {error}"]
+    return fill("digit_cost.html.j2", results, ladders=ladders, picture=picture, notes=notes)
+
+
+def render_ablation(results):
+    """@return HTML of what each correction buys"""
+    terms, rows, notes = ablation.read(results.folder)
+    return fill("ablation.html.j2", results, terms=terms, rows=rows, notes=notes, means=ablation.MEANS, picked=ablation.best(rows, terms))
+
+
+def render_side_by_side(results):
+    """@return HTML of every engine beside every other"""
+    return fill("side_by_side.html.j2", results, comparisons=side_by_side.read(results), notes=[])
+
+
+def render_signable(results):
+    """@return HTML of the report that is signed; its PDF is made of it"""
+    return fill("signable.html.j2", results, **signable.context(results))
 
 
 def render(results, pictures, notes, suite, missing_libraries):

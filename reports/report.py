@@ -2,7 +2,7 @@
 """Writes the report of a validation run: python3 report.py RESULTS.json [--out DIR] [--jobs N]
 
 results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is one self-contained file,
-as are the pages that it links to: DIR/printed-equations.html, DIR/table-1.html and DIR/paper-figures.html. DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
+as are the pages that it links to: DIR/printed-equations.html, DIR/table-1.html, DIR/paper-figures.html, DIR/digit-cost.html, DIR/corrections.html, DIR/engines.html and DIR/signable.html (with --pdf also DIR/report.pdf). DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
 Exit: 0 the page is written, whatever it says; 2 there is nothing to report on.
 """
 from __future__ import annotations
@@ -17,6 +17,7 @@ from pathlib import Path
 import load
 import page
 import plain
+import signable
 
 PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "h5py": "python3-h5py", "jinja2": "python3-jinja2"}
 
@@ -63,6 +64,7 @@ def main(arguments=None):
     parser.add_argument("results", metavar="RESULTS.json")
     parser.add_argument("--out", metavar="DIR", help="folder of index.html and figures/ (default: beside RESULTS.json)")
     parser.add_argument("--jobs", type=int, default=min(2, os.cpu_count() or 1), help="processes that draw (default: %(default)s)")
+    parser.add_argument("--pdf", action="store_true", help="also write DIR/report.pdf, the report to sign, by weasyprint")
     options = parser.parse_args(arguments)
     try:
         results = load.load(options.results)
@@ -79,8 +81,16 @@ def main(arguments=None):
         write(out / "printed-equations.html", page.render_printed(results))
         write(out / "table-1.html", page.render_table1(results))
         write(out / "paper-figures.html", page.render_figures(results))
+        write(out / "digit-cost.html", page.render_digit_cost(results, out))
+        write(out / "corrections.html", page.render_ablation(results))
+        write(out / "engines.html", page.render_side_by_side(results))
+        write(out / "signable.html", page.render_signable(results))
         write(out / "index.html", page.render(results, pictures, notes, suite, missing))
     print(out / "index.html")
+    if options.pdf:
+        why = signable.to_pdf(out / "signable.html", out / "report.pdf")
+        print(why or out / "report.pdf", file=sys.stderr if why else sys.stdout)
+        return 2 if why else 0
     return 0
 
 

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the pages on cost, corrections and engines and the report to sign must do: python3 pages_test.py"""
+import contextlib
+import io
+import json
+import re
+import shutil
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "reports")]
+import ablation  # noqa: E402
+import digit_cost  # noqa: E402
+import load  # noqa: E402
+import report  # noqa: E402
+import side_by_side  # noqa: E402
+from report_test import Reader  # noqa: E402
+
+
+def ladder(order, power, name="tripoint", finest=None, **more):
+    """Runs whose error falls with the order and whose cost grows with the power of 1/spacing."""
+    runs = [{"knobs": {"mode": "corrected", "spacing": h, "time_step": h}, "levels": {"spacing": h}, "base": h == 0.1, "status": "ok", "metrics": {"error": {"value": h ** order}},
+             "cost": {"cpu_s": h ** -power, "pairs": 7 * h ** -power}} for h in (0.1, 0.05, 0.025)]
+    if finest:
+        runs[-1].update(finest)
+    return {"name": name, "status": "ok", "runs": runs, "gates": [], **more}
+
+
+def study(order=2.0):
+    return {"axis": "spacing", "levels": [0.1, 0.05, 0.025], "metric": "error", "order": order}
+
+
+def case(engines, case_id="heat/one", **more):
+    return {"id": case_id, "title": "One", "kind": "verification", "requirement": "R-1", "claims": "it holds", "verdict": "PASS", "metrics": [{"name": "error", "unit": "K"}], "engines": engines, "repeat": "tripoint validate one", **more}
+
+
+class Pages(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def load(self, *cases):
+        (self.path / "results.json").write_text(json.dumps({"format": 1, "verdict": "PASS", "cases": list(cases)}))
+        return load.load(self.path / "results.json")
+
+    def write(self, *cases, words=()):
+        self.load(*cases)
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            code = report.main([str(self.path / "results.json"), "--jobs", "1", *words])
+        return code
+
+    def text(self, name):
+        return Reader((self.path / name).read_text(encoding="utf-8")).text
+
+
+class DigitCost(Pages):
+    def test_a_tenth_of_the_error_costs_what_the_slopes_say(self):
+        found = digit_cost.read(self.load(case([ladder(2.0, 5.0)], studies=[study()])))
+        self.assertAlmostEqual(found[0].factor, 10 ** 2.5, places=6)       # cost ~ error^(-5/2)
+        self.assertAlmostEqual(found[0].factor_pairs, 10 ** 2.5, places=6)
+        self.assertAlmostEqual(found[0].factor_theory, 10 ** 2.0, places=6)  # dt ~ dx: (3 + 1) / 2
+
+    def test_a_plateau_is_said_and_not_drawn_as_a_slope(self):
+        engine = ladder(2.0, 5.0)
+        for run in engine["runs"]:
+            run["metrics"]["error"]["value"] = 0.07 + 1e-3 * run["knobs"]["spacing"]
+        found = digit_cost.read(self.load(case([engine], studies=[study()])))
+        self.assertIsNone(found[0].factor)
+        self.assertIn("no accuracy", found[0].why)
+
+    def test_a_level_that_failed_is_shown(self):
+        self.write(case([ladder(2.0, 5.0, finest={"status": "diverged", "reason": "particle 7", "metrics": {}})], studies=[study()]))
+        self.assertIn("0.025: particle 7", self.text("digit-cost.html"))
+
+    def test_what_has_no_study_is_not_on_the_page(self):
+        self.assertEqual(digit_cost.read(self.load(case([ladder(2.0, 5.0)]))), [])
+
+
+class Corrections(Pages):
+    def ablate(self, printed, corrected=0.01):
+        run = lambda value: {"status": "ok", "metrics": {"error": {"value": value}}}
+        (self.path / "ablation.json").write_text(json.dumps({"format": 1, "cases": [{"id": "heat/one", "title": "One", "metrics": [{"name": "error", "unit": "K"}], "corrected": run(corrected),
+                                                             "printed": {term: value if isinstance(value, dict) else run(value) for term, value in printed.items()}}]}))
+        return ablation.read(self.path)
+
+    def test_a_cell_is_how_many_times_larger_the_error_is(self):
+        terms, rows, notes = self.ablate({"heat": -0.05, "time": 0.0101, "kernel": 0.005})
+        self.assertEqual((terms, notes), (["kernel", "heat", "time"], []))
+        self.assertAlmostEqual(rows[0].cells["heat"].factor, 5.0)
+        self.assertEqual([rows[0].cells[t].tone for t in ("heat", "time", "kernel")], ["fail", "none", "pass"])
+
+    def test_round_off_against_round_off_is_the_same(self):
+        _, rows, _ = self.ablate({"heat": 3e-16}, corrected=1e-17)
+        self.assertEqual(rows, [])
+
+    def test_a_form_that_diverges_is_a_word(self):
+        _, rows, _ = self.ablate({"heat": {"status": "diverged", "metrics": {}}})
+        self.assertEqual(rows[0].cells["heat"].word, "diverged")
+
+    def test_without_its_file_the_page_says_how_to_make_it(self):
+        self.write(case([ladder(2.0, 5.0)]))
+        self.assertIn("tripoint ablate", self.text("corrections.html"))
+
+
+class SideBySide(Pages):
+    def test_the_nearest_engine_is_marked_and_cost_is_relative(self):
+        gates = [{"metric": "error", "mode": "corrected", "value": 0.01, "limit": 1.0, "verdict": "pass", "reason": "r"}]
+        found = side_by_side.read(self.load(case([ladder(2.0, 5.0, gates=gates), ladder(1.0, 2.0, name="bullet")])))
+        cells = found[0].metrics[0][2]
+        self.assertEqual([(label, c.best, c.verdict) for label, c in cells.items()], [("tripoint, corrected", True, "PASS"), ("bullet, corrected", False, "")])
+        self.assertAlmostEqual(found[0].cost["tripoint, corrected"][1], 1000.0)
+
+    def test_a_case_of_one_engine_is_no_comparison(self):
+        self.assertEqual(side_by_side.read(self.load(case([ladder(2.0, 5.0)]))), [])
+
+
+class Signable(Pages):
+    def test_every_requirement_gate_and_uncertainty_is_in_it(self):
+        gates = [{"metric": "error", "mode": "corrected", "value": 0.01, "uncertainty": 0.002, "budget": {"numerical": 0.002, "statistical": 0, "input": 0, "data": 0}, "limit": 1.0, "verdict": "pass", "reason": "r"}]
+        self.write(case([ladder(2.0, 5.0, gates=gates)], gates=[{"metric": "error", "date": "2026-11-21", "reason": "waived for now"}]))
+        text = self.text("signable.html")
+        for words in ("R-1", "heat/one", "it holds", "0.002", "waived for now", "tripoint validate one", "What is not validated", "Reviewer"):
+            self.assertIn(words, text)
+
+    def test_its_hash_is_that_of_the_results(self):
+        import hashlib
+        self.write(case([ladder(2.0, 5.0)]))
+        self.assertIn(hashlib.sha256((self.path / "results.json").read_bytes()).hexdigest(), self.text("signable.html"))
+
+    @unittest.skipUnless(shutil.which("weasyprint"), "weasyprint is not installed")
+    def test_the_pdf_is_one(self):
+        self.assertEqual(self.write(case([ladder(2.0, 5.0)]), words=["--pdf"]), 0)
+        self.assertEqual((self.path / "report.pdf").read_bytes()[:5], b"%PDF-")
+
+
+if __name__ == "__main__":
+    unittest.main()
