@@ -57,7 +57,7 @@ constexpr auto keys = std::to_array<Key>({
     {"scene", "viscosity_form", word, "", any, "\"central\"", "keeps angular momentum; right wherever a surface or body is free", "laplacian central", "corrected viscosity; laplacian for wall-bounded shear only"},
     {"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "", "move particles by the transport velocity"},
     {"scene", "clamp", flag, "", any, "true", "negative pressure would glue bodies together", "", "no negative pressure"},
-    {"scene", "merge_distance", number, "", positive, "1.5", "nearest and diagonal neighbours of the lattice", "", "how near a freezing particle joins, in spacings"},
+    {"scene", "merge_distance", number, "", positive, "=", "1.5, nearest and diagonal neighbours of the lattice; where phase is paper 2.12, the reach of its bonds", "", "how near a freezing particle joins, in spacings"},
     {"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "", "coefficient of the energy against zero-energy modes"},
     {"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "", "viscosity between solids that touch"},
     {"scene", "on_failure", word, "", any, "\"stop\"", "a run that has gone wrong is no result", "stop recover", "what a guard does that trips: stop with exit code 7; or go back to the last good state and on with half the step, counted in the results"},

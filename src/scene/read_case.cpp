@@ -81,7 +81,7 @@ void read_scene(TableReader& in, Scene& s) {
   if (s.output_interval > s.end_time) in.refuse("output_interval", fmt::format("{} s is longer than end_time = {} s: shorten it", s.output_interval, s.end_time));
   if (s.end_time / s.output_interval > 1e6) in.refuse("output_interval", fmt::format("{:.3g} frames would be written; at most 1e6: lengthen it", s.end_time / s.output_interval));
   s.viscosity_form = in.text("viscosity_form"), s.transport_velocity = in.flag("transport_velocity"), s.clamp = in.flag("clamp");
-  s.merge_distance = in.number("merge_distance"), s.hourglass = in.number("hourglass"), s.contact_viscosity = in.number("contact_viscosity");
+  s.hourglass = in.number("hourglass"), s.contact_viscosity = in.number("contact_viscosity");
   s.recovers = in.text("on_failure") == "recover", s.unguarded = in.texts("unguarded");
 }
 
@@ -97,6 +97,12 @@ void resolve_modes(TableReader& in, Scene& s) {
   } else {
     s.support_ratio = paper ? 2.12 : 2.6;
     in.ruled("support_ratio", show(s.support_ratio), paper ? "every term is paper: about 40 neighbours by volume, as the paper has" : "some term is corrected: 2.6 for its Wendland kernel");
+  }
+  if (const auto distance = in.maybe_number("merge_distance")) {
+    s.merge_distance = *distance, s.merge_distance_given = true;
+  } else {
+    s.merge_distance = default_merge_distance(s);
+    in.ruled("merge_distance", show(s.merge_distance), s.mode_of(Term::phase) == Mode::paper ? "phase is paper: whatever is within reach of its bonds" : "nearest and diagonal neighbours of the lattice");
   }
 }
 

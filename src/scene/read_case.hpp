@@ -41,6 +41,10 @@ struct RunChoice {
 /// expression do not count. Empty where it is given, nothing flows, or no speed is known.
 [[nodiscard]] std::optional<double> default_stiffness(const Scene&);
 
+/// How near a freezing particle joins where the scene does not say [spacings]: as the paper has it, whatever its bonds reach
+/// (h = 2.12 dx); corrected, nearest and diagonal neighbours of the lattice, so that no bond bridges a molten layer.
+[[nodiscard]] double default_merge_distance(const Scene&);
+
 /// An effect that a scene calls for, and why.
 struct CalledEffect {
   std::string name;  ///< fluid elastic plastic fracture rigid heat phase surface

@@ -146,6 +146,7 @@ struct Scene {
   std::string viscosity_form = "central";
   bool transport_velocity = false, clamp = true;
   double merge_distance = 1.5;  ///< [spacings]
+  bool merge_distance_given = false;
   double hourglass = 1.0, contact_viscosity = 0.0;
   bool recovers = false;                ///< a guard that trips sends the run back to a good state, with half the step
   std::vector<std::string> unguarded;  ///< guards that are off

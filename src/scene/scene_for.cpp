@@ -8,6 +8,8 @@
 
 namespace tripoint {
 
+double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? 2.12 : 1.5; }
+
 Scene scene_for(const Case& c, const RunChoice& choice) {
   Scene s = c.scene;
   if (choice.mode) s.mode = *choice.mode;
@@ -19,6 +21,7 @@ Scene scene_for(const Case& c, const RunChoice& choice) {
   const bool paper = std::all_of(s.modes.begin(), s.modes.end(), [](Mode m) { return m == Mode::paper; });
   if (choice.support_ratio) s.support_ratio = *choice.support_ratio, s.support_ratio_given = true;
   else if (!s.support_ratio_given) s.support_ratio = paper ? 2.12 : 2.6;
+  if (!s.merge_distance_given) s.merge_distance = default_merge_distance(s);
   if (const auto stiffness = default_stiffness(s)) {
     for (Material& m : s.materials) m.stiffness = stiffness;
   }

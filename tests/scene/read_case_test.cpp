@@ -177,6 +177,18 @@ TEST(Library, GivesSourcesAndYieldsToTheCase) {
   }
 }
 
+TEST(SceneFor, WhatFreezesJoinsAllThatItsBondsReachWherePhaseIsPrintedAndNearestNeighboursElse) {
+  RunChoice paper;
+  paper.mode = Mode::paper;
+  const auto c = read_text(six_lines).value;
+  EXPECT_EQ(scene_for(c, {}).merge_distance, 1.5);
+  EXPECT_EQ(scene_for(c, paper).merge_distance, 2.12);
+  const auto printed = read_text(six_lines, {"scene.modes.phase=paper"});
+  EXPECT_EQ(printed.value.scene.merge_distance, 2.12);
+  EXPECT_FALSE(decision(printed, "scene.merge_distance")->given);
+  EXPECT_EQ(scene_for(read_text(six_lines, {"scene.merge_distance=1.2"}).value, paper).merge_distance, 1.2) << "what the case says stays";
+}
+
 TEST(SceneFor, ResolvesModesAndSupportRatioForEachRun) {
   const auto c = read_text(six_lines, {"scene.modes.heat=paper"}).value;
   RunChoice paper;
