@@ -13,10 +13,12 @@ class Poly6 {
  public:
   explicit Poly6(double h) noexcept : h_(h), c_(315.0 / (64.0 * std::numbers::pi * std::pow(h, 9))) { assert(h > 0.0); }
   /// W(r) [1/m3]
+  [[nodiscard]] double value(double r) const noexcept { return value_of_square(r * r); }
+  /// Of r^2, which needs no root.
   template <class V>
-  [[nodiscard]] V value(V r) const noexcept {
-    const V q = h_ * h_ - r * r;
-    return r < h_ ? c_ * q * q * q : 0.0;
+  [[nodiscard]] V value_of_square(V r2) const noexcept {
+    const V q = h_ * h_ - r2;
+    return q > 0.0 ? c_ * q * q * q : 0.0;
   }
 
  private:

@@ -29,7 +29,7 @@ struct Keys {
 template <class V>
 struct PairGeometry {
   V dx, dy, dz;  ///< r_j - r_i [m]
-  V r;           ///< |r_j - r_i| [m]
+  V r2, r;       ///< its square [m2], |r_j - r_i| [m]; what no term asks for is not formed
   V per_r2;      ///< 1/r^2; where r is 0, a number that keeps products with dx, dy, dz and r at 0 [1/m2]
   V gradient;    ///< W'(r)/r of the Wendland kernel [1/m5]
   V apart;       ///< 0 for an own pair, two members of one deformable body that meet through their bonds alone; else 1
@@ -129,14 +129,12 @@ template <int L, class ForUnit, class... Terms>
     const Vec3& s = t.shift[t.entries[e] >> 27];
     const V dx = (t.x[j] - xi) + s.x, dy = (t.y[j] - yi) + s.y, dz = (t.z[j] - zi) + s.z;
     const V r2 = dx * dx + dy * dy + dz * dz;
-    const unsigned acting = bits_of<L>(r2 < t.support2) & t.near[e];
-    if (acting == 0) continue;
+    const typename Lanes<L>::Mask within = r2 < t.support2, acting = within & mask_of<L>(t.near[e]);
     const V r = root(r2);
     V apart = r2 - r2 + 1.0;
     if (t.own) apart = mask_of<L>(t.own[e]) ? V{} : apart;
-    const PairGeometry<V> g{dx, dy, dz, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r(r), apart, kernels};
-    const auto mask = mask_of<L>(acting);
-    std::apply([&](auto&... l) { (l.add(g, mask, j), ...); }, locals);
+    const PairGeometry<V> g{dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r(r), apart, kernels};
+    std::apply([&](auto&... l) { (l.add(g, acting, j), ...); }, locals);
   }
   std::apply([&](const auto&... l) { (l.finish(row, members), ...); }, locals);
 }

@@ -26,7 +26,7 @@ struct Second {
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 1> i, std::span<const double, 1> j, std::span<V, 2> sum) {
     sum[0] += (j[0] - i[0]) * g.r;
-    sum[1] += g.kernels.poly6.value(g.r);
+    sum[1] += g.kernels.poly6.value_of_square(g.r2);
   }
 };
 using Both = Pass<Slot<First>, Slot<Second>>;
