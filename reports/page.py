@@ -12,6 +12,7 @@ import paper_figures
 import printed
 import side_by_side
 import signable
+import stability
 import summary
 import table1
 from model import is_number, number
@@ -101,6 +102,12 @@ def render_table1(results):
     """@return HTML of the paper's table of features beside what was measured"""
     features, systems, films, notes = table1.read(results)
     return fill("table1.html.j2", results, features=features, systems=systems, films=films, notes=notes, columns=table1.COLUMNS, predicted=table1.PREDICTED)
+
+
+def render_stability(results, out):
+    """@return HTML of the map of stable steps and of the hard cases"""
+    frontiers, drawing, listed, notes = stability.read(results, out)
+    return fill("stability.html.j2", results, frontiers=frontiers, drawing=drawing, listed=listed, notes=notes, columns=stability.COLUMNS)
 
 
 def render_figures(results):

@@ -2,7 +2,7 @@
 """Writes the report of a validation run: python3 report.py RESULTS.json [--out DIR] [--jobs N]
 
 results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is one self-contained file,
-as are the pages that it links to: DIR/printed-equations.html, DIR/table-1.html, DIR/paper-figures.html, DIR/digit-cost.html, DIR/corrections.html, DIR/engines.html and DIR/signable.html (with --pdf also DIR/report.pdf). DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
+as are the pages that it links to: DIR/printed-equations.html, DIR/table-1.html, DIR/paper-figures.html, DIR/stability.html, DIR/digit-cost.html, DIR/corrections.html, DIR/engines.html and DIR/signable.html (with --pdf also DIR/report.pdf). DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
 Exit: 0 the page is written, whatever it says; 2 there is nothing to report on.
 """
 from __future__ import annotations
@@ -81,6 +81,7 @@ def main(arguments=None):
         write(out / "printed-equations.html", page.render_printed(results))
         write(out / "table-1.html", page.render_table1(results))
         write(out / "paper-figures.html", page.render_figures(results))
+        write(out / "stability.html", page.render_stability(results, out))
         write(out / "digit-cost.html", page.render_digit_cost(results, out))
         write(out / "corrections.html", page.render_ablation(results))
         write(out / "engines.html", page.render_side_by_side(results))

@@ -37,6 +37,8 @@ clamp = false
 merge_distance = 1.6
 hourglass = 0.5
 contact_viscosity = 0.1
+on_failure = "recover"
+unguarded = ["escape", "ledger"]
 
 [[material]]
 name = "goo"
