@@ -2,6 +2,8 @@
 #include "sph/moments.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 namespace tripoint {
 namespace {
@@ -12,6 +14,14 @@ Eigen::Matrix3d matrix_of(const Symmetric& m) {
   return a;
 }
 
+/// Whether no eigenvalue of a positive semidefinite matrix is below cut times the largest, by a bound that costs no decomposition:
+/// the largest is at most g, the greatest sum of a row's magnitudes, so the smallest is at least det/g^2.
+bool is_regular(const Symmetric& m, double det, double cut) {
+  const double g = std::max({std::abs(m.xx) + std::abs(m.xy) + std::abs(m.xz), std::abs(m.xy) + std::abs(m.yy) + std::abs(m.yz),
+                             std::abs(m.xz) + std::abs(m.yz) + std::abs(m.zz)});
+  return m.xx > 0.0 && det > cut * g * g * g;
+}
+
 }  // namespace
 
 double largest_eigenvalue(const Symmetric& m) {
@@ -19,6 +29,10 @@ double largest_eigenvalue(const Symmetric& m) {
 }
 
 Symmetric pseudo_inverse(const Symmetric& m, double cut) {
+  const Symmetric adjugate{m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz, m.xx * m.yy - m.xy * m.xy,
+                           m.xy * m.xz - m.xx * m.yz, m.xy * m.yz - m.xz * m.yy, m.xz * m.yz - m.xy * m.zz};
+  const double det = m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz;
+  if (is_regular(m, det, cut)) return (1.0 / det) * adjugate;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(matrix_of(m));
   const double largest = eigen.eigenvalues()(2);
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();

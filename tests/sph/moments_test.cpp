@@ -23,6 +23,11 @@ TEST(PseudoInverse, IsTheInverseOfARegularMatrix) {
               round_off);
 }
 
+TEST(PseudoInverse, OfAFullMatrixTimesItIsOne) {
+  const Symmetric m{1.1, 0.9, 1.0, 0.05, -0.1, 0.07}, a = pseudo_inverse(m, 0.05);
+  for (const Vec3& e : {Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}}) EXPECT_NEAR(norm(m * (a * e) - e), 0.0, round_off);
+}
+
 TEST(PseudoInverse, LeavesOutDirectionsBelowTheCut) {
   expect_near(pseudo_inverse({1.0, 0.049, 0.0, 0.0, 0.0, 0.0}, 0.05), {1.0, 0.0, 0.0, 0.0, 0.0, 0.0}, round_off);
   expect_near(pseudo_inverse({1.0, 0.051, 0.0, 0.0, 0.0, 0.0}, 0.05), {1.0, 1.0 / 0.051, 0.0, 0.0, 0.0, 0.0}, 100 * round_off);
