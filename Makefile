@@ -8,7 +8,7 @@ OUT ?= report
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-print-directory
 
-.PHONY: help setup build test validate test-fresh docs clean
+.PHONY: help setup build test validate test-fresh bench bench-peers docs clean
 
 help:  ## this text
 	@echo 'tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.'
@@ -42,9 +42,17 @@ test:  ## install the test tools too, build and run every test
 test-fresh:  ## make validate, then make test, in a bare Debian 12 root (needs root and mmdebstrap; KEEP=1 keeps it)
 	@tools/test-fresh.sh
 
+bench: build  ## time standard work on this machine, beside the machine's own limit
+	@build/bin/tripoint bench
+
+bench-peers: setup build  ## time SPlisHSPlasH and LAMMPS on the same particles, interleaved; leaves $(OUT)/speed.html
+	@tools/setup.sh peers
+	@/usr/bin/python3 tools/peers/bench_peers.py --threads $(JOBS) --out $(OUT)
+	@/usr/bin/python3 reports/speed.py $(OUT)/speed.json
+
 docs: build  ## write the reference of the case file, docs/case-file.md
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
 
-clean:  ## remove build/ and report/; .venv stays
+clean:  ## remove build/ and report/; .venv and .venv-peers stay
 	rm -rf build report

@@ -18,6 +18,7 @@ import load
 import page
 import plain
 import signable
+import speed
 
 PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "h5py": "python3-h5py", "jinja2": "python3-jinja2"}
 
@@ -86,6 +87,8 @@ def main(arguments=None):
         write(out / "corrections.html", page.render_ablation(results))
         write(out / "engines.html", page.render_side_by_side(results))
         write(out / "signable.html", page.render_signable(results))
+        if (results.folder / "speed.json").is_file():
+            speed.main([str(results.folder / "speed.json"), str(out / "speed.html")])
         write(out / "index.html", page.render(results, pictures, notes, suite, missing))
     print(out / "index.html")
     if options.pdf:

