@@ -109,6 +109,21 @@ TEST(Judge, ADivergenceThatTheCaseDeclaresPassesAndItsAbsenceFails) {
   EXPECT_EQ(exit_of(r), exit_diverged);
 }
 
+TEST(Judge, WhereThePrintedFormIsDeclaredToDivergeTheCorrectedOneMayNot) {
+  auto r = green();
+  r.cases[0].expect = "paper-diverges";
+  RunRow printed = engine(r).runs[0];
+  printed.knobs.mode = "paper", printed.status = "diverged";
+  engine(r).runs[0].knobs.mode = "corrected";
+  engine(r).runs.push_back(printed);
+  for (Gate& gate : r.cases[0].gates) gate.mode = "corrected";
+  EXPECT_EQ(exit_of(r), exit_pass);
+  engine(r).runs[1].status = "ok";
+  EXPECT_EQ(exit_of(r), exit_fail) << "the declaration is stale";
+  engine(r).runs[1].status = "diverged", engine(r).runs[0].status = "diverged";
+  EXPECT_EQ(exit_of(r), exit_diverged);
+}
+
 TEST(Judge, ADeclaredDefectNeedsAGateThatMeasuresIt) {
   auto r = green();
   r.cases[0].expect = "defect";
