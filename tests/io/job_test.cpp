@@ -105,7 +105,7 @@ TEST(Result, ReadsBackWhatWasWritten) {
   r.message = "particle 7: velocity is not finite";
   r.steps = 12;
   r.pairs = 3e9;
-  r.divergence = Divergence{7, 1, "velocity", "kick", 0.25};
+  r.divergence = Divergence{7, 1, "velocity", "kick", 0.25, "not_finite", "culprits.vtu", "checkpoint.h5"};
   r.readback.bodies.push_back({"cube", 2.0, {1, 2, 3}, {4, 5, 6}, 0, 0, 0, 0});
   r.extra["angle"] = 0.5;
   const std::string path = temporary("result.json");
@@ -116,6 +116,9 @@ TEST(Result, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.message, r.message);
   EXPECT_EQ(read.pairs, 3e9);
   EXPECT_EQ(read.divergence->field, "velocity");
+  EXPECT_EQ(read.divergence->guard, "not_finite");
+  EXPECT_EQ(read.divergence->file, "culprits.vtu");
+  EXPECT_EQ(read.divergence->checkpoint, "checkpoint.h5");
   EXPECT_EQ(read.readback.bodies[0].principal_inertia, (Vec3{4, 5, 6}));
   EXPECT_EQ(read.extra.at("angle"), 0.5);
 }
