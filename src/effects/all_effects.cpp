@@ -2,6 +2,7 @@
 #include "effects/all_effects.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "effects/body_table.hpp"
 #include "effects/density/density.hpp"
@@ -30,7 +31,7 @@ struct Registered {
 };
 
 /// The one list of effects, in the order in which they run within a stage.
-constexpr Registered all_effects[] = {
+constexpr Registered every_effect[] = {
     {"rigid", rigid::spec, rigid::make, rigid::defects},
     {"fluid", fluid::spec, fluid::make, fluid::defects},
     {"motion", motion::spec, motion::make, motion::defects},
@@ -42,6 +43,25 @@ constexpr Registered all_effects[] = {
     {"heat", heat::spec, heat::make, heat::defects},
     {"phase", phase::spec, phase::make, phase::defects},
 };
+
+/// Whether this build has an effect: TRIPOINT_EFFECTS lists those that it has, between commas; without it it has all.
+constexpr bool in_build(const Registered& effect) {
+#ifdef TRIPOINT_EFFECTS
+  constexpr std::string_view list = TRIPOINT_EFFECTS;
+  for (std::size_t at = list.find(effect.name); at != list.npos; at = list.find(effect.name, at + 1))
+    if (list[at - 1] == ',' && list[at + effect.name.size()] == ',') return true;
+  return false;
+#else
+  return !effect.name.empty();
+#endif
+}
+
+/// Those of this build; what it leaves out is in no table, so that the linker leaves it out too.
+constexpr auto all_effects = [] {
+  std::array<Registered, static_cast<std::size_t>(std::ranges::count_if(every_effect, in_build))> list{};
+  std::ranges::copy_if(every_effect, list.begin(), in_build);
+  return list;
+}();
 
 const Registered* find(std::string_view name) {
   const auto* place = std::ranges::find(all_effects, name, &Registered::name);

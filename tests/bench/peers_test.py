@@ -31,7 +31,7 @@ def start(particles):
 
 def code(name, costs, neighbours=None, parallel=2):
     made = bench_peers.Code(name, "liquid-heat-40k", parallel, "nothing", None)
-    made.rounds = [{"step_s": c, "particles": 100, "neighbours": neighbours, "rebuilds_per_step": 0.1} for c in costs]
+    made.rounds = [{"step_s": c, "cpu_s": c / 4, "particles": 100, "neighbours": neighbours, "rebuilds_per_step": 0.1} for c in costs]
     return made
 
 
@@ -64,6 +64,7 @@ class Ratios(unittest.TestCase):
         ours, theirs = code("tripoint", [1.0, 2.0, 4.0], 40.0), code("other", [3.0, 6.0, 16.0], 20.0)
         row = bench_peers.row_of(theirs, ours.rounds, 40.0)
         self.assertEqual(row["ratio_particle_step"], {"median": 3.0, "least": 3.0, "greatest": 4.0})
+        self.assertEqual(row["ratio_cpu"], {"median": 3.0, "least": 3.0, "greatest": 4.0})
         self.assertEqual(row["ratio_pair"], {"median": 6.0, "least": 6.0, "greatest": 8.0})
 
     def test_a_code_that_never_ran_keeps_its_row_and_its_reason(self):

@@ -138,11 +138,13 @@ def row_of(code, ours, neighbours):
     pair = lambda run, n: cost(run) / n if n else None
     both = list(zip(code.rounds, ours))
     mine = neighbours
+    busy = [(a["cpu_s"] / a["particles"], b["cpu_s"] / b["particles"]) for a, b in both if a.get("cpu_s") and b.get("cpu_s")]
     row = {"code": code.name, "work": code.work, "parallel": code.parallel, "leaves_out": code.leaves_out, "error": code.error, "particles": particles, "neighbours": near,
            "rebuilds_per_step": statistics.median(r.get("rebuilds_per_step", 0.0) for r in code.rounds) if code.rounds else None,
            "step_s": spread([r["step_s"] for r in code.rounds]), "cpu_s": spread([r["cpu_s"] for r in code.rounds if r.get("cpu_s")]),
            "particle_steps_per_s": 1.0 / statistics.median(map(cost, code.rounds)) if code.rounds else None,
            "ratio_particle_step": spread([cost(a) / cost(b) for a, b in both]),
+           "ratio_cpu": spread([a / b for a, b in busy]),
            "ratio_pair": spread([pair(a, near) / pair(b, mine) for a, b in both]) if near and mine else None}
     limits = [r["over_limit_cpu"]["median"] for r in code.rounds if r.get("limit")]
     return row | {"over_limit": spread(limits)}
@@ -180,14 +182,14 @@ def main():
 
 
 def print_table(rows):
-    print(f"{'work':18} {'code':26} {'x':>2} {'ms/step':>9} {'M p-s/s':>8} {'neighb.':>7} {'rebuilds':>8} {'ratio a particle-step':>24} {'ratio a pair':>20}")
+    print(f"{'work':18} {'code':26} {'x':>2} {'ms/step':>9} {'M p-s/s':>8} {'neighb.':>7} {'rebuilds':>8} {'ratio a particle-step':>24} {'of CPU seconds':>20} {'ratio a pair':>20}")
     show = lambda s: f"{s['median']:.2f} ({s['least']:.2f}-{s['greatest']:.2f})" if s else "-"
     for row in rows:
         if row["error"]:
             print(f"{row['work']:18} {row['code']:26} {row['parallel']:>2} {row['error']}")
             continue
         print(f"{row['work']:18} {row['code']:26} {row['parallel']:>2} {1e3 * row['step_s']['median']:9.2f} {1e-6 * row['particle_steps_per_s']:8.3f} {row['neighbours'] or 0:7.1f} "
-              f"{row['rebuilds_per_step']:8.2f} {show(row['ratio_particle_step']):>24} {show(row['ratio_pair']):>20}")
+              f"{row['rebuilds_per_step']:8.2f} {show(row['ratio_particle_step']):>24} {show(row['ratio_cpu']):>20} {show(row['ratio_pair']):>20}")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Runs a few steps of a case, for callgrind to count: the instructions of counted_steps() and nothing else.
+///   count-steps CASE.toml corrected|paper WARM STEPS [a.b=VALUE]...
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "effects/plan.hpp"
+#include "scene/read_case.hpp"
+#include "step/simulation.hpp"
+
+using namespace tripoint;
+
+namespace {
+void run_steps(Simulation& simulation, long steps) {
+  simulation.advance_to(simulation.world().scene.end_time * 1e3, [&] { return --steps > 0; });
+}
+}  // namespace
+
+extern "C" [[gnu::noipa]] void counted_steps(Simulation& simulation, long steps) { run_steps(simulation, steps); }
+
+int main(int argc, char** argv) {
+  if (argc < 5) return std::fputs("count-steps CASE.toml corrected|paper WARM STEPS [a.b=VALUE]...\n", stderr), 2;
+  try {
+    const CaseReading reading = read_case(argv[1], std::vector<std::string>(argv + 5, argv + argc));
+    RunChoice choice;
+    choice.mode = mode_from(argv[2]);
+    const Scene scene = scene_for(reading.value, choice);
+    Simulation simulation(scene, sample(scene));
+    run_steps(simulation, std::atol(argv[3]));
+    counted_steps(simulation, std::atol(argv[4]));
+    std::printf("%zu particles, %s, %zu bytes\n", simulation.world().particles.size(), __VERSION__, plan(scene).bytes_per_particle);
+  } catch (const std::exception& e) {
+    return std::fprintf(stderr, "count-steps: %s\n", e.what()), 1;
+  }
+}
