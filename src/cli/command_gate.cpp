@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <set>
 
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
+#include "core/durable_file.hpp"
 #include "core/errors.hpp"
 #include "validation/harness/baseline.hpp"
 #include "validation/harness/judge.hpp"
@@ -88,6 +90,8 @@ int selftest(SelftestOptions options) {
   options.say = [](const std::string& line) { say(line); };
   const auto outcome = run_selftest(options);
   print(selftest_table(outcome));
+  std::filesystem::create_directories(options.out);
+  write_durably((std::filesystem::path(options.out) / "selftest.txt").string(), selftest_table(outcome));
   return outcome.exit_code;
 }
 

@@ -22,10 +22,11 @@ constexpr const char* merge_description =
 constexpr const char* report_description =
     "Draws the report anew from a results.json: index.html, junit.xml and summary.md beside it. Runs and judges nothing anew\n"
     "but the verdicts, which are always recomputed from the measured values.\n"
-    "  tripoint report report/results.json";
+    "  tripoint report report/results.json\n"
+    "  tripoint report report/results.json --pdf      also report.pdf, the report to sign (needs Debian's weasyprint)";
 
-int finish(const Results& results, const std::string& out) {
-  if (const auto missing = write_report(results, out); !missing.empty()) say("tripoint: no page: " + missing);
+int finish(const Results& results, const std::string& out, bool pdf = false) {
+  if (const auto missing = write_report(results, out, pdf); !missing.empty()) say("tripoint: no page: " + missing);
   print(last_line(results, out) + "\n");
   return results.exit_code;
 }
@@ -36,11 +37,11 @@ int merge(const std::vector<std::string>& folders, const std::string& out) {
   return finish(results, out);
 }
 
-int report(const std::string& path) {
+int report(const std::string& path, bool pdf) {
   auto results = read_results(path);
   judge(results);
   const auto folder = std::filesystem::path(path).parent_path();
-  finish(results, folder.empty() ? "." : folder.string());
+  finish(results, folder.empty() ? "." : folder.string(), pdf);
   return 0;
 }
 
@@ -59,7 +60,9 @@ void add_report(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("report", report_description);
   auto path = std::make_shared<std::string>();
   command->add_option("RESULTS", *path, "a results.json")->required();
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return report(*path); }); });
+  auto pdf = std::make_shared<bool>(false);
+  command->add_flag("--pdf", *pdf, "also write report.pdf");
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return report(*path, *pdf); }); });
 }
 
 }  // namespace tripoint

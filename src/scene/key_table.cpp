@@ -28,6 +28,7 @@ constexpr auto keys = std::to_array<Key>({
     {"", "metric", tables, "", any, "=", "nothing is measured", "metric", "numbers formed of each run"},
     {"", "study", tables, "", any, "=", "one run an engine", "study", "convergence studies"},
     {"", "gate", tables, "", any, "=", "nothing is judged", "gate", "limits"},
+    {"", "input", tables, "", any, "=", "every number counts as exact", "input", "numbers that are known to so much only"},
     {"", "defect", tables, "", any, "=", "none", "defect", "faults that this case must catch"},
     {"", "harmless", tables, "", any, "=", "none", "harmless", "changes that this case must not feel"},
     // [case]
@@ -196,7 +197,10 @@ constexpr auto keys = std::to_array<Key>({
     {"gate", "reason", text, "", any, "!", "", "", "why this limit"},
     {"gate", "by", text, "", any, "\"\"", "unsigned", "", "who set it"},
     {"gate", "date", text, "", any, "\"\"", "undated", "", "when"},
-    // [[defect]], [[harmless]]
+    // [[input]], [[defect]], [[harmless]]
+    {"input", "key", text, "", any, "!", "", "", "what is uncertain, as --set names it: material.water.viscosity"},
+    {"input", "low", text, "", any, "!", "", "", "its value less one standard uncertainty, as text: \"0.99e-3 Pa s\""},
+    {"input", "high", text, "", any, "!", "", "", "its value plus one standard uncertainty"},
     {"defect", "name", text, "", any, "!", "", "", "a registered defect: heat.conductivity ..."},
     {"defect", "size", number, "", any, "!", "", "", "of the fault"},
     {"defect", "killed_by", text_or_texts, "", any, "[]", "any gate", "", "metrics whose gates must fail"},
@@ -231,6 +235,7 @@ constexpr auto tables_of_case = std::to_array<TableInfo>({
     {"metric", "[[metric]]", "A number formed of each run."},
     {"study", "[[study]]", "A ladder of runs."},
     {"gate", "[[gate]]", "A limit that decides."},
+    {"input", "[[input]]", "A number that is known to so much only: the case's own run is made again at both ends, and half the difference of a metric is its input uncertainty."},
     {"defect", "[[defect]]", "A fault that this case must catch."},
     {"harmless", "[[harmless]]", "A change that physics does not feel: `tripoint gate selftest` runs the changed scene, and no gate may turn and no metric change."},
 });

@@ -157,6 +157,8 @@ void read_judgement(TableReader& top, Case& c, Reading& reading) {
   n = 0;
   for (const auto* node : top.tables("gate")) c.gates.push_back(read_gate(*node, ++n, reading));
   n = 0;
+  for (const auto* node : top.tables("input")) c.inputs.push_back(read_input(*node, ++n, reading));
+  n = 0;
   for (const auto* node : top.tables("defect")) c.defects.push_back(read_defect(*node, ++n, reading));
   n = 0;
   for (const auto* node : top.tables("harmless")) c.harmless.push_back(TableReader(*node, "harmless", fmt::format("harmless.{}", ++n), reading.decisions).text("name"));

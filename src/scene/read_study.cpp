@@ -98,6 +98,16 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
   return g;
 }
 
+UncertainInput read_input(const TomlNode& node, std::size_t number, Reading& reading) {
+  TableReader in(node, "input", fmt::format("input.{}", number), reading.decisions);
+  UncertainInput u;
+  u.place = node.place;
+  u.key = in.text("key"), u.low = in.text("low"), u.high = in.text("high");
+  if (u.key.find('.') == std::string::npos || u.key.find('=') != std::string::npos) in.refuse("key", "write a key as --set takes it: scene.viscosity_form, material.water.viscosity");
+  if (u.low == u.high) in.refuse("high", "low and high are the same: that is an exact input");
+  return u;
+}
+
 Defect read_defect(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in(node, "defect", fmt::format("defect.{}", number), reading.decisions);
   Defect d;

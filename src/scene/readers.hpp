@@ -29,6 +29,7 @@ struct Reading {
 [[nodiscard]] MetricChoice read_metric(const TomlNode&, Reading&);
 [[nodiscard]] Study read_study(const TomlNode&, std::size_t number, Reading&);
 [[nodiscard]] Gate read_gate(const TomlNode&, std::size_t number, Reading&);
+[[nodiscard]] UncertainInput read_input(const TomlNode&, std::size_t number, Reading&);
 [[nodiscard]] Defect read_defect(const TomlNode&, std::size_t number, Reading&);
 
 /// Names that become folders, columns and command line arguments: refuses any but letters, digits, blanks, _ - .

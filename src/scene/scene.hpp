@@ -212,6 +212,13 @@ struct Gate {
   SourcePlace place;
 };
 
+/// A number that the scene takes from a measurement, at one standard uncertainty below and above what the case says.
+struct UncertainInput {
+  std::string key;        ///< as of --set: material.water.viscosity
+  std::string low, high;  ///< TOML values, or numbers with a unit
+  SourcePlace place;
+};
+
 struct Defect {
   std::string name;
   double size = 0.0;
@@ -230,6 +237,7 @@ struct Case {
   std::vector<MetricChoice> metrics;
   std::vector<Study> studies;
   std::vector<Gate> gates;
+  std::vector<UncertainInput> inputs;
   std::vector<Defect> defects;
   std::vector<std::string> harmless;
   std::string file;  ///< the path it was read from

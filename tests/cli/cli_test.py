@@ -12,7 +12,7 @@ import unittest
 from pathlib import Path
 
 TRIPOINT, FAKE = sys.argv[1], sys.argv[2]
-VERBS = "run validate merge compare report converge gate check explain list new schema engines engine".split()
+VERBS = "run validate merge compare report converge recommend plan ablate gate check explain list new schema engines engine".split()
 FLIGHT = """format = 1
 [case]
 title = "Flight"

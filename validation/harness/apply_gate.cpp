@@ -42,7 +42,7 @@ struct Group {
 std::vector<Group> groups_for(const Gate& gate, const EngineRow& engine) {
   std::vector<Group> groups;
   for (const auto& run : engine.runs) {
-    if ((!gate.mode.empty() && run.knobs.mode != gate.mode) || !is_at_level(run, gate.level)) continue;
+    if (!run.input.empty() || (!gate.mode.empty() && run.knobs.mode != gate.mode) || !is_at_level(run, gate.level)) continue;
     const auto same = [&](const Group& g) { return !run.group.empty() && g.mode == run.knobs.mode && g.runs.front()->group == run.group; };
     const auto at = std::find_if(groups.begin(), groups.end(), same);
     if (at == groups.end()) groups.push_back({run.knobs.mode, run.levels, {&run}});
@@ -66,6 +66,7 @@ GateRow missing_row(const Gate& gate, const std::string& why) {
 
 void judge_value(GateRow& row, const MetricValue& metric) {
   row.value = metric.value;
+  row.budget = metric.uncertainty;
   row.uncertainty = metric.uncertainty.combined();
   const auto verdict = verdict_of(row.gate, row.value, row.uncertainty);
   row.verdict = to_string(verdict);
@@ -75,7 +76,7 @@ void judge_value(GateRow& row, const MetricValue& metric) {
 }
 
 /// @return false when the group gives no row: its run failed, and the engine's row says so
-bool judge_group(const Gate& gate, const Group& group, EngineRow& engine) {
+bool judge_group(const CaseResult& result, const Gate& gate, const Group& group, EngineRow& engine) {
   auto row = new_row(gate, group.mode);
   if (!row.level && group.levels.size() == 1) row.level = group.levels.begin()->second;
   std::vector<MetricValue> values;
@@ -87,12 +88,14 @@ bool judge_group(const Gate& gate, const Group& group, EngineRow& engine) {
       engine.gates.push_back(row);
       return true;
     }
-    const auto value = measured(*run, gate.metric);
+    auto value = measured(*run, gate.metric);
     if (!value) {
       row.verdict = to_string(Verdict::missing), row.why = "the run has no metric of this name";
       engine.gates.push_back(row);
       return true;
     }
+    value->uncertainty.numerical = std::max(value->uncertainty.numerical, numerical_uncertainty(result, engine, *run, gate.metric));
+    value->uncertainty.input = std::max(value->uncertainty.input, input_uncertainty(engine, *run, gate.metric));
     values.push_back(*value);
   }
   judge_value(row, pooled(values));
@@ -178,7 +181,7 @@ Applied apply_gate(const CaseResult& result, const Gate& gate, EngineRow& engine
     return Applied::judged;
   }
   bool judged = false;
-  for (const auto& group : groups) judged = judge_group(gate, group, engine) || judged;
+  for (const auto& group : groups) judged = judge_group(result, gate, group, engine) || judged;
   return judged ? Applied::judged : Applied::absent;
 }
 

@@ -126,7 +126,7 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   run.kept = outcome.kept;
   auto& row = run.row;
   row.knobs = knobs_of(run, outcome.result);
-  row.levels = run.plan.levels, row.base = run.plan.base, row.group = run.plan.group;
+  row.levels = run.plan.levels, row.base = run.plan.base, row.group = run.plan.group, row.input = run.plan.input;
   row.status = outcome.status, row.reason = outcome.reason, row.comparable = outcome.comparable, row.cost = outcome.cost;
   row.state_hash = outcome.result.state_hash, row.time_step_bound = outcome.result.time_step_bound;
   row.folder = fs::relative(run.folder, options.out).string();

@@ -19,6 +19,13 @@ void judge(CaseResult&, bool engines_were_chosen);
 /// Value of NAME, or of NAME.statistical (its statistical standard uncertainty), in one run; empty when the run has no such metric.
 [[nodiscard]] std::optional<MetricValue> measured(const RunRow&, const std::string& metric);
 
+/// Standard uncertainty that the resolution of a run leaves, by the grid convergence index of the case's studies in space and in time, added up.
+/// Against a truth the error itself is measured, and this is 0; it counts where the reference is an experiment, the run's own limit or another engine.
+[[nodiscard]] double numerical_uncertainty(const CaseResult&, const EngineRow&, const RunRow&, const std::string& metric);
+
+/// Half the difference of a metric between both ends of each uncertain input, root sum of squares; 0 where the case names none, NaN where an end gave no value.
+[[nodiscard]] double input_uncertainty(const EngineRow&, const RunRow&, const std::string& metric);
+
 /// Mean of runs that differ by seed only: the statistical uncertainty is the larger of the stated one and the scatter, over sqrt(n).
 [[nodiscard]] MetricValue pooled(const std::vector<MetricValue>&);
 

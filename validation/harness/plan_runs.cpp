@@ -57,7 +57,7 @@ void set_level(RunPlan& run, const std::string& axis, double level) {
 bool same_run(const Case& value, const RunPlan& a, const RunPlan& b) {
   const auto s = scene_of(value, a), t = scene_of(value, b);
   const auto same = [](const std::optional<double>& x, const std::optional<double>& y) { return x.has_value() == y.has_value() && (!x || same_level(*x, *y)); };
-  return a.mode == b.mode && same_level(s.spacing, t.spacing) && same(s.time_step, t.time_step) && same_level(s.support_ratio, t.support_ratio) &&
+  return a.mode == b.mode && a.input == b.input && same_level(s.spacing, t.spacing) && same(s.time_step, t.time_step) && same_level(s.support_ratio, t.support_ratio) &&
          s.jitter == t.jitter && s.seed == t.seed && same(a.walkers, b.walkers) && same(a.iterations, b.iterations);
 }
 
@@ -88,6 +88,18 @@ void add_study(const Case& value, const Study& study, const RunPlan& base, std::
   }
 }
 
+/// The case's own run at both ends of each uncertain input.
+void add_inputs(const Case& value, const RunPlan& base, std::vector<RunPlan>& runs) {
+  for (const auto& input : value.inputs)
+    for (const auto& [end, what] : {std::pair{"low", input.low}, std::pair{"high", input.high}}) {
+      auto run = base;
+      run.base = false;
+      run.input = input.key + "=" + what;
+      run.label = run.group = fmt::format("{}{}-{}", base.mode.empty() ? "" : base.mode + "-", input.key, end);
+      runs.push_back(run);
+    }
+}
+
 std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, const Selection& selection) {
   std::vector<RunPlan> runs;
   std::vector<std::string> modes;
@@ -106,6 +118,7 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
       if (const auto level = own_level(scene, base, study.axis)) base.levels[study.axis] = *level;
     runs.push_back(base);
     base.levels.clear();
+    if (engine.name != "exact") add_inputs(value, base, runs);
     for (const auto& study : value.studies)
       if (applies(study, engine.name, mode)) add_study(value, study, base, seed, runs);
   }
@@ -136,6 +149,6 @@ std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEnt
   return plans;
 }
 
-Scene scene_of(const Case& value, const RunPlan& run) { return scene_for(value, run.choice); }
+Scene scene_of(const Case& value, const RunPlan& run) { return scene_for(run.input.empty() ? value : read_case(value.file, {run.input}).value, run.choice); }
 
 }  // namespace tripoint

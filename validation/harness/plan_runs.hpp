@@ -18,6 +18,7 @@ struct RunPlan {
   std::optional<double> walkers, iterations;
   std::map<std::string, double> levels;  ///< study axis -> level
   bool base = false;
+  std::string input;  ///< "key=VALUE" of an uncertain input at one end, in the place of what the case says; empty = none
   std::string label;  ///< name of its folder below runs/<case>/<engine>
   std::string group;  ///< runs of one group differ by seed only
 };

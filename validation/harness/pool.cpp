@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "validation/harness/judge.hpp"
@@ -90,12 +91,37 @@ MetricValue pooled(const std::vector<MetricValue>& values) {
   return pool;
 }
 
+double numerical_uncertainty(const CaseResult& result, const EngineRow& engine, const RunRow& run, const std::string& metric) {
+  static constexpr std::array<std::string_view, 3> uncertain{"experiment", "self", "engine"};
+  if (std::find(uncertain.begin(), uncertain.end(), result.reference.kind) == uncertain.end()) return 0.0;
+  double sum = 0.0;  // space and time add up
+  for (const auto& order : engine.order) {
+    const auto at = run.levels.find(order.axis);
+    if (order.metric != metric || order.mode != run.knobs.mode || at == run.levels.end() || order.numerical.empty()) continue;
+    for (std::size_t k = 0; k < order.step.size(); ++k)
+      if (same_level(order.step[k], refinement(order.axis, at->second))) sum += order.numerical[k];
+  }
+  return sum;
+}
+
+double input_uncertainty(const EngineRow& engine, const RunRow& run, const std::string& metric) {
+  std::map<std::string, std::vector<double>> ends;
+  for (const auto& r : engine.runs) {
+    if (r.input.empty() || r.knobs.mode != run.knobs.mode) continue;
+    const auto value = measured(r, metric);
+    ends[r.input.substr(0, r.input.find('='))].push_back(r.status == "ok" && value ? value->value : not_a_number);
+  }
+  double squares = 0.0;
+  for (const auto& [key, values] : ends) squares += values.size() == 2 ? 0.25 * (values[1] - values[0]) * (values[1] - values[0]) : not_a_number;
+  return std::sqrt(squares);
+}
+
 std::vector<OrderRow> fit_orders(const CaseResult& result, const EngineRow& engine, const Study& study) {
   std::vector<OrderRow> rows;
   for (const auto& mode : modes_of(engine)) {
     if (!applies(study, engine.name, mode)) continue;
     for (const auto& metric : metrics_to_fit(result, study)) {
-      OrderRow row{metric, study.axis, mode, {}, study.order.value_or(0.0), {}, {}, {}};
+      OrderRow row{metric, study.axis, mode, {}, study.order.value_or(0.0), {}, {}, {}, {}};
       for (const double level : study.levels) {
         const auto value = at_level(engine, study, mode, metric, level);
         row.step.push_back(refinement(study.axis, level));
@@ -103,6 +129,7 @@ std::vector<OrderRow> fit_orders(const CaseResult& result, const EngineRow& engi
         row.uncertainty.push_back(value.uncertainty.combined());
       }
       if (!std::all_of(row.error.begin(), row.error.end(), [](double e) { return std::isfinite(e); })) continue;
+      if (row.formal > 0.0 && !metric.ends_with(statistical)) row.numerical = grid_convergence_uncertainties(row.step, row.error, row.formal);
       row.order = fit_order(row.step, row.error, row.uncertainty, row.formal);
       rows.push_back(row);
     }

@@ -15,11 +15,12 @@ namespace {
 
 constexpr double report_limit = 900.0;  // [s]
 
-std::string make_page(const fs::path& results) {
+std::string make_page(const fs::path& results, bool pdf) {
   const fs::path program = fs::path(share_folder()) / "reports" / "report.py";
   if (!fs::exists(program)) return "the report program " + program.string() + " is missing";
   ProcessSpec spec;
   spec.argv = {"/usr/bin/python3", program.string(), results.string()};
+  if (pdf) spec.argv.push_back("--pdf");
   spec.wall_limit = report_limit;
   spec.log = (results.parent_path() / "report.log").string();
   const auto end = run_process(spec);
@@ -29,14 +30,14 @@ std::string make_page(const fs::path& results) {
 
 }  // namespace
 
-std::string write_report(const Results& results, const std::string& folder) {
+std::string write_report(const Results& results, const std::string& folder, bool pdf) {
   fs::create_directories(folder);
   const fs::path out = fs::absolute(folder);
   write_durably((out / "results.json").string(), results_text(results));
   write_durably((out / "junit.xml").string(), junit_text(results));
   write_durably((out / "summary.md").string(), summary_text(results));
   fs::remove(out / "index.html");  // an old page must not stand for new results
-  return make_page(out / "results.json");
+  return make_page(out / "results.json", pdf);
 }
 
 std::string last_line(const Results& results, const std::string& folder) {

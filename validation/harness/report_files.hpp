@@ -16,7 +16,7 @@ namespace tripoint {
 
 /// Writes results.json, junit.xml and summary.md into the folder, then asks the report program for index.html.
 /// @return why the page could not be made; empty when it is there. @throws EngineError when a file cannot be written
-[[nodiscard]] std::string write_report(const Results&, const std::string& folder);
+[[nodiscard]] std::string write_report(const Results&, const std::string& folder, bool pdf = false);
 
 /// The line that ends every validation: `verdict PASS exit 0  report/index.html`.
 [[nodiscard]] std::string last_line(const Results&, const std::string& folder);

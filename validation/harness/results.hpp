@@ -38,6 +38,7 @@ struct RunRow {
   std::map<std::string, double> levels;  ///< study axis -> the level that this run is
   bool base = false;                     ///< the case's own resolution
   std::string group;                     ///< runs of one group differ by seed only; empty = alone
+  std::string input;                     ///< "key=VALUE" where the run is one end of an uncertain input
   std::string status = "ok", reason;     ///< ok refused missing diverged killed timeout error
   bool comparable = true;                ///< false: the engine read back another scene than it was given
   std::map<std::string, MetricValue> metrics;
@@ -51,6 +52,7 @@ struct OrderRow {
   Order order;
   double formal = 0.0;
   std::vector<double> step, error, uncertainty;  ///< what was fitted
+  std::vector<double> numerical;  ///< standard uncertainty of each level by the grid convergence index, which knows no truth; empty = no formal order is declared
 };
 
 /// One gate applied to one engine's run (or seeds of a run, pooled), or to a fitted order.
@@ -59,6 +61,7 @@ struct GateRow {
   std::optional<double> level;
   double value = 0.0;        ///< NaN where there is none
   double uncertainty = 0.0;  ///< standard
+  Uncertainty budget;        ///< what it is made of
   std::optional<double> low, high;  ///< an order's 95 % interval
   std::string verdict;       ///< pass fail inconclusive missing diverged
   std::string why;           ///< one sentence for a verdict that is not pass

@@ -100,7 +100,7 @@ Cost cost(const Json& from) {
 RunRow run_row(const Json& from) {
   RunRow r;
   r.knobs = knobs(member(from, "knobs"));
-  r.base = flag(from, "base", false), r.group = text(from, "group");
+  r.base = flag(from, "base", false), r.group = text(from, "group"), r.input = text(from, "input");
   r.status = text(from, "status"), r.reason = text(from, "reason"), r.comparable = flag(from, "comparable", true);
   if (r.status.empty()) r.status = "error", r.reason = "the results give no status";
   if (const auto& levels = member(from, "levels"); levels.is_object())

@@ -36,15 +36,19 @@ Json json(const Knobs& k) {
           {"threads", k.threads}, {"seed", k.seed}, {"jitter", k.jitter}};
 }
 
+Json json(const Uncertainty& parts) {
+  Json u;
+  put(u, "numerical", parts.numerical);
+  put(u, "statistical", parts.statistical);
+  put(u, "input", parts.input);
+  put(u, "data", parts.data);
+  return u;
+}
+
 Json json(const MetricValue& m) {
   Json out;
   put(out, "value", m.value, true);
-  Json u;
-  put(u, "numerical", m.uncertainty.numerical);
-  put(u, "statistical", m.uncertainty.statistical);
-  put(u, "input", m.uncertainty.input);
-  put(u, "data", m.uncertainty.data);
-  out["uncertainty"] = u;
+  out["uncertainty"] = json(m.uncertainty);
   if (!m.note.empty()) out["note"] = m.note;
   if (!m.times.empty()) out["times"] = numbers(m.times), out["series"] = numbers(m.series);
   return out;
@@ -54,7 +58,7 @@ Json json(const RunRow& r) {
   Json metrics = Json::object(), levels = Json::object();
   for (const auto& [name, value] : r.metrics) metrics[name] = json(value);
   for (const auto& [axis, level] : r.levels) levels[axis] = level;
-  return {{"knobs", json(r.knobs)}, {"levels", levels}, {"base", r.base}, {"group", r.group}, {"status", r.status}, {"reason", r.reason}, {"comparable", r.comparable},
+  return {{"knobs", json(r.knobs)}, {"levels", levels}, {"base", r.base}, {"group", r.group}, {"input", r.input}, {"status", r.status}, {"reason", r.reason}, {"comparable", r.comparable},
           {"metrics", metrics},
           {"cost", {{"cpu_s", r.cost.cpu_s}, {"wall_s", r.cost.wall_s}, {"setup_cpu_s", r.cost.setup_cpu_s}, {"peak_bytes", r.cost.peak_bytes},
                     {"pairs", r.cost.pairs}, {"steps", r.cost.steps}, {"iterations", r.cost.iterations},
@@ -66,7 +70,7 @@ Json json(const OrderRow& o) {
   return {{"metric", o.metric}, {"axis", o.axis}, {"mode", o.mode.empty() ? Json(nullptr) : Json(o.mode)}, {"value", o.order.value},
           {"low", o.order.low}, {"high", o.order.high}, {"class", o.order.fit_class}, {"formal", o.formal > 0.0 ? Json(o.formal) : Json(nullptr)},
           {"coefficient", number(o.order.coefficient)}, {"floor", number(o.order.floor)}, {"step", numbers(o.step)}, {"error", numbers(o.error)},
-          {"uncertainty", numbers(o.uncertainty)}};
+          {"uncertainty", numbers(o.uncertainty)}, {"numerical", numbers(o.numerical)}};
 }
 
 Json json(const Gate& g) {
@@ -82,6 +86,7 @@ Json json(const GateRow& r) {
   out["level"] = number(r.level);
   put(out, "value", r.value, true);
   put(out, "uncertainty", r.uncertainty);
+  out["budget"] = json(r.budget);
   if (r.low) out["low"] = number(r.low), out["high"] = number(r.high);
   if (!r.fit_class.empty()) out["class"] = r.fit_class;
   if (!r.expect.empty()) out["expect"] = r.expect;

@@ -7,6 +7,7 @@
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/norms.hpp"
+#include "validation/metrics/statistics.hpp"
 
 namespace tripoint {
 namespace {
@@ -93,6 +94,16 @@ std::pair<double, double> slope_over_time(const Series& s) {
   return {ty / tt, n > 2.0 ? std::sqrt(rest / (n - 2.0) / tt) : not_a_number};
 }
 
+/// Mean after the burn-in with the error that blocks of it show; a series too short for a plateau has no value.
+MetricValue stationary(const Series& s, MetricValue v) {
+  const auto m = stationary_mean(s.value);
+  if (!std::isfinite(m.value)) return unformed("a stationary mean needs eight finite output times or more in its window");
+  v.value = m.value;
+  v.uncertainty.statistical = std::max(m.uncertainty, *std::max_element(s.uncertainty.begin(), s.uncertainty.end()));
+  v.note = std::to_string(m.burn_in) + " samples of burn-in cut, " + std::to_string(static_cast<long>(m.effective)) + " independent ones left" + (m.plateau ? "" : ", no plateau yet");
+  return v;
+}
+
 MetricValue over_time(const std::string& norm, const Series& s) {
   MetricValue v;
   v.times = s.times, v.series = s.value;
@@ -107,6 +118,7 @@ MetricValue over_time(const std::string& norm, const Series& s) {
     v.uncertainty.statistical = *std::max_element(s.uncertainty.begin(), s.uncertainty.end());
     return v;
   }
+  if (norm == "stationary") return stationary(s, v);
   if (norm == "slope") {
     if (s.value.size() < 2) return unformed("a slope needs two output times or more");
     std::tie(v.value, v.uncertainty.numerical) = slope_over_time(s);
@@ -212,6 +224,7 @@ const std::vector<MetricWord>& metric_norms() {
       {"rms", "", "root mean square over time of L2"},
       {"L2mean", "", "root mean square, by volume, of each sample's mean error over the window"},
       {"mean", "", "mean over the times of the window of a single number, with its sign; of many samples, of the largest size"},
+      {"stationary", "", "mean, with its sign, of a series that fluctuates about a steady value: burn-in cut, statistical uncertainty from block averages"},
       {"final", "", "at the end; keeps the sign of a single number"},
       {"drift", "", "largest change since the run's own start; needs no reference"},
       {"slope", "1/s", "trend of the largest error over time, least squares"}};

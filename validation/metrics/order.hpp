@@ -19,6 +19,8 @@ struct Order {
 
 /// Grid convergence index by least squares [Eca & Hoekstra 2014]: standard uncertainty of the finest value.
 [[nodiscard]] double grid_convergence_uncertainty(const std::vector<double>& step, const std::vector<double>& value, double formal);
+/// The same of every level, coarse to fine; NaN throughout where it cannot be formed (fewer than two levels, no formal order, a value that is not finite).
+[[nodiscard]] std::vector<double> grid_convergence_uncertainties(const std::vector<double>& step, const std::vector<double>& value, double formal);
 
 enum class Verdict { pass, fail, inconclusive, missing, diverged };
 [[nodiscard]] const char* to_string(Verdict);
