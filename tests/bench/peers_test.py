@@ -59,6 +59,14 @@ class LammpsInput(unittest.TestCase):
             lammps_work.read("Loop time of 9.0 on 2 procs for 5 steps with 100 atoms\nERROR: Lost atoms: original 100 current 3\n")
 
 
+class Neighbours(unittest.TestCase):
+    def test_a_cube_of_three_across_has_the_neighbours_that_counting_finds(self):
+        place = numpy.array([[i, j, k] for i in range(3) for j in range(3) for k in range(3)])
+        apart = ((place[:, None] - place[None]) ** 2).sum(axis=2)
+        counted = ((apart > 0) & (apart < 2.1 ** 2)).sum() / 27
+        self.assertAlmostEqual(bench_peers.lattice_neighbours({"spacing": 0.34 / 3, "support": 2.1 * 0.34 / 3}), counted)
+
+
 class Ratios(unittest.TestCase):
     def test_ratios_are_formed_within_a_round(self):
         ours, theirs = code("tripoint", [1.0, 2.0, 4.0], 40.0), code("other", [3.0, 6.0, 16.0], 20.0)

@@ -75,7 +75,8 @@ class Bench:
             words = [str(Path(self.o.lammps) / "bin" / "mpiexec"), "-n", str(ranks), *words]
         done = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=3600, check=False)
         log = (folder / "log").read_text(encoding="utf-8") if (folder / "log").exists() else done.stderr
-        return lammps_work.read(log)
+        near = {"neighbours": lattice_neighbours(self.start[work])} if method == "tlsph" else {}  # of its own reference shape, not of our bonds
+        return lammps_work.read(log) | near
 
     def splishsplash(self, work, method, threads, steps):
         env = os.environ | {"OMP_NUM_THREADS": str(threads)}
@@ -89,6 +90,14 @@ class Bench:
             if line.startswith("RESULT "):
                 return json.loads(line[len("RESULT "):])
         raise ValueError((done.stderr or done.stdout).strip()[-300:] or f"ended with {done.returncode}")
+
+
+def lattice_neighbours(start):
+    """Neighbours within the support in a cube of a cubic lattice, in the mean."""
+    across, reach = round(0.34 / start["spacing"]), start["support"] / start["spacing"]
+    steps = range(-int(reach), int(reach) + 1)
+    there = [(across - abs(i)) * (across - abs(j)) * (across - abs(k)) for i in steps for j in steps for k in steps if 0 < i * i + j * j + k * k < reach * reach]
+    return sum(there) / across ** 3
 
 
 def codes_of(bench, threads):
