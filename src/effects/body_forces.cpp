@@ -40,11 +40,13 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
   sums.assign(world.bodies.size(), {});
   const auto body = p[field::body];
   const auto centre = world.bodies[field::body_centre];
+  const auto x = positions(p);
+  const bool wraps = world.box.any();
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (body[i] < 0 || !asked[static_cast<std::size_t>(body[i])]) continue;
     const auto b = static_cast<std::size_t>(body[i]);
-    const Vec3 arm = world.unwrapped(i) - centre[b];
+    const Vec3 arm = (wraps ? world.unwrapped(i) : x.at(i)) - centre[b];
     const Vec3 pressure = weaker * F.at(i), viscous = weaker * D.at(i), elastic = looser * E.at(i);
     sums[b].pressure += pressure;
     sums[b].viscous += viscous;

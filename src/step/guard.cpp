@@ -22,10 +22,13 @@ constexpr Guarded guarded[] = {
     {&field::velocity_y, "velocity", "kick"},  {&field::velocity_z, "velocity", "kick"},
 };
 
-/// The sum of a column times zero is not finite when one of its values is not: no branch in the loop.
-bool all_finite(std::span<const double> values) {
+constexpr std::size_t worth_threads = 4096;  ///< particles from which these loops are shared among threads
+
+/// The sum of a column times zero is not finite when one of its values is not: no branch in the loop, and no order in the sum.
+bool all_finite(std::span<const double> values, int threads) {
   double zero = 0.0;
-  for (const double v : values) zero += 0.0 * v;
+#pragma omp parallel for simd schedule(static) num_threads(threads) reduction(+ : zero) if (parallel : values.size() > worth_threads)
+  for (std::size_t i = 0; i < values.size(); ++i) zero += 0.0 * values[i];
   return zero == 0.0;
 }
 
@@ -34,7 +37,8 @@ void refuse_cold(const World& world) {
   if (!p.has(field::temperature)) return;
   const auto T = p[field::temperature];
   double least = 1.0;
-  for (const double t : T) least = std::min(least, t);
+#pragma omp parallel for simd schedule(static) num_threads(world.threads) reduction(min : least) if (parallel : T.size() > worth_threads)
+  for (std::size_t i = 0; i < T.size(); ++i) least = std::min(least, T[i]);
   if (least > 0.0) return;
   for (std::size_t id = 0; id < p.size(); ++id)
     if (const std::size_t i = p.row(id); !(T[i] > 0.0)) fail(world, "temperature", i, "temperature", "drift", fmt::format("is at {:.4g} K, below absolute zero", T[i]));
@@ -84,7 +88,7 @@ void check_finite(const World& world) {
   for (const Guarded& g : guarded) {
     if (!p.has(g.field->name)) continue;
     const auto values = p[*g.field];
-    if (all_finite(values)) continue;
+    if (all_finite(values, world.threads)) continue;
     for (std::size_t id = 0; id < p.size(); ++id)
       if (const std::size_t i = p.row(id); !std::isfinite(values[i])) fail(world, "finite", i, g.name, g.stage, fmt::format("has no finite {}", g.name));
   }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -48,7 +49,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
     const auto id = static_cast<std::uint32_t>(id_of[row]);
     const BondLists::List list = all.lists.of(world.bonds, id);
     if (!owns(row)) {
-      if (list.count > 0) all.deformed[id] = {}, all.own[id] = {};
+      if (list.count > 0) all.deformed[id] = {};
       continue;
     }
     ListSums sums;
@@ -125,6 +126,11 @@ Vec3 general_force(const World& world, const Deformations& all, std::uint32_t i)
   return f;
 }
 
+/// Members of a rigid body that can melt have bonds too, and most are far from all that can deform.
+bool feels_energy(const BondLists::List& list, const Deformations& all, std::uint32_t id) {
+  return all.owns[id] != 0 || std::any_of(list.other, list.other + list.count, [&](std::uint32_t j) { return all.owns[j] != 0; });
+}
+
 /// f = own + v_i sum_j (what the energies of the partners do).
 void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
   Particles& p = world.particles;
@@ -136,7 +142,7 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
   for (std::size_t row = 0; row < p.size(); ++row) {
     const auto id = static_cast<std::uint32_t>(id_of[row]);
     const BondLists::List list = all.lists.of(world.bonds, id);
-    if (list.count == 0) continue;
+    if (list.count == 0 || !feels_energy(list, all, id)) continue;
     if (!regular[row]) {
       f.set(row, general_force(world, all, id));
       continue;
@@ -155,8 +161,14 @@ void set_places(World& world, Deformations& all) {
   all.places.resize(p.size());
   all.deformed.resize(p.size());
   all.own.resize(p.size());
+  all.owns.resize(p.size());
+  const solid::EnergyOwners owns(world);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t row = 0; row < p.size(); ++row) all.places[static_cast<std::size_t>(id_of[row])] = {x.at(row), volume[row]};
+  for (std::size_t row = 0; row < p.size(); ++row) {
+    const auto id = static_cast<std::size_t>(id_of[row]);
+    all.places[id] = {x.at(row), volume[row]};
+    all.owns[id] = owns(row);
+  }
 }
 
 }  // namespace
@@ -172,14 +184,16 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
   if (forms.paper() || all.deformed.size() != p.size() || is_off(world.scene, "inversion")) return;
   const solid::EnergyOwners owns(world);
   const auto rank_of = p[field::shape_rank], id_of = p[field::id];
+  const auto volume_ratio = [&](std::size_t row) {
+    if (rank_of[row] != 3 || !owns(row)) return 1.0;
+    return determinant(identity3 + Matrix3(all.deformed[static_cast<std::size_t>(id_of[row])].strained));
+  };
   double least = 1.0;
-  std::size_t worst = 0;
-  for (std::size_t row = 0; row < p.size(); ++row) {
-    if (rank_of[row] != 3 || !owns(row)) continue;
-    const double J = determinant(identity3 + Matrix3(all.deformed[static_cast<std::size_t>(id_of[row])].strained));
-    if (J < least) least = J, worst = row;
-  }
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least) if (p.size() > 4096)
+  for (std::size_t row = 0; row < p.size(); ++row) least = std::min(least, volume_ratio(row));
   if (least > 0.0) return;
+  std::size_t worst = 0;
+  while (volume_ratio(worst) != least) ++worst;
   fail(world, "inversion", worst, "deformation", "state",
        fmt::format("is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = [\"inversion\"] to go on", least));
 }

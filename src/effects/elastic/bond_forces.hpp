@@ -17,6 +17,7 @@ struct Deformations {
   AlignedVector<Place> places;       ///< by id
   AlignedVector<Deformed> deformed;  ///< by id, of what has bonds or owns strain energy
   AlignedVector<Own> own;            ///< by id, the same
+  std::vector<char> owns;            ///< by id, 1 where it owns strain energy
 };
 
 /// F, strain and the hourglass part H = sum_j c_ij (F x_ji - r_ji) x_ji^T of all particles of deformable bodies.

@@ -18,13 +18,20 @@ namespace {
 
 /// -1 for liquids, -2 for deformable solids, 0 for all walls, 1 + body for free rigid bodies: members of one group of 0 and above
 /// exert nothing on each other.
-double group_of(const World& world, std::size_t row) {
-  const int body = world.particles[field::body][row];
-  if (body < 0) return -1.0;
-  const auto b = static_cast<std::size_t>(body);
-  if (!is_rigid(world, b)) return -2.0;
-  return world.bodies[field::body_motion][b] == static_cast<int>(Motion::free) ? 1.0 + body : 0.0;
-}
+class Groups {
+ public:
+  explicit Groups(const World& world) : body_(world.particles[field::body]) {
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+      const bool free = world.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
+      of_.push_back(!is_rigid(world, b) ? -2.0 : free ? 1.0 + static_cast<double>(b) : 0.0);
+    }
+  }
+  [[nodiscard]] double operator()(std::size_t row) const { return body_[row] < 0 ? -1.0 : of_[static_cast<std::size_t>(body_[row])]; }
+
+ private:
+  std::span<const int> body_;
+  std::vector<double> of_;  ///< members of each body
+};
 
 class Fluid : public Effect {
  public:
@@ -90,7 +97,7 @@ void Fluid::set_own_density(World& world, std::size_t row) const {
 
 void Fluid::adopt(World& world) {
   static const double told = 1.0 - defect_size("fluid.phase_jump");
-  world.booked.compression_released -= told * compression_jump(world, numbers_, kernels_, [&](std::size_t i) { return group_of(world, i); }, 0.5 * drifted_);
+  world.booked.compression_released -= told * compression_jump(world, numbers_, kernels_, Groups(world), 0.5 * drifted_);
   for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
@@ -99,7 +106,9 @@ void Fluid::adopt(World& world) {
 
 void Fluid::set_groups(World& world) {
   const auto group = world.particles[field::group];
-  for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(world, i);
+  const Groups group_of(world);
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (group.size() > 4096)
+  for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(i);
   walls_.forget();
   world.lagged.viscous_age = 0;
 }
@@ -139,9 +148,11 @@ void Fluid::clear(World& world, PassName pass) {
     std::ranges::fill(delta, kernels_.wendland.value(0.0));
     if (!p.has(field::own_density.name)) return;
     const auto own = p[field::own_density];
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (delta.size() > 4096)
     for (std::size_t i = 0; i < delta.size(); ++i) delta[i] += own[i];
   } else {
     const auto rho = p[field::density], m = p[field::mass];
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (rho.size() > 4096)
     for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * kernels_.poly6.value(0.0);
   }
 }

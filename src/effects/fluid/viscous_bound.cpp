@@ -15,14 +15,14 @@ constexpr int rates_between = 32;
 
 /// sum_j of the pair's viscous coefficient, times e e^T for `central` [kg/s]. Plain loops: it runs rarely.
 template <class Coefficient>
-Symmetric tensor_of(const World& world, std::size_t i, bool central, Coefficient coefficient) {
+Symmetric tensor_of(const World& world, const Triple<const double>& x, std::size_t i, bool central, Coefficient coefficient) {
   Symmetric sum;
-  const Particles& p = world.particles;
+  const double support2 = world.support() * world.support();
   for (const Entry e : world.neighbours->of(i)) {
-    const Vec3 d = (p.position(e.row()) - p.position(i)) + world.neighbours->shift(e.image());
-    const double r2 = dot(d, d);
-    if (r2 >= world.support() * world.support() || !(r2 > 0.0)) continue;
     if (e.own()) continue;
+    const Vec3 d = (x.at(e.row()) - x.at(i)) + world.neighbours->shift(e.image());
+    const double r2 = dot(d, d);
+    if (r2 >= support2 || !(r2 > 0.0)) continue;
     const double G = coefficient(e.row(), std::sqrt(r2));
     if (!central) {
       sum.xx += G;
@@ -49,11 +49,12 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
     const double pair = active * pair_viscosity(mu[i], solid[i], stick[i], mu[j], solid[j], stick[j]) * -kernels.wendland.derivative_over_r(r) * kernels.per_gradient_moment;
     return central ? 10.0 * V[i] * V[j] * pair : (V[i] * V[i] + V[j] * V[j]) * pair;
   };
+  const auto x = positions(p);
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (group[i] == 0.0) continue;  // walls do not move by forces
-    const Symmetric sum = tensor_of(world, i, central, [&](std::size_t j, double r) { return coefficient(i, j, r); });
+    const Symmetric sum = tensor_of(world, x, i, central, [&](std::size_t j, double r) { return coefficient(i, j, r); });
     greatest = std::max(greatest, (central ? largest_eigenvalue(sum) : sum.xx) / m[i]);
   }
   // Velocities are predicted to the full step by the forces of the last one (predict_velocities), so that a mode of rate lambda is

@@ -7,6 +7,7 @@
 #include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/thermal_particles.hpp"
+#include "effects/ordered_sum.hpp"
 #include "sph/moments.hpp"
 
 namespace tripoint::heat {
@@ -32,8 +33,7 @@ double set_temperature(World& world, std::size_t row, double temperature) {
 
 enum class Stage { first, last };
 
-/// H_i += change(i), T from H, and with the last stage f; what a held particle would have taken goes to the walls. Sums in order
-/// of id. Of the first stage only T is taken: f follows the heat of the whole step, whatever the way between.
+/// H_i += change(i), T from H, and with the last stage f; what a held particle would have taken goes to the walls. Of the first stage only T is taken: f follows the heat of the whole step, whatever the way between.
 template <class Change>
 void add_heat(World& world, Stage stage, Change change) {
   Particles& p = world.particles;
@@ -43,20 +43,21 @@ void add_heat(World& world, Stage stage, Change change) {
   const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
   const std::vector<Fusion> fusions = melts ? fusions_of(world.scene) : std::vector<Fusion>{};
   static const bool leaks = defect_size("heat.held") > 0.0;
-  for (std::size_t id = 0; id < p.size(); ++id) {
-    const std::size_t i = p.row(id);
+  std::vector<std::array<double, 1>> blocks;
+  const auto to_walls = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (held[i] && !leaks) {
-      world.booked.walls += change(i);
-      continue;
+      sum[0] += change(i);
+      return;
     }
     H[i] += change(i);
     T[i] = temperature_of(m[i], c_p[i], H[i]);
-    if (!melts) continue;
+    if (!melts) return;
     const Fusion& fusion = fusions[static_cast<std::size_t>(material[i])];
     const ThermalState state = settled(fusion, T[i] - fusion.heat * f[i], f[i]);
     T[i] = state.temperature;
     if (stage == Stage::last) f[i] = state.liquid_fraction;
-  }
+  });
+  world.booked.walls += to_walls[0];
 }
 
 }  // namespace
@@ -140,6 +141,7 @@ TimeStepBound CorrectedHeat::max_dt(const World& world) const {
   const auto G = p[field::conductance], m = p[field::mass], c_p = p[field::heat_capacity];
   const auto held = p[field::held];
   double greatest = 0.0;
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (p.size() > 4096)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!held[i]) greatest = std::max(greatest, G[i] / (m[i] * c_p[i]));
   }
@@ -150,16 +152,15 @@ TimeStepBound CorrectedHeat::max_dt(const World& world) const {
 
 void CorrectedHeat::add_to(const World& world, Ledger& ledger) const {
   const auto H = world.particles[field::enthalpy];
-  const bool melts = world.particles.has(field::liquid_fraction.name);
-  double sum = 0.0, latent = 0.0;
-  for (std::size_t id = 0; id < H.size(); ++id) {
-    const std::size_t i = world.particles.row(id);
+  const bool melts = world.particles.has(field::liquid_fraction);
+  std::vector<std::array<double, 2>> blocks;
+  const auto sums = ordered_sums(H.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 2>& sum) {
     const double bound = melts ? latent_heat(world, i) : 0.0;
-    sum += H[i] - bound;
-    latent += bound;
-  }
-  ledger.energy["thermal"] += sum;
-  if (melts) ledger.energy["latent"] += latent;
+    sum[0] += H[i] - bound;
+    sum[1] += bound;
+  });
+  ledger.energy["thermal"] += sums[0];
+  if (melts) ledger.energy["latent"] += sums[1];
 }
 
 }  // namespace tripoint::heat

@@ -6,6 +6,7 @@
 #include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/thermal_particles.hpp"
+#include "effects/ordered_sum.hpp"
 
 namespace tripoint::heat {
 namespace {
@@ -58,17 +59,18 @@ void PaperHeat::drift(World& world, double dt) {
   const bool melts = p.has(field::liquid_fraction.name);
   const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
   const std::vector<Fusion> fusions = melts ? fusions_of(world.scene) : std::vector<Fusion>{};
-  for (std::size_t id = 0; id < p.size(); ++id) {
-    const std::size_t i = p.row(id);
+  std::vector<std::array<double, 1>> blocks;
+  const auto to_walls = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (held[i]) {
-      world.booked.walls += enthalpy_of(m[i], c_p[i], rate[i] * dt);
-      continue;
+      sum[0] += enthalpy_of(m[i], c_p[i], rate[i] * dt);
+      return;
     }
     T[i] += dt * rate[i];
-    if (!melts) continue;
+    if (!melts) return;
     const ThermalState state = settled(fusions[static_cast<std::size_t>(material[i])], T[i], f[i]);
     T[i] = state.temperature, f[i] = state.liquid_fraction;
-  }
+  });
+  world.booked.walls += to_walls[0];
 }
 
 void PaperHeat::clear(World& world, PassName pass) {
@@ -84,6 +86,7 @@ TimeStepBound PaperHeat::max_dt(const World& world) const {
   const auto exchange = world.particles[field::exchange];
   const auto held = world.particles[field::held];
   double greatest = 0.0;
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (exchange.size() > 4096)
   for (std::size_t i = 0; i < exchange.size(); ++i) {
     if (!held[i]) greatest = std::max(greatest, exchange[i]);
   }
@@ -95,14 +98,14 @@ TimeStepBound PaperHeat::max_dt(const World& world) const {
 void PaperHeat::add_to(const World& world, Ledger& ledger) const {
   const Particles& p = world.particles;
   const bool melts = p.has(field::liquid_fraction.name);
-  double sum = 0.0, latent = 0.0;
-  for (std::size_t id = 0; id < p.size(); ++id) {
-    const std::size_t i = p.row(id);
-    sum += enthalpy_of(p[field::mass][i], p[field::heat_capacity][i], p[field::temperature][i]);
-    if (melts) latent += latent_heat(world, i);
-  }
-  ledger.energy["thermal"] += sum;
-  if (melts) ledger.energy["latent"] += latent;
+  const auto m = p[field::mass], c_p = p[field::heat_capacity], T = p[field::temperature];
+  std::vector<std::array<double, 2>> blocks;
+  const auto sums = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 2>& sum) {
+    sum[0] += enthalpy_of(m[i], c_p[i], T[i]);
+    if (melts) sum[1] += latent_heat(world, i);
+  });
+  ledger.energy["thermal"] += sums[0];
+  if (melts) ledger.energy["latent"] += sums[1];
 }
 
 }  // namespace tripoint::heat
