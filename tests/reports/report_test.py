@@ -101,7 +101,7 @@ class Page(unittest.TestCase):
         self.assertNotIn("url(http", self.page)
         self.assertFalse({"script", "link", "iframe", "object"} & self.read.tags)
         for link in self.read.links:
-            self.assertRegex(link, r"^(#|data:|printed-equations\.html$|table-1\.html$|paper-figures\.html$|digit-cost\.html$|corrections\.html$|engines\.html$|signable\.html$)")
+            self.assertRegex(link, r"^(#|data:|printed-equations\.html$|table-1\.html$|paper-figures\.html$|digit-cost\.html$|corrections\.html$|engines\.html$|signable\.html$|stability\.html$)")
 
     def test_links_inside_the_page_lead_somewhere_and_ids_are_single(self):
         self.assertEqual(len(self.read.ids), len(set(self.read.ids)))
@@ -155,8 +155,9 @@ class Page(unittest.TestCase):
     def test_every_figure_is_also_a_png_and_an_svg_and_has_a_text_for_those_who_do_not_see_it(self):
         pngs = sorted(path.stem for path in (self.root / "out" / "figures").glob("*.png"))
         self.assertEqual(pngs, sorted(path.stem for path in (self.root / "out" / "figures").glob("*.svg")))
-        self.assertEqual(len(pngs), self.page.count("<figure"))
-        self.assertEqual(len(pngs), len(re.findall(r'role="img" aria-label="[^"]{20,}"', self.page)))
+        pages = self.page + (self.root / "out" / "stability.html").read_text()
+        self.assertEqual(len(pngs), pages.count("<figure"))
+        self.assertEqual(len(pngs), len(re.findall(r'role="img" aria-label="[^"]{20,}"', pages)))
         kinds = {name.split("-", 1)[1].split("-", 2)[-1] for name in pngs}
         for kind in ("particles", "profile", "bodies", "convergence", "precision", "time"):
             self.assertTrue(any(kind in name for name in kinds), kind)
