@@ -9,6 +9,7 @@
 #include "core/errors.hpp"
 #include "core/machine.hpp"
 #include "effects/run_pass.hpp"
+#include "particles/catalogue.hpp"
 #include "particles/neighbours.hpp"
 
 namespace tripoint {

@@ -2,28 +2,14 @@
 #pragma once
 #include <array>
 
-#include "effects/density/density_terms.hpp"
-#include "effects/fluid/fluid_terms.hpp"
-#include "effects/fluid/transport_terms.hpp"
-#include "effects/fluid/wall_terms.hpp"
-#include "effects/heat/heat_terms.hpp"
 #include "sph/pass.hpp"
 
 namespace tripoint {
 
-/// The slots of each pass, one line each.
-using DensityPass = Pass<Slot<DensityPaper, NumberDensity>, Slot<HeatMoment>>;
-using RatePass = Pass<Slot<Together<PressurePaper, ViscosityPaper>, Together<PressurePaper, ViscosityCentral>, Together<PressurePaper, ViscosityLaplacian>,
-                           Together<PressureCorrected, ViscosityPaper>, Together<PressureCorrected, ViscosityCentral>, Together<PressureCorrected, ViscosityLaplacian>>,
-                      Slot<HeatFlowPaper, HeatFlowCorrected>>;
-using WallExtrapolationPass = Pass<Slot<WallExtrapolation>>;
-using WallForcePass = Pass<Slot<WallPressureForce>>;
-using TransportPass = Pass<Slot<TransportForces>>;
-
-/// Every pass at every choice of forms (0 = off, then in the order of the slot), as one vector unit has them.
+/// Every pass at every choice of forms (0 = off, then in the order of the slots in pair_passes_unit.cpp), as one vector unit has them.
 struct PairPasses {
-  PassFunction (*density)(const std::array<int, DensityPass::slots>&);
-  PassFunction (*rates)(const std::array<int, RatePass::slots>&);
+  PassFunction (*density)(const std::array<int, 2>&);
+  PassFunction (*rates)(const std::array<int, 2>&);
   PassFunction wall_extrapolation, wall_force, transport;
 };
 

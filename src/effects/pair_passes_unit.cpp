@@ -1,8 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "effects/density/density_terms.hpp"
+#include "effects/fluid/fluid_terms.hpp"
+#include "effects/fluid/transport_terms.hpp"
+#include "effects/fluid/wall_terms.hpp"
+#include "effects/heat/heat_terms.hpp"
 #include "effects/pair_passes.hpp"
 
 /// Compiled once for each vector unit, and once for any machine, a particle at a time.
 namespace tripoint {
+namespace {
+
+/// The slots of each pass, one line each.
+using DensityPass = Pass<Slot<DensityPaper, NumberDensity>, Slot<HeatMoment>>;
+using RatePass = Pass<Slot<Together<PressurePaper, ViscosityPaper>, Together<PressurePaper, ViscosityCentral>, Together<PressurePaper, ViscosityLaplacian>,
+                           Together<PressureCorrected, ViscosityPaper>, Together<PressureCorrected, ViscosityCentral>, Together<PressureCorrected, ViscosityLaplacian>>,
+                      Slot<HeatFlowPaper, HeatFlowCorrected>>;
+using WallExtrapolationPass = Pass<Slot<WallExtrapolation>>;
+using WallForcePass = Pass<Slot<WallPressureForce>>;
+using TransportPass = Pass<Slot<TransportForces>>;
+
+}  // namespace
 
 template <>
 PairPasses pair_passes_for<Unit>() {

@@ -22,24 +22,39 @@ constexpr Guarded guarded[] = {
     {&field::velocity_y, "velocity", "kick"},  {&field::velocity_z, "velocity", "kick"},
 };
 
-constexpr std::size_t worth_threads = 4096;  ///< particles from which these loops are shared among threads
+/// Whether test(from, to) holds for all rows, shared among threads where there are enough: a team costs more than a short column.
+template <class Test>
+bool holds_for_all(std::size_t rows, int threads, Test test) {
+  constexpr std::size_t worth_threads = 4096;
+  if (threads == 1 || rows < worth_threads) return test(0, rows);
+  const auto parts = static_cast<std::size_t>(threads);
+  bool holds = true;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(&& : holds)
+  for (std::size_t part = 0; part < parts; ++part) holds = test(rows * part / parts, rows * (part + 1) / parts) && holds;
+  return holds;
+}
 
 /// The sum of a column times zero is not finite when one of its values is not: no branch in the loop, and no order in the sum.
 bool all_finite(std::span<const double> values, int threads) {
-  double zero = 0.0;
-#pragma omp parallel for simd schedule(static) num_threads(threads) reduction(+ : zero) if (parallel : values.size() > worth_threads)
-  for (std::size_t i = 0; i < values.size(); ++i) zero += 0.0 * values[i];
-  return zero == 0.0;
+  return holds_for_all(values.size(), threads, [&](std::size_t from, std::size_t to) {
+    double zero = 0.0;
+#pragma omp simd reduction(+ : zero)
+    for (std::size_t i = from; i < to; ++i) zero += 0.0 * values[i];
+    return zero == 0.0;
+  });
 }
 
 void refuse_cold(const World& world) {
   const Particles& p = world.particles;
   if (!p.has(field::temperature)) return;
   const auto T = p[field::temperature];
-  double least = 1.0;
-#pragma omp parallel for simd schedule(static) num_threads(world.threads) reduction(min : least) if (parallel : T.size() > worth_threads)
-  for (std::size_t i = 0; i < T.size(); ++i) least = std::min(least, T[i]);
-  if (least > 0.0) return;
+  const bool warm = holds_for_all(T.size(), world.threads, [&](std::size_t from, std::size_t to) {
+    double least = 1.0;
+#pragma omp simd reduction(min : least)
+    for (std::size_t i = from; i < to; ++i) least = std::min(least, T[i]);
+    return least > 0.0;
+  });
+  if (warm) return;
   for (std::size_t id = 0; id < p.size(); ++id)
     if (const std::size_t i = p.row(id); !(T[i] > 0.0)) fail(world, "temperature", i, "temperature", "drift", fmt::format("is at {:.4g} K, below absolute zero", T[i]));
 }

@@ -34,7 +34,8 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"validation/harness", {"core", "scene", "io", "adapters", "validation/references", "validation/metrics"}},
 };
 constexpr std::string_view sees_all = "cli";
-constexpr std::string_view effect_list = "src/effects/all_effects.";  // the one list of the effects
+/// The one list of the effects, and the one of their pair terms.
+constexpr std::array<std::string_view, 2> effect_lists{"src/effects/all_effects.", "src/effects/pair_passes_unit."};
 
 /// A library's headers begin so, and belong to this room only ("" = nowhere).
 struct Home {
@@ -130,7 +131,7 @@ std::vector<Offence> forbidden_includes(const Source& source) {
   for (const auto& include : includes_of(source)) {
     if (!include.quoted) continue;
     const auto to = room_of(path_of(include.target, source.path));
-    const bool listed_effect = to.starts_with("effects/") && source.path.starts_with(effect_list);
+    const bool listed_effect = to.starts_with("effects/") && std::ranges::any_of(effect_lists, [&](std::string_view list) { return source.path.starts_with(list); });
     if (to.empty() || listed_effect || may_include(from, to)) continue;
     const bool between_effects = from.starts_with("effects/") && to.starts_with("effects/");
     found.push_back({source.path, include.line, std::string(include.text),

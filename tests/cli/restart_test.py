@@ -182,12 +182,12 @@ class Restart(unittest.TestCase):
         self.assertEqual(self.run_case("other", "--resume", self.path / "nowhere").returncode, 2)
 
     def test_ctrl_c_leaves_a_checkpoint_and_says_how_to_go_on(self):
-        slow = ["--set", "scene.time_step=1e-4", "--until", "0.25"]
+        slow = ["--set", "scene.time_step=5e-6", "--until", "0.25"]
         self.assertEqual(self.run_case("whole", *slow).returncode, 0)
         process = subprocess.Popen([TRIPOINT, "run", self.case, "--out", self.path / "cut", *slow], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while not (self.path / "cut" / "trajectory.h5").exists():
             time.sleep(0.01)
-        time.sleep(0.3)
+        time.sleep(0.1)
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, said)

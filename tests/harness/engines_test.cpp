@@ -86,7 +86,7 @@ TEST(Engines, ADivergenceIsNamedWithParticleFieldStageAndTime) {
   const TestFolder folder;
   const auto c = fly(folder, "diverges", required);
   EXPECT_EQ(c.exit_code, exit_diverged);
-  EXPECT_EQ(c.engines.at(0).reason, "velocity of particle 3 in stage kick at t = 0.1 s");
+  EXPECT_EQ(c.engines.at(0).reason, "velocity of particle 3 in stage kick at t = 0.1 s: blew up");
 }
 
 TEST(Engines, OneEngineThatFailsDoesNotStopTheOthers) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/defect.hpp"
+#include "effects/fluid/transport_terms.hpp"
 #include "effects/pair_passes.hpp"
 #include "effects/run_pass.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "effects/fluid/wall_terms.hpp"
 #include "effects/pair_passes.hpp"
 #include "effects/run_pass.hpp"
 
