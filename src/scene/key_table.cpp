@@ -178,6 +178,8 @@ constexpr auto keys = std::to_array<Key>({
     // [[study]]
     {"study", "axis", word, "", any, "!", "", axes, "what is refined"},
     {"study", "levels", numbers, "", any, "!", "", "", "in the axis's own unit, coarse to fine"},
+    {"study", "support_ratios", numbers, "", any, "", "the case's own", "", "refined together with the levels, one for each"},
+    {"study", "time_steps", numbers, "s", any, "", "the case's own", "", "likewise"},
     {"study", "jitter", number, "", fraction, "0", "an undisturbed lattice", "", "as of the scene"},
     {"study", "seeds", integer, "", positive, "1", "one run a level", "", "runs a level, with seeds of their own"},
     {"study", "engine", text, "", any, "\"\"", "all", "", "one engine"},
@@ -194,6 +196,7 @@ constexpr auto keys = std::to_array<Key>({
     {"gate", "at_least", number, "", any, "", "none", "", "the value is at least this"},
     {"gate", "band", numbers, "", any, "", "none", "", "the value lies between"},
     {"gate", "level", number, "", any, "", "every run", "", "of the study's axis: only this run"},
+    {"gate", "drift", number, "", positive, "", "a tenth, and it warns only", "", "share by which the value may move from its accepted baseline; beyond it the gate is red"},
     {"gate", "reason", text, "", any, "!", "", "", "why this limit"},
     {"gate", "by", text, "", any, "\"\"", "unsigned", "", "who set it"},
     {"gate", "date", text, "", any, "\"\"", "undated", "", "when"},
@@ -203,6 +206,7 @@ constexpr auto keys = std::to_array<Key>({
     {"input", "high", text, "", any, "!", "", "", "its value plus one standard uncertainty"},
     {"defect", "name", text, "", any, "!", "", "", "a registered defect: heat.conductivity ..."},
     {"defect", "size", number, "", any, "!", "", "", "of the fault"},
+    {"defect", "smallest", number, "", positive, "", "it is not sought", "", "least size that the gates were seen to catch: the self-test finds it by bisection and fails where it has grown by more than a quarter"},
     {"defect", "killed_by", text_or_texts, "", any, "[]", "any gate", "", "metrics whose gates must fail"},
     {"harmless", "name", word, "", any, "!", "", "threads order ulp boost mirror rotation units", "threads: 2 instead of 1; order: of the particles; ulp: of each coordinate; boost: a velocity added to all of a closed scene; mirror: in x; rotation: x to y to z to x; units: powers of 2"},
 });

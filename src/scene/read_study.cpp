@@ -61,6 +61,16 @@ MetricChoice read_metric(const TomlNode& node, Reading& reading) {
   return m;
 }
 
+/// What is refined together with the levels of a study: one positive number for each of them.
+std::vector<double> read_together(TableReader& in, std::string_view key, const Study& study) {
+  const auto values = in.maybe_numbers(key);
+  if (!values) return {};
+  if (values->size() != study.levels.size() || std::any_of(values->begin(), values->end(), [](double v) { return !(v > 0.0); }))
+    in.refuse(key, fmt::format("write one number greater than 0 for each of the {} levels", study.levels.size()));
+  if (std::string(key).starts_with(study.axis)) in.refuse(key, fmt::format("{} is the axis of this study already", study.axis));
+  return *values;
+}
+
 Study read_study(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in(node, "study", fmt::format("study.{}", number), reading.decisions);
   Study s;
@@ -73,6 +83,7 @@ Study read_study(const TomlNode& node, std::size_t number, Reading& reading) {
     if (i > 0 && (refines_upward ? s.levels[i] <= s.levels[i - 1] : s.levels[i] >= s.levels[i - 1]))
       in.refuse("levels", fmt::format("write the levels from coarse to fine: for {} that is {}", s.axis, refines_upward ? "rising" : "falling"));
   }
+  s.support_ratios = read_together(in, "support_ratios", s), s.time_steps = read_together(in, "time_steps", s);
   s.jitter = in.number("jitter");
   s.seeds = static_cast<int>(std::min(in.integer("seeds"), 100000L));
   s.engine = in.text("engine"), s.mode = in.text("mode"), s.expect = in.text("expect"), s.order = in.maybe_number("order"), s.metric = in.text("metric");
@@ -91,7 +102,7 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
   }
   if (!g.limit && !g.at_least && !g.band) in.refuse("", fmt::format("the gate on \"{}\" has no limit and would pass anything: give limit, at_least or band", printable(g.metric)));
   g.place = in.place(g.limit ? "limit" : g.at_least ? "at_least" : "band");  // the line that a red gate points at
-  g.level = in.maybe_number("level");
+  g.level = in.maybe_number("level"), g.drift = in.maybe_number("drift");
   g.reason = in.text("reason");
   if (g.reason.find_first_not_of(" \t\n") == std::string::npos) in.refuse("reason", "a limit needs a reason: say where the number comes from");
   g.by = in.text("by"), g.date = in.text("date");
@@ -112,7 +123,7 @@ Defect read_defect(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in(node, "defect", fmt::format("defect.{}", number), reading.decisions);
   Defect d;
   d.place = node.place;
-  d.name = in.text("name"), d.size = in.number("size"), d.killed_by = in.texts("killed_by");
+  d.name = in.text("name"), d.size = in.number("size"), d.smallest = in.maybe_number("smallest"), d.killed_by = in.texts("killed_by");
   return d;
 }
 

@@ -193,6 +193,7 @@ struct MetricChoice {
 struct Study {
   std::string axis;             ///< spacing time_step support_ratio walkers iterations
   std::vector<double> levels;   ///< coarse to fine
+  std::vector<double> support_ratios, time_steps;  ///< refined together with the levels, one for each; empty = the case's own
   double jitter = 0.0;
   int seeds = 1;
   std::string engine, mode;     ///< empty = all
@@ -208,6 +209,7 @@ struct Gate {
   std::optional<double> limit, at_least;
   std::optional<std::array<double, 2>> band;
   std::optional<double> level;  ///< of the study's axis; empty = every run
+  std::optional<double> drift;  ///< share by which the value may move from its baseline before that turns red; empty = a tenth, and it warns
   std::string reason, by, date;
   SourcePlace place;
 };
@@ -222,6 +224,7 @@ struct UncertainInput {
 struct Defect {
   std::string name;
   double size = 0.0;
+  std::optional<double> smallest;  ///< least size that its gates were seen to catch; empty = not sought
   std::vector<std::string> killed_by;
   SourcePlace place;
 };
