@@ -185,6 +185,7 @@ std::vector<DefectEntry> registered_defects() {
 }
 
 struct Passes::Impl {
+  int lanes;
   PassFunction density, rates, heat;
   PairKernels kernels;
 };
@@ -194,13 +195,17 @@ Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes
   const bool summed = form_of(scene, effects, "density", Term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
   const int density = summed ? 1 : form_of(scene, effects, "fluid", Term::density);
   const int viscosity = scene.mode_of(Term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : 2;
+  const int flow = pressure == 0 ? 0 : 3 * (pressure - 1) + viscosity, moments = heat == 2 ? 1 : 0;
+  if (lanes == 0) lanes = density + flow + heat > 0 ? best_lanes() : 1;
   const PairPasses passes = pair_passes(lanes);
-  impl_ = std::make_unique<Impl>(Impl{passes.density({density, heat == 2 ? 1 : 0}), passes.rates({pressure == 0 ? 0 : 3 * (pressure - 1) + viscosity, heat}),
+  impl_ = std::make_unique<Impl>(Impl{lanes, passes.density({density, moments}), passes.rates({flow, heat}),
                                       passes.rates({0, heat}), pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene)});
 }
 Passes::~Passes() = default;
 Passes::Passes(Passes&&) noexcept = default;
 Passes& Passes::operator=(Passes&&) noexcept = default;
+
+int Passes::lanes() const { return impl_->lanes; }
 
 bool Passes::needed() const { return impl_->density.run != nullptr || impl_->rates.run != nullptr; }
 

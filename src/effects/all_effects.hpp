@@ -24,12 +24,13 @@ struct Active {
 /// The fused pair passes, as the scene's modes choose them.
 class Passes {
  public:
-  /// @param lanes particles of a cluster, as in the neighbours that it will run over
+  /// @param lanes particles of a cluster, 0 = what is fastest here: measured only where a pair is worked on at all
   Passes(const Scene&, const std::vector<Active>&, int lanes);
   ~Passes();
   Passes(Passes&&) noexcept;
   Passes& operator=(Passes&&) noexcept;
   [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
+  [[nodiscard]] int lanes() const;    ///< particles of a cluster that the neighbours must have
   void run(PassName, World&) const;
 
  private:

@@ -7,6 +7,7 @@
 
 #include "core/defect.hpp"
 #include "core/errors.hpp"
+#include "core/machine.hpp"
 
 namespace tripoint {
 namespace {
@@ -106,7 +107,7 @@ struct Neighbours::Grid {
       const int from = std::max(xs[0] - ix * count[0], 0), to = std::min(xs[1] - ix * count[0], count[0] - 1);
       const std::array<int, 3> start{from, y - iy * count[1], z - iz * count[2]}, end{to, start[1], start[2]};
       const std::uint32_t first_row = first[index(start)], past = first[index(end) + 1];
-      if (first_row != past) ranges.push_back({first_row, past, static_cast<std::uint32_t>(13 + ix + 3 * iy + 9 * iz)});
+      if (first_row != past) ranges.push_back({first_row, past, Entry::box_itself + static_cast<std::uint32_t>(ix + 3 * iy + 9 * iz)});
     }
   }
 };
@@ -131,7 +132,7 @@ bool Neighbours::outdated(const Particles& particles) const {
   const auto x = positions(particles);
   const double limit = 0.25 * skin_ * skin_;
   double greatest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(threads_) reduction(max : greatest) if (particles.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(threads_) reduction(max : greatest) if (particles.size() > worth_threads)
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Vec3 d = x.at(i) - built_[i];
     const double d2 = dot(d, d);
@@ -211,7 +212,7 @@ void Neighbours::sort_and_list(Particles& particles) {
     const auto row = static_cast<std::uint32_t>(particles.row(id));
     order[next[cell_of[row]]++] = row;
   }
-  particles.permute(order);
+  particles.permute(order, threads_);
   marked_ = false;
 
   const auto sorted = positions(particles);
@@ -258,7 +259,7 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
         for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], x.at(i)[a]), high[a] = std::max(high[a], x.at(i)[a]);
       }
       grid.candidates(low, high, reach, box_, ranges);
-      if (drops_seam()) std::erase_if(ranges, [](const CandidateRange& r) { return r.image != 13; });
+      if (drops_seam()) std::erase_if(ranges, [](const CandidateRange& r) { return r.image != Entry::box_itself; });
       std::size_t room = size;
       for (const CandidateRange& r : ranges) room += r.to - r.from;
       if (entries.size() < room) entries.resize(room + room / 2), near.resize(entries.size());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/vec3.hpp"
+#include "particles/entry.hpp"
 #include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
 #include "particles/scan.hpp"
@@ -18,16 +19,6 @@ struct PeriodicBox {
   std::array<bool, 3> periodic{};
   Vec3 min, width;  ///< [m], used in periodic directions only
   [[nodiscard]] bool any() const noexcept { return periodic[0] || periodic[1] || periodic[2]; }
-};
-
-/// An entry of a neighbour list: the row of j in the low 26 bits, whether i and j are an own pair and, above, the image of the box
-/// that j is seen in.
-struct Entry {
-  std::uint32_t bits;
-  static constexpr std::uint32_t row_bits = 26, row_mask = (1u << row_bits) - 1, own_bit = 1u << row_bits, image_shift = row_bits + 1;
-  [[nodiscard]] constexpr std::uint32_t row() const noexcept { return bits & row_mask; }
-  [[nodiscard]] constexpr bool own() const noexcept { return (bits & own_bit) != 0; }  ///< members of one deformable body
-  [[nodiscard]] constexpr std::uint32_t image() const noexcept { return bits >> image_shift; }  ///< 0..26, 13 = the box itself
 };
 
 /// Clusters of up to `lanes` consecutive rows, each with one list of the rows that are near to any of its members: what a vector of

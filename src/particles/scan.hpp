@@ -5,6 +5,7 @@
 
 #include "core/lanes.hpp"
 #include "core/vec3.hpp"
+#include "particles/entry.hpp"
 
 namespace tripoint {
 
@@ -24,14 +25,13 @@ struct Scan {
   double reach2;      ///< [m2]
 };
 
-/// Writes what is within reach of any member, in the order of the ranges: `row | image << image_shift`, and to `near` the bits of the
+/// Writes what is within reach of any member, in the order of the ranges: as in Entry, and to `near` the bits of the
 /// members that it is near to. @return how many; both must have room for all candidates
 using ScanFunction = std::size_t (*)(const Scan&, std::uint32_t* rows, std::uint8_t* near);
 
 template <int L, class ForUnit>
 [[gnu::flatten]] std::size_t scan(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
   using V = typename Lanes<L>::Real;
-  constexpr std::uint32_t own_image = 13, image_shift = 27;
   const V xi = load_lanes<L>(s.x + s.first), yi = load_lanes<L>(s.y + s.first), zi = load_lanes<L>(s.z + s.first);
   std::size_t n = 0;
   for (const CandidateRange* range = s.ranges; range != s.ranges + s.count; ++range) {
@@ -40,8 +40,8 @@ template <int L, class ForUnit>
       const V dx = (s.x[j] - xi) + shift.x, dy = (s.y[j] - yi) + shift.y, dz = (s.z[j] - zi) + shift.z;
       const V r2 = dx * dx + dy * dy + dz * dz;
       unsigned bits = bits_of<L>(r2 < s.reach2) & s.members;
-      if (j - s.first < static_cast<std::size_t>(L) && range->image == own_image) bits &= ~(1u << (j - s.first));  // itself
-      rows[n] = j | range->image << image_shift;
+      if (j - s.first < static_cast<std::size_t>(L) && range->image == Entry::box_itself) bits &= ~(1u << (j - s.first));  // itself
+      rows[n] = j | range->image << Entry::image_shift;
       near[n] = static_cast<std::uint8_t>(bits);
       n += bits != 0;
     }

@@ -12,6 +12,7 @@
 #include "core/lanes.hpp"
 #include "core/vec3.hpp"
 #include "particles/catalogue.hpp"
+#include "particles/entry.hpp"
 #include "sph/kernels.hpp"
 
 /// The fused pair pass. A pair term says which fields it reads of i and j, which it adds to i, and the formula; a pass fuses the terms
@@ -43,7 +44,7 @@ struct PassTask {
   double* const* columns;        ///< those that the terms read and add to, in the order of PassFunction::fields
   const std::uint32_t* first;    ///< first row of each cluster, and one past the last row
   const std::size_t* start;      ///< first entry of each cluster's list, and one past the last
-  const std::uint32_t* entries;  ///< row of j, and above bit 26 its image
+  const std::uint32_t* entries;  ///< row and image of j, as in Entry
   const std::uint8_t* near;      ///< of each entry, bit l where it is near to member l
   const std::uint8_t* own;       ///< of each entry, bit l where it is an own pair of member l; null where there is none
   const Vec3* shift;             ///< of each image [m]
@@ -124,9 +125,9 @@ template <int L, class ForUnit, class... Terms>
   std::tuple<Local<L, Terms>...> locals{Local<L, Terms>(columns, row)...};
   const PairKernels& kernels = *t.kernels;
   for (std::size_t e = t.start[cluster]; e < t.start[cluster + 1]; ++e) {
-    constexpr std::uint32_t row_mask = (1u << 26) - 1u;
-    const std::size_t j = t.entries[e] & row_mask;
-    const Vec3& s = t.shift[t.entries[e] >> 27];
+    const Entry entry{t.entries[e]};
+    const std::size_t j = entry.row();
+    const Vec3& s = t.shift[entry.image()];
     const V dx = (t.x[j] - xi) + s.x, dy = (t.y[j] - yi) + s.y, dz = (t.z[j] - zi) + s.z;
     const V r2 = dx * dx + dy * dy + dz * dz;
     const typename Lanes<L>::Mask within = r2 < t.support2, acting = within & mask_of<L>(t.near[e]);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/machine.hpp"
+
 namespace tripoint {
 namespace {
 
@@ -25,7 +27,6 @@ constexpr Guarded guarded[] = {
 /// Whether test(from, to) holds for all rows, shared among threads where there are enough: a team costs more than a short column.
 template <class Test>
 bool holds_for_all(std::size_t rows, int threads, Test test) {
-  constexpr std::size_t worth_threads = 4096;
   if (threads == 1 || rows < worth_threads) return test(0, rows);
   const auto parts = static_cast<std::size_t>(threads);
   bool holds = true;

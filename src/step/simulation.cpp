@@ -6,7 +6,6 @@
 
 #include "core/errors.hpp"
 #include "effects/body_table.hpp"
-#include "effects/pair_passes.hpp"
 #include "effects/solid_particles.hpp"
 #include "scene/read_case.hpp"
 #include "step/guard.hpp"
@@ -66,8 +65,6 @@ void book_mechanical(const Scene& scene, const Booked& booked, Ledger& sum) {
   sum.energy["time_integration"] = -by_pressure - by_bonds - (potential + booked.gravity_work) - booked.rotation_drift;
 }
 
-int lanes_of(const SimulationOptions& options) { return options.lanes > 0 ? options.lanes : best_lanes(); }
-
 std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& effects) {
   std::vector<FieldInfo> fields = common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
   if (can_have_bodies(scene)) {
@@ -81,7 +78,7 @@ std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& 
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options)
-    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, lanes_of(options)) {
+    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, options.lanes) {
   set_up(scene, initial);
   if (scene.recovers) start_ = initial;
   update_rates();
@@ -97,7 +94,7 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
 }
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options, const Checkpoint& checkpoint)
-    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, lanes_of(options)) {
+    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, options.lanes) {
   set_up(scene, initial);
   if (scene.recovers) start_ = initial, recovery_.restore(checkpoint);
   restore(checkpoint);
@@ -111,7 +108,7 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   load(initial);
   if (passes_.needed()) {
     world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.box,
-                              options_.threads, lanes_of(options_));
+                              options_.threads, passes_.lanes());
   }
   plan_events();
 }

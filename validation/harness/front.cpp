@@ -121,28 +121,33 @@ std::vector<double> possible_levels(const Scene& scene, const Ladder& ladder) {
   return levels;
 }
 
-std::optional<Recommendation> cheapest_for_error(const Scene& scene, const std::vector<Ladder>& ladders, double error) {
+namespace {
+
+/// What is possible, good enough and least by `measure`; none = nothing is.
+template <class Enough, class Measure>
+std::optional<Recommendation> least(const Scene& scene, const std::vector<Ladder>& ladders, Enough enough, Measure measure) {
   std::optional<Recommendation> best;
   for (const auto& ladder : ladders)
     for (const double level : possible_levels(scene, ladder)) {
       const double step = step_of(ladder.axis, level);
-      const auto e = predicted_error(ladder, step), c = predicted_cpu(ladder, step);
-      const bool is_measured = std::any_of(ladder.points.begin(), ladder.points.end(), [&](const auto& p) { return same_level(p.level, level); });
-      if (e.value * (is_measured ? 1.0 : 1.05) > error) continue;  // between levels the line is known to some per cent
-      if (!best || c.value < best->cpu_s.value) best = Recommendation{&ladder, level, e, c};
+      const Recommendation r{&ladder, level, predicted_error(ladder, step), predicted_cpu(ladder, step)};
+      if (enough(r) && (!best || measure(r) < measure(*best))) best = r;
     }
   return best;
 }
 
+}  // namespace
+
+std::optional<Recommendation> cheapest_for_error(const Scene& scene, const std::vector<Ladder>& ladders, double error) {
+  const auto enough = [&](const Recommendation& r) {
+    const bool is_measured = std::any_of(r.ladder->points.begin(), r.ladder->points.end(), [&](const auto& p) { return same_level(p.level, r.level); });
+    return r.error.value * (is_measured ? 1.0 : 1.05) <= error;  // between levels the line is known to some per cent
+  };
+  return least(scene, ladders, enough, [](const Recommendation& r) { return r.cpu_s.value; });
+}
+
 std::optional<Recommendation> best_within(const Scene& scene, const std::vector<Ladder>& ladders, double cpu_s) {
-  std::optional<Recommendation> best;
-  for (const auto& ladder : ladders)
-    for (const double level : possible_levels(scene, ladder)) {
-      const double step = step_of(ladder.axis, level);
-      const auto e = predicted_error(ladder, step), c = predicted_cpu(ladder, step);
-      if (c.value <= cpu_s && (!best || e.value < best->error.value)) best = Recommendation{&ladder, level, e, c};
-    }
-  return best;
+  return least(scene, ladders, [&](const Recommendation& r) { return r.cpu_s.value <= cpu_s; }, [](const Recommendation& r) { return r.error.value; });
 }
 
 }  // namespace tripoint

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/machine.hpp"
 #include "effects/failure.hpp"
 
 namespace tripoint::elastic {
@@ -189,7 +190,7 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
     return determinant(identity3 + Matrix3(all.deformed[static_cast<std::size_t>(id_of[row])].strained));
   };
   double least = 1.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least) if (p.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least) if (p.size() > worth_threads)
   for (std::size_t row = 0; row < p.size(); ++row) least = std::min(least, volume_ratio(row));
   if (least > 0.0) return;
   std::size_t worst = 0;

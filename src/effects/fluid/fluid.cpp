@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/machine.hpp"
 #include "effects/body_table.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
@@ -107,7 +108,7 @@ void Fluid::adopt(World& world) {
 void Fluid::set_groups(World& world) {
   const auto group = world.particles[field::group];
   const Groups group_of(world);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (group.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (group.size() > worth_threads)
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(i);
   walls_.forget();
   world.lagged.viscous_age = 0;
@@ -148,11 +149,11 @@ void Fluid::clear(World& world, PassName pass) {
     std::ranges::fill(delta, kernels_.wendland.value(0.0));
     if (!p.has(field::own_density.name)) return;
     const auto own = p[field::own_density];
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (delta.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (delta.size() > worth_threads)
     for (std::size_t i = 0; i < delta.size(); ++i) delta[i] += own[i];
   } else {
     const auto rho = p[field::density], m = p[field::mass];
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (rho.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (rho.size() > worth_threads)
     for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * kernels_.poly6.value(0.0);
   }
 }

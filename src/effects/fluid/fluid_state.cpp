@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/defect.hpp"
+#include "core/machine.hpp"
 #include "effects/body_table.hpp"
 #include "effects/failure.hpp"
 #include "effects/force_columns.hpp"
@@ -18,7 +19,7 @@ void refuse_overlap(const World& world, const SceneNumbers& n) {
   const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
   const auto pressed = [&](std::size_t i) { return group[i] == 0.0 ? 0.0 : rho[i] / rest[i]; };
   double most = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : most) if (rho.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : most) if (rho.size() > worth_threads)
   for (std::size_t i = 0; i < rho.size(); ++i) most = std::max(most, pressed(i));
   if (most <= n.overlap_density) return;
   std::size_t worst = 0;
@@ -36,12 +37,12 @@ void set_density(World& world, const SceneNumbers& n) {
   if (world.scene.mode_of(Term::density) == Mode::corrected) {
     const auto delta = p[field::number_density];
     const double scale = denser / n.lattice_density;
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
     for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * (delta[i] * scale);
   } else if (paper_denser != 1.0) {
     for (double& value : rho) value *= paper_denser;
   }
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < rho.size(); ++i) V[i] = m[i] / rho[i];
 }
 
@@ -50,7 +51,7 @@ void set_pressure(World& world, const SceneNumbers& n) {
   const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure];
   const bool paper = world.scene.mode_of(Term::state) == Mode::paper;
   static const double stiffer = 1.0 + defect_size("fluid.state"), paper_stiffer = 1.0 + defect_size("fluid.paper.state");
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < rho.size(); ++i) {
     const EquationOfState e = state_of(n, rest[i], world.scene.clamp);
     pressure[i] = paper ? paper_stiffer * pressure_paper(e, rho[i]) : stiffer * pressure_corrected(e, rho[i]);
@@ -60,7 +61,7 @@ void set_pressure(World& world, const SceneNumbers& n) {
 void set_pressure_shares(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure];
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < share.size(); ++i) share[i] = V[i] * V[i] * pressure[i] / n.gradient_moment;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/machine.hpp"
 #include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/thermal_particles.hpp"
@@ -33,7 +34,8 @@ double set_temperature(World& world, std::size_t row, double temperature) {
 
 enum class Stage { first, last };
 
-/// H_i += change(i), T from H, and with the last stage f; what a held particle would have taken goes to the walls. Of the first stage only T is taken: f follows the heat of the whole step, whatever the way between.
+/// H_i += change(i), T from H, and with the last stage f; what a held particle would have taken goes to the walls. Of the first stage
+/// only T is taken: f follows the heat of the whole step, whatever the way between.
 template <class Change>
 void add_heat(World& world, Stage stage, Change change) {
   Particles& p = world.particles;
@@ -141,7 +143,7 @@ TimeStepBound CorrectedHeat::max_dt(const World& world) const {
   const auto G = p[field::conductance], m = p[field::mass], c_p = p[field::heat_capacity];
   const auto held = p[field::held];
   double greatest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (p.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!held[i]) greatest = std::max(greatest, G[i] / (m[i] * c_p[i]));
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/machine.hpp"
 #include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/thermal_particles.hpp"
@@ -86,7 +87,7 @@ TimeStepBound PaperHeat::max_dt(const World& world) const {
   const auto exchange = world.particles[field::exchange];
   const auto held = world.particles[field::held];
   double greatest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (exchange.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (exchange.size() > worth_threads)
   for (std::size_t i = 0; i < exchange.size(); ++i) {
     if (!held[i]) greatest = std::max(greatest, exchange[i]);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "core/machine.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/read_case.hpp"
 
@@ -122,7 +123,7 @@ void place_members(World& world) {
   const auto orientation = world.bodies[field::body_orientation];
   const auto alive = world.bodies[field::body_alive];
   const RigidMembers is_member(world);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!is_member(i)) continue;
     const auto b = static_cast<std::size_t>(body[i]);
@@ -151,7 +152,7 @@ void give_velocities(World& world) {
   const auto velocity = world.bodies[field::body_velocity], omega = world.bodies[field::body_angular_velocity];
   const auto orientation = world.bodies[field::body_orientation];
   const RigidMembers is_member(world);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > 4096)
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!is_member(i)) continue;
     const auto b = static_cast<std::size_t>(body[i]);

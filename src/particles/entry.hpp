@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+
+namespace tripoint {
+
+/// An entry of a neighbour list: the row of j in the low 26 bits, whether i and j are an own pair and, above, the image of the box
+/// that j is seen in.
+struct Entry {
+  std::uint32_t bits;
+  static constexpr std::uint32_t row_bits = 26, row_mask = (1u << row_bits) - 1, own_bit = 1u << row_bits, image_shift = row_bits + 1;
+  static constexpr std::uint32_t box_itself = 13;  ///< the image that is not moved
+  [[nodiscard]] constexpr std::uint32_t row() const noexcept { return bits & row_mask; }
+  [[nodiscard]] constexpr bool own() const noexcept { return (bits & own_bit) != 0; }  ///< members of one deformable body
+  [[nodiscard]] constexpr std::uint32_t image() const noexcept { return bits >> image_shift; }  ///< 0..26
+};
+
+}  // namespace tripoint
