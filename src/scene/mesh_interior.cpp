@@ -1,44 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// OpenVDB, whose headers take long to compile, in this file alone.
+#include <dlfcn.h>
 #include <fmt/format.h>
-#include <openvdb/openvdb.h>
-#include <openvdb/tools/Interpolation.h>
-#include <openvdb/tools/MeshToVolume.h>
 
-#include <algorithm>
+#include <filesystem>
 
 #include "core/errors.hpp"
 #include "scene/mesh.hpp"
+#include "scene/mesh_field.hpp"
+#include "scene/read_case.hpp"
 
 namespace tripoint {
+namespace {
+
+/// The module that holds OpenVDB, found as lib/tripoint beside share/tripoint.
+struct Module {
+  decltype(&tripoint_mesh_field_make) make = nullptr;
+  decltype(&tripoint_mesh_field_free) free = nullptr;
+  decltype(&tripoint_mesh_field_deepest) deepest = nullptr;
+  decltype(&tripoint_mesh_field_at) at = nullptr;
+  std::string failure;  ///< why it could not be loaded
+
+  Module() {
+    const auto root = std::filesystem::path(share_folder()).parent_path().parent_path();
+    void* library = dlopen((root / "lib" / "tripoint" / "mesh-field.so").c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library == nullptr) {
+      failure = dlerror();
+      return;
+    }
+    const auto find = [&](auto& function, const char* name) {
+      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
+      if (function == nullptr) failure = fmt::format("it has no function {}", name);
+    };
+    find(make, "tripoint_mesh_field_make"), find(free, "tripoint_mesh_field_free");
+    find(deepest, "tripoint_mesh_field_deepest"), find(at, "tripoint_mesh_field_at");
+  }
+};
+
+const Module& module() {
+  static const Module loaded;
+  return loaded;
+}
+
+}  // namespace
 
 struct MeshInterior::Grid {
-  openvdb::FloatGrid::Ptr field;
-  openvdb::FloatGrid::ConstAccessor values;
-  explicit Grid(openvdb::FloatGrid::Ptr f) : field(std::move(f)), values(field->getConstAccessor()) {}
+  TripointMeshField* field = nullptr;
+  explicit Grid(TripointMeshField* f) : field(f) {}
+  Grid(const Grid&) = delete;
+  Grid& operator=(const Grid&) = delete;
+  ~Grid() { module().free(field); }
 };
 
 MeshInterior::MeshInterior(const Mesh& mesh, double voxel, const std::string& file) {
-  openvdb::initialize();
-  std::vector<openvdb::Vec3s> points;
-  std::vector<openvdb::Vec3I> triangles;
-  points.reserve(mesh.points.size()), triangles.reserve(mesh.triangles.size());
-  for (const auto& p : mesh.points) points.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
-  for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
-  const auto transform = openvdb::math::Transform::createLinearTransform(voxel);
-  auto field = openvdb::tools::meshToLevelSet<openvdb::FloatGrid>(*transform, points, triangles, std::vector<openvdb::Vec4I>{}, 3.0F);
-  grid_ = std::make_unique<Grid>(std::move(field));
+  const Module& vdb = module();
+  if (!vdb.failure.empty()) throw InputError({file, 0, 0}, fmt::format("the part of the program that reads meshes cannot be loaded: {}", vdb.failure));
+  std::vector<double> points;
+  std::vector<std::uint32_t> triangles;
+  points.reserve(3 * mesh.points.size()), triangles.reserve(3 * mesh.triangles.size());
+  for (const auto& p : mesh.points) points.insert(points.end(), {p.x, p.y, p.z});
+  for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  TripointMeshField* field = vdb.make(points.data(), mesh.points.size(), triangles.data(), mesh.triangles.size(), voxel);
+  if (field == nullptr) throw InputError({file, 0, 0}, fmt::format("no distance field of the mesh at voxels of {} m", voxel));
+  grid_ = std::make_unique<Grid>(field);
   // A leaking mesh has no inside at all, silently: what is left below zero is round-off at its surface.
-  float deepest = 0.0F;
-  for (auto v = grid_->field->cbeginValueAll(); v; ++v) deepest = std::min(deepest, *v);
-  if (!(deepest < static_cast<float>(-1e-3 * voxel))) throw InputError({file, 0, 0}, fmt::format("the mesh has no inside at voxels of {} m: its surface leaks, or it is thinner than the spacing", voxel));
+  if (!(vdb.deepest(field) < -1e-3 * voxel)) throw InputError({file, 0, 0}, fmt::format("the mesh has no inside at voxels of {} m: its surface leaks, or it is thinner than the spacing", voxel));
 }
 
 MeshInterior::~MeshInterior() = default;
 
-bool MeshInterior::holds(const Vec3& r) const {
-  const openvdb::tools::GridSampler<openvdb::FloatGrid::ConstAccessor, openvdb::tools::BoxSampler> sampler(grid_->values, grid_->field->transform());
-  return sampler.wsSample(openvdb::Vec3R(r.x, r.y, r.z)) <= 0.0F;
-}
+bool MeshInterior::holds(const Vec3& r) const { return module().at(grid_->field, r.x, r.y, r.z) <= 0.0; }
 
 }  // namespace tripoint
