@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import history
 from model import Case, Engine, Gate, Metric, Order, Results, Run, combined, is_number, number, rows, table, text
 
 STATUSES = ("ok", "refused", "missing", "diverged", "killed", "timeout", "error")
@@ -34,6 +35,10 @@ def load(path):
     notes += problems(raw)
     notes += [f"the file has no {key}" for key in ("tool", "command", "profile", "verdict", "exit_code") if key not in raw]
     cases = [read_case(row, index) for index, row in enumerate(rows(raw["cases"]))]
+    past, told = history.read(path.resolve().parent / (text(raw.get("history")) or "history.jsonl"))
+    notes += told
+    for case in cases:
+        case.history = past.get(case.id, [])
     if not cases:
         notes.append("the file lists no case: nothing was validated")
     return Results(table(raw.get("tool")), text(raw.get("command")), text(raw.get("profile")), text(raw.get("seed")),

@@ -192,6 +192,7 @@ class Case:
     metrics: list  # as declared
     units: dict    # metric -> unit
     notes: list = field(default_factory=list)
+    history: list = field(default_factory=list)  # runs before, oldest first: history.Entry
 
 
 @dataclass

@@ -150,4 +150,4 @@ def render(results, pictures, notes, suite, missing_libraries):
         "report.html.j2", results,
         columns=columns, cells={(case.number, label): summary.cell(case, label) for case in results.cases for label in columns},
         counts=summary.counts(results), engines=summary.engine_table(results), gaps=summary.not_validated(results), pictures=pictures, notes=notes, suite=suite,
-        missing=missing_libraries, meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"))
+        missing=missing_libraries, proof=signable.selftest_document(results.folder), meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"))

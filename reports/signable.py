@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import shutil
 import subprocess
 
@@ -56,13 +57,25 @@ def selftest(folder):
     return []
 
 
+def selftest_document(folder):
+    """selftest.json of the same place; empty where there is none."""
+    for path in (folder / "selftest.json", folder / "selftest" / "selftest.json"):
+        try:
+            raw = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError, RecursionError):
+            continue
+        if isinstance(raw, dict):
+            return {"defects": rows(raw.get("defects")), "harmless": rows(raw.get("harmless")), "smallest": rows(raw.get("smallest")), "growth": number(raw.get("smallest_growth")), "exit_code": raw.get("exit_code")}
+    return {}
+
+
 def raw_hash(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def context(results):
     return {"requirements": requirements(results), "orders": orders(results), "budgets": budgets(results), "waivers": waivers(results), "gaps": summary.not_validated(results), "counts": summary.counts(results),
-            "engines": summary.engine_table(results), "selftest": selftest(results.folder), "hash": raw_hash(results.folder / "results.json") if (results.folder / "results.json").exists() else "not known"}
+            "engines": summary.engine_table(results), "selftest": selftest(results.folder), "proof": selftest_document(results.folder), "hash": raw_hash(results.folder / "results.json") if (results.folder / "results.json").exists() else "not known"}
 
 
 def to_pdf(html, pdf):

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 from trajectories import NoTrajectory, read
 
-from . import bodies, convergence, gates, particles, profiles, series, style, work_precision
+from . import bodies, convergence, gates, history, particles, profiles, series, style, work_precision
 from .curve import curves
 
 warnings.filterwarnings("ignore", category=RuntimeWarning)  # bodies that are not alive are NaN by contract
-OF_A_CASE = (particles, profiles, bodies, series, convergence, work_precision)
+OF_A_CASE = (particles, profiles, bodies, series, convergence, work_precision, history)
 
 
 @dataclass

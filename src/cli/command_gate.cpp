@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <set>
 
@@ -11,11 +10,14 @@
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
 #include "validation/harness/baseline.hpp"
+#include "validation/harness/history.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
+#include "validation/harness/seeds.hpp"
 #include "validation/harness/selftest.hpp"
 #include "validation/harness/slack.hpp"
+#include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -24,7 +26,8 @@ namespace {
 constexpr const char* description =
     "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored verdict. Then it judges the\n"
     "limits: none more than 10 times its error (above 3 times warns) unless its reason is dated, none looser than the accepted baseline,\n"
-    "no run with more than 1 % more pairs, steps or instructions than accepted.\n"
+    "no gate gone that was accepted, no value moved by more than the drift that its gate states, no run with more than 1 % more pairs, steps or\n"
+    "instructions than accepted. A case without a baseline yet is named in a warning.\n"
     "  tripoint gate report/results.json     exit 0 only when every gate is green\n"
     "  tripoint gate accept report/results.json --reason 'who decided what, and why'     the only writer of baselines\n"
     "  tripoint gate selftest                proves that the gates can fail, and only where they should";
@@ -38,13 +41,18 @@ constexpr const char* selftest_description =
     "Runs every defect that the cases declare in the test build of our solver, and expects the gates named in killed_by to turn red;\n"
     "and asks that every defect which a physical term registers has a case that kills it. Then runs every harmless change that the cases\n"
     "declare (threads, order, ulp, boost, mirror, rotation, units): no gate may turn and no metric may change by more than round-off.\n"
-    "Exit 5 when a defect survives or a harmless change is felt.\n"
+    "Of defects that state a `smallest` size it finds by bisection the least one that turns the gate red: a table, red where it has grown by more than a quarter.\n"
+    "With --seeds N it looks for false alarms instead: all that chance has a hand in (jittered particles, walkers) runs again with N other seeds.\n"
+    "Exit 5 when a defect survives, a gate turns by its seed, a harmless change is felt, or a smallest visible defect has grown.\n"
     "  tripoint gate selftest                every case\n"
-    "  tripoint gate selftest heat/cosine-mode --jobs 2";
+    "  tripoint gate selftest heat/cosine-mode --jobs 2\n"
+    "  tripoint gate selftest --smallest     only the table of smallest visible defects\n"
+    "  tripoint gate selftest --seeds 20     twenty other seeds: no gate of the commit profile may turn";
 
 struct GateOptions {
-  std::string results, history;
-  bool annotations = false;
+  std::string results, history, profile;
+  int seeds = 0;
+  bool annotations = false, json = false, require_baselines = false;
   SelftestOptions selftest;
   std::vector<std::string> accepted;  ///< a results.json and ids, in any order
   std::string reason;
@@ -64,14 +72,14 @@ bool on_github() {
 int judge_file(const GateOptions& o) {
   const auto results = judged(o.results);
   auto remarks = verdict_remarks(results);
-  for (const auto& list : {slack_remarks(results), baseline_remarks(results)}) remarks.insert(remarks.end(), list.begin(), list.end());
+  for (const auto& list : {slack_remarks(results), baseline_remarks(results, o.require_baselines)}) remarks.insert(remarks.end(), list.begin(), list.end());
   std::set<int> codes{results.exit_code};
   for (const auto& r : remarks)
     if (r.error) codes.insert(r.code);
   const int code = first_of(codes);
   for (const auto& c : results.cases) print(case_line(c) + "\n");
   print(o.annotations || on_github() ? annotations_text(remarks) : remarks_text(remarks));
-  if (!o.history.empty()) std::ofstream(o.history, std::ios::app) << history_line(results);
+  if (!o.history.empty()) append_history(o.history, history_lines(results));
   print("verdict " + verdict_word(code) + " exit " + std::to_string(code) + "\n");
   return code;
 }
@@ -81,17 +89,32 @@ int accept_file(const GateOptions& o) {
   std::vector<std::string> ids;
   for (const auto& word : o.accepted) (word.ends_with(".json") ? path = word : ids.emplace_back(word));
   const auto results = judged(path);
-  print(accept(results, ids, {results.date.substr(0, 10), results.tool.commit, o.reason}));
+  const Acceptance acceptance{results.date.substr(0, 10), results.tool.commit, o.reason};
+  print(accept(results, ids, acceptance));
+  if (const auto history = history_file(results, path); !history.empty()) append_history(history, acceptance_lines(results, ids, acceptance));
   return exit_pass;
 }
 
-int selftest(SelftestOptions options) {
+int selftest_seeds(const SelftestOptions& options, const std::string& profile, int count, bool json) {
+  CaseFilter filter;
+  filter.what = options.what, filter.profile = !profile.empty() ? profile : options.what.empty() ? "commit" : "";
+  const auto outcome = try_seeds(select_cases(filter), discover_engines(), count, options);
+  print(json ? seeds_json(outcome) : seeds_table(outcome));
+  std::filesystem::create_directories(options.out);
+  write_durably((std::filesystem::path(options.out) / "seeds.txt").string(), seeds_table(outcome));
+  write_durably((std::filesystem::path(options.out) / "seeds.json").string(), seeds_json(outcome));
+  return outcome.exit_code;
+}
+
+int selftest(SelftestOptions options, const std::string& profile, int seeds, bool json) {
   catch_interrupts();
   options.say = [](const std::string& line) { say(line); };
+  if (seeds > 0) return selftest_seeds(options, profile, seeds, json);
   const auto outcome = run_selftest(options);
-  print(selftest_table(outcome));
+  print(json ? selftest_json(outcome) : selftest_table(outcome));
   std::filesystem::create_directories(options.out);
   write_durably((std::filesystem::path(options.out) / "selftest.txt").string(), selftest_table(outcome));
+  write_durably((std::filesystem::path(options.out) / "selftest.json").string(), selftest_json(outcome));
   return outcome.exit_code;
 }
 
@@ -102,7 +125,8 @@ void add_gate(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<GateOptions>();
   command->add_option("RESULTS", o->results, "a results.json");
   command->add_flag("--annotations", o->annotations, "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, the worst first");
-  command->add_option("--history", o->history, "append a line of JSON with every value and count to this file");
+  command->add_flag("--require-baselines", o->require_baselines, "a case that has no baseline is an error, exit 4 (else one warning names them)");
+  command->add_option("--history", o->history, "append a line of JSON a case, with every value and count, to this file (validate has done so to OUT/history.jsonl)");
   auto* accepts = command->add_subcommand("accept", accept_description);
   accepts->add_option("--reason", o->reason, "who decided what, and why")->required();
   accepts->add_option("RESULTS|ID", o->accepted, "a results.json (default report/results.json), and the ids of the cases; none = all");
@@ -110,9 +134,13 @@ void add_gate(CLI::App& app, int& exit_code) {
   self->add_option("CASE", o->selftest.what, "case files, folders or ids; none = every case")->type_name("CASE|DIR");
   self->add_option("--out", o->selftest.out, "folder of the runs")->capture_default_str();
   self->add_option("--jobs", o->selftest.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  self->add_flag("--smallest", o->selftest.only_smallest, "only the smallest visible defects");
+  self->add_option("--seeds", o->seeds, "other seeds to run what chance has a hand in with; nothing else is then done")->check(CLI::Range(1, 10000));
+  self->add_option("--profile", o->profile, "with --seeds: only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release"}));
+  self->add_flag("--json", o->json, "print selftest.json, and nothing else, on stdout");
   command->callback([=, &exit_code] {
     exit_code = guarded([&] {
-      if (self->parsed()) return selftest(o->selftest);
+      if (self->parsed()) return selftest(o->selftest, o->profile, o->seeds, o->json);
       if (accepts->parsed()) return accept_file(*o);
       if (o->results.empty()) throw InputError("gate: name a results.json, or accept, or selftest");
       return judge_file(*o);

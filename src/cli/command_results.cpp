@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
+#include "validation/harness/history.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/report_files.hpp"
 
@@ -32,7 +33,9 @@ int finish(const Results& results, const std::string& out, bool pdf = false) {
 }
 
 int merge(const std::vector<std::string>& folders, const std::string& out) {
-  const auto results = merge_shards(folders, out);
+  auto results = merge_shards(folders, out);
+  results.history = "history.jsonl";
+  append_history((std::filesystem::path(out) / results.history).string(), history_lines(results));
   for (const auto& c : results.cases) print(case_line(c) + "\n");
   return finish(results, out);
 }

@@ -3,11 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <ctime>
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "core/errors.hpp"
+#include "validation/harness/history.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
 #include "validation/harness/suite.hpp"
@@ -19,7 +21,8 @@ namespace {
 struct ValidateOptions {
   CaseFilter filter;
   SuiteOptions suite;
-  std::string profile, shard, engines;
+  std::string profile, shard, engines, history;
+  bool keep_history = true;
   std::vector<std::string> engine;
   std::uint64_t seed = 0;
   bool seed_given = false, json = false;
@@ -67,6 +70,11 @@ int validate(ValidateOptions o) {
   if (!o.json) o.suite.on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
   auto results = run_suite(cases, engines, o.suite);
   results.command = command_line(), results.profile = o.filter.profile, results.date = now(), results.shard = o.shard;
+  if (o.keep_history) {
+    const auto file = o.history.empty() ? (std::filesystem::path(o.suite.out) / "history.jsonl").string() : o.history;
+    append_history(file, history_lines(results));
+    results.history = std::filesystem::relative(std::filesystem::absolute(file), std::filesystem::absolute(o.suite.out)).string();
+  }
   if (const auto missing = write_report(results, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
   print(o.json ? results_text(results) : last_line(results, o.suite.out) + "\n");
   return interrupted() ? exit_interrupted : results.exit_code;
@@ -87,6 +95,10 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_option("--threads", o->suite.threads, "threads of each engine process")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option_function<std::uint64_t>("--seed", [o](std::uint64_t seed) { o->seed = seed, o->seed_given = true; }, "replaces the cases' seeds");
   command->add_flag("--resume", o->suite.resume, "keep the runs in OUT that have ended, where job and engine are the same; make only the others");
+  command->add_option("--count-instructions", o->suite.count_below, "where the processor counts no instructions, count those of every run below this many CPU seconds by callgrind, in a second run some fifty times slower")
+      ->expected(0, 1)->default_str("1")->check(CLI::PositiveNumber)->type_name("CPU_S");
+  command->add_option("--history", o->history, "file of JSON lines to which what was measured is appended, one line a case (default OUT/history.jsonl); the report draws it");
+  command->add_flag_callback("--no-history", [o] { o->keep_history = false; }, "append nothing");
   command->add_option("--shard", o->shard, "i/n: every n-th case, from the i-th");
   command->add_option("--time-limit", o->suite.wall_limit, "seconds for one run; engine setting wall_limit goes before it")->check(CLI::PositiveNumber)->capture_default_str();
   command->add_flag("--json", o->json, "print results.json, and nothing else, on stdout");

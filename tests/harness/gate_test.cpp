@@ -116,10 +116,62 @@ struct Kept {
   std::string accept_all() { return accept(r, {}, {"2026-11-21", "abc", "a test"}); }
 };
 
-TEST(Baselines, AreMissedWhereTheSuiteKeepsThemAndNowhereElse) {
+TEST(Baselines, ThatAreNotThereYetAreNamedInOneWarningWhereTheSuiteKeepsThem) {
   Kept kept;
-  EXPECT_EQ(baseline_remarks(kept.r).at(0).code, exit_missing);
+  kept.r.cases.push_back(kept.r.cases[0]);
+  const auto remarks = baseline_remarks(kept.r);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_FALSE(remarks[0].error);
+  EXPECT_NE(remarks[0].text.find("2 cases have no baseline yet"), std::string::npos) << remarks[0].text;
   std::filesystem::remove(kept.folder / "baselines");
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+}
+
+TEST(Baselines, ThatAreRequiredAreMissed) {
+  Kept kept;
+  EXPECT_EQ(baseline_remarks(kept.r, true).at(0).code, exit_missing);
+  (void)kept.accept_all();
+  EXPECT_TRUE(baseline_remarks(kept.r, true).empty());
+}
+
+TEST(Baselines, AGateThatIsGoneIsRedUntilThatIsAcceptedAndIsCounted) {
+  Kept kept;
+  auto second = limit("error", 0.2);
+  kept.r.cases[0].gates.push_back(second);
+  judge(kept.r);
+  (void)kept.accept_all();
+  kept.r.cases[0].gates.pop_back();
+  judge(kept.r);
+  EXPECT_EQ(baseline_remarks(kept.r).at(0).code, exit_missing);
+  const auto said = kept.accept_all();
+  EXPECT_NE(said.find("REMOVED, it was limit 0.2"), std::string::npos) << said;
+  EXPECT_NE(said.find("and 1 were removed"), std::string::npos) << said;
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+}
+
+TEST(Baselines, AValueThatMovesByMoreThanTheDriftThatItsGateStatesIsRedBothWays) {
+  Kept kept;
+  kept.r.cases[0].gates[0].drift = 1e-6;
+  judge(kept.r);
+  (void)kept.accept_all();
+  error(kept.r).value = 0.05 * (1.0 + 5e-7);  // another machine's round-off
+  judge(kept.r);
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+  for (const double v : {0.05 * (1.0 + 2e-6), 0.05 * (1.0 - 2e-6)}) {
+    error(kept.r).value = v;
+    judge(kept.r);
+    EXPECT_EQ(baseline_remarks(kept.r).at(0).code, exit_fail) << v;
+  }
+}
+
+TEST(Baselines, InstructionsAreComparedWithWhatTheSameMachineCountedInTheSameWay) {
+  Kept kept;
+  auto& cost = engine(kept.r).runs[0].cost;
+  cost.instructions = 1e6, cost.counted_by = "callgrind", kept.r.tool.cpu = "this one";
+  (void)kept.accept_all();
+  engine(kept.r).runs[0].cost.instructions = 1.02e6;
+  EXPECT_EQ(baseline_remarks(kept.r).at(0).code, exit_cost);
+  kept.r.tool.cpu = "another one";
   EXPECT_TRUE(baseline_remarks(kept.r).empty());
 }
 
@@ -127,7 +179,7 @@ TEST(Baselines, WhatIsAcceptedIsReadBackAsItWas) {
   Kept kept;
   (void)kept.accept_all();
   const auto b = read_baseline(kept.folder / "baselines/test/one.toml");
-  EXPECT_EQ(baseline_text(b), baseline_text(accepted_from(kept.r.cases[0], kept.r.seed, nullptr, {"2026-11-21", "abc", "a test"})));
+  EXPECT_EQ(baseline_text(b), baseline_text(accepted_from(kept.r.cases[0], kept.r.tool, kept.r.seed, nullptr, {"2026-11-21", "abc", "a test"})));
   EXPECT_TRUE(baseline_remarks(kept.r).empty());
 }
 

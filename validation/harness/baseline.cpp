@@ -82,13 +82,15 @@ Baseline read_baseline(const std::string& file) {
   b.id = text(top, "case"), b.case_hash = text(top, "case_hash"), b.seed = static_cast<std::uint64_t>(std::max(0.0, number(top, "seed")));
   b.accepted = tables<Acceptance>(top, "accepted", [](const TomlNode& n) { return Acceptance{text(n, "date"), text(n, "commit"), text(n, "reason")}; });
   b.gates = tables<AcceptedGate>(top, "gate", read_gate);
-  b.cost = tables<AcceptedCost>(top, "cost", [](const TomlNode& n) { return AcceptedCost{text(n, "run"), number(n, "pairs"), number(n, "steps"), number(n, "instructions")}; });
+  b.cost = tables<AcceptedCost>(top, "cost", [](const TomlNode& n) { return AcceptedCost{text(n, "run"), number(n, "pairs"), number(n, "steps"), number(n, "instructions"), text(n, "counted_on")}; });
+  b.removed = static_cast<int>(number(top, "removed"));
   return b;
 }
 
 std::string baseline_text(const Baseline& b) {
   std::string out = "# Accepted figures. `tripoint gate accept --reason TEXT` writes this file; nothing else does.\nformat = 1\n";
   out += fmt::format("case = {}\ncase_hash = {}\nseed = {}\n", quoted(b.id), quoted(b.case_hash), b.seed);
+  if (b.removed > 0) out += fmt::format("removed = {}\n", b.removed);
   for (const auto& a : b.accepted) out += fmt::format("\n[[accepted]]\ndate = {}\ncommit = {}\nreason = {}\n", quoted(a.date), quoted(a.commit), quoted(a.reason));
   for (const auto& g : b.gates) {
     out += fmt::format("\n[[gate]]\nmetric = {}\nengine = {}\n", quoted(g.metric), quoted(g.engine));
@@ -101,7 +103,7 @@ std::string baseline_text(const Baseline& b) {
   }
   for (const auto& c : b.cost) {
     out += fmt::format("\n[[cost]]\nrun = {}\npairs = {}\nsteps = {}\n", quoted(c.run), number(c.pairs), number(c.steps));
-    if (c.instructions > 0.0) out += fmt::format("instructions = {}\n", number(c.instructions));
+    if (c.instructions > 0.0) out += fmt::format("instructions = {}\ncounted_on = {}\n", number(c.instructions), quoted(c.counted_on));
   }
   return out;
 }

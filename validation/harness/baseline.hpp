@@ -24,6 +24,7 @@ struct AcceptedGate {
 struct AcceptedCost {
   std::string run;  ///< engine and folder
   double pairs = 0.0, steps = 0.0, instructions = 0.0;
+  std::string counted_on;  ///< how and where the instructions were counted: they are compared only with the same
 };
 
 struct Acceptance {
@@ -36,6 +37,7 @@ struct Baseline {
   std::vector<Acceptance> accepted;  ///< oldest first
   std::vector<AcceptedGate> gates;
   std::vector<AcceptedCost> cost;
+  int removed = 0;  ///< gates that were accepted once and that an acceptance has let go since
 };
 
 /// Where the baseline of a case file lies: below the folder `baselines` beside the nearest folder `cases` above it; else in `baselines` beside the file.
@@ -51,18 +53,17 @@ struct Baseline {
 [[nodiscard]] double room_of(const Gate&);
 
 /// The baseline that these results would be, after the one that was accepted before.
-[[nodiscard]] Baseline accepted_from(const CaseResult&, std::uint64_t seed, const Baseline* before, const Acceptance&);
+[[nodiscard]] Baseline accepted_from(const CaseResult&, const Tool&, std::uint64_t seed, const Baseline* before, const Acceptance&);
 
-/// Results against their baselines. Missing baseline of a suite that keeps them, or a limit looser than the accepted one: error, exit 4.
-/// More than 1 % more pairs, steps or instructions at the accepted seed: error, exit 6. A value that has got worse than the accepted or the
-/// first one by more than a tenth and its uncertainty, another class of convergence, another case file: warning.
-[[nodiscard]] std::vector<Remark> baseline_remarks(const Results&);
+/// Results against their baselines. A limit looser than the accepted one, or a gate that is gone: error, exit 4. A value that has moved by
+/// more than the `drift` that its gate states and its uncertainty: error, exit 1. More than 1 % more pairs or steps, or instructions where
+/// they were counted in the same way on the same machine, at the accepted seed: error, exit 6. Where no drift is stated, a value that has
+/// got worse than the accepted or the first one by more than a tenth; another class of convergence; another case file: warning.
+/// Cases of a suite that keeps baselines and that have none yet: one warning that names them; with `required` an error of each, exit 4.
+[[nodiscard]] std::vector<Remark> baseline_remarks(const Results&, bool required = false);
 
 /// Accepts the cases with these ids (empty: all). @return what changed, old and new, and the sum of all loosenings since the first baseline
 /// @throws InputError for an id that the results do not hold, and where a case is not green
 [[nodiscard]] std::string accept(const Results&, const std::vector<std::string>& ids, const Acceptance&);
-
-/// One line of JSON for the history: commit, date, machine, and every gated value and count of the cases.
-[[nodiscard]] std::string history_line(const Results&);
 
 }  // namespace tripoint

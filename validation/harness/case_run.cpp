@@ -120,7 +120,7 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   if (run.changed) request.job = &run.changed->job, request.initial = &run.changed->initial;
   request.folder = fs::absolute(run.folder).string(), request.particles = fs::absolute(run.changed ? run.changed->particles : run.particles).string();
   request.wall_limit = wall_limit(engine, options), request.environment = options.environment;
-  request.keep_finished = options.resume;
+  request.keep_finished = options.resume, request.count_below = options.count_below;
   auto outcome = run_one(request);
   if (run.changed && outcome.trajectory) outcome.trajectory = taken_back(run, *options.change, *outcome.trajectory);
   run.kept = outcome.kept;

@@ -38,7 +38,8 @@ std::string run_hash(const RunRequest& request, const std::string& job) {
 void record_finished(const RunRequest& request, const std::string& hash, const ProcessEnd& end, const Outcome& outcome) {
   if (outcome.status != "ok" && outcome.status != "diverged") return;
   const nlohmann::ordered_json record{{"run", hash}, {"files", hash_of_files(request)}, {"status", outcome.status}, {"code", end.code},
-                                      {"cpu_s", end.cpu_s}, {"wall_s", end.wall_s}, {"peak_bytes", end.peak_bytes}};
+                                      {"cpu_s", end.cpu_s}, {"wall_s", end.wall_s}, {"peak_bytes", end.peak_bytes},
+                                      {"instructions", outcome.cost.instructions}, {"counted_by", outcome.cost.counted_by}};
   try {
     write_durably(record_file(request).string(), record.dump(1));
   } catch (const std::exception&) {  // without a record the run is made again, no more
@@ -54,6 +55,7 @@ std::optional<Outcome> finished_run(const RunRequest& request, const std::string
     end.cpu_s = record.at("cpu_s"), end.wall_s = record.at("wall_s"), end.peak_bytes = record.at("peak_bytes");
     Outcome outcome = read_back(request, end);
     if (outcome.status != record.at("status")) return {};
+    outcome.cost.instructions = record.at("instructions"), outcome.cost.counted_by = record.at("counted_by");
     outcome.kept = true;
     return outcome;
   } catch (const std::exception&) {

@@ -51,7 +51,7 @@ Results merge_shards(const std::vector<std::string>& folders, const std::string&
   check_same_question(folders, parts);
   fs::create_directories(out);
   Results whole = parts.front();
-  whole.shard.clear(), whole.cases.clear(), whole.planned.clear();
+  whole.shard.clear(), whole.history.clear(), whole.cases.clear(), whole.planned.clear();
   for (std::size_t k = 0; k < parts.size(); ++k) {
     std::move(parts[k].cases.begin(), parts[k].cases.end(), std::back_inserter(whole.cases));
     whole.planned.insert(whole.planned.end(), parts[k].planned.begin(), parts[k].planned.end());

@@ -22,6 +22,8 @@
 #include <mutex>
 #include <optional>
 
+#include "validation/harness/instructions.hpp"
+
 extern char** environ;
 
 namespace tripoint {
@@ -261,6 +263,7 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   Descriptor err_write(err[1]);
   for (const int end_of_child : {out[1], err[1]}) ::fcntl(end_of_child, F_SETFL, 0);  // the child writes blocking
   pid_t pid = -1;
+  const InstructionCounter counter;
   if (const int error = spawn(spec, out[1], err[1], pid); error != 0) {
     end.log_tail = std::strerror(error);
     return end;
@@ -271,6 +274,7 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   BoundedLog log(spec.log);
   follow(spec, pid, out[0], err[0], log, end);
   end.log_tail = log.close();
+  end.instructions = counter.read();
   return end;
 }
 

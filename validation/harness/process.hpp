@@ -26,6 +26,7 @@ struct ProcessEnd {
   std::string log_tail;      ///< last lines of stderr, or why it could not start
   double wall_s = 0.0;       ///< [s]
   double cpu_s = 0.0;        ///< user and system of the whole group [s]
+  double instructions = 0.0; ///< in user space, of the whole group; 0 = this machine counts none
   double peak_bytes = 0.0;   ///< greatest resident size of one process of the group
 };
 

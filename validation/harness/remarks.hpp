@@ -17,6 +17,10 @@ struct Remark {
   double excess = 0.0;  ///< how far beyond the limit, to put the worst first: |value|/limit; infinite where there is no value
 };
 
+/// How much of what its gate allows a value takes: its size over the limit; distance from the middle of a band over half its width; at_least over it.
+/// Infinite where there is no value or nothing is allowed.
+[[nodiscard]] double share_used(const GateRow&);
+
 /// Every gate that is not green, and every problem of a case or the suite, worst first.
 [[nodiscard]] std::vector<Remark> verdict_remarks(const Results&);
 

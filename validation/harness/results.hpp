@@ -18,7 +18,8 @@ struct Cost {
   double pairs = 0.0, steps = 0.0, iterations = 0.0;  ///< counted by the engine
   double simulated_s = 0.0;  ///< time of the scene that the steps took it through [s]
   double particles = 0.0;    ///< at the end: with what flowed in, without what is no more
-  double instructions = 0.0;  ///< of the whole process, counted in a second run of its own; 0 = not counted
+  double instructions = 0.0;  ///< in user space, of the whole process; 0 = not counted
+  std::string counted_by;     ///< of the instructions: counter (the processor's own), callgrind (a second run)
 };
 
 struct Knobs {
@@ -114,6 +115,7 @@ struct Results {
   std::string command, profile, verdict, date;
   std::uint64_t seed = 1;
   int exit_code = 0;
+  std::string history;                  ///< file of JSON lines, relative to results.json; empty = none is kept
   std::string shard;                    ///< "i/n", empty = whole
   std::vector<std::string> planned;     ///< ids of every case that this run had to do
   std::vector<std::string> only_engines;  ///< --engines; empty = all

@@ -94,7 +94,7 @@ Knobs knobs(const Json& from) {
 Cost cost(const Json& from) {
   return {number_or(from, "cpu_s", 0.0), number_or(from, "wall_s", 0.0), number_or(from, "setup_cpu_s", 0.0), number_or(from, "peak_bytes", 0.0),
           number_or(from, "pairs", 0.0), number_or(from, "steps", 0.0), number_or(from, "iterations", 0.0),
-          number_or(from, "simulated_s", 0.0), number_or(from, "particles", 0.0), number_or(from, "instructions", 0.0)};
+          number_or(from, "simulated_s", 0.0), number_or(from, "particles", 0.0), number_or(from, "instructions", 0.0), text(from, "counted_by")};
 }
 
 RunRow run_row(const Json& from) {
@@ -115,7 +115,7 @@ RunRow run_row(const Json& from) {
 Gate gate(const Json& from) {
   Gate g;
   g.metric = text(from, "metric"), g.engine = text(from, "engine"), g.mode = text(from, "mode"), g.preset = text(from, "preset");
-  g.limit = optional_number(from, "limit"), g.at_least = optional_number(from, "at_least"), g.level = optional_number(from, "level");
+  g.limit = optional_number(from, "limit"), g.at_least = optional_number(from, "at_least"), g.level = optional_number(from, "level"), g.drift = optional_number(from, "drift");
   if (const auto band = numbers(from, "band"); band.size() == 2) g.band = {band[0], band[1]};
   g.reason = text(from, "reason"), g.by = text(from, "by"), g.date = text(from, "date"), g.place = place(from);
   return g;
@@ -207,7 +207,7 @@ Results read_results(const std::string& path) {
   if (!member(document, "cases").is_array()) throw InputError(path + ": has no list \"cases\"");
   Results r;
   r.tool = tool(member(document, "tool"));
-  r.command = text(document, "command"), r.profile = text(document, "profile"), r.date = text(document, "date"), r.shard = text(document, "shard");
+  r.command = text(document, "command"), r.profile = text(document, "profile"), r.date = text(document, "date"), r.shard = text(document, "shard"), r.history = text(document, "history");
   r.seed = static_cast<std::uint64_t>(std::max(0.0, number_or(document, "seed", 1.0)));
   r.verdict = text(document, "verdict"), r.exit_code = static_cast<int>(number_or(document, "exit_code", 4.0));
   r.planned = strings(document, "planned"), r.only_engines = strings(document, "only_engines");

@@ -62,7 +62,8 @@ Json json(const RunRow& r) {
           {"metrics", metrics},
           {"cost", {{"cpu_s", r.cost.cpu_s}, {"wall_s", r.cost.wall_s}, {"setup_cpu_s", r.cost.setup_cpu_s}, {"peak_bytes", r.cost.peak_bytes},
                     {"pairs", r.cost.pairs}, {"steps", r.cost.steps}, {"iterations", r.cost.iterations},
-                    {"simulated_s", r.cost.simulated_s}, {"particles", r.cost.particles}, {"instructions", r.cost.instructions > 0.0 ? Json(r.cost.instructions) : Json(nullptr)}}},
+                    {"simulated_s", r.cost.simulated_s}, {"particles", r.cost.particles}, {"instructions", r.cost.instructions > 0.0 ? Json(r.cost.instructions) : Json(nullptr)},
+                    {"counted_by", r.cost.instructions > 0.0 ? r.cost.counted_by : "not measured"}}},
           {"state_hash", r.state_hash}, {"time_step_bound", r.time_step_bound}, {"folder", r.folder}};
 }
 
@@ -75,7 +76,7 @@ Json json(const OrderRow& o) {
 
 Json json(const Gate& g) {
   return {{"metric", g.metric}, {"engine", g.engine}, {"mode", g.mode}, {"preset", g.preset}, {"level", number(g.level)}, {"limit", number(g.limit)},
-          {"band", g.band ? Json(*g.band) : Json(nullptr)}, {"at_least", number(g.at_least)}, {"reason", g.reason}, {"by", g.by}, {"date", g.date},
+          {"band", g.band ? Json(*g.band) : Json(nullptr)}, {"at_least", number(g.at_least)}, {"drift", number(g.drift)}, {"reason", g.reason}, {"by", g.by}, {"date", g.date},
           {"file", g.place.file}, {"line", g.place.line}};
 }
 
@@ -160,7 +161,7 @@ std::string results_text(const Results& r) {
   for (const auto& c : r.cases) cases.push_back(json(c));
   const Json document{{"format", r.format},
                       {"tool", {{"version", r.tool.version}, {"commit", r.tool.commit}, {"compiler", r.tool.compiler}, {"flags", r.tool.flags}, {"cpu", r.tool.cpu}, {"cores", r.tool.cores}}},
-                      {"command", r.command}, {"date", r.date}, {"profile", r.profile}, {"seed", r.seed}, {"shard", r.shard}, {"planned", r.planned},
+                      {"command", r.command}, {"date", r.date}, {"profile", r.profile}, {"seed", r.seed}, {"shard", r.shard}, {"history", r.history}, {"planned", r.planned},
                       {"only_engines", r.only_engines}, {"verdict", r.verdict}, {"exit_code", r.exit_code}, {"problems", r.problems}, {"cases", cases}};
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -11,6 +11,7 @@
 
 #include "io/trajectory.hpp"
 #include "validation/harness/finished_run.hpp"
+#include "validation/harness/instructions.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -84,7 +85,21 @@ ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
 
 void take_cost(Outcome& outcome, const ProcessEnd& end) {
   const auto& r = outcome.result;
-  outcome.cost = {end.cpu_s, end.wall_s, r.setup_cpu, end.peak_bytes, r.pairs, static_cast<double>(r.steps), r.iterations, r.time_reached, 0.0};
+  outcome.cost = {end.cpu_s, end.wall_s, r.setup_cpu, end.peak_bytes, r.pairs, static_cast<double>(r.steps), r.iterations, r.time_reached, 0.0, end.instructions, end.instructions > 0.0 ? "counter" : ""};
+}
+
+/// A second run in a folder of its own, of which nothing but the count is kept.
+void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& outcome) {
+  if (outcome.status != "ok" || outcome.cost.instructions > 0.0 || !(outcome.cost.cpu_s < request.count_below)) return;
+  const fs::path folder = fs::path(request.folder) / "callgrind";
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  auto second = request;
+  second.folder = folder.string();
+  write_job((folder / "job.json").string(), job_in_folder(second));
+  spec.argv.back() = (folder / "job.json").string(), spec.folder = second.folder, spec.log.clear();
+  if (const auto count = callgrind_instructions(spec)) outcome.cost.instructions = *count, outcome.cost.counted_by = "callgrind";
+  fs::remove_all(folder, ignored);
 }
 
 std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
@@ -166,6 +181,7 @@ Outcome run_one(const RunRequest& request) {
   spec.progress = request.progress;
   const auto end = run_process(spec);
   auto outcome = read_back(request, end);
+  count_instructions(request, spec, outcome);
   record_finished(request, hash, end, outcome);
   return outcome;
 }

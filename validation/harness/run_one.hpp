@@ -21,6 +21,7 @@ struct RunRequest {
   double wall_limit = 600.0;  ///< [s]
   std::map<std::string, std::string> environment;
   std::function<void(double)> progress;
+  double count_below = 0.0;   ///< [CPU s] instructions of a shorter run are counted by callgrind where the processor counts none; 0 = never
   bool keep_finished = false;  ///< takes the outcome of an earlier run in the folder, if it was of this very job and engine
 };
 

@@ -17,6 +17,7 @@ struct SelftestOptions {
   std::string out = "report/selftest";  ///< folder of the runs
   std::string engine;                   ///< test build of the engine; empty = libexec/tripoint/selftest/engine-tripoint
   int jobs = 1;
+  bool only_smallest = false;  ///< only the least visible sizes
   std::function<void(const std::string&)> say;
 };
 
@@ -38,18 +39,37 @@ struct HarmlessOutcome {
   std::string found;      ///< which metric changed most, or what went wrong
 };
 
+/// The least size of one defect that a gate of one case sees.
+struct SmallestOutcome {
+  std::string defect, what, case_id, metric;  ///< what: as the term registers it; metric: whose gate turned red first
+  double size = not_a_number;    ///< at which it is red; NaN = it is green up to the declared size
+  double hidden = 0.0;           ///< a size at most 5 % less at which it is green
+  double stored = 0.0;           ///< as the case states
+  std::string verdict;           ///< held, shrank, GREW, UNSEEN
+  int runs = 0;
+  SourcePlace place;
+  [[nodiscard]] bool holds() const { return verdict == "held" || verdict == "shrank"; }
+};
+
 struct SelftestOutcome {
   std::vector<DefectOutcome> defects;
   std::vector<HarmlessOutcome> harmless;
+  std::vector<SmallestOutcome> smallest;
   std::vector<std::string> problems;  ///< defects that no case declares, or that the engine does not have
   int exit_code = 0;                  ///< 0 or 5
 };
 
 /// Runs each case once without and once with each of its defects: every metric in killed_by must be green without, and red with it;
 /// and once with each of its harmless changes: every gate must stay green, and no metric may change by more than round-off.
+/// Of each defect that states a `smallest` size, bisection finds the one that is there: it may not have grown by more than a quarter.
 /// @throws EngineError when the test build is missing
 [[nodiscard]] SelftestOutcome run_selftest(const SelftestOptions&);
 [[nodiscard]] std::string selftest_table(const SelftestOutcome&);
+/// The same as one JSON document, format 1.
+[[nodiscard]] std::string selftest_json(const SelftestOutcome&);
+
+/// Each defect of the case that states a smallest size, bisected.
+[[nodiscard]] std::vector<SmallestOutcome> try_smallest(const Case&, const EngineEntry&, const SelftestOptions&);
 
 /// The case's own resolution in each of its modes, with and without each harmless change that the case names.
 [[nodiscard]] std::vector<HarmlessOutcome> try_harmless(const Case&, const EngineEntry&, const SelftestOptions&);

@@ -27,6 +27,7 @@ struct SuiteOptions {
   int jobs = 1;                ///< engine processes at a time
   int threads = 1;             ///< of each engine process
   bool resume = false;         ///< runs of an earlier call that have ended, of the same job and engine, are kept
+  double count_below = 0.0;    ///< [CPU s] instructions of shorter runs are counted by callgrind where the processor counts none; 0 = never
   double wall_limit = 600.0;   ///< [s] for a run whose case says nothing else (engine setting wall_limit)
   std::map<std::string, std::string> environment;  ///< for the engines
   const HarmlessChange* change = nullptr;          ///< every scene is run changed, and its frames are taken back before they are judged

@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The strip of a case's history: how much of its limits each run used, one place a run, a line where its figures were accepted."""
+from __future__ import annotations
+
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from model import is_number
+
+from . import style
+from .curve import Drawing
+
+MOST_LINES, MOST_RUNS = 6, 200
+FLOOR = 1e-4  # smaller shares stand at the lower edge
+
+
+def draw(case, trajectories, notes):
+    runs = [entry for entry in case.history if not entry.accepted][-MOST_RUNS:]
+    if len(runs) < 2:
+        return None  # one run is no history
+    keys = worst_first(runs)
+    if len(keys) > MOST_LINES:
+        notes.append(f"the strip of runs shows the {MOST_LINES} of {len(keys)} gates that use most of their limits")
+    keys = keys[:MOST_LINES]
+    if not keys:
+        return None
+    figure = Figure(figsize=(style.WIDTH, 2.5))
+    FigureCanvasAgg(figure)
+    axis = figure.add_axes((0.08, 0.2, 0.6, 0.7))
+    names = [engine for engine, _, _, _ in keys]
+    for k, key in enumerate(keys):
+        places = [(n, max(entry.used[key][0], FLOOR), entry.used[key][2]) for n, entry in enumerate(runs) if key in entry.used and is_number(entry.used[key][0])]
+        engine, mode, metric, level = key
+        label = " ".join(part for part in (engine, mode, metric, f"at {level:g}" if level is not None else "") if part)
+        hue = style.colour(engine.split(" ")[0], names)
+        axis.plot([p[0] for p in places], [p[1] for p in places], color=hue, marker=style.MARKERS[k % len(style.MARKERS)], markersize=3.5, linewidth=1, label=label, alpha=0.9)
+        red = [p for p in places if p[2] != "pass"]
+        axis.plot([p[0] for p in red], [p[1] for p in red], "x", color=style.RED, markersize=7, markeredgewidth=2)
+    axis.axhline(1.0, color=style.RED, linewidth=1.2)
+    mark_acceptances(axis, case, runs)
+    axis.set_yscale("log")
+    axis.set_xlim(-0.5, len(runs) - 0.5)
+    ticks = sorted({0, len(runs) // 2, len(runs) - 1})
+    axis.set_xticks(ticks, [f"{runs[n].date[:10]}\n{runs[n].commit[:8]}" for n in ticks], fontsize=8)
+    axis.set_ylabel("share of the limit")
+    figure.legend(*axis.get_legend_handles_labels(), loc="center left", bbox_to_anchor=(0.69, 0.55), fontsize=8)
+    return Drawing("history", "History: share of each limit over runs", f"{len(runs)} runs, oldest left; the limit is at 1.", figure,
+                   "Oldest left. Red line: the limit. Crosses: not green. Dashed: figures were accepted there (tripoint gate accept).")
+
+
+def worst_first(runs):
+    worst = {}
+    for entry in runs:
+        for key, (used, _, _) in entry.used.items():
+            if is_number(used):
+                worst[key] = max(worst.get(key, 0.0), used)
+    return sorted(worst, key=lambda key: (-worst[key], str(key)))
+
+
+def mark_acceptances(axis, case, runs):
+    for entry in case.history:
+        if entry.accepted:
+            before = sum(run.date <= entry.date for run in runs)
+            axis.axvline(before - 0.5 if before == 0 else before - 1, color=style.SOFT, linewidth=1, linestyle="--")

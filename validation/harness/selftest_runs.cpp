@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/selftest_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/errors.hpp"
+#include "validation/harness/judge.hpp"
+#include "validation/harness/suite.hpp"
+
+namespace tripoint {
+namespace {
+
+bool is_ours(const Gate& gate, const std::string& metric) { return gate.metric == metric && (gate.engine.empty() || gate.engine == "tripoint"); }
+
+/// Whether a gate on one of these metrics looks at this run; a gate on every run is content with the case's own.
+bool is_needed(const Case& value, const std::vector<std::string>& metrics, const RunPlan& run) {
+  for (const auto& metric : metrics)
+    for (const auto& gate : value.gates) {
+      if (!is_ours(gate, metric) || (!gate.mode.empty() && gate.mode != run.mode)) continue;
+      if (metric.ends_with(".order") ? !run.levels.empty() : !gate.level && run.base) return true;
+      for (const auto& [axis, level] : run.levels)
+        if (gate.level && same_level(level, *gate.level)) return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+CaseResult run_with_defect(const Case& value, const EngineEntry& engine, const std::vector<std::string>& metrics, const std::string& defect, const std::string& folder, const SelftestOptions& o) {
+  SuiteOptions suite;
+  suite.selection.engines = {"tripoint"};
+  suite.jobs = o.jobs, suite.say = o.say;
+  suite.out = (std::filesystem::path(o.out) / folder).string();
+  if (!defect.empty()) suite.environment["TRIPOINT_DEFECT"] = defect;
+  suite.wanted = [&](const EnginePlan&, const RunPlan& run) { return is_needed(value, metrics, run); };
+  const auto results = run_suite({value}, {engine}, suite);
+  if (results.cases.empty()) throw EngineError("interrupted");
+  return results.cases.front();
+}
+
+Seen look(const CaseResult& result, const std::string& metric) {
+  Seen seen;
+  for (const auto& engine : result.engines)
+    for (const auto& row : engine.gates) {
+      if (row.metric != metric || row.verdict == "missing") continue;  // levels that the defect's gates do not need were not run
+      seen.any = true;
+      seen.all_green = seen.all_green && row.verdict == "pass";
+      seen.red = seen.red || row.verdict == "fail" || row.verdict == "diverged";
+      seen.words += fmt::format("{}{} {:.3g} {}", seen.words.empty() ? "" : ", ", metric, row.value, row.verdict);
+    }
+  return seen;
+}
+
+}  // namespace tripoint
