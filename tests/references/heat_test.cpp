@@ -56,6 +56,30 @@ TEST(CosineCarried, IsTheStillDecaySeenFromAMovingFrame) {
   }
 }
 
+TEST(CosineSum, SolvesTheHeatEquationInAllDirectionsByItsOwnDifferences) {
+  const double L = 0.1, W = 0.02, base = 2 * pi;
+  const Vec3 k1{base / L, base / W, 0}, k2{2 * base / L, -base / W, base / W};
+  const auto start = [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(dot(k1, r) + 0.7) + 4.0 * std::cos(dot(k2, r) - 0.4); };
+  const auto s = test::bar({20, 4, 4}, 0.005, start, 100.0, 10, true);
+  auto box = s;
+  box.job.scene.min = Vec3{}, box.job.scene.max = Vec3{L, W, W}, box.job.scene.periodic = {true, true, true};
+  const auto list = [](const Vec3& v) { return std::vector<double>{v.x, v.y, v.z}; };
+  Settings args{{"mean", 300.0}, {"amplitude_1", 10.0}, {"wave_vector_1", list(k1)}, {"phase_1", 0.7}, {"amplitude_2", 4.0}, {"wave_vector_2", list(k2)}, {"phase_2", -0.4}};
+  // Differences need points that lie close: eight particles are moved there. The reference reads places only after it has checked the start.
+  const Vec3 r{0.0123, 0.0071, 0.0045};
+  const double h = 1e-5, tau = 1e-3, t = 3.0;
+  auto near = box;
+  const Vec3 around[] = {{}, {h, 0, 0}, {-h, 0, 0}, {0, h, 0}, {0, -h, 0}, {0, 0, h}, {0, 0, -h}};
+  for (std::size_t n = 0; n < 7; ++n) near.initial.position[n] = r + around[n], near.initial.temperature[n] = start(r + around[n]);
+  const auto sum = make_reference(test::function("cosine_sum", args), near.job, near.initial);
+  const auto T = sum->at(t).temperature;
+  const double laplacian = (T[1] + T[2] + T[3] + T[4] + T[5] + T[6] - 6 * T[0]) / (h * h);
+  const double rate = (sum->at(t + tau).temperature[0] - sum->at(t - tau).temperature[0]) / (2 * tau);
+  EXPECT_NEAR(rate / (D * laplacian), 1.0, 1e-3);  // (k h)^2/12 and round-off of 300 K over h^2 k^2
+  args["amplitude_2"] = 5.0;
+  EXPECT_THROW((void)make_reference(test::function("cosine_sum", args), box.job, box.initial), InputError) << "the scene starts with other waves";
+}
+
 TEST(CosineMode, RefusesAWaveThatDoesNotFit) {
   EXPECT_NO_THROW((void)make_reference(test::function("cosine_mode"), cosine_bar(20, false, 0.0).job, cosine_bar(20, false, 0.0).initial));
   const auto sloped = cosine_bar(20, false, 0.7);

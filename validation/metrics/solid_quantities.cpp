@@ -85,6 +85,19 @@ MetricValue sag(const MetricInput& in, const Frames& frames) {
   return v;
 }
 
+MetricValue swing_amplitude(const MetricInput& in, const Frames& frames) {
+  const auto truth = in.reference.number("amplitude"), guess = in.reference.number("frequency");
+  if (!truth || !guess) return not_formed("the reference does not know the amplitude of a swing: it starts neither in its lowest mode nor with a stated one");
+  std::vector<double> t, w;
+  if (auto why = deflections(in, frames, t, w); !why.empty()) return not_formed(why);
+  const auto swing = fit_swing(t, w, *guess);
+  if (!swing.problem.empty()) return not_formed(swing.problem);
+  MetricValue v;
+  v.value = swing.amplitude / *truth - 1.0;
+  v.note = "amplitude " + std::to_string(swing.amplitude) + " m against " + std::to_string(*truth);
+  return v;
+}
+
 /// Between frames by a straight line in (stretch, reaction), the first time that the reaction falls through zero after the longest stretch.
 MetricValue residual_stretch(const MetricInput& in, const Frames& frames) {
   const auto truth = in.reference.number("residual_stretch");
@@ -124,6 +137,7 @@ const std::vector<RunQuantity>& solid_run_quantities() {
   static const std::vector<RunQuantity> list{
       {{"frequency", "1", "frequency of the deflection's swing, a sine about an offset by least squares, over the true one, minus 1"}, frequency},
       {{"sag", "1", "offset about which the deflection swings over the true static deflection, minus 1"}, sag},
+      {{"swing_amplitude", "1", "amplitude of the deflection's swing over the true one, minus 1"}, swing_amplitude},
       {{"residual_stretch", "1", "stretch at which the reaction on the named body falls to zero on the way back, minus the true one"}, residual_stretch}};
   return list;
 }

@@ -11,8 +11,8 @@ namespace tripoint {
 namespace {
 
 /// Sag and lowest frequency of a clamped beam. Numbers: deflection [m] of the last layer of particles, half a spacing inside the end, and
-/// tip_deflection of a rigid tip's centre (both where the scene has gravity); frequency [rad/s], period [s]; bar, axis, end (+1 or -1: where the
-/// free end lies), direction.x, .y, .z.
+/// tip_deflection of a rigid tip's centre (both where the scene has gravity); frequency [rad/s], period [s]; amplitude [m] of a beam that starts
+/// in its lowest mode; bar, axis, end (+1 or -1: where the free end lies), direction.x, .y, .z.
 using Cantilever = NumberTable;
 
 /// Where the beam is free: away from the body that holds it.
@@ -54,6 +54,24 @@ BeamTip tip_of(const ReferenceInput& in, std::size_t tip, std::size_t axis, std:
   return t;
 }
 
+/// Mean velocity along a direction at the start of the last layer of particles [m/s].
+double end_velocity(const ReferenceInput& in, std::size_t bar, std::size_t axis, double end, const Vec3& direction, double face) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < in.initial.size(); ++i) {
+    if (in.initial.source[i] != static_cast<int>(bar) || end * (face - in.initial.position[i][axis]) > in.job.scene.spacing) continue;
+    sum += dot(in.initial.velocity[i], direction), count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+/// What others have published of this very plate goes before the theory of beams.
+void take_published(const ReferenceInput& in, Numbers& n) {
+  if (const auto f = in.args.number("frequency")) n["frequency"] = 2.0 * std::numbers::pi * *f;
+  for (const char* name : {"deflection", "amplitude"})
+    if (const auto value = in.args.number(name)) n[name] = *value;
+  n["period"] = 2.0 * std::numbers::pi / n["frequency"];
+}
+
 std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
   const auto bar = elastic_body(in, "cantilever");
   const auto axis = long_axis(in, bar), across = deflected_axis(in, bar, axis);
@@ -69,19 +87,22 @@ std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
 
   const auto ends = body_along(axis, bar, in.job, in.initial);
   const auto tip_row = named_body(in, "tip");
-  const auto tip = tip_row ? tip_of(in, *tip_row, axis, across, end, end > 0.0 ? ends.high : ends.low) : BeamTip{};
+  const double face = end > 0.0 ? ends.high : ends.low;
+  const auto tip = tip_row ? tip_of(in, *tip_row, axis, across, end, face) : BeamTip{};
   Vec3 direction;
   direction[across] = in.args.vector("direction") ? std::copysign(1.0, (*in.args.vector("direction"))[across]) : in.job.scene.gravity[across] < 0.0 ? -1.0 : 1.0;
 
   Numbers n{{"bar", static_cast<double>(bar)}, {"axis", static_cast<double>(axis)}, {"end", end}};
   n["direction.x"] = direction.x, n["direction.y"] = direction.y, n["direction.z"] = direction.z;
   n["frequency"] = beam_frequency(beam, tip);
-  n["period"] = 2.0 * std::numbers::pi / n["frequency"];
   if (const double load = dot(in.job.scene.gravity, direction); load != 0.0) {
     n["deflection"] = beam_sag(beam, tip, load, length - 0.5 * in.job.scene.spacing).displacement;
     const auto joint = beam_sag(beam, tip, load, length);
     if (tip_row) n["tip_deflection"] = joint.displacement + tip.offset * joint.rotation;
+  } else if (const double v = end_velocity(in, bar, axis, end, direction, face); v != 0.0) {
+    n["amplitude"] = std::abs(v) / n["frequency"];
   }
+  take_published(in, n);
   return std::make_unique<Cantilever>(std::move(n));
 }
 
@@ -94,6 +115,9 @@ ReferenceEntry cantilever_entry() {
             {"tip", "", "name of a rigid body at the free end; default none"},
             {"length", "m", "free length; default of the beam's box"},
             {"direction", "", "of the deflection; default gravity's, without gravity the thinner side"},
+            {"frequency", "Hz", "published, in the place of Timoshenko's"},
+            {"deflection", "m", "published mean deflection of the free end, likewise"},
+            {"amplitude", "m", "published amplitude of its swing; default its speed at the start over the frequency, in the lowest mode"},
             {"plane_strain", "", "default true where the third direction is periodic"},
             {"shear_coefficient", "", "default 10 (1 + nu)/(12 + 11 nu), in plane strain with nu/(1 - nu) for nu"}}},
           make_cantilever};

@@ -43,10 +43,12 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry added_mass_entry();
 [[nodiscard]] ReferenceEntry elastic_collision_entry();
 [[nodiscard]] ReferenceEntry resting_entry();
+[[nodiscard]] ReferenceEntry bouncing_entry();
 [[nodiscard]] ReferenceEntry elliptic_drop_entry();
 [[nodiscard]] ReferenceEntry taylor_green_entry();
 [[nodiscard]] ReferenceEntry couette_cylinders_entry();
 [[nodiscard]] ReferenceEntry cosine_carried_entry();
+[[nodiscard]] ReferenceEntry cosine_sum_entry();
 [[nodiscard]] ReferenceEntry cantilever_entry();
 [[nodiscard]] ReferenceEntry tension_entry();
 [[nodiscard]] ReferenceEntry spinning_rod_entry();
