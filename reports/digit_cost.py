@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 
-from model import is_number, number, rows, text
+from model import is_number, number, rows, table, text
 
 EXACT = "exact"
 
@@ -43,6 +43,12 @@ class Ladder:
     @property
     def factor_theory(self):
         return 10.0 ** self.theory if self.theory is not None else None
+
+
+def floor_of(case):
+    """Factor by which an engine's CPU seconds differed from themselves; None where no run was timed."""
+    floor = number(table(case.raw.get("timing")).get("noise_floor"))
+    return floor if is_number(floor) and floor >= 1.0 else None
 
 
 def read(results):
@@ -101,6 +107,8 @@ def settle(ladder, points, formal):
         ladder.why = "finer levels buy no accuracy here" + (": the error has a floor" if orders and orders[0].fit_class == "plateau" else "")
     elif points[-1][2] < 1.2 * points[-2][2]:
         ladder.why = "cost is that of starting the program: too short to say"
+    elif floor_of(ladder.case) and points[-1][2] <= floor_of(ladder.case) * points[-2][2]:
+        ladder.why = f"not resolved: the two finest levels cost the same within the noise floor, a factor {floor_of(ladder.case):.3g}"
     else:
         coarse, fine = points[-2:]
         ladder.slope = slope(coarse, fine, 2)

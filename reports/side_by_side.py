@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import digit_cost
 import summary
 from model import is_number, number, text
 
@@ -23,7 +24,8 @@ class Cell:
 class Comparison:
     case: object
     columns: list        # labels: engine, preset, mode
-    cost: dict           # label -> (CPU seconds, times the cheapest)
+    cost: dict           # label -> (CPU seconds, times the cheapest, whether that is outside the noise floor; None = not known)
+    floor: float | None  # factor by which an engine's seconds differed from themselves; None = runs were made once
     metrics: list        # (name, unit, {label: Cell})
     agreements: list = field(default_factory=list)  # rows of the equivalence table
 
@@ -55,7 +57,8 @@ def compare(case):
             c.best = len(sizes) > 1 and is_number(c.value) and abs(c.value) <= min(sizes) and max(sizes) > 1e-12
         if any(is_number(c.value) for c in cells.values()):
             rows.append((name, text(metric.get("unit")), cells))
-    return Comparison(case, list(shown), {label: (s, s / least) for label, s in seconds.items()}, rows, case.equivalence)
+    floor = digit_cost.floor_of(case)
+    return Comparison(case, list(shown), {label: (s, s / least, s == least or s / least > floor if floor else None) for label, s in seconds.items()}, floor, rows, case.equivalence)
 
 
 def cell(engine, mode, run, name):

@@ -69,7 +69,7 @@ def panel(case, axis, metric, knob):
     axis.margins(x=0.1, y=0.12)
     style.logarithmic(axis)
     style.labels(axis, labels, (4, -14))
-    axis.set_xlabel(UNITS.get(knob, knob))
+    axis.set_xlabel(UNITS.get(knob, knob.replace("+", ", with it ").replace("_", " ")))
     label_metric(axis, case, metric)
 
 

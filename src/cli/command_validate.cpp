@@ -13,6 +13,7 @@
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
 #include "validation/harness/suite.hpp"
+#include "validation/harness/timing.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -23,6 +24,7 @@ struct ValidateOptions {
   SuiteOptions suite;
   std::string profile, shard, engines, history;
   bool keep_history = true;
+  int timing = 0;
   std::vector<std::string> engine;
   std::uint64_t seed = 0;
   bool seed_given = false, json = false;
@@ -69,6 +71,10 @@ int validate(ValidateOptions o) {
   o.suite.say = [](const std::string& line) { say(line); };
   if (!o.json) o.suite.on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
   auto results = run_suite(cases, engines, o.suite);
+  if (o.timing > 0)
+    for (auto& c : results.cases)
+      for (const auto& value : cases)
+        if (value.id == c.id && !interrupted()) time_case(value, engines, o.timing, o.suite, c);
   results.command = command_line(), results.profile = o.filter.profile, results.date = now(), results.shard = o.shard;
   if (o.keep_history) {
     const auto file = o.history.empty() ? (std::filesystem::path(o.suite.out) / "history.jsonl").string() : o.history;
@@ -95,6 +101,7 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_option("--threads", o->suite.threads, "threads of each engine process")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option_function<std::uint64_t>("--seed", [o](std::uint64_t seed) { o->seed = seed, o->seed_given = true; }, "replaces the cases' seeds");
   command->add_flag("--resume", o->suite.resume, "keep the runs in OUT that have ended, where job and engine are the same; make only the others");
+  command->add_option("--timing", o->timing, "then time every run in this many interleaved rounds, one of each engine twice a round: what it differs from itself is the noise floor below which a ratio is not resolved")->check(CLI::Range(2, 1000));
   command->add_option("--count-instructions", o->suite.count_below, "where the processor counts no instructions, count those of every run below this many CPU seconds by callgrind, in a second run some fifty times slower")
       ->expected(0, 1)->default_str("1")->check(CLI::PositiveNumber)->type_name("CPU_S");
   command->add_option("--history", o->history, "file of JSON lines to which what was measured is appended, one line a case (default OUT/history.jsonl); the report draws it");

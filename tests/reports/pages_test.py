@@ -78,6 +78,18 @@ class DigitCost(Pages):
         self.write(case([ladder(2.0, 5.0, finest={"status": "diverged", "reason": "particle 7", "metrics": {}})], studies=[study()]))
         self.assertIn("0.025: particle 7", self.text("digit-cost.html"))
 
+    def test_what_lies_inside_the_noise_floor_is_not_resolved(self):
+        engine = ladder(2.0, 5.0, finest={"cost": {"cpu_s": 0.05 ** -5 * 1.25, "pairs": 1.0}})
+        found = digit_cost.read(self.load(case([engine], studies=[study()], timing={"rounds": 5, "noise_floor": 1.3})))
+        self.assertIsNone(found[0].factor)
+        self.assertIn("not resolved", found[0].why)
+        found = digit_cost.read(self.load(case([engine], studies=[study()], timing={"rounds": 5, "noise_floor": 1.1})))
+        self.assertIsNotNone(found[0].factor)
+
+    def test_seconds_are_the_median_of_the_timed_rounds(self):
+        engine = ladder(2.0, 5.0, finest={"cost": {"cpu_s": 9.0, "timed": {"cpu_s": [1.0, 2.0, 7.0], "median": 2.0}}})
+        self.assertEqual(self.load(case([engine])).cases[0].engines[0].runs[-1].cost["cpu_s"], 2.0)
+
     def test_what_has_no_study_is_not_on_the_page(self):
         self.assertEqual(digit_cost.read(self.load(case([ladder(2.0, 5.0)]))), [])
 
@@ -116,8 +128,51 @@ class SideBySide(Pages):
         self.assertEqual([(label, c.best, c.verdict) for label, c in cells.items()], [("tripoint, corrected", True, "PASS"), ("bullet, corrected", False, "")])
         self.assertAlmostEqual(found[0].cost["tripoint, corrected"][1], 1000.0)
 
+    def test_a_ratio_inside_the_noise_floor_is_not_resolved_and_without_one_that_is_said(self):
+        engines = [ladder(2.0, 5.0), ladder(1.0, 4.99, name="bullet")]
+        self.write(case(engines, timing={"rounds": 5, "noise_floor": 1.1}))
+        self.assertIn("not resolved", self.text("engines.html"))
+        self.write(case(engines, timing={"rounds": 5, "noise_floor": 1.001}))
+        self.assertNotIn("cheapest, not resolved", self.text("engines.html"))
+        self.write(case(engines))
+        self.assertIn("no noise floor was measured", self.text("engines.html"))
+
     def test_a_case_of_one_engine_is_no_comparison(self):
         self.assertEqual(side_by_side.read(self.load(case([ladder(2.0, 5.0)]))), [])
+
+
+class History(Pages):
+    def line(self, date, used, verdict="pass", **more):
+        return json.dumps({"format": 1, "case": "heat/one", "date": date, "commit": "abc", "gates": [{"engine": "tripoint", "mode": "corrected", "metric": "error", "level": None, "value": 0.1, "used": used, "verdict": verdict}], **more})
+
+    def test_is_a_strip_from_two_runs_on_with_a_mark_where_figures_were_accepted(self):
+        (self.path / "history.jsonl").write_text(self.line("2026-11-20", 0.5) + "\n")
+        self.write(case([ladder(2.0, 5.0)]))
+        self.assertNotIn("History: share", self.text("index.html"))
+        with open(self.path / "history.jsonl", "a") as file:
+            file.write(self.line("2026-11-21", 0.9) + "\n" + json.dumps({"format": 1, "case": "heat/one", "date": "2026-11-21", "accepted": "why"}) + "\n" + self.line("2026-11-22", 1.4, "fail") + "\n")
+        found = self.load(case([ladder(2.0, 5.0)])).cases[0].history
+        self.assertEqual([(e.date[-2:], e.accepted) for e in found], [("20", ""), ("21", ""), ("21", "why"), ("22", "")])
+        self.write(case([ladder(2.0, 5.0)]))
+        self.assertIn("History: share", self.text("index.html"))
+
+    def test_torn_lines_are_counted_and_cost_no_report(self):
+        (self.path / "history.jsonl").write_text(self.line("2026-11-20", 0.5) + "\n{\"format\": 1, \"ca\n[]\n")
+        self.assertIn("2 lines of history.jsonl could not be read", self.load(case([])).notes)
+
+    def test_the_same_run_written_twice_is_one(self):
+        (self.path / "history.jsonl").write_text((self.line("2026-11-20", 0.5) + "\n") * 2)
+        self.assertEqual(len(self.load(case([])).cases[0].history), 1)
+
+
+class Selftest(Pages):
+    def test_the_smallest_visible_defects_are_in_the_report_and_in_what_is_signed(self):
+        (self.path / "selftest").mkdir()
+        (self.path / "selftest" / "selftest.json").write_text(json.dumps({"format": 1, "defects": [{"killed": True}], "harmless": [], "smallest_growth": 1.25, "smallest": [{"defect": "heat.conductivity", "what": "k times 1 + size", "case": "heat/one", "metric": "rate", "size": 0.0052, "hidden": 0.005, "stored": 0.004, "verdict": "GREW", "holds": False}]}))
+        self.write(case([ladder(2.0, 5.0)]))
+        for page in ("index.html", "signable.html"):
+            for words in ("heat.conductivity", "0.0052", "GREW", "1.25"):
+                self.assertIn(words, self.text(page))
 
 
 class Signable(Pages):

@@ -140,6 +140,7 @@ CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   result.id = value.id, result.title = value.title, result.kind = value.kind, result.requirement = value.requirement;
   result.claims = value.claims, result.file = value.file, result.expect = value.expect, result.reference = with_source_of_file(value.reference), result.tags = value.tags;
   result.metrics = value.metrics, result.studies = value.studies, result.gates = value.gates;
+  for (auto& study : result.studies) study.axis = study_axis(study), study.support_ratios.clear(), study.time_steps.clear();
   result.repeat = repeat_command(value, options);
   for (std::size_t e = 0; e < all.engines.size(); ++e) {
     auto row = row_of(all.engines[e]);

@@ -84,7 +84,7 @@ std::vector<Ladder> ladders_of(const CaseResult& result, const std::string& metr
     std::map<std::pair<std::string, std::string>, std::map<double, std::vector<const RunRow*>>> groups;  // (mode, axis) -> step -> runs
     for (const auto& run : engine.runs)
       for (const auto& [axis, level] : run.levels)
-        if (run.input.empty() && only_along(run, axis, engine)) groups[{run.knobs.mode, axis}][-step_of(axis, level)].push_back(&run);
+        if (run.input.empty() && axis.find('+') == std::string::npos && only_along(run, axis, engine)) groups[{run.knobs.mode, axis}][-step_of(axis, level)].push_back(&run);
     for (const auto& [key, levels] : groups) {
       Ladder ladder{engine.name, engine.preset, key.first, key.second, {}};
       for (const auto& [negative, runs] : levels)

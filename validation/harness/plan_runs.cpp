@@ -69,18 +69,26 @@ RunPlan& add_run(const Case& value, std::vector<RunPlan>& runs, const RunPlan& r
   return *at;
 }
 
+void set_together(RunPlan& run, const Study& study, std::size_t k) {
+  if (!study.support_ratios.empty()) set_level(run, "support_ratio", study.support_ratios[k]);
+  if (!study.time_steps.empty()) set_level(run, "time_step", study.time_steps[k]);
+}
+
 void add_study(const Case& value, const Study& study, const RunPlan& base, std::uint64_t seed, std::vector<RunPlan>& runs) {
-  for (const double level : study.levels) {
+  const std::string axis = study_axis(study);
+  for (std::size_t k = 0; k < study.levels.size(); ++k) {
+    const double level = study.levels[k];
     auto run = base;
     run.base = false;
-    run.levels = {{study.axis, level}};
+    run.levels = {{axis, level}};
     set_level(run, study.axis, level);
+    set_together(run, study, k);
     if (study.jitter > 0.0) run.choice.jitter = study.jitter;
-    run.label = run.group = fmt::format("{}{}={:g}{}", base.mode.empty() ? "" : base.mode + "-", study.axis, level, study.jitter > 0.0 ? fmt::format("-jitter={:g}", study.jitter) : "");
+    run.label = run.group = fmt::format("{}{}={:g}{}", base.mode.empty() ? "" : base.mode + "-", axis, level, study.jitter > 0.0 ? fmt::format("-jitter={:g}", study.jitter) : "");
     const std::string group = add_run(value, runs, run).group;
-    for (int k = 1; k < study.seeds; ++k) {
+    for (int n = 1; n < study.seeds; ++n) {
       auto replica = run;
-      replica.choice.seed = seed + static_cast<std::uint64_t>(k);
+      replica.choice.seed = seed + static_cast<std::uint64_t>(n);
       replica.group = group;
       replica.label += fmt::format("-seed{}", *replica.choice.seed);
       add_run(value, runs, replica);
@@ -115,7 +123,7 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
     base.label = base.group = mode.empty() ? "base" : mode;
     const Scene scene = scene_of(value, base);
     for (const auto& study : value.studies)  // a gate on this level means the case's own run too, whichever engine the study is of
-      if (const auto level = own_level(scene, base, study.axis)) base.levels[study.axis] = *level;
+      if (const auto level = own_level(scene, base, study.axis); level && study_axis(study) == study.axis) base.levels[study.axis] = *level;
     runs.push_back(base);
     base.levels.clear();
     if (engine.name != "exact") add_inputs(value, base, runs);
@@ -126,6 +134,10 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
 }
 
 }  // namespace
+
+std::string study_axis(const Study& study) {
+  return study.axis + (study.support_ratios.empty() ? "" : "+support_ratio") + (study.time_steps.empty() ? "" : "+time_step");
+}
 
 bool has_states(const ReferenceChoice& reference) {
   return !reference.function.empty() && (reference.kind == "analytic" || reference.kind == "discrete_exact" || reference.kind == "mms");

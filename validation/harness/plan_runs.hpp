@@ -43,6 +43,9 @@ struct Selection {
 /// Runs: the case's own resolution, and each level and seed of each study; a run that two studies share is made once.
 [[nodiscard]] std::vector<EnginePlan> plan_runs(const Case&, const std::vector<EngineEntry>&, const Selection&);
 
+/// What a study refines: its axis, and what it refines together with it ("spacing+support_ratio"): a ladder of its own.
+[[nodiscard]] std::string study_axis(const Study&);
+
 /// The scene that a run is made in.
 [[nodiscard]] Scene scene_of(const Case&, const RunPlan&);
 

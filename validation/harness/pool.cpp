@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view statistical = ".statistical";
 
 double refinement(const std::string& axis, double level) {
-  return axis == "spacing" || axis == "time_step" ? level : 1.0 / level;  // finer = smaller
+  return axis.starts_with("spacing") || axis.starts_with("time_step") ? level : 1.0 / level;  // finer = smaller
 }
 
 /// Particles are jittered as the study says, or else as in the case's own run.

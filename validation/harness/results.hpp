@@ -19,6 +19,7 @@ struct Cost {
   double simulated_s = 0.0;  ///< time of the scene that the steps took it through [s]
   double particles = 0.0;    ///< at the end: with what flowed in, without what is no more
   double instructions = 0.0;  ///< in user space, of the whole process; 0 = not counted
+  std::vector<double> repeats;  ///< CPU seconds of the timed runs (--timing), one a round [s]; empty = it was run once
   std::string counted_by;     ///< of the instructions: counter (the processor's own), callgrind (a second run)
 };
 
@@ -89,6 +90,13 @@ struct EquivalenceRow {
   std::string verdict;
 };
 
+/// CPU seconds of two engines (presets, modes) at the case's own resolution.
+struct TimingPair {
+  std::string a, b;
+  double ratio = 0.0;     ///< of the medians, a over b
+  bool resolved = false;  ///< it is outside the noise floor
+};
+
 struct CaseResult {
   std::string id, title, kind, requirement, claims, file, verdict, expect = "pass";
   int exit_code = 0;
@@ -101,6 +109,8 @@ struct CaseResult {
   std::vector<EquivalenceRow> equivalence;
   std::map<std::string, double> ledger;
   std::vector<std::string> problems;  ///< why the verdict is not pass, beyond the gates' own rows
+  int timing_rounds = 0;              ///< --timing; 0 = runs were made once, and nothing says how far their times may be off
+  double timing_floor = not_a_number;  ///< factor >= 1 by which an engine differed from itself
   std::string repeat;
 };
 

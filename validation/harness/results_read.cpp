@@ -94,7 +94,7 @@ Knobs knobs(const Json& from) {
 Cost cost(const Json& from) {
   return {number_or(from, "cpu_s", 0.0), number_or(from, "wall_s", 0.0), number_or(from, "setup_cpu_s", 0.0), number_or(from, "peak_bytes", 0.0),
           number_or(from, "pairs", 0.0), number_or(from, "steps", 0.0), number_or(from, "iterations", 0.0),
-          number_or(from, "simulated_s", 0.0), number_or(from, "particles", 0.0), number_or(from, "instructions", 0.0), text(from, "counted_by")};
+          number_or(from, "simulated_s", 0.0), number_or(from, "particles", 0.0), number_or(from, "instructions", 0.0), numbers(member(from, "timed"), "cpu_s"), text(from, "counted_by")};
 }
 
 RunRow run_row(const Json& from) {
@@ -183,6 +183,7 @@ CaseResult case_result(const Json& from) {
   c.studies = rows<Study>(from, "studies", study);
   c.gates = rows<Gate>(from, "gates", gate);
   c.engines = rows<EngineRow>(from, "engines", engine_row);
+  if (const auto& timing = member(from, "timing"); timing.is_object()) c.timing_rounds = static_cast<int>(number_or(timing, "rounds", 0.0)), c.timing_floor = number(timing, "noise_floor");
   c.equivalence = rows<EquivalenceRow>(from, "equivalence", equivalence_row);
   if (const auto& ledger = member(from, "ledger"); ledger.is_object())
     for (const auto& [term, value] : ledger.items()) c.ledger[term] = number(value);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "validation/harness/results.hpp"
+#include "validation/harness/timing.hpp"
 #include "validation/references/reference.hpp"
 
 namespace tripoint {
@@ -54,16 +55,26 @@ Json json(const MetricValue& m) {
   return out;
 }
 
+/// CPU seconds of the timed runs, and what is to be read off them.
+Json timed(const std::vector<double>& seconds) {
+  return {{"cpu_s", numbers(seconds)}, {"min", *std::min_element(seconds.begin(), seconds.end())}, {"median", median(seconds)}, {"median_deviation", median_deviation(seconds)}};
+}
+
+Json json(const Cost& c) {
+  Json out{{"cpu_s", c.cpu_s}, {"wall_s", c.wall_s}, {"setup_cpu_s", c.setup_cpu_s}, {"peak_bytes", c.peak_bytes}, {"pairs", c.pairs}, {"steps", c.steps}, {"iterations", c.iterations},
+           {"simulated_s", c.simulated_s}, {"particles", c.particles}, {"instructions", c.instructions > 0.0 ? Json(c.instructions) : Json(nullptr)},
+           {"counted_by", c.instructions > 0.0 ? c.counted_by : "not measured"}};
+  if (!c.repeats.empty()) out["timed"] = timed(c.repeats);
+  return out;
+}
+
 Json json(const RunRow& r) {
   Json metrics = Json::object(), levels = Json::object();
   for (const auto& [name, value] : r.metrics) metrics[name] = json(value);
   for (const auto& [axis, level] : r.levels) levels[axis] = level;
   return {{"knobs", json(r.knobs)}, {"levels", levels}, {"base", r.base}, {"group", r.group}, {"input", r.input}, {"status", r.status}, {"reason", r.reason}, {"comparable", r.comparable},
           {"metrics", metrics},
-          {"cost", {{"cpu_s", r.cost.cpu_s}, {"wall_s", r.cost.wall_s}, {"setup_cpu_s", r.cost.setup_cpu_s}, {"peak_bytes", r.cost.peak_bytes},
-                    {"pairs", r.cost.pairs}, {"steps", r.cost.steps}, {"iterations", r.cost.iterations},
-                    {"simulated_s", r.cost.simulated_s}, {"particles", r.cost.particles}, {"instructions", r.cost.instructions > 0.0 ? Json(r.cost.instructions) : Json(nullptr)},
-                    {"counted_by", r.cost.instructions > 0.0 ? r.cost.counted_by : "not measured"}}},
+          {"cost", json(r.cost)},
           {"state_hash", r.state_hash}, {"time_step_bound", r.time_step_bound}, {"folder", r.folder}};
 }
 
@@ -139,6 +150,16 @@ Json json(const EquivalenceRow& q) {
   return out;
 }
 
+/// "not resolved" is said here, so that no reader has to know how.
+Json timing(const CaseResult& c) {
+  Json pairs = Json::array();
+  for (const auto& p : timing_pairs(c)) pairs.push_back({{"a", p.a}, {"b", p.b}, {"ratio", p.ratio}, {"verdict", p.resolved ? "resolved" : "not resolved"}});
+  Json out{{"rounds", c.timing_rounds}};
+  put(out, "noise_floor", c.timing_floor);
+  out["pairs"] = pairs;
+  return out;
+}
+
 Json json(const CaseResult& c) {
   Json metrics = Json::array(), studies = Json::array(), gates = Json::array(), engines = Json::array(), equivalence = Json::array(), ledger = Json::object();
   for (const auto& m : c.metrics)
@@ -148,10 +169,12 @@ Json json(const CaseResult& c) {
   for (const auto& e : c.engines) engines.push_back(json(e));
   for (const auto& q : c.equivalence) equivalence.push_back(json(q));
   for (const auto& [term, value] : c.ledger) put(ledger, term.c_str(), value);
-  return {{"id", c.id}, {"title", c.title}, {"kind", c.kind}, {"requirement", c.requirement}, {"claims", c.claims}, {"tags", c.tags}, {"file", c.file},
+  Json out{{"id", c.id}, {"title", c.title}, {"kind", c.kind}, {"requirement", c.requirement}, {"claims", c.claims}, {"tags", c.tags}, {"file", c.file},
           {"expect", c.expect}, {"verdict", c.verdict}, {"exit_code", c.exit_code}, {"problems", c.problems}, {"reference", json(c.reference)},
           {"metrics", metrics}, {"studies", studies}, {"gates", gates}, {"engines", engines}, {"equivalence", equivalence}, {"ledger", ledger},
           {"repeat", c.repeat}};
+  if (c.timing_rounds > 0) out["timing"] = timing(c);
+  return out;
 }
 
 }  // namespace

@@ -85,12 +85,12 @@ ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
 
 void take_cost(Outcome& outcome, const ProcessEnd& end) {
   const auto& r = outcome.result;
-  outcome.cost = {end.cpu_s, end.wall_s, r.setup_cpu, end.peak_bytes, r.pairs, static_cast<double>(r.steps), r.iterations, r.time_reached, 0.0, end.instructions, end.instructions > 0.0 ? "counter" : ""};
+  outcome.cost = {end.cpu_s, end.wall_s, r.setup_cpu, end.peak_bytes, r.pairs, static_cast<double>(r.steps), r.iterations, r.time_reached, 0.0, end.instructions, {}, end.instructions > 0.0 ? "counter" : ""};
 }
 
 /// A second run in a folder of its own, of which nothing but the count is kept.
 void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& outcome) {
-  if (outcome.status != "ok" || outcome.cost.instructions > 0.0 || !(outcome.cost.cpu_s < request.count_below)) return;
+  if (request.engine->name == "exact" || outcome.status != "ok" || outcome.cost.instructions > 0.0 || !(outcome.cost.cpu_s < request.count_below)) return;
   const fs::path folder = fs::path(request.folder) / "callgrind";
   std::error_code ignored;
   fs::create_directories(folder, ignored);

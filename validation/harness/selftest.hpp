@@ -39,7 +39,7 @@ struct HarmlessOutcome {
   std::string found;      ///< which metric changed most, or what went wrong
 };
 
-/// The least size of one defect that a gate of one case sees.
+/// The least size of one defect that a gate of one case sees, whichever its sign.
 struct SmallestOutcome {
   std::string defect, what, case_id, metric;  ///< what: as the term registers it; metric: whose gate turned red first
   double size = not_a_number;    ///< at which it is red; NaN = it is green up to the declared size

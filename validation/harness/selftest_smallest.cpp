@@ -20,11 +20,13 @@ SmallestOutcome bisect(const Case& value, const Defect& defect, const EngineEntr
   outcome.defect = defect.name, outcome.case_id = value.id, outcome.stored = *defect.smallest, outcome.place = defect.place;
   for (const auto& d : engine.defects)
     if (d.name == defect.name) outcome.what = d.what;
-  const auto found = smallest_visible(*defect.smallest, defect.size, [&](double size) {
+  const auto is_red = [&](double size) {
     const auto metric = red_metric(run_with_defect(value, engine, defect.killed_by, fmt::format("{}={:.17g}", defect.name, size), "smallest-" + defect.name, o), defect.killed_by);
     if (!metric.empty()) outcome.metric = metric;
     return !metric.empty();
-  });
+  };
+  // Of either sign: a value that happens to lie close to one edge of its limit would make the defects towards that edge look visible however small.
+  const auto found = smallest_visible(*defect.smallest, defect.size, [&](double size) { return is_red(size) && is_red(-size); });
   outcome.runs = found.runs, outcome.hidden = found.hidden;
   if (found.size) outcome.size = *found.size;
   outcome.verdict = !found.size ? "UNSEEN" : !found.found ? "NEVER GREEN" : std::string(against_stored(*found.size, outcome.stored)) == "grew" ? "GREW" : against_stored(*found.size, outcome.stored);

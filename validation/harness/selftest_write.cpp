@@ -17,7 +17,7 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 
 std::string smallest_table(const std::vector<SmallestOutcome>& rows) {
   if (rows.empty()) return {};
-  std::string text = fmt::format("\nSmallest visible defects: the gate is red at `size` and green at `hidden`; red here where size is above {:g} times the stored one\n", smallest_growth);
+  std::string text = fmt::format("\nSmallest visible defects: the gate is red at `size`, of either sign, and green at `hidden`, of one; red here where size is above {:g} times the stored one\n", smallest_growth);
   text += fmt::format("{:11} {:24} {:>9} {:>9} {:>9}  {:26} {}\n", "", "defect", "size", "hidden", "stored", "case", "metric; what the size is of");
   for (const auto& s : rows)
     text += fmt::format("{:11} {:24} {:9.3g} {:9.3g} {:9.3g}  {:26} {}; {}{}\n", s.verdict, s.defect, s.size, s.hidden, s.stored, s.case_id, s.metric, s.what, s.holds() ? "" : "  (" + to_string(s.place) + ")");

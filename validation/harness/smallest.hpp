@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-/// The least size of a defect that a gate sees, by bisection.
+/// The least size of a defect that a gate sees, whichever its sign, by bisection.
 namespace tripoint {
 
 /// What bisection ends at: the gate is red at `size` and green at `hidden`, which is at most 5 % less.
