@@ -25,7 +25,7 @@ using Unit = TRIPOINT_UNIT;
 template <int L>
 struct Lanes {
   typedef double Real __attribute__((vector_size(8 * L)));
-  typedef long long Mask __attribute__((vector_size(8 * L)));  ///< all bits of a lane set, or none
+  typedef long Mask __attribute__((vector_size(8 * L)));  ///< all bits of a lane set, or none
 };
 template <>
 struct Lanes<1> {
@@ -66,8 +66,8 @@ template <int L>
     return (bits & 1u) != 0;
   } else {
     typename Lanes<L>::Mask power;
-    for (int l = 0; l < L; ++l) power[l] = 1LL << l;
-    return (power & static_cast<long long>(bits)) == power;
+    for (int l = 0; l < L; ++l) power[l] = 1L << l;
+    return (power & static_cast<long>(bits)) == power;
   }
 }
 
@@ -89,6 +89,40 @@ template <int L>
     for (int l = 0; l < L; ++l) bits |= mask[l] != 0 ? 1u << l : 0u;
     return bits;
   }
+}
+
+/// What comparing such vectors gives: a mask, of one lane a bool.
+template <class V>
+using MaskOf = typename Lanes<static_cast<int>(sizeof(V) / sizeof(double))>::Mask;
+
+/// Whether any lane is set.
+[[nodiscard, gnu::always_inline]] inline bool any(bool mask) noexcept { return mask; }
+template <class Mask>
+  requires(sizeof(Mask) > sizeof(long))
+[[nodiscard, gnu::always_inline]] inline bool any(Mask mask) noexcept {
+  return bits_of<static_cast<int>(sizeof(Mask) / sizeof(long))>(mask) != 0;
+}
+
+/// v where the lane is set, else 0: nothing is multiplied.
+template <class V>
+[[nodiscard, gnu::always_inline]] inline V where(MaskOf<V> mask, V v) noexcept {
+  return mask ? v : V{};
+}
+
+/// The same number in each lane.
+template <class V>
+[[nodiscard, gnu::always_inline]] inline V every_lane(double value) noexcept {
+  return value - V{};  // -0 and what is not finite keep their bits
+}
+
+/// 2ab/(a + b) of what is not negative. Where both are equal it is they themselves, to the bit; where they are in every lane nothing
+/// is divided.
+template <class V>
+[[nodiscard, gnu::always_inline]] inline V harmonic_mean(V a, V b) noexcept {
+  const MaskOf<V> differ = a != b;
+  if (!any(differ)) return b;
+  const V mean = 2.0 * a * b / (a + b);
+  return differ ? mean : b;
 }
 
 }  // namespace tripoint

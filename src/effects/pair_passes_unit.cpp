@@ -11,10 +11,11 @@ namespace tripoint {
 namespace {
 
 /// The slots of each pass, one line each.
-using DensityPass = Pass<Slot<DensityPaper, NumberDensity>, Slot<HeatMoment>>;
+using DensityPass = FindingPass<Slot<DensityPaper, NumberDensity>, Slot<HeatMoment>>;
 using RatePass = Pass<Slot<Together<PressurePaper, ViscosityPaper>, Together<PressurePaper, ViscosityCentral>, Together<PressurePaper, ViscosityLaplacian>,
                            Together<PressureCorrected, ViscosityPaper>, Together<PressureCorrected, ViscosityCentral>, Together<PressureCorrected, ViscosityLaplacian>>,
                       Slot<HeatFlowPaper, HeatFlowCorrected>>;
+using SpreadPass = Pass<Slot<ViscousSpread<ViscosityPaper>, ViscousSpread<ViscosityCentral>, ViscousSpread<ViscosityLaplacian>>>;
 using WallExtrapolationPass = Pass<Slot<WallExtrapolation>>;
 using WallForcePass = Pass<Slot<WallPressureForce>>;
 using TransportPass = Pass<Slot<TransportForces>>;
@@ -24,7 +25,7 @@ using TransportPass = Pass<Slot<TransportForces>>;
 template <>
 PairPasses pair_passes_for<Unit>() {
   constexpr int lanes = TRIPOINT_UNIT_LANES;
-  return {&DensityPass::choose<lanes, Unit>, &RatePass::choose<lanes, Unit>, WallExtrapolationPass::choose<lanes, Unit>({1}), WallForcePass::choose<lanes, Unit>({1}),
+  return {&DensityPass::choose<lanes, Unit>, &RatePass::choose<lanes, Unit>, &SpreadPass::choose<lanes, Unit>, WallExtrapolationPass::choose<lanes, Unit>({1}), WallForcePass::choose<lanes, Unit>({1}),
           TransportPass::choose<lanes, Unit>({1})};
 }
 

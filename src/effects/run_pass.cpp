@@ -6,11 +6,12 @@
 namespace tripoint {
 namespace {
 
-PassTask task_of(const Particles& particles, const Neighbours& neighbours, const PairKernels& kernels, int threads) {
+PassTask task_of(const PassFunction& function, const Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
   const auto x = positions(particles);
-  const Clusters& c = neighbours.clusters();
+  Clusters& c = neighbours.clusters();
+  const bool finds = function.finds && neighbours.make_room_within(), reads = !function.finds && !c.within_count.empty();
   return {x.x.data(), x.y.data(), x.z.data(), nullptr, c.first.data(), c.start.data(), c.entries.data(), c.near.data(), c.own.empty() ? nullptr : c.own.data(),
-          neighbours.shifts().data(), nullptr, nullptr, c.size(), neighbours.support() * neighbours.support(), &kernels, threads};
+          finds || reads ? c.within.data() : nullptr, finds || reads ? c.within_count.data() : nullptr, neighbours.shifts().data(), nullptr, nullptr, c.size(), neighbours.support() * neighbours.support(), &kernels, threads};
 }
 
 std::vector<double*> columns_of(const PassFunction& function, Particles& particles) {
@@ -21,15 +22,15 @@ std::vector<double*> columns_of(const PassFunction& function, Particles& particl
 
 }  // namespace
 
-void run_pass(const PassFunction& function, Particles& particles, const Neighbours& neighbours, const PairKernels& kernels, int threads) {
+void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
   if (!function.run) return;
-  PassTask task = task_of(particles, neighbours, kernels, threads);
+  PassTask task = task_of(function, particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
   task.columns = columns.data();
   function.run(task);
 }
 
-void run_pass(const PassFunction& function, Particles& particles, const Neighbours& neighbours, const PairKernels& kernels, int threads,
+void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads,
               const std::vector<std::uint32_t>& rows) {
   if (!function.run || rows.empty()) return;
   const Clusters& c = neighbours.clusters();
@@ -41,9 +42,10 @@ void run_pass(const PassFunction& function, Particles& particles, const Neighbou
     if (chosen.empty() || chosen.back() != cluster) chosen.push_back(cluster), members.push_back(0);
     members.back() = static_cast<std::uint8_t>(members.back() | 1u << (row - c.first[cluster]));
   }
-  PassTask task = task_of(particles, neighbours, kernels, threads);
+  PassTask task = task_of(function, particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
   task.columns = columns.data(), task.chosen = chosen.data(), task.members = members.data(), task.count = chosen.size();
+  if (function.finds) task.within = nullptr;  // of some clusters alone it is of no use
   function.run(task);
 }
 

@@ -11,8 +11,8 @@ namespace tripoint {
 
 /// Adds each term's sum to its columns; what they hold before is the caller's.
 /// @param function made for clusters as wide as those of the neighbours   @throws MissingField that a term names and nobody owns
-void run_pass(const PassFunction& function, Particles&, const Neighbours&, const PairKernels&, int threads);
+void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads);
 /// For these rows only. @param rows each once, ascending
-void run_pass(const PassFunction& function, Particles&, const Neighbours&, const PairKernels&, int threads, const std::vector<std::uint32_t>& rows);
+void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads, const std::vector<std::uint32_t>& rows);
 
 }  // namespace tripoint

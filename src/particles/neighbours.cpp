@@ -2,8 +2,8 @@
 #include "particles/neighbours.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "core/defect.hpp"
 #include "core/errors.hpp"
@@ -244,7 +244,7 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
   const auto x = positions(particles);
   const double reach = support_ + skin_;
   c.start.assign(c.size() + 1, 0);
-  c.own.clear();
+  c.own.clear(), c.within.clear(), c.within_count.clear();
   parts_.resize(static_cast<std::size_t>(threads_));
   const auto past = [&](std::size_t part) { return c.size() * part / parts_.size(); };
   std::size_t pairs = 0;
@@ -265,13 +265,13 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
       if (entries.size() < room) entries.resize(room + room / 2), near.resize(entries.size());
       const unsigned members = (1u << (c.first[k + 1] - c.first[k])) - 1u;
       const Scan task{x.x.data(), x.y.data(), x.z.data(), c.first[k], members, ranges.data(), ranges.size(), shift_.data(), reach * reach};
-      const std::size_t found = scan_(task, entries.data() + size, near.data() + size);
-      for (std::size_t e = size; e < size + found; ++e) pairs += static_cast<std::size_t>(std::popcount(near[e]));
-      c.start[k + 1] = found;
-      size += found;
+      const Scanned found = scan_(task, entries.data() + size, near.data() + size);
+      c.start[k + 1] = found.entries;
+      size += found.entries, pairs += found.pairs;
     }
   }
   pairs_ = pairs;
+  longest_ = *std::ranges::max_element(c.start);
   for (std::size_t k = 0; k < c.size(); ++k) c.start[k + 1] += c.start[k];
   c.entries.resize(c.start.back());
   c.near.resize(c.start.back());
@@ -281,6 +281,13 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
     std::copy_n(parts_[part].entries.begin(), count, c.entries.begin() + static_cast<std::ptrdiff_t>(from));
     std::copy_n(parts_[part].near.begin(), count, c.near.begin() + static_cast<std::ptrdiff_t>(from));
   }
+}
+
+bool Neighbours::make_room_within() {
+  if (longest_ > std::numeric_limits<std::uint16_t>::max()) return false;
+  clusters_.within.resize(clusters_.entries.size());
+  clusters_.within_count.resize(clusters_.size());
+  return true;
 }
 
 void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {

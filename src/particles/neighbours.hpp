@@ -31,6 +31,10 @@ struct Clusters {
   std::vector<std::uint32_t> entries;  ///< row and image, as in Entry
   std::vector<std::uint8_t> near;      ///< of each entry: bit l where it is near to member l; a particle is not near to itself
   std::vector<std::uint8_t> own;       ///< of each entry: bit l where it is an own pair of member l; empty where there is none
+  /// Of each cluster, from its start: the places in its list of what is within the support of a member now, not only near to it; and
+  /// how many. As found by the last pass that finds them: of the present places, as densities are. Empty where none has.
+  std::vector<std::uint16_t> within;
+  std::vector<std::uint32_t> within_count;
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
 };
 
@@ -102,8 +106,12 @@ class Neighbours {
   /// Whether that was done since the last rebuild.
   [[nodiscard]] bool marked() const noexcept { return marked_; }
 
+  /// Makes room for Clusters::within, to be filled by a pass. @return whether there is any: a list can be too long for it
+  bool make_room_within();
+
   [[nodiscard]] RowEntries of(std::size_t i) const { return {clusters_, i}; }
   [[nodiscard]] const Clusters& clusters() const noexcept { return clusters_; }
+  [[nodiscard]] Clusters& clusters() noexcept { return clusters_; }
   /// r_j - r_i of an entry is (x_j - x_i) + shift: in this order it is exactly antisymmetric in i and j.
   [[nodiscard]] const Vec3& shift(std::uint32_t image) const noexcept { return shift_[image]; }
   [[nodiscard]] const std::array<Vec3, 27>& shifts() const noexcept { return shift_; }
@@ -132,7 +140,7 @@ class Neighbours {
   Clusters clusters_;
   ScanFunction scan_;
   std::vector<Part> parts_;
-  std::size_t pairs_ = 0;
+  std::size_t pairs_ = 0, longest_ = 0;
   std::vector<Vec3> built_;
   long rebuilds_ = 0;
   bool marked_ = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -25,15 +26,20 @@ struct Scan {
   double reach2;      ///< [m2]
 };
 
+/// How many entries a scan wrote, and how many pairs they are.
+struct Scanned {
+  std::size_t entries, pairs;
+};
+
 /// Writes what is within reach of any member, in the order of the ranges: as in Entry, and to `near` the bits of the
-/// members that it is near to. @return how many; both must have room for all candidates
-using ScanFunction = std::size_t (*)(const Scan&, std::uint32_t* rows, std::uint8_t* near);
+/// members that it is near to. Both must have room for all candidates.
+using ScanFunction = Scanned (*)(const Scan&, std::uint32_t* rows, std::uint8_t* near);
 
 template <int L, class ForUnit>
-[[gnu::flatten]] std::size_t scan(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
+[[gnu::flatten]] Scanned scan(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
   using V = typename Lanes<L>::Real;
   const V xi = load_lanes<L>(s.x + s.first), yi = load_lanes<L>(s.y + s.first), zi = load_lanes<L>(s.z + s.first);
-  std::size_t n = 0;
+  std::size_t n = 0, pairs = 0;
   for (const CandidateRange* range = s.ranges; range != s.ranges + s.count; ++range) {
     const Vec3 shift = s.shift[range->image];
     for (std::uint32_t j = range->from; j < range->to; ++j) {
@@ -44,9 +50,10 @@ template <int L, class ForUnit>
       rows[n] = j | range->image << Entry::image_shift;
       near[n] = static_cast<std::uint8_t>(bits);
       n += bits != 0;
+      pairs += static_cast<unsigned>(std::popcount(bits));
     }
   }
-  return n;
+  return {n, pairs};
 }
 
 /// The scan that is compiled for a vector unit, for clusters as wide as it.

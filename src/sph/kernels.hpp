@@ -5,7 +5,8 @@
 #include <numbers>
 
 /// Smoothing kernels in three dimensions. h is the support radius: W = 0 for r >= h. Each integrates to 1 over space:
-/// tests/sph/kernels_test.cpp. Constants are formed once, so that a pair pass only multiplies.
+/// tests/sph/kernels_test.cpp. Constants are formed once, so that a pair pass only multiplies. `..._inside` is for r <= h alone,
+/// where it need not be asked whether r is within the support: a pass leaves out the pairs beyond it in one place.
 namespace tripoint {
 
 /// poly6 [Mueller, Charypar, Gross 2003, (20)], the paper's density kernel (4).
@@ -15,10 +16,11 @@ class Poly6 {
   /// W(r) [1/m3]
   [[nodiscard]] double value(double r) const noexcept { return value_of_square(r * r); }
   /// Of r^2, which needs no root.
+  [[nodiscard]] double value_of_square(double r2) const noexcept { return r2 < h_ * h_ ? value_of_square_inside(r2) : 0.0; }
   template <class V>
-  [[nodiscard]] V value_of_square(V r2) const noexcept {
+  [[nodiscard]] V value_of_square_inside(V r2) const noexcept {
     const V q = h_ * h_ - r2;
-    return q > 0.0 ? c_ * q * q * q : 0.0;
+    return c_ * q * q * q;
   }
 
  private:
@@ -34,7 +36,9 @@ class Spiky {
   [[nodiscard]] V value(V r) const noexcept { return r < h_ ? c_ * (h_ - r) * (h_ - r) * (h_ - r) : 0.0; }
   /// W'(r) [1/m4]
   template <class V>
-  [[nodiscard]] V derivative(V r) const noexcept { return r < h_ ? -3.0 * c_ * (h_ - r) * (h_ - r) : 0.0; }
+  [[nodiscard]] V derivative(V r) const noexcept { return r < h_ ? derivative_inside(r) : 0.0; }
+  template <class V>
+  [[nodiscard]] V derivative_inside(V r) const noexcept { return (-3.0 * c_) * ((h_ - r) * (h_ - r)); }
   /// W'(r)/r [1/m5]; 0 at r = 0, where the force has no direction
   template <class V>
   [[nodiscard]] V derivative_over_r(V r) const noexcept { return r > 0.0 ? derivative(r) / r : 0.0; }
@@ -55,7 +59,9 @@ class ViscosityKernel {
   }
   /// lap W(r) = 45/(pi h^6) (h - r) [1/m5]
   template <class V>
-  [[nodiscard]] V laplacian(V r) const noexcept { return r < h_ ? c_ * (h_ - r) : 0.0; }
+  [[nodiscard]] V laplacian(V r) const noexcept { return r < h_ ? laplacian_inside(r) : 0.0; }
+  template <class V>
+  [[nodiscard]] V laplacian_inside(V r) const noexcept { return c_ * (h_ - r); }
 
  private:
   double h_, c_;
@@ -95,15 +101,19 @@ class WendlandC2 {
   }
   /// W(r) [1/m3]
   template <class V>
-  [[nodiscard]] V value(V r) const noexcept {
-    const V q = r * per_h_, t = 1.0 - q;
-    return r < h_ ? c_ * t * t * t * t * (1.0 + 4.0 * q) : 0.0;
+  [[nodiscard]] V value(V r) const noexcept { return r < h_ ? value_inside(r) : 0.0; }
+  template <class V>
+  [[nodiscard]] V value_inside(V r) const noexcept {
+    const V q = r * per_h_, t2 = (1.0 - q) * (1.0 - q);
+    return t2 * t2 * (c_ + (4.0 * c_) * q);
   }
   /// W'(r)/r = -210/(pi h^5) (1 - q)^3 [1/m5]: finite at r = 0, no division
   template <class V>
-  [[nodiscard]] V derivative_over_r(V r) const noexcept {
+  [[nodiscard]] V derivative_over_r(V r) const noexcept { return r < h_ ? derivative_over_r_inside(r) : 0.0; }
+  template <class V>
+  [[nodiscard]] V derivative_over_r_inside(V r) const noexcept {
     const V t = 1.0 - r * per_h_;
-    return r < h_ ? -g_ * t * t * t : 0.0;
+    return (-g_ * t) * (t * t);
   }
   /// W'(r) [1/m4]
   template <class V>

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "core/field.hpp"
@@ -33,7 +32,7 @@ struct PairGeometry {
   V r2, r;       ///< its square [m2], |r_j - r_i| [m]; what no term asks for is not formed
   V per_r2;      ///< 1/r^2; where r is 0, a number that keeps products with dx, dy, dz and r at 0 [1/m2]
   V gradient;    ///< W'(r)/r of the Wendland kernel [1/m5]
-  V apart;       ///< 0 for an own pair, two members of one deformable body that meet through their bonds alone; else 1
+  MaskOf<V> apart;  ///< not an own pair, two members of one deformable body that meet through their bonds alone
   const PairKernels& kernels;
 };
 
@@ -47,6 +46,8 @@ struct PassTask {
   const std::uint32_t* entries;  ///< row and image of j, as in Entry
   const std::uint8_t* near;      ///< of each entry, bit l where it is near to member l
   const std::uint8_t* own;       ///< of each entry, bit l where it is an own pair of member l; null where there is none
+  std::uint16_t* within;         ///< as Clusters::within, from the start of each cluster; null: all entries are looked at
+  std::uint32_t* within_count;   ///< of each cluster
   const Vec3* shift;             ///< of each image [m]
   const std::uint32_t* chosen;   ///< clusters to work on; null for all
   const std::uint8_t* members;   ///< of each chosen one, bit l where member l is to be summed; null for all
@@ -60,93 +61,131 @@ struct PassTask {
 struct PassFunction {
   void (*run)(const PassTask&) = nullptr;            ///< null where all slots are off
   std::span<const Field<double>* const> fields{};  ///< whose columns it wants
+  bool finds = false;                                ///< whether it writes PassTask::within; else it reads it
 };
 
 namespace detail {
 
-/// The fields of terms, one term after the other: those it reads, then those it adds to.
+/// The fields of terms: those that they read, each once, then those that each adds to, one term after the other.
 template <class... Terms>
 struct FieldsOf {
-  static constexpr std::size_t size = (0 + ... + (Terms::reads::size + Terms::adds::size));
-  static constexpr std::array<const Field<double>*, size> list = [] {
-    std::array<const Field<double>*, size> all{};
+  static constexpr std::size_t adds = (0 + ... + Terms::adds::size);
+  static constexpr std::size_t mentions = (0 + ... + Terms::reads::size);
+  struct Reads {
+    std::array<const Field<double>*, mentions> list{};
+    std::array<std::size_t, mentions> where{};  ///< of each mention, one term after the other: its place in the list
+    std::size_t size = 0;
+  };
+  static constexpr Reads unique = [] {
+    Reads r;
+    std::size_t mention = 0;
+    const auto take = [&](const auto& some) {
+      for (const Field<double>* f : some) {
+        std::size_t k = 0;
+        while (k < r.size && r.list[k] != f) ++k;
+        if (k == r.size) r.list[r.size++] = f;
+        r.where[mention++] = k;
+      }
+    };
+    (take(Terms::reads::list), ...);
+    return r;
+  }();
+  static constexpr std::size_t reads = unique.size;
+  static constexpr std::array<const Field<double>*, reads + adds> list = [] {
+    std::array<const Field<double>*, reads + adds> all{};
     std::size_t n = 0;
+    while (n < reads) all[n] = unique.list[n], ++n;
     const auto take = [&](const auto& some) {
       for (const Field<double>* f : some) all[n++] = f;
     };
-    ((take(Terms::reads::list), take(Terms::adds::list)), ...);
+    (take(Terms::adds::list), ...);
     return all;
   }();
 };
 
-/// Registers of one term while a cluster is worked on: its members' fields and their sums, and the columns of j.
-template <int L, class Term>
-struct Local {
-  using V = typename Lanes<L>::Real;
-  static constexpr std::size_t reads = Term::reads::size, adds = Term::adds::size;
-  std::array<V, reads> i;
-  std::array<V, adds> sum;
-  std::array<const double*, reads> column;
-  double* const* target;
+/// Adds a term's part of a pair to its sums, for the members whose lane is in `acting`; the sums of the others keep their bits.
+/// @param i, j what all terms read, each field once   @param mention, sum the term's first ones; moved past its last
+template <class Fields, class Term, std::size_t mention, class V, class Mask>
+void add_term(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j, V* sum) {
+  constexpr std::size_t reads = Term::reads::size, adds = Term::adds::size;
+  std::array<V, reads> of_i, of_j;
+  for (std::size_t k = 0; k < reads; ++k) of_i[k] = i[Fields::unique.where[mention + k]], of_j[k] = j[Fields::unique.where[mention + k]];
+  std::array<V, adds> next;
+  for (std::size_t k = 0; k < adds; ++k) next[k] = sum[k];
+  Term::template pair<V>(g, std::span<const V, reads>(of_i), std::span<const V, reads>(of_j), std::span<V, adds>(next));
+  for (std::size_t k = 0; k < adds; ++k) sum[k] = acting ? next[k] : sum[k];
+}
 
-  /// @param columns of all terms that are still to be served; moves past those of this one
-  Local(double* const*& columns, std::size_t row) {
-    for (std::size_t k = 0; k < reads; ++k) column[k] = columns[k], i[k] = load_lanes<L>(columns[k] + row);
-    target = columns + reads;
-    sum.fill(V{});
-    columns += reads + adds;
+template <class Fields, class V, class Mask, std::size_t mention, std::size_t sums>
+void add_terms(const PairGeometry<V>&, Mask, const std::array<V, Fields::reads>&, const std::array<V, Fields::reads>&, V*) {}
+template <class Fields, class V, class Mask, std::size_t mention, std::size_t sums, class Term, class... More>
+void add_terms(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j, V* sum) {
+  add_term<Fields, Term, mention>(g, acting, i, j, sum + sums);
+  add_terms<Fields, V, Mask, mention + Term::reads::size, sums + Term::adds::size, More...>(g, acting, i, j, sum);
+}
+
+/// Adds the sums of a cluster to a column. A part of a vector is added lane by lane: the rows beyond are another cluster's.
+template <int L>
+void add_to(double* target, typename Lanes<L>::Real sum, unsigned members) {
+  if (members == (1u << L) - 1u) {
+    const typename Lanes<L>::Real total = load_lanes<L>(target) + sum;
+    std::memcpy(target, &total, sizeof total);
+    return;
   }
-  /// Adds the pair's part to the members whose lane is in `acting`; the sums of the others keep their bits.
-  void add(const PairGeometry<V>& g, typename Lanes<L>::Mask acting, std::size_t row_j) {
-    std::array<double, reads> j;
-    for (std::size_t k = 0; k < reads; ++k) j[k] = column[k][row_j];
-    std::array<V, adds> next = sum;
-    Term::template pair<V>(g, std::span<const V, reads>(i), std::span<const double, reads>(j), std::span<V, adds>(next));
-    for (std::size_t k = 0; k < adds; ++k) sum[k] = acting ? next[k] : sum[k];
-  }
-  void finish(std::size_t row, unsigned members) const {
-    for (std::size_t k = 0; k < adds; ++k) {
-      double lane[L];
-      std::memcpy(lane, &sum[k], sizeof lane);
-      for (unsigned l = 0; l < L; ++l)
-        if (members >> l & 1u) target[k][row + l] += lane[l];
-    }
-  }
-};
+  double lane[L];
+  std::memcpy(lane, &sum, sizeof lane);
+  for (unsigned l = 0; l < L; ++l)
+    if (members >> l & 1u) target[l] += lane[l];
+}
 
 /// Every member sums over all its j in list order; nothing is written to j. Each term sums into registers of its own, so that its
 /// bits are the same alone and beside others, and in vectors of any width.
-template <int L, class ForUnit, class... Terms>
+/// @tparam finds which entries are within the support of a member, for the passes that follow: a root for one that is not is lost
+template <int L, class ForUnit, bool finds, class... Terms>
 [[gnu::flatten]] void sum_cluster(const PassTask& t, std::size_t cluster, unsigned members) {
   using V = typename Lanes<L>::Real;
+  using Mask = typename Lanes<L>::Mask;
+  using Fields = FieldsOf<Terms...>;
   const std::size_t row = t.first[cluster];
   const V xi = load_lanes<L>(t.x + row), yi = load_lanes<L>(t.y + row), zi = load_lanes<L>(t.z + row);
-  double* const* columns = t.columns;
-  std::tuple<Local<L, Terms>...> locals{Local<L, Terms>(columns, row)...};
+  std::array<const double*, Fields::reads> column;
+  std::array<V, Fields::reads> i, j;
+  std::array<V, Fields::adds> sum{};
+  for (std::size_t k = 0; k < Fields::reads; ++k) column[k] = t.columns[k], i[k] = load_lanes<L>(column[k] + row);
   const PairKernels& kernels = *t.kernels;
-  for (std::size_t e = t.start[cluster]; e < t.start[cluster + 1]; ++e) {
+  const bool any_own = t.own != nullptr;
+  const std::size_t start = t.start[cluster];
+  std::uint16_t* const places = t.within ? t.within + start : nullptr;
+  const std::size_t count = !finds && places ? t.within_count[cluster] : t.start[cluster + 1] - start;
+  std::uint32_t found = 0;
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t e = start + (!finds && places ? places[n] : n);
     const Entry entry{t.entries[e]};
-    const std::size_t j = entry.row();
+    const std::size_t row_j = entry.row();
     const Vec3& s = t.shift[entry.image()];
-    const V dx = (t.x[j] - xi) + s.x, dy = (t.y[j] - yi) + s.y, dz = (t.z[j] - zi) + s.z;
+    const V dx = (t.x[row_j] - xi) + s.x, dy = (t.y[row_j] - yi) + s.y, dz = (t.z[row_j] - zi) + s.z;
     const V r2 = dx * dx + dy * dy + dz * dz;
-    const typename Lanes<L>::Mask within = r2 < t.support2, acting = within & mask_of<L>(t.near[e]);
+    const Mask within = r2 < t.support2, acting = within & mask_of<L>(t.near[e]), apart = mask_of<L>(any_own ? ~t.own[e] : ~0u);
+    if (finds && places) {
+      places[found] = static_cast<std::uint16_t>(n);
+      found += any(acting);
+    }
     const V r = root(r2);
-    V apart = r2 - r2 + 1.0;
-    if (t.own) apart = mask_of<L>(t.own[e]) ? V{} : apart;
-    const PairGeometry<V> g{dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r(r), apart, kernels};
-    std::apply([&](auto&... l) { (l.add(g, acting, j), ...); }, locals);
+    for (std::size_t k = 0; k < Fields::reads; ++k) j[k] = every_lane<V>(column[k][row_j]);
+    const PairGeometry<V> g{dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r), apart, kernels};
+    add_terms<Fields, V, Mask, 0, 0, Terms...>(g, acting, i, j, sum.data());
   }
-  std::apply([&](const auto&... l) { (l.finish(row, members), ...); }, locals);
+  if (finds && places) t.within_count[cluster] = found;
+  for (std::size_t k = 0; k < Fields::adds; ++k) add_to<L>(t.columns[Fields::reads + k] + row, sum[k], members);
 }
 
-template <int L, class ForUnit, class... Terms>
+template <int L, class ForUnit, bool finds, class... Terms>
 void fused(const PassTask& t) {
 #pragma omp parallel for schedule(static) num_threads(t.threads)
   for (std::size_t n = 0; n < t.count; ++n) {
     const std::size_t cluster = t.chosen ? t.chosen[n] : n;
     const unsigned all = (1u << (t.first[cluster + 1] - t.first[cluster])) - 1u;
-    sum_cluster<L, ForUnit, Terms...>(t, cluster, t.members ? t.members[n] : all);
+    sum_cluster<L, ForUnit, finds, Terms...>(t, cluster, t.members ? t.members[n] : all);
   }
 }
 
@@ -170,19 +209,19 @@ template <class... Terms>
 struct IsTogether<Together<Terms...>> : std::true_type {};
 
 /// From the forms chosen at run time to the combination made at compile time.
-template <int L, class ForUnit, class Chosen, class... Slots>
+template <int L, class ForUnit, bool finds, class Chosen, class... Slots>
 struct Pick;
-template <int L, class ForUnit, class... Terms>
-struct Pick<L, ForUnit, Together<Terms...>> {
+template <int L, class ForUnit, bool finds, class... Terms>
+struct Pick<L, ForUnit, finds, Together<Terms...>> {
   static PassFunction get(const int*) {
     if constexpr (sizeof...(Terms) == 0) return {};
-    else return {&fused<L, ForUnit, Terms...>, FieldsOf<Terms...>::list};
+    else return {&fused<L, ForUnit, finds, Terms...>, FieldsOf<Terms...>::list, finds};
   }
 };
-template <int L, class ForUnit, class... Terms, class... Forms, class... Slots>
-struct Pick<L, ForUnit, Together<Terms...>, Slot<Forms...>, Slots...> {
+template <int L, class ForUnit, bool finds, class... Terms, class... Forms, class... Slots>
+struct Pick<L, ForUnit, finds, Together<Terms...>, Slot<Forms...>, Slots...> {
   template <class... More>
-  static PassFunction with(Together<More...>, const int* form) { return Pick<L, ForUnit, Together<Terms..., More...>, Slots...>::get(form + 1); }
+  static PassFunction with(Together<More...>, const int* form) { return Pick<L, ForUnit, finds, Together<Terms..., More...>, Slots...>::get(form + 1); }
   template <class Form>
   static PassFunction take(const int* form) {
     if constexpr (IsTogether<Form>::value) return with(Form{}, form);
@@ -199,15 +238,20 @@ struct Pick<L, ForUnit, Together<Terms...>, Slot<Forms...>, Slots...> {
 }  // namespace detail
 
 /// The slots of a pass. Each combination of forms is compiled for each width: 3^4 is the most that the build bears.
-template <class... Slots>
-struct Pass {
+template <bool finds, class... Slots>
+struct AnyPass {
   static constexpr std::size_t slots = sizeof...(Slots);
   static_assert((1 * ... * (Slots::forms + 1)) <= 81);
   /// @param forms of each slot, in order: 0 for off   @tparam ForUnit the vector unit that this file is compiled for
   template <int L, class ForUnit>
   [[nodiscard]] static PassFunction choose(const std::array<int, slots>& forms) {
-    return detail::Pick<L, ForUnit, Together<>, Slots...>::get(forms.data());
+    return detail::Pick<L, ForUnit, finds, Together<>, Slots...>::get(forms.data());
   }
 };
+template <class... Slots>
+using Pass = AnyPass<false, Slots...>;
+/// The first pass over new places: it also finds what is within the support.
+template <class... Slots>
+using FindingPass = AnyPass<true, Slots...>;
 
 }  // namespace tripoint

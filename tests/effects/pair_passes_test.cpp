@@ -26,6 +26,7 @@ std::vector<std::pair<std::string, PassFunction>> all_passes(int lanes) {
   std::vector<std::pair<std::string, PassFunction>> list{{"wall_extrapolation", p.wall_extrapolation}, {"wall_force", p.wall_force}, {"transport", p.transport}};
   for (int a = 0; a <= 2; ++a)
     for (int b = 0; b <= 1; ++b) list.emplace_back("density " + std::to_string(a) + std::to_string(b), p.density({a, b}));
+  for (int a = 1; a <= 3; ++a) list.emplace_back("spread " + std::to_string(a), p.spread({a}));
   for (int a = 0; a <= 6; ++a)
     for (int b = 0; b <= 2; ++b) list.emplace_back("rates " + std::to_string(a) + std::to_string(b), p.rates({a, b}));
   return list;

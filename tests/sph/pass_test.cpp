@@ -16,7 +16,7 @@ struct First {
   using reads = Keys<field::mass>;
   using adds = Keys<field::heat_rate>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 1> i, std::span<const double, 1> j, std::span<V, 1> sum) {
+  static void pair(const PairGeometry<V>& g, std::span<const V, 1> i, std::span<const V, 1> j, std::span<V, 1> sum) {
     sum[0] += (j[0] - i[0]) * g.gradient;
   }
 };
@@ -24,9 +24,9 @@ struct Second {
   using reads = Keys<field::temperature>;
   using adds = Keys<field::heat_rate, field::density>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 1> i, std::span<const double, 1> j, std::span<V, 2> sum) {
+  static void pair(const PairGeometry<V>& g, std::span<const V, 1> i, std::span<const V, 1> j, std::span<V, 2> sum) {
     sum[0] += (j[0] - i[0]) * g.r;
-    sum[1] += g.kernels.poly6.value_of_square(g.r2);
+    sum[1] += g.kernels.poly6.value_of_square_inside(g.r2);
   }
 };
 using Both = Pass<Slot<First>, Slot<Second>>;

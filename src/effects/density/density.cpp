@@ -16,11 +16,17 @@ class DensityEffect : public Effect {
     const auto m = world.particles[field::mass];
     for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * self;
   }
+  void state(World& world) override {
+    const Particles& p = world.particles;
+    const auto V = world.particles[field::volume];
+    const auto rho = p[field::density], m = p[field::mass];
+    for (std::size_t i = 0; i < V.size(); ++i) V[i] = m[i] / rho[i];
+  }
 };
 
 }  // namespace
 
-EffectSpec spec(const Scene&) { return {"density", Mode::paper, {field::density}, {field::mass}}; }
+EffectSpec spec(const Scene&) { return {"density", Mode::paper, {field::density, field::volume}, {field::mass}}; }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<DensityEffect>(); }
 

@@ -9,8 +9,8 @@ struct DensityPaper {
   using reads = Keys<field::mass>;
   using adds = Keys<field::density>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const double, 1> j, std::span<V, 1> sum) {
-    sum[0] += j[0] * g.kernels.poly6.value_of_square(g.r2);
+  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 1> sum) {
+    sum[0] += j[0] * g.kernels.poly6.value_of_square_inside(g.r2);
   }
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <type_traits>
+
 #include "core/defect.hpp"
 #include "sph/pass.hpp"
 
@@ -13,16 +15,15 @@ struct NumberDensity {
   using reads = Keys<>;
   using adds = Keys<field::number_density>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 0>, std::span<const double, 0>, std::span<V, 1> sum) {
-    sum[0] += g.apart * g.kernels.wendland.value(g.r);
+  static void pair(const PairGeometry<V>& g, std::span<const V, 0>, std::span<const V, 0>, std::span<V, 1> sum) {
+    sum[0] += where(g.apart, g.kernels.wendland.value_inside(g.r));
   }
 };
 
-/// 1 where a pair acts, 0 where both are members of one rigid body, or both are wall. Liquids have group -1, deformable solids -2.
+/// Where a pair acts: not where both are members of one rigid body, or both are wall. Liquids have group -1, deformable solids -2.
 template <class V>
-[[nodiscard]] inline V acts(V group_i, double group_j) noexcept {
-  const V differ = group_i != group_j ? V{} + 1.0 : V{};
-  return group_j < 0.0 ? V{} + 1.0 : differ;
+[[nodiscard]] inline MaskOf<V> acts(V group_i, V group_j) noexcept {
+  return (group_j < 0.0) | (group_i != group_j);
 }
 
 /// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of
@@ -32,10 +33,10 @@ struct PressureCorrected {
   using reads = Keys<field::pressure_share, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const double, 2> j, std::span<V, 3> sum) {
+  static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const V, 2> j, std::span<V, 3> sum) {
     static const double stronger = 1.0 + defect_size("fluid.pressure");
     const V pressure = stronger * (i[0] + j[0]) * g.gradient;
-    const V f = g.apart * acts(i[1], j[1]) * (pressure - g.kernels.core.force_over_r(g.r, g.per_r2));
+    const V f = where(g.apart & acts(i[1], j[1]), pressure - g.kernels.core.force_over_r(g.r, g.per_r2));
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;
@@ -48,9 +49,10 @@ struct PressurePaper {
   using reads = Keys<field::volume, field::pressure, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const double, 3> j, std::span<V, 3> sum) {
+  static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const V, 3> j, std::span<V, 3> sum) {
     static const double stronger = 1.0 + defect_size("fluid.paper.pressure");
-    const V f = stronger * g.apart * acts(i[2], j[2]) * (i[0] * j[0]) * (0.5 * (i[1] + j[1])) * (g.kernels.spiky.derivative(g.r) * (g.r * g.per_r2));
+    const V share = (0.5 * stronger * i[0]) * (j[0] * (i[1] + j[1]));
+    const V f = where(g.apart & acts(i[2], j[2]), share * (g.kernels.spiky.derivative_inside(g.r) * (g.r * g.per_r2)));
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;
@@ -60,10 +62,12 @@ struct PressurePaper {
 /// Viscosity of a pair [Pa s] (model 8.5): harmonic between liquids; the liquid's own at a solid, 0 where that slips freely;
 /// the scene's contact viscosity between solids (which is what `viscosity` of a solid holds).
 template <class V>
-[[nodiscard]] inline V pair_viscosity(V mu_i, V solid_i, V stick_i, double mu_j, double solid_j, double stick_j) noexcept {
-  const V liquids = 2.0 * mu_i * mu_j / (mu_i + mu_j + 1e-300);
-  const V wet = solid_i * (1.0 - solid_j) * (mu_j * stick_i) + solid_j * (1.0 - solid_i) * (mu_i * stick_j);
-  return (1.0 - solid_i) * (1.0 - solid_j) * liquids + wet + solid_i * solid_j * (0.5 * (mu_i + mu_j));
+[[nodiscard]] inline V pair_viscosity(V mu_i, V solid_i, V stick_i, V mu_j, V solid_j, V stick_j) noexcept {
+  const V liquids = harmonic_mean(mu_i, mu_j);
+  if (!any(solid_i + solid_j != 0.0)) return liquids;
+  const MaskOf<V> is_solid_i = solid_i != 0.0, is_solid_j = solid_j != 0.0;
+  const V with_j = is_solid_j ? 0.5 * (mu_i + mu_j) : mu_j * stick_i, without_j = is_solid_j ? mu_i * stick_j : liquids;
+  return is_solid_i ? with_j : without_j;
 }
 
 using ViscousKeys = Keys<field::volume, field::viscosity, field::solid, field::stick, field::group, field::viscous_velocity_x,
@@ -75,11 +79,16 @@ using ViscousForce = Keys<field::viscous_force_x, field::viscous_force_y, field:
 struct ViscosityPaper {
   using reads = ViscousKeys;
   using adds = ViscousForce;
+  /// G_ij [kg/s]
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
+  static V coefficient(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j) {
     static const double thicker = 1.0 + defect_size("fluid.paper.viscosity");
-    const V mu = 0.5 * (i[1] + j[1]);
-    const V G = thicker * g.apart * acts(i[4], j[4]) * mu * (i[0] * j[0]) * g.kernels.viscosity.laplacian(g.r);
+    const V share = (0.5 * thicker * i[0]) * (j[0] * (i[1] + j[1]));
+    return where(g.apart & acts(i[4], j[4]), share * g.kernels.viscosity.laplacian_inside(g.r));
+  }
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
+    const V G = coefficient<V>(g, i, j);
     sum[0] += G * (j[5] - i[5]);
     sum[1] += G * (j[6] - i[6]);
     sum[2] += G * (j[7] - i[7]);
@@ -91,11 +100,17 @@ struct ViscosityPaper {
 struct ViscosityLaplacian {
   using reads = ViscousKeys;
   using adds = ViscousForce;
+  /// G_ij [kg/s]
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
+  static V coefficient(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j) {
     static const double thicker = 1.0 + defect_size("fluid.viscosity.laplacian");
     const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
-    const V G = thicker * g.apart * acts(i[4], j[4]) * mu * (i[0] * i[0] + j[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
+    const V share = (thicker * g.kernels.per_gradient_moment) * (i[0] * i[0] + j[0] * j[0]) * mu;
+    return where(g.apart & acts(i[4], j[4]), share * -g.gradient);
+  }
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
+    const V G = coefficient<V>(g, i, j);
     sum[0] += G * (j[5] - i[5]);
     sum[1] += G * (j[6] - i[6]);
     sum[2] += G * (j[7] - i[7]);
@@ -107,15 +122,50 @@ struct ViscosityLaplacian {
 struct ViscosityCentral {
   using reads = ViscousKeys;
   using adds = ViscousForce;
+  /// G_ij [kg/s], of the velocity along the line of centres
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 3> sum) {
-    static const double askew = defect_size("fluid.viscosity.central");
+  static V coefficient(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j) {
     const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
-    const V G = g.apart * acts(i[4], j[4]) * 10.0 * mu * (i[0] * j[0]) * (-g.gradient * g.kernels.per_gradient_moment);
-    const V approach = ((j[5] - i[5]) * g.dx + (j[6] - i[6]) * g.dy + (j[7] - i[7]) * g.dz) * g.per_r2;
-    sum[0] += G * (approach * g.dx + askew * (j[5] - i[5]));
-    sum[1] += G * (approach * g.dy + askew * (j[6] - i[6]));
-    sum[2] += G * (approach * g.dz + askew * (j[7] - i[7]));
+    const V share = (10.0 * g.kernels.per_gradient_moment * i[0]) * (j[0] * mu);
+    return where(g.apart & acts(i[4], j[4]), share * -g.gradient);
+  }
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
+    static const double askew = defect_size("fluid.viscosity.central");
+    const V G = coefficient<V>(g, i, j);
+    const V dvx = j[5] - i[5], dvy = j[6] - i[6], dvz = j[7] - i[7];
+    const V along = G * ((dvx * g.dx + dvy * g.dy + dvz * g.dz) * g.per_r2);
+    sum[0] += along * g.dx;
+    sum[1] += along * g.dy;
+    sum[2] += along * g.dz;
+    if (askew == 0.0) return;
+    sum[0] += askew * G * dvx;
+    sum[1] += askew * G * dvy;
+    sum[2] += askew * G * dvz;
+  }
+};
+
+/// sum_j G_ij of a viscosity [kg/s], and for `central` sum_j G_ij e e^T (xx, yy, zz, yz, xz, xy), for the bound of the step. It is
+/// summed to the columns of forces, between their last use and the pass that fills them anew.
+template <class Viscosity>
+struct ViscousSpread {
+  static constexpr bool central = std::is_same_v<Viscosity, ViscosityCentral>;
+  using reads = ViscousKeys;
+  using adds = Keys<field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 6> sum) {
+    const V G = Viscosity::template coefficient<V>(g, i, j);
+    if constexpr (central) {
+      const V G_r2 = G * g.per_r2;
+      sum[0] += G_r2 * (g.dx * g.dx);
+      sum[1] += G_r2 * (g.dy * g.dy);
+      sum[2] += G_r2 * (g.dz * g.dz);
+      sum[3] += G_r2 * (g.dy * g.dz);
+      sum[4] += G_r2 * (g.dx * g.dz);
+      sum[5] += G_r2 * (g.dx * g.dy);
+    } else {
+      sum[0] += G;
+    }
   }
 };
 

@@ -14,7 +14,7 @@ struct TransportForces {
   using adds = Keys<field::background_x, field::background_y, field::background_z, field::transport_force_x, field::transport_force_y,
                     field::transport_force_z>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const double, 8> j, std::span<V, 6> sum) {
+  static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 6> sum) {
     const V b = (i[0] * i[0] + j[0] * j[0]) * g.gradient;
     sum[0] += b * g.dx;
     sum[1] += b * g.dy;

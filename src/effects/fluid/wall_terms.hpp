@@ -13,8 +13,8 @@ struct WallExtrapolation {
   using adds = Keys<field::wall_weight, field::wall_pressure, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z,
                     field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 6> i, std::span<const double, 6> j, std::span<V, 8> sum) {
-    const V w = i[0] * (1.0 - j[0]) * g.kernels.wendland.value(g.r);
+  static void pair(const PairGeometry<V>& g, std::span<const V, 6> i, std::span<const V, 6> j, std::span<V, 8> sum) {
+    const V w = i[0] * (1.0 - j[0]) * g.kernels.wendland.value_inside(g.r);
     sum[0] += w;
     sum[1] += w * j[1];
     sum[2] -= w * j[2] * g.dx;
@@ -32,10 +32,9 @@ struct WallPressureForce {
   using reads = Keys<field::pressure_share, field::group>;
   using adds = Keys<field::wall_force_x, field::wall_force_y, field::wall_force_z>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const double, 2> j, std::span<V, 3> sum) {
-    const V of_i = i[1] == 0.0 ? i[0] : V{}, of_j = i[1] < 0.0 ? V{} + j[0] : V{};
-    const V share = j[1] < 0.0 ? of_i : j[1] == 0.0 ? of_j : V{};
-    const V f = share * g.gradient;
+  static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const V, 2> j, std::span<V, 3> sum) {
+    const MaskOf<V> from_i = (i[1] == 0.0) & (j[1] < 0.0), from_j = (j[1] == 0.0) & (i[1] < 0.0);
+    const V f = (where(from_i, i[0]) + where(from_j, j[0])) * g.gradient;
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;

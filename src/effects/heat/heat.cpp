@@ -11,7 +11,7 @@ EffectSpec spec(const Scene& scene) {
     return {"heat",
             Mode::paper,
             {field::temperature, field::temperature_rate, field::exchange, field::heat_capacity, field::diffusivity, field::held},
-            {field::mass, field::density, field::position_x, field::position_y, field::position_z}};
+            {field::mass, field::density, field::volume, field::position_x, field::position_y, field::position_z}};
   }
   return {"heat",
           Mode::corrected,

@@ -9,13 +9,12 @@ namespace tripoint {
 /// What fails: on the lattice its rate has a floor, 0.93 of the exact one at h/dx = 2.12 whatever the number of particles,
 /// and it keeps sum V T, not energy, where density or conductivity jump.
 struct HeatFlowPaper {
-  using reads = Keys<field::mass, field::density, field::temperature, field::diffusivity>;
+  using reads = Keys<field::volume, field::temperature, field::diffusivity>;
   using adds = Keys<field::temperature_rate, field::exchange>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 4> i, std::span<const double, 4> j, std::span<V, 2> sum) {
-    const double m_j = j[0], rho_j = j[1], T_j = j[2];
-    const V T_i = i[2], c_i = i[3];
-    const V a = c_i * (m_j / rho_j) * g.kernels.viscosity.laplacian(g.r);
+  static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const V, 3> j, std::span<V, 2> sum) {
+    const V V_j = j[0], T_j = j[1], T_i = i[1], c_i = i[2];
+    const V a = c_i * V_j * g.kernels.viscosity.laplacian_inside(g.r);
     sum[0] += a * (T_j - T_i);
     sum[1] += a;
   }
@@ -26,14 +25,14 @@ struct HeatMoment {
   using reads = Keys<field::rest_volume>;
   using adds = Keys<field::moment_xx, field::moment_yy, field::moment_zz, field::moment_yz, field::moment_xz, field::moment_xy>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const double, 1> j, std::span<V, 6> sum) {
+  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 6> sum) {
     const V w = j[0] * -g.gradient;  // 1/2 V_j K
-    sum[0] += w * g.dx * g.dx;
-    sum[1] += w * g.dy * g.dy;
-    sum[2] += w * g.dz * g.dz;
-    sum[3] += w * g.dy * g.dz;
-    sum[4] += w * g.dx * g.dz;
-    sum[5] += w * g.dx * g.dy;
+    sum[0] += w * (g.dx * g.dx);
+    sum[1] += w * (g.dy * g.dy);
+    sum[2] += w * (g.dz * g.dz);
+    sum[3] += w * (g.dy * g.dz);
+    sum[4] += w * (g.dx * g.dz);
+    sum[5] += w * (g.dx * g.dy);
   }
 };
 
@@ -45,20 +44,19 @@ struct HeatFlowCorrected {
            field::moment_inverse_zz, field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy>;
   using adds = Keys<field::heat_rate, field::conductance>;
   template <class V>
-  static void pair(const PairGeometry<V>& g, std::span<const V, 9> i, std::span<const double, 9> j, std::span<V, 2> sum) {
+  static void pair(const PairGeometry<V>& g, std::span<const V, 9> i, std::span<const V, 9> j, std::span<V, 2> sum) {
     static const bool harmonic_broken = defect_size("heat.harmonic_mean") > 0.0;
     static const double one_sided = defect_size("heat.one_sided");  // share of the own value in the means
-    const double V_j = j[0], k_j = j[1], T_j = j[2];
-    const V V_i = i[0], k_i = i[1], T_i = i[2];
-    V k = 2.0 * k_i * k_j / (k_i + k_j + 1e-300);  // two insulators: 0, not 0/0
+    const V V_j = j[0], k_j = j[1], T_j = j[2], V_i = i[0], k_i = i[1], T_i = i[2];
+    V k = harmonic_mean(k_i, k_j);
     if (harmonic_broken) k = 0.5 * (k_i + k_j);
     if (one_sided > 0.0) k += one_sided * (k_i - k);
     // e^T A e = r^T A r / r^2, with the sum of both matrices taken first, so that it is the same seen from i and from j.
-    const V along = (i[3] + j[3]) * g.dx * g.dx + (i[4] + j[4]) * g.dy * g.dy + (i[5] + j[5]) * g.dz * g.dz +
-                    2.0 * ((i[6] + j[6]) * g.dy * g.dz + (i[7] + j[7]) * g.dx * g.dz + (i[8] + j[8]) * g.dx * g.dy);
-    V moment = 0.5 * along * g.per_r2;
+    const V along = (i[3] + j[3]) * (g.dx * g.dx) + (i[4] + j[4]) * (g.dy * g.dy) + (i[5] + j[5]) * (g.dz * g.dz) +
+                    2.0 * ((i[6] + j[6]) * (g.dy * g.dz) + (i[7] + j[7]) * (g.dx * g.dz) + (i[8] + j[8]) * (g.dx * g.dy));
+    V moment = along * g.per_r2;
     if (one_sided > 0.0) moment *= 1.0 + one_sided * (i[3] - j[3]) / (i[3] + j[3]);
-    const V G = V_i * V_j * k * moment * (-2.0 * g.gradient);
+    const V G = (V_i * V_j) * (k * moment) * -g.gradient;
     sum[0] += G * (T_j - T_i);
     sum[1] += G;
   }
