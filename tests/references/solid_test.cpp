@@ -63,8 +63,9 @@ TEST(Cantilever, TakesWhatIsPublishedOfThePlateBeforeTheTheoryOfBeams) {
   const auto s = test::beam(2.0);
   const auto known = make_reference(function("cantilever", {{"frequency", 1.0995}, {"deflection", 0.063607}, {"amplitude", 0.06516}}), s.job, s.initial);
   EXPECT_NEAR(*known->number("frequency"), 2 * test::pi * 1.0995, 1e-12);
-  EXPECT_EQ(*known->number("deflection"), 0.063607);
-  EXPECT_EQ(*known->number("amplitude"), 0.06516);
+  const double inside = 1.0 - 4.0 / 3.0 * 0.005 / 0.2;  // slope at the end of a thin beam under its weight times half a spacing
+  EXPECT_NEAR(*known->number("deflection"), 0.063607 * inside, 1e-3 * 0.063607);  // this one is as thick as a tenth of its length
+  EXPECT_NEAR(*known->number("amplitude"), 0.06516 * inside, 1e-3 * 0.06516);
   EXPECT_FALSE(make_reference(function("cantilever"), s.job, s.initial)->number("amplitude")) << "a load excites more than the lowest mode";
 }
 

@@ -64,11 +64,12 @@ double end_velocity(const ReferenceInput& in, std::size_t bar, std::size_t axis,
   return count > 0.0 ? sum / count : 0.0;
 }
 
-/// What others have published of this very plate goes before the theory of beams.
-void take_published(const ReferenceInput& in, Numbers& n) {
+/// What others have published of this very plate goes before the theory of beams. They read its end, a run its last layer of particles.
+/// @param inside displacement of that layer over that of the end
+void take_published(const ReferenceInput& in, double inside, Numbers& n) {
   if (const auto f = in.args.number("frequency")) n["frequency"] = 2.0 * std::numbers::pi * *f;
   for (const char* name : {"deflection", "amplitude"})
-    if (const auto value = in.args.number(name)) n[name] = *value;
+    if (const auto value = in.args.number(name)) n[name] = inside * *value;
   n["period"] = 2.0 * std::numbers::pi / n["frequency"];
 }
 
@@ -102,7 +103,7 @@ std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
   } else if (const double v = end_velocity(in, bar, axis, end, direction, face); v != 0.0) {
     n["amplitude"] = std::abs(v) / n["frequency"];
   }
-  take_published(in, n);
+  take_published(in, beam_sag(beam, tip, 1.0, length - 0.5 * in.job.scene.spacing).displacement / beam_sag(beam, tip, 1.0, length).displacement, n);
   return std::make_unique<Cantilever>(std::move(n));
 }
 
@@ -116,8 +117,8 @@ ReferenceEntry cantilever_entry() {
             {"length", "m", "free length; default of the beam's box"},
             {"direction", "", "of the deflection; default gravity's, without gravity the thinner side"},
             {"frequency", "Hz", "published, in the place of Timoshenko's"},
-            {"deflection", "m", "published mean deflection of the free end, likewise"},
-            {"amplitude", "m", "published amplitude of its swing; default its speed at the start over the frequency, in the lowest mode"},
+            {"deflection", "m", "published mean deflection of the free end, likewise; read half a spacing inside"},
+            {"amplitude", "m", "published amplitude of its swing, likewise; default its speed at the start over the frequency, in the lowest mode"},
             {"plane_strain", "", "default true where the third direction is periodic"},
             {"shear_coefficient", "", "default 10 (1 + nu)/(12 + 11 nu), in plane strain with nu/(1 - nu) for nu"}}},
           make_cantilever};
