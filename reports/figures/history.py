@@ -26,7 +26,7 @@ def draw(case, trajectories, notes):
         return None
     figure = Figure(figsize=(style.WIDTH, 2.5))
     FigureCanvasAgg(figure)
-    axis = figure.add_axes((0.08, 0.2, 0.6, 0.7))
+    axis = figure.add_axes((0.1, 0.2, 0.58, 0.72))
     names = [engine for engine, _, _, _ in keys]
     for k, key in enumerate(keys):
         places = [(n, max(entry.used[key][0], FLOOR), entry.used[key][2]) for n, entry in enumerate(runs) if key in entry.used and is_number(entry.used[key][0])]
@@ -39,6 +39,7 @@ def draw(case, trajectories, notes):
     axis.axhline(1.0, color=style.RED, linewidth=1.2)
     mark_acceptances(axis, case, runs)
     axis.set_yscale("log")
+    axis.yaxis.set_major_formatter(style.ticker.FuncFormatter(style.power))
     axis.set_xlim(-0.5, len(runs) - 0.5)
     ticks = sorted({0, len(runs) // 2, len(runs) - 1})
     axis.set_xticks(ticks, [f"{runs[n].date[:10]}\n{runs[n].commit[:8]}" for n in ticks], fontsize=8)
