@@ -2,6 +2,7 @@
 #include "adapters/tripoint/tripoint_engine.hpp"
 #include "effects/body_forces.hpp"
 #include "effects/solid_particles.hpp"
+#include "scene/temperatures.hpp"
 
 namespace tripoint {
 namespace {
@@ -56,6 +57,7 @@ Snapshot snapshot_of(const Simulation& simulation) {
     s.id.push_back(static_cast<int>(id));
   }
   s.temperature = by_id(p, field::temperature);
+  if (const auto equal = equal_temperature(world.scene)) s.temperature.assign(p.size(), *equal);  // heat keeps no column then
   s.density = by_id(p, field::density);
   s.pressure = by_id(p, field::pressure);
   s.liquid_fraction = by_id(p, field::liquid_fraction);

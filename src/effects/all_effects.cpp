@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/all_effects.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -19,6 +21,7 @@
 #include "effects/rigid/rigid.hpp"
 #include "effects/run_pass.hpp"
 #include "scene/read_case.hpp"
+#include "scene/temperatures.hpp"
 
 namespace tripoint {
 namespace {
@@ -88,7 +91,9 @@ std::vector<CalledEffect> wanted(const Scene& scene) {
   if ((wet && has("fluid")) || has("elastic") || has("phase")) list.push_back({"motion", "liquids and deformable solids move by the forces on their particles"});
   if (has("motion") && !scene.inflows.empty()) list.push_back({"prescribed", "an inflow brings particles in"});
   else if (has("motion") && moves_particles(scene)) list.push_back({"prescribed", "a hold or a grip moves particles"});
-  if (has("heat") && scene.mode_of(Term::heat) == Mode::paper && !has("fluid")) {
+  const auto equal = equal_temperature(scene);
+  if (const auto heat = std::ranges::find(list, "heat", &CalledEffect::name); equal && heat != list.end()) heat->why = fmt::format("all has {:.6g} K and nothing brings another temperature: no heat flows, none is computed", *equal);
+  if (has("heat") && !equal && scene.mode_of(Term::heat) == Mode::paper && !has("fluid")) {
     list.push_back({"density", "(21) as printed divides by the summed density (4)"});
   }
   return list;
@@ -165,6 +170,10 @@ Plan plan(const Scene& scene) {
     if (!find(c.name)) p.effects.push_back({c.name, c.why + " (not in this build)", std::string(to_string(scene.mode))});
   }
   if (!p.effects.empty()) return p;
+  const std::vector<CalledEffect> calls = wanted(scene);
+  for (const CalledEffect& idle : idle_effects(scene)) {  // bodies that are driven call for the rigid effect too
+    if (std::ranges::find(calls, idle.name, &CalledEffect::name) == calls.end()) p.idle.push_back({idle.name, idle.why, {}});
+  }
   for (const Active& a : active_effects(scene)) {
     p.effects.push_back({a.name, a.why, std::string(to_string(a.spec.mode))});
     for (const FieldInfo& f : a.spec.owns) add(f, a.name);
@@ -191,7 +200,7 @@ struct Passes::Impl {
 };
 
 Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes) {
-  const int heat = form_of(scene, effects, "heat", Term::heat), pressure = form_of(scene, effects, "fluid", Term::pressure);
+  const int heat = equal_temperature(scene) ? 0 : form_of(scene, effects, "heat", Term::heat), pressure = form_of(scene, effects, "fluid", Term::pressure);
   const bool summed = form_of(scene, effects, "density", Term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
   const int density = summed ? 1 : form_of(scene, effects, "fluid", Term::density);
   const int viscosity = scene.mode_of(Term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : 2;

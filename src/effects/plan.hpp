@@ -20,6 +20,7 @@ struct PlannedEffect {
 /// What a scene simulates and stores: the union of what its effects own.
 struct Plan {
   std::vector<PlannedEffect> effects;
+  std::vector<PlannedEffect> idle;  ///< what the scene does without, and why it can never act
   std::vector<PlannedField> fields;
   std::size_t bytes_per_particle = 0;
 };

@@ -51,6 +51,8 @@ struct CalledEffect {
   std::string why;
 };
 [[nodiscard]] std::vector<CalledEffect> called_effects(const Scene&);
+/// The effects that a scene does without, and the proof that each can never act.
+[[nodiscard]] std::vector<CalledEffect> idle_effects(const Scene&);
 
 /// Particles of the scene on its lattice, row = id, bodies in order. @throws InputError (no particles, mesh not closed, ...)
 [[nodiscard]] InitialState sample(const Scene&);

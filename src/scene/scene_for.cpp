@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/read_case.hpp"
+#include "scene/temperatures.hpp"
 
 namespace tripoint {
 
@@ -47,33 +48,6 @@ std::string bodies_where(const Scene& s, Test test) {
   if (names.size() > 4) return fmt::format("{} bodies ({}, ...)", names.size(), names.front());
   return fmt::format("{} {}", names.size() == 1 ? "body" : "bodies", fmt::join(names, ", "));
 }
-
-/// Least and greatest temperature that a scene can reach: conduction has a maximum principle.
-struct TemperatureRange {
-  double least = INFINITY, greatest = -INFINITY;
-  void add(double T) { least = std::min(least, T), greatest = std::max(greatest, T); }
-  void add(const TemperatureField& f) {
-    switch (f.kind) {
-      case TemperatureField::Kind::constant: return add(f.value);
-      case TemperatureField::Kind::cosine: return add(f.mean - std::abs(f.amplitude)), add(f.mean + std::abs(f.amplitude));
-      case TemperatureField::Kind::step: return add(f.behind), add(f.ahead);
-      case TemperatureField::Kind::expression: return add(0.0), add(INFINITY);  // anything
-    }
-  }
-};
-
-TemperatureRange temperatures_of(const Scene& s) {
-  TemperatureRange range;
-  for (const auto& b : s.bodies)
-    if (b.temperature) range.add(*b.temperature);
-  for (const auto& f : s.inflows)
-    if (f.temperature) range.add(*f.temperature);
-  for (const auto& e : s.events)
-    if (e.temperature) range.add(*e.temperature);
-  return range;
-}
-
-bool has_heat(const Body& b, const Material& m) { return b.temperature && m.conductivity && m.heat_capacity; }
 
 /// A body that is held for good needs no equations of motion.
 bool moves(const Body& b, const Scene& s) {

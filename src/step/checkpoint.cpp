@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a line here; derived state (neighbour lists) is built again from what it was built from, never from the present.
+#include <bit>
 #include <cstring>
 
 #include "core/errors.hpp"
@@ -15,6 +16,13 @@ template <class T>
 std::vector<double> plain(std::span<const T> values) {
   std::vector<double> out(values.size_bytes() / sizeof(double));
   if (!values.empty()) std::memcpy(out.data(), values.data(), values.size_bytes());
+  return out;
+}
+/// The bytes between its two members are nobody's: kept as zeros, so that equal states are equal files.
+std::vector<double> plain(std::span<const OwnPair> list) {
+  static_assert(std::endian::native == std::endian::little && sizeof(OwnPair) == 2 * sizeof(double));
+  std::vector<double> out;
+  for (const OwnPair& pair : list) out.insert(out.end(), {std::bit_cast<double>(std::uint64_t{pair.other}), pair.weight});
   return out;
 }
 template <class T>

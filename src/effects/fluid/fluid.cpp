@@ -34,13 +34,24 @@ class Groups {
   std::vector<double> of_;  ///< members of each body
 };
 
+/// Whether a body is held or driven, or an event can make it so.
+bool can_have_walls(const Scene& scene) {
+  const auto is_wall = [](const Body& b) { return b.phase != Phase::liquid && b.motion != Motion::free; };
+  const auto makes_one = [](const Event& e) { return e.kind == Event::Kind::hold || e.kind == Event::Kind::grip; };
+  return std::ranges::any_of(scene.bodies, is_wall) || std::ranges::any_of(scene.events, makes_one);
+}
+
+/// Whether the work of the pressure that walls borrow is booked.
+bool splits_wall_forces(const Scene& scene) { return can_have_walls(scene) && numbers_of(scene).extrapolates && scene.mode_of(Term::pressure) == Mode::corrected; }
+
 class Fluid : public Effect {
  public:
   explicit Fluid(const Scene& scene)
       : numbers_(numbers_of(scene)),
         kernels_(pair_kernels(scene)),
         transports_(uses_transport_velocity(scene)),
-        splits_(numbers_.extrapolates && scene.mode_of(Term::pressure) == Mode::corrected) {}
+        has_walls_(scene.mode_of(Term::walls) == Mode::corrected && can_have_walls(scene)),
+        splits_(splits_wall_forces(scene)) {}
   void load(World&, const InitialState&) override;
   void kick(World&, double dt) override;
   void drift(World&, double dt) override;
@@ -65,7 +76,8 @@ class Fluid : public Effect {
   PairKernels kernels_;
   bool transports_;
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
-  bool splits_;  ///< the work of the walls' borrowed pressure is booked
+  bool has_walls_;  ///< corrected ones
+  bool splits_;     ///< the work of the walls' borrowed pressure is booked
   Walls walls_;
 };
 
@@ -162,7 +174,7 @@ void Fluid::state(World& world) {
   if (world.moved) set_density(world, numbers_);
   set_pressure(world, numbers_);
   predict_velocities(world);
-  if (world.scene.mode_of(Term::walls) == Mode::corrected) walls_.extrapolate(world, numbers_, kernels_);
+  if (has_walls_) walls_.extrapolate(world, numbers_, kernels_);
   if (world.scene.mode_of(Term::pressure) == Mode::corrected) set_pressure_shares(world, numbers_);
   if (splits_) walls_.split_forces(world, kernels_);
   if (transports_) set_transport_forces(world, numbers_, kernels_);
@@ -196,9 +208,11 @@ EffectSpec spec(const Scene& scene) {
   if (scene.mode_of(Term::density) == Mode::corrected) own({field::number_density});
   if (scene.mode_of(Term::pressure) == Mode::corrected) own({field::pressure_share});
   if (scene.mode_of(Term::density) == Mode::corrected && can_have_deformable_bodies(scene)) own({field::own_density});
-  if (scene.mode_of(Term::walls) == Mode::corrected)
-    own({field::wall_weight, field::wall_pressure, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z, field::wall_velocity_x,
-         field::wall_velocity_y, field::wall_velocity_z, field::wall_force_x, field::wall_force_y, field::wall_force_z});
+  if (scene.mode_of(Term::walls) == Mode::corrected && can_have_walls(scene)) {
+    own({field::wall_weight, field::wall_pressure, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z, field::wall_velocity_x, field::wall_velocity_y,
+         field::wall_velocity_z});
+    if (splits_wall_forces(scene)) own({field::wall_force_x, field::wall_force_y, field::wall_force_z});
+  }
   if (uses_transport_velocity(scene))
     own({field::shift_x, field::shift_y, field::shift_z, field::background_x, field::background_y, field::background_z, field::transport_force_x,
          field::transport_force_y, field::transport_force_z});

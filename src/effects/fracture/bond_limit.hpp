@@ -33,6 +33,11 @@ class BondLimits {
     const double limit = std::min(limit_[a], limit_[b]);
     return paper_ ? breaks_by_distance(r, limit) : breaks_by_stretch(r, bond.x, limit);
   }
+  /// By how much |r| may grow before the bond breaks [m].
+  [[nodiscard]] double room(const Vec3& r, const Bond& bond, std::size_t a, std::size_t b) const {
+    const double limit = std::min(limit_[a], limit_[b]);
+    return (paper_ ? limit : limit * norm(bond.x)) - norm(r);
+  }
 
  private:
   bool paper_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "effects/fracture/bond_limit.hpp"
+#include "effects/fracture/calm.hpp"
 #include "effects/objects.hpp"
 #include "effects/solid_particles.hpp"
 
@@ -16,8 +17,11 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 class Fracture : public Effect {
  public:
   explicit Fracture(const Scene& scene) : limits_(scene) {}
+  void load(World&, const InitialState&) override { calm_.forget(); }
   void drift(World&, double dt) override { drifted_ = dt; }
   void change(World&) override;
+  void adopt(World&) override { calm_.forget(); }
+  void happen(World&, const Happening&) override { calm_.forget(); }
   void add_to(const World& world, Ledger& ledger) const override { ledger.energy["fracture"] += world.booked.fracture; }
 
  private:
@@ -25,6 +29,7 @@ class Fracture : public Effect {
 
   BondLimits limits_;
   double drifted_ = 0.0;          ///< since the last forces, within a step [s]
+  Calm calm_;
   std::vector<char> has_broken_;  ///< memory that is used again, by id
 };
 
@@ -38,12 +43,22 @@ std::vector<Pair> Fracture::broken(const World& world) {
     const std::size_t j = p.row(bond.other);
     return limits_.breaks(solid::nearest_image(world.box, x.at(i) - x.at(j)), bond, static_cast<std::size_t>(material[i]), static_cast<std::size_t>(material[j]));
   };
+  const auto room = [&](std::size_t i, const Bond& bond) {
+    const std::size_t j = p.row(bond.other);
+    return limits_.room(solid::nearest_image(world.box, x.at(i) - x.at(j)), bond, static_cast<std::size_t>(material[i]), static_cast<std::size_t>(material[j]));
+  };
   has_broken_.assign(p.size(), 0);
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+  double least = std::numeric_limits<double>::infinity();
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least)
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
-    if (is_elastic(i)) has_broken_[id] = std::ranges::any_of(world.bonds.of(id), [&](const Bond& b) { return ends(i, b); });
+    if (!is_elastic(i)) continue;
+    for (const Bond& b : world.bonds.of(id)) {
+      if (ends(i, b)) has_broken_[id] = 1;
+      least = std::min(least, room(i, b));
+    }
   }
+  calm_.know(world, least);
   std::vector<Pair> pairs;
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     if (!has_broken_[id]) continue;
@@ -140,8 +155,9 @@ std::vector<std::size_t> bodies_of(const World& world, const std::vector<Pair>& 
 }
 
 void Fracture::change(World& world) {
-  const std::vector<Pair> pairs = broken(world);
   const double drifted = std::exchange(drifted_, 0.0);
+  if (calm_.holds(world)) return;
+  const std::vector<Pair> pairs = broken(world);
   if (pairs.empty()) return;
   const HalfWay half_way(world, drifted);
   Release release(world);

@@ -2,11 +2,14 @@
 #include "effects/heat/heat.hpp"
 
 #include "effects/heat/heat_corrected.hpp"
+#include "effects/heat/heat_equal.hpp"
 #include "effects/heat/heat_paper.hpp"
+#include "scene/temperatures.hpp"
 
 namespace tripoint::heat {
 
 EffectSpec spec(const Scene& scene) {
+  if (equal_temperature(scene)) return {"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material}};
   if (scene.mode_of(Term::heat) == Mode::paper) {
     return {"heat",
             Mode::paper,
@@ -26,6 +29,7 @@ EffectSpec spec(const Scene& scene) {
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) {
+  if (const auto temperature = equal_temperature(scene)) return std::make_unique<EqualHeat>(*temperature);
   if (scene.mode_of(Term::heat) == Mode::paper) return std::make_unique<PaperHeat>();
   return std::make_unique<CorrectedHeat>();
 }

@@ -42,6 +42,7 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
   const int rank = p[field::shape_rank][row];
   if (rank == 0 || !std::isfinite(limits.elastic)) return 0.0;
   const Symmetric strain = solid::strain_of(p, row), plastic = solid::plastic_strain_of(p, row);
+  if (rank == 3 && flowed(strain, plastic, limits) == plastic) return 0.0;  // as nearly all do nearly always
   const Symmetric P = forms_.projector(solid::shape_inverse_of(p, row), rank), elastic = between(P, strain - plastic);
   const solid::ElasticConstants c = forms_.constants(world, row);
   const auto flat = [&] { return flowed_flat(elastic, forms_.stress(elastic, P, rank, c), plastic, rank, yield_stress(c.mu, limits.elastic), limits.plastic); };

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/heat/heat_equal.hpp"
+
+#include <algorithm>
+
+#include "effects/heat/enthalpy.hpp"
+#include "effects/ordered_sum.hpp"
+
+namespace tripoint::heat {
+namespace {
+
+double heat_content(const World& world, std::size_t row, double temperature) {
+  return enthalpy_of(world.particles[field::mass][row], *world.material_of(row).heat_capacity, temperature);
+}
+
+}  // namespace
+
+void EqualHeat::load(World&, const InitialState& initial) {
+  if (std::ranges::any_of(initial.temperature, [&](double T) { return T != temperature_; }))
+    throw InputError("the scene has one temperature everywhere, and its particles have others");
+}
+
+/// What flowed in brings its heat.
+void EqualHeat::adopt(World& world) {
+  for (const std::uint32_t id : world.change.born) world.booked.inflow += heat_content(world, world.particles.row(id), temperature_);
+}
+
+void EqualHeat::add_to(const World& world, Ledger& ledger) const {
+  std::vector<std::array<double, 1>> blocks;
+  const auto sums = ordered_sums(world.particles.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += heat_content(world, i, temperature_); });
+  ledger.energy["thermal"] += sums[0];
+}
+
+}  // namespace tripoint::heat

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "effects/effect.hpp"
+
+namespace tripoint::heat {
+
+/// Heat of a scene where all has one temperature and nothing brings another (scene/temperatures.hpp): no column, no pair, no bound of
+/// the step. What is left is its place in the ledger.
+class EqualHeat : public Effect {
+ public:
+  explicit EqualHeat(double temperature) : temperature_(temperature) {}
+  void load(World&, const InitialState&) override;
+  void adopt(World&) override;
+  void add_to(const World&, Ledger&) const override;
+
+ private:
+  double temperature_;  ///< [K]
+};
+
+}  // namespace tripoint::heat

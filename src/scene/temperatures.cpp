@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/temperatures.hpp"
+
+#include <algorithm>
+
+#include "scene/read_case.hpp"
+
+namespace tripoint {
+namespace {
+
+void add(TemperatureRange& range, double T) { range.least = std::min(range.least, T), range.greatest = std::max(range.greatest, T); }
+
+void add(TemperatureRange& range, const TemperatureField& f) {
+  switch (f.kind) {
+    case TemperatureField::Kind::constant: return add(range, f.value);
+    case TemperatureField::Kind::cosine: return add(range, f.mean - std::abs(f.amplitude)), add(range, f.mean + std::abs(f.amplitude));
+    case TemperatureField::Kind::step: return add(range, f.behind), add(range, f.ahead);
+    case TemperatureField::Kind::expression: return add(range, 0.0), add(range, INFINITY);  // anything
+  }
+}
+
+bool conducts(const Material& m) { return m.conductivity && m.heat_capacity; }
+
+}  // namespace
+
+TemperatureRange temperatures_of(const Scene& s) {
+  TemperatureRange range;
+  for (const auto& b : s.bodies)
+    if (b.temperature) add(range, *b.temperature);
+  for (const auto& f : s.inflows)
+    if (f.temperature) add(range, *f.temperature);
+  for (const auto& e : s.events)
+    if (e.temperature) add(range, *e.temperature);
+  return range;
+}
+
+bool has_heat(const Body& b, const Material& m) { return b.temperature && conducts(m); }
+
+std::optional<double> equal_temperature(const Scene& s) {
+  const TemperatureRange range = temperatures_of(s);
+  if (range.least != range.greatest || !(range.least > 0.0)) return {};  // 0 K and below: a scene built without a file, whose particles have their own
+  const bool bodies = std::ranges::all_of(s.bodies, [&](const Body& b) { return has_heat(b, s.material(b.material)); });
+  const bool inflows = std::ranges::all_of(s.inflows, [&](const Inflow& f) { return f.temperature && conducts(s.material(f.material)); });
+  if (!bodies || !inflows) return {};
+  const auto calls = called_effects(s);
+  if (std::ranges::find(calls, "phase", &CalledEffect::name) != calls.end()) return {};
+  return range.least;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Whether cases have the same bits on any number of threads and at every vector width: a few steps of each, all columns, bonds, bookings
+/// and the order of rows compared with those of one thread that works a particle at a time.
+///   same-bits [--steps MOST] CASE.toml...
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/machine.hpp"
+#include "scene/read_case.hpp"
+#include "step/simulation.hpp"
+
+using namespace tripoint;
+
+namespace {
+
+struct Way {
+  int threads, lanes;
+};
+
+/// Every number of threads that the project promises, and every width that this machine has, each at least once.
+std::vector<Way> ways() {
+  std::vector<Way> list{{2, 1}, {7, 1}};
+  if (machine_has_avx2()) list.push_back({1, 4}), list.push_back({3, 4});
+  if (machine_has_avx512()) list.push_back({1, 8}), list.push_back({7, 8});
+  return list;
+}
+
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::ranges::equal(a, b, [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
+}
+
+/// Name of the first array in which two states differ; "" where none does.
+std::string difference(const Checkpoint& a, const Checkpoint& b) {
+  if (a.real.size() != b.real.size() || a.whole.size() != b.whole.size()) return "the set of arrays";
+  for (const auto& [name, values] : a.real)
+    if (const auto at = b.real.find(name); at == b.real.end() || !same(values, at->second)) return name;
+  for (const auto& [name, values] : a.whole)
+    if (const auto at = b.whole.find(name); at == b.whole.end() || values != at->second) return name;
+  return a.text == b.text ? "" : "text";
+}
+
+struct State {
+  Checkpoint kept;
+  std::string failure;  ///< of a scene that is meant to fail: it must do so alike
+  double pairs = 0.0;
+  long steps = 0;
+};
+
+State state_after(const Scene& scene, const InitialState& initial, const Way& way, long steps) {
+  State state;
+  try {
+    Simulation s(scene, initial, {.threads = way.threads, .force_time_step = true, .lanes = way.lanes});
+    s.advance_to(scene.end_time, [&] { return --steps > 0; });
+    state.kept = s.checkpoint(), state.pairs = s.pairs(), state.steps = s.steps();
+  } catch (const Diverged& e) {
+    state.failure = e.what();
+  }
+  return state;
+}
+
+/// @return whether all ways agree
+bool agrees(const std::string& file, Mode mode, long most) {
+  const CaseReading reading = read_case(file);
+  RunChoice choice;
+  choice.mode = mode;
+  const Scene scene = scene_for(reading.value, choice);
+  const InitialState initial = sample(scene);
+  const auto afford = static_cast<long>(2e4 / static_cast<double>(std::max<std::size_t>(1, initial.size())));
+  const long steps = std::clamp(afford, 2L, most);
+  State oracle;
+  try {
+    oracle = state_after(scene, initial, {1, 1}, steps);
+  } catch (const InputError& e) {  // a scene that the solver does not take
+    fmt::print("{} {}: left out, {}\n", reading.value.id, to_string(mode), e.what());
+    return true;
+  }
+  for (const Way& way : ways()) {
+    const State other = state_after(scene, initial, way, steps);
+    std::string what = oracle.failure == other.failure ? difference(oracle.kept, other.kept) : "how it fails";
+    if (what.empty() && oracle.pairs != other.pairs) what = "the number of pairs";
+    if (what.empty()) continue;
+    fmt::print("{} {}: {} threads, {} lanes differ from 1 thread, 1 lane in {} after {} steps\n", reading.value.id, to_string(mode), way.threads, way.lanes, what, steps);
+    return false;
+  }
+  fmt::print("{} {}: {} particles, {} steps, {:.0f} pairs{}\n", reading.value.id, to_string(mode), initial.size(), oracle.steps, oracle.pairs,
+             oracle.failure.empty() ? "" : ", fails alike");
+  return true;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  long most = 10;
+  bool all = true;
+  int states = 0;
+  try {
+    for (int i = 1; i < argc; ++i) {
+      if (std::string_view(argv[i]) == "--steps" && i + 1 < argc) {
+        most = std::max(1L, std::atol(argv[++i]));
+        continue;
+      }
+      for (const Mode mode : read_case(argv[i]).value.modes) all = agrees(argv[i], mode, most) && all, ++states;
+    }
+  } catch (const std::exception& e) {
+    return fmt::print(stderr, "same-bits: {}\n", e.what()), 2;
+  }
+  fmt::print("{} states, {} ways each\n", states, ways().size() + 1);
+  return all && states > 0 ? 0 : 1;
+}
