@@ -13,6 +13,7 @@ import printed
 import side_by_side
 import signable
 import stability
+import stability_peers
 import summary
 import table1
 from model import is_number, number
@@ -107,7 +108,8 @@ def render_table1(results):
 def render_stability(results, out):
     """@return HTML of the map of stable steps and of the hard cases"""
     frontiers, drawing, listed, notes = stability.read(results, out)
-    return fill("stability.html.j2", results, frontiers=frontiers, drawing=drawing, listed=listed, notes=notes, columns=stability.COLUMNS)
+    hits, contact, peers, engines, more = stability_peers.drawings(out)
+    return fill("stability.html.j2", results, frontiers=frontiers, drawing=drawing, listed=listed, notes=notes + more, columns=stability.COLUMNS, hits=hits, contact=contact, peers=peers, peer_drawing=engines)
 
 
 def render_figures(results):

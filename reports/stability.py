@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page "Stable steps and hard cases": the stored frontiers of the time step beside what linear modes predict, and every case
-tagged `hard`, corrected and printed side by side.
+"""The page "Stable steps and hard cases": the stored frontiers of the time step beside what linear modes predict, how exact a contact
+is, where other engines hold, and every case tagged `hard`, corrected and printed side by side.
 
 validation/stability/frontiers.csv is the stored map, which a test of the solver holds against what it measures; here it is drawn.
 """
@@ -10,6 +10,7 @@ import csv
 from dataclasses import dataclass
 from pathlib import Path
 
+import stability_peers
 import table1
 
 MAP = Path(__file__).resolve().parent.parent / "validation" / "stability" / "frontiers.csv"
@@ -54,18 +55,19 @@ def draw(frontiers, out):
     maps = groups(frontiers)
     if not maps:
         return "", []
-    figure, axes = style.panels(len(maps), 10, height=2.5)
+    figure, axes = style.panels(len(maps), 6, height=2.5)
+    words = {"corrected": "corrected", "paper": "as printed"}
     for axis, ((name, parameter), points) in zip(axes, maps.items()):
         for mode, hue in (("corrected", style.BLUE), ("paper", style.ORANGE)):
             shown = sorted((p for p in points if p.mode == mode), key=lambda p: p.value)
             if not shown:
                 continue
             x = [p.value for p in shown]
-            axis.plot(x, [p.predicted for p in shown], color=style.SOFT, linestyle="-" if mode == "corrected" else "--", label="predicted" if mode == "corrected" else "predicted, as printed")
-            axis.plot(x, [p.measured for p in shown], color=hue, linestyle="", marker="o", label=f"measured, {mode}")
-            axis.plot(x, [p.own for p in shown], color=hue, linestyle="", marker="_", markersize=9, label=f"own step, {mode}")
-        wide = parameter in ("stiffness", "density ratio")
-        style.logarithmic(axis, "xy" if wide else "y")
+            axis.plot(x, [p.predicted for p in shown], color=style.SOFT, linestyle="-" if mode == "corrected" else "--", label="predicted, " + words[mode])
+            axis.plot(x, [p.measured for p in shown], color=hue, linestyle="", marker="o", label="longest stable, " + words[mode])
+            axis.plot(x, [p.own for p in shown], color=hue, linestyle="", marker="_", markersize=9, label="the solver takes, " + words[mode])
+        values = [p.value for p in points]
+        style.logarithmic(axis, "xy" if min(values) > 0.0 and max(values) > 20.0 * min(values) else "y")
         axis.set_title(name)
         axis.set_xlabel(parameter)
         axis.set_ylabel("time step [s]")
@@ -76,7 +78,7 @@ def draw(frontiers, out):
 def read(results, out):
     """@return (frontiers, svg, rows, notes); a row is a case and its entries by column"""
     frontiers, notes = read_map()
-    svg, more = draw(frontiers, out)
+    svg, more = draw(frontiers, out) if frontiers else ("", [])
     listed = []
     for case in results.cases:
         if "hard" not in table1.tags(case):
