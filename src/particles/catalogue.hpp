@@ -83,9 +83,7 @@ inline constexpr Field<double> conductance{"conductance", "W/K"};
 /// sum_j of the coefficients of T_j - T_i in (21) as printed: bounds the time step.
 inline constexpr Field<double> exchange{"exchange", "1/s"};
 inline constexpr Field<int> held{"temperature.held", "1"};
-/// M_i of model 8.6, and its pseudo-inverse: symmetric, six components.
-inline constexpr Field<double> moment_xx{"moment.xx", "1"}, moment_yy{"moment.yy", "1"}, moment_zz{"moment.zz", "1"};
-inline constexpr Field<double> moment_yz{"moment.yz", "1"}, moment_xz{"moment.xz", "1"}, moment_xy{"moment.xy", "1"};
+/// Pseudo-inverse of M_i of model 8.6: symmetric, six components. Between the density pass and the state, M_i itself.
 inline constexpr Field<double> moment_inverse_xx{"moment_inverse.xx", "1"}, moment_inverse_yy{"moment_inverse.yy", "1"},
     moment_inverse_zz{"moment_inverse.zz", "1"};
 inline constexpr Field<double> moment_inverse_yz{"moment_inverse.yz", "1"}, moment_inverse_xz{"moment_inverse.xz", "1"},

@@ -6,6 +6,7 @@
 
 #include "core/machine.hpp"
 #include "effects/body_table.hpp"
+#include "effects/fill.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
 #include "effects/fluid/phase_jump.hpp"
@@ -155,10 +156,10 @@ void Fluid::clear(World& world, PassName pass) {
   if (pass == PassName::heat) return;
   if (pass == PassName::rates) {
     for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x, &field::viscous_force_y, &field::viscous_force_z})
-      std::ranges::fill(p[*f], 0.0);
+      fill(p[*f], 0.0, world.threads);
   } else if (world.scene.mode_of(Term::density) == Mode::corrected) {
     const auto delta = p[field::number_density];
-    std::ranges::fill(delta, kernels_.wendland.value(0.0));
+    fill(delta, kernels_.wendland.value(0.0), world.threads);
     if (!p.has(field::own_density.name)) return;
     const auto own = p[field::own_density];
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (delta.size() > worth_threads)

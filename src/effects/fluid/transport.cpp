@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/defect.hpp"
+#include "effects/fill.hpp"
 #include "effects/fluid/transport_terms.hpp"
 #include "effects/pair_passes.hpp"
 #include "effects/run_pass.hpp"
@@ -20,7 +21,7 @@ bool uses_transport_velocity(const Scene& scene) {
 
 void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels& kernels) {
   Particles& p = world.particles;
-  for (const Field<double>* f : TransportForces::adds::list) std::ranges::fill(p[*f], 0.0);
+  for (const Field<double>* f : TransportForces::adds::list) fill(p[*f], 0.0, world.threads);
   run_pass(pair_passes(world.neighbours->clusters().lanes).transport, p, *world.neighbours, kernels, world.threads);
   static const double weaker = 1.0 - defect_size("fluid.transport_velocity");
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it

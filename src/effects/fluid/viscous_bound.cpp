@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 
+#include "effects/fill.hpp"
 #include "effects/fluid/fluid_terms.hpp"
 #include "effects/pair_passes.hpp"
 #include "effects/run_pass.hpp"
@@ -23,7 +24,7 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
   const bool paper = world.scene.mode_of(Term::viscosity) == Mode::paper, central = !paper && world.scene.viscosity_form == "central";
   const PassFunction spread = pair_passes(world.neighbours->clusters().lanes).spread({paper ? 1 : central ? 2 : 3});
   using Sums = ViscousSpread<ViscosityCentral>::adds;
-  for (const Field<double>* f : Sums::list) std::ranges::fill(p[*f], 0.0);
+  for (const Field<double>* f : Sums::list) fill(p[*f], 0.0, world.threads);
   run_pass(spread, p, *world.neighbours, kernels, world.threads);
 
   const auto group = p[field::group], m = p[field::mass];

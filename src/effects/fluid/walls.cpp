@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "effects/fill.hpp"
 #include "effects/fluid/wall_terms.hpp"
 #include "effects/pair_passes.hpp"
 #include "effects/run_pass.hpp"
@@ -42,7 +43,7 @@ void Walls::extrapolate(World& world, const SceneNumbers& n, const PairKernels& 
   find(world);
   if (wet_walls_.empty()) return;
   Particles& p = world.particles;
-  for (const Field<double>* f : WallExtrapolation::adds::list) std::ranges::fill(p[*f], 0.0);
+  for (const Field<double>* f : WallExtrapolation::adds::list) fill(p[*f], 0.0, world.threads);
   run_pass(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads, wet_walls_);
 
   const auto weight = p[field::wall_weight], sum = p[field::wall_pressure], pressure = p[field::pressure];
@@ -65,7 +66,7 @@ void Walls::extrapolate(World& world, const SceneNumbers& n, const PairKernels& 
 void Walls::split_forces(World& world, const PairKernels& kernels) {
   find(world);
   if (border_.empty()) return;
-  for (const Field<double>* f : WallPressureForce::adds::list) std::ranges::fill(world.particles[*f], 0.0);
+  for (const Field<double>* f : WallPressureForce::adds::list) fill(world.particles[*f], 0.0, world.threads);
   run_pass(pair_passes(world.neighbours->clusters().lanes).wall_force, world.particles, *world.neighbours, kernels, world.threads, border_);
 }
 

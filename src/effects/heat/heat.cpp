@@ -21,8 +21,6 @@ EffectSpec spec(const Scene& scene) {
           {field::temperature,       field::enthalpy,          field::heat_rate,
            field::heat_rate_before,  field::conductance,       field::heat_capacity,
            field::conductivity,      field::rest_volume,       field::held,
-           field::moment_xx,         field::moment_yy,         field::moment_zz,
-           field::moment_yz,         field::moment_xz,         field::moment_xy,
            field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz,
            field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy},
           {field::mass, field::position_x, field::position_y, field::position_z}};

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "core/machine.hpp"
+#include "effects/fill.hpp"
 #include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
+#include "effects/heat/heat_terms.hpp"
 #include "effects/heat/thermal_particles.hpp"
 #include "effects/ordered_sum.hpp"
 #include "sph/moments.hpp"
@@ -109,28 +111,23 @@ bool CorrectedHeat::correct(World& world, double dt) {
 void CorrectedHeat::clear(World& world, PassName pass) {
   Particles& p = world.particles;
   if (pass != PassName::density) {
-    for (const auto* f : {&field::heat_rate, &field::conductance}) std::ranges::fill(p[*f], 0.0);
+    for (const auto* f : {&field::heat_rate, &field::conductance}) fill(p[*f], 0.0, world.threads);
   } else {
-    for (const auto* f :
-         {&field::moment_xx, &field::moment_yy, &field::moment_zz, &field::moment_yz, &field::moment_xz, &field::moment_xy}) {
-      std::ranges::fill(p[*f], 0.0);
-    }
+    for (const auto* f : HeatMoment::adds::list) fill(p[*f], 0.0, world.threads);
   }
 }
 
-/// pinv M_i of every particle.
+/// pinv M_i of every particle, in the place of the M_i that the density pass has just summed.
 void CorrectedHeat::state(World& world) {
   if (!world.moved) return;
   Particles& p = world.particles;
   static const bool skipped = defect_size("heat.moment") > 0.0;
-  const auto mxx = p[field::moment_xx], myy = p[field::moment_yy], mzz = p[field::moment_zz];
-  const auto myz = p[field::moment_yz], mxz = p[field::moment_xz], mxy = p[field::moment_xy];
   const auto axx = p[field::moment_inverse_xx], ayy = p[field::moment_inverse_yy], azz = p[field::moment_inverse_zz];
   const auto ayz = p[field::moment_inverse_yz], axz = p[field::moment_inverse_xz], axy = p[field::moment_inverse_xy];
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     Symmetric a{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
-    if (!skipped) a = pseudo_inverse({mxx[i], myy[i], mzz[i], myz[i], mxz[i], mxy[i]}, moment_cut);
+    if (!skipped) a = pseudo_inverse({axx[i], ayy[i], azz[i], ayz[i], axz[i], axy[i]}, moment_cut);
     axx[i] = a.xx, ayy[i] = a.yy, azz[i] = a.zz, ayz[i] = a.yz, axz[i] = a.xz, axy[i] = a.xy;
   }
 }

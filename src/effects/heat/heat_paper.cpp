@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/machine.hpp"
+#include "effects/fill.hpp"
 #include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/thermal_particles.hpp"
@@ -76,8 +77,8 @@ void PaperHeat::drift(World& world, double dt) {
 
 void PaperHeat::clear(World& world, PassName pass) {
   if (pass == PassName::density) return;
-  std::ranges::fill(world.particles[field::temperature_rate], 0.0);
-  std::ranges::fill(world.particles[field::exchange], 0.0);
+  fill(world.particles[field::temperature_rate], 0.0, world.threads);
+  fill(world.particles[field::exchange], 0.0, world.threads);
 }
 
 void PaperHeat::happen(World& world, const Happening& now) { hold_temperature(world, now, set_temperature); }

@@ -20,10 +20,12 @@ struct HeatFlowPaper {
   }
 };
 
-/// Second moment M_i = 1/2 sum_j V_j K r r^T, K = -2 W'(r)/r (model 8.6): the unit matrix in a bulk that is fine enough.
+/// Second moment M_i = 1/2 sum_j V_j K r r^T, K = -2 W'(r)/r (model 8.6): the unit matrix in a bulk that is fine enough. It is summed
+/// to the columns of its inverse, and inverted there.
 struct HeatMoment {
   using reads = Keys<field::rest_volume>;
-  using adds = Keys<field::moment_xx, field::moment_yy, field::moment_zz, field::moment_yz, field::moment_xz, field::moment_xy>;
+  using adds = Keys<field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz, field::moment_inverse_yz,
+                    field::moment_inverse_xz, field::moment_inverse_xy>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 6> sum) {
     const V w = j[0] * -g.gradient;  // 1/2 V_j K

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <span>
+
+#include "core/machine.hpp"
+
+namespace tripoint {
+
+/// Sets a column, shared among threads where it is long enough.
+inline void fill(std::span<double> column, double value, int threads) {
+#pragma omp parallel for schedule(static) num_threads(threads) if (column.size() > worth_threads)
+  for (std::size_t i = 0; i < column.size(); ++i) column[i] = value;
+}
+
+}  // namespace tripoint
