@@ -55,20 +55,20 @@ def draw(frontiers, out):
     maps = groups(frontiers)
     if not maps:
         return "", []
-    figure, axes = style.panels(len(maps), 6, height=2.5)
-    words = {"corrected": "corrected", "paper": "as printed"}
+    figure, axes = style.panels(len(maps), 6, height=2.8)
+    words = {"corrected": "", "paper": ", printed"}
     for axis, ((name, parameter), points) in zip(axes, maps.items()):
         for mode, hue in (("corrected", style.BLUE), ("paper", style.ORANGE)):
             shown = sorted((p for p in points if p.mode == mode), key=lambda p: p.value)
             if not shown:
                 continue
             x = [p.value for p in shown]
-            axis.plot(x, [p.predicted for p in shown], color=style.SOFT, linestyle="-" if mode == "corrected" else "--", label="predicted, " + words[mode])
-            axis.plot(x, [p.measured for p in shown], color=hue, linestyle="", marker="o", label="longest stable, " + words[mode])
-            axis.plot(x, [p.own for p in shown], color=hue, linestyle="", marker="_", markersize=9, label="the solver takes, " + words[mode])
+            axis.plot(x, [p.predicted for p in shown], color=style.SOFT, linestyle="-" if mode == "corrected" else "--", label="predicted" + words[mode])
+            axis.plot(x, [p.measured for p in shown], color=hue, linestyle="", marker="o", label="longest stable" + words[mode])
+            axis.plot(x, [p.own for p in shown], color=hue, linestyle="", marker="_", markersize=9, label="solver's own" + words[mode])
         values = [p.value for p in points]
         style.logarithmic(axis, "xy" if min(values) > 0.0 and max(values) > 20.0 * min(values) else "y")
-        axis.set_title(name)
+        axis.set_title(f"{name}, over {parameter}")
         axis.set_xlabel(parameter)
         axis.set_ylabel("time step [s]")
     style.legend(figure, axes)

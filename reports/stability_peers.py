@@ -52,11 +52,11 @@ def draw_contact(hits, out):
     """Energy error and overlap over the speed, a line for each step."""
     from figures import style
     figure, (energy, overlap) = style.panels(2, 4)
-    steps = sorted({h.step for h in hits})
+    steps = sorted({h.step for h in hits}, key=lambda step: (step != 1, step))
     for k, step in enumerate(steps):
         shown = sorted((h for h in hits if h.step == step), key=lambda h: h.speed)
         hue, marker = (style.SKY, style.GREEN, style.BLUE, style.ORANGE, style.PINK)[k % 5], style.MARKERS[k % len(style.MARKERS)]
-        name = "the solver's own step" if step == 1 else f"{step:g} times that"
+        name = "the solver's own step" if step == 1 else f"{step:g} of it"
         energy.plot([h.speed for h in shown], [h.energy for h in shown], color=hue, marker=marker, label=name)
         overlap.plot([h.speed for h in shown], [h.overlap for h in shown], color=hue, marker=marker)
     overlap.axhline(1.0, color=style.SOFT, linestyle=":")
