@@ -134,7 +134,7 @@ VelocityField read_velocity(const TomlNode& node, const std::string& path, Readi
     f.kind = VelocityField::Kind::taylor_green, f.speed = in.number("speed"), f.wavelength = in.number("wavelength");
   } else {
     f.kind = VelocityField::Kind::expression;
-    const auto texts = in.texts("value");
+    const auto texts = in.texts("value", Repeats::allowed);
     if (texts.size() != 3) in.refuse("value", "write three expressions, one a component");
     for (std::size_t i = 0; i < 3; ++i) expression_is_sound(*node.find("value"), f.expression[i] = texts[i], path + ".value");
   }

@@ -256,7 +256,7 @@ std::optional<Vec3> TableReader::maybe_vector(std::string_view key) {
 
 Vec3 TableReader::vector(std::string_view key) { return maybe_vector(key).value(); }
 
-std::vector<std::string> TableReader::texts(std::string_view key) {
+std::vector<std::string> TableReader::texts(std::string_view key, Repeats repeats) {
   const Found f = find(key);
   const TomlNode v = f.value ? *f.value : fallback_value(*f.row);
   std::vector<std::string> out;
@@ -271,7 +271,8 @@ std::vector<std::string> TableReader::texts(std::string_view key) {
         if (std::find(known.begin(), known.end(), item.text) == known.end())
           throw InputError(item.place, fmt::format("`{}`: \"{}\" is none of: {}", path_of(key), printable(item.text), fmt::join(known, ", ")));
       }
-      if (std::find(out.begin(), out.end(), item.text) != out.end()) throw InputError(item.place, fmt::format("`{}` names \"{}\" twice: remove one", path_of(key), printable(item.text)));
+      if (repeats == Repeats::refused && std::find(out.begin(), out.end(), item.text) != out.end())
+        throw InputError(item.place, fmt::format("`{}` names \"{}\" twice: remove one", path_of(key), printable(item.text)));
       out.push_back(item.text);
     }
   }

@@ -12,6 +12,9 @@
 
 namespace tripoint {
 
+/// Whether an array may hold a text more than once: names may not, components of a vector may.
+enum class Repeats { refused, allowed };
+
 /// One table of a case file, read by its rows of the key table: every value is checked for type, unit, range and words, and
 /// every key, given or by default, leaves a Decision. Refuses unknown keys when it is made.
 /// All functions throw InputError with the place of the value and what to write instead.
@@ -37,7 +40,7 @@ class TableReader {
   [[nodiscard]] std::vector<double> numbers(std::string_view key);
   [[nodiscard]] std::vector<double> numbers_in(std::string_view unit, std::string_view key);  ///< where another key decides the unit
   [[nodiscard]] std::optional<std::vector<double>> maybe_numbers(std::string_view key);
-  [[nodiscard]] std::vector<std::string> texts(std::string_view key);  ///< array of texts or words; a single text where the row allows it
+  [[nodiscard]] std::vector<std::string> texts(std::string_view key, Repeats = Repeats::refused);  ///< array of texts or words; a single text where the row allows it
   [[nodiscard]] Settings settings(std::string_view key);
   /// The raw value of a key of a composite type; null when absent. Leaves no decision.
   [[nodiscard]] const TomlNode* composite(std::string_view key) const;

@@ -113,6 +113,7 @@ TEST(Sample, EvaluatesTemperatureFields) {
 TEST(Sample, EvaluatesVelocityFields) {
   const std::string head = "phase='liquid'\nshape={kind='box',min=[0,0,0],max=[0.3,0.2,0.1]}\n";
   const auto linear = sample(scene_of(head + "velocity={kind='linear',centre=[0.1,0,0],gradient=[[0,1,0],[2,0,0],[0,0,3]]}"));
+  EXPECT_NO_THROW(static_cast<void>(sample(scene_of(head + "velocity={kind='expression',value=['0','0','3*z']}"))));
   const auto formula = sample(scene_of(head + "velocity={kind='expression',value=['y','2*(x-0.1)','3*z']}"));
   for (std::size_t i = 0; i < linear.size(); ++i) EXPECT_LT(norm(linear.velocity[i] - formula.velocity[i]), 1e-15);
   const auto vortex = sample(scene_of(head + "velocity={kind='taylor_green',speed=2,wavelength=1}"));
