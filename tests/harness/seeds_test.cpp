@@ -44,6 +44,35 @@ TEST(Seeds, AGateThatTurnsWithOneOfThemIsAFalseAlarm) {
   EXPECT_NE(seeds_table(all).find("1 false alarms"), std::string::npos) << seeds_table(all);
 }
 
+TEST(Seeds, ADivergenceThatTheCaseDeclaresIsNoAlarmAndAnotherIs) {
+  for (const auto& [expect, code] : {std::pair{"diverges", exit_pass}, std::pair{"pass", exit_selftest}}) {
+    auto r = green();
+    r.cases[0].expect = expect, r.cases[0].gates.clear();
+    engine(r).runs[0].status = "diverged", engine(r).runs[0].metrics.clear();
+    judge(r);
+    SeedsOutcome all;
+    add_seed(r.cases[0], 1, all);
+    settle(all);
+    EXPECT_EQ(all.exit_code, code) << expect;
+  }
+}
+
+TEST(Seeds, GatesThatJudgeTheSameLevelOfTwoStudiesAreNotMixed) {
+  SeedsOutcome all;
+  for (const unsigned seed : {1u, 2u}) {
+    auto r = green();
+    auto second = engine(r).runs[0];
+    second.group = "other", second.base = false, second.metrics["error"].value = 0.01;
+    engine(r).runs.push_back(second);
+    judge(r);
+    add_seed(r.cases[0], seed, all);
+  }
+  settle(all);
+  ASSERT_EQ(all.gates.size(), 2u);
+  EXPECT_EQ(all.gates[0].deviation, 0.0);
+  EXPECT_EQ(all.gates[1].mean, 0.01);
+}
+
 TEST(Seeds, TheRoomLeftIsCountedInStandardDeviations) {
   SeedsOutcome all;
   for (const double v : {0.04, 0.05, 0.06}) add_seed(with_value(v), 1, all);

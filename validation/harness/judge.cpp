@@ -24,11 +24,6 @@ struct Findings {
 
 std::string name_of(const EngineRow& e) { return e.preset == "default" ? e.name : e.name + " (" + e.preset + ")"; }
 
-/// Whether the case declares that this form of the model diverges.
-bool may_diverge(const CaseResult& result, const std::string& mode) {
-  return result.expect == "diverges" || (result.expect == "paper-diverges" && mode == "paper");
-}
-
 /// The row says what its worst run says; a row that claims to be ok and has no run is a hole in the results.
 void settle_status(const CaseResult& result, EngineRow& engine, Findings& findings) {
   if (engine.runs.empty() && engine.status == "ok") {
@@ -103,6 +98,10 @@ void check_planned(const Results& results, std::vector<std::string>& problems, s
 }
 
 }  // namespace
+
+bool may_diverge(const CaseResult& result, const std::string& mode) {
+  return result.expect == "diverges" || (result.expect == "paper-diverges" && mode == "paper");
+}
 
 void judge(CaseResult& result, bool engines_were_chosen) {
   result.problems.clear();

@@ -29,6 +29,9 @@ void judge(CaseResult&, bool engines_were_chosen);
 /// Mean of runs that differ by seed only: the statistical uncertainty is the larger of the stated one and the scatter, over sqrt(n).
 [[nodiscard]] MetricValue pooled(const std::vector<MetricValue>&);
 
+/// Whether the case declares that this form of the model diverges.
+[[nodiscard]] bool may_diverge(const CaseResult&, const std::string& mode);
+
 /// Whether a study of the case says that this engine runs at levels.
 [[nodiscard]] bool applies(const Study&, const std::string& engine, const std::string& mode);
 

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/errors.hpp"
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/judge.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -21,13 +23,19 @@ constexpr std::uint64_t seeds_apart = 1000;  // from the case's own seed, beyond
 
 std::string label_of(const EngineRow& e) { return e.preset == "default" ? e.name : e.name + " (" + e.preset + ")"; }
 
-SeedOutcome& outcome_for(const CaseResult& c, const EngineRow& e, const GateRow& row, SeedsOutcome& all) {
+/// @param taken places in all.gates that this seed has filled: what judges the same level of two studies is told apart by its order
+SeedOutcome& outcome_for(const CaseResult& c, const EngineRow& e, const GateRow& row, SeedsOutcome& all, std::set<const SeedOutcome*>& taken) {
   const auto allows = row.expect.empty() ? describe(row.gate) : "class " + row.expect;
   for (auto& g : all.gates)
-    if (g.case_id == c.id && g.engine == label_of(e) && g.mode == row.mode && g.metric == row.metric && g.level == row.level && g.allows == allows) return g;
+    if (!taken.count(&g) && g.case_id == c.id && g.engine == label_of(e) && g.mode == row.mode && g.metric == row.metric && g.level == row.level && g.allows == allows) {
+      taken.insert(&g);
+      return g;
+    }
   SeedOutcome g;
   g.case_id = c.id, g.engine = label_of(e), g.mode = row.mode, g.metric = row.metric, g.allows = allows, g.level = row.level, g.gate = row.gate;
-  return all.gates.emplace_back(g);
+  all.gates.push_back(g);
+  taken.insert(&all.gates.back());
+  return all.gates.back();
 }
 
 /// From a value to the nearest edge of what the gate allows.
@@ -47,12 +55,13 @@ bool depends_on_seed(const Case& value, const EnginePlan& engine, const RunPlan&
 }
 
 void add_seed(const CaseResult& c, std::uint64_t seed, SeedsOutcome& all) {
+  std::set<const SeedOutcome*> taken;
   for (const auto& e : c.engines) {
     for (const auto& run : e.runs)
-      if (run.status != "ok" && run.status != "refused" && run.status != "missing") all.problems.push_back(fmt::format("{} {} seed {}: {} {}", c.id, label_of(e), seed, run.status, run.reason));
+      if (run.status != "ok" && run.status != "refused" && run.status != "missing" && !(run.status == "diverged" && may_diverge(c, run.knobs.mode))) all.problems.push_back(fmt::format("{} {} seed {}: {} {}", c.id, label_of(e), seed, run.status, run.reason));
     for (const auto& row : e.gates) {
       if (row.verdict == "missing") continue;  // a level that chance has no hand in
-      auto& g = outcome_for(c, e, row, all);
+      auto& g = outcome_for(c, e, row, all, taken);
       g.values.push_back(row.value);
       if (row.verdict != "pass") g.alarms.push_back(seed);
     }
@@ -86,7 +95,7 @@ SeedsOutcome try_seeds(const std::vector<Case>& cases, const std::vector<EngineE
       suite.jobs = o.jobs, suite.say = o.say;
       suite.out = (fs::path(o.out) / "seeds").string();
       suite.selection.seed = value.scene.seed + seeds_apart * static_cast<std::uint64_t>(k);
-      suite.wanted = [&](const EnginePlan& e, const RunPlan& r) { return depends_on_seed(value, e, r); };
+      suite.wanted = [&](const EnginePlan& e, const RunPlan&) { return chance(e); };  // all of its runs: an order may need those that do not change
       const auto results = run_suite({value}, engines, suite);
       if (results.cases.empty()) throw EngineError("interrupted");
       add_seed(results.cases.front(), *suite.selection.seed, all);

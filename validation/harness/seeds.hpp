@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct SeedOutcome {
 };
 
 struct SeedsOutcome {
-  std::vector<SeedOutcome> gates;
+  std::deque<SeedOutcome> gates;  ///< a deque: those that are there stay where they are
   std::vector<std::string> cases, problems;  ///< cases that chance has a hand in; runs that were not ok
   int seeds = 0, exit_code = 0;              ///< 0 or 5
 };
@@ -30,7 +31,7 @@ struct SeedsOutcome {
 /// Whether another seed makes another run: jittered particles, walkers, or an engine that says that it is not deterministic.
 [[nodiscard]] bool depends_on_seed(const Case&, const EnginePlan&, const RunPlan&);
 
-/// Runs the seed-dependent runs of the cases with `count` seeds from `first` on (never the cases' own), and collects every gate that is judged.
+/// Runs the engines in whose runs chance has a hand with `count` seeds from `first` on (never the cases' own), and collects every gate that is judged.
 /// @throws InputError where no case depends on a seed
 [[nodiscard]] SeedsOutcome try_seeds(const std::vector<Case>&, const std::vector<EngineEntry>&, int count, const SelftestOptions&);
 
