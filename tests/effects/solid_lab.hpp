@@ -35,6 +35,10 @@ class Deformable {
   explicit Deformable(const Lab& lab, int threads = 1) : world_(Simulation(lab.scene, lab.initial, {.threads = threads}).world()), effect_(elastic::make(lab.scene)), start_(lab.initial.position) {
     place([](const Vec3& r) { return r; });
   }
+  /// The solids of a run of this scene, as they are now.
+  Deformable(const Lab& lab, const Simulation& now) : world_(now.world()), effect_(elastic::make(lab.scene)), start_(lab.initial.position) {
+    place([](const Vec3& r) { return r; });
+  }
   /// Each particle at to(its place at the start).
   template <class Place>
   void place(Place to) {

@@ -5,18 +5,13 @@
 #include <numbers>
 #include <random>
 
-#include "core/errors.hpp"
-#include "effects/solid_lab.hpp"
 #include "sph/lattice.hpp"
-#include "step/stability_map.hpp"
+#include "step/stability_lab.hpp"
 
 namespace tripoint::stability {
 namespace {
 
 using lab::Lab;
-constexpr int side = 4;       // particles of a periodic box: its shortest waves are those of the endless lattice
-constexpr long steps = 100;   // one per cent beyond the frontier grows by e^28 in as many
-
 /// Calls visit(r, k.r) for the points of the lattice of spacing 1 within q, but the origin.
 template <class Visit>
 void around(double q, const Vec3& k, Visit visit) {
@@ -93,37 +88,6 @@ double decay_limit(double q, double weight, bool along) {
   });
 }
 
-void disturb(Lab& lab, double speed) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> uniform(-speed, speed);
-  for (Vec3& v : lab.initial.velocity) v = {uniform(random), uniform(random), uniform(random)};
-}
-
-double kinetic(const Simulation& s) {
-  double sum = 0.0;
-  const Particles& p = s.world().particles;
-  for (std::size_t i = 0; i < p.size(); ++i) sum += p[field::mass][i] * dot(p.velocity(i), p.velocity(i));
-  return sum;
-}
-
-double own_step(const Lab& lab) { return Simulation(lab.scene, lab.initial).bound().dt; }
-
-/// Whether `measure` of a run at this step stays below `most`.
-std::function<bool(double)> stays(Lab lab, std::function<double(const Simulation&)> measure, double most) {
-  lab.scene.unguarded = {"inversion", "overlap", "ledger", "time_step"};
-  return [lab, measure, most](double dt) {
-    Lab here = lab;
-    here.scene.time_step = dt;
-    try {
-      Simulation s(here.scene, here.initial, {.force_time_step = true});
-      s.advance_to(double(steps) * dt);
-      return measure(s) < most;
-    } catch (const Diverged&) {
-      return false;
-    }
-  };
-}
-
 Lab sea(Mode mode, double q, double stiffness, double viscosity, double ratio = 1.0) {
   Lab lab = lab::liquid_lab(1.0, 1.0, viscosity, stiffness, mode);
   lab.scene.support_ratio = q;
@@ -178,36 +142,11 @@ Point heat(const char* parameter, double value, double q, double latent) {
   return {"heat", "corrected", parameter, value, decay_limit(q, 2.0 / wendland_moments(q).gradient, false), own_step(lab), stays(lab, spread, 3.0)};
 }
 
-/// 2/omega of the fastest mode of a free block [s], by power iteration on its own forces.
-double elastic_limit(const Lab& lab) {
-  lab::Deformable d(lab);
-  const double m = lab.initial.mass[0], e = 1e-6;
-  std::mt19937_64 random(9);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::vector<Vec3> u(d.size());
-  for (Vec3& x : u) x = {uniform(random), uniform(random), uniform(random)};
-  double w2 = 0.0;
-  for (int n = 0; n < 150; ++n) {
-    double size = 0.0;
-    for (const Vec3& x : u) size += dot(x, x);
-    for (Vec3& x : u) x = x / std::sqrt(size);
-    std::size_t at = 0;
-    d.place([&](const Vec3& r) { return r + e * u[at++]; });
-    w2 = 0.0;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      const Vec3 f = (-1.0 / (m * e)) * d.force(i);
-      w2 += dot(f, u[i]);
-      u[i] = f;
-    }
-  }
-  return 2.0 / std::sqrt(w2);
-}
-
 Point elastic(const char* parameter, double value, double young, double poisson) {
   Lab lab = lab::elastic_lab(1.0, poisson);
   lab.scene.materials[0].young_modulus = young;
   lab.add({.count = {4, 4, 4}, .phase = Phase::elastic});
-  const double limit = elastic_limit(lab);
+  const double limit = elastic_limit(lab, lab::Deformable(lab));
   disturb(lab, 1e-8 * std::sqrt(young));
   return {"elastic", "corrected", parameter, value, limit, own_step(lab), stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, lab.initial)))};
 }
@@ -227,6 +166,8 @@ std::vector<Point> all_points() {
   for (const double L : {0.0, 1.0, 100.0}) list.push_back(heat("latent heat", L, 2.6, L));
   for (const double E : {1.0, 1e4}) list.push_back(elastic("stiffness", E, E, 0.3));
   for (const double nu : {-0.5, 0.0, 0.3, 0.45, 0.499}) list.push_back(elastic("poisson ratio", nu, 1.0, nu));
+  add_mixed_points(list);
+  add_contact_points(list);
   return list;
 }
 
