@@ -99,6 +99,20 @@ void check_temperatures(const Scene& s) {
     if (!b.temperature) throw InputError(b.place, fmt::format("body \"{}\" has no temperature, but \"{}\" has: give every body one, or none", b.name, heated->name));
 }
 
+/// Shifts each particle at random. A body that keyframes lead keeps its centre, which is where they begin: it would jump there.
+/// @param first number of the body's first particle, on which the shifts depend
+void disturb(const Scene& s, const Body& b, std::size_t first, std::vector<Vec3>& centres) {
+  Vec3 mean;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    Vec3 shift;
+    for (std::size_t a = 0; a < 3; ++a) shift[a] = s.jitter * s.spacing * counter_noise(s.seed, first + i, a);
+    centres[i] += shift;
+    mean += shift / static_cast<double>(centres.size());
+  }
+  if (b.motion != Motion::prescribed) return;
+  for (Vec3& centre : centres) centre -= mean;
+}
+
 }  // namespace
 
 InitialState sample(const Scene& s) {
@@ -111,8 +125,7 @@ InitialState sample(const Scene& s) {
     const double mass = s.material(b.material).density * s.spacing * s.spacing * s.spacing;
     auto centres = fill(s, b);
     if (out.size() + centres.size() > max_particles) throw InputError(b.place, fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing", max_particles, b.name));
-    for (std::size_t i = 0; i < centres.size() && s.jitter > 0.0; ++i)
-      for (std::size_t a = 0; a < 3; ++a) centres[i][a] += s.jitter * s.spacing * counter_noise(s.seed, out.size() + i, a);
+    if (s.jitter > 0.0) disturb(s, b, out.size(), centres);
     const auto velocity = velocities(b, centres);
     std::optional<TemperatureAt> temperature;
     if (b.temperature) temperature.emplace(*b.temperature);

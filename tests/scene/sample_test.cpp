@@ -69,6 +69,14 @@ TEST(Sample, OfAPeriodicDirectionFitsTheDomain) {
   EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='box',min=[0,0,0],max=[0.55,0.1,0.1]}", "min=[0,0,0]\nmax=[0.55,1,1]\nperiodic=['x']"))), InputError);
 }
 
+TEST(Sample, JitterLeavesABodyThatIsLedWhereItsKeyframesBegin) {
+  const auto s = sample(scene_of("phase='rigid'\nmotion='prescribed'\nkeyframes=[{time=0,position=[0.2,0.1,0.3]},{time=1,position=[0.3,0.1,0.3]}]\n"
+                                 "shape={kind='box',min=[0,0,0],max=[0.4,0.2,0.6]}", "jitter=0.2"));
+  Vec3 mean;
+  for (const auto& r : s.position) mean += r / static_cast<double>(s.size());
+  EXPECT_LT(norm(mean - Vec3{0.2, 0.1, 0.3}), 1e-15);
+}
+
 TEST(Sample, JitterIsBoundedHasNoDriftAndFollowsTheSeed) {
   const std::string box = "shape={kind='box',min=[0,0,0],max=[2,2,2]}";
   const auto a = sample(scene_of(box)), b = sample(scene_of(box, "jitter=0.2")), same = sample(scene_of(box, "jitter=0.2")), other = sample(scene_of(box, "jitter=0.2\nseed=2"));
