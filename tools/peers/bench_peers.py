@@ -58,7 +58,7 @@ class Bench:
         numpy.savez(self.folder / f"{work}.npz", position=start["position"], velocity=start["velocity"], across=numpy.array([across] * 3))
 
     def tripoint(self, *words):
-        return subprocess.run([self.o.tripoint, "bench", *words], check=True, capture_output=True, text=True, timeout=3600, env=os.environ | {"OMP_WAIT_POLICY": "passive"}).stdout
+        return subprocess.run([self.o.tripoint, "bench", *words], check=True, capture_output=True, text=True, timeout=3600).stdout
 
     def measure(self, work, threads, steps):
         row = json.loads(self.tripoint("--work", work, "--threads", str(threads), "--steps", str(steps), "--rounds", "1", "--json"))["works"][0]
