@@ -238,7 +238,8 @@ void Neighbours::form_clusters(const Grid& grid) {
   c.first.push_back(static_cast<std::uint32_t>(built_.size()));
 }
 
-/// Each thread lists a run of clusters; the parts are then laid end to end.
+/// Each thread lists a run of clusters, the first in place; the other parts are then laid behind. `entries` and `near` may stay longer
+/// than what they hold.
 void Neighbours::list(const Particles& particles, const Grid& grid) {
   Clusters& c = clusters_;
   const auto x = positions(particles);
@@ -246,6 +247,7 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
   c.start.assign(c.size() + 1, 0);
   c.own.clear(), c.within.clear(), c.within_count.clear();
   parts_.resize(static_cast<std::size_t>(threads_));
+  std::swap(parts_[0].entries, c.entries), std::swap(parts_[0].near, c.near);
   const auto past = [&](std::size_t part) { return c.size() * part / parts_.size(); };
   std::size_t pairs = 0;
 #pragma omp parallel for schedule(static, 1) num_threads(threads_) reduction(+ : pairs)
@@ -262,7 +264,12 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
       if (drops_seam()) std::erase_if(ranges, [](const CandidateRange& r) { return r.image != Entry::box_itself; });
       std::size_t room = size;
       for (const CandidateRange& r : ranges) room += r.to - r.from;
-      if (entries.size() < room) entries.resize(room + room / 2), near.resize(entries.size());
+      if (entries.size() < room) {
+        // Room for all at once, by the clusters so far: memory that is not written to is not there.
+        const std::size_t done = k + 1 - past(part), all = past(part + 1) - past(part);
+        if (entries.capacity() < room) entries.reserve(room / done * all + room), near.reserve(entries.capacity());
+        entries.resize(std::min(room + room / 16, entries.capacity())), near.resize(entries.size());
+      }
       const unsigned members = (1u << (c.first[k + 1] - c.first[k])) - 1u;
       const Scan task{x.x.data(), x.y.data(), x.z.data(), c.first[k], members, ranges.data(), ranges.size(), shift_.data(), reach * reach};
       const Scanned found = scan_(task, entries.data() + size, near.data() + size);
@@ -273,10 +280,10 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
   pairs_ = pairs;
   longest_ = *std::ranges::max_element(c.start);
   for (std::size_t k = 0; k < c.size(); ++k) c.start[k + 1] += c.start[k];
-  c.entries.resize(c.start.back());
-  c.near.resize(c.start.back());
+  std::swap(parts_[0].entries, c.entries), std::swap(parts_[0].near, c.near);
+  if (c.entries.size() < c.start.back()) c.entries.resize(c.start.back()), c.near.resize(c.start.back());
 #pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (std::size_t part = 0; part < parts_.size(); ++part) {
+  for (std::size_t part = 1; part < parts_.size(); ++part) {
     const std::size_t from = c.start[past(part)], count = c.start[past(part + 1)] - from;
     std::copy_n(parts_[part].entries.begin(), count, c.entries.begin() + static_cast<std::ptrdiff_t>(from));
     std::copy_n(parts_[part].near.begin(), count, c.near.begin() + static_cast<std::ptrdiff_t>(from));
@@ -285,7 +292,7 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
 
 bool Neighbours::make_room_within() {
   if (longest_ > std::numeric_limits<std::uint16_t>::max()) return false;
-  clusters_.within.resize(clusters_.entries.size());
+  clusters_.within.resize(clusters_.start.back());
   clusters_.within_count.resize(clusters_.size());
   return true;
 }
@@ -298,7 +305,7 @@ void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {
   bool any = false;
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(|| : any)
   for (std::size_t i = 0; i < particles.size(); ++i) any = any || has_own(i);
-  c.own.assign(any ? c.entries.size() : 0, 0);
+  c.own.assign(any ? c.start.back() : 0, 0);
   if (!any) return;
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t k = 0; k < c.size(); ++k) {
