@@ -74,6 +74,14 @@ using ViscousKeys = Keys<field::volume, field::viscosity, field::solid, field::s
                          field::viscous_velocity_y, field::viscous_velocity_z>;
 using ViscousForce = Keys<field::viscous_force_x, field::viscous_force_y, field::viscous_force_z>;
 
+/// Adds G_ij (v_j - v_i) [N]. @param G [kg/s]
+template <class V>
+inline void drag(V G, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) noexcept {
+  sum[0] += G * (j[5] - i[5]);
+  sum[1] += G * (j[6] - i[6]);
+  sum[2] += G * (j[7] - i[7]);
+}
+
 /// Viscous force (8) as printed [N]: F_i = sum_j V_i V_j (mu_i + mu_j)/2 (v_j - v_i) lap W_visc.
 /// What fails: walls slip, the lattice factor is 0.93, and a rigidly turning liquid ball is braked.
 struct ViscosityPaper {
@@ -88,10 +96,7 @@ struct ViscosityPaper {
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
-    const V G = coefficient<V>(g, i, j);
-    sum[0] += G * (j[5] - i[5]);
-    sum[1] += G * (j[6] - i[6]);
-    sum[2] += G * (j[7] - i[7]);
+    drag(coefficient<V>(g, i, j), i, j, sum);
   }
 };
 
@@ -110,10 +115,7 @@ struct ViscosityLaplacian {
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
-    const V G = coefficient<V>(g, i, j);
-    sum[0] += G * (j[5] - i[5]);
-    sum[1] += G * (j[6] - i[6]);
-    sum[2] += G * (j[7] - i[7]);
+    drag(coefficient<V>(g, i, j), i, j, sum);
   }
 };
 
