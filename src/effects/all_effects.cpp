@@ -170,11 +170,11 @@ Plan plan(const Scene& scene) {
     if (!find(c.name)) p.effects.push_back({c.name, c.why + " (not in this build)", std::string(to_string(scene.mode))});
   }
   if (!p.effects.empty()) return p;
-  const std::vector<CalledEffect> calls = wanted(scene);
+  const std::vector<Active> active = active_effects(scene);
   for (const CalledEffect& idle : idle_effects(scene)) {  // bodies that are driven call for the rigid effect too
-    if (std::ranges::find(calls, idle.name, &CalledEffect::name) == calls.end()) p.idle.push_back({idle.name, idle.why, {}});
+    if (std::ranges::find(active, idle.name, &Active::name) == active.end()) p.idle.push_back({idle.name, idle.why, {}});
   }
-  for (const Active& a : active_effects(scene)) {
+  for (const Active& a : active) {
     p.effects.push_back({a.name, a.why, std::string(to_string(a.spec.mode))});
     for (const FieldInfo& f : a.spec.owns) add(f, a.name);
   }

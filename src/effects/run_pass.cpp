@@ -9,9 +9,9 @@ namespace {
 PassTask task_of(const PassFunction& function, const Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
   const auto x = positions(particles);
   Clusters& c = neighbours.clusters();
-  const bool finds = function.finds && neighbours.make_room_within(), reads = !function.finds && !c.within_count.empty();
+  const bool known = function.finds ? neighbours.make_room_within() : !c.within_count.empty();
   return {x.x.data(), x.y.data(), x.z.data(), nullptr, c.first.data(), c.start.data(), c.entries.data(), c.near.data(), c.own.empty() ? nullptr : c.own.data(),
-          finds || reads ? c.within.data() : nullptr, finds || reads ? c.within_count.data() : nullptr, neighbours.shifts().data(), nullptr, nullptr, c.size(), neighbours.support() * neighbours.support(), &kernels, threads};
+          known ? c.within.data() : nullptr, known ? c.within_count.data() : nullptr, neighbours.shifts().data(), nullptr, nullptr, c.size(), neighbours.support() * neighbours.support(), &kernels, threads};
 }
 
 std::vector<double*> columns_of(const PassFunction& function, Particles& particles) {

@@ -36,6 +36,17 @@ struct PairGeometry {
   const PairKernels& kernels;
 };
 
+/// Adds w d d^T, d = r_j - r_i: xx, yy, zz, yz, xz, xy.
+template <class V>
+[[gnu::always_inline]] inline void add_outer(V w, const PairGeometry<V>& g, std::span<V, 6> sum) noexcept {
+  sum[0] += w * (g.dx * g.dx);
+  sum[1] += w * (g.dy * g.dy);
+  sum[2] += w * (g.dz * g.dz);
+  sum[3] += w * (g.dy * g.dz);
+  sum[4] += w * (g.dx * g.dz);
+  sum[5] += w * (g.dx * g.dy);
+}
+
 /// Clusters of particles and what they are to be summed over, as plain memory: what is compiled for one vector unit shares no code
 /// with the rest.
 struct PassTask {
@@ -104,7 +115,7 @@ struct FieldsOf {
 };
 
 /// Adds a term's part of a pair to its sums, for the members whose lane is in `acting`; the sums of the others keep their bits.
-/// @param i, j what all terms read, each field once   @param mention, sum the term's first ones; moved past its last
+/// @tparam mention first of the term's fields among those of all terms   @param i, j what all terms read, each field once   @param sum the term's first
 template <class Fields, class Term, std::size_t mention, class V, class Mask>
 void add_term(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j, V* sum) {
   constexpr std::size_t reads = Term::reads::size, adds = Term::adds::size;

@@ -57,12 +57,17 @@ std::string deflections(const MetricInput& in, const Frames& frames, std::vector
   return {};
 }
 
+/// The swing of the deflections about their rest; `problem` says why there is none.
+Swing swing_of(const MetricInput& in, const Frames& frames, double guess) {
+  std::vector<double> t, w;
+  if (auto why = deflections(in, frames, t, w); !why.empty()) return {.problem = why};
+  return fit_swing(t, w, guess);
+}
+
 MetricValue frequency(const MetricInput& in, const Frames& frames) {
   const auto truth = in.reference.number("frequency");
   if (!truth) return not_formed("the reference does not know the frequency");
-  std::vector<double> t, w;
-  if (auto why = deflections(in, frames, t, w); !why.empty()) return not_formed(why);
-  const auto swing = fit_swing(t, w, *truth);
+  const auto swing = swing_of(in, frames, *truth);
   if (!swing.problem.empty()) return not_formed(swing.problem);
   MetricValue v;
   v.value = swing.frequency / *truth - 1.0;
@@ -88,9 +93,7 @@ MetricValue sag(const MetricInput& in, const Frames& frames) {
 MetricValue swing_amplitude(const MetricInput& in, const Frames& frames) {
   const auto truth = in.reference.number("amplitude"), guess = in.reference.number("frequency");
   if (!truth || !guess) return not_formed("the reference does not know the amplitude of a swing: it starts neither in its lowest mode nor with a stated one");
-  std::vector<double> t, w;
-  if (auto why = deflections(in, frames, t, w); !why.empty()) return not_formed(why);
-  const auto swing = fit_swing(t, w, *guess);
+  const auto swing = swing_of(in, frames, *guess);
   if (!swing.problem.empty()) return not_formed(swing.problem);
   MetricValue v;
   v.value = swing.amplitude / *truth - 1.0;

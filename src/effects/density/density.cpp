@@ -17,6 +17,7 @@ class DensityEffect : public Effect {
     for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * self;
   }
   void state(World& world) override {
+    if (!world.moved) return;
     const Particles& p = world.particles;
     const auto V = world.particles[field::volume];
     const auto rho = p[field::density], m = p[field::mass];

@@ -42,6 +42,9 @@ bool can_have_walls(const Scene& scene) {
   return std::ranges::any_of(scene.bodies, is_wall) || std::ranges::any_of(scene.events, makes_one);
 }
 
+/// Whether walls are seen as extrapolated (model 8.4).
+bool has_corrected_walls(const Scene& scene) { return scene.mode_of(Term::walls) == Mode::corrected && can_have_walls(scene); }
+
 /// Whether the work of the pressure that walls borrow is booked.
 bool splits_wall_forces(const Scene& scene) { return can_have_walls(scene) && numbers_of(scene).extrapolates && scene.mode_of(Term::pressure) == Mode::corrected; }
 
@@ -51,7 +54,7 @@ class Fluid : public Effect {
       : numbers_(numbers_of(scene)),
         kernels_(pair_kernels(scene)),
         transports_(uses_transport_velocity(scene)),
-        has_walls_(scene.mode_of(Term::walls) == Mode::corrected && can_have_walls(scene)),
+        has_walls_(has_corrected_walls(scene)),
         splits_(splits_wall_forces(scene)) {}
   void load(World&, const InitialState&) override;
   void kick(World&, double dt) override;
@@ -209,7 +212,7 @@ EffectSpec spec(const Scene& scene) {
   if (scene.mode_of(Term::density) == Mode::corrected) own({field::number_density});
   if (scene.mode_of(Term::pressure) == Mode::corrected) own({field::pressure_share});
   if (scene.mode_of(Term::density) == Mode::corrected && can_have_deformable_bodies(scene)) own({field::own_density});
-  if (scene.mode_of(Term::walls) == Mode::corrected && can_have_walls(scene)) {
+  if (has_corrected_walls(scene)) {
     own({field::wall_weight, field::wall_pressure, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z, field::wall_velocity_x, field::wall_velocity_y,
          field::wall_velocity_z});
     if (splits_wall_forces(scene)) own({field::wall_force_x, field::wall_force_y, field::wall_force_z});

@@ -158,13 +158,7 @@ struct ViscousSpread {
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 6> sum) {
     const V G = Viscosity::template coefficient<V>(g, i, j);
     if constexpr (central) {
-      const V G_r2 = G * g.per_r2;
-      sum[0] += G_r2 * (g.dx * g.dx);
-      sum[1] += G_r2 * (g.dy * g.dy);
-      sum[2] += G_r2 * (g.dz * g.dz);
-      sum[3] += G_r2 * (g.dy * g.dz);
-      sum[4] += G_r2 * (g.dx * g.dz);
-      sum[5] += G_r2 * (g.dx * g.dy);
+      add_outer(G * g.per_r2, g, sum);
     } else {
       sum[0] += G;
     }

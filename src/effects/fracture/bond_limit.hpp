@@ -30,16 +30,17 @@ class BondLimits {
   }
   /// @param r r_i - r_j [m]   @param a,b materials of the two
   [[nodiscard]] bool breaks(const Vec3& r, const Bond& bond, std::size_t a, std::size_t b) const {
-    const double limit = std::min(limit_[a], limit_[b]);
+    const double limit = limit_of(a, b);
     return paper_ ? breaks_by_distance(r, limit) : breaks_by_stretch(r, bond.x, limit);
   }
   /// By how much |r| may grow before the bond breaks [m].
   [[nodiscard]] double room(const Vec3& r, const Bond& bond, std::size_t a, std::size_t b) const {
-    const double limit = std::min(limit_[a], limit_[b]);
-    return (paper_ ? limit : limit * norm(bond.x)) - norm(r);
+    return (paper_ ? 1.0 : norm(bond.x)) * limit_of(a, b) - norm(r);
   }
 
  private:
+  [[nodiscard]] double limit_of(std::size_t a, std::size_t b) const { return std::min(limit_[a], limit_[b]); }
+
   bool paper_;
   std::vector<double> limit_;  ///< of each material: [1], printed [m]
 };

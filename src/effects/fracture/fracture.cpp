@@ -39,13 +39,13 @@ std::vector<Pair> Fracture::broken(const World& world) {
   const solid::ElasticParticles is_elastic(world);
   const auto material = p[field::material];
   const auto x = positions(p);
-  const auto ends = [&](std::size_t i, const Bond& bond) {
-    const std::size_t j = p.row(bond.other);
-    return limits_.breaks(solid::nearest_image(world.box, x.at(i) - x.at(j)), bond, static_cast<std::size_t>(material[i]), static_cast<std::size_t>(material[j]));
+  struct Ends {
+    Vec3 r;
+    std::size_t a, b;  ///< materials
   };
-  const auto room = [&](std::size_t i, const Bond& bond) {
+  const auto ends_of = [&](std::size_t i, const Bond& bond) {
     const std::size_t j = p.row(bond.other);
-    return limits_.room(solid::nearest_image(world.box, x.at(i) - x.at(j)), bond, static_cast<std::size_t>(material[i]), static_cast<std::size_t>(material[j]));
+    return Ends{solid::nearest_image(world.box, x.at(i) - x.at(j)), static_cast<std::size_t>(material[i]), static_cast<std::size_t>(material[j])};
   };
   has_broken_.assign(p.size(), 0);
   double least = std::numeric_limits<double>::infinity();
@@ -54,16 +54,19 @@ std::vector<Pair> Fracture::broken(const World& world) {
     const std::size_t i = p.row(id);
     if (!is_elastic(i)) continue;
     for (const Bond& b : world.bonds.of(id)) {
-      if (ends(i, b)) has_broken_[id] = 1;
-      least = std::min(least, room(i, b));
+      const Ends e = ends_of(i, b);
+      if (limits_.breaks(e.r, b, e.a, e.b)) has_broken_[id] = 1;
+      least = std::min(least, limits_.room(e.r, b, e.a, e.b));
     }
   }
   calm_.know(world, least);
   std::vector<Pair> pairs;
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     if (!has_broken_[id]) continue;
-    for (const Bond& b : world.bonds.of(id))
-      if (ends(p.row(id), b)) pairs.push_back(std::minmax(id, b.other));
+    for (const Bond& b : world.bonds.of(id)) {
+      const Ends e = ends_of(p.row(id), b);
+      if (limits_.breaks(e.r, b, e.a, e.b)) pairs.push_back(std::minmax(id, b.other));
+    }
   }
   sort_once(pairs);
   return pairs;

@@ -28,13 +28,7 @@ struct HeatMoment {
                     field::moment_inverse_xz, field::moment_inverse_xy>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 6> sum) {
-    const V w = j[0] * -g.gradient;  // 1/2 V_j K
-    sum[0] += w * (g.dx * g.dx);
-    sum[1] += w * (g.dy * g.dy);
-    sum[2] += w * (g.dz * g.dz);
-    sum[3] += w * (g.dy * g.dz);
-    sum[4] += w * (g.dx * g.dz);
-    sum[5] += w * (g.dx * g.dy);
+    add_outer(j[0] * -g.gradient, g, sum);  // 1/2 V_j K
   }
 };
 
