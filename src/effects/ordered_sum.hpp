@@ -16,7 +16,9 @@ template <std::size_t n, class Add>
 #pragma omp parallel for schedule(static) num_threads(threads) if (blocks.size() > 1)
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::size_t end = std::min(count, (b + 1) * block);
-    for (std::size_t i = b * block; i < end; ++i) add(i, blocks[b]);
+    std::array<double, n> sum{};  // here and not in place, so that it can be kept in registers
+    for (std::size_t i = b * block; i < end; ++i) add(i, sum);
+    blocks[b] = sum;
   }
   std::array<double, n> total{};
   for (const auto& part : blocks) {

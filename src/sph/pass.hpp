@@ -173,8 +173,11 @@ template <int L, class ForUnit, bool finds, class... Terms>
     const std::size_t e = start + (!finds && places ? places[n] : n);
     const Entry entry{t.entries[e]};
     const std::size_t row_j = entry.row();
-    const Vec3& s = t.shift[entry.image()];
-    const V dx = (t.x[row_j] - xi) + s.x, dy = (t.y[row_j] - yi) + s.y, dz = (t.z[row_j] - zi) + s.z;
+    V dx = t.x[row_j] - xi, dy = t.y[row_j] - yi, dz = t.z[row_j] - zi;
+    if (entry.image() != Entry::box_itself) [[unlikely]] {
+      const Vec3& s = t.shift[entry.image()];
+      dx += s.x, dy += s.y, dz += s.z;
+    }
     const V r2 = dx * dx + dy * dy + dz * dz;
     const Mask within = r2 < t.support2, acting = within & mask_of<L>(t.near[e]), apart = mask_of<L>(any_own ? ~t.own[e] : ~0u);
     if (finds && places) {
