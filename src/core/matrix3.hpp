@@ -40,7 +40,7 @@ constexpr Symmetric operator-(const Symmetric& a, const Symmetric& b) noexcept {
 
 constexpr Matrix3 full(const Symmetric& a) noexcept { return {a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz}; }
 constexpr Matrix3 transposed(const Matrix3& a) noexcept { return {a.xx, a.yx, a.zx, a.xy, a.yy, a.zy, a.xz, a.yz, a.zz}; }
-constexpr Matrix3 operator*(const Matrix3& a, const Matrix3& b) noexcept {
+[[gnu::always_inline]] constexpr Matrix3 operator*(const Matrix3& a, const Matrix3& b) noexcept {
   const Vec3 x = a * Vec3{b.xx, b.yx, b.zx}, y = a * Vec3{b.xy, b.yy, b.zy}, z = a * Vec3{b.xz, b.yz, b.zz};
   return {x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
 }

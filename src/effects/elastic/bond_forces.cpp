@@ -53,6 +53,8 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
       if (list.count > 0) all.deformed[id] = {};
       continue;
     }
+    ReferenceSums& reference = all.reference[id];
+    if (all.outdated) sum.reference(list, all.lists.shapes(), all.places.data(), reference);
     ListSums sums;
     sum.list(list, all.lists.shapes(), all.places.data(), all.places[id], seam, sums);
     const int rank = rank_of[row];
@@ -64,7 +66,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
     Deformed& i = all.deformed[id];
     i = {};
     i.strained = G;
-    all.own[id] = {sums.gradient, {}};
+    all.glass[id] = {};
     if (!hourglass) continue;
     const double stiff = 0.5 * forms.hourglass() * constants(row).young;
     i.set_glass(rank == 3 ? stiff : 0.0, rank == 3 ? 0.0 : stiff, volume);
@@ -72,9 +74,9 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
       i.T = flat_hourglass(world, all, id, stiff, strain, P, F);
       continue;
     }
-    i.T = (stiff * volume) * (G * Matrix3(sums.moment) + sums.swept);
-    const Vec3 glass = (volume * stiff) * (G * Vec3(sums.glass) + sums.residual);
-    all.own[id].glass = {glass.x, glass.y, glass.z};
+    i.T = (stiff * volume) * (G * reference.moment + sums.swept);
+    const Vec3 glass = (volume * stiff) * (G * reference.glass + sums.residual);
+    all.glass[id] = {glass.x, glass.y, glass.z};
   }
 }
 
@@ -102,7 +104,7 @@ void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
     const Matrix3 T = ((forms.force_factor() * volume[row]) * ((identity3 + Matrix3(i.strained)) * S) + Matrix3(i.T)) * A;
     i.T = T;
     if (rank_of[row] != 3) i.strained = full(total);
-    f.set(row, T * Vec3(all.own[id].gradient) + all.own[id].glass);
+    f.set(row, T * all.reference[id].gradient + all.glass[id]);
   }
 }
 
@@ -154,29 +156,35 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
   }
 }
 
-void set_places(World& world, Deformations& all) {
+/// @return whether a volume has changed, or who owns strain energy
+bool set_places(World& world, Deformations& all) {
   const Particles& p = world.particles;
   const auto x = positions(p);
   const auto id_of = p[field::id];
   const auto volume = p[field::solid_volume];
   all.places.resize(p.size());
   all.deformed.resize(p.size());
-  all.own.resize(p.size());
+  all.glass.resize(p.size());
+  all.reference.resize(p.size());
   all.owns.resize(p.size());
   const solid::EnergyOwners owns(world);
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+  bool changed = false;
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(|| : changed)
   for (std::size_t row = 0; row < p.size(); ++row) {
     const auto id = static_cast<std::size_t>(id_of[row]);
+    const char owner = owns(row);
+    changed = changed || all.places[id].volume != volume[row] || all.owns[id] != owner;
     all.places[id] = {x.at(row), volume[row]};
-    all.owns[id] = owns(row);
+    all.owns[id] = owner;
   }
+  return changed;
 }
 
 }  // namespace
 
 void deform(World& world, const ElasticForms& forms, Deformations& all) {
-  all.lists.follow(world.bonds);
-  set_places(world, all);
+  const bool relisted = all.lists.follow(world.bonds), changed = set_places(world, all);
+  all.outdated = relisted || changed;
   deform_all(world, forms, all);
 }
 

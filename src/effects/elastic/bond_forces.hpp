@@ -8,16 +8,13 @@ namespace tripoint::elastic {
 
 /// Memory of the passes, filled anew each step.
 struct Deformations {
-  /// What the energy of a particle itself does to it.
-  struct Own {
-    Column gradient;  ///< sum v_j gradW: T times it is the force of the strain energy [m2]
-    Column glass;     ///< of the hourglass energy of a solid [N]
-  };
   BondLists lists;
-  AlignedVector<Place> places;       ///< by id
-  AlignedVector<Deformed> deformed;  ///< by id, of what has bonds or owns strain energy
-  AlignedVector<Own> own;            ///< by id, the same
-  std::vector<char> owns;            ///< by id, 1 where it owns strain energy
+  AlignedVector<Place> places;           ///< by id
+  AlignedVector<Deformed> deformed;      ///< by id, of what has bonds or owns strain energy
+  std::vector<ReferenceSums> reference;  ///< by id, the same
+  bool outdated = true;                  ///< whether bonds or volumes have changed since `reference` was summed
+  AlignedVector<Column> glass;           ///< by id: force of a particle's own hourglass energy on it, of a solid [N]
+  std::vector<char> owns;                ///< by id, 1 where it owns strain energy
 };
 
 /// F, strain and the hourglass part H = sum_j c_ij (F x_ji - r_ji) x_ji^T of all particles of deformable bodies.

@@ -44,8 +44,8 @@ std::uint32_t BondLists::shape_of(const Bond& bond) {
   return table_[at] - 1;
 }
 
-void BondLists::follow(const Bonds& bonds) {
-  if (bonds.changes() == followed_) return;
+bool BondLists::follow(const Bonds& bonds) {
+  if (bonds.changes() == followed_) return false;
   const bool mostly_left = shapes_.size() > 2 * bonds.pairs() + 1024;  // shapes that no bond has any more
   if (bonds.changes() < followed_ || mostly_left) forget();
   other_.resize(bonds.places()), shape_.resize(bonds.places()), seen_.resize(bonds.places());
@@ -64,6 +64,7 @@ void BondLists::follow(const Bonds& bonds) {
     }
   }
   followed_ = bonds.changes();
+  return true;
 }
 
 }  // namespace tripoint::elastic

@@ -27,7 +27,8 @@ class BondLists {
     const std::uint32_t* seen;   ///< of its twin, in the list of j
     std::size_t count;
   };
-  void follow(const Bonds&);
+  /// @return whether there was anything new
+  bool follow(const Bonds&);
   [[nodiscard]] List of(const Bonds& bonds, std::size_t id) const {
     const std::size_t start = id < bonds.particles() ? bonds.start(id) : 0;
     return {other_.data() + start, shape_.data() + start, seen_.data() + start, bonds.of(id).size()};

@@ -62,13 +62,17 @@ struct Seam {
   Column half, width;
 };
 
-/// What a list tells, with x = x_ij, u = u_ji, w = v_j W(x)/|x|^2.
+/// What a list tells of the reference shape, with x = x_ij, w = v_j W(x)/|x|^2: the same until bonds or volumes change.
+struct ReferenceSums {
+  Matrix3 moment;  ///< sum w x x^T
+  Vec3 gradient;   ///< sum v_j gradW
+  Vec3 glass;      ///< sum w x
+};
+
+/// What it tells of the deformed one, with u = u_ji.
 struct ListSums {
   Columned displacement;  ///< sum v_j u gradW^T
   Columned swept;         ///< sum w u x^T
-  Columned moment;        ///< sum w x x^T
-  Column gradient;        ///< sum v_j gradW
-  Column glass;           ///< sum w x
   Column residual;        ///< sum w u
 };
 
@@ -79,6 +83,7 @@ struct PartnerForces {
 
 /// The loops of one scene.
 struct BondSums {
+  void (*reference)(const BondLists::List&, const BondShape*, const Place*, ReferenceSums&);
   void (*list)(const BondLists::List&, const BondShape*, const Place*, const Place&, const Seam&, ListSums&);
   void (*partners)(const BondLists::List&, const BondShape*, const Place*, const Deformed*, const Place&, const Seam&, PartnerForces&);
 };
@@ -118,12 +123,37 @@ template <bool periodic>
 
 }  // namespace detail
 
+/// @param places by id: their volumes are read
+template <bool hourglass, class ForUnit>
+void sum_reference(const BondLists::List& list, const BondShape* shapes, const Place* places, ReferenceSums& out) {
+  using namespace detail;
+  Quads moment;
+  Quad gradient{}, glass{};
+  for (std::size_t n = 0; n < list.count; ++n) {
+    const BondShape& bond = shapes[list.shape[n]];
+    const double volume = places[list.other[n]].volume;
+    Quad x;
+    load(x, &bond);
+    gradient += (volume * bond.slope) * x;
+    if constexpr (hourglass) {
+      const Quad wx = (volume * bond.glass) * x;
+      moment.x += bond.x.x * wx, moment.y += bond.x.y * wx, moment.z += bond.x.z * wx;
+      glass += wx;
+    }
+  }
+  Columned columns;
+  store(columns, moment);
+  Column c, g;
+  store(&c, gradient), store(&g, glass);
+  out = {columns, c, g};
+}
+
 /// @param at place of i   @param places by id
 template <bool periodic, bool hourglass, class ForUnit>
 void sum_list(const BondLists::List& list, const BondShape* shapes, const Place* places, const Place& at, const Seam& seam, ListSums& out) {
   using namespace detail;
-  Quads displacement, swept, moment;
-  Quad i, gradient{}, glass{}, residual{};
+  Quads displacement, swept;
+  Quad i, residual{};
   load(i, &at);
   for (std::size_t n = 0; n < list.count; ++n) {
     const BondShape& bond = shapes[list.shape[n]];
@@ -136,18 +166,13 @@ void sum_list(const BondLists::List& list, const BondShape* shapes, const Place*
     const Quad ux = bond.x.x * u, uy = bond.x.y * u, uz = bond.x.z * u;
     const double slope = j.volume * bond.slope;
     displacement.x += slope * ux, displacement.y += slope * uy, displacement.z += slope * uz;
-    gradient += slope * x;
     if constexpr (hourglass) {
       const double w = j.volume * bond.glass;
-      const Quad wx = w * x;
       swept.x += w * ux, swept.y += w * uy, swept.z += w * uz;
-      moment.x += bond.x.x * wx, moment.y += bond.x.y * wx, moment.z += bond.x.z * wx;
-      glass += wx;
       residual += w * u;
     }
   }
-  store(out.displacement, displacement), store(out.swept, swept), store(out.moment, moment);
-  store(&out.gradient, gradient), store(&out.glass, glass), store(&out.residual, residual);
+  store(out.displacement, displacement), store(out.swept, swept), store(&out.residual, residual);
 }
 
 /// sum_j -T_j gradW(x_ji), and sum_j -k_j v_j W(x_ji)/|x_ji|^2 ((F_j - I) x_ji + u_ij), k = a E/2: x_ji as j has it in its list.
@@ -178,10 +203,14 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
   store(&out.stress, stress), store(&out.glass, glass);
 }
 
+template <bool periodic, bool hourglass, class ForUnit>
+[[nodiscard]] BondSums sums_of() {
+  return {&sum_reference<hourglass, ForUnit>, &sum_list<periodic, hourglass, ForUnit>, &sum_partners<periodic, hourglass, ForUnit>};
+}
 template <class ForUnit>
 [[nodiscard]] BondSums pick_bond_sums(bool periodic, bool hourglass) {
-  if (periodic) return hourglass ? BondSums{&sum_list<true, true, ForUnit>, &sum_partners<true, true, ForUnit>} : BondSums{&sum_list<true, false, ForUnit>, &sum_partners<true, false, ForUnit>};
-  return hourglass ? BondSums{&sum_list<false, true, ForUnit>, &sum_partners<false, true, ForUnit>} : BondSums{&sum_list<false, false, ForUnit>, &sum_partners<false, false, ForUnit>};
+  if (periodic) return hourglass ? sums_of<true, true, ForUnit>() : sums_of<true, false, ForUnit>();
+  return hourglass ? sums_of<false, true, ForUnit>() : sums_of<false, false, ForUnit>();
 }
 
 }  // namespace tripoint::elastic
