@@ -13,14 +13,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Runs the part and keeps what it took where that is less than before.
+/// Runs a part some times. @param least kept where it is less than each   @param mean,mean_cpu of them all
 template <class Part>
-void time_part(double& least, double& least_cpu, Part part) {
-  const auto begin = Clock::now();
+void time_part(int times, double& least, double& mean, double& mean_cpu, Part part) {
   const std::clock_t cpu = std::clock();
-  part();
-  least_cpu = std::min(least_cpu, static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC);
-  least = std::min(least, std::chrono::duration<double>(Clock::now() - begin).count());
+  double sum = 0.0;
+  for (int n = 0; n < times; ++n) {
+    const auto begin = Clock::now();
+    part();
+    const double took = std::chrono::duration<double>(Clock::now() - begin).count();
+    least = std::min(least, took), sum += took;
+  }
+  mean = sum / times;
+  mean_cpu = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC / times;
 }
 
 /// A number in [0.9, 1.1) that differs from row to row: loops over equal values could be cheaper.
@@ -60,7 +65,7 @@ Limit::Limit(std::span<const Vec3> positions, Mode mode, double support, double 
   columns_ = start_;
   for (const LaneLoops& loops : all_lane_loops()) {
     const LimitSeconds never{loops.lanes, 1e300, 1e300, 1e300, mode == Mode::paper ? 0.0 : 1e300};
-    runners_.push_back({loops, {}, never, never});
+    runners_.push_back({loops, {}, never, {}, {}});
   }
 }
 
@@ -93,17 +98,20 @@ void Limit::search(Runner& r) {
 }
 
 void Limit::round() {
+  constexpr int times = 4;
   for (Runner& r : runners_) {
     if (r.loops.lanes == 1 && runners_.size() > 1) continue;  // never the least where there are vectors
     const bool seed = mode_ == Mode::paper;
+    LimitSeconds mean{r.loops.lanes}, cpu = mean;
     const auto loop = [&](LaneLoops::Loop run, double LimitSeconds::*part) {
-      time_part(r.least.*part, r.least_cpu.*part, [&] { run(columns_, r.lists, support_, threads_); });
+      time_part(times, r.least.*part, mean.*part, cpu.*part, [&] { run(columns_, r.lists, support_, threads_); });
     };
     if (first_) search(r);
-    time_part(r.least.search, r.least_cpu.search, [&] { search(r); });
+    time_part(1, r.least.search, mean.search, cpu.search, [&] { search(r); });
     loop(seed ? r.loops.seed_density : r.loops.corrected_density, &LimitSeconds::density);
     loop(seed ? r.loops.seed_rates : r.loops.corrected_rates, &LimitSeconds::rates);
     if (!seed) loop(r.loops.corrected_heat, &LimitSeconds::again);
+    r.rounds.push_back(mean), r.rounds_cpu.push_back(cpu);
     pairs_ = r.lists.pairs;
   }
   first_ = false;
@@ -125,12 +133,23 @@ std::vector<double> Limit::sums(std::size_t unit) {
   return all;
 }
 
-LimitSeconds Limit::best(double rebuilds) const {
-  return std::ranges::min_element(runners_, {}, [&](const Runner& r) { return r.least.step(rebuilds); })->least;
+const Limit::Runner& Limit::fastest(double rebuilds) const {
+  return *std::ranges::min_element(runners_, {}, [&](const Runner& r) { return r.least.step(rebuilds); });
 }
 
-LimitSeconds Limit::best_cpu(double rebuilds) const {
-  return std::ranges::min_element(runners_, {}, [&](const Runner& r) { return r.least_cpu.step(rebuilds); })->least_cpu;
+LimitSeconds Limit::best(double rebuilds) const { return fastest(rebuilds).least; }
+
+namespace {
+
+std::vector<double> steps_of(const std::vector<LimitSeconds>& rounds, double rebuilds) {
+  std::vector<double> list;
+  for (const LimitSeconds& s : rounds) list.push_back(s.step(rebuilds));
+  return list;
 }
+
+}  // namespace
+
+std::vector<double> Limit::steps(double rebuilds) const { return steps_of(fastest(rebuilds).rounds, rebuilds); }
+std::vector<double> Limit::steps_cpu(double rebuilds) const { return steps_of(fastest(rebuilds).rounds_cpu, rebuilds); }
 
 }  // namespace tripoint::bench

@@ -9,7 +9,7 @@
 
 namespace tripoint::bench {
 
-/// Seconds of the parts of one step, the least seen.
+/// Seconds of the parts of one step.
 struct LimitSeconds {
   int lanes = 0;
   double search = 0.0, density = 0.0, rates = 0.0, again = 0.0;  ///< again: heat's second stage, corrected forms only
@@ -24,12 +24,14 @@ class Limit {
   /// @param mode whose terms: those of (4), (7), (8), (21) or of their corrected forms
   /// @param support, skin as the lists of the solver [m]
   Limit(std::span<const Vec3> positions, Mode mode, double support, double skin, int threads);
-  /// Runs every part of every vector unit once.
+  /// Runs the loops of every vector unit some times, and their search once.
   void round();
-  /// The vector unit with the least step. @param rebuilds of lists a step
+  /// Least seconds of the parts, of the vector unit with the least step. @param rebuilds of lists a step
   [[nodiscard]] LimitSeconds best(double rebuilds) const;
+  /// Seconds of a step of that unit in each round, as they come: what the mean of some steps of a solver is to be compared with.
+  [[nodiscard]] std::vector<double> steps(double rebuilds) const;
   /// The same in CPU seconds of all threads, which other work on the machine does not lengthen.
-  [[nodiscard]] LimitSeconds best_cpu(double rebuilds) const;
+  [[nodiscard]] std::vector<double> steps_cpu(double rebuilds) const;
   /// What the density loop of a vector unit sums, row by row as the search sorts them; for tests.
   [[nodiscard]] std::vector<double> density(std::size_t unit);
   /// The same of the rate loop, one sum after the other.
@@ -41,8 +43,10 @@ class Limit {
   struct Runner {
     LaneLoops loops;
     LaneLists lists;
-    LimitSeconds least, least_cpu;
+    LimitSeconds least;
+    std::vector<LimitSeconds> rounds, rounds_cpu;
   };
+  [[nodiscard]] const Runner& fastest(double rebuilds) const;
   void sort();
   void search(Runner&);
 

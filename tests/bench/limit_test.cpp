@@ -68,5 +68,14 @@ TEST(Limit, StepsCostLessTheLongerListsLast) {
   EXPECT_GT(limit.best(0.1).density, 0.0);
 }
 
+TEST(Limit, TellsOfEveryRoundAndOfTheLeastOfAll) {
+  Limit limit(shaken_lattice(12), Mode::corrected, 2.2, 0.2, 1);
+  for (int n = 0; n < 3; ++n) limit.round();
+  const std::vector<double> steps = limit.steps(0.5), cpu = limit.steps_cpu(0.5);
+  ASSERT_EQ(steps.size(), 3u);
+  EXPECT_EQ(cpu.size(), 3u);
+  for (const double s : steps) EXPECT_GE(s, limit.best(0.5).step(0.5));
+}
+
 }  // namespace
 }  // namespace tripoint::bench
