@@ -6,12 +6,11 @@
 namespace tripoint {
 namespace {
 
-PassTask task_of(const PassFunction& function, const Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
+PassTask task_of(const Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
   const auto x = positions(particles);
   Clusters& c = neighbours.clusters();
-  const bool known = function.finds ? neighbours.make_room_within() : !c.within_count.empty();
   return {x.x.data(), x.y.data(), x.z.data(), nullptr, c.first.data(), c.start.data(), c.entries.data(), c.near.data(), c.own.empty() ? nullptr : c.own.data(),
-          known ? c.within.data() : nullptr, known ? c.within_count.data() : nullptr, neighbours.shifts().data(), nullptr, nullptr, c.size(), neighbours.support() * neighbours.support(), &kernels, threads};
+          c.within.empty() ? nullptr : c.within.data(), neighbours.shifts().data(), nullptr, nullptr, c.size(), neighbours.support() * neighbours.support(), &kernels, threads};
 }
 
 std::vector<double*> columns_of(const PassFunction& function, Particles& particles) {
@@ -24,7 +23,8 @@ std::vector<double*> columns_of(const PassFunction& function, Particles& particl
 
 void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
   if (!function.run) return;
-  PassTask task = task_of(function, particles, neighbours, kernels, threads);
+  if (function.finds) neighbours.make_room_within();
+  PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
   task.columns = columns.data();
   function.run(task);
@@ -37,12 +37,12 @@ void run_pass(const PassFunction& function, Particles& particles, Neighbours& ne
   std::vector<std::uint32_t> chosen;
   std::vector<std::uint8_t> members;
   for (const std::uint32_t row : rows) {
-    const std::uint32_t cluster = c.of_row[row];
+    const std::uint32_t cluster = c.of(row);
     assert(chosen.empty() || chosen.back() <= cluster);
     if (chosen.empty() || chosen.back() != cluster) chosen.push_back(cluster), members.push_back(0);
     members.back() = static_cast<std::uint8_t>(members.back() | 1u << (row - c.first[cluster]));
   }
-  PassTask task = task_of(function, particles, neighbours, kernels, threads);
+  PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
   task.columns = columns.data(), task.chosen = chosen.data(), task.members = members.data(), task.count = chosen.size();
   if (function.finds) task.within = nullptr;  // of some clusters alone it is of no use

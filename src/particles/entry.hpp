@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <cstdint>
 
 namespace tripoint {
@@ -14,5 +15,9 @@ struct Entry {
   [[nodiscard]] constexpr bool own() const noexcept { return (bits & own_bit) != 0; }  ///< members of one deformable body
   [[nodiscard]] constexpr std::uint32_t image() const noexcept { return bits >> image_shift; }  ///< 0..26
 };
+
+inline constexpr std::size_t within_bits = 64;  ///< of a word of Clusters::within
+/// Word of Clusters::within that a cluster begins with. @param start its first entry
+[[nodiscard]] constexpr std::size_t within_start(std::size_t start, std::size_t cluster) noexcept { return start / within_bits + cluster; }
 
 }  // namespace tripoint

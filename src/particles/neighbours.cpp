@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/defect.hpp"
 #include "core/errors.hpp"
@@ -26,6 +27,16 @@ void refuse_not_finite(const Particles& particles, double time) {
     if (finite(x.at(i)) && norm(x.at(i)) <= 1e100) continue;
     throw Diverged(particles[field::id][i], particles[field::body][i], "position", "drift", time, "a position is not finite");
   }
+}
+
+/// Makes a column that long; what it held is lost, so that it is never there twice. Memory that is not written to is not there.
+template <class T>
+void fit(std::vector<T>& column, std::size_t size) {
+  if (column.capacity() < size) {
+    std::vector<T>().swap(column);
+    column.reserve(size + size / 4);
+  }
+  column.resize(size);
 }
 
 }  // namespace
@@ -202,7 +213,7 @@ void Neighbours::sort_and_list(Particles& particles) {
 
   // Counting sort by cell of the particles in order of id: rows come out ordered by (cell, id).
   grid.first.assign(grid.cells() + 1, 0);
-  std::vector<std::uint32_t> cell_of(n), order(n);
+  std::vector<std::uint32_t> order(n), cell_of(n);
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t i = 0; i < n; ++i) cell_of[i] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(i))));
   for (std::size_t i = 0; i < n; ++i) ++grid.first[cell_of[i] + 1];
@@ -212,7 +223,9 @@ void Neighbours::sort_and_list(Particles& particles) {
     const auto row = static_cast<std::uint32_t>(particles.row(id));
     order[next[cell_of[row]]++] = row;
   }
+  std::vector<std::uint32_t>().swap(cell_of), std::vector<std::uint32_t>().swap(next);  // before columns are held twice
   particles.permute(order, threads_);
+  std::vector<std::uint32_t>().swap(order);
   marked_ = false;
 
   const auto sorted = positions(particles);
@@ -226,35 +239,55 @@ void Neighbours::sort_and_list(Particles& particles) {
 void Neighbours::form_clusters(const Grid& grid) {
   Clusters& c = clusters_;
   c.first.clear();
-  c.of_row.resize(built_.size());
   const auto along = static_cast<std::size_t>(grid.count[0]);
   for (std::size_t cell = 0; cell < grid.cells(); cell += along) {
     const std::uint32_t end = grid.first[cell + along];
-    for (std::uint32_t i = grid.first[cell]; i < end; ++i) {
-      if ((i - grid.first[cell]) % static_cast<std::uint32_t>(c.lanes) == 0) c.first.push_back(i);
-      c.of_row[i] = static_cast<std::uint32_t>(c.first.size() - 1);
-    }
+    for (std::uint32_t i = grid.first[cell]; i < end; i += static_cast<std::uint32_t>(c.lanes)) c.first.push_back(i);
   }
   c.first.push_back(static_cast<std::uint32_t>(built_.size()));
 }
 
-/// Each thread lists a run of clusters, the first in place; the other parts are then laid behind. `entries` and `near` may stay longer
-/// than what they hold.
+/// Each thread lists a run of clusters into a room of its own, as large as at the last build and a little more; where that is too
+/// small, as at the first, the lists are made again. So they are never held twice.
 void Neighbours::list(const Particles& particles, const Grid& grid) {
+  Clusters& c = clusters_;
+  c.start.assign(c.size() + 1, 0);
+  c.own.clear(), c.within.clear();
+  listed_.resize(static_cast<std::size_t>(threads_));
+  std::vector<std::size_t> rooms;
+  do {
+    rooms.clear();
+    for (const std::size_t entries : listed_) rooms.push_back(entries + entries / 32);
+    const std::size_t all = std::accumulate(rooms.begin(), rooms.end(), std::size_t{0});
+    fit(c.entries, all), fit(c.near, all);
+  } while (!list_into(particles, grid, rooms));
+  std::size_t end = 0, room = 0;
+  for (std::size_t part = 0; part < rooms.size(); ++part) {
+    const auto close = [&](auto& column) {
+      const auto first = column.begin() + static_cast<std::ptrdiff_t>(room);
+      std::copy(first, first + static_cast<std::ptrdiff_t>(listed_[part]), column.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    if (room != end) close(c.entries), close(c.near);
+    end += listed_[part], room += rooms[part];
+  }
+  for (std::size_t k = 0; k < c.size(); ++k) c.start[k + 1] += c.start[k];
+}
+
+/// @param rooms entries that each thread has room for, one after the other   @return false where one has more: they are counted all the same
+bool Neighbours::list_into(const Particles& particles, const Grid& grid, std::span<const std::size_t> rooms) {
   Clusters& c = clusters_;
   const auto x = positions(particles);
   const double reach = support_ + skin_;
-  c.start.assign(c.size() + 1, 0);
-  c.own.clear(), c.within.clear(), c.within_count.clear();
-  parts_.resize(static_cast<std::size_t>(threads_));
-  std::swap(parts_[0].entries, c.entries), std::swap(parts_[0].near, c.near);
-  const auto past = [&](std::size_t part) { return c.size() * part / parts_.size(); };
+  const auto past = [&](std::size_t part) { return c.size() * part / rooms.size(); };
   std::size_t pairs = 0;
-#pragma omp parallel for schedule(static, 1) num_threads(threads_) reduction(+ : pairs)
-  for (std::size_t part = 0; part < parts_.size(); ++part) {
-    auto& [entries, near] = parts_[part];
-    std::size_t size = 0;
+  bool fits = true;
+#pragma omp parallel for schedule(static, 1) num_threads(threads_) reduction(+ : pairs) reduction(&& : fits)
+  for (std::size_t part = 0; part < rooms.size(); ++part) {
+    const std::size_t first = std::accumulate(rooms.begin(), rooms.begin() + static_cast<std::ptrdiff_t>(part), std::size_t{0});
+    std::vector<std::uint32_t> entries;  // of one cluster
+    std::vector<std::uint8_t> near;
     std::vector<CandidateRange> ranges;
+    std::size_t size = 0;
     for (std::size_t k = past(part); k < past(part + 1); ++k) {
       Vec3 low = x.at(c.first[k]), high = low;
       for (std::size_t i = c.first[k] + 1; i < c.first[k + 1]; ++i) {
@@ -262,39 +295,28 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
       }
       grid.candidates(low, high, reach, box_, ranges);
       if (drops_seam()) std::erase_if(ranges, [](const CandidateRange& r) { return r.image != Entry::box_itself; });
-      std::size_t room = size;
-      for (const CandidateRange& r : ranges) room += r.to - r.from;
-      if (entries.size() < room) {
-        // Room for all at once, by the clusters so far: memory that is not written to is not there.
-        const std::size_t done = k + 1 - past(part), all = past(part + 1) - past(part);
-        if (entries.capacity() < room) entries.reserve(room / done * all + room), near.reserve(entries.capacity());
-        entries.resize(std::min(room + room / 16, entries.capacity())), near.resize(entries.size());
-      }
+      std::size_t candidates = 0;
+      for (const CandidateRange& r : ranges) candidates += r.to - r.from;
+      if (entries.size() < candidates) entries.resize(candidates), near.resize(candidates);
       const unsigned members = (1u << (c.first[k + 1] - c.first[k])) - 1u;
       const Scan task{x.x.data(), x.y.data(), x.z.data(), c.first[k], members, ranges.data(), ranges.size(), shift_.data(), reach * reach};
-      const Scanned found = scan_(task, entries.data() + size, near.data() + size);
+      const Scanned found = scan_(task, entries.data(), near.data());
+      if (size + found.entries <= rooms[part]) {
+        const auto to = static_cast<std::ptrdiff_t>(first + size);
+        std::copy_n(entries.begin(), found.entries, c.entries.begin() + to), std::copy_n(near.begin(), found.entries, c.near.begin() + to);
+      }
       c.start[k + 1] = found.entries;
       size += found.entries, pairs += found.pairs;
     }
+    listed_[part] = size;
+    fits = fits && size <= rooms[part];
   }
   pairs_ = pairs;
-  longest_ = *std::ranges::max_element(c.start);
-  for (std::size_t k = 0; k < c.size(); ++k) c.start[k + 1] += c.start[k];
-  std::swap(parts_[0].entries, c.entries), std::swap(parts_[0].near, c.near);
-  if (c.entries.size() < c.start.back()) c.entries.resize(c.start.back()), c.near.resize(c.start.back());
-#pragma omp parallel for schedule(static, 1) num_threads(threads_)
-  for (std::size_t part = 1; part < parts_.size(); ++part) {
-    const std::size_t from = c.start[past(part)], count = c.start[past(part + 1)] - from;
-    std::copy_n(parts_[part].entries.begin(), count, c.entries.begin() + static_cast<std::ptrdiff_t>(from));
-    std::copy_n(parts_[part].near.begin(), count, c.near.begin() + static_cast<std::ptrdiff_t>(from));
-  }
+  return fits;
 }
 
-bool Neighbours::make_room_within() {
-  if (longest_ > std::numeric_limits<std::uint16_t>::max()) return false;
-  clusters_.within.resize(clusters_.start.back());
-  clusters_.within_count.resize(clusters_.size());
-  return true;
+void Neighbours::make_room_within() {
+  if (clusters_.size() > 0) clusters_.within.resize(within_start(clusters_.start.back(), clusters_.size()));
 }
 
 void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {

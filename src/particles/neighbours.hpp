@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -26,16 +27,16 @@ struct PeriodicBox {
 struct Clusters {
   int lanes = 1;
   std::vector<std::uint32_t> first;  ///< first row of each cluster, and one past the last row
-  std::vector<std::uint32_t> of_row;
   std::vector<std::size_t> start;     ///< first entry of each cluster, and one past the last
   std::vector<std::uint32_t> entries;  ///< row and image, as in Entry
   std::vector<std::uint8_t> near;      ///< of each entry: bit l where it is near to member l; a particle is not near to itself
   std::vector<std::uint8_t> own;       ///< of each entry: bit l where it is an own pair of member l; empty where there is none
-  /// Of each cluster, from its start: the places in its list of what is within the support of a member now, not only near to it; and
-  /// how many. As found by the last pass that finds them: of the present places, as densities are. Empty where none has.
-  std::vector<std::uint16_t> within;
-  std::vector<std::uint32_t> within_count;
+  /// Of each entry a bit: whether it is within the support of a member now, not only near to it. Each cluster begins a word, at
+  /// within_start(). As found by the last pass that finds them: of the present places, as densities are. Empty where none has.
+  std::vector<std::uint64_t> within;
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
+  /// The cluster that a row is a member of.
+  [[nodiscard]] std::uint32_t of(std::size_t row) const { return static_cast<std::uint32_t>(std::ranges::upper_bound(first, row) - first.begin() - 1); }
 };
 
 /// The entries of one row, in list order.
@@ -71,7 +72,7 @@ class RowEntries {
     std::size_t at_ = 0, end_ = 0;
     unsigned lane_ = 0;
   };
-  RowEntries(const Clusters& list, std::size_t row) : list_(&list), cluster_(list.of_row[row]), lane_(static_cast<unsigned>(row - list.first[cluster_])) {}
+  RowEntries(const Clusters& list, std::size_t row) : list_(&list), cluster_(list.of(row)), lane_(static_cast<unsigned>(row - list.first[cluster_])) {}
   [[nodiscard]] iterator begin() const { return {list_, list_->start[cluster_], list_->start[cluster_ + 1], lane_}; }
   [[nodiscard]] iterator end() const { return {list_, list_->start[cluster_ + 1], list_->start[cluster_ + 1], lane_}; }
 
@@ -106,8 +107,8 @@ class Neighbours {
   /// Whether that was done since the last rebuild.
   [[nodiscard]] bool marked() const noexcept { return marked_; }
 
-  /// Makes room for Clusters::within, to be filled by a pass. @return whether there is any: a list can be too long for it
-  bool make_room_within();
+  /// Makes room for Clusters::within, to be filled by a pass.
+  void make_room_within();
 
   [[nodiscard]] RowEntries of(std::size_t i) const { return {clusters_, i}; }
   [[nodiscard]] const Clusters& clusters() const noexcept { return clusters_; }
@@ -128,19 +129,16 @@ class Neighbours {
   void sort_and_list(Particles&);
   void form_clusters(const Grid&);
   void list(const Particles&, const Grid&);
+  bool list_into(const Particles&, const Grid&, std::span<const std::size_t> rooms);
 
   double support_, skin_;
   PeriodicBox box_;
   int threads_;
   std::array<Vec3, 27> shift_{};
-  struct Part {  ///< lists of one thread's clusters, kept as memory that is used again
-    std::vector<std::uint32_t> entries;
-    std::vector<std::uint8_t> near;
-  };
   Clusters clusters_;
   ScanFunction scan_;
-  std::vector<Part> parts_;
-  std::size_t pairs_ = 0, longest_ = 0;
+  std::vector<std::size_t> listed_;  ///< entries of each thread's clusters at the last build
+  std::size_t pairs_ = 0;
   std::vector<Vec3> built_;
   long rebuilds_ = 0;
   bool marked_ = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -57,8 +59,7 @@ struct PassTask {
   const std::uint32_t* entries;  ///< row and image of j, as in Entry
   const std::uint8_t* near;      ///< of each entry, bit l where it is near to member l
   const std::uint8_t* own;       ///< of each entry, bit l where it is an own pair of member l; null where there is none
-  std::uint16_t* within;         ///< as Clusters::within, from the start of each cluster; null: all entries are looked at
-  std::uint32_t* within_count;   ///< of each cluster
+  std::uint64_t* within;         ///< as Clusters::within; null: all entries are looked at
   const Vec3* shift;             ///< of each image [m]
   const std::uint32_t* chosen;   ///< clusters to work on; null for all
   const std::uint8_t* members;   ///< of each chosen one, bit l where member l is to be summed; null for all
@@ -165,31 +166,30 @@ template <int L, class ForUnit, bool finds, class... Terms>
   for (std::size_t k = 0; k < Fields::reads; ++k) column[k] = t.columns[k], i[k] = load_lanes<L>(column[k] + row);
   const PairKernels& kernels = *t.kernels;
   const bool any_own = t.own != nullptr;
-  const std::size_t start = t.start[cluster];
-  std::uint16_t* const places = t.within ? t.within + start : nullptr;
-  const std::size_t count = !finds && places ? t.within_count[cluster] : t.start[cluster + 1] - start;
-  std::uint32_t found = 0;
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::size_t e = start + (!finds && places ? places[n] : n);
-    const Entry entry{t.entries[e]};
-    const std::size_t row_j = entry.row();
-    V dx = t.x[row_j] - xi, dy = t.y[row_j] - yi, dz = t.z[row_j] - zi;
-    if (entry.image() != Entry::box_itself) [[unlikely]] {
-      const Vec3& s = t.shift[entry.image()];
-      dx += s.x, dy += s.y, dz += s.z;
+  const std::size_t start = t.start[cluster], end = t.start[cluster + 1];
+  std::uint64_t* within = t.within ? t.within + within_start(start, cluster) : nullptr;
+  for (std::size_t from = start; from < end; from += within_bits) {
+    std::uint64_t left = ~std::uint64_t{0} >> (within_bits - std::min(end - from, within_bits)), found = 0;
+    if (!finds && within) left = *within++;
+    for (; left != 0; left &= left - 1) {
+      const std::size_t e = from + static_cast<std::size_t>(std::countr_zero(left));
+      const Entry entry{t.entries[e]};
+      const std::size_t row_j = entry.row();
+      V dx = t.x[row_j] - xi, dy = t.y[row_j] - yi, dz = t.z[row_j] - zi;
+      if (entry.image() != Entry::box_itself) [[unlikely]] {
+        const Vec3& s = t.shift[entry.image()];
+        dx += s.x, dy += s.y, dz += s.z;
+      }
+      const V r2 = dx * dx + dy * dy + dz * dz;
+      const Mask near = r2 < t.support2, acting = near & mask_of<L>(t.near[e]), apart = mask_of<L>(any_own ? ~t.own[e] : ~0u);
+      if (finds) found |= left & -left & -static_cast<std::uint64_t>(any(acting));  // no branch, which would often be guessed wrong
+      const V r = root(r2);
+      for (std::size_t k = 0; k < Fields::reads; ++k) j[k] = every_lane<V>(column[k][row_j]);
+      const PairGeometry<V> g{dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r), apart, kernels};
+      add_terms<Fields, V, Mask, 0, 0, Terms...>(g, acting, i, j, sum.data());
     }
-    const V r2 = dx * dx + dy * dy + dz * dz;
-    const Mask within = r2 < t.support2, acting = within & mask_of<L>(t.near[e]), apart = mask_of<L>(any_own ? ~t.own[e] : ~0u);
-    if (finds && places) {
-      places[found] = static_cast<std::uint16_t>(n);
-      found += any(acting);
-    }
-    const V r = root(r2);
-    for (std::size_t k = 0; k < Fields::reads; ++k) j[k] = every_lane<V>(column[k][row_j]);
-    const PairGeometry<V> g{dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r), apart, kernels};
-    add_terms<Fields, V, Mask, 0, 0, Terms...>(g, acting, i, j, sum.data());
+    if (finds && within) *within++ = found;
   }
-  if (finds && places) t.within_count[cluster] = found;
   for (std::size_t k = 0; k < Fields::adds; ++k) add_to<L>(t.columns[Fields::reads + k] + row, sum[k], members);
 }
 
