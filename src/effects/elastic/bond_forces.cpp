@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/machine.hpp"
 #include "effects/failure.hpp"
 
 namespace tripoint::elastic {
@@ -35,6 +34,35 @@ Matrix3 flat_hourglass(const World& world, const Deformations& all, std::uint32_
   return -1.0 * (F * sum);
 }
 
+/// Sets T = (v F S + H) A, where H is until then, and the force of each particle's own energy on it.
+class Stresses {
+ public:
+  Stresses(World& world, const ElasticForms& forms, Deformations& all)
+      : forms_(forms), all_(all), constants_(forms.constants(world)), force_(triple(world.particles, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z)) {}
+  void none(std::size_t row) { force_.set(row, {}); }
+  /// @param total strain   @param elastic the same less what has flowed   @param A shape inverse   @param P projector on its range
+  void set(std::size_t row, std::size_t id, const Symmetric& total, const Symmetric& elastic, const Symmetric& A, const Symmetric& P, int rank) {
+    Deformed& i = all_.deformed[id];
+    const Symmetric S = forms_.stress(elastic, P, rank, constants_(row));
+    const Matrix3 T = ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + Matrix3(i.strained)) * S) + Matrix3(i.T)) * A;
+    i.T = T;
+    if (rank != 3) i.strained = full(total);
+    force_.set(row, T * all_.reference[id].gradient + all_.glass[id]);
+  }
+
+ private:
+  const ElasticForms& forms_;
+  Deformations& all_;
+  ElasticForms::Constants constants_;
+  Triple<double> force_;
+};
+
+/// det F of a solid.
+double volume_ratio(const Deformed& i) { return determinant(identity3 + Matrix3(i.strained)); }
+
+bool flows(const World& world) { return world.particles.has(field::plastic_strain_xx.name); }
+
+/// With the stresses at once where nothing can flow between.
 void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
   Particles& p = world.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank];
@@ -43,13 +71,16 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
   const auto shape = solid::shape_inverses(std::as_const(p));
   const auto strain_of = solid::strains(p);
   const Seam seam = seam_of(world.box);
-  const bool hourglass = forms.hourglass() != 0.0;
+  const bool hourglass = forms.hourglass() != 0.0, at_once = !flows(world);
   const BondSums sum = bond_sums(world.box.any(), hourglass);
-#pragma omp parallel for schedule(static) num_threads(world.threads)
+  Stresses stresses(world, forms, all);
+  double least = 1.0;
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least)
   for (std::size_t row = 0; row < p.size(); ++row) {
     const auto id = static_cast<std::uint32_t>(id_of[row]);
     const BondLists::List list = all.lists.of(world.bonds, id);
     if (!owns(row)) {
+      stresses.none(row);
       if (list.count > 0) all.deformed[id] = {};
       continue;
     }
@@ -67,44 +98,34 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
     i = {};
     i.strained = G;
     all.glass[id] = {};
-    if (!hourglass) continue;
-    const double stiff = 0.5 * forms.hourglass() * constants(row).young;
-    i.set_glass(rank == 3 ? stiff : 0.0, rank == 3 ? 0.0 : stiff, volume);
-    if (rank != 3) {
-      i.T = flat_hourglass(world, all, id, stiff, strain, P, F);
-      continue;
+    if (hourglass) {
+      const double stiff = 0.5 * forms.hourglass() * constants(row).young;
+      i.set_glass(rank == 3 ? stiff : 0.0, rank == 3 ? 0.0 : stiff, volume);
+      if (rank == 3) {
+        i.T = (stiff * volume) * (G * reference.moment + sums.swept);
+        all.glass[id] = (volume * stiff) * (G * reference.glass + sums.residual);
+      } else {
+        i.T = flat_hourglass(world, all, id, stiff, strain, P, F);
+      }
     }
-    i.T = (stiff * volume) * (G * reference.moment + sums.swept);
-    const Vec3 glass = (volume * stiff) * (G * reference.glass + sums.residual);
-    all.glass[id] = {glass.x, glass.y, glass.z};
+    if (rank == 3) least = std::min(least, volume_ratio(i));
+    if (at_once) stresses.set(row, id, strain, strain, A, P, rank);
   }
+  all.least_volume_ratio = least;
 }
 
-/// T = (v F S + H) A, S of the strain less what has flowed; and the force of each particle's own energy on it.
+/// Of the strain less what has flowed.
 void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
-  Particles& columns = world.particles;
-  const auto f = triple(columns, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z);
   const Particles& p = world.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank];
-  const auto volume = p[field::solid_volume];
   const solid::EnergyOwners owns(world);
-  const auto constants = forms.constants(world);
-  const auto shape = solid::shape_inverses(p), strain_of = solid::strains(p);
-  const bool flows = p.has(field::plastic_strain_xx);
-  const auto plastic_of = flows ? solid::plastic_strains(p) : solid::SymmetricColumns<const double>{};
+  const auto shape = solid::shape_inverses(p), strain_of = solid::strains(p), plastic_of = solid::plastic_strains(p);
+  Stresses stresses(world, forms, all);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
-    f.set(row, {});
     if (!owns(row)) continue;
-    const auto id = static_cast<std::size_t>(id_of[row]);
-    Deformed& i = all.deformed[id];
     const Symmetric A = shape.at(row), P = forms.projector(A, rank_of[row]), total = strain_of.at(row);
-    const Symmetric elastic = flows ? between(P, total - plastic_of.at(row)) : total;
-    const Symmetric S = forms.stress(elastic, P, rank_of[row], constants(row));
-    const Matrix3 T = ((forms.force_factor() * volume[row]) * ((identity3 + Matrix3(i.strained)) * S) + Matrix3(i.T)) * A;
-    i.T = T;
-    if (rank_of[row] != 3) i.strained = full(total);
-    f.set(row, T * all.reference[id].gradient + all.glass[id]);
+    stresses.set(row, static_cast<std::size_t>(id_of[row]), total, between(P, total - plastic_of.at(row)), A, P, rank_of[row]);
   }
 }
 
@@ -191,24 +212,20 @@ void deform(World& world, const ElasticForms& forms, Deformations& all) {
 void refuse_inversion(const World& world, const ElasticForms& forms, const Deformations& all) {
   const Particles& p = world.particles;
   if (forms.paper() || all.deformed.size() != p.size() || is_off(world.scene, "inversion")) return;
+  const double least = all.least_volume_ratio;
+  if (least > 0.0) return;
   const solid::EnergyOwners owns(world);
   const auto rank_of = p[field::shape_rank], id_of = p[field::id];
-  const auto volume_ratio = [&](std::size_t row) {
-    if (rank_of[row] != 3 || !owns(row)) return 1.0;
-    return determinant(identity3 + Matrix3(all.deformed[static_cast<std::size_t>(id_of[row])].strained));
-  };
-  double least = 1.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least) if (p.size() > worth_threads)
-  for (std::size_t row = 0; row < p.size(); ++row) least = std::min(least, volume_ratio(row));
-  if (least > 0.0) return;
-  std::size_t worst = 0;
-  while (volume_ratio(worst) != least) ++worst;
-  fail(world, "inversion", worst, "deformation", "state",
-       fmt::format("is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = [\"inversion\"] to go on", least));
+  const auto is_worst = [&](std::size_t row) { return rank_of[row] == 3 && owns(row) && volume_ratio(all.deformed[static_cast<std::size_t>(id_of[row])]) == least; };
+  for (std::size_t row = 0; row < p.size(); ++row) {
+    if (is_worst(row))
+      fail(world, "inversion", row, "deformation", "state",
+           fmt::format("is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = [\"inversion\"] to go on", least));
+  }
 }
 
 void add_forces(World& world, const ElasticForms& forms, Deformations& all) {
-  set_stress(world, forms, all);
+  if (flows(world)) set_stress(world, forms, all);
   add_all(world, forms, all);
 }
 
