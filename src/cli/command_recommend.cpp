@@ -103,7 +103,7 @@ bool is_coarse(const Case& value, const RunPlan& run, std::size_t count) {
 }
 
 std::string name_of(const Ladder& l) {
-  return fmt::format("{}{}{}{}", l.engine, l.preset == "default" ? "" : " (" + l.preset + ")", l.mode.empty() ? "" : " ", l.mode);
+  return fmt::format("{}{}{}", label_of(l.engine, l.preset), l.mode.empty() ? "" : " ", l.mode);
 }
 
 void print_ladders(const std::vector<Ladder>& ladders, const std::string& metric) {

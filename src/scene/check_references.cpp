@@ -119,7 +119,11 @@ class Checker {
   void known_metric(std::string name, const std::string& key, const SourcePlace& table) const {
     const auto known = names_of(case_.metrics);
     if (holds(known, name)) return;
-    if (name.ends_with(".order") && holds(known, name.substr(0, name.size() - 6))) return;
+    std::string of = name;
+    for (const std::string_view what : {".order", ".statistical"}) {
+      if (of.ends_with(what)) of.resize(of.size() - what.size());
+      if (holds(known, of)) return;
+    }
     throw InputError(place(key, table), fmt::format("`{}`: no [[metric]] is named \"{}\"{}", key, printable(name), suggestion(name, known)));
   }
 

@@ -188,7 +188,7 @@ constexpr auto keys = std::to_array<Key>({
     {"study", "order", number, "", any, "", "not judged", "", "formal order"},
     {"study", "metric", text, "", any, "\"\"", "every metric", "", "one metric"},
     // [[gate]]
-    {"gate", "metric", text, "", any, "!", "", "", "a metric's name, or NAME.order"},
+    {"gate", "metric", text, "", any, "!", "", "", "a metric's name, NAME.order or NAME.statistical"},
     {"gate", "engine", text, "", any, "\"\"", "all", "", "one engine"},
     {"gate", "mode", word, "", any, "\"\"", "all", "corrected paper", "one mode"},
     {"gate", "preset", text, "", any, "\"\"", "all", "", "one preset"},

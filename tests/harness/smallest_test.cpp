@@ -39,7 +39,7 @@ TEST(SmallestDefect, AnIntervalIsNotLeftByANumberThatIsNotFinite) {
 
 TEST(SmallestDefect, HasGrownWhenALimitIsLoosenedByMoreThanAQuarter) {
   EXPECT_STREQ(against_stored(0.024, 0.02), "held");
-  EXPECT_STREQ(against_stored(0.026, 0.02), "grew");
+  EXPECT_STREQ(against_stored(0.026, 0.02), "GREW");
   EXPECT_STREQ(against_stored(0.01, 0.02), "shrank");
 }
 

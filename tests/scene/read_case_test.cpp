@@ -88,6 +88,8 @@ TEST(ReadCase, RefusesNamesThatReferToNothing) {
   const std::string metric = six_lines + "[[metric]]\nname='speed'\nquantity='velocity'\n";
   EXPECT_EQ(refusal(metric), "");
   expect_refused(metric + "[[gate]]\nmetric='sped'\nlimit=1\nreason='r'\n", {"case.toml:11:8", "no [[metric]] is named \"sped\"", "did you mean `speed`"});
+  EXPECT_EQ(refusal(metric + "[[gate]]\nmetric='speed.statistical'\nlimit=1\nreason='r'\n"), "");
+  expect_refused(metric + "[[gate]]\nmetric='sped.statistical'\nlimit=1\nreason='r'\n", {"case.toml:11:8", "no [[metric]] is named"});
   expect_refused(metric + "[[gate]]\nmetric='speed'\nreason='r'\n", {"case.toml:10", "no limit and would pass anything"});
   expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\n", {"lacks the key `reason`"});
   expect_refused(metric + "[[gate]]\nmetric='speed.order'\nlimit=1\nreason='r'\n", {"needs a [[study]]"});

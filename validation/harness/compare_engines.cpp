@@ -29,8 +29,6 @@ std::optional<double> margin_of(const Case& value, const std::string& metric) {
   return margin;
 }
 
-std::string name_of(const EnginePlan& e) { return e.preset == "default" ? e.name : e.name + " (" + e.preset + ")"; }
-
 bool compares_states(const MetricChoice& metric) { return metric.quantity.rfind("ledger", 0) != 0; }
 
 void compare_pair(const CaseRuns& all, const CaseRun& a, const CaseRun& b, std::vector<EquivalenceRow>& rows) {
@@ -45,7 +43,7 @@ void compare_pair(const CaseRuns& all, const CaseRun& a, const CaseRun& b, std::
       continue;  // a metric of numbers that only a formula knows (rates, event times) compares no two states
     }
     if (!std::isfinite(difference.value)) continue;
-    EquivalenceRow row{name_of(all.engines[a.engine]), name_of(all.engines[b.engine]), metric.name, difference.value,
+    EquivalenceRow row{label_of(all.engines[a.engine].name, all.engines[a.engine].preset), label_of(all.engines[b.engine].name, all.engines[b.engine].preset), metric.name, difference.value,
                        std::hypot(error_a->second.uncertainty.combined(), error_b->second.uncertainty.combined()), margin_of(*all.value, metric.name),
                        error_a->second.value, error_b->second.value, "no margin is set"};
     if (row.margin) row.verdict = equivalence(row.difference, row.uncertainty, *row.margin);

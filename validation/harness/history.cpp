@@ -12,14 +12,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "validation/harness/json_number.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string line(const Json& document) { return document.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 

@@ -22,18 +22,16 @@ struct Findings {
   }
 };
 
-std::string name_of(const EngineRow& e) { return e.preset == "default" ? e.name : e.name + " (" + e.preset + ")"; }
-
 /// The row says what its worst run says; a row that claims to be ok and has no run is a hole in the results.
 void settle_status(const CaseResult& result, EngineRow& engine, Findings& findings) {
   if (engine.runs.empty() && engine.status == "ok") {
     engine.status = "error", engine.reason = "the results hold no run of it";
-    findings.add(exit_missing, name_of(engine) + ": " + engine.reason);
+    findings.add(exit_missing, label_of(engine.name, engine.preset) + ": " + engine.reason);
   }
   for (const auto& run : engine.runs) {
     if (run.status == "diverged" && !may_diverge(result, run.knobs.mode))
-      findings.add(exit_diverged, fmt::format("{}{}{} diverged: {}", name_of(engine), run.knobs.mode.empty() ? "" : " ", run.knobs.mode, run.reason));
-    if (!run.comparable) findings.add(exit_missing, name_of(engine) + " is not comparable: " + run.reason);
+      findings.add(exit_diverged, fmt::format("{}{}{} diverged: {}", label_of(engine.name, engine.preset), run.knobs.mode.empty() ? "" : " ", run.knobs.mode, run.reason));
+    if (!run.comparable) findings.add(exit_missing, label_of(engine.name, engine.preset) + " is not comparable: " + run.reason);
   }
   const auto bad = std::find_if(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != "ok" || !r.comparable; });
   if (!engine.runs.empty()) {
@@ -41,7 +39,7 @@ void settle_status(const CaseResult& result, EngineRow& engine, Findings& findin
     engine.reason = bad == engine.runs.end() ? "" : bad->reason.empty() ? bad->status : bad->reason;
   }
   if (engine.required && engine.status != "ok" && engine.status != "diverged")
-    findings.add(exit_missing, fmt::format("{} is required and is {}: {}", name_of(engine), engine.status, engine.reason));
+    findings.add(exit_missing, fmt::format("{} is required and is {}: {}", label_of(engine.name, engine.preset), engine.status, engine.reason));
 }
 
 bool names(const Gate& gate, const EngineRow& engine) {

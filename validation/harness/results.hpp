@@ -12,6 +12,9 @@
 /// What results.json holds (contracts: results.json, format 1), as plain data. Verdicts in it are always recomputed: judge.hpp.
 namespace tripoint {
 
+/// An engine and, where it is not the default, its preset, for people: "bullet (tuned)".
+[[nodiscard]] inline std::string label_of(const std::string& engine, const std::string& preset) { return preset == "default" ? engine : engine + " (" + preset + ")"; }
+
 struct Cost {
   double cpu_s = 0.0, wall_s = 0.0, setup_cpu_s = 0.0;  ///< [s]
   double peak_bytes = 0.0;

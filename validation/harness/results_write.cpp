@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "validation/harness/json_number.hpp"
 #include "validation/harness/results.hpp"
 #include "validation/harness/timing.hpp"
 #include "validation/references/reference.hpp"
@@ -19,11 +20,9 @@ void put(Json& to, const char* key, double value, bool say_finite = false) {
   if (say_finite && !std::isfinite(value)) to["finite"] = false;
 }
 
-Json number(const std::optional<double>& value) { return value && std::isfinite(*value) ? Json(*value) : Json(nullptr); }
-
 Json numbers(const std::vector<double>& values) {
   Json list = Json::array();
-  for (const double v : values) list.push_back(std::isfinite(v) ? Json(v) : Json(nullptr));
+  for (const double v : values) list.push_back(number(v));
   return list;
 }
 

@@ -11,6 +11,7 @@
 
 #include "core/errors.hpp"
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/json_number.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
@@ -21,18 +22,16 @@ namespace {
 
 constexpr std::uint64_t seeds_apart = 1000;  // from the case's own seed, beyond those of its studies' replicas
 
-std::string label_of(const EngineRow& e) { return e.preset == "default" ? e.name : e.name + " (" + e.preset + ")"; }
-
 /// @param taken places in all.gates that this seed has filled: what judges the same level of two studies is told apart by its order
 SeedOutcome& outcome_for(const CaseResult& c, const EngineRow& e, const GateRow& row, SeedsOutcome& all, std::set<const SeedOutcome*>& taken) {
   const auto allows = row.expect.empty() ? describe(row.gate) : "class " + row.expect;
   for (auto& g : all.gates)
-    if (!taken.count(&g) && g.case_id == c.id && g.engine == label_of(e) && g.mode == row.mode && g.metric == row.metric && g.level == row.level && g.allows == allows) {
+    if (!taken.count(&g) && g.case_id == c.id && g.engine == label_of(e.name, e.preset) && g.mode == row.mode && g.metric == row.metric && g.level == row.level && g.allows == allows) {
       taken.insert(&g);
       return g;
     }
   SeedOutcome g;
-  g.case_id = c.id, g.engine = label_of(e), g.mode = row.mode, g.metric = row.metric, g.allows = allows, g.level = row.level, g.gate = row.gate;
+  g.case_id = c.id, g.engine = label_of(e.name, e.preset), g.mode = row.mode, g.metric = row.metric, g.allows = allows, g.level = row.level, g.gate = row.gate;
   all.gates.push_back(g);
   taken.insert(&all.gates.back());
   return all.gates.back();
@@ -47,6 +46,12 @@ double room(const Gate& gate, double value) {
   return least;
 }
 
+/// "-" where the seed changes nothing, or nothing but round-off.
+std::string room_of(const SeedOutcome& g) {
+  constexpr double round_off = 1e5;
+  return std::isfinite(g.distance) && g.distance < round_off ? fmt::format("{:.1f}", g.distance) : "-";
+}
+
 }  // namespace
 
 bool depends_on_seed(const Case& value, const EnginePlan& engine, const RunPlan& run) {
@@ -58,7 +63,7 @@ void add_seed(const CaseResult& c, std::uint64_t seed, SeedsOutcome& all) {
   std::set<const SeedOutcome*> taken;
   for (const auto& e : c.engines) {
     for (const auto& run : e.runs)
-      if (run.status != "ok" && run.status != "refused" && run.status != "missing" && !(run.status == "diverged" && may_diverge(c, run.knobs.mode))) all.problems.push_back(fmt::format("{} {} seed {}: {} {}", c.id, label_of(e), seed, run.status, run.reason));
+      if (run.status != "ok" && run.status != "refused" && run.status != "missing" && !(run.status == "diverged" && may_diverge(c, run.knobs.mode))) all.problems.push_back(fmt::format("{} {} seed {}: {} {}", c.id, label_of(e.name, e.preset), seed, run.status, run.reason));
     for (const auto& row : e.gates) {
       if (row.verdict == "missing") continue;  // a level that chance has no hand in
       auto& g = outcome_for(c, e, row, all, taken);
@@ -114,7 +119,7 @@ std::string seeds_table(const SeedsOutcome& all) {
   for (const auto& g : all.gates) {
     alarms += g.alarms.size();
     text += fmt::format("{:6} {:24} {:18} {:10} {:24} {:10.4g} {:9.2g} {:>6}  {}{}{}\n", g.alarms.empty() ? "quiet" : "ALARM", g.case_id, g.engine, g.mode, g.metric, g.mean, g.deviation,
-                        std::isfinite(g.distance) ? fmt::format("{:.1f}", g.distance) : "-", g.allows, g.level ? fmt::format(" at {:g}", *g.level) : "",
+                        room_of(g), g.allows, g.level ? fmt::format(" at {:g}", *g.level) : "",
                         g.alarms.empty() ? "" : fmt::format("  {} of {}: seeds {} ({})", g.alarms.size(), g.values.size(), fmt::join(g.alarms, ", "), to_string(g.gate.place)));
   }
   for (const auto& p : all.problems) text += "PROBLEM " + p + "\n";
@@ -123,12 +128,11 @@ std::string seeds_table(const SeedsOutcome& all) {
 
 std::string seeds_json(const SeedsOutcome& all) {
   using Json = nlohmann::ordered_json;
-  const auto number = [](double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); };
   Json gates = Json::array();
   for (const auto& g : all.gates) {
     Json values = Json::array();
     for (const double v : g.values) values.push_back(number(v));
-    gates.push_back({{"case", g.case_id}, {"engine", g.engine}, {"mode", g.mode}, {"metric", g.metric}, {"level", g.level ? Json(*g.level) : Json(nullptr)}, {"allows", g.allows}, {"values", values},
+    gates.push_back({{"case", g.case_id}, {"engine", g.engine}, {"mode", g.mode}, {"metric", g.metric}, {"level", number(g.level)}, {"allows", g.allows}, {"values", values},
                      {"mean", number(g.mean)}, {"deviation", number(g.deviation)}, {"room_in_deviations", number(g.distance)}, {"alarms", g.alarms}, {"file", g.gate.place.file}, {"line", g.gate.place.line}});
   }
   return Json{{"format", 1}, {"seeds", all.seeds}, {"exit_code", all.exit_code}, {"cases", all.cases}, {"gates", gates}, {"problems", all.problems}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -29,7 +29,9 @@ SmallestOutcome bisect(const Case& value, const Defect& defect, const EngineEntr
   const auto found = smallest_visible(*defect.smallest, defect.size, [&](double size) { return is_red(size) && is_red(-size); });
   outcome.runs = found.runs, outcome.hidden = found.hidden;
   if (found.size) outcome.size = *found.size;
-  outcome.verdict = !found.size ? "UNSEEN" : !found.found ? "NEVER GREEN" : std::string(against_stored(*found.size, outcome.stored)) == "grew" ? "GREW" : against_stored(*found.size, outcome.stored);
+  if (!found.size) outcome.verdict = "UNSEEN";
+  else if (!found.found) outcome.verdict = "NEVER GREEN";
+  else outcome.verdict = against_stored(*found.size, outcome.stored);
   return outcome;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "validation/harness/json_number.hpp"
 #include "validation/harness/selftest.hpp"
 #include "validation/harness/smallest.hpp"
 
@@ -12,8 +13,6 @@ namespace tripoint {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string smallest_table(const std::vector<SmallestOutcome>& rows) {
   if (rows.empty()) return {};

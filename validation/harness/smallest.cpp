@@ -35,7 +35,7 @@ SmallestVisible smallest_visible(double start, double greatest, const std::funct
 }
 
 const char* against_stored(double now, double stored) {
-  if (now > smallest_growth * stored) return "grew";
+  if (now > smallest_growth * stored) return "GREW";
   return now * smallest_growth < stored ? "shrank" : "held";
 }
 

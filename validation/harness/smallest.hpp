@@ -25,7 +25,7 @@ constexpr double smallest_growth = 1.25;
 /// @param greatest no size beyond it is tried
 [[nodiscard]] SmallestVisible smallest_visible(double start, double greatest, const std::function<bool(double)>& seen);
 
-/// "grew", "shrank" or "held", against the stored size.
+/// "GREW", "shrank" or "held", against the stored size.
 [[nodiscard]] const char* against_stored(double now, double stored);
 
 }  // namespace tripoint

@@ -19,7 +19,7 @@ std::string cell(std::string text) {
 
 std::string engines_of(const CaseResult& c) {
   std::string list;
-  for (const auto& e : c.engines) list += fmt::format("{}{}{}{}", list.empty() ? "" : ", ", e.name, e.preset == "default" ? "" : " (" + e.preset + ")", e.status == "ok" ? "" : ": " + e.status);
+  for (const auto& e : c.engines) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", label_of(e.name, e.preset), e.status == "ok" ? "" : ": " + e.status);
   return list;
 }
 

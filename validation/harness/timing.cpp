@@ -46,7 +46,7 @@ std::vector<Timed> timed_runs(CaseRuns& all, CaseResult& result) {
 }
 
 std::string name_of(const EngineRow& e, const RunRow& r) {
-  return e.name + (e.preset == "default" ? "" : " (" + e.preset + ")") + (r.knobs.mode.empty() ? "" : " " + r.knobs.mode);
+  return label_of(e.name, e.preset) + (r.knobs.mode.empty() ? "" : " " + r.knobs.mode);
 }
 
 }  // namespace
