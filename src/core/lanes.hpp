@@ -103,6 +103,15 @@ template <class Mask>
   return bits_of<static_cast<int>(sizeof(Mask) / sizeof(long))>(mask) != 0;
 }
 
+/// Whether any lane is less than the bound.
+template <class V>
+[[nodiscard, gnu::always_inline]] inline bool any_below(V v, double bound) noexcept {
+#ifdef __AVX512F__
+  if constexpr (sizeof(V) == 64) return _mm512_cmp_pd_mask(reinterpret_cast<__m512d>(v), _mm512_set1_pd(bound), _CMP_LT_OQ) != 0;
+#endif
+  return any(v < bound);
+}
+
 /// v where the lane is set, else 0: nothing is multiplied.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V where(MaskOf<V> mask, V v) noexcept {

@@ -11,6 +11,7 @@ struct Entry {
   std::uint32_t bits;
   static constexpr std::uint32_t row_bits = 26, row_mask = (1u << row_bits) - 1, own_bit = 1u << row_bits, image_shift = row_bits + 1;
   static constexpr std::uint32_t box_itself = 13;  ///< the image that is not moved
+  [[nodiscard]] static constexpr Entry of(std::uint32_t row, std::uint32_t image) noexcept { return {row | image << image_shift}; }
   [[nodiscard]] constexpr std::uint32_t row() const noexcept { return bits & row_mask; }
   [[nodiscard]] constexpr bool own() const noexcept { return (bits & own_bit) != 0; }  ///< members of one deformable body
   [[nodiscard]] constexpr std::uint32_t image() const noexcept { return bits >> image_shift; }  ///< 0..26

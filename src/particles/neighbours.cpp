@@ -141,7 +141,7 @@ Neighbours::Neighbours(double support, double skin, const PeriodicBox& box, int 
 bool Neighbours::outdated(const Particles& particles) const {
   if (built_.size() != particles.size() || rebuilds_ == 0) return true;
   const auto x = positions(particles);
-  const double limit = 0.25 * skin_ * skin_;
+  const double limit = 0.25 * skin_ * skin_ * (1.0 - 1e-9);  // beyond rounding: what is within the support now was within reach then
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(max : greatest) if (particles.size() > worth_threads)
   for (std::size_t i = 0; i < particles.size(); ++i) {

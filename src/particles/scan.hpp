@@ -47,7 +47,7 @@ template <int L, class ForUnit>
       const V r2 = dx * dx + dy * dy + dz * dz;
       unsigned bits = bits_of<L>(r2 < s.reach2) & s.members;
       if (j - s.first < static_cast<std::size_t>(L) && range->image == Entry::box_itself) bits &= ~(1u << (j - s.first));  // itself
-      rows[n] = j | range->image << Entry::image_shift;
+      rows[n] = Entry::of(j, range->image).bits;
       near[n] = static_cast<std::uint8_t>(bits);
       n += bits != 0;
       pairs += static_cast<unsigned>(std::popcount(bits));

@@ -150,6 +150,8 @@ void add_to(double* target, typename Lanes<L>::Real sum, unsigned members) {
     if (members >> l & 1u) target[l] += lane[l];
 }
 
+inline constexpr double nowhere = 1e200;  ///< its square is more than any [m]
+
 /// Every member sums over all its j in list order; nothing is written to j. Each term sums into registers of its own, so that its
 /// bits are the same alone and beside others, and in vectors of any width.
 /// @tparam finds which entries are within the support of a member, for the passes that follow: a root for one that is not is lost
@@ -159,13 +161,16 @@ template <int L, class ForUnit, bool finds, class... Terms>
   using Mask = typename Lanes<L>::Mask;
   using Fields = FieldsOf<Terms...>;
   const std::size_t row = t.first[cluster];
-  const V xi = load_lanes<L>(t.x + row), yi = load_lanes<L>(t.y + row), zi = load_lanes<L>(t.z + row);
+  V xi = load_lanes<L>(t.x + row);
+  const V yi = load_lanes<L>(t.y + row), zi = load_lanes<L>(t.z + row);
+  if constexpr (L > 1) xi = mask_of<L>((1u << (t.first[cluster + 1] - row)) - 1u) ? xi : V{} + nowhere;  // lanes without a member are near to nothing
   std::array<const double*, Fields::reads> column;
   std::array<V, Fields::reads> i, j;
   std::array<V, Fields::adds> sum{};
   for (std::size_t k = 0; k < Fields::reads; ++k) column[k] = t.columns[k], i[k] = load_lanes<L>(column[k] + row);
   const PairKernels& kernels = *t.kernels;
   const bool any_own = t.own != nullptr;
+  const std::uint32_t members_bits = Entry::of(static_cast<std::uint32_t>(row), Entry::box_itself).bits;
   const std::size_t start = t.start[cluster], end = t.start[cluster + 1];
   std::uint64_t* within = t.within ? t.within + within_start(start, cluster) : nullptr;
   for (std::size_t from = start; from < end; from += within_bits) {
@@ -181,8 +186,11 @@ template <int L, class ForUnit, bool finds, class... Terms>
         dx += s.x, dy += s.y, dz += s.z;
       }
       const V r2 = dx * dx + dy * dy + dz * dz;
-      const Mask near = r2 < t.support2, acting = near & mask_of<L>(t.near[e]), apart = mask_of<L>(any_own ? ~t.own[e] : ~0u);
-      if (finds) found |= left & -left & -static_cast<std::uint64_t>(any(acting));  // no branch, which would often be guessed wrong
+      // What is within the support is near: nothing has moved by more than half the skin. But for a member, which is not near to itself.
+      Mask acting = r2 < t.support2;
+      if (entry.bits - members_bits < static_cast<std::uint32_t>(L)) [[unlikely]] acting &= mask_of<L>(t.near[e]);
+      const Mask apart = mask_of<L>(any_own ? ~t.own[e] : ~0u);
+      if (finds) found |= left & -left & -static_cast<std::uint64_t>(any_below(r2, t.support2));  // no branch, which would often be guessed wrong; a member itself does no harm
       const V r = root(r2);
       for (std::size_t k = 0; k < Fields::reads; ++k) j[k] = every_lane<V>(column[k][row_j]);
       const PairGeometry<V> g{dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r), apart, kernels};
