@@ -124,8 +124,9 @@ void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (!owns(row)) continue;
-    const Symmetric A = shape.at(row), P = forms.projector(A, rank_of[row]), total = strain_of.at(row);
-    stresses.set(row, static_cast<std::size_t>(id_of[row]), total, between(P, total - plastic_of.at(row)), A, P, rank_of[row]);
+    const int rank = rank_of[row];
+    const Symmetric A = shape.at(row), P = forms.projector(A, rank), total = strain_of.at(row), elastic = total - plastic_of.at(row);
+    stresses.set(row, static_cast<std::size_t>(id_of[row]), total, rank == 3 ? elastic : between(P, elastic), A, P, rank);
   }
 }
 
