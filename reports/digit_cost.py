@@ -153,7 +153,9 @@ def draw(ladders, out):
         axis.barh(k, ladder.factor - 1.0, left=1.0, height=0.62, color=hue, alpha=0.55 if ladder.mode == "paper" else 1.0)
         if ladder.factor_theory:
             axis.plot([ladder.factor_theory] * 2, [k - 0.42, k + 0.42], color=style.INK, linewidth=1.6)
-        axis.annotate(f"{ladder.factor:.3g}", (ladder.factor, k), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8, color=style.INK)
+        mark = ladder.factor_theory or 0.0
+        beside = mark if ladder.factor <= mark < 3.0 * ladder.factor else ladder.factor  # not under the black line
+        axis.annotate(f"{ladder.factor:.3g}", (beside, k), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8, color=style.INK)
     axis.set_yticks(range(len(shown)), [f"{ladder.case.id} · {ladder.label} · {ladder.axis.replace('_', ' ')}" for ladder in shown], fontsize=8)
     axis.set_xscale("log")
     axis.set_xlim(1.0, 3.0 * max(max(ladder.factor, ladder.factor_theory or 1.0) for ladder in shown))
