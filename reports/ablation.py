@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from model import is_number, number, rows, table, text
 
+WORSE, MOST = 1.1, 1e5  # factors that are worth a word, and that a page shows as a number
 ROUNDOFF = 1e-12  # of a scaled error: below it two values are the same
 MEANS = {
     "kernel": "kernel that fits its use, in the place of the printed two", "pressure": "pressure force as the gradient of an energy (7)", "density": "number density at walls and between liquids (4)",
@@ -75,11 +76,12 @@ def cell(run, metric, corrected):
 
 
 def best(found, terms):
-    """For each term the metric that it changes most: (term, row, cell)."""
+    """For each term the metric that it changes most, of those that the corrected model does not keep to round-off where there are any:
+    how many times larger than nothing says little. (term, row, cell, cases)"""
     picked = []
     for term in terms:
         here = [(row, row.cells[term]) for row in found if term in row.cells and row.cells[term].factor and row.cells[term].tone not in ("same",)]
         if here:
-            row, cell_ = max(here, key=lambda pair: pair[1].factor)
+            row, cell_ = max(here, key=lambda pair: (WORSE < pair[1].factor < MOST, pair[1].factor))
             picked.append((term, row, cell_, len({r.case_id for r, c in here if c.tone in ("fail", "open")})))
     return picked
