@@ -71,7 +71,7 @@ def cell(run, metric, corrected):
     if max(abs(value), abs(corrected)) <= ROUNDOFF or abs(value - corrected) <= 1e-3 * abs(corrected) + ROUNDOFF:
         return Cell(1.0, value, tone="same")
     factor = abs(value) / max(abs(corrected), ROUNDOFF)
-    tone = "fail" if factor >= 3.0 else "open" if factor >= 1.1 else "pass" if factor <= 0.9 else "none"
+    tone = "fail" if factor >= 3.0 else "open" if factor >= WORSE else "pass" if factor <= 0.9 else "none"
     return Cell(factor, value, tone=tone)
 
 

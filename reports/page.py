@@ -132,7 +132,7 @@ def render_digit_cost(results, out):
 def render_ablation(results):
     """@return HTML of what each correction buys"""
     terms, rows, notes = ablation.read(results.folder)
-    return fill("ablation.html.j2", results, terms=terms, rows=rows, notes=notes, means=ablation.MEANS, picked=ablation.best(rows, terms))
+    return fill("ablation.html.j2", results, terms=terms, rows=rows, notes=notes, means=ablation.MEANS, picked=ablation.best(rows, terms), worse=ablation.WORSE, most=ablation.MOST)
 
 
 def render_side_by_side(results):

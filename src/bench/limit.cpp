@@ -28,6 +28,12 @@ void time_part(int times, double& least, double& mean, double& mean_cpu, Part pa
   mean_cpu = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC / times;
 }
 
+std::vector<double> steps_of(const std::vector<LimitSeconds>& rounds, double rebuilds) {
+  std::vector<double> list;
+  for (const LimitSeconds& s : rounds) list.push_back(s.step(rebuilds));
+  return list;
+}
+
 /// A number in [0.9, 1.1) that differs from row to row: loops over equal values could be cheaper.
 double uneven(std::size_t row, std::size_t column) { return 0.9 + 0.2 * static_cast<double>((row * 2654435761u + column * 40503u) % 1024u) / 1024.0; }
 
@@ -138,16 +144,6 @@ const Limit::Runner& Limit::fastest(double rebuilds) const {
 }
 
 LimitSeconds Limit::best(double rebuilds) const { return fastest(rebuilds).least; }
-
-namespace {
-
-std::vector<double> steps_of(const std::vector<LimitSeconds>& rounds, double rebuilds) {
-  std::vector<double> list;
-  for (const LimitSeconds& s : rounds) list.push_back(s.step(rebuilds));
-  return list;
-}
-
-}  // namespace
 
 std::vector<double> Limit::steps(double rebuilds) const { return steps_of(fastest(rebuilds).rounds, rebuilds); }
 std::vector<double> Limit::steps_cpu(double rebuilds) const { return steps_of(fastest(rebuilds).rounds_cpu, rebuilds); }

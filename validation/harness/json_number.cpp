@@ -10,4 +10,10 @@ nlohmann::ordered_json number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json numbers(const std::vector<double>& values) {
+  auto list = nlohmann::ordered_json::array();
+  for (const double v : values) list.push_back(number(v));
+  return list;
+}
+
 }  // namespace tripoint

@@ -20,12 +20,6 @@ void put(Json& to, const char* key, double value, bool say_finite = false) {
   if (say_finite && !std::isfinite(value)) to["finite"] = false;
 }
 
-Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double v : values) list.push_back(number(v));
-  return list;
-}
-
 Json json(const Setting& setting) {
   return std::visit([](const auto& v) { return Json(v); }, setting);
 }

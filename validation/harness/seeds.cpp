@@ -130,9 +130,7 @@ std::string seeds_json(const SeedsOutcome& all) {
   using Json = nlohmann::ordered_json;
   Json gates = Json::array();
   for (const auto& g : all.gates) {
-    Json values = Json::array();
-    for (const double v : g.values) values.push_back(number(v));
-    gates.push_back({{"case", g.case_id}, {"engine", g.engine}, {"mode", g.mode}, {"metric", g.metric}, {"level", number(g.level)}, {"allows", g.allows}, {"values", values},
+    gates.push_back({{"case", g.case_id}, {"engine", g.engine}, {"mode", g.mode}, {"metric", g.metric}, {"level", number(g.level)}, {"allows", g.allows}, {"values", numbers(g.values)},
                      {"mean", number(g.mean)}, {"deviation", number(g.deviation)}, {"room_in_deviations", number(g.distance)}, {"alarms", g.alarms}, {"file", g.gate.place.file}, {"line", g.gate.place.line}});
   }
   return Json{{"format", 1}, {"seeds", all.seeds}, {"exit_code", all.exit_code}, {"cases", all.cases}, {"gates", gates}, {"problems", all.problems}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -62,8 +62,8 @@ double volume_ratio(const Deformed& i) { return determinant(identity3 + Matrix3(
 
 bool flows(const World& world) { return world.particles.has(field::plastic_strain_xx.name); }
 
-/// With the stresses at once where nothing can flow between.
-void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
+/// With the stresses at once where nothing can flow between. @param changed whether bonds or volumes have since `reference` was summed
+void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool changed) {
   Particles& p = world.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank];
   const solid::EnergyOwners owns(world);
@@ -85,7 +85,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all) {
       continue;
     }
     ReferenceSums& reference = all.reference[id];
-    if (all.outdated) sum.reference(list, all.lists.shapes(), all.places.data(), reference);
+    if (changed) sum.reference(list, all.lists.shapes(), all.places.data(), reference);
     ListSums sums;
     sum.list(list, all.lists.shapes(), all.places.data(), all.places[id], seam, sums);
     const int rank = rank_of[row];
@@ -206,8 +206,7 @@ bool set_places(World& world, Deformations& all) {
 
 void deform(World& world, const ElasticForms& forms, Deformations& all) {
   const bool relisted = all.lists.follow(world.bonds), changed = set_places(world, all);
-  all.outdated = relisted || changed;
-  deform_all(world, forms, all);
+  deform_all(world, forms, all, relisted || changed);
 }
 
 void refuse_inversion(const World& world, const ElasticForms& forms, const Deformations& all) {

@@ -12,7 +12,6 @@ struct Deformations {
   AlignedVector<Place> places;           ///< by id
   AlignedVector<Deformed> deformed;      ///< by id, of what has bonds or owns strain energy
   std::vector<ReferenceSums> reference;  ///< by id, the same
-  bool outdated = true;                  ///< whether bonds or volumes have changed since `reference` was summed
   std::vector<Vec3> glass;               ///< by id: force of a particle's own hourglass energy on it, of a solid [N]
   double least_volume_ratio = 1.0;       ///< least det F of a solid
   std::vector<char> owns;                ///< by id, 1 where it owns strain energy
