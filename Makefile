@@ -54,5 +54,5 @@ docs: build  ## write the reference of the case file, docs/case-file.md
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
 
-clean:  ## remove build/ and report/; .venv and .venv-peers stay
+clean:  ## remove build/ and report/; .venv, .venv-peers and .venv-engines stay
 	rm -rf build report

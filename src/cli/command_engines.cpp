@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -25,9 +28,17 @@ constexpr const char* engines_description =
     "  tripoint engines --json     one JSON document";
 
 constexpr const char* engine_description =
-    "Makes and checks engines. An engine is any executable that answers --info, --check JOB and --run JOB (docs/engines.md).\n"
+    "Makes, checks and installs engines. An engine is any executable that answers --info, --check JOB and --run JOB (docs/engines.md).\n"
     "  tripoint engine new my-engine --lang python\n"
-    "  tripoint engine check ./my-engine/engine-my-engine";
+    "  tripoint engine check ./my-engine/engine-my-engine\n"
+    "  tripoint engine install mujoco";
+
+constexpr const char* install_description =
+    "Fetches a pinned release of an engine, checks its SHA-256, and unpacks it into an environment of its own, in .venv-engines of the\n"
+    "checkout or in the folder TRIPOINT_ENGINES. Size and licence are said first. What was fetched before is not fetched again.\n"
+    "  tripoint engine install mujoco              the release that the project's cases know, after a question\n"
+    "  tripoint engine install mujoco@3.3.7 --yes  another release; the name mujoco means it from now on\n"
+    "Exit 0 when it is installed, 2 for a name or version that is not known or when nobody agreed, 4 when it could not be fetched or does not start.";
 
 std::string short_list(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
@@ -74,6 +85,16 @@ int make_new(const std::string& name, const std::string& language) {
   return 0;
 }
 
+/// Hands over to the installer, which asks on the terminal: it takes this process's place. @return only when it could not be started
+int install(const std::string& words, bool yes) {
+  const std::string program = (fs::path(share_folder()) / "vendors" / "install.py").string();
+  std::vector<const char*> argv{"/usr/bin/python3", "-B", program.c_str(), words.c_str()};
+  if (yes) argv.push_back("--yes");
+  argv.push_back(nullptr);
+  ::execv(argv.front(), const_cast<char* const*>(argv.data()));
+  throw EngineError(fmt::format("{} {}: {}", argv.front(), program, std::strerror(errno)));
+}
+
 int check(const std::string& path) {
   bool good = true;
   for (const auto& c : check_engine(path)) {
@@ -103,6 +124,11 @@ void add_engine(CLI::App& app, int& exit_code) {
   auto* checked = command->add_subcommand("check", "Tests an engine against the contract: answers, jobs good and broken, results, times, ids, repeatability.\n  tripoint engine check build/libexec/tripoint/engine-bullet\nExit 0 when every check holds, 1 otherwise.");
   checked->add_option("PATH", *path, "the engine's executable")->required();
   checked->callback([=, &exit_code] { exit_code = guarded([&] { return check(*path); }); });
+  auto yes = std::make_shared<bool>(false);
+  auto* installed = command->add_subcommand("install", install_description);
+  installed->add_option("NAME[@VERSION]", *name, "an engine that `tripoint engines` lists as not installed")->required();
+  installed->add_flag("--yes", *yes, "agree to size and licence; needed where there is no terminal");
+  installed->callback([=, &exit_code] { exit_code = guarded([&] { return install(*name, *yes); }); });
 }
 
 }  // namespace tripoint

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""MuJoCo (Apache-2.0), any release from 2.3: rigid bodies, contact by its soft constraints. Presets are its integrators by name."""
+from __future__ import annotations
+
+import os
+import sys
+from importlib.metadata import distribution, version
+from pathlib import Path
+from typing import Any
+
+from contract import Job, serve
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb
+from rotation import Quaternion, Vector, add, product, quaternion, rotate, vector
+
+os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here, so no window library is wanted
+
+
+def words(values: tuple[float, ...]) -> str:
+    """Numbers of an MJCF attribute, without loss."""
+    return " ".join(map(repr, values))
+
+
+def geom_text(piece: Piece, at: Vector, turn: Quaternion, contact: str) -> str:
+    """One geom of the frame whose origin is `at` [m] and whose axes are turned by `turn`."""
+    place = f'pos="{words(add(at, rotate(turn, piece.centre)))}" quat="{words(product(turn, piece.rotation))}"'
+    if piece.kind == "plane":
+        return f'<geom type="plane" size="0 0 1" {place} {contact}/>'  # a size of 0 is infinite
+    size = words(piece.size) if piece.kind == "box" else repr(piece.size[0])
+    return f'<geom type="{piece.kind}" size="{size}" {place} mass="0" {contact}/>'
+
+
+def contact_text(job: Job) -> str:
+    mu = coulomb(job)
+    solref = f' solref="{job.settings["solref"]}"' if "solref" in job.settings else ""
+    solimp = f' solimp="{job.settings["solimp"]}"' if "solimp" in job.settings else ""
+    return f'friction="{mu!r} 0 0" condim="{3 if mu > 0.0 else 1}"{solref}{solimp}'
+
+
+def model_text(job: Job, bodies: list[Body], dt: float) -> str:
+    """The scene in MJCF: free bodies with the job's own masses and principal moments, fixed ones as geoms of the world."""
+    contact = contact_text(job)
+    gravity = words(vector(job.scene["gravity"]))
+    text = [f'<mujoco><compiler boundmass="0" boundinertia="0" balanceinertia="false"/>'
+            f'<option timestep="{dt!r}" integrator="{job.preset}" gravity="{gravity}" cone="elliptic"/><worldbody>']
+    for body in bodies:
+        if not body.free:
+            text += [geom_text(piece, body.centre, body.frame, contact) for piece in body.pieces]
+            continue
+        text.append(f'<body pos="{words(body.centre)}" quat="{words(body.frame)}"><freejoint/>'
+                    f'<inertial pos="0 0 0" mass="{body.mass!r}" diaginertia="{words(body.inertia)}"/>')
+        text += [geom_text(piece, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0), contact) for piece in body.pieces]
+        text.append("</body>")
+    return "".join(text) + "</worldbody></mujoco>"
+
+
+class MujocoWorld(World):
+    def __init__(self, engine: Any, text: str, bodies: list[Body]) -> None:
+        self.engine = engine
+        self.model = engine.MjModel.from_xml_string(text)
+        self.data = engine.MjData(self.model)
+        self.rows: dict[int, int] = {}  # number of a body -> number among the free ones
+        for number, body in enumerate(bodies):
+            if not body.free:
+                continue
+            free = self.rows[number] = len(self.rows)
+            # MuJoCo's qvel holds a free joint's spin in the body frame.
+            spin = rotate((body.frame[0], -body.frame[1], -body.frame[2], -body.frame[3]), body.spin)
+            self.data.qvel[6 * free:6 * free + 6] = [*body.velocity, *spin]
+        self.touched = 0.0
+
+    def step(self, dt: float, count: int) -> None:
+        self.model.opt.timestep = dt
+        if self.model.ngeom == 0:
+            self.engine.mj_step(self.model, self.data, count)
+            return
+        for _ in range(count):
+            self.engine.mj_step(self.model, self.data)
+            self.touched += self.data.ncon
+
+    def state(self, number: int) -> State:
+        free = self.rows[number]
+        q = self.data.qpos[7 * free:7 * free + 7]
+        v = self.data.qvel[6 * free:6 * free + 6]
+        orientation = quaternion(q[3:7])
+        return State(vector(q[0:3]), vector(v[0:3]), orientation, rotate(orientation, vector(v[3:6])))
+
+    def held(self, number: int) -> Held:
+        body = self.rows[number] + 1  # 0 is the world
+        return Held(float(self.model.body_mass[body]), vector(self.model.body_inertia[body]))
+
+    def gravity(self) -> Vector:
+        return vector(self.model.opt.gravity)
+
+    def contacts(self) -> float:
+        return self.touched
+
+
+class Mujoco(RigidEngine):
+    name, title = "mujoco", "MuJoCo"
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
+    presets = ("Euler", "implicitfast", "implicit", "RK4")
+    settings = SHARED_SETTINGS | {"solref": "time constant and damping ratio of contacts, MuJoCo's default 0.02 1; negative: stiffness and damping",
+                                  "solimp": "impedance of contacts, MuJoCo's default 0.9 0.95 0.001 0.5 2"}
+    default_step = 0.002  # MuJoCo's own
+
+    def version(self) -> str:
+        return version("mujoco")
+
+    def library(self) -> Path | None:
+        held = next((name for name in ("mujoco-core", "mujoco") if _has(name)), "mujoco")
+        files = distribution(held).files or []
+        return next((Path(str(f.locate())) for f in files if f.name.startswith("libmujoco.so")), None)
+
+    def refuse(self, job: Job) -> str:
+        for key in ("solref", "solimp"):
+            if key in job.settings and not isinstance(job.settings[key], str):
+                return f'mujoco: the setting {key} is a text of numbers, for example "0.02 1"'
+        return ""
+
+    def open(self, job: Job, bodies: list[Body], dt: float) -> World:
+        import mujoco  # here, because --info and --check need no engine
+
+        return MujocoWorld(mujoco, model_text(job, bodies, dt), bodies)
+
+
+def _has(name: str) -> bool:
+    try:
+        return bool(distribution(name).files)
+    except ImportError:
+        return False
+
+
+if __name__ == "__main__":
+    sys.exit(serve(Mujoco(), sys.argv[1:]))

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fetches pinned packages with each registry's own client, checks their SHA-256, and unpacks them into an environment.
+
+A file that is there and whole is not fetched again, so that an install that was stopped goes on."""
+from __future__ import annotations
+
+import hashlib
+import subprocess
+import sys
+import tarfile
+import urllib.parse
+from collections.abc import Callable
+from pathlib import Path
+
+from environments import File, InstallError, Release
+
+PYTHON = "/usr/bin/python3"
+FETCH_LIMIT = 900.0  # [s]
+
+
+def say(line: str) -> None:
+    print(f"install: {line}", file=sys.stderr, flush=True)
+
+
+def call(words: list[str], folder: Path, limit: float = FETCH_LIMIT) -> None:
+    """@raise InstallError with the client's own last words"""
+    try:
+        end = subprocess.run(words, cwd=folder, capture_output=True, text=True, timeout=limit, check=False)
+    except FileNotFoundError as error:
+        raise InstallError(f"{words[0]} is not installed here, and it is what fetches this engine", 4) from error
+    except subprocess.TimeoutExpired as error:
+        raise InstallError(f"{' '.join(words[:3])} took more than {limit:g} s; the same command goes on where it stopped", 4) from error
+    if end.returncode != 0:
+        last = "\n  ".join((end.stderr or end.stdout).strip().splitlines()[-4:])
+        raise InstallError(f"{' '.join(words[:3])} failed; the same command goes on where it stopped. It said:\n  {last}", 4)
+
+
+def is_whole(path: Path, file: File) -> bool:
+    if not path.is_file() or path.stat().st_size != file.size:
+        return False
+    return hashlib.sha256(path.read_bytes()).hexdigest() == file.sha256
+
+
+def file_of(folder: Path, file: File) -> Path | None:
+    """The pinned file, whatever name its registry gave it."""
+    return next((path for path in sorted(folder.iterdir()) if is_whole(path, file)), None)
+
+
+def fetched(file: File, downloads: Path, fetch: Callable[[File, Path], None]) -> Path:
+    """@raise InstallError where the registry now holds other bytes under that name"""
+    folder = downloads / urllib.parse.quote(file.name, safe="")
+    folder.mkdir(parents=True, exist_ok=True)
+    whole = file_of(folder, file)
+    if whole:
+        say(f"{file.name}: here already")
+        return whole
+    for left in folder.iterdir():
+        left.unlink()
+    say(f"{file.name}: {file.size / 1e6:.1f} MB")
+    fetch(file, folder)
+    whole = file_of(folder, file)
+    if whole is None:
+        there = ", ".join(path.name for path in folder.iterdir()) or "nothing"
+        raise InstallError(f"{file.name}: what came ({there}) has not the pinned hash {file.sha256[:16]}...; it is not used", 4)
+    return whole
+
+
+def install_wheels(release: Release, downloads: Path) -> None:
+    folder = release.folder
+    if not (folder / "bin" / "pip").exists():
+        call([PYTHON, "-m", "venv", str(folder)], folder.parent)
+    pip = str(folder / "bin" / "pip")
+
+    def fetch(file: File, to: Path) -> None:
+        pins = to / "pin.txt"
+        pins.write_text(f"{file.name} --hash=sha256:{file.sha256}\n", encoding="ascii")
+        call([pip, "download", "--quiet", "--no-deps", "--require-hashes", "--only-binary", ":all:", "--retries", "2", "--timeout", "30",
+              "--dest", str(to), "--requirement", str(pins)], to)
+
+    wheels = [fetched(file, downloads, fetch) for file in release.files]
+    call([pip, "install", "--quiet", "--no-deps", "--no-index", *map(str, wheels)], folder)
+
+
+def install_debian(release: Release, downloads: Path) -> None:
+    """Unpacks the packages into the environment: nothing of the system is changed, and no root is needed."""
+    def fetch(file: File, to: Path) -> None:
+        call(["apt-get", "download", "--quiet", file.name], to)
+
+    for file in release.files:
+        call(["dpkg-deb", "--extract", str(fetched(file, downloads, fetch)), str(release.folder)], release.folder)
+
+
+def install_npm(release: Release, downloads: Path) -> None:
+    def fetch(file: File, to: Path) -> None:
+        call(["npm", "pack", "--silent", "--ignore-scripts", file.name], to)
+
+    for file in release.files:
+        package = release.folder / "node_modules" / file.name.rpartition("@")[0]
+        package.mkdir(parents=True, exist_ok=True)
+        with tarfile.open(fetched(file, downloads, fetch)) as archive:
+            for member in archive.getmembers():
+                member.name = member.name.partition("/")[2]  # without the leading folder "package"
+                if member.isfile() and member.name:
+                    archive.extract(member, package, filter="data")
+
+
+INSTALLERS = {"PyPI": install_wheels, "Debian": install_debian, "npm": install_npm}

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What all engines of rigid bodies share: the bodies of a job, why some are refused, the step loop and the rows of the trajectory.
+
+An engine works in the body's principal frame: `Body.frame` turns that frame into the world's at the start. Masses and principal moments
+are the job's, never those of the shapes; the shapes are for contact alone."""
+from __future__ import annotations
+
+import math
+import time
+from abc import abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from contract import BODY_COLUMNS, Diverged, Engine, Job, Outcome, Row, write_trajectory
+from rotation import (IDENTITY, Quaternion, Vector, add, between, conjugate, normalised, product, quaternion, rotate_back, scaled, subtract,
+                      vector)
+
+
+class Piece(NamedTuple):
+    """A part of a body's surface, in its principal frame."""
+
+    kind: str  # box | sphere | plane
+    centre: Vector  # from the body's centre of mass [m]
+    rotation: Quaternion  # piece to principal frame; a plane's outward normal is its z axis
+    size: Vector  # half lengths of a box, radius of a sphere in x [m]
+
+
+@dataclass(frozen=True)
+class Body:
+    name: str
+    index: int  # row of the trajectory
+    free: bool  # else fixed
+    mass: float  # [kg]
+    centre: Vector  # centre of mass at the start [m]
+    frame: Quaternion  # principal to world axes at the start
+    inertia: Vector  # principal moments [kg m2]
+    velocity: Vector  # [m/s]
+    spin: Vector  # angular velocity in the world frame [rad/s]
+    pieces: tuple[Piece, ...]  # empty where nothing can be touched
+
+
+class State(NamedTuple):
+    """Of one body. The orientation turns the principal frame into the world's."""
+
+    centre: Vector  # [m]
+    velocity: Vector  # [m/s]
+    orientation: Quaternion
+    spin: Vector  # world frame [rad/s]
+
+
+class Held(NamedTuple):
+    """A body as the engine itself holds it."""
+
+    mass: float  # [kg]
+    inertia: Vector  # in the order of the principal axes [kg m2]
+    friction: float = 0.0
+    restitution: float = 0.0
+    linear_damping: float = 0.0
+    angular_damping: float = 0.0
+
+
+class World:
+    """An engine's world with the job's bodies in it. Numbers count from 0 in the order of the bodies that were handed over."""
+
+    def step(self, dt: float, count: int) -> None:
+        """Takes `count` steps of dt [s]."""
+        raise NotImplementedError
+
+    def state(self, number: int) -> State:
+        raise NotImplementedError
+
+    def held(self, number: int) -> Held:
+        raise NotImplementedError
+
+    def gravity(self) -> Vector:
+        """[m/s2], as the engine holds it"""
+        raise NotImplementedError
+
+    def contacts(self) -> float:
+        """Contact points that were worked on, summed over steps; 0 where the engine does not say."""
+        return 0.0
+
+
+def pieces_of(shape: dict[str, Any], centre: Vector, frame: Quaternion) -> tuple[Piece, ...] | None:
+    """@return None for a shape of which boxes, spheres and planes cannot be made"""
+    def local(x: Vector) -> Vector:
+        return rotate_back(frame, subtract(x, centre))
+
+    kind = shape["kind"]
+    if kind == "box":
+        low, high = vector(shape["min"]), vector(shape["max"])
+        return (Piece("box", local(scaled(0.5, add(low, high))), conjugate(frame), scaled(0.5, subtract(high, low))),)
+    if kind == "sphere":
+        return (Piece("sphere", local(vector(shape["centre"])), IDENTITY, (float(shape["radius"]),) * 3),)
+    if kind == "half_space":
+        turn = product(conjugate(frame), between((0.0, 0.0, 1.0), vector(shape["normal"])))
+        return (Piece("plane", local(vector(shape["point"])), turn, (0.0, 0.0, 0.0)),)
+    if kind == "union":
+        parts = [pieces_of(part, centre, frame) for part in shape["of"]]
+        return None if None in parts else tuple(piece for part in parts for piece in part)  # type: ignore[union-attr]
+    return None
+
+
+def body_of(body: dict[str, Any], touchable: bool) -> Body:
+    centre, frame = vector(body["centre"]), quaternion(body["principal_axes"])
+    pieces = pieces_of(body["shape"], centre, frame) if touchable else ()
+    return Body(body["name"], int(body["index"]), body["motion"] == "free", float(body["mass"]), centre, frame,
+                vector(body["principal_inertia"]), vector(body["velocity"]), vector(body["angular_velocity"]), pieces or ())
+
+
+def bodies_of(job: Job) -> list[Body]:
+    """A body that is alone gets no surface: it can touch nothing."""
+    return [body_of(body, len(job.bodies) > 1) for body in job.bodies]
+
+
+def _refuse_body(body: dict[str, Any], engine: str, alone: bool) -> str:
+    name = body["name"]
+    if body["phase"] != "rigid":
+        return f"{engine} is handed rigid bodies only, and {name} is {body['phase']}"
+    if body["temperature"] is not None:
+        return f"{engine} knows no heat, and {name} has a temperature"
+    if body["joins"] or body["joined_to"]:
+        return f"bonds between bodies are not handed to {engine}, and {name} has some"
+    if body["motion"] == "prescribed":
+        return f"prescribed motion is not handed to {engine}, and {name} has one"
+    if body["motion"] == "free" and min(body["principal_inertia"]) <= 0.0:
+        return f"{engine} needs three principal moments above 0, and {name} has {body['principal_inertia']} kg m2"
+    if not alone and pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) is None:
+        return f"{engine} is handed boxes, spheres, half spaces and unions of them, and {name} is a {body['shape']['kind']}"
+    if body["motion"] == "free" and body["shape"]["kind"] == "half_space":
+        return f"a half space cannot be free, and {name} is"
+    return ""
+
+
+def refuse_scene(job: Job, engine: str) -> str:
+    """Why no engine of rigid bodies here runs the job; "" if it can."""
+    scene = job.scene
+    if scene["mode"] == "paper":
+        return f"the paper's forms belong to the particle solver; {engine} has none"
+    if any(scene["periodic"]):
+        return f"{engine} has no periodic directions"
+    if scene["inflows"]:
+        return f"{engine} has no inflow"
+    if scene["events"]:
+        return f"events are not handed to {engine}"
+    reasons = (_refuse_body(body, engine, len(job.bodies) == 1) for body in job.bodies)
+    return next((reason for reason in reasons if reason), "")
+
+
+def steps_in(interval: float, limit: float) -> int:
+    """Number of equal steps, none above `limit`, over an interval [s]."""
+    return max(1, math.ceil(interval / limit * (1.0 - 1e-9)))
+
+
+class RigidEngine(Engine):
+    """An engine that takes rigid bodies: a subclass says its own refusals and opens a `World`."""
+
+    title: str  # the vendor's own spelling
+    default_step: float  # [s], where neither the scene nor the settings say one
+
+    @abstractmethod
+    def refuse(self, job: Job) -> str:
+        """What this engine alone refuses; the presets, settings and scene have been looked at."""
+
+    @abstractmethod
+    def open(self, job: Job, bodies: list[Body], dt: float) -> World:
+        """A world with these bodies. @param dt first step [s]"""
+
+    def wanted_step(self, job: Job) -> float:
+        """[s]: the setting's, else the scene's, else the engine's own."""
+        return float(job.settings.get("time_step", job.time_step or self.default_step))
+
+    def refusal(self, job: Job) -> str:
+        if job.preset not in self.presets:
+            return f"{self.name}: no preset '{job.preset}'; there are {', '.join(self.presets)}"
+        unknown = [key for key in job.settings if key not in self.settings]
+        if unknown:
+            return f"{self.name}: no setting '{unknown[0]}'; there are {', '.join(self.settings)}"
+        if not self.wanted_step(job) > 0.0:
+            return f"{self.name}: time_step must be above zero"
+        return refuse_scene(job, self.title) or self.refuse(job)
+
+    def run(self, job: Job) -> Outcome:
+        began = time.process_time()
+        bodies = bodies_of(job)
+        limit = self.wanted_step(job)
+        first = (job.times[1] - job.times[0]) / steps_in(job.times[1] - job.times[0], limit) if len(job.times) > 1 else limit
+        world = self.open(job, bodies, first)
+        outcome = Outcome(setup_cpu=time.process_time() - began)
+        held = [(body, world.held(k)) for k, body in enumerate(bodies) if body.free]
+        outcome.readback = {"gravity": list(world.gravity()), "time_step": first, "precision": self.precision,
+                            "bodies": [_readback(body, h) for body, h in held]}
+        outcome.state_hash = write_trajectory(job, BODY_COLUMNS, _rows(job, bodies, world, limit, outcome))
+        outcome.pairs = world.contacts()
+        return outcome
+
+
+def _readback(body: Body, held: Held) -> dict[str, Any]:
+    return {"name": body.name, "mass": held.mass, "centre": list(body.centre), "principal_inertia": list(held.inertia),
+            "friction": held.friction, "restitution": held.restitution, "linear_damping": held.linear_damping,
+            "angular_damping": held.angular_damping}
+
+
+def _rows(job: Job, bodies: list[Body], world: World, limit: float, outcome: Outcome) -> Iterator[Row]:
+    """Equal steps, none above `limit` [s], that end at each output time."""
+    now = job.times[0]
+    for at in job.times:
+        if at > now:
+            count = steps_in(at - now, limit)
+            world.step((at - now) / count, count)
+            outcome.steps += count
+            now = at
+        for number, body in enumerate(bodies):
+            yield _row(at, body, world.state(number) if body.free else None)
+
+
+def _row(at: float, body: Body, state: State | None) -> Row:
+    if state is None:
+        return [at, body.index, *body.centre, 0.0, 0.0, 0.0, *IDENTITY, 0.0, 0.0, 0.0]
+    if not all(math.isfinite(c) for part in state for c in part):
+        raise Diverged(f"the state of {body.name} is not finite", body.index, at)
+    turned = product(normalised(state.orientation), conjugate(body.frame))
+    return [at, body.index, *state.centre, *state.velocity, *turned, *state.spin]
+
+
+def coulomb(job: Job) -> float:
+    """Coefficient of friction of every pair [-]: the setting's, else none, because the particle model has no law of Coulomb."""
+    return float(job.settings.get("friction", 0.0))
+
+
+SHARED_SETTINGS = {"time_step": "goes before the job's [s]; shortened so that output times are hit exactly",
+                   "friction": "coefficient of every pair, default 0: the particle model has no law of Coulomb"}

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the adapters of installed engines share: the calls, the refusals, surfaces and steps. MuJoCo's adapter runs on a stand-in."""
+import math
+import os
+import sys
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+HERE = Path(__file__).resolve().parent
+ADAPTERS = Path(os.environ["TRIPOINT_VENDORS"])
+sys.path[:0] = [str(ADAPTERS), str(HERE)]
+
+from engine_mujoco import model_text  # noqa: E402
+from rigid import body_of, pieces_of, steps_in  # noqa: E402
+from rotation import IDENTITY, between, product, rotate  # noqa: E402
+from scenes import body, check, floor, job, run  # noqa: E402
+
+MUJOCO = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_mujoco.py")]
+STAND_IN = {**os.environ, "PYTHONPATH": str(HERE / "fake")}
+
+
+def mujoco(bodies, **words):
+    return run(MUJOCO, job(bodies, preset=words.pop("preset", "Euler"), **words), STAND_IN)
+
+
+def refusal(bodies, **words):
+    answer = check(MUJOCO, job(bodies, preset=words.pop("preset", "Euler"), **words), STAND_IN)
+    return "" if answer["can"] else answer["reason"]
+
+
+class Calls(unittest.TestCase):
+    def test_a_broken_job_ends_with_2_and_leaves_no_result(self):
+        for text in ("{", "{}", '{"contract": 2}'):
+            end = run(MUJOCO, text, STAND_IN)
+            self.assertEqual((end.code, end.result), (2, None), text)
+
+    def test_times_that_fall_are_a_broken_job(self):
+        self.assertEqual(mujoco([body()], times=(0.0, 1.0, 0.5)).code, 2)
+
+    def test_a_refusal_ends_with_4_and_says_why(self):
+        end = mujoco([body(phase="elastic")])
+        self.assertEqual((end.code, end.result["status"]), (4, "refused"))
+        self.assertIn("elastic", end.result["message"])
+
+    def test_a_state_that_is_not_finite_is_diverged(self):
+        end = mujoco([body()], gravity=[0.0, 0.0, -1e308], times=(0.0, 1.0, 900.0))
+        self.assertEqual((end.code, end.result["status"], end.result["divergence"]["body"]), (7, "diverged", 0))
+
+
+class Refusals(unittest.TestCase):
+    def test_each_names_the_body_and_the_reason(self):
+        for change, word in (({"temperature": {"kind": "constant", "value": 300.0}}, "heat"), ({"joined_to": ["b"]}, "bonds"),
+                             ({"motion": "prescribed"}, "prescribed"), ({"principal_inertia": [0.0, 1.0, 1.0]}, "moments")):
+            reason = refusal([body(**change)])
+            self.assertIn(word, reason)
+            self.assertIn("cube", reason)
+
+    def test_scenes_of_the_particle_solver_are_refused(self):
+        for scene, word in (({"mode": "paper"}, "paper"), ({"periodic": [True, False, False]}, "periodic"), ({"inflows": [{}]}, "inflow"),
+                            ({"events": [{}]}, "events")):
+            self.assertIn(word, refusal([body()], **scene))
+
+    def test_a_shape_without_a_surface_is_refused_only_where_it_can_be_touched(self):
+        pipe = body(shape={"kind": "cylinder", "base": [0, 0, 0], "axis": [0, 0, 1], "length": 1.0, "radius": 0.1})
+        self.assertEqual(refusal([pipe]), "")
+        self.assertIn("cylinder", refusal([pipe, floor()]))
+
+    def test_presets_and_settings_are_the_vendors_own_words(self):
+        self.assertIn("Euler, implicitfast", refusal([body()], preset="tuned"))
+        self.assertIn("no setting 'gyro'", refusal([body()], settings={"gyro": "off"}))
+        self.assertIn("above zero", refusal([body()], settings={"time_step": 0.0}))
+
+
+class Surfaces(unittest.TestCase):
+    def test_a_box_in_a_turned_frame_stays_where_it_is(self):
+        frame = between((0.0, 0.0, 1.0), (1.0, 1.0, 0.0))
+        (piece,) = pieces_of(body()["shape"], (0.5, 0.1, 1.0), frame)
+        back = rotate(frame, piece.centre)
+        for found, wanted in zip(back, (0.0, -0.1, 0.0)):
+            self.assertAlmostEqual(found, wanted, delta=1e-15)
+        turned = product(frame, piece.rotation)  # of the box itself: it is along the world's axes
+        self.assertAlmostEqual(abs(turned[0]), 1.0, delta=1e-15)
+        self.assertEqual(tuple(round(c, 12) for c in piece.size), (0.2, 0.2, 0.1))
+
+    def test_a_plane_looks_along_its_normal(self):
+        for normal in ((0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 2.0, -2.0)):
+            (piece,) = pieces_of({"kind": "half_space", "point": [0, 0, 0], "normal": normal}, (0.0, 0.0, 0.0), IDENTITY)
+            found = rotate(piece.rotation, (0.0, 0.0, 1.0))
+            for a, b in zip(found, (c / math.dist((0, 0, 0), normal) for c in normal)):
+                self.assertAlmostEqual(a, b, delta=1e-15)
+
+    def test_a_union_is_the_pieces_of_its_parts_and_a_difference_is_none(self):
+        box = body()["shape"]
+        self.assertEqual(len(pieces_of({"kind": "union", "of": [box, box]}, (0, 0, 0), IDENTITY)), 2)
+        self.assertIsNone(pieces_of({"kind": "union", "of": [box, {"kind": "difference"}]}, (0, 0, 0), IDENTITY))
+
+
+class Steps(unittest.TestCase):
+    def test_equal_steps_end_at_each_output_time(self):
+        self.assertEqual([steps_in(0.4, 0.01), steps_in(0.4, 0.015), steps_in(0.4, 1.0)], [40, 27, 1])
+        end = mujoco([body()], times=(0.0, 0.4, 1.0), time_step=0.1)
+        self.assertEqual((end.result["steps"], end.result["time_reached"]), (10, 1.0))
+
+    def test_the_setting_goes_before_the_scene_and_the_scene_before_the_vendors_own(self):
+        self.assertAlmostEqual(mujoco([body()], settings={"time_step": 0.25}).result["readback"]["time_step"], 0.25)
+        self.assertAlmostEqual(mujoco([body()], time_step=None).result["readback"]["time_step"], 0.002)
+
+
+class MujocoAdapter(unittest.TestCase):
+    def test_the_flight_is_its_schemes_own(self):
+        end = mujoco([body()])
+        self.assertEqual(end.code, 0)
+        last, dt = end.rows[-1], 0.01
+        self.assertAlmostEqual(last["z"], 1.0 + 3.0 - 9.81 / 2 - 9.81 * dt / 2, delta=1e-12)  # semi-implicit Euler lags by g dt t/2
+        self.assertAlmostEqual(last["vx"], 1.0, delta=1e-15)
+
+    def test_a_turned_principal_frame_starts_as_the_identity_and_the_spin_is_the_worlds(self):
+        end = mujoco([body(principal_axes=list(between((0, 0, 1), (1, 0, 0))), angular_velocity=[0.0, 0.7, 0.2])])
+        first, last = end.rows[0], end.rows[-1]
+        self.assertAlmostEqual(first["qw"], 1.0, delta=1e-15)
+        self.assertAlmostEqual(last["wy"], 0.7, delta=1e-12)
+        self.assertAlmostEqual(2.0 * math.acos(last["qw"]), math.hypot(0.7, 0.2), delta=1e-4)  # the turn of 1 s
+
+    def test_masses_and_gravity_are_read_back_from_the_engine(self):
+        held = mujoco([body(), floor()]).result["readback"]
+        self.assertEqual((held["gravity"], held["precision"]), ([0.0, 0.0, -9.81], "double"))
+        self.assertEqual([(b["name"], b["mass"], b["principal_inertia"]) for b in held["bodies"]], [("cube", 8.0, [1.0, 2.0, 2.5])])
+
+    def test_a_fixed_body_stays(self):
+        rows = [row for row in mujoco([body(), floor()]).rows if row["body"] == 1.0]
+        self.assertEqual({(row["x"], row["z"], row["vz"], row["qw"]) for row in rows}, {(0.0, -0.5, 0.0, 1.0)})
+
+    def test_the_model_says_the_presets_integrator_and_the_contacts_settings(self):
+        given = SimpleNamespace(scene=job([])["scene"], preset="RK4", settings={"friction": 0.5, "solref": "-1000 -10"})
+        text = model_text(given, [body_of(body(), True), body_of(floor(), True)], 0.004)
+        for words in ('integrator="RK4"', 'timestep="0.004"', 'friction="0.5 0 0"', 'condim="3"', 'solref="-1000 -10"', 'type="plane"', 'diaginertia="1.0 2.0 2.5"'):
+            self.assertIn(words, text)
+
+
+if __name__ == "__main__":
+    unittest.main()
