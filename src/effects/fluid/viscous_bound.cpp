@@ -38,7 +38,7 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
     greatest = std::max(greatest, rate / m[i]);
   }
   // Velocities are predicted to the full step by the forces of the last one (predict_velocities), so that a mode of rate lambda is
-  // stable while lambda dt < 1, not 2: half of what an explicit step of the same rates bears (model 8.10 counts with 2).
+  // stable while lambda dt < 1, not 2: half of what an explicit step of the same rates bears (model 8.10).
   world.lagged.viscous_step = greatest > 0.0 ? (central ? 0.3 : 0.5) / greatest : std::numeric_limits<double>::infinity();
 }
 

@@ -6,7 +6,7 @@
 namespace tripoint::fluid {
 
 /// Greatest stable step of the viscous pair forces (model 8.10), formed anew every few steps from the present places:
-/// 1/max_i sum_j G_ij/m_i for (8) and `laplacian`; 0.6/max_i lambda_max(sum_j G_ij e e^T/m_i) for `central`.
+/// 0.5/max_i sum_j G_ij/m_i for (8) and `laplacian`; 0.3/max_i lambda_max(sum_j G_ij e e^T/m_i) for `central`.
 void update_viscous_bound(World&, const PairKernels&);
 
 }  // namespace tripoint::fluid

@@ -6,7 +6,7 @@
 
 #include "sph/solid.hpp"
 
-/// Plastic flow after [O'Brien, Bargteil, Hodgins 2002], item 8 of the model's corrected forms: formulas of one particle.
+/// Plastic flow after [O'Brien, Bargteil, Hodgins 2002] (model 8.8): formulas of one particle.
 namespace tripoint::plastic {
 
 struct YieldLimits {

@@ -17,7 +17,7 @@ namespace tripoint {
 [[nodiscard]] double rotation_energy(const Quaternion& to_world, const Vec3& moments, const Vec3& L) noexcept;
 
 /// (19)-(20) as printed: omega = I^-1 L, then the orientation turns by omega dt. First order; over a long spin the energy
-/// drifts to the axis of least inertia, +152 % in the notes' example. (The members are placed by the orientation; moving each by
+/// drifts to the axis of least inertia, by +152 % in a prototype. (The members are placed by the orientation; moving each by
 /// dt omega x r, as a literal reading would, stretches the body.)
 [[nodiscard]] Quaternion rotated_paper(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt) noexcept;
 
