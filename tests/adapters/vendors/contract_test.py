@@ -4,6 +4,7 @@ import math
 import os
 import sys
 import unittest
+from ctypes import sizeof
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -12,6 +13,8 @@ ADAPTERS = Path(os.environ["TRIPOINT_VENDORS"])
 sys.path[:0] = [str(ADAPTERS), str(HERE)]
 
 from engine_mujoco import model_text  # noqa: E402
+from engine_ode import plane_of  # noqa: E402
+from ode_library import Contact, ContactGeom, Mass, Surface  # noqa: E402
 from rigid import body_of, pieces_of, steps_in  # noqa: E402
 from rotation import IDENTITY, between, product, rotate  # noqa: E402
 from scenes import body, check, floor, job, run  # noqa: E402
@@ -136,6 +139,19 @@ class MujocoAdapter(unittest.TestCase):
         text = model_text(given, [body_of(body(), True), body_of(floor(), True)], 0.004)
         for words in ('integrator="RK4"', 'timestep="0.004"', 'friction="0.5 0 0"', 'condim="3"', 'solref="-1000 -10"', 'type="plane"', 'diaginertia="1.0 2.0 2.5"'):
             self.assertIn(words, text)
+
+
+class OdeAdapter(unittest.TestCase):
+    def test_structures_have_the_sizes_of_the_c_headers(self):
+        self.assertEqual([sizeof(s) for s in (Mass, Surface, ContactGeom, Contact)], [136, 120, 96, 248])
+
+    def test_a_half_space_is_a_plane_in_the_world(self):
+        shape = {"kind": "half_space", "point": [0.0, 0.0, 0.3], "normal": [0.0, 0.6, 0.8]}
+        turned = list(between((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)))
+        held = body_of(body(motion="fixed", shape=shape, principal_axes=turned), True)
+        normal, offset = plane_of(held, held.pieces[0])
+        for found, wanted in zip((*normal, offset), (0.0, 0.6, 0.8, 0.24)):
+            self.assertAlmostEqual(found, wanted, delta=1e-15)
 
 
 if __name__ == "__main__":
