@@ -148,6 +148,15 @@ TEST(Pages, LinkToFilesAndAnchorsThatAreThere) {
   EXPECT_GT(count, 30U);
 }
 
+TEST(ArchitecturePage, HasTheMapOfTheRooms) {
+  const std::string page = text_of(root() / "docs/architecture.md");
+  for (const auto& [room, others] : map_of_rooms()) {
+    std::string row = "| `" + room + "` | " + (others.empty() ? "nothing" : "");
+    for (const std::string& other : others) row += (&other == &others.front() ? "`" : ", `") + other + "`";
+    EXPECT_NE(page.find(row + " |\n"), std::string::npos) << "docs/architecture.md should have the row\n" << row << " |";
+  }
+}
+
 /// Everything that the page may name: the text of the code, and names of files.
 struct Named {
   std::string code;
@@ -179,6 +188,7 @@ TEST(ModelPage, NamesFilesFunctionsAndCasesThatAreThere) {
   const std::vector<std::string> words = quoted_words(text_of(root() / "docs/model.md"));
   EXPECT_GT(words.size(), 200U);
   for (const std::string& word : words) EXPECT_TRUE(is_there(word, all)) << "docs/model.md names `" << word << "`, which is neither code, file nor case";
+  EXPECT_FALSE(is_there("neither_code_" "nor_file", all) || is_there("src/none.cpp", all) || is_there("fluid/none", all));
 }
 
 }  // namespace

@@ -105,6 +105,8 @@ bool may_include(std::string_view from, std::string_view to) {
 
 }  // namespace
 
+const std::map<std::string, std::vector<std::string>, std::less<>>& map_of_rooms() { return allowed; }
+
 std::string room_of(std::string_view path) {
   std::vector<std::string_view> parts;
   for (std::size_t at = 0; at < path.size();) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ struct Offence {
 /// The room a path of src, adapters or validation belongs to: "core", "effects", "effects/heat", "adapters",
 /// "adapters/bullet", "validation/metrics"...; "" for any other path.
 [[nodiscard]] std::string room_of(std::string_view path);
+
+/// room -> the rooms it may include beside itself.
+[[nodiscard]] const std::map<std::string, std::vector<std::string>, std::less<>>& map_of_rooms();
 
 /// Includes between rooms that the map of the rooms does not allow, and one effect that includes another.
 [[nodiscard]] std::vector<Offence> forbidden_includes(const Source& source);
