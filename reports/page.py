@@ -70,8 +70,8 @@ def measure(metric):
     words = [f"{metric.get('norm', 'norm not stated')} of {metric.get('quantity', 'a quantity not stated')}"]
     words += [f"of body {body}"] if body else []
     words += [f"at {at}"] if at not in (None, "") else []
-    words += [f"over {show(scale)}"] if scale not in (None, 1, 1.0) else []
-    return " ".join(words) + (f", {metric['unit']}" if metric.get("unit") else "")
+    words += [f"divided by {show(scale)}"] if scale not in (None, 1, 1.0) else []
+    return " ".join(words) + (f" ({metric['unit']})" if metric.get("unit") else "")
 
 
 def truth(row, case, side):

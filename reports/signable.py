@@ -18,7 +18,7 @@ def requirements(results):
 
 
 def orders(results):
-    """Code verification: every fitted order that has a formal one, with the uncertainty that the grids alone would state and the error that there is."""
+    """Code verification: every fitted order that has a formal one, with the uncertainty estimated from the grids alone and the true error."""
     found = []
     for case in results.cases:
         for engine in case.engines:

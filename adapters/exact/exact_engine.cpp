@@ -18,7 +18,7 @@ std::string ExactEngine::refusal(const Job& job) const {
   try {
     const auto initial = read_particles(job.particles);
     const auto reference = make_reference(job.reference, job, initial);
-    return reference->at(0.0).position.empty() ? "the reference `" + job.reference.function + "` knows laws but no states" : "";
+    return reference->at(0.0).position.empty() ? "not applicable: the reference `" + job.reference.function + "` gives scalar results, not particle positions" : "";
   } catch (const InputError& e) {
     return e.what();
   }

@@ -29,7 +29,7 @@ void refuse_not_finite(const Particles& particles, double time) {
   }
 }
 
-/// Makes a column that long; what it held is lost, so that it is never there twice. Memory that is not written to is not there.
+/// Resizes without copying: the old values are lost. Untouched pages take no memory.
 template <class T>
 void fit(std::vector<T>& column, std::size_t size) {
   if (column.capacity() < size) {

@@ -28,7 +28,7 @@ constexpr auto keys = std::to_array<Key>({
     {"", "metric", tables, "", any, "=", "nothing is measured", "metric", "numbers formed of each run"},
     {"", "study", tables, "", any, "=", "one run an engine", "study", "convergence studies"},
     {"", "gate", tables, "", any, "=", "nothing is judged", "gate", "limits"},
-    {"", "input", tables, "", any, "=", "every number counts as exact", "input", "numbers that are known to so much only"},
+    {"", "input", tables, "", any, "=", "every number counts as exact", "input", "uncertain numbers"},
     {"", "defect", tables, "", any, "=", "none", "defect", "faults that this case must catch"},
     {"", "harmless", tables, "", any, "=", "none", "harmless", "changes that this case must not feel"},
     // [case]
@@ -234,12 +234,12 @@ constexpr auto tables_of_case = std::to_array<TableInfo>({
     {"velocity.expression", "velocity = {kind = \"expression\", ...}", "Formulas."},
     {"event", "[[event]]", "What happens at a time."},
     {"inflow", "[[inflow]]", "Liquid that flows in."},
-    {"engines", "[engines.NAME]", "One row of the results an engine and preset."},
+    {"engines", "[engines.NAME]", "Each engine and preset is one row of the results."},
     {"reference", "[reference]", "The truth."},
     {"metric", "[[metric]]", "A number formed of each run."},
     {"study", "[[study]]", "A ladder of runs."},
     {"gate", "[[gate]]", "A limit that decides."},
-    {"input", "[[input]]", "A number that is known to so much only: the case's own run is made again at both ends, and half the difference of a metric is its input uncertainty."},
+    {"input", "[[input]]", "An uncertain number. The case's own run is repeated with the number at both ends; half the difference of a metric is its input uncertainty."},
     {"defect", "[[defect]]", "A fault that this case must catch."},
     {"harmless", "[[harmless]]", "A change that physics does not feel: `tripoint gate selftest` runs the changed scene, and no gate may turn and no metric change."},
 });

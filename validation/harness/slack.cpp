@@ -41,8 +41,8 @@ Remark remark_on(const CaseResult& c, const GateRow& row, double slack) {
   Remark r;
   r.error = slack > slack_fails && row.gate.date.empty();
   r.code = r.error ? exit_fail : exit_pass, r.place = row.gate.place, r.excess = slack;
-  r.title = fmt::format("{} {} is slack", c.id, row.metric);
-  r.text = fmt::format("{}, and {:.3g} with standard uncertainty {:.2g} uses one part in {:.3g} of it{}", describe(row.gate), row.value, row.uncertainty, slack,
+  r.title = fmt::format("{}: the limit of {} is loose", c.id, row.metric);
+  r.text = fmt::format("{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: room by a factor of {:.3g}{}", describe(row.gate), row.value, row.uncertainty, slack,
                        r.error ? "; tighten it, or give the reason a date" : row.gate.date.empty() ? "" : " (dated " + row.gate.date + ")");
   return r;
 }
