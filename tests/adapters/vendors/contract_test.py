@@ -12,6 +12,7 @@ HERE = Path(__file__).resolve().parent
 ADAPTERS = Path(os.environ["TRIPOINT_VENDORS"])
 sys.path[:0] = [str(ADAPTERS), str(HERE)]
 
+from environments import catalogue  # noqa: E402
 from engine_mujoco import model_text  # noqa: E402
 from engine_ode import plane_of  # noqa: E402
 from ode_library import Contact, ContactGeom, Mass, Surface  # noqa: E402
@@ -73,6 +74,20 @@ class Refusals(unittest.TestCase):
         self.assertIn("Euler, implicitfast", refusal([body()], preset="tuned"))
         self.assertIn("no setting 'gyro'", refusal([body()], settings={"gyro": "off"}))
         self.assertIn("above zero", refusal([body()], settings={"time_step": 0.0}))
+
+    def test_every_adapter_of_rigid_bodies_takes_a_block_and_refuses_what_it_has_no_law_for(self):
+        for name, engine in catalogue()["engines"].items():
+            command = ["/usr/bin/python3", "-B", str(ADAPTERS / engine["adapter"])]
+            preset = engine["presets"][0]
+            with self.subTest(name):
+                self.assertEqual(check(command, job([body()], preset=preset)), {"can": True, "reason": ""})
+                self.assertIn("elastic", check(command, job([body(phase="elastic")], preset=preset))["reason"])
+                self.assertIn("no setting", check(command, job([body()], preset=preset, settings={"no_such": 1.0}))["reason"])
+
+    def test_rapier_refuses_a_spin_that_it_would_slow_down(self):
+        command = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_rapier.py")]
+        for spin, word in ((70.0, ""), (90.0, "pi/4")):
+            self.assertIn(word, check(command, job([body(angular_velocity=[0.0, 0.0, spin])], preset="SIMPLIFIED"))["reason"])
 
 
 class Surfaces(unittest.TestCase):

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rapier (Apache-2.0), its Python wheel in single precision: rigid bodies, contacts. Presets are its friction models by name."""
+from __future__ import annotations
+
+import math
+import sys
+from importlib.metadata import distribution, version
+from pathlib import Path
+from typing import Any
+
+from contract import Job, serve
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb
+from rotation import Quaternion, Vector, norm, rotate, vector
+
+WORLD_SETTINGS = {  # attributes of IntegrationParameters, in Rapier's words, with what they are
+    "num_solver_iterations": "Rapier's default 4", "num_internal_stabilization_iterations": "Rapier's default 1",
+    "normalized_allowed_linear_error": "Rapier's default 0.005 [m]", "normalized_prediction_distance": "Rapier's default 0.02 [m]",
+    "normalized_max_corrective_velocity": "Rapier's default 3 [m/s]", "warmstart_coefficient": "Rapier's default 1"}
+FASTEST_TURN = math.pi / 4  # of a step [rad]: Rapier slows a faster spin down, unless allow_fast_rotation is set, which is not its default
+
+
+def xyz(v: Any) -> Vector:
+    return float(v.x), float(v.y), float(v.z)
+
+
+class RapierWorld(World):
+    def __init__(self, rapier: Any, job: Job, bodies: list[Body], dt: float) -> None:
+        self.rapier = rapier
+        self.world = rapier.PhysicsWorld(gravity=vector(job.scene["gravity"]))
+        self.world.set_num_threads(1)
+        parameters = self.world.integration_parameters
+        parameters.dt = dt
+        parameters.friction_model = getattr(rapier.FrictionModel, job.preset)
+        for key in WORLD_SETTINGS:
+            if key in job.settings:
+                setattr(parameters, key, type(getattr(parameters, key))(job.settings[key]))
+        self.friction = coulomb(job)
+        self.restitution = float(job.settings.get("restitution", 0.0))
+        self.gyroscopic = bool(job.settings.get("gyroscopic_forces", True))
+        self.handles = {number: self.add(body) for number, body in enumerate(bodies)}
+
+    def isometry(self, at: Vector, turn: Quaternion) -> Any:
+        return self.rapier.Isometry3(at, self.rapier.Rotation3.from_quaternion(*turn))
+
+    def add(self, body: Body) -> Any:
+        make = self.rapier.RigidBody.dynamic if body.free else self.rapier.RigidBody.fixed
+        builder = make().position(self.isometry(body.centre, body.frame)).can_sleep(False)
+        if body.free:
+            # The colliders have no density: the mass is the job's alone.
+            mass = self.rapier.MassProperties((0.0, 0.0, 0.0), body.mass, body.inertia)
+            builder = builder.linvel(body.velocity).angvel(body.spin).additional_mass_properties(mass).gyroscopic_forces(self.gyroscopic)
+        handle = self.world.add_body(builder, [self.collider(piece) for piece in body.pieces])
+        # Else the mass would be 0 until the first step, and could not be read back.
+        self.world.rigid_bodies[handle].recompute_mass_properties_from_colliders(self.world.colliders)
+        return handle
+
+    def collider(self, piece: Piece) -> Any:
+        collider = self.rapier.Collider
+        if piece.kind == "plane":
+            shape = collider.halfspace(rotate(piece.rotation, (0.0, 0.0, 1.0))).position(self.isometry(piece.centre, (1.0, 0.0, 0.0, 0.0)))
+        else:
+            shape = collider.cuboid(*piece.size) if piece.kind == "box" else collider.ball(piece.size[0])
+            shape = shape.position(self.isometry(piece.centre, piece.rotation))
+        return shape.density(0.0).friction(self.friction).restitution(self.restitution)
+
+    def step(self, dt: float, count: int) -> None:
+        self.world.integration_parameters.dt = dt
+        for _ in range(count):
+            self.world.step()
+
+    def state(self, number: int) -> State:
+        body = self.world.rigid_bodies[self.handles[number]]
+        turn = body.rotation
+        return State(xyz(body.center_of_mass), xyz(body.linvel), (turn.w, turn.i, turn.j, turn.k), xyz(body.angvel))
+
+    def held(self, number: int) -> Held:
+        body = self.world.rigid_bodies[self.handles[number]]
+        return Held(float(body.mass), xyz(body.mass_properties.principal_inertia), self.friction, self.restitution,
+                    float(body.linear_damping), float(body.angular_damping))
+
+    def gravity(self) -> Vector:
+        return xyz(self.world.gravity)
+
+
+class Rapier(RigidEngine):
+    name, title = "rapier", "Rapier"
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
+    presets = ("SIMPLIFIED", "COULOMB")
+    settings = SHARED_SETTINGS | WORLD_SETTINGS | {"gyroscopic_forces": "true (Rapier's default) or false", "restitution": "of every pair, default 0"}
+    precision = "single"
+    default_step = 1.0 / 60.0  # Rapier's own
+
+    def version(self) -> str:
+        return version("rapier3d")
+
+    def library(self) -> Path | None:
+        files = distribution("rapier3d").files or []
+        return next((Path(str(f.locate())) for f in files if f.name.endswith(".so")), None)
+
+    def refuse(self, job: Job) -> str:
+        if not isinstance(job.settings.get("gyroscopic_forces", True), bool):
+            return "rapier: the setting gyroscopic_forces is true or false"
+        for body in job.bodies:
+            turn = norm(vector(body["angular_velocity"])) * self.wanted_step(job)
+            if body["motion"] == "free" and turn > FASTEST_TURN:
+                return f"{body['name']} turns by {turn:.3g} rad a step, and Rapier slows down a spin above pi/4 a step"
+        return ""
+
+    def open(self, job: Job, bodies: list[Body], dt: float) -> World:
+        import rapier3d  # here, because --info and --check need no engine
+
+        return RapierWorld(rapier3d, job, bodies, dt)
+
+
+if __name__ == "__main__":
+    sys.exit(serve(Rapier(), sys.argv[1:]))
