@@ -95,13 +95,21 @@ def install_npm(release: Release, downloads: Path) -> None:
         call(["npm", "pack", "--silent", "--ignore-scripts", file.name], to)
 
     for file in release.files:
-        package = release.folder / "node_modules" / file.name.rpartition("@")[0]
-        package.mkdir(parents=True, exist_ok=True)
-        with tarfile.open(fetched(file, downloads, fetch)) as archive:
-            for member in archive.getmembers():
-                member.name = member.name.partition("/")[2]  # without the leading folder "package"
-                if member.isfile() and member.name:
-                    archive.extract(member, package, filter="data")
+        unpack(fetched(file, downloads, fetch), release.folder / "node_modules" / file.name.rpartition("@")[0])
+
+
+def unpack(archive: Path, folder: Path) -> None:
+    """The plain files of an npm package. @raise InstallError for a name that leads out of the folder"""
+    with tarfile.open(archive) as members:
+        for member in members.getmembers():
+            inside = Path(member.name.partition("/")[2])  # without the leading folder "package"
+            if inside.is_absolute() or ".." in inside.parts:
+                raise InstallError(f"{archive.name}: {member.name} leads out of the package; nothing more of it is unpacked", 4)
+            content = members.extractfile(member) if member.isfile() else None
+            if content is None:
+                continue
+            (folder / inside).parent.mkdir(parents=True, exist_ok=True)
+            (folder / inside).write_bytes(content.read())
 
 
 INSTALLERS = {"PyPI": install_wheels, "Debian": install_debian, "npm": install_npm}

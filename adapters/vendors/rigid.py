@@ -81,6 +81,9 @@ class World:
         """Contact points that were worked on, summed over steps; 0 where the engine does not say."""
         return 0.0
 
+    def close(self) -> None:
+        """Called once, after the last state was read."""
+
 
 def pieces_of(shape: dict[str, Any], centre: Vector, frame: Quaternion) -> tuple[Piece, ...] | None:
     """@return None for a shape of which boxes, spheres and planes cannot be made"""
@@ -193,6 +196,7 @@ class RigidEngine(Engine):
                             "bodies": [_readback(body, h) for body, h in held]}
         outcome.state_hash = write_trajectory(job, BODY_COLUMNS, _rows(job, bodies, world, limit, outcome))
         outcome.pairs = world.contacts()
+        world.close()
         return outcome
 
 

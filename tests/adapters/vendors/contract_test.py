@@ -13,6 +13,7 @@ ADAPTERS = Path(os.environ["TRIPOINT_VENDORS"])
 sys.path[:0] = [str(ADAPTERS), str(HERE)]
 
 from environments import catalogue  # noqa: E402
+from engine_jolt import piece_words  # noqa: E402
 from engine_mujoco import model_text  # noqa: E402
 from engine_ode import plane_of  # noqa: E402
 from ode_library import Contact, ContactGeom, Mass, Surface  # noqa: E402
@@ -167,6 +168,29 @@ class OdeAdapter(unittest.TestCase):
         normal, offset = plane_of(held, held.pieces[0])
         for found, wanted in zip((*normal, offset), (0.0, 0.6, 0.8, 0.24)):
             self.assertAlmostEqual(found, wanted, delta=1e-15)
+
+
+class JoltAdapter(unittest.TestCase):
+    COMMAND = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_jolt.py")]
+    ENVIRONMENT = {**os.environ, "PATH": str(HERE / "fake")}
+
+    def test_it_drives_a_process_of_node_to_the_end(self):
+        end = run(self.COMMAND, job([body(), floor()]), self.ENVIRONMENT)
+        self.assertEqual((end.code, end.result["readback"]["precision"]), (0, "single"))
+        self.assertAlmostEqual(end.rows[-2]["z"], 1.0 + 3.0 - 9.81 / 2 - 9.81 * 0.01 / 2, delta=1e-12)
+
+    def test_numbers_that_json_has_no_word_for_are_a_divergence(self):
+        end = run(self.COMMAND, job([body(mass=0.5)]), self.ENVIRONMENT)
+        self.assertEqual((end.code, end.result["status"]), (7, "diverged"))
+
+    def test_a_half_space_is_handed_over_as_normal_and_constant(self):
+        held = body_of(floor(), True)
+        self.assertEqual(piece_words(held.pieces[0]), {"kind": "plane", "normal": (0.0, 0.0, 1.0), "constant": -0.5})
+
+    def test_a_union_with_a_half_space_is_refused(self):
+        whole = floor()
+        whole["shape"] = {"kind": "union", "of": [whole["shape"]]}
+        self.assertIn("floor", check(self.COMMAND, job([body(), whole]))["reason"])
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import tarfile
 import tempfile
 import unittest
 from pathlib import Path
@@ -13,7 +14,7 @@ PROGRAM = os.environ.get("TRIPOINT_PROGRAM", "")
 sys.path.insert(0, str(ADAPTERS))
 
 from environments import File, InstallError, catalogue, release  # noqa: E402
-from packages import fetched, install_npm  # noqa: E402
+from packages import fetched, install_npm, unpack  # noqa: E402
 
 ABC = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"  # SHA-256 of "abc"
 
@@ -88,6 +89,18 @@ class Fetching(Home):
             fetched(File("a==1", ABC, 3), self.folder, lambda file, to: (to / "a.whl").write_bytes(b"abd"))
         self.assertEqual(caught.exception.code, 4)
         self.assertIn("hash", str(caught.exception))
+
+    def test_an_archive_is_unpacked_into_its_folder_and_nowhere_else(self):
+        for name, good in (("package/dist/a.js", True), ("package/../../a.js", False)):
+            archive = self.folder / "a.tgz"
+            (self.folder / "content").write_bytes(b"abc")
+            with tarfile.open(archive, "w:gz") as out:
+                out.add(self.folder / "content", arcname=name)
+            if good:
+                unpack(archive, self.folder / "to")
+                self.assertEqual((self.folder / "to/dist/a.js").read_bytes(), b"abc")
+            else:
+                self.assertRaises(InstallError, unpack, archive, self.folder / "to")
 
     def test_a_client_that_is_not_here_is_named(self):
         if_absent = {"PATH": str(self.folder)}

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Jolt Physics on node: a world that engine_jolt.py drives. One JSON document a line on stdin, one answer a line on stdout.
+//   {"open": {gravity, gyroscopic, friction, restitution, settings, bodies}} -> {gravity, bodies: [{mass, inertia, ...}]}
+//   {"step": [dt, count]}                                                    -> [[x, y, z, vx, vy, vz, qw, qx, qy, qz, wx, wy, wz], ...]
+// SI units; bodies are in their principal frames. Only free bodies are answered for, in the order of `bodies`.
+import { createInterface } from 'node:readline';
+import { pathToFileURL } from 'node:url';
+
+const J = await (await import(pathToFileURL(process.argv[2]))).default();
+const FIXED = 0, FREE = 1; // layers; two fixed bodies never meet
+
+const vec = (v) => new J.Vec3(v[0], v[1], v[2]);
+const quat = (q) => new J.Quat(q[1], q[2], q[3], q[0]);
+const xyz = (v) => [v.GetX(), v.GetY(), v.GetZ()];
+
+function openWorld(settings) {
+  const jolt = new J.JoltSettings();
+  jolt.mMaxWorkerThreads = 0;
+  const pairs = new J.ObjectLayerPairFilterTable(2);
+  pairs.EnableCollision(FIXED, FREE);
+  pairs.EnableCollision(FREE, FREE);
+  const layers = new J.BroadPhaseLayerInterfaceTable(2, 2);
+  for (const layer of [FIXED, FREE]) layers.MapObjectToBroadPhaseLayer(layer, new J.BroadPhaseLayer(layer));
+  jolt.mObjectLayerPairFilter = pairs;
+  jolt.mBroadPhaseLayerInterface = layers;
+  jolt.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(layers, 2, pairs, 2);
+  const world = new J.JoltInterface(jolt);
+  const system = world.GetPhysicsSystem();
+  const physics = system.GetPhysicsSettings();
+  for (const [key, value] of Object.entries(settings)) {
+    if (physics[key] === undefined) throw new Error(`this release has no setting ${key}`);
+    physics[key] = value;
+  }
+  system.SetPhysicsSettings(physics);
+  return world;
+}
+
+function pieceSettings(piece) {
+  if (piece.kind === 'sphere') return new J.SphereShapeSettings(piece.size[0]);
+  if (piece.kind === 'plane') return new J.PlaneShapeSettings(new J.Plane(vec(piece.normal), piece.constant), null, 1000.0);
+  const rounded = Math.min(0.05, 0.5 * Math.min(...piece.size)); // Jolt's own radius of edges, less for thin boxes; flat sides stay where they are
+  return new J.BoxShapeSettings(vec(piece.size), rounded);
+}
+
+function made(settings) {
+  const result = settings.Create();
+  if (result.HasError()) throw new Error(result.GetError().c_str());
+  return result.Get();
+}
+
+/// A shape whose centre of mass is the body's, at the origin.
+function shapeOf(pieces) {
+  if (pieces.length === 0) return made(new J.SphereShapeSettings(0.5)); // alone in its world: never touched
+  if (pieces[0].kind === 'plane') return made(pieceSettings(pieces[0]));
+  let settings;
+  if (pieces.length === 1) {
+    settings = new J.RotatedTranslatedShapeSettings(vec(pieces[0].centre), quat(pieces[0].rotation), pieceSettings(pieces[0]));
+  } else {
+    settings = new J.StaticCompoundShapeSettings();
+    for (const piece of pieces) settings.AddShapeShapeSettings(vec(piece.centre), quat(piece.rotation), pieceSettings(piece), 0);
+  }
+  const off = xyz(made(settings).GetCenterOfMass());
+  if (Math.hypot(...off) === 0) return made(settings);
+  return made(new J.OffsetCenterOfMassShapeSettings(vec(off.map((c) => -c)), settings));
+}
+
+function addBody(interface_, given, scene) {
+  const motion = given.free ? J.EMotionType_Dynamic : J.EMotionType_Static;
+  const c = new J.BodyCreationSettings(shapeOf(given.pieces), new J.RVec3(...given.centre), quat(given.frame), motion, given.free ? FREE : FIXED);
+  c.mLinearDamping = 0; // Jolt's default is 0.05, which no scene asks for
+  c.mAngularDamping = 0;
+  c.mAllowSleeping = false;
+  c.mMaxLinearVelocity = 1e9; // Jolt's bounds of 500 m/s and 47 rad/s would silently change a scene
+  c.mMaxAngularVelocity = 1e9;
+  c.mFriction = scene.friction;
+  c.mRestitution = scene.restitution;
+  c.mApplyGyroscopicForce = scene.gyroscopic;
+  const body = interface_.CreateBody(c);
+  if (given.free) {
+    const held = body.GetMotionProperties();
+    held.SetInverseMass(1 / given.mass);
+    held.SetInverseInertia(vec(given.inertia.map((i) => 1 / i)), quat([1, 0, 0, 0]));
+  }
+  interface_.AddBody(body.GetID(), J.EActivation_Activate);
+  if (given.free) {
+    interface_.SetLinearVelocity(body.GetID(), vec(given.velocity));
+    interface_.SetAngularVelocity(body.GetID(), vec(given.spin));
+  }
+  return body;
+}
+
+function heldBy(body) {
+  const held = body.GetMotionProperties();
+  return { mass: 1 / held.GetInverseMass(), inertia: xyz(held.GetInverseInertiaDiagonal()).map((i) => 1 / i), friction: body.GetFriction(),
+           restitution: body.GetRestitution(), linear_damping: held.GetLinearDamping(), angular_damping: held.GetAngularDamping() };
+}
+
+function stateOf(body) {
+  const q = body.GetRotation();
+  return [...xyz(body.GetCenterOfMassPosition()), ...xyz(body.GetLinearVelocity()), q.GetW(), q.GetX(), q.GetY(), q.GetZ(), ...xyz(body.GetAngularVelocity())];
+}
+
+let world = null, free = [];
+const calls = {
+  open(scene) {
+    world = openWorld(scene.settings);
+    const system = world.GetPhysicsSystem();
+    system.SetGravity(vec(scene.gravity));
+    const bodies = scene.bodies.map((given) => addBody(system.GetBodyInterface(), given, scene));
+    free = bodies.filter((_, k) => scene.bodies[k].free);
+    return { gravity: xyz(system.GetGravity()), bodies: free.map(heldBy), states: free.map(stateOf) };
+  },
+  step([dt, count]) {
+    for (let k = 0; k < count; ++k) world.Step(dt, 1);
+    return free.map(stateOf);
+  },
+};
+
+for await (const line of createInterface({ input: process.stdin })) {
+  const [[name, words]] = Object.entries(JSON.parse(line));
+  let answer;
+  try {
+    answer = calls[name](words);
+  } catch (error) {
+    answer = { error: String(error.message ?? error) };
+  }
+  // JSON has no word for what is not finite: it goes as a text.
+  process.stdout.write(JSON.stringify(answer, (_, v) => (typeof v === 'number' && !Number.isFinite(v) ? String(v) : v)) + '\n');
+}
