@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <ctime>
 #include <filesystem>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "cli/common.hpp"
 #include "core/errors.hpp"
 #include "validation/harness/history.hpp"
+#include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
 #include "validation/harness/suite.hpp"
@@ -65,7 +67,10 @@ int validate(ValidateOptions o) {
   const auto cases = select_cases(o.filter);
   const auto engines = discover_engines(words.paths);
   for (const auto& path : words.paths) o.suite.selection.extra.push_back(ask_engine(path).name);
-  for (const auto& name : o.suite.selection.engines)
+  for (const auto* list : {&o.suite.selection.engines, &o.suite.selection.extra}) o.suite.selection.asked.insert(o.suite.selection.asked.end(), list->begin(), list->end());
+  std::sort(o.suite.selection.asked.begin(), o.suite.selection.asked.end());
+  o.suite.selection.asked.erase(std::unique(o.suite.selection.asked.begin(), o.suite.selection.asked.end()), o.suite.selection.asked.end());
+  for (const auto& name : o.suite.selection.asked)
     if (!find_engine(engines, name)) say("tripoint: no engine is named " + name + " (tripoint engines lists them)");
   say(fmt::format("{} cases, {} engines, into {}", cases.size(), engines.size(), o.suite.out));
   o.suite.say = [](const std::string& line) { say(line); };
@@ -76,12 +81,14 @@ int validate(ValidateOptions o) {
       for (const auto& value : cases)
         if (value.id == c.id && !interrupted()) time_case(value, engines, o.timing, o.suite, c);
   results.command = command_line(), results.profile = o.filter.profile, results.date = now(), results.shard = o.shard;
+  judge(results);  // a shard is asked less than a whole suite
   if (o.keep_history) {
     const auto file = o.history.empty() ? (std::filesystem::path(o.suite.out) / "history.jsonl").string() : o.history;
     append_history(file, history_lines(results));
     results.history = std::filesystem::relative(std::filesystem::absolute(file), std::filesystem::absolute(o.suite.out)).string();
   }
   if (const auto missing = write_report(results, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
+  if (!o.json) print(notes_text(results));
   print(o.json ? results_text(results) : last_line(results, o.suite.out) + "\n");
   return interrupted() ? exit_interrupted : results.exit_code;
 }

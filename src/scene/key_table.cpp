@@ -155,7 +155,7 @@ constexpr auto keys = std::to_array<Key>({
     {"inflow", "stop", number, "s", positive, "=", "end_time", "", "when it ends"},
     {"inflow", "rate", number, "m3/s", positive, "", "by the speed", "", "volume a second; replaces the size of velocity"},
     // [engines.NAME]
-    {"engines", "required", flag, "", any, "false", "its absence is a row of the report and no failure", "", "absence fails the case"},
+    {"engines", "required", flag, "", any, "false", "its absence is a row of the report and no failure (tripoint: true)", "", "absence fails the case"},
     {"engines", "preset", text_or_texts, "", any, "[]", "the engine's default", "", "one row of the results each"},
     {"engines", "settings", settings, "", any, "{}", "the preset's own", "", "the engine's own keys"},
     // [reference]

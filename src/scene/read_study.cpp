@@ -21,7 +21,9 @@ EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading&
   plain_name(in, "", name);
   EngineChoice e;
   e.name = name;
-  e.required = in.flag("required"), e.presets = in.texts("preset"), e.settings = in.settings("settings");
+  const bool says = in.has("required");
+  e.required = in.flag("required") || (name == "tripoint" && !says);  // ours is required where a case says nothing else
+  e.presets = in.texts("preset"), e.settings = in.settings("settings");
   return e;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The sixteen ways in which gates elsewhere were seen never to fail; here each one must fail.
+// The ways in which gates were seen never to fail, sixteen of them elsewhere and the others here; each one must fail.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,17 +7,18 @@
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
 #include "core/errors.hpp"
+#include "validation/harness/report_files.hpp"
 
 namespace tripoint {
 namespace {
 
-TEST(SixteenWays, TheGateThatTheyBreakIsGreenWithoutThem) {
+TEST(NeverFails, TheGateThatTheyBreakIsGreenWithoutThem) {
   EXPECT_EQ(exit_of(green()), exit_pass);
   const TestFolder folder;
   EXPECT_EQ(fly(folder, "nothing").exit_code, exit_pass);
 }
 
-TEST(SixteenWays, Way01ANumberThatIsNotFiniteFails) {
+TEST(NeverFails, Way01ANumberThatIsNotFiniteFails) {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     auto r = green();
     error(r).value = bad;
@@ -25,7 +26,7 @@ TEST(SixteenWays, Way01ANumberThatIsNotFiniteFails) {
   }
 }
 
-TEST(SixteenWays, Way02NonFiniteSamplesAreNotDroppedBeforeTheNorm) {
+TEST(NeverFails, Way02NonFiniteSamplesAreNotDroppedBeforeTheNorm) {
   const TestFolder folder;
   const auto c = fly(folder, "not a number");
   EXPECT_NE(c.exit_code, exit_pass);
@@ -34,7 +35,7 @@ TEST(SixteenWays, Way02NonFiniteSamplesAreNotDroppedBeforeTheNorm) {
   EXPECT_NE(exit_of(r), exit_pass);
 }
 
-TEST(SixteenWays, Way03AShorterTrajectoryIsNotJudgedOnItsLength) {
+TEST(NeverFails, Way03AShorterTrajectoryIsNotJudgedOnItsLength) {
   const TestFolder folder;
   const auto c = fly(folder, "stops early", "[engines.fake]\nrequired = true\n");
   EXPECT_EQ(c.exit_code, exit_missing);
@@ -42,7 +43,7 @@ TEST(SixteenWays, Way03AShorterTrajectoryIsNotJudgedOnItsLength) {
   EXPECT_TRUE(c.engines.at(0).gates.empty() || c.engines.at(0).gates[0].verdict == "missing");
 }
 
-TEST(SixteenWays, Way04AMissingMetricIsNotSkipped) {
+TEST(NeverFails, Way04AMissingMetricIsNotSkipped) {
   auto r = green();
   engine(r).runs[0].metrics.clear();
   EXPECT_EQ(exit_of(r), exit_missing);
@@ -54,7 +55,7 @@ TEST(SixteenWays, Way04AMissingMetricIsNotSkipped) {
   EXPECT_EQ(exit_of(r), exit_missing);
 }
 
-TEST(SixteenWays, Way05AGateWithoutALimitOrAReasonIsNoGate) {
+TEST(NeverFails, Way05AGateWithoutALimitOrAReasonIsNoGate) {
   auto r = green();
   r.cases[0].gates[0].limit.reset();
   EXPECT_EQ(exit_of(r), exit_missing);
@@ -63,7 +64,7 @@ TEST(SixteenWays, Way05AGateWithoutALimitOrAReasonIsNoGate) {
   EXPECT_EQ(exit_of(r), exit_missing);
 }
 
-TEST(SixteenWays, Way06EveryMetricIsComparedNotTheFirst) {
+TEST(NeverFails, Way06EveryMetricIsComparedNotTheFirst) {
   auto r = green();
   engine(r).runs[0].metrics["second"] = value(1.0);
   r.cases[0].gates.push_back(limit("second", 0.1));
@@ -74,7 +75,7 @@ TEST(SixteenWays, Way06EveryMetricIsComparedNotTheFirst) {
   EXPECT_EQ(exit_of(r), exit_fail);
 }
 
-TEST(SixteenWays, Way07AnErrorOfZeroIsNotAReasonToPassWhatMustHaveMoved) {
+TEST(NeverFails, Way07AnErrorOfZeroIsNotAReasonToPassWhatMustHaveMoved) {
   auto r = green();
   error(r).value = 0.0;
   r.cases[0].gates[0].limit.reset();
@@ -82,29 +83,29 @@ TEST(SixteenWays, Way07AnErrorOfZeroIsNotAReasonToPassWhatMustHaveMoved) {
   EXPECT_EQ(exit_of(r), exit_fail);
 }
 
-TEST(SixteenWays, Way08TheReferenceIsNotJudgedAgainstItself) {
+TEST(NeverFails, Way08TheReferenceIsNotJudgedAgainstItself) {
   auto r = green();
   engine(r).name = "exact";
   EXPECT_EQ(exit_of(r), exit_missing);  // no other engine: the gate judges nothing
 }
 
-TEST(SixteenWays, Way09AFrozenSceneIsNotPerfectBecauseItConserves) {
+TEST(NeverFails, Way09AFrozenSceneIsNotPerfectBecauseItConserves) {
   const TestFolder folder;
   EXPECT_NE(fly(folder, "frozen", "[engines.fake]\nrequired = true\n").exit_code, exit_pass);
 }
 
-TEST(SixteenWays, Way10TooSmallIsAsWrongAsTooLarge) {
+TEST(NeverFails, Way10TooSmallIsAsWrongAsTooLarge) {
   auto r = green();
   error(r).value = -1.0;
   EXPECT_EQ(exit_of(r), exit_fail);
 }
 
-TEST(SixteenWays, Way11AnErrorThatGrowsIsNotAnOrder) {
+TEST(NeverFails, Way11AnErrorThatGrowsIsNotAnOrder) {
   EXPECT_EQ(exit_of(study_of({1.6e-1, 4.0e-2, 1.0e-2, 2.5e-3})), exit_pass);
   EXPECT_EQ(exit_of(study_of({2.5e-3, 1.0e-2, 4.0e-2, 1.6e-1})), exit_fail);
 }
 
-TEST(SixteenWays, Way12AnEngineThatExitsZeroWithoutAResultIsKilled) {
+TEST(NeverFails, Way12AnEngineThatExitsZeroWithoutAResultIsKilled) {
   const TestFolder folder;
   const auto c = fly(folder, "leaves no result", "[engines.fake]\nrequired = true\n");
   EXPECT_EQ(c.engines.at(0).status, "killed");
@@ -112,7 +113,7 @@ TEST(SixteenWays, Way12AnEngineThatExitsZeroWithoutAResultIsKilled) {
   EXPECT_EQ(fly(folder, "says ok and exits 3", "[engines.fake]\nrequired = true\n").exit_code, exit_missing);
 }
 
-TEST(SixteenWays, Way13AReplicaIsPooledAndNotARetry) {
+TEST(NeverFails, Way13AReplicaIsPooledAndNotARetry) {
   auto r = green();
   engine(r).runs.push_back(engine(r).runs[0]);
   error(r).value = 0.5;  // one bad, one good: the mean is over the limit, whatever the better one says
@@ -120,7 +121,7 @@ TEST(SixteenWays, Way13AReplicaIsPooledAndNotARetry) {
   EXPECT_NE(exit_of(study_of({1.6e-1, 4.0e-2})), exit_pass);  // and too little history does not switch the test off
 }
 
-TEST(SixteenWays, Way14TheResultOfAnEarlierRunIsNotJudged) {
+TEST(NeverFails, Way14TheResultOfAnEarlierRunIsNotJudged) {
   const TestFolder folder;
   ASSERT_EQ(fly(folder, "nothing").exit_code, exit_pass);
   const auto stale = folder / "out/runs/test/flight/fake/base/result.json";
@@ -130,7 +131,7 @@ TEST(SixteenWays, Way14TheResultOfAnEarlierRunIsNotJudged) {
   EXPECT_EQ(c.exit_code, exit_missing);
 }
 
-TEST(SixteenWays, Way15AnEmptySuiteAShadowedIdAndATagOfNothingAreErrors) {
+TEST(NeverFails, Way15AnEmptySuiteAShadowedIdAndATagOfNothingAreErrors) {
   Results none;
   EXPECT_EQ(exit_of(none), exit_missing);
   auto r = green();
@@ -151,7 +152,7 @@ TEST(SixteenWays, Way15AnEmptySuiteAShadowedIdAndATagOfNothingAreErrors) {
   EXPECT_THROW((void)select_cases(filter), InputError);
 }
 
-TEST(SixteenWays, Way16AFailedRunAWrongUnitAndAShiftedTimeAxisAreSeen) {
+TEST(NeverFails, Way16AFailedRunAWrongUnitAndAShiftedTimeAxisAreSeen) {
   auto r = study_of({1.6e-1, 4.0e-2, 1.0e-2, 2.5e-3, 6.0e-4});
   engine(r).runs[4].status = "killed";  // dropping it would leave four good levels
   EXPECT_EQ(exit_of(r), exit_missing);
@@ -164,6 +165,67 @@ TEST(SixteenWays, Way16AFailedRunAWrongUnitAndAShiftedTimeAxisAreSeen) {
     const TestFolder folder;
     EXPECT_NE(fly(folder, wrong, "[engines.fake]\nrequired = true\n").exit_code, exit_pass) << wrong;
   }
+}
+
+/// A second engine beside ours that ran and was asked for; the case's gate is for `judged` alone.
+Results with_stranger(const std::string& judged) {
+  auto r = green();
+  auto mine = engine(r);
+  mine.name = "mine", mine.required = false;
+  r.cases[0].engines.push_back(mine);
+  r.cases[0].gates[0].engine = judged;
+  r.asked = {"mine"};
+  return r;
+}
+
+TEST(NeverFails, Way17AnEngineThatWasAskedForDoesNotPassUnjudged) {
+  EXPECT_EQ(exit_of(with_stranger("")), exit_pass);
+  auto r = with_stranger("tripoint");
+  judge(r);
+  EXPECT_EQ(r.exit_code, exit_missing);
+  EXPECT_NE(r.problems.at(0).find("mine was asked for"), std::string::npos) << r.problems.at(0);
+  r.asked.clear();  // one that only joined changes no exit code, and is not counted as passing
+  judge(r);
+  EXPECT_EQ(r.exit_code, exit_pass);
+  EXPECT_NE(case_line(r.cases[0]).find("mine: not judged"), std::string::npos) << case_line(r.cases[0]);
+  EXPECT_NE(notes_text(r).find("not judged: mine in 1 case"), std::string::npos) << notes_text(r);
+  EXPECT_NE(summary_text(r).find("mine ran and is not judged"), std::string::npos) << summary_text(r);
+  EXPECT_NE(junit_text(r).find("name=\"mine is judged\"><skipped"), std::string::npos) << junit_text(r);
+}
+
+TEST(NeverFails, Way18AnEngineThatWasAskedForAndIsNotThereOrDidNotRunDoesNotPass) {
+  for (const char* status : {"missing", "refused", "killed", "timeout", "error"}) {
+    auto r = with_stranger("");
+    auto& mine = r.cases[0].engines[1];
+    mine.status = status, mine.reason = "why";
+    if (mine.status == "missing") mine.runs.clear();
+    else mine.runs[0].status = status, mine.runs[0].reason = "why";
+    judge(r);
+    EXPECT_EQ(r.exit_code, exit_missing) << status;
+    ASSERT_FALSE(r.problems.empty()) << status;
+    EXPECT_NE(r.problems[0].find("mine was asked for"), std::string::npos) << r.problems[0];
+  }
+  auto r = with_stranger("");
+  r.cases[0].engines.pop_back();  // nor is a row that was taken out of the results a pass
+  EXPECT_EQ(exit_of(r), exit_missing);
+}
+
+TEST(NeverFails, Way19APartOfASuiteMayLeaveTheJudgingToAnotherAndTheWholeMayNot) {
+  auto r = with_stranger("tripoint");
+  r.shard = "1/2";
+  EXPECT_EQ(exit_of(r), exit_pass);
+  r.shard = "1/1";
+  EXPECT_EQ(exit_of(r), exit_missing);
+}
+
+TEST(NeverFails, Way20AnEngineOnThePathJoinsEveryCaseAndIsJudgedByWhatEveryEngineMustHold) {
+  const TestFolder folder;
+  const auto value = read_flight_case(folder, "[engines.tripoint]\nrequired = false\n");
+  SuiteOptions options;
+  options.out = folder / "out";
+  auto wrong = ask_engine(fake_engine(folder, "one per cent of gravity", "mine"));
+  wrong.joins = true;
+  EXPECT_EQ(run_suite({value}, {wrong}, options).exit_code, exit_fail);
 }
 
 }  // namespace

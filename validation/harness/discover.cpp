@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <future>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "core/errors.hpp"
@@ -81,19 +82,29 @@ std::vector<std::string> engines_in(const fs::path& folder) {
   return found;
 }
 
-std::vector<std::string> candidates(const std::vector<std::string>& extra) {
-  std::vector<std::string> paths;
+struct Candidate {
+  std::string path;
+  bool joins = false;
+};
+
+/// Each executable once, also where a folder is listed twice or an engine is both on the path and asked for.
+std::vector<Candidate> candidates(const std::vector<std::string>& extra) {
+  std::vector<Candidate> list;
+  std::set<std::string> seen;
+  const auto add = [&](const std::string& path, bool joins) {
+    if (seen.insert(fs::weakly_canonical(path).string()).second) list.push_back({fs::absolute(path).lexically_normal().string(), joins});
+  };
+  for (const auto& path : engines_in(fs::path(program_folder()) / "../libexec/tripoint")) add(path, false);
   for (const auto& path : extra) {
-    if (!is_program(path)) throw InputError(path + ": is no executable file (an engine is a program, see docs/engines.md)");
-    paths.push_back(fs::absolute(path).string());
+    if (!is_program(path)) throw EngineError(path + ": was asked for as an engine and is no executable file (an engine is a program, see docs/engines.md)");
+    add(path, true);
   }
-  for (const auto& path : engines_in(fs::path(program_folder()) / "../libexec/tripoint")) paths.push_back(fs::weakly_canonical(path).string());
   const char* folders = std::getenv("TRIPOINT_ENGINE_PATH");
-  std::istringstream list(folders ? folders : "");
-  for (std::string folder; std::getline(list, folder, ':');)
+  std::istringstream path(folders ? folders : "");
+  for (std::string folder; std::getline(path, folder, ':');)
     if (!folder.empty())
-      for (const auto& path : engines_in(folder)) paths.push_back(path);
-  return paths;
+      for (const auto& path : engines_in(folder)) add(path, true);
+  return list;
 }
 
 }  // namespace
@@ -120,12 +131,16 @@ EngineEntry ask_engine(const std::string& executable) {
 }
 
 std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) {
+  const auto list = candidates(extra);
   std::vector<std::future<EngineEntry>> asked;
-  for (const auto& path : candidates(extra)) asked.push_back(std::async(std::launch::async, ask_engine, path));
+  for (const auto& c : list) asked.push_back(std::async(std::launch::async, ask_engine, c.path));
   std::vector<EngineEntry> engines;
-  for (auto& answer : asked) {
-    auto entry = answer.get();
-    if (!find_engine(engines, entry.name)) engines.push_back(std::move(entry));  // the first of a name wins, as in PATH
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    auto entry = asked[k].get();
+    entry.joins = list[k].joins;
+    if (const auto* other = find_engine(engines, entry.name))  // neither may stand in the rows of the other without a word
+      throw EngineError(fmt::format("{}: calls itself {}, which is the name of {}: give it a name of its own, or take one of the two away", entry.executable, entry.name, other->executable));
+    engines.push_back(std::move(entry));
   }
   std::sort(engines.begin(), engines.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return engines;

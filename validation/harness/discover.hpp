@@ -17,6 +17,7 @@ struct EngineEntry {
   std::vector<DefectEntry> defects;  ///< of the test build only
   bool deterministic = true;
   bool available = true;
+  bool joins = false;      ///< found in a folder of TRIPOINT_ENGINE_PATH: it runs every case that it can
   std::string reason;      ///< why it is not available
   std::string executable;  ///< absolute path
 };
@@ -25,8 +26,8 @@ struct EngineEntry {
 [[nodiscard]] EngineEntry ask_engine(const std::string& executable);
 
 /// Every engine-* in ../libexec/tripoint beside this program and in the folders of TRIPOINT_ENGINE_PATH, by name; each is asked once.
-/// @param extra executables that join, and win over another of their name (--engine PATH)
-/// @throws InputError when an extra path is no executable file
+/// @param extra executables that join (--engine PATH)
+/// @throws EngineError when an extra path is no executable file, and when two executables call themselves by one name
 [[nodiscard]] std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra = {});
 
 /// nullptr when there is none of that name.

@@ -129,6 +129,7 @@ void judge(Results& results) {
     codes.insert(c.exit_code);
   }
   check_planned(results, results.problems, codes);
+  for (const auto& what : unanswered(results)) results.problems.push_back(what), codes.insert(exit_missing);
   results.exit_code = first_of(codes);
   results.verdict = verdict_word(results.exit_code);
 }

@@ -13,6 +13,12 @@ namespace tripoint {
 void judge(Results&);
 void judge(CaseResult&, bool engines_were_chosen);
 
+/// Whether a row ran and no gate looked at it: it says nothing of the engine, good or bad. `exact` is the reference itself and is never judged.
+[[nodiscard]] bool is_unjudged(const EngineRow&);
+
+/// Engines that were asked for on the command line and are not there, did not run, or were judged by no gate: one sentence each.
+[[nodiscard]] std::vector<std::string> unanswered(const Results&);
+
 /// The orders of one engine's runs over one study: one for each metric and mode that is finite at every level (the interval need not be).
 [[nodiscard]] std::vector<OrderRow> fit_orders(const CaseResult&, const EngineRow&, const Study&);
 

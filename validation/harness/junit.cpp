@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/judge.hpp"
 #include "validation/harness/report_files.hpp"
 
 namespace tripoint {
@@ -53,6 +54,7 @@ std::vector<TestCase> tests_of(const CaseResult& c) {
       tests.push_back({c.id, e.name + " runs", counts ? fmt::format("<failure type=\"{}\" message=\"{}\"/>", e.status, escaped(e.reason))
                                                       : fmt::format("<skipped message=\"{}: {}\"/>", e.status, escaped(e.reason)), counts, !counts});
     }
+    if (is_unjudged(e)) tests.push_back({c.id, e.name + " is judged", "<skipped message=\"not judged: no gate of the case names it or every engine\"/>", false, true});
     for (const auto& g : e.gates) tests.push_back(test_of(c, e, g));
   }
   for (const auto& p : c.problems) tests.push_back({c.id, "the case can be judged", fmt::format("<failure type=\"problem\" message=\"{}\"/>", escaped(p)), true, false});

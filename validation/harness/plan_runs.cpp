@@ -18,7 +18,7 @@ std::optional<double> number_setting(const Settings& settings, const std::string
   return std::get<double>(at->second);
 }
 
-std::vector<EngineChoice> engines_of(const Case& value, const Selection& selection) {
+std::vector<EngineChoice> engines_of(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
   std::vector<EngineChoice> list;
   const auto listed = [&](const std::string& name) { return std::find_if(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; }); };
   const auto add = [&](const std::string& name, bool required) {
@@ -28,11 +28,13 @@ std::vector<EngineChoice> engines_of(const Case& value, const Selection& selecti
     choice.required = choice.required || required;
     list.push_back(choice);
   };
-  add("tripoint", true);
+  add("tripoint", listed("tripoint") == value.engines.end());
   for (const auto& e : value.engines) add(e.name, false);
   if (has_states(value.reference)) add("exact", false);
   for (const auto& name : selection.extra) add(name, false);
   for (const auto& name : selection.engines) add(name, false);
+  for (const auto& e : found)
+    if (e.joins) add(e.name, false);
   if (!selection.engines.empty())
     std::erase_if(list, [&](const auto& e) { return !contains(selection.engines, e.name) && !contains(selection.extra, e.name); });
   return list;
@@ -145,7 +147,7 @@ bool has_states(const ReferenceChoice& reference) {
 
 std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
   std::vector<EnginePlan> plans;
-  for (const auto& engine : engines_of(value, selection)) {
+  for (const auto& engine : engines_of(value, found, selection)) {
     EnginePlan plan;
     plan.name = engine.name, plan.required = engine.required, plan.settings = engine.settings;
     plan.entry = find_engine(found, engine.name);

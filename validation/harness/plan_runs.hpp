@@ -34,12 +34,13 @@ struct EnginePlan {
 
 struct Selection {
   std::vector<std::string> engines;  ///< --engines; empty = all that the case names
-  std::vector<std::string> extra;    ///< names of the engines given by path: they join every case
+  std::vector<std::string> extra;    ///< names of the engines given by --engine: they join every case
+  std::vector<std::string> asked;    ///< names that were asked for on the command line: none of them may pass unjudged
   std::optional<std::uint64_t> seed;
 };
 
 /// Engines that run the case: tripoint (required unless the case says otherwise) and, where the reference has states, exact;
-/// then those that the case lists, and the extra ones. Modes are tripoint's alone: foreign engines run once.
+/// then those that the case lists, the extra ones, and those that TRIPOINT_ENGINE_PATH brings. Modes are tripoint's alone: foreign engines run once.
 /// Runs: the case's own resolution, and each level and seed of each study; a run that two studies share is made once.
 [[nodiscard]] std::vector<EnginePlan> plan_runs(const Case&, const std::vector<EngineEntry>&, const Selection&);
 

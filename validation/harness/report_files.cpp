@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 
 #include "core/durable_file.hpp"
 #include "scene/read_case.hpp"
+#include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 
 namespace tripoint {
@@ -38,6 +40,24 @@ std::string write_report(const Results& results, const std::string& folder, bool
   write_durably((out / "summary.md").string(), summary_text(results));
   fs::remove(out / "index.html");  // an old page must not stand for new results
   return make_page(out / "results.json", pdf);
+}
+
+std::string notes_text(const Results& results) {
+  std::string text;
+  for (const auto& p : results.problems) text += "problem: " + p + "\n";
+  std::map<std::string, int> missing, unjudged;
+  for (const auto& c : results.cases)
+    for (const auto& e : c.engines) {
+      if (e.status == "missing") ++missing[e.name];
+      if (is_unjudged(e)) ++unjudged[label_of(e.name, e.preset)];
+    }
+  const auto list = [&](const char* what, const std::map<std::string, int>& rows) {
+    std::string names;
+    for (const auto& [name, count] : rows) names += fmt::format("{}{} in {} case{}", names.empty() ? "" : ", ", name, count, count == 1 ? "" : "s");
+    if (!names.empty()) text += fmt::format("{}: {}\n", what, names);
+  };
+  list("missing", missing), list("not judged", unjudged);
+  return text;
 }
 
 std::string last_line(const Results& results, const std::string& folder) {

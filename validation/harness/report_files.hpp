@@ -21,6 +21,9 @@ namespace tripoint {
 /// The line that ends every validation: `verdict PASS exit 0  report/index.html`.
 [[nodiscard]] std::string last_line(const Results&, const std::string& folder);
 
+/// What stands above the last line: what is wrong with the results as a whole, and which engines are missing or not judged, with the number of cases.
+[[nodiscard]] std::string notes_text(const Results&);
+
 /// One line for a case: its verdict, id and what is not green.
 [[nodiscard]] std::string case_line(const CaseResult&);
 

@@ -132,6 +132,7 @@ struct Results {
   std::string shard;                    ///< "i/n", empty = whole
   std::vector<std::string> planned;     ///< ids of every case that this run had to do
   std::vector<std::string> only_engines;  ///< --engines; empty = all
+  std::vector<std::string> asked;         ///< engines that the command line named, by --engine or --engines: none of them passes unjudged
   std::vector<std::string> problems;
   std::vector<CaseResult> cases;
 };

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "validation/harness/json_number.hpp"
+#include "validation/harness/judge.hpp"
 #include "validation/harness/results.hpp"
 #include "validation/harness/timing.hpp"
 #include "validation/references/reference.hpp"
@@ -106,7 +107,7 @@ Json json(const EngineRow& e) {
   for (const auto& o : e.order)
     if (std::isfinite(o.order.value) && std::isfinite(o.order.low) && std::isfinite(o.order.high)) order.push_back(json(o));
   for (const auto& g : e.gates) gates.push_back(json(g));
-  Json out{{"name", e.name}, {"version", e.version}, {"preset", e.preset}, {"required", e.required}, {"status", e.status}, {"reason", e.reason}};
+  Json out{{"name", e.name}, {"version", e.version}, {"preset", e.preset}, {"required", e.required}, {"status", e.status}, {"reason", e.reason}, {"judged", !is_unjudged(e)}};
   if (!e.library_path.empty()) out["library"] = {{"path", e.library_path}, {"hash", e.library_hash}};
   out["runs"] = runs, out["order"] = order, out["gates"] = gates;
   return out;
@@ -178,7 +179,7 @@ std::string results_text(const Results& r) {
   const Json document{{"format", r.format},
                       {"tool", {{"version", r.tool.version}, {"commit", r.tool.commit}, {"compiler", r.tool.compiler}, {"flags", r.tool.flags}, {"cpu", r.tool.cpu}, {"cores", r.tool.cores}}},
                       {"command", r.command}, {"date", r.date}, {"profile", r.profile}, {"seed", r.seed}, {"shard", r.shard}, {"history", r.history}, {"planned", r.planned},
-                      {"only_engines", r.only_engines}, {"verdict", r.verdict}, {"exit_code", r.exit_code}, {"problems", r.problems}, {"cases", cases}};
+                      {"only_engines", r.only_engines}, {"asked", r.asked}, {"verdict", r.verdict}, {"exit_code", r.exit_code}, {"problems", r.problems}, {"cases", cases}};
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/judge.hpp"
 #include "validation/harness/report_files.hpp"
 
 namespace tripoint {
@@ -19,7 +20,7 @@ std::string cell(std::string text) {
 
 std::string engines_of(const CaseResult& c) {
   std::string list;
-  for (const auto& e : c.engines) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", label_of(e.name, e.preset), e.status == "ok" ? "" : ": " + e.status);
+  for (const auto& e : c.engines) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", label_of(e.name, e.preset), e.status != "ok" ? ": " + e.status : is_unjudged(e) ? ": not judged" : "");
   return list;
 }
 
@@ -43,6 +44,7 @@ std::string not_green(const CaseResult& c) {
     for (const auto& g : e.gates)
       if (g.verdict != "pass")
         text += fmt::format("- **{}** {}{} `{}` {}: {} ({}; limit because: {})\n", c.id, e.name, g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, cell(g.why), to_string(g.gate.place), cell(g.gate.reason));
+    if (is_unjudged(e)) text += fmt::format("- {} {} ran and is not judged: no gate of the case names it or every engine\n", c.id, label_of(e.name, e.preset));
     if (e.status != "ok") text += fmt::format("- {} {} {}: {}\n", c.id, e.name, e.status, cell(e.reason));
   }
   return text;

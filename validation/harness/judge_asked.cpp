@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "validation/harness/judge.hpp"
+
+namespace tripoint {
+namespace {
+
+/// What became of one engine over all cases.
+struct Answer {
+  int rows = 0, missing = 0, ran = 0, judged = 0;
+  std::string why;      ///< of the first row that did not run
+  std::string crashed;  ///< the first row that ended otherwise than it should
+};
+
+Answer answer_of(const Results& results, const std::string& name) {
+  Answer a;
+  for (const auto& c : results.cases)
+    for (const auto& e : c.engines) {
+      if (e.name != name) continue;
+      ++a.rows;
+      a.missing += e.status == "missing";
+      a.ran += std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "ok" || r.status == "diverged"; });
+      a.judged += std::any_of(e.gates.begin(), e.gates.end(), [](const auto& g) { return g.verdict != "missing"; });
+      if (e.status != "ok" && a.why.empty()) a.why = e.status + " in " + c.id + ": " + e.reason;
+      if ((e.status == "killed" || e.status == "timeout" || e.status == "error") && a.crashed.empty()) a.crashed = fmt::format("{} in {}: {}", e.status, c.id, e.reason);
+    }
+  return a;
+}
+
+/// "2/4" is a part of a suite, and what it does not judge another part may; "1/1" is the whole.
+bool is_part(const std::string& shard) { return !shard.empty() && !shard.ends_with("/1"); }
+
+}  // namespace
+
+bool is_unjudged(const EngineRow& engine) { return engine.name != "exact" && engine.status == "ok" && engine.gates.empty(); }
+
+std::vector<std::string> unanswered(const Results& results) {
+  std::vector<std::string> list;
+  const bool part = is_part(results.shard);
+  for (const auto& name : results.asked) {
+    const auto a = answer_of(results, name);
+    if (a.rows == a.missing && !(part && a.rows == 0)) list.push_back(fmt::format("{} was asked for and is not there{}", name, a.why.empty() ? "" : "; " + a.why));
+    else if (!a.crashed.empty()) list.push_back(fmt::format("{} was asked for and is {}", name, a.crashed));
+    else if (part || name == "exact") continue;
+    else if (a.ran == 0) list.push_back(fmt::format("{} was asked for and ran no case; {}", name, a.why));
+    else if (a.judged == 0)
+      list.push_back(fmt::format("{} was asked for, ran {} case{}, and is not judged: no gate names it, and none is for every engine ([[gate]] engine = \"{}\", or none)", name, a.ran, a.ran == 1 ? "" : "s", name));
+  }
+  return list;
+}
+
+}  // namespace tripoint
