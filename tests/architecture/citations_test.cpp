@@ -161,16 +161,25 @@ TEST(ArchitecturePage, HasTheMapOfTheRooms) {
 struct Named {
   std::string code;
   std::set<std::string> files;
+  std::map<std::string, std::string> stems;  ///< text of a header and its source together, by the name without its ending
 };
 Named named() {
   Named all;
   for (const auto* folder : {"src", "adapters", "validation", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root() / folder)) {
       all.files.insert(entry.path().filename().string());
-      if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp") all.code += text_of(entry.path());
+      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
+      const std::string text = text_of(entry.path());
+      all.code += text;
+      all.stems[entry.path().stem().string()] += text;
     }
   }
   return all;
+}
+
+std::string last_name(const std::string& word) {
+  const auto colon = word.rfind(':');
+  return colon == std::string::npos ? word : word.substr(colon + 1);
 }
 
 bool is_there(const std::string& word, const Named& all) {
@@ -179,8 +188,34 @@ bool is_there(const std::string& word, const Named& all) {
   if (std::regex_match(word, id)) return fs::exists(root() / "cases" / (word + ".toml"));
   if (std::regex_match(word, file)) return all.files.contains(word);
   if (!std::regex_match(word, identifier)) return true;
-  const auto last = word.rfind(':');
-  return all.code.find(last == std::string::npos ? word : word.substr(last + 1)) != std::string::npos;
+  return all.code.find(last_name(word)) != std::string::npos;
+}
+
+/// Of "`f`, `g`, `src/a/b.cpp`": f and g stand in b.cpp or b.hpp. @return names that do not
+std::vector<std::string> strayed(const std::string& bullet, const Named& all, std::size_t& looked_at) {
+  static const std::regex name("[A-Za-z_]\\w*(::[A-Za-z_]\\w*)*"), file("(?:\\w+/)*(\\w+)\\.(?:cpp|hpp)");
+  std::vector<std::string> waiting, found;
+  for (const std::string& word : quoted_words(bullet)) {
+    std::smatch parts;
+    if (std::regex_match(word, name)) waiting.push_back(last_name(word));
+    if (!std::regex_match(word, parts, file)) continue;
+    const auto text = all.stems.find(parts[1]);
+    for (const std::string& w : waiting)
+      if (++looked_at, text == all.stems.end() || text->second.find(w) == std::string::npos) found.push_back(w + " in " + word);
+    waiting.clear();
+  }
+  return found;
+}
+
+TEST(ModelPage, SaysTheFileThatEachFunctionStandsIn) {
+  const Named all = named();
+  const std::string page = text_of(root() / "docs/model.md");
+  static const std::regex bullet("\\*\\*Code\\.\\*\\*([^*]*)");
+  std::size_t looked_at = 0;
+  for (std::sregex_iterator at(page.begin(), page.end(), bullet), end; at != end; ++at)
+    for (const std::string& name : strayed((*at)[1], all, looked_at)) ADD_FAILURE() << "docs/model.md: there is no " << name;
+  EXPECT_GT(looked_at, 30U);
+  EXPECT_EQ(strayed("`pressure_paper`, `src/effects/fluid/fluid.cpp`", all, looked_at).size(), 1U) << "it stands in equation_of_state.hpp";
 }
 
 TEST(ModelPage, NamesFilesFunctionsAndCasesThatAreThere) {
