@@ -56,6 +56,31 @@ TEST_F(Io, ATrajectoryReadsBackBitForBit) {
   EXPECT_EQ(last.bodies[1].torque.z, 1.0);
 }
 
+TEST_F(Io, EveryNumberOfABodyReadsBackInItsPlace) {
+  Snapshot wrote = frame_at(0.0, 2, 0);
+  for (const double b : {0.0, 100.0})
+    wrote.bodies.push_back({{b + 1, b + 2, b + 3}, {b + 4, b + 5, b + 6}, {b + 7, b + 8, b + 9}, {b + 10, b + 11, b + 12, b + 13}, b + 14, {b + 15, b + 16, b + 17}, {b + 18, b + 19, b + 20}});
+  wrote.momentum = {21, 22, 23}, wrote.angular_momentum = {24, 25, 26};
+  TrajectoryWriter writer(path("trajectory.h5"));
+  writer.append(wrote);
+  writer.close();
+  const Snapshot read = read_trajectory(path("trajectory.h5")).frames.at(0);
+  ASSERT_EQ(read.bodies.size(), 2U);
+  for (std::size_t b = 0; b < 2; ++b) {
+    const BodyState &a = read.bodies[b], &w = wrote.bodies[b];
+    EXPECT_EQ(a.position, w.position);
+    EXPECT_EQ(a.velocity, w.velocity);
+    EXPECT_EQ(a.angular_velocity, w.angular_velocity);
+    EXPECT_EQ(a.orientation, w.orientation);
+    EXPECT_EQ(a.mass, w.mass);
+    EXPECT_EQ(a.force, w.force);
+    EXPECT_EQ(a.torque, w.torque);
+  }
+  EXPECT_EQ(read.position, wrote.position);
+  EXPECT_EQ(read.velocity, wrote.velocity);
+  EXPECT_EQ(read.total_mass, wrote.total_mass);
+}
+
 TEST_F(Io, ParticlesThatComeLaterLeaveEarlierFramesEmpty) {
   TrajectoryWriter writer(path("trajectory.h5"));
   writer.append(frame_at(0.0, 2, 1));
