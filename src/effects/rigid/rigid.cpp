@@ -36,7 +36,9 @@ void refuse_blocked_spin(const World& world, std::size_t b) {
   const Vec3 turns = world.bodies[field::body_turns][b], w = world.bodies[field::body_angular_velocity][b];
   const Vec3 L = world.bodies[field::body_angular_momentum][b];
   if (!is_free(world, b)) return;
-  const double size = world.bodies[field::body_mass][b] * world.scene.spacing * world.scene.spacing * (1e-300 + norm(w));
+  // Round-off of the particles' sums is of the size of m v dx also where nothing turns.
+  const double dx = world.scene.spacing, speed = norm(world.bodies[field::body_velocity][b]);
+  const double size = world.bodies[field::body_mass][b] * dx * (1e-300 + speed + dx * norm(w));
   for (std::size_t a = 0; a < 3; ++a) {
     if (turns[a] != 0.0 || std::abs(L[a]) <= 1e-9 * size) continue;
     throw InputError("the rigid body " + world.body_names[b] +
