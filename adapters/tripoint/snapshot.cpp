@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <utility>
+
 #include "adapters/tripoint/tripoint_engine.hpp"
+#include "core/defect.hpp"
 #include "effects/body_forces.hpp"
 #include "effects/solid_particles.hpp"
 #include "scene/temperatures.hpp"
@@ -66,11 +69,13 @@ Snapshot snapshot_of(const Simulation& simulation) {
   s.material = by_id(p, field::material);
   s.mass = by_id(p, field::mass);
   const std::vector<BodyForces> forces = forces_on_bodies(world);
+  static const bool swapped = defect_size("bodies.force_axes") > 0.0;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     s.bodies.push_back(body_state(world, b));
     if (forces.empty() || !world.bodies[field::body_alive][b]) continue;
     s.bodies.back().force = forces[b].force();
     s.bodies.back().torque = forces[b].torque();
+    if (swapped) std::swap(s.bodies.back().force.y, s.bodies.back().force.z);
   }
   const Ledger sums = simulation.ledger();
   s.total_mass = sums.mass;

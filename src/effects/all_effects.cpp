@@ -184,6 +184,7 @@ Plan plan(const Scene& scene) {
 std::vector<DefectEntry> registered_defects() {
   std::vector<DefectEntry> list{
       {"neighbours.seam", "pairs across the seam of a periodic box left out", "heat/cosine-mode"},
+      {"neighbours.support", "pairs beyond 1 - size of the support radius left out", "heat/lattice-sum"},
       {"time.first_kick", "first half kick left out: the leapfrog starts first order", "rigid/ballistic"},
   };
   for (const Registered& r : all_effects) {

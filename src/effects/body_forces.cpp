@@ -41,7 +41,8 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
   const auto body = p[field::body];
   const auto centre = world.bodies[field::body_centre];
   const auto x = positions(p);
-  const bool wraps = world.box.any();
+  static const bool wrapped_arms = defect_size("bodies.arm") > 0.0;
+  const bool wraps = world.box.any() && !wrapped_arms;
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (body[i] < 0 || !asked[static_cast<std::size_t>(body[i])]) continue;

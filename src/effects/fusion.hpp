@@ -30,7 +30,8 @@ struct Fusion {
     const bool band = m.solid == "elastic" && m.t_solid.value_or(*m.t_melt) < *m.t_melt;
     return {*m.t_melt + later, band ? *m.t_solid + later : *m.t_melt + later, 0.0, band};
   }
-  return {*m.t_melt, no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt), scale * m.latent_heat.value_or(0.0) / *m.heat_capacity, false};
+  static const double earlier = defect_size("phase.freezing");
+  return {*m.t_melt, (no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt)) - earlier, scale * m.latent_heat.value_or(0.0) / *m.heat_capacity, false};
 }
 /// By row in Scene::materials.
 [[nodiscard]] inline std::vector<Fusion> fusions_of(const Scene& scene) {

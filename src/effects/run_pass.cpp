@@ -3,14 +3,18 @@
 
 #include <cassert>
 
+#include "core/defect.hpp"
+
 namespace tripoint {
 namespace {
 
 PassTask task_of(const Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
   const auto x = positions(particles);
   Clusters& c = neighbours.clusters();
+  static const double nearer = 1.0 - defect_size("neighbours.support");
+  const double support = nearer * neighbours.support();
   return {x.x.data(), x.y.data(), x.z.data(), nullptr, c.first.data(), c.start.data(), c.entries.data(), c.near.data(), c.own.empty() ? nullptr : c.own.data(),
-          c.within.empty() ? nullptr : c.within.data(), neighbours.shifts().data(), nullptr, nullptr, c.size(), neighbours.support() * neighbours.support(), &kernels, threads};
+          c.within.empty() ? nullptr : c.within.data(), neighbours.shifts().data(), nullptr, nullptr, c.size(), support * support, &kernels, threads};
 }
 
 std::vector<double*> columns_of(const PassFunction& function, Particles& particles) {

@@ -100,7 +100,8 @@ void Fluid::set_material(World& world, std::size_t row) const {
   const bool liquid = p[field::body][row] < 0;
   p[field::rest_density][row] = world.material_of(row).density;
   p[field::solid][row] = liquid ? 0.0 : 1.0;
-  p[field::viscosity][row] = liquid ? world.material_of(row).viscosity : world.scene.contact_viscosity;
+  static const double rougher = 1.0 + defect_size("fluid.viscosity.contact");
+  p[field::viscosity][row] = liquid ? world.material_of(row).viscosity : rougher * world.scene.contact_viscosity;
   p[field::stick][row] = slips ? 0.0 : 1.0;
 }
 
@@ -239,9 +240,14 @@ std::vector<DefectEntry> defects() {
           {"fluid.paper.viscosity", "viscous force (8) times 1 + size", "fluid/poiseuille"},
           {"walls.velocity", "part of the extrapolated velocity of walls left out", "fluid/poiseuille"},
           {"fluid.viscosity.central", "part of the central viscous force along the velocity, not the line of centres", "fluid/liquid-ball"},
-          {"fluid.transport_velocity", "background pressure and stress of the transport velocity times 1 - size", "fluid/taylor-green"},
+          {"fluid.viscosity.contact", "viscosity of solids that touch times 1 + size", "coupling/sliding-slab"},
+          {"fluid.viscosity.mean", "share of the arithmetic mean in the viscosity between two liquids", "fluid/two-viscosities"},
+          {"fluid.transport.background", "background pressure of the transport velocity times 1 - size", "fluid/taylor-green"},
+          {"fluid.transport.stress", "stress that the transport velocity carries times 1 - size", "fluid/taylor-green"},
           {"bodies.force", "forces of liquids and contact on bodies times 1 - size", "coupling/floating-block-050"},
-          {"bodies.torque", "torques of liquids and contact on bodies times 1 - size", "coupling/oblique"}};
+          {"bodies.torque", "torques of liquids and contact on bodies times 1 - size", "coupling/oblique"},
+          {"bodies.force_axes", "y and z of the forces on bodies swapped in the frames", "solid/plastic-sheet"},
+          {"bodies.arm", "arms of torques to the image inside the box: wrong across a periodic boundary", "coupling/oblique-periodic"}};
 }
 
 }  // namespace tripoint::fluid

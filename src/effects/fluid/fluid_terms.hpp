@@ -63,7 +63,9 @@ struct PressurePaper {
 /// the scene's contact viscosity between solids (which is what `viscosity` of a solid holds).
 template <class V>
 [[nodiscard]] inline V pair_viscosity(V mu_i, V solid_i, V stick_i, V mu_j, V solid_j, V stick_j) noexcept {
-  const V liquids = harmonic_mean(mu_i, mu_j);
+  static const double arithmetic = defect_size("fluid.viscosity.mean");
+  V liquids = harmonic_mean(mu_i, mu_j);
+  if (arithmetic != 0.0) liquids += arithmetic * (0.5 * (mu_i + mu_j) - liquids);
   if (!any(solid_i + solid_j != 0.0)) return liquids;
   const MaskOf<V> is_solid_i = solid_i != 0.0, is_solid_j = solid_j != 0.0;
   const V with_j = is_solid_j ? 0.5 * (mu_i + mu_j) : mu_j * stick_i, without_j = is_solid_j ? mu_i * stick_j : liquids;

@@ -23,9 +23,9 @@ void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels
   Particles& p = world.particles;
   for (const Field<double>* f : TransportForces::adds::list) fill(p[*f], 0.0, world.threads);
   run_pass(pair_passes(world.neighbours->clusters().lanes).transport, p, *world.neighbours, kernels, world.threads);
-  static const double weaker = 1.0 - defect_size("fluid.transport_velocity");
+  static const double weaker = 1.0 - defect_size("fluid.transport.background"), left = 1.0 - defect_size("fluid.transport.stress");
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it
-  const double background = weaker * pressure / n.lattice_density, stress = weaker / n.lattice_density;
+  const double background = weaker * pressure / n.lattice_density, stress = left / n.lattice_density;
   for (const Field<double>* f : {&field::background_x, &field::background_y, &field::background_z})
     for (double& value : p[*f]) value *= background;
   for (const Field<double>* f : {&field::transport_force_x, &field::transport_force_y, &field::transport_force_z})

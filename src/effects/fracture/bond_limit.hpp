@@ -39,7 +39,10 @@ class BondLimits {
   }
 
  private:
-  [[nodiscard]] double limit_of(std::size_t a, std::size_t b) const { return std::min(limit_[a], limit_[b]); }
+  [[nodiscard]] double limit_of(std::size_t a, std::size_t b) const {
+    static const bool stronger = defect_size("fracture.weaker") > 0.0;
+    return stronger ? std::max(limit_[a], limit_[b]) : std::min(limit_[a], limit_[b]);
+  }
 
   bool paper_;
   std::vector<double> limit_;  ///< of each material: [1], printed [m]

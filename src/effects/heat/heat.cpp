@@ -35,6 +35,7 @@ std::unique_ptr<Effect> make(const Scene& scene) {
 std::vector<DefectEntry> defects() {
   return {{"heat.conductivity", "conductivity times 1 + size", "heat/cosine-mode"},
           {"heat.moment", "second-moment matrices left out", "heat/bar-3x3"},
+          {"heat.inflow", "what flows in is size kelvin hotter", "heat/inflow"},
           {"heat.harmonic_mean", "arithmetic instead of harmonic mean of conductivities", "heat/two-conductivities"},
           {"heat.one_sided", "size of 0..1: conductivity and moment lean to the receiving particle, so that energy is not kept",
            "heat/step-insulated"},

@@ -12,6 +12,8 @@ namespace {
 /// Divides energy equally among particles. @param ids at least one
 void share(World& world, const std::vector<std::uint32_t>& ids, double joules) {
   static const double kept = 1.0 - defect_size("phase.account");
+  static const bool to_one = defect_size("phase.share") > 0.0;
+  if (to_one) return give_heat(world, world.particles.row(ids.front()), kept * joules);
   for (const std::uint32_t id : ids) give_heat(world, world.particles.row(id), kept * joules / static_cast<double>(ids.size()));
 }
 

@@ -45,7 +45,9 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
   if (rank == 3 && flowed(strain, plastic, limits) == plastic) return 0.0;  // as nearly all do nearly always
   const Symmetric P = forms_.projector(solid::shape_inverse_of(p, row), rank), elastic = between(P, strain - plastic);
   const solid::ElasticConstants c = forms_.constants(world, row);
-  const auto flat = [&] { return flowed_flat(elastic, forms_.stress(elastic, P, rank, c), plastic, rank, yield_stress(c.mu, limits.elastic), limits.plastic); };
+  static const double sheet = 1.0 + defect_size("plastic.sheet");
+  const double yields = (rank == 2 ? sheet : 1.0) * yield_stress(c.mu, limits.elastic);
+  const auto flat = [&] { return flowed_flat(elastic, forms_.stress(elastic, P, rank, c), plastic, rank, yields, limits.plastic); };
   const Symmetric after = rank == 3 ? flowed(strain, plastic, limits) : flat();
   if (after == plastic) return 0.0;
   solid::set_plastic_strain(p, row, after);
@@ -84,6 +86,7 @@ std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Plast
 std::vector<DefectEntry> defects() {
   return {{"plastic.elastic_limit", "flow begins at 1 + size times the elastic limit", "solid/plastic-cycle"},
           {"plastic.dissipation", "share of 0..1 of the energy lost by flow that is not booked", "solid/plastic-cycle"},
+          {"plastic.sheet", "stress at which a sheet yields times 1 + size", "solid/plastic-sheet"},
           {"plastic.plastic_limit", "flow ends at 1 + size times the plastic limit", "solid/plastic-chain"}};
 }
 

@@ -16,12 +16,12 @@ struct Momenta {
 };
 Momenta momenta_of(const World& world, const std::vector<std::size_t>& bodies, const Vec3& centre) {
   Momenta sum;
-  static const double orbital = 1.0 + defect_size("rigid.merge");
-  for (const std::size_t b : bodies) {
-    const BodyMotion m = motion_of(world, b);
-    sum.kinetic += kinetic_energy(world, b);
+  static const double orbital = 1.0 + defect_size("rigid.merge"), later = 1.0 - defect_size("rigid.merge.third");
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const BodyMotion m = motion_of(world, bodies[n]);
+    sum.kinetic += kinetic_energy(world, bodies[n]);
     sum.P += m.mass * m.velocity;
-    sum.L += m.L + orbital * m.mass * cross(m.centre - centre, m.velocity);
+    sum.L += (n < 2 ? 1.0 : later) * m.L + orbital * m.mass * cross(m.centre - centre, m.velocity);
   }
   return sum;
 }

@@ -73,7 +73,8 @@ void drive(World& world, std::size_t b, double time) {
   t[field::body_orientation][b] = s.rotation;
   t[field::body_centre][b] = s.position + lever;
   t[field::body_angular_velocity][b] = s.angular_velocity;
-  t[field::body_velocity][b] = s.velocity + cross(s.angular_velocity, lever);
+  static const double swung = 1.0 - defect_size("rigid.prescribed.lever");
+  t[field::body_velocity][b] = s.velocity + swung * cross(s.angular_velocity, lever);
   t[field::body_angular_momentum][b] = spin_momentum(world, b);
 }
 
@@ -90,7 +91,8 @@ void turn(World& world, std::size_t b, double dt) {
   if (L == Vec3{}) return;
   Quaternion& orientation = t[field::body_orientation][b];
   if (t[field::body_turns][b] != Vec3{1.0, 1.0, 1.0}) {
-    orientation = normalised(from_rotation_vector(dt * t[field::body_angular_velocity][b]) * orientation);
+    static const double farther = 1.0 + defect_size("rigid.one_axis.turn");
+    orientation = normalised(from_rotation_vector(farther * dt * t[field::body_angular_velocity][b]) * orientation);
     return;
   }
   const Quaternion q = principal_to_world(world, b);
@@ -327,7 +329,13 @@ std::vector<DefectEntry> defects() {
           {"rigid.rotation", "rotations about the axes in one sequence, not symmetric: first order", "rigid/torque-free"},
           {"rigid.paper.rotation", "angle of each step of the paper's rotation times 1 + size", "rigid/torque-free"},
           {"rigid.merge", "orbital part of L times 1 + size as bodies merge", "rigid/merge-in-flight"},
+          {"rigid.merge.third", "share of the spin of the third and later bodies of a merge that is lost", "rigid/merge-three"},
           {"rigid.split", "velocity of the split part times 1 + size", "rigid/split-in-flight"},
+          {"rigid.one_axis.turn", "turn of a body that reaches through a periodic direction times 1 + size", "rigid/shaft"},
+          {"rigid.one_axis.spin", "angular velocity of such a body times 1 + size", "rigid/shaft"},
+          {"rigid.truncated", "moment below which a body does not turn about an axis times 1 + size", "rigid/bent-chain"},
+          {"rigid.adopt.undelivered", "spin about such an axis is lost as particles leave the body", "phase/bent-chain-melts"},
+          {"rigid.prescribed.lever", "part of omega x lever left out of a prescribed body's velocity", "rigid/prescribed-merge"},
           {"rigid.adopt.spin", "what melts off a turning body leaves with the velocity of its centre", "phase/split-by-melting"},
           {"rigid.prescribed", "keyframes play 1 + size times as fast", "rigid/prescribed-board"}};
 }

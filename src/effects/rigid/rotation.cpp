@@ -57,7 +57,8 @@ Quaternion rotated_no_squish(const Quaternion& to_world, const Vec3& moments, co
 }
 
 Vec3 truncated(const Vec3& moments, double mass, double spacing) noexcept {
-  const double least = 2e-3 * mass * spacing * spacing;
+  static const double coarser = 1.0 + defect_size("rigid.truncated");
+  const double least = coarser * 2e-3 * mass * spacing * spacing;
   return {moments.x < least ? 0.0 : moments.x, moments.y < least ? 0.0 : moments.y, moments.z < least ? 0.0 : moments.z};
 }
 
