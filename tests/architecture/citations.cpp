@@ -117,6 +117,15 @@ class Finder {
       std::fill_n(rest.begin() + m.position(0), m.length(0), ' ');
     });
     text_ = rest;
+    if (!path_.starts_with("cases/")) loose_sources();  // data of cases carry their sources in the file
+  }
+  /// Author year, without brackets: in messages and on pages.
+  void loose_sources() {
+    static const std::regex pattern("(?:^|[^\\w'])([A-Z][a-z'][A-Za-z']*(?:(?:, | & | and )[A-Z][A-Za-z']+)*(?: et al\\.)?) ((?:1[89]|20)\\d\\d)(?![\\d-])"), month("Jan|Feb|Mar|Apr|May|June?|July?|Aug|Sep|Oct|Nov|Dec");
+    each_match(text_, pattern, [&](const std::smatch& m) {
+      if (std::regex_match(m[1].str(), month)) return;
+      add(m, "source " + std::regex_replace(m[1].str(), std::regex(" and "), " & ") + " " + m[2].str());
+    });
   }
   /// "model 8.4", "model 2, 8.7", "model 8.1-8.5"; "(8.6)" alone beside one of these.
   void sections() {

@@ -43,6 +43,7 @@ TEST(CitationReader, LeavesTheNumbersOfASourceToIt) {
   EXPECT_EQ(targets_in("/// poly6 [Mueller, Charypar, Gross 2003, (20)], kernel of (4)\n"), (Words{"source Mueller, Charypar, Gross 2003", "eq-4"}));
   EXPECT_EQ(targets_in("# [Horn 1987, 4.A], decision 006\n", "adapters/a.py"), (Words{"source Horn 1987", "decision-6"}));
   EXPECT_EQ(targets_in("a[2003] = 1;  // Fig. 5\n"), Words{"fig-5"});
+  EXPECT_EQ(targets_in("auto a = \"slerp (Shoemake 1985), built 29 Sep 2021\";\n"), Words{"source Shoemake 1985"});
 }
 
 TEST(CitationReader, SaysTheLine) {
@@ -122,7 +123,8 @@ TEST(Citations, LeadToTheModelTheDecisionsOrTheReferences) {
 TEST(Citations, OfSourcesOnPagesAndInCasesAreInTheReferences) {
   const Targets all = targets();
   std::vector<Source> texts;
-  for (const fs::path& page : pages()) texts.push_back({fs::relative(page, root()).generic_string(), text_of(page)});
+  for (const fs::path& page : pages())
+    if (page.filename() != "REFERENCES.md") texts.push_back({fs::relative(page, root()).generic_string(), text_of(page)});
   for (const auto& entry : fs::recursive_directory_iterator(root() / "cases"))
     if (entry.path().extension() == ".toml") texts.push_back({fs::relative(entry.path(), root()).generic_string() + ".md", text_of(entry.path())});  // also in its texts
   for (const Source& text : texts)
