@@ -2,14 +2,12 @@
 // Citations: how they are read on texts made up here, and that each of the tree leads somewhere.
 #include "architecture/citations.hpp"
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
-#include <regex>
 
 #include <gtest/gtest.h>
+
+#include "architecture/pages.hpp"
 
 namespace tripoint::architecture {
 namespace {
@@ -65,15 +63,6 @@ TEST(MarkdownLinks, AreReadWithTheirAnchors) {
   EXPECT_EQ(links[0].file + "|" + links[0].anchor, "b.md|c");
   EXPECT_EQ(links[1].file + "|" + links[1].anchor, "|e");
   EXPECT_TRUE(link_targets_of("## From top, to bottom\n").contains("from-top-to-bottom"));
-}
-
-const fs::path& root() {
-  static const fs::path path = TRIPOINT_SOURCE_DIR;
-  return path;
-}
-std::string text_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::vector<Source> sources() {
@@ -149,84 +138,6 @@ TEST(Pages, LinkToFilesAndAnchorsThatAreThere) {
     }
   }
   EXPECT_GT(count, 30U);
-}
-
-TEST(ArchitecturePage, HasTheMapOfTheRooms) {
-  const std::string page = text_of(root() / "docs/architecture.md");
-  for (const auto& [room, others] : map_of_rooms()) {
-    std::string row = "| `" + room + "` | " + (others.empty() ? "nothing" : "");
-    for (const std::string& other : others) row += (&other == &others.front() ? "`" : ", `") + other + "`";
-    EXPECT_NE(page.find(row + " |\n"), std::string::npos) << "docs/architecture.md should have the row\n" << row << " |";
-  }
-}
-
-/// Everything that the page may name: the text of the code, and names of files.
-struct Named {
-  std::string code;
-  std::set<std::string> files;
-  std::map<std::string, std::string> stems;  ///< text of a header and its source together, by the name without its ending
-};
-Named named() {
-  Named all;
-  for (const auto* folder : {"src", "adapters", "validation", "tests"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root() / folder)) {
-      all.files.insert(entry.path().filename().string());
-      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
-      const std::string text = text_of(entry.path());
-      all.code += text;
-      all.stems[entry.path().stem().string()] += text;
-    }
-  }
-  return all;
-}
-
-std::string last_name(const std::string& word) {
-  const auto colon = word.rfind(':');
-  return colon == std::string::npos ? word : word.substr(colon + 1);
-}
-
-bool is_there(const std::string& word, const Named& all) {
-  static const std::regex identifier("[A-Za-z_]\\w*(::[A-Za-z_]\\w*)*"), file("\\w+\\.(cpp|hpp)"), path("(src|adapters|validation|tests|docs|cases|reports|tools)/.*"), id("[a-z]+(/[a-z]+)?/[a-z0-9-]+");
-  if (std::regex_match(word, path)) return fs::exists(root() / word);
-  if (std::regex_match(word, id)) return fs::exists(root() / "cases" / (word + ".toml"));
-  if (std::regex_match(word, file)) return all.files.contains(word);
-  if (!std::regex_match(word, identifier)) return true;
-  return all.code.find(last_name(word)) != std::string::npos;
-}
-
-/// Of "`f`, `g`, `src/a/b.cpp`": f and g stand in b.cpp or b.hpp. @return names that do not
-std::vector<std::string> strayed(const std::string& bullet, const Named& all, std::size_t& looked_at) {
-  static const std::regex name("[A-Za-z_]\\w*(::[A-Za-z_]\\w*)*"), file("(?:\\w+/)*(\\w+)\\.(?:cpp|hpp)");
-  std::vector<std::string> waiting, found;
-  for (const std::string& word : quoted_words(bullet)) {
-    std::smatch parts;
-    if (std::regex_match(word, name)) waiting.push_back(last_name(word));
-    if (!std::regex_match(word, parts, file)) continue;
-    const auto text = all.stems.find(parts[1]);
-    for (const std::string& w : waiting)
-      if (++looked_at, text == all.stems.end() || text->second.find(w) == std::string::npos) found.push_back(w + " in " + word);
-    waiting.clear();
-  }
-  return found;
-}
-
-TEST(ModelPage, SaysTheFileThatEachFunctionStandsIn) {
-  const Named all = named();
-  const std::string page = text_of(root() / "docs/model.md");
-  static const std::regex bullet("\\*\\*Code\\.\\*\\*([^*]*)");
-  std::size_t looked_at = 0;
-  for (std::sregex_iterator at(page.begin(), page.end(), bullet), end; at != end; ++at)
-    for (const std::string& name : strayed((*at)[1], all, looked_at)) ADD_FAILURE() << "docs/model.md: there is no " << name;
-  EXPECT_GT(looked_at, 30U);
-  EXPECT_EQ(strayed("`pressure_paper`, `src/effects/fluid/fluid.cpp`", all, looked_at).size(), 1U) << "it stands in equation_of_state.hpp";
-}
-
-TEST(ModelPage, NamesFilesFunctionsAndCasesThatAreThere) {
-  const Named all = named();
-  const std::vector<std::string> words = quoted_words(text_of(root() / "docs/model.md"));
-  EXPECT_GT(words.size(), 200U);
-  for (const std::string& word : words) EXPECT_TRUE(is_there(word, all)) << "docs/model.md names `" << word << "`, which is neither code, file nor case";
-  EXPECT_FALSE(is_there("neither_code_" "nor_file", all) || is_there("src/none.cpp", all) || is_there("fluid/none", all));
 }
 
 }  // namespace
