@@ -6,7 +6,7 @@
 /// The two passes over bonds. Reference data stream by in order of the lists; what a pass needs of a partner lies together, by id.
 namespace tripoint::elastic {
 
-/// Memory of the passes, filled anew each step.
+/// Memory of the passes. `reference` is kept until bonds, volumes or owners change; the rest is filled anew each step.
 struct Deformations {
   BondLists lists;
   AlignedVector<Place> places;           ///< by id
