@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -28,6 +29,7 @@ class Trajectory:
     bodies: dict = field(default_factory=dict)  # name -> (frames, bodies, components)
     body_times: np.ndarray | None = None
     observables: dict = field(default_factory=dict)  # name -> (times, values)
+    pulled: bool = False  # the job has gravity
 
 
 def folder_of(root, run):
@@ -46,12 +48,22 @@ def read(root, run):
     for name, reader in (("trajectory.h5", read_h5md), ("trajectory.csv", read_csv)):
         if (folder / name).is_file():
             try:
-                return reader(folder / name)
+                found = reader(folder / name)
+                found.pulled = has_gravity(folder / "job.json")
+                return found
             except NoTrajectory:
                 raise
             except Exception as error:  # h5py and csv raise what they like on torn files: the page must say it and go on
                 raise NoTrajectory(f"{run.folder}/{name} cannot be read: {error}") from error
     raise NoTrajectory(f"{run.folder}/trajectory.h5 is missing")
+
+
+def has_gravity(job):
+    """Whether the job says so; a job that is not there or is torn says nothing."""
+    try:
+        return any(json.loads(job.read_text(encoding="utf-8"))["scene"]["gravity"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
 
 
 def read_h5md(path):

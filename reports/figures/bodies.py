@@ -8,13 +8,14 @@ from . import style
 from .curve import Drawing
 
 MOST_BODIES = 4
+STORED = ("potential", "compression", "elastic", "hourglass")  # energies that motion is exchanged with and comes back from
 
 
 def draw(case, trajectories, notes):
     shown = [(curve, t) for curve, t in trajectories if t.bodies]
     if not shown:
         return None
-    wanted = [panel for panel in (position_panel(shown), turn_panel(shown), spin_panel(shown), energy_panel(trajectories)) if panel]
+    wanted = [panel for panel in (position_panel(shown), turn_panel(shown), spin_panel(shown), energy_panel(trajectories, notes)) if panel]
     if not wanted:
         return None
     most = max(t.bodies["position"].shape[1] for _, t in shown if "position" in t.bodies) if any("position" in t.bodies for _, t in shown) else 1
@@ -82,14 +83,27 @@ def turn_panel(shown):
     return ("turn from the start [deg]", lines) if lines else None
 
 
-def energy_panel(trajectories):
-    """Change of mechanical energy since the first frame (kinetic plus potential, where the run states both or one)."""
+def energy_panel(trajectories, notes):
+    """Change of mechanical energy since the first frame. A run that does not state every term that takes part has no curve: its sum would only seem to change."""
     lines = []
-    for curve, t in trajectories:
-        parts = [t.observables[name] for name in ("kinetic", "potential") if name in t.observables]
-        if parts and all(len(v) == len(parts[0][1]) for _, v in parts):
-            total = sum(v for _, v in parts)
-            scale = np.nanmax(np.abs(parts[0][1])) if np.isfinite(parts[0][1]).any() else 0.0
-            if scale > 0:
-                lines.append((curve, parts[0][0], (total - total[0]) / scale, 0))
+    stating = [(curve, t) for curve, t in trajectories if "kinetic" in t.observables]
+    needed = ["kinetic"] + [name for name in STORED if any(takes_part(t, name) for _, t in stating)]
+    for curve, t in stating:
+        lacking = [name for name in needed if len(t.observables.get(name, ((), ()))[1]) != len(t.observables["kinetic"][1])]
+        if lacking:
+            notes.append(f"{curve.label}: no curve of its energy, as it does not state its {' and '.join(lacking)} energy")
+            continue
+        times, kinetic = t.observables["kinetic"]
+        total = sum(t.observables[name][1] for name in needed)
+        scale = np.nanmax(np.abs(kinetic)) if np.isfinite(kinetic).any() else 0.0
+        if scale > 0:
+            lines.append((curve, times, (total - total[0]) / scale, 0))
     return ("energy change / kinetic", lines) if lines else None
+
+
+def takes_part(trajectory, name):
+    """Whether this energy changes by more than round-off in the run; potential energy does wherever gravity pulls, stated or not."""
+    if name == "potential" and trajectory.pulled:
+        return True
+    kinetic, values = trajectory.observables["kinetic"][1], trajectory.observables.get(name, (None, np.zeros(1)))[1]
+    return np.isfinite(values).any() and np.nanmax(values) - np.nanmin(values) > 1e-12 * np.nanmax(np.abs(kinetic), initial=0.0)
