@@ -8,7 +8,7 @@ OUT ?= report
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-print-directory
 
-.PHONY: help setup build test validate test-fresh bench bench-peers docs clean
+.PHONY: help setup build test validate test-fresh bench bench-peers gallery docs clean
 
 help:  ## this text
 	@echo 'tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.'
@@ -50,9 +50,14 @@ bench-peers: setup build  ## time SPlisHSPlasH and LAMMPS on the same particles,
 	@/usr/bin/python3 tools/peers/bench_peers.py --threads $(JOBS) --out $(OUT)
 	@/usr/bin/python3 reports/speed.py $(OUT)/speed.json
 
+gallery: setup build  ## run the paper's figures, draw them as films; leaves $(OUT)/gallery/index.html
+	@rm -f $(OUT)/gallery/results.json
+	@build/bin/tripoint validate paper --profile commit --engines tripoint --out $(OUT)/gallery --jobs $(JOBS) --no-report --no-history || test -f $(OUT)/gallery/results.json
+	@/usr/bin/python3 reports/gallery.py $(OUT)/gallery/results.json
+
 docs: build  ## write the reference of the case file, docs/case-file.md
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
 
-clean:  ## remove build/ and report/; .venv, .venv-peers and .venv-engines stay
-	rm -rf build report
+clean:  ## remove build/ and every report; .venv, .venv-peers and .venv-engines stay
+	rm -rf build report report-ablate report-compare report-converge report-plan report-recommend

@@ -119,6 +119,11 @@ def render_figures(results):
     return fill("paper_figures.html.j2", results, rows=rows, full=full, notes=[], papers_frame=paper_figures.PAPERS_FRAME)
 
 
+def render_gallery(results, films):
+    """@param films: case, file name, why there is none, end [s], tone of the verdict   @return HTML of the paper's figures in motion"""
+    return fill("gallery.html.j2", results, films=films, notes=[])
+
+
 def render_digit_cost(results, out):
     """@return HTML of what a tenth of the error costs, over cases and engines"""
     ladders, notes = digit_cost.read(results), []

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The gallery: a film a case of the paper, a page with all of them, and no success where one is lacking."""
+import io
+import json
+import sys
+import tempfile
+import unittest
+from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
+
+import h5py
+import numpy as np
+from PIL import Image
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "reports"))
+import gallery  # noqa: E402
+
+
+def case(name, tags=("paper",)):
+    run = {"knobs": {"mode": "corrected"}, "status": "ok", "base": True, "folder": f"runs/{name}", "metrics": {}}
+    return {"id": f"paper/{name}", "title": f"Figure {name}", "claims": "it falls <here>", "verdict": "PASS", "tags": list(tags), "engines": [{"name": "tripoint", "status": "ok", "runs": [run]}]}
+
+
+class Gallery(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="tripoint gallery ü ")
+        self.path = Path(self.folder.name)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def film(self, name, frames):
+        (self.path / "runs" / name).mkdir(parents=True)
+        position = np.random.default_rng(1).uniform(size=(1, 30, 3)) - np.linspace(0, 1, frames)[:, None, None] * [0, 0, 1]
+        with h5py.File(self.path / "runs" / name / "trajectory.h5", "w") as file:
+            file["particles/all/position/value"], file["particles/all/position/time"] = position, np.linspace(0, 2, frames)
+            file["particles/all/phase/value"], file["particles/all/material/value"] = np.full(30, 2), np.zeros(30, int)
+
+    def draw(self, *cases):
+        (self.path / "results.json").write_text(json.dumps({"format": 1, "tool": {}, "command": "", "profile": "", "verdict": "PASS", "exit_code": 0, "cases": list(cases)}))
+        with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()) as self.said:
+            return gallery.main([str(self.path / "results.json")])
+
+    def test_each_case_of_the_paper_has_its_film_on_the_page(self):
+        self.film("09", 7)
+        self.film("08", 4)
+        self.assertEqual(self.draw(case("09"), case("08"), case("unrelated", tags=["heat"])), 0)
+        page = (self.path / "index.html").read_text()
+        self.assertLess(page.index("paper-08.gif"), page.index("paper-09.gif"))
+        self.assertNotIn("unrelated", page)
+        self.assertIn("it falls &lt;here&gt;", page)
+        self.assertEqual(Image.open(self.path / "paper-09.gif").n_frames, 7)
+
+    def test_a_case_without_a_trajectory_is_named_and_is_no_success(self):
+        self.film("09", 3)
+        self.assertEqual(self.draw(case("09"), case("10")), 1)
+        self.assertIn("runs/10", self.said.getvalue())
+        self.assertIn("paper-09.gif", (self.path / "index.html").read_text())
+
+    def test_nothing_to_draw_ends_2_and_says_what_to_type(self):
+        self.assertEqual(self.draw(case("x", tags=["heat"])), 2)
+        self.assertIn("tripoint validate paper", self.said.getvalue())
+
+
+if __name__ == "__main__":
+    unittest.main()
