@@ -15,7 +15,7 @@ namespace {
 
 EngineEntry test_build(const std::string& path) {
   const auto engine = ask_engine(path.empty() ? program_folder() + "/../libexec/tripoint/selftest/engine-tripoint" : path);
-  if (!engine.available) throw EngineError("the test build of the solver is not there (build with -DTRIPOINT_TESTS=ON): " + engine.reason);
+  if (!engine.available) throw EngineError("the self-test needs the solver's test build, which holds the defects, and it is not built. In the checkout type:  tools/build.sh --selftest 2");
   return engine;
 }
 
