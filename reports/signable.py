@@ -82,7 +82,7 @@ def to_pdf(html, pdf):
     """@return why there is no PDF; empty when it is written"""
     program = shutil.which("weasyprint")
     if not program:
-        return "no PDF: install the Debian package weasyprint"
+        return "no PDF: weasyprint is not installed. Type:  apt-get install weasyprint"
     part = pdf.with_suffix(".part.pdf")
     done = subprocess.run([program, "--quiet", str(html), str(part)], capture_output=True, text=True)
     if done.returncode != 0 or not part.exists():

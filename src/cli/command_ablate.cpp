@@ -24,14 +24,14 @@ namespace {
 
 constexpr const char* description =
     "Puts one term of the model after the other back to its printed form, all others corrected, and prints what each correction buys:\n"
-    "the metrics of each case with that one term as printed, beside those of the corrected model. OUT/ablation.json holds it, and the\n"
-    "report in OUT shows it on the page \"what each correction buys\".\n"
+    "the metrics of each case with that one term as printed, beside those of the corrected model. OUT/ablation.json holds it; in the\n"
+    "folder of a report, its page \"what each correction buys\" shows it.\n"
     "  tripoint ablate                            the cases of the commit profile that run corrected\n"
     "  tripoint ablate heat/cosine-mode solid/rotation --out report";
 
 struct Options {
   CaseFilter filter;
-  std::string out = "report";
+  std::string out = own_folder("ablate", "");
   int jobs = 1;
 };
 
@@ -108,6 +108,7 @@ int ablate(const Options& o) {
     if (corrected && c.expect != "diverges" && !terms_of(c.scene).empty()) cases.push_back(std::move(c));
   }
   if (cases.empty()) throw InputError("ablate: no case runs corrected");
+  make_folder(o.out);
   const auto base = round(cases, {}, o);
   std::map<std::string, Json> terms;
   for (std::size_t t = 0; t < term_count && !interrupted(); ++t)
@@ -130,7 +131,9 @@ int ablate(const Options& o) {
     }
   }
   write_durably((fs::path(o.out) / "ablation.json").string(), Json{{"format", 1}, {"tool", this_tool().commit}, {"cases", document}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-  print(fmt::format("{}; tripoint report {} draws its page\n", (fs::path(o.out) / "ablation.json").string(), (fs::path(o.out) / "results.json").string()));
+  const auto results = fs::path(o.out) / "results.json";
+  const auto next = fs::exists(results) ? "tripoint report " + results.string() + " draws its page" : "with --out the folder of a report, tripoint report draws its page";
+  print(fmt::format("{}; {}\n", (fs::path(o.out) / "ablation.json").string(), next));
   return interrupted() ? exit_interrupted : exit_pass;
 }
 

@@ -10,6 +10,8 @@
 #include "effects/plan.hpp"
 #include "scene/nearest.hpp"
 #include "scene/read_case.hpp"
+#include "validation/harness/case_names.hpp"
+#include "validation/harness/suite.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/references/experiment.hpp"
 #include "validation/references/reference.hpp"
@@ -64,7 +66,7 @@ void add_check(CLI::App& app, int& exit_code) {
   auto set = std::make_shared<std::vector<std::string>>();
   command->add_option("CASE", *file, "path of a case file, or the id of a case that is shipped")->required();
   command->add_option("--set", *set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")->take_all()->allow_extra_args(false);
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return check(case_path(*file), *set); }); });
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return check(shown_path(case_file(*file)), *set); }); });
 }
 
 }  // namespace tripoint

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -29,12 +30,12 @@ constexpr const char* converge_description =
     "Four levels or more make an interval worth reading. OUT then holds the whole report.";
 
 struct CompareOptions {
-  std::string what, engines, out = "report";
+  std::string what, engines, out;
   int jobs = 1;
 };
 
 struct ConvergeOptions {
-  std::string what, axis = "spacing", engine = "tripoint", out = "report";
+  std::string what, axis = "spacing", engine = "tripoint", out;
   std::vector<double> levels;
   int jobs = 1;
 };
@@ -49,7 +50,11 @@ Case one_case(const std::string& what) {
 
 Results run_one_case(const Case& value, const SuiteOptions& options, const std::vector<std::string>& paths) {
   catch_interrupts();
-  auto results = run_suite({value}, discover_engines(paths), options);
+  const auto engines = discover_engines(paths);
+  for (const auto& name : options.selection.engines)
+    if (!find_engine(engines, name)) throw EngineError(no_such_engine(name, engines));
+  make_folder(options.out);
+  auto results = run_suite({value}, engines, options);
   results.command = command_line();
   if (const auto missing = write_report(results, options.out); !missing.empty()) say("tripoint: no page: " + missing);
   return results;
@@ -73,13 +78,15 @@ int compare(const CompareOptions& o) {
   options.selection.engines = words.names;
   for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);
   if (options.selection.engines.size() < 2) throw InputError("--engines " + o.engines + ": name two engines or more, for example tripoint,bullet");
-  options.out = o.out, options.jobs = o.jobs, options.say = [](const std::string& line) { say(line); };
+  options.out = o.out.empty() ? own_folder("compare", value.id) : o.out;
+  options.jobs = o.jobs, options.say = [](const std::string& line) { say(line); };
   options.wanted = [](const EnginePlan&, const RunPlan& run) { return run.base; };
   const auto results = run_one_case(value, options, words.paths);
   if (results.cases.empty()) return exit_interrupted;
   print(fmt::format("{:20} {:20} {:20} {:>11} {:>11} {:>11} {:>11} {:>11}  verdict\n", "a", "b", "metric", "difference", "uncertainty", "margin", "error a", "error b"));
   for (const auto& q : results.cases.front().equivalence)
     print(fmt::format("{:20} {:20} {:20} {:11.4g} {:11.2g} {:>11} {:11.4g} {:11.4g}  {}\n", q.a, q.b, q.metric, q.difference, q.uncertainty, q.margin ? fmt::format("{:.4g}", *q.margin) : "-", q.error_a, q.error_b, q.verdict));
+  print((std::filesystem::path(options.out) / "index.html").string() + "\n");
   return code_of_runs(results.cases.front());
 }
 
@@ -110,12 +117,14 @@ int converge(const ConvergeOptions& o) {
   SuiteOptions options;
   options.selection.engines = words.paths.empty() ? words.names : std::vector<std::string>{ask_engine(words.paths.front()).name};
   value.studies.front().engine = options.selection.engines.front();
-  options.out = o.out, options.jobs = o.jobs, options.say = [](const std::string& line) { say(line); };
+  options.out = o.out.empty() ? own_folder("converge", value.id) : o.out;
+  options.jobs = o.jobs, options.say = [](const std::string& line) { say(line); };
   options.wanted = [&](const EnginePlan&, const RunPlan& run) { return !run.levels.empty(); };
   const auto results = run_one_case(value, options, words.paths);
   if (results.cases.empty()) return exit_interrupted;
   for (const auto& e : results.cases.front().engines)
     for (const auto& order : e.order) print_order(order);
+  print((std::filesystem::path(options.out) / "index.html").string() + "\n");
   return code_of_runs(results.cases.front());
 }
 
@@ -126,7 +135,7 @@ void add_compare(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<CompareOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
   command->add_option("--engines", o->engines, "names or paths, A,B")->required();
-  command->add_option("--out", o->out, "folder of the report and the runs")->capture_default_str();
+  command->add_option("--out", o->out, "folder of the report and the runs (default: report-compare/CASE)");
   command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->callback([o, &exit_code] { exit_code = guarded([&] { return compare(*o); }); });
 }
@@ -136,9 +145,9 @@ void add_converge(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<ConvergeOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
   command->add_option("--axis", o->axis, "what is refined")->check(CLI::IsMember({"spacing", "time_step", "support_ratio", "walkers", "iterations"}))->capture_default_str();
-  command->add_option("--levels", o->levels, "a,b,c: coarse to fine")->delimiter(',');
+  command->add_option("--levels", o->levels, "a,b,c: coarse to fine")->delimiter(',')->allow_extra_args(false);
   command->add_option("--engine", o->engine, "name or path")->capture_default_str();
-  command->add_option("--out", o->out, "folder of the report and the runs")->capture_default_str();
+  command->add_option("--out", o->out, "folder of the report and the runs (default: report-converge/CASE)");
   command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->callback([o, &exit_code] { exit_code = guarded([&] { return converge(*o); }); });
 }

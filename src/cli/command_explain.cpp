@@ -11,10 +11,13 @@
 #include <optional>
 
 #include "bench/trial.hpp"
+#include "cli/case_summary.hpp"
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "effects/plan.hpp"
 #include "scene/read_case.hpp"
+#include "validation/harness/case_names.hpp"
+#include "validation/harness/suite.hpp"
 
 namespace tripoint {
 namespace {
@@ -25,7 +28,7 @@ constexpr long usual_trial = 3;               ///< steps
 constexpr std::size_t most_tried = 100'000;  ///< particles, unless --trial asks for more
 
 constexpr const char* description =
-    "Says what a case means: every key with its value in SI and the reason for it, the effects that the scene calls for and why, those\n"
+    "Says what a case means: a summary; then every key with its value in SI and the reason for it, the effects that the scene calls for and why, those\n"
     "that it does without and the proof, the bytes of its particles by effect, and the seconds of its first steps.\n"
     "  tripoint explain rigid/ballistic\n"
     "  tripoint explain fluid/hydrostatic --trial 20 --threads 2\n"
@@ -116,7 +119,7 @@ struct Options {
 };
 
 int explain(const Options& options) {
-  const CaseReading reading = read_case(case_path(options.file), options.set);
+  const CaseReading reading = read_case(shown_path(case_file(options.file)), options.set);
   const Plan planned = plan_of(reading);
   const Scene scene = scene_for(reading.value, {});
   const auto trial = [&](long steps) { return bench::try_scene(scene, steps, options.threads, options.trial ? SIZE_MAX : most_tried); };
@@ -126,10 +129,12 @@ int explain(const Options& options) {
     print(document.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
     return 0;
   }
-  print(fmt::format("{}: {}\n\n", reading.value.id, reading.value.title));
+  const long steps = options.trial.value_or(usual_trial);
+  const auto timed = steps > 0 ? trial(steps) : bench::Trial{};
+  print(case_summary(reading.value, scene, planned, timed));
   print_decisions(reading.decisions);
   print_plan(planned);
-  if (const long steps = options.trial.value_or(usual_trial); steps > 0) print_trial(trial(steps), options.threads);
+  if (steps > 0) print_trial(timed, options.threads);
   return 0;
 }
 

@@ -14,12 +14,13 @@ namespace {
 
 constexpr const char* description =
     "Lists the cases beside the program: id, title, and what each one claims.\n"
+    "  tripoint list heat             those of one subject\n"
     "  tripoint list --tag heat       only cases with this tag\n"
+    "  tripoint list --profile commit those that a plain tripoint validate runs\n"
+    "  tripoint list -k floating      those with this in their id\n"
     "  tripoint list --json           one JSON document";
 
-int list(const std::string& tag, bool json) {
-  CaseFilter filter;
-  filter.tag = tag;
+int list(const CaseFilter& filter, bool json) {
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const auto& c : select_cases(filter)) {
     if (!json) print(fmt::format("{:28} {}\n{:28} {}\n", c.id, c.title, "", c.claims));
@@ -33,11 +34,14 @@ int list(const std::string& tag, bool json) {
 
 void add_list(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("list", description);
-  auto tag = std::make_shared<std::string>();
+  auto filter = std::make_shared<CaseFilter>();
   auto json = std::make_shared<bool>(false);
-  command->add_option("--tag", *tag, "only cases with this tag");
+  command->add_option("CASE", filter->what, "only these: case files, folders of them, subjects or ids")->type_name("CASE|DIR");
+  command->add_option("--tag", filter->tag, "only cases with this tag");
+  command->add_option("--profile", filter->profile, "only cases of this profile")->check(CLI::IsMember({"commit", "nightly", "release"}));
+  command->add_option("-k", filter->substring, "only cases with this in their id")->type_name("SUBSTRING");
   command->add_flag("--json", *json, "print one JSON document");
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return list(*tag, *json); }); });
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return list(*filter, *json); }); });
 }
 
 }  // namespace tripoint

@@ -26,14 +26,19 @@ constexpr const char* recommend_description =
     "  tripoint recommend fluid/sound-wave --seconds 5 --from report/results.json   the front of runs that were made before\n"
     "Exit: 0 the run met the wish, 1 it did not, 3 no settings within twice of what was measured promise it.";
 
+/// How much finer than the finest measured level a plan still names a level: an order that is read off two or three coarse levels
+/// may be off by 0.3, which over this factor makes the error wrong by 2.
+constexpr double farthest = 16.0;
+
 constexpr const char* plan_description =
     "Says beforehand how fine the levels, how many walkers and how many CPU seconds a wished error takes, with the interval that the measured\n"
-    "levels leave. Only the two or three coarsest levels of each study are run; nothing is with --from.\n"
+    "levels leave. Only the two or three coarsest levels of each study are run; nothing is with --from. A level more than 16 times finer than\n"
+    "what was measured is not offered.\n"
     "  tripoint plan heat/cosine-mode --within 1%\n"
     "  tripoint plan heat/step-walkers --within 0.5% --metric uncertainty";
 
 struct Options {
-  std::string what, error, metric, engines, from, axis, out = "report";
+  std::string what, error, metric, engines, from, axis, out;
   std::vector<double> levels;
   double seconds = 0.0;
   int jobs = 1, threads = 1;
@@ -80,7 +85,10 @@ CaseResult measure(const Options& o, const Case& value, const std::function<bool
   for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);
   options.out = o.out, options.jobs = o.jobs, options.threads = o.threads, options.say = [](const std::string& line) { say(line); };
   options.wanted = [&](const EnginePlan& engine, const RunPlan& run) { return engine.name != "exact" && wanted(run); };
-  auto results = run_suite({value}, discover_engines(words.paths), options);
+  const auto engines = discover_engines(words.paths);
+  for (const auto& name : options.selection.engines)
+    if (!find_engine(engines, name)) throw EngineError(no_such_engine(name, engines));
+  auto results = run_suite({value}, engines, options);
   if (results.cases.empty()) throw EngineError("nothing was run");
   return results.cases.front();
 }
@@ -134,10 +142,12 @@ LadderPoint make_recommended(const Options& o, Case value, const Recommendation&
   throw EngineError("the recommended run gave no value of " + metric);
 }
 
-int recommend(const Options& o) {
+int recommend(Options o) {
   catch_interrupts();
   if (o.error.empty() == !(o.seconds > 0.0)) throw InputError("recommend: give --error X or --seconds Y, one of them");
   const auto value = case_of(o);
+  if (o.out.empty()) o.out = own_folder("recommend", value.id);
+  make_folder(o.out);
   const auto metric = metric_of(o, value);
   const auto result = o.from.empty() ? measure(o, value, [](const RunPlan& run) { return !run.levels.empty() || run.base; }) : read_case_of(o.from, value.id);
   const auto ladders = ladders_of(result, metric);
@@ -160,9 +170,11 @@ int recommend(const Options& o) {
   return met ? exit_pass : exit_fail;
 }
 
-int plan_for(const Options& o) {
+int plan_for(Options o) {
   catch_interrupts();
   const auto value = case_of(o);
+  if (o.out.empty()) o.out = own_folder("plan", value.id);
+  make_folder(o.out);
   const auto metric = metric_of(o, value);
   const double wish = wish_of(o.error);
   const auto result = o.from.empty() ? measure(o, value, [&](const RunPlan& run) { return is_coarse(value, run, 3); }) : read_case_of(o.from, value.id);
@@ -181,23 +193,28 @@ int plan_for(const Options& o) {
       print(fmt::format("  {:28} {:14} {:>12}  its error falls with no power of the level (slope {:.2f}): no level brings it there\n", name_of(l), l.axis, "-", slope));
       continue;
     }
+    const bool upward = l.axis == "walkers" || l.axis == "iterations" || l.axis == "support_ratio";
+    if (fine.step > farthest * step) {
+      print(fmt::format("  {:28} {:14} {:>12}  out of reach: its error falls as the level to the {:.2g}, which would take {:.2g}, {:.2g} times beyond what was measured\n", name_of(l), l.axis, "-", slope,
+                        upward ? 1.0 / step : step, fine.step / step));
+      continue;
+    }
     any = true;
     const auto e = predicted_error(l, step), c = predicted_cpu(l, step);
-    const bool upward = l.axis == "walkers" || l.axis == "iterations" || l.axis == "support_ratio";
     print(fmt::format("  {:28} {:14} {:12.5g} {:>24} {:>24}\n", name_of(l), l.axis, upward ? 1.0 / step : step, fmt::format("{:.3g} ({:.3g}..{:.3g})", c.value, c.value / c.factor, c.value * c.factor),
                       fmt::format("{:.3g} ({:.3g}..{:.3g})", e.value, e.value / e.factor, e.value * e.factor)));
   }
   return any ? exit_pass : exit_inconclusive;
 }
 
-void add_common(CLI::App& command, Options& o) {
+void add_common(CLI::App& command, Options& o, const std::string& name) {
   command.add_option("CASE", o.what, "a case file or id")->required();
   command.add_option("--metric", o.metric, "which metric (default: that of the case's first study)");
   command.add_option("--engines", o.engines, "only these engines, A,B");
   command.add_option("--axis", o.axis, "only this axis")->check(CLI::IsMember({"spacing", "time_step", "support_ratio", "walkers", "iterations"}));
-  command.add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")->delimiter(',');
+  command.add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")->delimiter(',')->allow_extra_args(false);
   command.add_option("--from", o.from, "take the front from this results.json; run nothing for it");
-  command.add_option("--out", o.out, "folder of the runs")->capture_default_str();
+  command.add_option("--out", o.out, "folder of the runs (default: report-" + name + "/CASE)");
   command.add_option("--jobs", o.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
 }
 
@@ -206,7 +223,7 @@ void add_common(CLI::App& command, Options& o) {
 void add_recommend(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("recommend", recommend_description);
   auto o = std::make_shared<Options>();
-  add_common(*command, *o);
+  add_common(*command, *o, "recommend");
   command->add_option("--error", o->error, "the error that is wished, in the metric's unit or as a percentage");
   command->add_option("--seconds", o->seconds, "the CPU seconds that may be spent");
   command->add_flag("--json", o->json, "print one JSON document");
@@ -216,7 +233,7 @@ void add_recommend(CLI::App& app, int& exit_code) {
 void add_plan(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("plan", plan_description);
   auto o = std::make_shared<Options>();
-  add_common(*command, *o);
+  add_common(*command, *o, "plan");
   command->add_option("--within", o->error, "the error that is wished, in the metric's unit or as a percentage")->required();
   command->callback([o, &exit_code] { exit_code = guarded([&] { return plan_for(*o); }); });
 }

@@ -10,6 +10,7 @@
 #include "validation/harness/history.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/report_files.hpp"
+#include "validation/harness/verdict.hpp"
 
 namespace tripoint {
 namespace {
@@ -24,28 +25,32 @@ constexpr const char* report_description =
     "Draws the report anew from a results.json: index.html, junit.xml and summary.md beside it. Runs and judges nothing anew\n"
     "but the verdicts, which are always recomputed from the measured values.\n"
     "  tripoint report report/results.json\n"
-    "  tripoint report report/results.json --pdf      also report.pdf, the report to sign (needs Debian's weasyprint)";
+    "  tripoint report report/results.json --pdf      also report.pdf, the report to sign (needs Debian's weasyprint)\n"
+    "Exit: 0 drawn, whatever the verdict; 4 where the page or the PDF could not be made.";
 
-int finish(const Results& results, const std::string& out, bool pdf = false) {
-  if (const auto missing = write_report(results, out, pdf); !missing.empty()) say("tripoint: no page: " + missing);
+/// @return why not all of it could be drawn; empty when it is there
+std::string finish(const Results& results, const std::string& out, bool pdf = false) {
+  auto missing = write_report(results, out, pdf);
+  if (!missing.empty()) say("tripoint: " + missing);
   print(last_line(results, out) + "\n");
-  return results.exit_code;
+  return missing;
 }
 
 int merge(const std::vector<std::string>& folders, const std::string& out) {
+  make_folder(out);
   auto results = merge_shards(folders, out);
   results.history = "history.jsonl";
   append_history((std::filesystem::path(out) / results.history).string(), history_lines(results));
   for (const auto& c : results.cases) print(case_line(c) + "\n");
-  return finish(results, out);
+  static_cast<void>(finish(results, out));
+  return results.exit_code;
 }
 
 int report(const std::string& path, bool pdf) {
   auto results = read_results(path);
   judge(results);
   const auto folder = std::filesystem::path(path).parent_path();
-  finish(results, folder.empty() ? "." : folder.string(), pdf);
-  return 0;
+  return finish(results, folder.empty() ? "." : folder.string(), pdf).empty() ? exit_pass : exit_missing;
 }
 
 }  // namespace

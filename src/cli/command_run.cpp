@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -13,7 +14,9 @@
 #include "cli/common.hpp"
 #include "core/errors.hpp"
 #include "scene/units.hpp"
+#include "validation/harness/case_names.hpp"
 #include "validation/harness/finished_run.hpp"
+#include "validation/harness/judge.hpp"
 #include "validation/harness/run_one.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
@@ -23,7 +26,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* description =
-    "Runs one case on one engine, at the case's own resolution, and prints how it ended and its metrics. It judges nothing.\n"
+    "Runs one case on one engine, at the case's own resolution, and prints how it ended, and each metric with its unit, its standard\n"
+    "uncertainty and the limit that the case sets it. The exit code judges nothing: tripoint validate does.\n"
     "  tripoint run rigid/ballistic\n"
     "  tripoint run heat/cosine-mode --set scene.spacing='1 mm' --threads 2 --out coarse\n"
     "  tripoint run rigid/ballistic --engine bullet --until 0.5\n"
@@ -39,13 +43,6 @@ struct RunOptions {
   double wall_limit = 1e9;
   bool quiet = false, json = false;
 };
-
-std::string case_file(const std::string& what) {
-  if (fs::is_regular_file(what)) return what;
-  const auto by_id = fs::path(share_folder()) / "cases" / (what + ".toml");
-  if (fs::is_regular_file(by_id)) return by_id.string();
-  throw InputError(what + ": is no case file and no case id (tripoint list prints the ids)");
-}
 
 /// The checkpoint itself, or the last one in a folder. @throws InputError
 std::string checkpoint_file(const std::string& path) {
@@ -92,12 +89,39 @@ int code_of(const RunOptions& o, const Outcome& outcome) {
   return outcome.status == "diverged" ? exit_diverged : interrupted() ? exit_interrupted : exit_missing;
 }
 
-void print_text(const RunOptions& o, const Outcome& outcome, const std::map<std::string, MetricValue>& metrics) {
+/// What the case allows the metric in this run; empty where it sets nothing.
+std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& run, const std::string& metric, const MetricValue& m) {
+  std::string text;
+  for (const auto& g : value.gates) {
+    const bool of_level = !g.level || std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *g.level); });
+    const bool ours = (g.engine.empty() || g.engine == plan.name) && (g.mode.empty() || g.mode == run.mode) && (g.preset.empty() || g.preset == plan.preset);
+    if (g.metric != metric || !ours || !of_level) continue;
+    if (g.limit) text += fmt::format("  limit {:.4g} ({:.3g} % of it)", *g.limit, 100.0 * (std::abs(m.value) + 2.0 * m.uncertainty.combined()) / *g.limit);
+    if (g.at_least) text += fmt::format("  at least {:.4g}", *g.at_least);
+    if (g.band) text += fmt::format("  band {:.4g} to {:.4g}", (*g.band)[0], (*g.band)[1]);
+  }
+  return text;
+}
+
+/// In the order of the case file.
+void print_metrics(const Case& value, const EnginePlan& plan, const std::map<std::string, MetricValue>& metrics) {
+  if (metrics.empty()) return;
+  print(fmt::format("  {:26} {:>12} {:8} {:>9}\n", "metric", "value", "unit", "+- u"));
+  for (const auto& choice : value.metrics) {
+    const auto at = metrics.find(choice.name);
+    if (at == metrics.end()) continue;
+    const auto& m = at->second;
+    print(fmt::format("  {:26} {:12.5g} {:8} {:9.2g}{}{}\n", choice.name, m.value, choice.unit.empty() ? "1" : choice.unit, m.uncertainty.combined(), limits_of(value, plan, plan.runs.front(), choice.name, m),
+                      m.note.empty() ? "" : "  (" + m.note + ")"));
+  }
+}
+
+void print_text(const RunOptions& o, const Case& value, const EnginePlan& plan, const Outcome& outcome, const std::map<std::string, MetricValue>& metrics) {
   print(fmt::format("{}{}{}\n", outcome.status, outcome.reason.empty() ? "" : ": ", outcome.reason));
   const auto& r = outcome.result;
   if (r.steps > 0) print(fmt::format("  t = {:g} s in {} steps; last step {:g} s{}\n", r.time_reached, r.steps, r.readback.time_step, r.time_step_bound.empty() ? "" : ", bound by " + r.time_step_bound));
   print(fmt::format("  {:.3g} CPU s, {:.3g} s, {:.3g} MB\n", outcome.cost.cpu_s, outcome.cost.wall_s, outcome.cost.peak_bytes / 1e6));
-  for (const auto& [name, m] : metrics) print(fmt::format("  {:24} {:<12.5g} +- {:.2g}{}\n", name, m.value, m.uncertainty.combined(), m.note.empty() ? "" : "  (" + m.note + ")"));
+  print_metrics(value, plan, metrics);
   print(fmt::format("  in {}\n", o.out));
 }
 
@@ -119,7 +143,7 @@ EnginePlan plan_for(const Case& value, const std::vector<EngineEntry>& engines, 
   Selection selection;
   selection.engines = {name};
   auto plan = plan_runs(value, engines, selection).front();
-  if (!plan.entry) throw EngineError("no engine is named " + name + " (tripoint engines lists them)");
+  if (!plan.entry) throw EngineError(no_such_engine(name, engines));
   if (!plan.entry->available) throw EngineError(name + " is not available: " + plan.entry->reason);
   return plan;
 }
@@ -141,7 +165,7 @@ int run(RunOptions o) {
   job.threads = o.threads;
   job.resume = o.resume;
   if (!o.checkpoint_interval.empty()) job.settings["checkpoint_interval"] = seconds_of(o.checkpoint_interval);
-  fs::create_directories(o.out);
+  make_folder(o.out);
   RunRequest request;
   request.engine = plan.entry, request.job = &job, request.initial = &initial, request.wall_limit = o.wall_limit;
   request.folder = fs::absolute(o.out).string(), request.particles = (fs::absolute(o.out) / "particles.h5").string();
@@ -154,7 +178,7 @@ int run(RunOptions o) {
   std::map<std::string, MetricValue> metrics;
   if (outcome.trajectory) metrics = evaluate_all(value, job, initial, *outcome.trajectory);
   if (o.json) print_json(o, outcome, metrics);
-  else print_text(o, outcome, metrics);
+  else print_text(o, value, plan, outcome, metrics);
   if (const auto command = interrupted() ? way_on(o) : ""; !command.empty()) say("go on with: " + command);
   return code_of(o, outcome);
 }

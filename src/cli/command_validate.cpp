@@ -29,7 +29,7 @@ struct ValidateOptions {
   int timing = 0;
   std::vector<std::string> engine;
   std::uint64_t seed = 0;
-  bool seed_given = false, json = false;
+  bool seed_given = false, json = false, page = true, last_failed = false;
 };
 
 constexpr const char* description =
@@ -37,7 +37,10 @@ constexpr const char* description =
     "Without CASE it takes the cases beside the program that belong to the profile.\n"
     "  tripoint validate                                     the commit suite\n"
     "  tripoint validate heat/cosine-mode --jobs 2           one case, two engine processes at a time\n"
+    "  tripoint validate heat                                the cases of one subject, from any folder\n"
+    "  tripoint validate -k floating                         the cases with this in their id\n"
     "  tripoint validate my-cases/ --engine ./my-engine      your cases, with your engine beside ours\n"
+    "  tripoint validate --last-failed --no-report           once more what was not green; no page, so it is quick\n"
     "  tripoint validate --resume                            what an earlier call that was cut left to do\n"
     "  tripoint validate --profile nightly --shard 1/4       a quarter of the suite; tripoint merge joins the four\n"
     "The verdict is the last line; OUT/index.html shows it, OUT/results.json holds it.";
@@ -56,10 +59,26 @@ std::string now() {
   return text;
 }
 
+/// Ids of the cases that were not green in the results that OUT holds. @throws InputError where there are none
+std::vector<std::string> failed_last_time(const std::string& out) {
+  const auto file = (std::filesystem::path(out) / "results.json").string();
+  if (!std::filesystem::exists(file)) throw InputError("--last-failed: there is no " + file + " to look into: validate without it first");
+  auto last = read_results(file);
+  judge(last);
+  std::vector<std::string> failed;
+  for (const auto& c : last.cases)
+    if (c.exit_code != exit_pass) failed.push_back(c.id);
+  for (const auto& id : last.planned)
+    if (std::none_of(last.cases.begin(), last.cases.end(), [&](const auto& c) { return c.id == id; })) failed.push_back(id);
+  if (failed.empty()) throw InputError("--last-failed: every case in " + file + " is green: nothing is to be run");
+  return failed;
+}
+
 int validate(ValidateOptions o) {
   catch_interrupts();
   if (!o.shard.empty()) std::tie(o.filter.shard, o.filter.shards) = read_shard(o.shard);
-  o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() ? "commit" : "";
+  if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
+  o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";
   if (o.seed_given) o.suite.selection.seed = o.seed;
   const auto words = sort_engine_words(o.engine);
   o.suite.selection.engines = split(o.engines);
@@ -71,8 +90,9 @@ int validate(ValidateOptions o) {
   std::sort(o.suite.selection.asked.begin(), o.suite.selection.asked.end());
   o.suite.selection.asked.erase(std::unique(o.suite.selection.asked.begin(), o.suite.selection.asked.end()), o.suite.selection.asked.end());
   for (const auto& name : o.suite.selection.asked)
-    if (!find_engine(engines, name)) say("tripoint: no engine is named " + name + " (tripoint engines lists them)");
-  say(fmt::format("{} cases, {} engines, into {}", cases.size(), engines.size(), o.suite.out));
+    if (!find_engine(engines, name)) say("tripoint: " + no_such_engine(name, engines));
+  make_folder(o.suite.out);
+  say(fmt::format("{} case{}, {} engines, into {}", cases.size(), cases.size() == 1 ? "" : "s", engines.size(), o.suite.out));
   o.suite.say = [](const std::string& line) { say(line); };
   if (!o.json) o.suite.on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
   auto results = run_suite(cases, engines, o.suite);
@@ -87,7 +107,8 @@ int validate(ValidateOptions o) {
     append_history(file, history_lines(results));
     results.history = std::filesystem::relative(std::filesystem::absolute(file), std::filesystem::absolute(o.suite.out)).string();
   }
-  if (const auto missing = write_report(results, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
+  if (!o.page) write_results(results, o.suite.out);
+  else if (const auto missing = write_report(results, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
   if (!o.json) print(notes_text(results));
   print(o.json ? results_text(results) : last_line(results, o.suite.out) + "\n");
   return interrupted() ? exit_interrupted : results.exit_code;
@@ -101,8 +122,10 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
   command->add_option("--profile", o->profile, "only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release"}));
   command->add_option("--tag", o->filter.tag, "only cases with this tag");
+  command->add_option("-k", o->filter.substring, "only cases with this in their id")->type_name("SUBSTRING");
+  command->add_flag("--last-failed", o->last_failed, "only the cases that are not green in OUT/results.json");
   command->add_option("--engines", o->engines, "only these engines, A,B");
-  command->add_option("--engine", o->engine, "an engine that joins every case: the path of an executable, or a name")->take_all();
+  command->add_option("--engine", o->engine, "an engine that joins every case: the path of an executable, or a name; may be repeated")->take_all()->allow_extra_args(false);
   command->add_option("--out", o->suite.out, "folder of the report and the runs")->capture_default_str();
   command->add_option("--jobs", o->suite.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option("--threads", o->suite.threads, "threads of each engine process")->check(CLI::Range(1, 1024))->capture_default_str();
@@ -115,6 +138,7 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_flag_callback("--no-history", [o] { o->keep_history = false; }, "append nothing");
   command->add_option("--shard", o->shard, "i/n: every n-th case, from the i-th");
   command->add_option("--time-limit", o->suite.wall_limit, "seconds for one run; engine setting wall_limit goes before it")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_flag_callback("--no-report", [o] { o->page = false; }, "draw no page: results.json, junit.xml and summary.md are written all the same");
   command->add_flag("--json", o->json, "print results.json, and nothing else, on stdout");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return validate(*o); }); });
 }

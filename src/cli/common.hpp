@@ -6,8 +6,13 @@
 
 #include "effects/plan.hpp"
 #include "scene/read_case.hpp"
+#include "validation/harness/discover.hpp"
 
 /// What the commands share: how errors become exit codes, and how lists and progress look.
+namespace CLI {
+class App;
+}
+
 namespace tripoint {
 
 /// Calls the command and turns its exceptions into messages on stderr and the exit codes of the contract.
@@ -19,7 +24,7 @@ namespace tripoint {
 /// One line on stderr.
 void say(const std::string& line);
 
-/// One piece of the result, on stdout, at once.
+/// One piece of the result, on stdout, at once. On a terminal its verdicts have colours, unless NO_COLOR is set.
 void print(const std::string& text);
 
 /// "A,B" -> {"A", "B"}.
@@ -30,6 +35,18 @@ struct EngineWords {
   std::vector<std::string> names, paths;
 };
 [[nodiscard]] EngineWords sort_engine_words(const std::vector<std::string>& words);
+
+/// "no engine is named x (did you mean `y`?)"
+[[nodiscard]] std::string no_such_engine(const std::string& name, const std::vector<EngineEntry>& engines);
+
+/// Folder that a command writes to where no --out is given: one for each command and case, so that none overwrites another's report.
+[[nodiscard]] std::string own_folder(const std::string& command, const std::string& case_id);
+
+/// Makes the folder of --out before anything runs. @throws InputError that says why it cannot be made or written to
+void make_folder(const std::string& out);
+
+/// What is said of a command or option that does not exist, with the nearest one; empty where none is mistyped.
+[[nodiscard]] std::string mistyped_word(const CLI::App& app, int argc, char** argv);
 
 /// The command line as it was typed, for the report.
 void remember_command_line(int argc, char** argv);

@@ -87,10 +87,15 @@ void check_divergence(const CaseResult& result, Findings& findings) {
 
 void check_planned(const Results& results, std::vector<std::string>& problems, std::set<int>& codes) {
   const auto say = [&](const std::string& what) { problems.push_back(what), codes.insert(exit_missing); };
-  if (results.cases.empty()) say("the results hold no case");
+  if (results.cases.empty() && !results.interrupted) say("the results hold no case");
   std::set<std::string> seen;
   for (const auto& c : results.cases)
     if (!seen.insert(c.id).second) say(c.id + ": two cases have this id");
+  if (results.interrupted) {
+    problems.push_back(fmt::format("stopped by Ctrl-C: {} of {} planned cases are complete", seen.size(), results.planned.size()));
+    codes.insert(exit_interrupted);
+    return;
+  }
   for (const auto& id : results.planned)
     if (!seen.count(id)) say(id + ": was planned and is not in the results");
 }

@@ -217,7 +217,7 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
   std::optional<Clock::time_point> asked;
   while (!reaped) {
     const double left = spec.wall_limit - seconds_since(start);
-    if (stop_wanted && !asked) {
+    if (stop_wanted && !spec.outlives_interrupt && !asked) {
       asked = Clock::now();
       ::kill(-pid, SIGTERM);
     }

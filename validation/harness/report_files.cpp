@@ -24,6 +24,7 @@ std::string make_page(const fs::path& results, bool pdf) {
   spec.argv = {"/usr/bin/python3", program.string(), results.string()};
   if (pdf) spec.argv.push_back("--pdf");
   spec.wall_limit = report_limit;
+  spec.outlives_interrupt = true;
   spec.log = (results.parent_path() / "report.log").string();
   const auto end = run_process(spec);
   if (end.how == ProcessEnd::How::exited && end.code == 0 && fs::exists(results.parent_path() / "index.html")) return {};
@@ -32,14 +33,18 @@ std::string make_page(const fs::path& results, bool pdf) {
 
 }  // namespace
 
-std::string write_report(const Results& results, const std::string& folder, bool pdf) {
+void write_results(const Results& results, const std::string& folder) {
   fs::create_directories(folder);
   const fs::path out = fs::absolute(folder);
   write_durably((out / "results.json").string(), results_text(results));
   write_durably((out / "junit.xml").string(), junit_text(results));
   write_durably((out / "summary.md").string(), summary_text(results));
   fs::remove(out / "index.html");  // an old page must not stand for new results
-  return make_page(out / "results.json", pdf);
+}
+
+std::string write_report(const Results& results, const std::string& folder, bool pdf) {
+  write_results(results, folder);
+  return make_page(fs::absolute(folder) / "results.json", pdf);
 }
 
 std::string notes_text(const Results& results) {
@@ -61,7 +66,7 @@ std::string notes_text(const Results& results) {
 }
 
 std::string last_line(const Results& results, const std::string& folder) {
-  return fmt::format("verdict {} exit {}  {}", results.verdict, results.exit_code, (fs::path(folder) / "index.html").string());
+  return fmt::format("verdict {} exit {}  {}", results.verdict, results.exit_code, (fs::path(folder) / (fs::exists(fs::path(folder) / "index.html") ? "index.html" : "results.json")).string());
 }
 
 }  // namespace tripoint

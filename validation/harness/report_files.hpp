@@ -14,11 +14,14 @@ namespace tripoint {
 /// Markdown for a CI job's summary: the verdict, a row a case, and every gate that is not green with its reason and line.
 [[nodiscard]] std::string summary_text(const Results&);
 
-/// Writes results.json, junit.xml and summary.md into the folder, then asks the report program for index.html.
+/// Writes results.json, junit.xml and summary.md into the folder; a page of older results is removed. @throws EngineError when a file cannot be written
+void write_results(const Results&, const std::string& folder);
+
+/// The same, then asks the report program for index.html.
 /// @return why the page could not be made; empty when it is there. @throws EngineError when a file cannot be written
 [[nodiscard]] std::string write_report(const Results&, const std::string& folder, bool pdf = false);
 
-/// The line that ends every validation: `verdict PASS exit 0  report/index.html`.
+/// The line that ends every validation: `verdict PASS exit 0  report/index.html`; without a page it names results.json.
 [[nodiscard]] std::string last_line(const Results&, const std::string& folder);
 
 /// What stands above the last line: what is wrong with the results as a whole, and which engines are missing or not judged, with the number of cases.

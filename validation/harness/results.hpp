@@ -130,6 +130,7 @@ struct Results {
   int exit_code = 0;
   std::string history;                  ///< file of JSON lines, relative to results.json; empty = none is kept
   std::string shard;                    ///< "i/n", empty = whole
+  bool interrupted = false;             ///< Ctrl-C ended it before every planned case was complete
   std::vector<std::string> planned;     ///< ids of every case that this run had to do
   std::vector<std::string> only_engines;  ///< --engines; empty = all
   std::vector<std::string> asked;         ///< engines that the command line named, by --engine or --engines: none of them passes unjudged

@@ -211,6 +211,7 @@ Results read_results(const std::string& path) {
   r.command = text(document, "command"), r.profile = text(document, "profile"), r.date = text(document, "date"), r.shard = text(document, "shard"), r.history = text(document, "history");
   r.seed = static_cast<std::uint64_t>(std::max(0.0, number_or(document, "seed", 1.0)));
   r.verdict = text(document, "verdict"), r.exit_code = static_cast<int>(number_or(document, "exit_code", 4.0));
+  r.interrupted = member(document, "interrupted") == Json(true);
   r.planned = strings(document, "planned"), r.only_engines = strings(document, "only_engines");
   r.asked = document.contains("asked") ? strings(document, "asked") : r.only_engines;
   r.cases = rows<CaseResult>(document, "cases", case_result);

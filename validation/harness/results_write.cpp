@@ -178,7 +178,7 @@ std::string results_text(const Results& r) {
   for (const auto& c : r.cases) cases.push_back(json(c));
   const Json document{{"format", r.format},
                       {"tool", {{"version", r.tool.version}, {"commit", r.tool.commit}, {"compiler", r.tool.compiler}, {"flags", r.tool.flags}, {"cpu", r.tool.cpu}, {"cores", r.tool.cores}}},
-                      {"command", r.command}, {"date", r.date}, {"profile", r.profile}, {"seed", r.seed}, {"shard", r.shard}, {"history", r.history}, {"planned", r.planned},
+                      {"command", r.command}, {"date", r.date}, {"profile", r.profile}, {"seed", r.seed}, {"shard", r.shard}, {"interrupted", r.interrupted}, {"history", r.history}, {"planned", r.planned},
                       {"only_engines", r.only_engines}, {"asked", r.asked}, {"verdict", r.verdict}, {"exit_code", r.exit_code}, {"problems", r.problems}, {"cases", cases}};
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

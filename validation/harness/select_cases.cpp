@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "scene/read_case.hpp"
+#include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
 
 namespace tripoint {
@@ -31,11 +32,10 @@ std::vector<Found> files_below(const fs::path& folder) {
 }
 
 std::vector<Found> files_for(const std::string& what) {
-  if (fs::is_directory(what)) return files_below(what);
-  if (fs::exists(what)) return {{what, true}};
-  const fs::path by_id = fs::path(share_folder()) / "cases" / (what + ".toml");
-  if (fs::exists(by_id)) return {{by_id.string(), true}};
-  throw InputError(what + ": is no case file, no folder and no case id (tripoint list prints the ids)");
+  std::error_code none;
+  const bool is_file = (fs::exists(what, none) && !fs::is_directory(what, none)) || fs::is_regular_file(fs::path(share_folder()) / "cases" / (what + ".toml"), none);
+  if (const auto folder = case_folder(what); !is_file && !folder.empty()) return files_below(folder);
+  return {{case_file(what), true}};
 }
 
 std::vector<Found> all_files(const std::vector<std::string>& what) {
@@ -50,6 +50,8 @@ std::vector<Found> all_files(const std::vector<std::string>& what) {
 bool matches(const CaseFilter& filter, const Case& value, bool by_name) {
   const auto has = [](const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); };
   if (!filter.tag.empty() && !has(value.tags, filter.tag)) return false;
+  if (value.id.find(filter.substring) == std::string::npos) return false;
+  if (filter.only && !has(*filter.only, value.id)) return false;
   return by_name || filter.profile.empty() || has(value.profiles, filter.profile);
 }
 
@@ -57,6 +59,8 @@ std::string describe(const CaseFilter& filter) {
   std::string text = filter.what.empty() ? "the cases beside the program" : fmt::format("{}", fmt::join(filter.what, ", "));
   if (!filter.profile.empty()) text += ", profile " + filter.profile;
   if (!filter.tag.empty()) text += ", tag " + filter.tag;
+  if (!filter.substring.empty()) text += ", an id with \"" + filter.substring + "\" in it";
+  if (filter.only) text += ", among those that failed last time";
   return text;
 }
 

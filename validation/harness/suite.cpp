@@ -129,6 +129,7 @@ Results run_suite(const std::vector<Case>& cases, const std::vector<EngineEntry>
   results.only_engines = options.selection.engines, results.asked = options.selection.asked;
   for (const auto& c : cases) results.planned.push_back(c.id);
   results.cases = Suite(cases, engines, options).run();
+  results.interrupted = interrupted() && results.cases.size() < cases.size();
   judge(results);
   return results;
 }

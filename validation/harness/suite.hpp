@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct CaseFilter {
   std::vector<std::string> what;  ///< files, folders or case ids; empty = all cases beside the program
   std::string profile;            ///< empty = every profile; files and ids are taken whatever their profile
   std::string tag;                ///< empty = any
+  std::string substring;          ///< of the id; empty = any
+  std::optional<std::vector<std::string>> only;  ///< only these ids; unset = any
   int shard = 1, shards = 1;      ///< takes the cases shard, shard + shards, ... of the list by id
 };
 
