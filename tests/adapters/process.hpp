@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -54,6 +55,18 @@ struct Outcome {
   std::string log;  ///< LAMMPS's own
 };
 
+/// What a frame says of the whole is the sum over its particles.
+inline void expect_sums(const Snapshot& frame, const InitialState& initial) {
+  double mass = 0.0, size = 0.0;
+  Vec3 momentum;
+  for (std::size_t i = 0; i < initial.size() && i < frame.velocity.size(); ++i) {
+    const double m = i < frame.mass.size() ? frame.mass[i] : initial.mass[i];
+    mass += m, momentum += m * frame.velocity[i], size += m * norm(frame.velocity[i]);
+  }
+  EXPECT_NEAR(frame.total_mass, mass, 1e-12 * mass) << "at t = " << frame.time;
+  EXPECT_NEAR(norm(frame.momentum - momentum), 0.0, 1e-12 * mass + 1e-9 * size) << "at t = " << frame.time;
+}
+
 /// @param prefix e.g. an environment variable
 inline Outcome run(const std::string& engine, const Prepared& p, const std::string& prefix = "") {
   const Folder folder;
@@ -65,7 +78,17 @@ inline Outcome run(const std::string& engine, const Prepared& p, const std::stri
   out.log = text_of(folder.at("log.lammps"));
   if (std::filesystem::exists(folder.at("trajectory.h5"))) out.trajectory = read_trajectory(folder.at("trajectory.h5"));
   if (std::filesystem::exists(folder.at("trajectory.csv"))) out.trajectory = read_trajectory_csv(folder.at("trajectory.csv"), p.initial, p.job.bodies.size());
+  if (out.exit_code == 0 && std::filesystem::exists(folder.at("trajectory.h5")))
+    for (const Snapshot& frame : out.trajectory.frames) expect_sums(frame, p.initial);
   return out;
+}
+
+/// LAMMPS is given the commands of the settings: here one that it does not know.
+inline void expect_commands_reach(const std::string& engine, Prepared p) {
+  p.job.settings["commands"] = std::string("pair_style nosuch");
+  const Outcome out = run(engine, p);
+  EXPECT_EQ(out.exit_code, 1);
+  EXPECT_NE(out.result.message.find("nosuch"), std::string::npos) << out.result.message;
 }
 
 inline std::string info(const std::string& engine, const std::string& prefix = "") {

@@ -30,6 +30,15 @@ TEST(ElasticMotion, ASpinningBlockTurnsAsARigidOneWould) {
   EXPECT_NEAR(std::remainder(std::atan2(corner.y, corner.x) - std::atan2(-1.0, -1.0) - 3.0, 6.283185307179586), 0.0, 0.02);  // it widens by rho w^2 R^2/(3 E) = 0.2 %, and turns that much twice more slowly
 }
 
+TEST(ElasticMotion, TheWholeOfASpinningBlockMovesAsItWasStarted) {
+  lab::Lab lab = lab::elastic_lab(dx);
+  const Vec3 velocity{0.1, -0.2, 0.3}, spin{0.5, -0.3, 0.2};
+  lab.add({.corner = {3.0, -2.0, 1.0}, .count = {5, 4, 3}, .phase = Phase::elastic, .velocity = velocity, .angular_velocity = spin});
+  const WholeMotion whole = whole_motion(Simulation(lab.scene, lab.initial).world(), 0);
+  EXPECT_NEAR(norm(whole.velocity - velocity), 0.0, 1e-14);
+  EXPECT_NEAR(norm(whole.spin - spin), 0.0, 1e-13);  // round-off of moments about the origin, 40 times those about the centre
+}
+
 TEST(ElasticMotion, KeepsItsLedgerToTheSquareOfTheStep) {
   const auto left = [](double dt) {
     lab::Lab lab = spinning(Mode::corrected);
