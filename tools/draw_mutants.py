@@ -1,0 +1,219 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Defects drawn at random, each judged as a change would be: does anything turn red?
+
+    tools/draw_mutants.py --tree ../copy --seed 7 --count 20 --out mutants.json
+
+Draws file, line and change (another operator, another sign, a factor of 1.02, a statement left out) over all C++ files of src/effects and
+adapters. Each is applied to --tree, a copy of the project that is already built with tests (`git worktree add`, then `tools/build.sh --tests N`),
+which is rebuilt as far as the file reaches. Then the cases of the commit profile that touch the file are run, the quickest first, and the unit
+tests of its room between the quick ones and the others, until one is red. Where the change does not compile another is drawn; a mutant nothing sees is printed with its line.
+The seed gives the same mutants from the same sources. What was judged already in --out is not judged again.
+"""
+import argparse
+import json
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import time
+
+ROOMS = ("src/effects", "adapters")
+FOLDERS = ("rigid", "fluid", "motion", "prescribed", "density", "elastic", "plastic", "fracture", "heat", "phase")
+# A line that carries no behaviour of the model: text for people, the registry of defects, declarations.
+PASSED_OVER = re.compile(r'^\s*(//|#|\*|using |namespace |template|struct |class |enum |static_assert|assert|\[\[nodiscard\]\]|public:|private:|case )|"|defect_size|throw |fmt::|static const|const_cast|operator|= default|= delete|make_unique|\bfor \(|\w&[,)]|std::vector<.*=|\w& \w+ = |nullptr|virtual |, \w+ = ')
+OPERATORS = ((" + ", " - "), (" - ", " + "), (" * ", " / "), (" / ", " * "), (" < ", " >= "), (" > ", " <= "), (" <= ", " > "), (" >= ", " < "), (" && ", " || "), (" || ", " && "), (" += ", " -= "), (" -= ", " += "), (" == ", " != "), (" != ", " == "))
+
+
+def changes_of(line):
+    """Every change of a line of code, as (kind, changed line)."""
+    code = line.split("//")[0].rstrip()
+    if not code.strip() or PASSED_OVER.search(code):
+        return []
+    found = []
+    for old, new in OPERATORS:
+        at = -1
+        while (at := code.find(old, at + 1)) >= 0:
+            found.append(("operator" if old.strip() not in "+-" else "sign", code[:at] + new + code[at + len(old):]))
+    for m in re.finditer(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?)(?![\w.])", code):
+        if float(m[1]) == 0.0:
+            continue  # 1.02 times nothing
+        found.append(("factor", code[:m.start()] + f"(1.02 * {m[1]})" + code[m.end():]))
+    if m := re.fullmatch(r"(\s*)return ([^;{}]+);", code):
+        found += [("factor", f"{m[1]}return 1.02 * ({m[2]});"), ("sign", f"{m[1]}return -({m[2]});")]
+    if (m := re.fullmatch(r"(\s*[^;{}()=]+(?:\([^;{}=]*\))?[^;{}()=]* (?:\+|-)?= )([^;{}]+);", code)) and m[2] not in ("0.0", "true", "false", "{}") and not re.search(r"\bauto |\bbool ", code):
+        found += [("factor", f"{m[1]}1.02 * ({m[2]});"), ("sign", f"{m[1]}-({m[2]});")]
+    if re.fullmatch(r"\s*(?:[\w\].>()\[:-]+ (?:\+|-|\*)?= [^;{}]+|[\w.>:-]+\([^;{}]*\));", code) and "0.0;" not in code and not re.match(r"\s*(return|const|auto|double|int)\b", code):
+        found.append(("dropped", re.match(r"\s*", code)[0] + ";"))
+    return found
+
+
+def sources(tree):
+    files = []
+    for room in ROOMS:
+        files += sorted(p for p in (tree / room).rglob("*") if p.suffix in (".cpp", ".hpp") and "templates" not in p.parts)
+    return files
+
+
+def draw(rng, tree):
+    """A file, each as likely; in it a line that can be changed; of that a change."""
+    while True:
+        path = rng.choice(sources(tree))
+        lines = path.read_text().split("\n")
+        registry = next((n for n, text in enumerate(lines) if "defects() {" in text), len(lines))
+        candidates = [n for n in range(registry) if changes_of(lines[n])]
+        if not candidates:
+            continue
+        n = rng.choice(candidates)
+        kind, text = rng.choice(changes_of(lines[n]))
+        return {"file": str(path.relative_to(tree)), "line": n + 1, "kind": kind, "old": lines[n].strip(), "new": text.strip()}, path, lines, n, text
+
+
+def targets_of(file):
+    """What is rebuilt, the unit tests of the room, and the engine whose cases are asked."""
+    if file.startswith("src/effects"):
+        part = file.split("/")[2]
+        of = {"elastic": ["elastic"], "plastic": ["plastic"], "fracture": ["plastic"], "phase": ["phase"], "heat": ["phase"]}.get(part, ["elastic", "passes", "phase"])
+        tests = ["test-effects"] + [f"test-effects-{x}" for x in of] + ["test-step"]
+        return ["engine-tripoint"] + [f"tests/{x}" for x in tests], tests, "tripoint"
+    part = file.split("/")[1]
+    if part == "tripoint":
+        return ["engine-tripoint", "tests/test-step"], ["test-step"], "tripoint"
+    if part == "bullet":
+        return ["engine-bullet", "tests/test-bullet"], ["test-bullet"], "bullet"
+    if part == "lammps":
+        return ["engine-lammps", "tests/test-engines"], ["test-engines"], "lammps"
+    if part == "exact":
+        return ["engine-exact", "tests/test-exact"], ["test-exact"], "exact"
+    return ["engine-tripoint", "engine-bullet", "engine-exact", "engine-lammps", "bin/tripoint", "tests/test-io", "tests/test-exact"], ["test-io", "test-exact"], "tripoint"
+
+
+def run(command, tree, seconds):
+    try:
+        return subprocess.run(command, cwd=tree, capture_output=True, text=True, errors="replace", timeout=seconds)
+    except subprocess.TimeoutExpired:
+        return None
+
+
+class Cases:
+    """The commit profile: what each case calls for, and what it costs. What `sound`, a tree without a mutant, does not pass tells nothing."""
+
+    def __init__(self, tree, sound):
+        self.tree, self.sound, self.known = tree, sound, {}
+        listed = json.loads(run(["build/bin/tripoint", "list", "--json"], tree, 60).stdout)["cases"]
+        self.cases = {c["id"]: self.about(c) for c in listed if "commit" in c["profiles"]}
+
+    def about(self, case):
+        shown = json.loads(run(["build/bin/tripoint", "explain", case["id"], "--json"], self.tree, 60).stdout)
+        text = (self.tree / case["file"]).read_text()
+        engines = {"tripoint"} | set(re.findall(r"^\[engines\.([\w-]+)", text, re.M))
+        baseline = self.tree / "baselines" / (case["id"] + ".toml")
+        accepted = baseline.read_text() if baseline.exists() else ""
+        counted = {what: sum(float(x) for x in re.findall(rf"^{what} = ([\d.e+]+)", accepted, re.M)) for what in ("pairs", "steps")}
+        return {"effects": {e["name"] for e in shown["effects"]}, "engines": engines, "cost": counted["pairs"] + 1e4 * counted["steps"]}
+
+    def touched(self, file, engine):
+        part = file.split("/")[2] if file.startswith("src/effects") else ""
+        of = [c for c, about in self.cases.items() if (part not in FOLDERS or part in about["effects"]) and any(e.startswith(engine) for e in about["engines"])]
+        return sorted(of, key=lambda c: self.cases[c]["cost"])
+
+    def passes(self, case, engine, out, tree=None):
+        engines = sorted(e for e in self.cases[case]["engines"] if e.startswith(engine))
+        done = run(["build/bin/tripoint", "validate", case, "--engines", ",".join(engines), "--no-history", "--out", out], tree or self.tree, 900)
+        results = pathlib.Path(out) / "results.json"
+        if done is None or not results.exists():
+            return False, "timed out" if done is None else f"exit {done.returncode}"
+        verdict = json.loads(results.read_text())["cases"][0]["verdict"]
+        return verdict == "PASS", next((x.strip() for x in (done.stdout + done.stderr).split("\n") if x.startswith("     ")), verdict)[:200]
+
+    def red(self, case, engine, out):
+        """Why the mutant fails the case; empty where it passes, or where the sound tree fails it too."""
+        good, why = self.passes(case, engine, out)
+        if good:
+            return ""
+        if (case, engine) not in self.known:
+            self.known[case, engine] = self.passes(case, engine, out + "-sound", self.sound)[0]
+        return f"{case}: {why}" if self.known[case, engine] else ""
+
+
+def red_test(tests, tree):
+    for test in tests:
+        done = run([f"build/tests/{test}", "--gtest_fail_fast", "--gtest_brief=1"], tree, 900)
+        if done is None or done.returncode != 0:
+            failed = re.findall(r"\[  FAILED  \] ([\w./]+)", done.stdout) if done else []
+            return f"{test} {failed[0] if failed else 'does not end' if done is None else 'ends with ' + str(done.returncode)}"
+    return ""
+
+
+def judge(mutant, cases, options):
+    """What turned red first, or nothing: some quick cases, then the unit tests, then all other cases."""
+    _, tests, engine = targets_of(mutant["file"])
+    out = str(options.out.with_suffix("")) + "-runs"
+    touched = cases.touched(mutant["file"], engine)
+    mutant["asked"] = 0
+
+    def red_case(some):
+        for case in some:
+            mutant["asked"] += 1
+            if why := cases.red(case, engine, out):
+                return why
+        return ""
+
+    first = options.first if mutant["file"].startswith("src/effects") else 2  # an adapter's cases are slower than its tests
+    mutant["killed_by"] = red_case(touched[:first]) or red_test(tests, options.tree) or red_case(touched[first:])
+
+
+def main():
+    p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("--tree", type=pathlib.Path, required=True)
+    p.add_argument("--sound", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent, help="a built tree without a mutant; default this one")
+    p.add_argument("--seed", type=int, required=True)
+    p.add_argument("--count", type=int, default=20)
+    p.add_argument("--jobs", default="2")
+    p.add_argument("--first", type=int, default=15, help="quick cases that are asked before the unit tests")
+    p.add_argument("--out", type=pathlib.Path, default=pathlib.Path("mutants.json"))
+    p.add_argument("--list", action="store_true", help="only print what would be drawn")
+    options = p.parse_args()
+    options.tree, options.out = options.tree.resolve(), options.out.resolve()
+    if options.tree == pathlib.Path(__file__).resolve().parent.parent:
+        sys.exit("draw_mutants: --tree is the tree of this script: give a copy, its sources are changed")
+    rng, done = random.Random(options.seed), json.loads(options.out.read_text()) if options.out.exists() else []
+    print(f"seed {options.seed}, {len(sources(options.tree))} files", flush=True)
+    cases = None if options.list else Cases(options.tree, options.sound.resolve())
+    judged = 0
+    while judged < options.count:
+        mutant, path, lines, n, text = draw(rng, options.tree)
+        place = f"{mutant['file']}:{mutant['line']} {mutant['kind']}: {mutant['old']}  ->  {mutant['new']}"
+        if options.list:
+            judged += 1
+            print(place)
+            continue
+        before = next((m for m in done if (m["file"], m["line"], m["new"]) == (mutant["file"], mutant["line"], mutant["new"])), None)
+        if not before:
+            original, begun = path.read_text(), time.time()
+            path.write_text("\n".join(lines[:n] + [text] + lines[n + 1:]))
+            try:
+                built = run(["nice", "ninja", "-C", "build", "-j", options.jobs] + targets_of(mutant["file"])[0], options.tree, 3600)
+                mutant["compiles"] = built is not None and built.returncode == 0
+                if mutant["compiles"]:
+                    judge(mutant, cases, options)
+            finally:
+                path.write_text(original)
+            mutant["seconds"] = round(time.time() - begun)
+            done.append(mutant)
+            options.out.write_text(json.dumps(done, indent=1) + "\n")
+            before = mutant
+        if not before["compiles"]:
+            print(f"      no build  {place}", flush=True)
+            continue
+        judged += 1
+        print(f"{judged:3}  {'killed  ' if before['killed_by'] else 'SURVIVES'}  {place}\n          {before['killed_by']}  ({before['asked']} cases, {before['seconds']} s)", flush=True)
+    if not options.list:
+        run(["nice", "ninja", "-C", "build", "-j", options.jobs], options.tree, 7200)
+        killed = [m for m in done if m["compiles"] and m["killed_by"]]
+        print(f"{len(killed)} of {sum(m['compiles'] for m in done)} killed")
+
+
+if __name__ == "__main__":
+    main()
