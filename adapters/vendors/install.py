@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from environments import STAMP, InstallError, Release, home, release
+from environments import STAMP, InstallError, Release, catalogue, home, release
 from packages import INSTALLERS, PYTHON, say
 
 
@@ -80,9 +80,13 @@ def main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="tripoint engine install", description=__doc__)
     parser.add_argument("engine", metavar="NAME[@VERSION]")
     parser.add_argument("--yes", action="store_true")
-    parser.add_argument("--keep", action="store_true")
+    parser.add_argument("--keep", action="store_true", help="the plain name goes on meaning what it means now")
+    parser.add_argument("--versions", action="store_true", help="print the pinned versions and install nothing")
     given = parser.parse_args(words)
     try:
+        if given.versions:
+            print("\n".join(catalogue()["engines"][release(given.engine).engine]["versions"]))
+            return 0
         wanted = release(given.engine)
         Path(home()).mkdir(parents=True, exist_ok=True)
         with open(home() / ".lock", "w", encoding="ascii") as lock:

@@ -25,6 +25,7 @@ void add_new(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 void add_engines(CLI::App& app, int& exit_code);
 void add_engine(CLI::App& app, int& exit_code);
+void add_releases(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
 
 }  // namespace tripoint
