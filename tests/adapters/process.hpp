@@ -67,6 +67,22 @@ inline void expect_sums(const Snapshot& frame, const InitialState& initial) {
   EXPECT_NEAR(norm(frame.momentum - momentum), 0.0, 1e-12 * mass + 1e-9 * size) << "at t = " << frame.time;
 }
 
+/// A solid body of a frame is where its particles are, and moves as they do.
+inline void expect_bodies(const Snapshot& frame, const InitialState& initial) {
+  for (std::size_t b = 0; b < frame.bodies.size(); ++b) {
+    double mass = 0.0;
+    Vec3 moment, momentum;
+    for (std::size_t i = 0; i < initial.size() && i < frame.body.size(); ++i) {
+      if (frame.body[i] != static_cast<int>(b)) continue;
+      mass += initial.mass[i], moment += initial.mass[i] * frame.position[i], momentum += initial.mass[i] * frame.velocity[i];
+    }
+    if (mass == 0.0) continue;
+    EXPECT_NEAR(frame.bodies[b].mass, mass, 1e-9 * mass) << "body " << b << " at t = " << frame.time;
+    EXPECT_NEAR(norm(frame.bodies[b].position - moment / mass), 0.0, 1e-9) << "body " << b << " at t = " << frame.time;
+    EXPECT_NEAR(norm(frame.bodies[b].velocity - momentum / mass), 0.0, 1e-9) << "body " << b << " at t = " << frame.time;
+  }
+}
+
 /// @param prefix e.g. an environment variable
 inline Outcome run(const std::string& engine, const Prepared& p, const std::string& prefix = "") {
   const Folder folder;
@@ -79,7 +95,7 @@ inline Outcome run(const std::string& engine, const Prepared& p, const std::stri
   if (std::filesystem::exists(folder.at("trajectory.h5"))) out.trajectory = read_trajectory(folder.at("trajectory.h5"));
   if (std::filesystem::exists(folder.at("trajectory.csv"))) out.trajectory = read_trajectory_csv(folder.at("trajectory.csv"), p.initial, p.job.bodies.size());
   if (out.exit_code == 0 && std::filesystem::exists(folder.at("trajectory.h5")))
-    for (const Snapshot& frame : out.trajectory.frames) expect_sums(frame, p.initial);
+    for (const Snapshot& frame : out.trajectory.frames) expect_sums(frame, p.initial), expect_bodies(frame, p.initial);
   return out;
 }
 
