@@ -71,22 +71,16 @@ def draw(rng, tree):
 
 
 def targets_of(file):
-    """What is rebuilt, the unit tests of the room, and the engine whose cases are asked."""
+    """The programs that are rebuilt, the unit tests of the room, and the engine whose cases are asked."""
     if file.startswith("src/effects"):
         part = file.split("/")[2]
         of = {"elastic": ["elastic"], "plastic": ["plastic"], "fracture": ["plastic"], "phase": ["phase"], "heat": ["phase"]}.get(part, ["elastic", "passes", "phase"])
-        tests = ["test-effects"] + [f"test-effects-{x}" for x in of] + ["test-step"]
-        return ["engine-tripoint"] + [f"tests/{x}" for x in tests], tests, "tripoint"
+        return ["engine-tripoint"], ["test-effects"] + [f"test-effects-{x}" for x in of] + ["test-step"], "tripoint"
     part = file.split("/")[1]
-    if part == "tripoint":
-        return ["engine-tripoint", "tests/test-step"], ["test-step"], "tripoint"
-    if part == "bullet":
-        return ["engine-bullet", "tests/test-bullet"], ["test-bullet"], "bullet"
-    if part == "lammps":
-        return ["engine-lammps", "tests/test-engines"], ["test-engines"], "lammps"
-    if part == "exact":
-        return ["engine-exact", "tests/test-exact"], ["test-exact"], "exact"
-    return ["engine-tripoint", "engine-bullet", "engine-exact", "engine-lammps", "bin/tripoint", "tests/test-io", "tests/test-exact"], ["test-io", "test-exact"], "tripoint"
+    tests = {"tripoint": ["test-step"], "bullet": ["test-bullet"], "lammps": ["test-engines"], "exact": ["test-exact"]}
+    if part in tests:
+        return [f"engine-{part}"], tests[part], part
+    return ["engine-tripoint", "engine-bullet", "engine-exact", "engine-lammps", "bin/tripoint"], ["test-io", "test-exact"], "tripoint"
 
 
 def run(command, tree, seconds):
@@ -137,8 +131,16 @@ class Cases:
         return f"{case}: {why}" if self.known[case, engine] else ""
 
 
-def red_test(tests, tree):
+def build(targets, options):
+    done = run(["nice", "ninja", "-C", "build", "-j", options.jobs] + targets, options.tree, 7200)
+    return done is not None and done.returncode == 0
+
+
+def red_test(tests, options):
+    tree = options.tree
     for test in tests:
+        if not build([f"tests/{test}"], options):
+            return f"{test} does not compile"
         done = run([f"build/tests/{test}", "--gtest_fail_fast", "--gtest_brief=1"], tree, 900)
         if done is None or done.returncode != 0:
             failed = re.findall(r"\[  FAILED  \] ([\w./]+)", done.stdout) if done else []
@@ -160,8 +162,8 @@ def judge(mutant, cases, options):
                 return why
         return ""
 
-    first = options.first if mutant["file"].startswith("src/effects") else 2  # an adapter's cases are slower than its tests
-    mutant["killed_by"] = red_case(touched[:first]) or red_test(tests, options.tree) or red_case(touched[first:])
+    first = options.first if mutant["file"].startswith("src/effects") else 0  # an adapter's cases are slower than its tests
+    mutant["killed_by"] = red_case(touched[:first]) or red_test(tests, options) or red_case(touched[first:])
 
 
 def main():
@@ -194,8 +196,7 @@ def main():
             original, begun = path.read_text(), time.time()
             path.write_text("\n".join(lines[:n] + [text] + lines[n + 1:]))
             try:
-                built = run(["nice", "ninja", "-C", "build", "-j", options.jobs] + targets_of(mutant["file"])[0], options.tree, 3600)
-                mutant["compiles"] = built is not None and built.returncode == 0
+                mutant["compiles"] = build(targets_of(mutant["file"])[0], options)
                 if mutant["compiles"]:
                     judge(mutant, cases, options)
             finally:
@@ -210,7 +211,7 @@ def main():
         judged += 1
         print(f"{judged:3}  {'killed  ' if before['killed_by'] else 'SURVIVES'}  {place}\n          {before['killed_by']}  ({before['asked']} cases, {before['seconds']} s)", flush=True)
     if not options.list:
-        run(["nice", "ninja", "-C", "build", "-j", options.jobs], options.tree, 7200)
+        build([], options)
         killed = [m for m in done if m["compiles"] and m["killed_by"]]
         print(f"{len(killed)} of {sum(m['compiles'] for m in done)} killed")
 
