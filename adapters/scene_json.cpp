@@ -150,6 +150,7 @@ template <class M, class F>
 void each_optional(M& m, F&& f) {
   f("stiffness", m.stiffness), f("young_modulus", m.young_modulus), f("poisson_ratio", m.poisson_ratio);
   f("conductivity", m.conductivity), f("heat_capacity", m.heat_capacity);
+  f("solid_conductivity", m.solid_conductivity), f("solid_heat_capacity", m.solid_heat_capacity);
   f("t_melt", m.t_melt), f("t_solid", m.t_solid), f("latent_heat", m.latent_heat);
   f("elastic_limit", m.elastic_limit), f("plastic_limit", m.plastic_limit);
   f("fracture_stretch", m.fracture_stretch), f("fracture_distance", m.fracture_distance);

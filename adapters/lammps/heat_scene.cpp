@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/phase_values.hpp"
+
 namespace tripoint::lammps {
 namespace {
 
@@ -52,9 +54,9 @@ std::string why_no_conduction(const Job& job) {
 
 double heat_per_volume(const Scene& scene, const Body& b) {
   const Material& m = scene.material(b.material);
-  return m.density * *m.heat_capacity;
+  return m.density * heat_capacity_of(m, b.phase);
 }
-double diffusivity(const Scene& scene, const Body& b) { return *scene.material(b.material).conductivity / heat_per_volume(scene, b); }
+double diffusivity(const Scene& scene, const Body& b) { return conductivity_of(scene.material(b.material), b.phase) / heat_per_volume(scene, b); }
 
 Snapshot at_rest(const Job& job, const InitialState& state, double time, long step, std::vector<double> temperature) {
   Snapshot s;
@@ -71,7 +73,7 @@ Snapshot at_rest(const Job& job, const InitialState& state, double time, long st
   for (std::size_t i = 0; i < state.size(); ++i) {
     s.id.push_back(static_cast<int>(i));
     s.total_mass += s.mass[i];
-    s.energy["thermal"] += s.mass[i] * *job.scene.materials.at(static_cast<std::size_t>(s.material[i])).heat_capacity * s.temperature[i];
+    s.energy["thermal"] += s.mass[i] * heat_capacity_of(job.scene.materials.at(static_cast<std::size_t>(s.material[i])), static_cast<Phase>(s.phase[i])) * s.temperature[i];
   }
   for (const JobBody& b : job.bodies) {
     if (b.index < 0) continue;

@@ -8,6 +8,7 @@
 
 #include "adapters/lammps/heat_scene.hpp"
 #include "adapters/lammps/rheo.hpp"
+#include "scene/phase_values.hpp"
 
 namespace tripoint::lammps {
 namespace {
@@ -74,6 +75,7 @@ std::string why_not_matter(const Job& job, std::size_t body) {
   const Material& m = material_of(job, body);
   if (!job.scene.bodies[body].temperature) return fmt::format("{} has no temperature", b.name);
   if (!m.conductivity || !m.heat_capacity) return fmt::format("{} has no conductivity or no heat capacity", m.name);
+  if (has_two_phases(m)) return fmt::format("{} conducts or holds heat otherwise when solid (solid_conductivity, solid_heat_capacity); RHEO is handed one value for both phases", m.name);
   if (std::abs(heat_per_volume(job.scene, job.scene.bodies[body]) / heat_per_volume(job.scene, job.scene.bodies.front()) - 1.0) > 1e-9)
     return fmt::format("RHEO conserves heat between equal heat capacities only, and that of {} differs from that of {}", b.name, job.bodies.front().name);
   if (is_turned(b)) return fmt::format("{} is turned; RHEO is handed driven bodies that are shifted only", b.name);

@@ -82,6 +82,9 @@ Snapshot snapshot_of(const Simulation& simulation) {
   s.momentum = sums.momentum;
   s.angular_momentum = sums.angular_momentum;
   s.energy = sums.energy;
+  if (world.bodies.has(field::body_heat.name))
+    for (std::size_t b = 0; b < world.bodies.size(); ++b)
+      if (world.bodies[field::body_source][b] >= 0) s.heat_given[world.body_names[b]] = world.bodies[field::body_heat][b];
   if (world.scene.recovers) s.counts["recoveries"] = static_cast<double>(simulation.recovery().count());
   return s;
 }

@@ -15,9 +15,16 @@ namespace tripoint {
 struct Fusion {
   double melts = std::numeric_limits<double>::infinity();       ///< t_melt [K]
   double solidifies = -std::numeric_limits<double>::infinity();  ///< t_solid [K]
-  double heat = 0.0;                                            ///< L/c_p: what the heat of fusion is worth in temperature [K]
+  double heat = 0.0;                                            ///< L/c_p: what the heat of fusion is worth in temperature of the solid [K]
   bool soft_band = false;  ///< printed (Fig. 5): f follows T between the two, solid below t_melt and the softer the nearer to it
+  double jump = 0.0;       ///< heat capacity of the liquid over that of the solid, minus 1
 };
+
+/// Heat capacity of the solid [J/kg/K], by which the heat of a particle of any phase is counted. @pre the material holds heat
+[[nodiscard]] inline double solid_capacity(const Material& m) {
+  static const double scale = 1.0 + defect_size("heat.solid_capacity");
+  return m.solid_heat_capacity ? scale * *m.solid_heat_capacity : *m.heat_capacity;
+}
 
 /// Of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides, at t_melt.
 /// An elastic solid is soft between t_solid and t_melt; a rigid one is rigid up to t_melt.
@@ -31,7 +38,7 @@ struct Fusion {
     return {*m.t_melt + later, band ? *m.t_solid + later : *m.t_melt + later, 0.0, band};
   }
   static const double earlier = defect_size("phase.freezing");
-  return {*m.t_melt, (no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt)) - earlier, scale * m.latent_heat.value_or(0.0) / *m.heat_capacity, false};
+  return {*m.t_melt, (no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt)) - earlier, scale * m.latent_heat.value_or(0.0) / solid_capacity(m), false, *m.heat_capacity / solid_capacity(m) - 1.0};
 }
 /// By row in Scene::materials.
 [[nodiscard]] inline std::vector<Fusion> fusions_of(const Scene& scene) {
@@ -45,11 +52,37 @@ struct ThermalState {
   double temperature, liquid_fraction;
 };
 
+/// H/(m c) [K] above what the same particle holds at temperature T and f = 0, by the heat capacity c of the solid: of fusion, and what
+/// the liquid holds more. The heat of fusion is L at t_melt; elsewhere it differs by what the two phases take up on the way (Kirchhoff).
+[[nodiscard]] inline double bound_heat(const Fusion& fusion, double T, double f) noexcept {
+  if (fusion.jump == 0.0) return fusion.heat * f;
+  return f * (fusion.heat + fusion.jump * (T - fusion.melts));
+}
+
+/// Temperature of a particle by its H/(m c) and liquid fraction, c that of the solid [K].
+[[nodiscard]] inline double temperature_at(const Fusion& fusion, double content, double f) noexcept {
+  if (fusion.jump == 0.0) return content - fusion.heat * f;
+  return (content - f * (fusion.heat - fusion.jump * fusion.melts)) / (1.0 + fusion.jump * f);
+}
+
+/// `settled` where the two phases hold unlike amounts of heat.
+[[nodiscard]] inline ThermalState settled_between_unlike(const Fusion& fusion, double trial, double f) noexcept {
+  const double content = trial + bound_heat(fusion, trial, f);
+  double next = f;
+  if (trial > fusion.melts && f < 1.0) next = fusion.heat > 0.0 ? std::min(1.0, (content - fusion.melts) / fusion.heat) : 1.0;
+  if (trial < fusion.solidifies && f > 0.0) {
+    const double released = fusion.heat - fusion.jump * (fusion.melts - fusion.solidifies);
+    next = released > 0.0 ? std::max(0.0, (content - fusion.solidifies) / released) : 0.0;
+  }
+  return {next == f ? trial : temperature_at(fusion, content, next), next};
+}
+
 /// The state of a particle whose liquid fraction was f and whose temperature would be `trial` if f stayed: heated above t_melt f
 /// grows, cooled below t_solid it falls, and between the two it keeps (model 8.9). c_p T + L f is kept. With L = 0 f jumps.
 [[nodiscard]] inline ThermalState settled(const Fusion& fusion, double trial, double f) noexcept {
   assert(f >= 0.0 && f <= 1.0);
   if (fusion.soft_band) return {trial, std::clamp((trial - fusion.solidifies) / (fusion.melts - fusion.solidifies), 0.0, 1.0)};
+  if (fusion.jump != 0.0) return settled_between_unlike(fusion, trial, f);
   double next = f;
   if (trial > fusion.melts && f < 1.0) next = fusion.heat > 0.0 ? std::min(1.0, f + (trial - fusion.melts) / fusion.heat) : 1.0;
   if (trial < fusion.solidifies && f > 0.0) next = fusion.heat > 0.0 ? std::max(0.0, f - (fusion.solidifies - trial) / fusion.heat) : 0.0;
@@ -77,7 +110,7 @@ inline void give_heat(World& world, std::size_t row, double joules) {
   if (p.has(field::enthalpy.name)) {
     double& H = p[field::enthalpy][row];
     H += joules;
-    T = settled(fusion, H / capacity - fusion.heat * f, f).temperature;
+    T = settled(fusion, temperature_at(fusion, H / capacity, f), f).temperature;
   } else {
     const ThermalState state = settled(fusion, T + joules / capacity, f);
     T = state.temperature, f = state.liquid_fraction;

@@ -50,6 +50,7 @@ void FramesHash::add(const Snapshot& s) {
   }
   hash.add(s.total_mass), hash.add(s.momentum), hash.add(s.angular_momentum);
   for (const auto& [term, joule] : s.energy) hash.add(joule);
+  for (const auto& [body, joule] : s.heat_given) hash.add(joule);
   hash_ = hash.value();
 }
 

@@ -34,6 +34,7 @@ struct Snapshot {
   Vec3 momentum, angular_momentum;        ///< about the origin
   std::map<std::string, double> energy;   ///< TERM of the ledger -> [J]
   std::map<std::string, double> counts;   ///< of what happened so far [1]: recoveries
+  std::map<std::string, double> heat_given;  ///< name of a body -> heat given to it so far by what holds its temperature [J]
 };
 
 /// A whole trajectory in memory: frames in order of time. Frames may have unequal row counts only by inflow (later ones longer).

@@ -143,6 +143,7 @@ void read_observables(Reader& in, Frames& frames) {
       if (name.rfind(prefix, 0) == 0) numbers(name, unit, [&](Snapshot& s, const double* v, std::size_t) { (s.*members)[name.substr(prefix.size())] = *v; });
   };
   family("energy_", "J", &Snapshot::energy);
+  family("heat_", "J", &Snapshot::heat_given);
   family("count_", "1", &Snapshot::counts);
 }
 

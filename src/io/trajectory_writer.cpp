@@ -127,6 +127,7 @@ void TrajectoryWriter::Impl::put_observables(const Snapshot& s) {
   put("observables/momentum", h5::Type::float64, 3, 0, "kg m s-1", &s.momentum);
   put("observables/angular_momentum", h5::Type::float64, 3, 0, "kg m2 s-1", &s.angular_momentum);
   for (const auto& [term, joule] : s.energy) put("observables/energy_" + term, h5::Type::float64, scalar, 0, "J", &joule);
+  for (const auto& [body, joule] : s.heat_given) put("observables/heat_" + body, h5::Type::float64, scalar, 0, "J", &joule);
   for (const auto& [what, count] : s.counts) put("observables/count_" + what, h5::Type::float64, scalar, 0, "1", &count);
 }
 

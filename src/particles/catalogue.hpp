@@ -75,7 +75,7 @@ inline constexpr Field<double> stiffness_share{"stiffness_share", "1"};
 // heat (21)
 inline constexpr Field<double> temperature{"temperature", "K"}, temperature_rate{"temperature_rate", "K/s"};
 inline constexpr Field<double> enthalpy{"enthalpy", "J"}, heat_rate{"heat_rate", "W"}, heat_rate_before{"heat_rate.before", "W"};
-inline constexpr Field<double> conductivity{"conductivity", "W/m/K"}, heat_capacity{"heat_capacity", "J/kg/K"},
+inline constexpr Field<double> conductivity{"conductivity", "W/m/K"}, heat_capacity{"heat_capacity", "J/kg/K"},  ///< of the solid where something melts
     diffusivity{"diffusivity", "m2/s"};
 inline constexpr Field<double> rest_volume{"rest_volume", "m3"};
 /// sum_j G_ij, the conductance of i to its neighbours: bounds the time step.
@@ -113,6 +113,7 @@ inline constexpr Field<int> body_phase{"body.phase", "1", Per::body};  ///< rigi
 inline constexpr Field<int> body_grip{"body.grip", "1", Per::body};
 inline constexpr Field<Vec3> body_grip_centre{"body.grip_centre", "m", Per::body};
 inline constexpr Field<Quaternion> body_grip_orientation{"body.grip_orientation", "1", Per::body};
+inline constexpr Field<double> body_heat{"body.heat", "J", Per::body};  ///< given to it so far by what holds the temperature of its particles
 inline constexpr Field<int> body_motion{"body.motion", "1", Per::body}, body_alive{"body.alive", "1", Per::body},
     body_source{"body.source", "1", Per::body};
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/nearest.hpp"
+#include "scene/phase_values.hpp"
 #include "scene/readers.hpp"
 
 /// Rules between the tables of a case: names that refer to each other, and what one key means for another.
@@ -30,6 +31,7 @@ class Checker {
     unique(case_.metrics, "metric");
     bodies();
     events();
+    printed_heat();
     judgement();
   }
 
@@ -73,6 +75,22 @@ class Checker {
         throw InputError(place(fmt::format("body.{}.temperature", b.name), b.place), fmt::format("body \"{}\" has a temperature, but its material \"{}\" lacks {}: give it, or remove the temperature", b.name, m.name, m.conductivity ? "heat_capacity" : "conductivity"));
       if (!b.keyframes.empty() && b.keyframes.back().time < scene_.end_time && b.keyframes.size() < 2)
         throw InputError(place(fmt::format("body.{}.keyframes", b.name), b.place), fmt::format("body \"{}\" has one keyframe: give at least two, the motion lies between them", b.name));
+    }
+  }
+
+  /// (21) and Fig. 5 as printed know one conductivity and one heat capacity of a material.
+  void printed_heat() const {
+    const bool paper = std::any_of(case_.modes.begin(), case_.modes.end(), [](Mode m) { return m == Mode::paper; });
+    for (const Term term : {Term::heat, Term::phase}) {
+      const auto given = scene_.modes_given[static_cast<std::size_t>(term)];
+      if (given ? *given != Mode::paper : !paper) continue;
+      for (const auto& b : scene_.bodies) {
+        const Material& m = scene_.material(b.material);
+        if (!b.temperature || !has_two_phases(m)) continue;
+        throw InputError(place(fmt::format("material.{}.{}", m.name, m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity"), b.place),
+                         fmt::format("heat as printed knows one conductivity and one heat capacity of a material, and \"{}\" has others when solid: write modes.{} = \"corrected\", or leave solid_conductivity and solid_heat_capacity out",
+                                     m.name, to_string(term)));
+      }
     }
   }
 

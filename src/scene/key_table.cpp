@@ -73,6 +73,8 @@ constexpr auto keys = std::to_array<Key>({
     {"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"},
     {"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "", "thermal conductivity"},
     {"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"},
+    {"material", "solid_conductivity", number, "W/m/K", positive, "", "conductivity is that of both phases", "", "conductivity of the solid; `conductivity` is then that of the liquid; not as printed"},
+    {"material", "solid_heat_capacity", number, "J/kg/K", positive, "", "heat_capacity is that of both phases", "", "specific heat of the solid; `heat_capacity` is then that of the liquid, and `latent_heat` that at t_melt; not as printed"},
     {"material", "t_melt", number, "K", positive, "", "does not melt", "", "above it the matter is liquid"},
     {"material", "t_solid", number, "K", positive, "=", "t_melt: no soft band and no hysteresis", "", "below it the matter is solid; at most t_melt"},
     {"material", "latent_heat", number, "J/kg", not_negative, "=", "melts at once where t_melt is given", "", "heat of fusion"},
@@ -126,7 +128,7 @@ constexpr auto keys = std::to_array<Key>({
     {"temperature.step", "normal", vector, "", any, "!", "", "", "normal of the plane, from behind to ahead, of any length"},
     {"temperature.step", "behind", number, "K", positive, "!", "", "", "temperature where (r - point).normal < 0"},
     {"temperature.step", "ahead", number, "K", positive, "!", "", "", "elsewhere"},
-    {"temperature.expression", "value", text, "", any, "!", "", "", "of x, y, z in m; + - * / ^ ( ) sin cos exp sqrt abs min max pi"},
+    {"temperature.expression", "value", text, "", any, "!", "", "", "of x, y, z in m; + - * / ^ ( ) sin cos tan exp log sqrt abs erf erfc sinh cosh tanh min max pi, and sum(n, 1, 40, f) of f over n"},
     // velocity fields
     {"velocity.cosine", "mean", vector, "m/s", any, "[0, 0, 0]", "a wave alone", "", "mean"},
     {"velocity.cosine", "amplitude", vector, "m/s", any, "!", "", "", "amplitude"},

@@ -7,6 +7,7 @@
 
 #include "scene/geometry.hpp"
 #include "scene/overlap.hpp"
+#include "scene/phase_values.hpp"
 #include "scene/read_case.hpp"
 
 /// What can be told of a scene before anything runs.
@@ -115,7 +116,8 @@ class Preflight {
     for (const auto& b : scene_.bodies) {
       const Material& m = scene_.material(b.material);
       if (!b.temperature || !m.conductivity || !m.heat_capacity) continue;
-      const double bound = c * h * h * m.density * *m.heat_capacity / *m.conductivity;
+      const double capacity = std::min(heat_capacity_of(m, Phase::rigid), heat_capacity_of(m, Phase::liquid)), conductivity = std::max(conductivity_of(m, Phase::rigid), conductivity_of(m, Phase::liquid));
+      const double bound = c * h * h * m.density * capacity / conductivity;
       if (bound < least) least = bound, which = fmt::format("heat in body \"{}\"", b.name);
     }
     return least;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/nearest.hpp"
+#include "scene/phase_values.hpp"
 #include "scene/readers.hpp"
 
 namespace tripoint {
@@ -29,7 +30,21 @@ void check_solid_keys(TableReader& in, const Material& m) {
   if (m.latent_heat && !m.t_melt) in.refuse("latent_heat", "without t_melt the material does not melt: give t_melt too");
   if (m.t_solid && *m.t_solid > *m.t_melt) in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt", *m.t_solid, *m.t_melt));
   if (m.plastic_limit && !m.elastic_limit) in.refuse("plastic_limit", "without elastic_limit nothing flows: give elastic_limit too");
+  for (const auto& [key, both, given] : {std::tuple{"solid_conductivity", "conductivity", m.solid_conductivity && !m.conductivity}, std::tuple{"solid_heat_capacity", "heat_capacity", m.solid_heat_capacity && !m.heat_capacity}})
+    if (given) in.refuse(key, fmt::format("{} is missing, which is the liquid's where the solid has its own: give it too", both));
+  if (has_two_phases(m) && !m.t_melt)
+    in.refuse(m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity", "without t_melt the material has one phase: give t_melt too, or write the value without solid_");
+  if (has_two_phases(m) && m.t_solid && latent_heat_at(m, *m.t_solid) < 0.0)
+    in.refuse("solid_heat_capacity", fmt::format("freezing at t_solid = {} K would take up heat, {:.4g} J/kg: the heat of fusion changes with temperature as the heat capacities differ; raise latent_heat or t_solid", *m.t_solid, -latent_heat_at(m, *m.t_solid)));
   if (m.softens && !m.t_melt) in.refuse("softens", "without t_melt the material does not melt: give t_melt too, or remove softens");
+}
+
+/// A value of the solid alone. Where the case gives a value of both phases, the library's of the solid is none of its.
+std::optional<double> own_of_solid(TableReader& in, std::string_view key, std::string_view both) {
+  const auto value = in.maybe_number(key);
+  if (!value || in.has(key) || !in.has(both)) return value;
+  in.ruled(key, "none", fmt::format("{} is given, and is that of both phases", both));
+  return {};
 }
 
 }  // namespace
@@ -60,6 +75,7 @@ Material read_material(const TomlNode& node, Reading& reading) {
   }
   m.young_modulus = in.maybe_number("young_modulus"), m.poisson_ratio = in.maybe_number("poisson_ratio");
   m.conductivity = in.maybe_number("conductivity"), m.heat_capacity = in.maybe_number("heat_capacity");
+  m.solid_conductivity = own_of_solid(in, "solid_conductivity", "conductivity"), m.solid_heat_capacity = own_of_solid(in, "solid_heat_capacity", "heat_capacity");
   m.t_melt = in.maybe_number("t_melt"), m.t_solid = in.maybe_number("t_solid"), m.latent_heat = in.maybe_number("latent_heat");
   m.softens = in.flag("softens");
   m.elastic_limit = in.maybe_number("elastic_limit"), m.plastic_limit = in.maybe_number("plastic_limit");

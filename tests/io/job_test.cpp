@@ -25,7 +25,7 @@ Job example() {
   Material m;
   m.name = "water";
   m.density = 1000.0;
-  m.conductivity = 0.6;
+  m.conductivity = 0.6, m.solid_conductivity = 2.2, m.solid_heat_capacity = 2100.0;
   s.materials.push_back(m);
   Body b;
   b.name = "bar";
@@ -74,6 +74,8 @@ TEST(Job, ReadsBackWhatWasWritten) {
   expected.output = folder + "out";
   EXPECT_EQ(job_text(read), job_text(expected));
   EXPECT_EQ(read.scene.mode_of(Term::heat), Mode::paper);
+  EXPECT_EQ(read.scene.materials[0].solid_conductivity, 2.2);
+  EXPECT_EQ(read.scene.materials[0].solid_heat_capacity, 2100.0);
   EXPECT_EQ(read.times.back(), 1.0 / 3.0);  // numbers travel without loss
   EXPECT_EQ(read.scene.bodies[0].velocity.gradient[1].z, 3.0);
   EXPECT_EQ(read.scene.bodies[0].shape.of[1].radius, 0.25);

@@ -36,6 +36,7 @@ Snapshot frame_at(double time, int particles, int bodies) {
   for (int b = 0; b < bodies; ++b) s.bodies.push_back({{time, 0, 0}, {0, 1, 0}, {0, 0, 2}, {std::cos(time), 0, 0, std::sin(time)}, 0.5 * particles, {}, {0, 0, 1}});
   s.total_mass = 0.5 * particles;
   s.energy["kinetic"] = 1.0 + time;
+  s.heat_given["hot plate"] = 7.0 * time;
   return s;
 }
 
@@ -54,6 +55,7 @@ TEST_F(Io, ATrajectoryReadsBackBitForBit) {
   EXPECT_EQ(last.id, wrote.id);
   EXPECT_EQ(last.energy.at("kinetic"), 1.2);
   EXPECT_EQ(last.bodies[1].torque.z, 1.0);
+  EXPECT_EQ(last.heat_given, wrote.heat_given);
 }
 
 TEST_F(Io, EveryNumberOfABodyReadsBackInItsPlace) {

@@ -60,6 +60,16 @@ fracture_stretch = 1.5
 fracture_distance = 2.5
 source = "invented for this test"
 
+[[material]] # as printed, heat knows one phase: no body is of this
+name = "slush"
+density = 900
+conductivity = 0.5
+heat_capacity = "4 kJ/kg/K"
+solid_conductivity = 2.2
+solid_heat_capacity = "2 kJ/kg/K"
+t_melt = 273
+latent_heat = 3e5
+
 [[body]]
 name = "pool"
 material = "goo"

@@ -109,6 +109,39 @@ TEST(ReadCase, RefusesWhatCannotBeMeant) {
   expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\n[[body]]\nname='b'\nmaterial='m'\ntemperature=300\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"lacks conductivity"});
 }
 
+TEST(ReadCase, RefusesATruthThatIsNoFormulaAndATableWithoutAFile) {
+  const std::string metric = six_lines + "[[metric]]\nname='speed'\nquantity='velocity_at'\n";
+  EXPECT_EQ(refusal(metric + "reference={function='expression',args={value='3*t',axis='x',point=[0,0,0]}}\n"), "");
+  expect_refused(metric + "reference={function='expression',args={value='3*tt',axis='x'}}\n", {"case.toml:10", "column 3 of the expression", "`tt` is unknown"});
+  expect_refused(metric + "reference={function='table'}\n", {"case.toml:10", "needs the key `file`"});
+  expect_refused(metric + "reference={function='table',file='no.csv'}\n", {"case.toml:10", "no file `no.csv` beside the case"});
+}
+
+TEST(ReadCase, RefusesPhasesThatCannotDiffer) {
+  const std::string melts = "[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nconductivity=1\nheat_capacity=1000\n";
+  const std::string body = "[[body]]\nname='b'\nmaterial='m'\nphase='rigid'\ntemperature=280\nshape={kind='sphere',centre=[0,0,0],radius=1}\n";
+  EXPECT_EQ(refusal(melts + "t_melt=300\nlatent_heat=1000\nsolid_conductivity=2\nsolid_heat_capacity=500\n" + body), "");
+  expect_refused(melts + "solid_conductivity=2\n" + body, {"case.toml:8", "without t_melt the material has one phase"});
+  expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nt_melt=300\nsolid_heat_capacity=2\n", {"case.toml:7", "heat_capacity is missing"});
+  expect_refused(melts + "t_melt=300\nt_solid=290\nlatent_heat=1000\nsolid_heat_capacity=500\n" + body, {"case.toml:11", "would take up heat, 4000 J/kg"});
+  const std::string unlike = melts + "t_melt=300\nlatent_heat=1000\nsolid_conductivity=2\n" + body;
+  expect_refused("[case]\nmodes=['corrected','paper']\n" + unlike, {"case.toml:12", "heat as printed knows one conductivity", "modes.heat"});
+  EXPECT_NE(refusal(unlike, {"scene.modes.phase='paper'"}).find("modes.phase"), std::string::npos);
+}
+
+TEST(ReadCase, TakesNoSolidOfTheLibraryBesideAValueOfItsOwn) {
+  const std::string ice = "[scene]\nend_time=1\n[[material]]\nname='ice'\n%s[[body]]\nname='b'\nmaterial='ice'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n";
+  const auto with = [&](const std::string& line) {
+    auto text = ice;
+    return read_text(text.replace(text.find("%s"), 2, line)).value.scene.materials[0];
+  };
+  EXPECT_EQ(with("").solid_conductivity, 2.14);
+  EXPECT_EQ(with("").solid_heat_capacity, 2097.0);
+  EXPECT_FALSE(with("conductivity = 2.0\n").solid_conductivity.has_value());
+  EXPECT_EQ(with("conductivity = 2.0\n").solid_heat_capacity, 2097.0);
+  EXPECT_EQ(with("conductivity = 2.0\nsolid_conductivity = 3.0\n").solid_conductivity, 3.0);
+}
+
 TEST(ReadCase, RefusesHalfADomain) { expect_refused("[scene]\nend_time=1\nmin=[0,0,0]\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"case.toml:3", "give scene.max too"}); }
 
 TEST(ReadCase, SurvivesFilesThatBreakParsers) {

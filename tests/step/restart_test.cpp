@@ -122,6 +122,19 @@ Journey liquid_with_body(const std::string& form = "central", bool with_body = t
   return {lab, {0.03, 0.1, 0.16}};
 }
 
+/// Two fixed blocks, one held hot: the other melts, and conducts and holds heat otherwise when it has.
+Journey melting_of_unlike_phases() {
+  lab::Lab lab(0.1);
+  Material& m = lab.scene.materials[0];
+  m.conductivity = 1000.0, m.solid_conductivity = 3000.0, m.solid_heat_capacity = 500.0, m.t_melt = m.t_solid = 350.0, m.latent_heat = 2e4;
+  lab.add_material(1000.0, 1000.0, 1000.0);
+  lab.add({.name = "bar", .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 345.0; }});
+  lab.add({.name = "hot", .material = 1, .corner = {-0.3, 0.0, 0.0}, .count = {3, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 380.0; }, .temperature_held = true});
+  lab.scene.bodies[0].temperature->value = 380.0;
+  lab.make_periodic({false, true, true}, {-0.3, 0.0, 0.0}, {9, 3, 3});
+  return {lab, {20.0, 40.0, 60.0}};
+}
+
 /// 10 random cuts; every one continued on 1 and on 2 threads, whatever the unbroken run had.
 void expect_same_bits(const Journey& j, unsigned seed) {
   const Course whole = unbroken(j, 1);
@@ -153,6 +166,13 @@ TEST(Restart, OfALiquidWithAFreeBodyIsTheUnbrokenRun) {
   const Journey j = liquid_with_body();
   EXPECT_GT(unbroken(j, 1).end.whole.at("neighbours/rebuilds")[0], 2) << "the lists must have been built anew for this to prove anything";
   expect_same_bits(j, 3);
+}
+
+TEST(Restart, OfMeltingWithUnlikePhasesIsTheUnbrokenRun) {
+  const Journey j = melting_of_unlike_phases();
+  const auto f = unbroken(j, 1).end.real.at("particles/liquid_fraction");
+  EXPECT_TRUE(std::ranges::any_of(f, [](double x) { return x > 0.0; })) << "something must melt for this to prove anything";
+  expect_same_bits(j, 7);
 }
 
 TEST(Restart, OfALiquidBetweenExtrapolatedWallsIsTheUnbrokenRun) { expect_same_bits(liquid_with_body("laplacian", false), 4); }

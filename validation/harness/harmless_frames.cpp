@@ -21,8 +21,8 @@ void measure_in(const Units& u, Material& m) {
   m.density *= u.mass / (u.length * u.length * u.length);
   m.viscosity *= pressure * u.time;
   scale(m.stiffness, speed * speed), scale(m.young_modulus, pressure);
-  scale(m.conductivity, u.mass * u.length / (u.time * u.time * u.time));
-  scale(m.heat_capacity, speed * speed), scale(m.latent_heat, speed * speed);
+  for (auto* k : {&m.conductivity, &m.solid_conductivity}) scale(*k, u.mass * u.length / (u.time * u.time * u.time));
+  for (auto* c : {&m.heat_capacity, &m.solid_heat_capacity, &m.latent_heat}) scale(*c, speed * speed);
 }
 
 void measure_in(const Units& u, Body& b) {
@@ -95,7 +95,8 @@ void measure_in(const Units& u, Snapshot& s) {
     b.force *= force, b.torque *= force * u.length;
   }
   s.total_mass *= u.mass, s.momentum *= u.mass * speed, s.angular_momentum *= u.mass * speed * u.length;
-  for (auto& [term, energy] : s.energy) energy *= u.mass * speed * speed;
+  for (auto* energies : {&s.energy, &s.heat_given})
+    for (auto& [name, energy] : *energies) energy *= u.mass * speed * speed;
 }
 
 void ride(const Vec3& U, Snapshot& s) {

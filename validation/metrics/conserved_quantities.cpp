@@ -2,7 +2,7 @@
 #include <cmath>
 #include <optional>
 
-#include "validation/metrics/frame_error.hpp"
+#include "validation/metrics/members.hpp"
 
 namespace tripoint {
 namespace {
@@ -60,7 +60,7 @@ double potential(const MetricInput& in, const Snapshot& s) {
   return double(sum);
 }
 
-/// sum m (c_p T + L f), above 0 K.
+/// Heat of all that is alive, above 0 K.
 std::optional<double> thermal(const MetricInput& in, const Snapshot& s) {
   if (s.temperature.size() < in.initial.size() || in.initial.size() == 0) return {};
   Real sum = 0;
@@ -68,9 +68,7 @@ std::optional<double> thermal(const MetricInput& in, const Snapshot& s) {
     if (is_dead(s, i)) continue;
     const auto row = static_cast<std::size_t>(in.initial.material[i]);
     if (row >= in.job.scene.materials.size() || !in.job.scene.materials[row].heat_capacity) return {};
-    const auto& m = in.job.scene.materials[row];
-    const double latent = i < s.liquid_fraction.size() ? m.latent_heat.value_or(0.0) * s.liquid_fraction[i] : 0.0;
-    sum += Real(mass_of(in, s, i)) * (Real(*m.heat_capacity) * s.temperature[i] + latent);
+    sum += Real(mass_of(in, s, i)) * heat_per_mass(in.job.scene.materials[row], s, i);
   }
   return double(sum);
 }

@@ -4,8 +4,9 @@
 namespace tripoint {
 
 std::optional<double> truth_of(const MetricInput& in, const char* quantity, double time) {
+  if (in.choice.norm == "frequency") return 0.0;  // how fast it swings does not depend on where from it is counted
   const auto named = in.reference.number_at(quantity, time);
-  return named ? named : in.reference.number("value");
+  return named ? named : in.reference.number_at("value", time);
 }
 
 FrameError against_truth(const FramePair& f, const char* quantity, double measured) {
@@ -25,6 +26,15 @@ bool of_stated_phase(const MetricInput& in, const Snapshot& s, std::size_t i) {
 double particle_mass(const MetricInput& in, const Snapshot& s, std::size_t i) {
   if (i < s.mass.size()) return s.mass[i];
   return i < in.initial.size() ? in.initial.mass[i] : not_a_number;
+}
+
+long double heat_per_mass(const Material& m, const Snapshot& s, std::size_t i) {
+  const bool melts = i < s.liquid_fraction.size();
+  const double L = m.latent_heat.value_or(0.0), T = s.temperature[i];
+  if (!m.solid_heat_capacity) return static_cast<long double>(*m.heat_capacity) * T + (melts ? L * s.liquid_fraction[i] : 0.0);
+  if (!melts) return static_cast<long double>(i < s.phase.size() && s.phase[i] == 0 ? *m.heat_capacity : *m.solid_heat_capacity) * T;
+  const long double f = s.liquid_fraction[i], liquid = static_cast<long double>(*m.solid_heat_capacity) * *m.t_melt + L + static_cast<long double>(*m.heat_capacity) * (T - *m.t_melt);
+  return (1 - f) * *m.solid_heat_capacity * T + f * liquid;
 }
 
 std::vector<std::size_t> sampled(const MetricInput& in, std::size_t body) {

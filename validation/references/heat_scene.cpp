@@ -60,14 +60,17 @@ std::size_t axis_of(const Vec3& direction, const std::string& what) {
   return k;
 }
 
-double diffusivity(const Job& job, std::size_t body) {
+PhaseValues phase_values(const Job& job, std::size_t body, Phase phase) {
   const auto& m = material_of(job, body);
-  return *m.conductivity / (m.density * *m.heat_capacity);
+  if (phase == Phase::liquid) return {*m.conductivity, m.density * *m.heat_capacity};
+  return {m.solid_conductivity.value_or(*m.conductivity), m.density * m.solid_heat_capacity.value_or(*m.heat_capacity)};
 }
 
+double diffusivity(const Job& job, std::size_t body) { return phase_values(job, body, job.bodies[body].phase).diffusivity(); }
+
 double effusivity(const Job& job, std::size_t body) {
-  const auto& m = material_of(job, body);
-  return std::sqrt(*m.conductivity * m.density * *m.heat_capacity);
+  const auto values = phase_values(job, body, job.bodies[body].phase);
+  return std::sqrt(values.conductivity * values.heat_per_volume);
 }
 
 double common_diffusivity(const Job& job) {

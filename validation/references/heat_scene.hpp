@@ -24,7 +24,15 @@ struct BarAxis {
 /// The axis that a direction points along. @throws InputError when it points along none
 std::size_t axis_of(const Vec3& direction, const std::string& what);
 
-/// Diffusivity k/(rho c_p) [m2/s] and effusivity sqrt(k rho c_p) [W s^0.5/m2/K] of a body's material.
+/// What a phase of a body's material conducts and holds.
+struct PhaseValues {
+  double conductivity = 0.0, heat_per_volume = 0.0;  ///< k [W/m/K], rho c_p [J/m3/K]
+  [[nodiscard]] double diffusivity() const { return conductivity / heat_per_volume; }
+};
+/// @throws InputError when the material has no conductivity or heat capacity
+[[nodiscard]] PhaseValues phase_values(const Job&, std::size_t body, Phase);
+
+/// Of the phase in which a body begins: diffusivity k/(rho c_p) [m2/s] and effusivity sqrt(k rho c_p) [W s^0.5/m2/K] of a body's material.
 /// @throws InputError when its material has no conductivity or heat capacity
 [[nodiscard]] double diffusivity(const Job&, std::size_t body);
 [[nodiscard]] double effusivity(const Job&, std::size_t body);

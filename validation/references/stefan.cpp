@@ -118,11 +118,15 @@ std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
   front.surface = constant_temperature(in.job, course.wall), front.far = constant_temperature(in.job, course.bar);
   course.melts = front.surface > front.far;
   front.change = course.melts ? *material.t_melt : material.t_solid.value_or(*material.t_melt);
-  front.diffusivity = diffusivity(in.job, course.bar);
-  front.latent_over_capacity = latent / *material.heat_capacity;
+  const Phase solid = Phase::rigid, liquid = Phase::liquid;
+  const auto near = phase_values(in.job, course.bar, course.melts ? liquid : solid), left = phase_values(in.job, course.bar, course.melts ? solid : liquid);
+  const double more = (phase_values(in.job, course.bar, liquid).heat_per_volume - phase_values(in.job, course.bar, solid).heat_per_volume) / material.density;
+  front.diffusivity = near.diffusivity();
+  front.far_diffusivity_ratio = left.diffusivity() / near.diffusivity(), front.far_conductivity_ratio = left.conductivity / near.conductivity;
+  front.latent_over_capacity = (latent + more * (front.change - *material.t_melt)) * material.density / near.heat_per_volume;  // the heat of fusion at the front (Kirchhoff)
   if ((front.surface - front.change) * (front.change - front.far) < 0.0 || front.surface == front.change)
     throw InputError("stefan: the temperature of the change must lie between that of the wall and that of the bar");
-  const double end = in.job.scene.end_time, warmed = std::abs(front.far - front.change) * std::erfc(0.5 * course.length / std::sqrt(front.diffusivity * end));
+  const double end = in.job.scene.end_time, warmed = std::abs(front.far - front.change) * std::erfc(0.5 * course.length / std::sqrt(left.diffusivity() * end));
   if (front.front(end) > course.length || warmed > 1e-3 * std::abs(front.surface - front.change)) throw InputError("stefan holds for a half space: the bar is too short for this end_time");
   return std::make_unique<Stefan>(in, front, course);
 }
@@ -130,7 +134,7 @@ std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry stefan_entry() {
-  return {{"stefan", "analytic", "Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 11.2: Stefan's problem in Neumann's similarity solution, X = 2 lambda sqrt(D t)",
+  return {{"stefan", "analytic", "Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 11.2: Stefan's problem in Neumann's similarity solution, X = 2 lambda sqrt(D t), each phase with its own conductivity and heat capacity",
            "melting of a bar from a held hot wall, or freezing from a cold one: front, temperatures, liquid fractions and phases",
            {{"wall", "", "the held body; default the scene's only one"},
             {"body", "", "the bar; default the scene's only body that can melt"},

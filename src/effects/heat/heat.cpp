@@ -1,15 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/heat/heat.hpp"
 
+#include <algorithm>
+
+#include "effects/body_table.hpp"
 #include "effects/heat/heat_corrected.hpp"
 #include "effects/heat/heat_equal.hpp"
 #include "effects/heat/heat_paper.hpp"
+#include "scene/phase_values.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint::heat {
+namespace {
 
-EffectSpec spec(const Scene& scene) {
-  if (equal_temperature(scene)) return {"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material}};
+/// (21) and Fig. 5 as printed know one conductivity and one heat capacity of a material.
+void refuse_printed(const Scene& scene) {
+  if (scene.mode_of(Term::heat) != Mode::paper && scene.mode_of(Term::phase) != Mode::paper) return;
+  for (const Body& b : scene.bodies) {
+    if (!b.temperature || !has_two_phases(scene.material(b.material))) continue;
+    throw InputError("heat as printed knows one conductivity and one heat capacity of a material, and " + b.material +
+                     " has others when solid: write modes.heat = \"corrected\" and modes.phase = \"corrected\"");
+  }
+}
+
+/// Whether heat that is given to solids from outside is counted body by body.
+bool books_bodies(const Scene& scene) {
+  if (!can_have_bodies(scene)) return false;
+  return std::ranges::any_of(scene.bodies, [](const Body& b) { return b.temperature_held && b.phase != Phase::liquid; }) ||
+         std::ranges::any_of(scene.events, [](const Event& e) { return e.kind == Event::Kind::heat; });
+}
+
+EffectSpec spec_of_form(const Scene& scene) {
   if (scene.mode_of(Term::heat) == Mode::paper) {
     return {"heat",
             Mode::paper,
@@ -26,14 +47,26 @@ EffectSpec spec(const Scene& scene) {
           {field::mass, field::position_x, field::position_y, field::position_z}};
 }
 
+}  // namespace
+
+EffectSpec spec(const Scene& scene) {
+  if (equal_temperature(scene)) return {"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material}};
+  EffectSpec s = spec_of_form(scene);
+  if (books_bodies(scene)) s.owns.emplace_back(field::body_heat);
+  return s;
+}
+
 std::unique_ptr<Effect> make(const Scene& scene) {
   if (const auto temperature = equal_temperature(scene)) return std::make_unique<EqualHeat>(*temperature);
+  refuse_printed(scene);
   if (scene.mode_of(Term::heat) == Mode::paper) return std::make_unique<PaperHeat>();
   return std::make_unique<CorrectedHeat>();
 }
 
 std::vector<DefectEntry> defects() {
   return {{"heat.conductivity", "conductivity times 1 + size", "heat/cosine-mode"},
+          {"heat.solid_conductivity", "conductivity of the solid, where it has its own, times 1 + size", "textbook/freezing-water"},
+          {"heat.solid_capacity", "heat capacity of the solid, where it has its own, times 1 + size", "textbook/ice-in-water"},
           {"heat.moment", "second-moment matrices left out", "heat/bar-3x3"},
           {"heat.inflow", "what flows in is size kelvin hotter", "heat/inflow"},
           {"heat.harmonic_mean", "arithmetic instead of harmonic mean of conductivities", "heat/two-conductivities"},

@@ -18,11 +18,36 @@ namespace {
 
 constexpr double moment_cut = 0.05;  ///< eigenvalues of M_i below this share of the largest count as none (model 8.6)
 
-/// H = m (c_p T + L f) [J] at the particle's temperature.
+/// H = m (c_p T + L f) [J] at the particle's temperature, and what the liquid holds more than the solid above t_melt.
 double heat_content(const World& world, std::size_t row) {
   const Particles& p = world.particles;
   const double sensible = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
-  return p.has(field::liquid_fraction.name) ? sensible + latent_heat(world, row) : sensible;
+  if (!p.has(field::liquid_fraction.name)) return sensible;
+  const Fusion fusion = fusion_of(world.scene, world.material_of(row));
+  if (fusion.jump == 0.0) return sensible + latent_heat(world, row);
+  return sensible + p[field::mass][row] * p[field::heat_capacity][row] * bound_heat(fusion, p[field::temperature][row], p[field::liquid_fraction][row]);
+}
+
+/// Conductivity of both phases of a material [W/m/K].
+struct Conductivity {
+  double solid = 0.0, liquid = 0.0;
+  /// Of a particle of the given phase. While it changes it conducts as what it becomes: the front runs through it, and the heat that moves
+  /// the front comes through the phase that grows.
+  [[nodiscard]] double of(int phase, double f) const {
+    const bool is_liquid = f >= 1.0 || (f > 0.0 && phase != static_cast<int>(Phase::liquid));
+    return is_liquid ? liquid : solid;
+  }
+};
+Conductivity conductivity_of(const Material& m) {
+  static const double factor = 1.0 + defect_size("heat.conductivity"), of_solid = 1.0 + defect_size("heat.solid_conductivity");
+  if (!m.conductivity) return {};
+  return {factor * (m.solid_conductivity ? of_solid * *m.solid_conductivity : *m.conductivity), factor * *m.conductivity};
+}
+
+/// A particle conducts as its phase does, or as what it becomes.
+void follow_phase(World& world, std::size_t row) {
+  const Material& m = world.material_of(row);
+  world.particles[field::conductivity][row] = m.solid_conductivity ? conductivity_of(m).of(world.particles[field::phase][row], liquid_share(world, row)) : conductivity_of(m).liquid;
 }
 
 double set_temperature(World& world, std::size_t row, double temperature) {
@@ -31,6 +56,7 @@ double set_temperature(World& world, std::size_t row, double temperature) {
   set_melted(world, row, temperature);
   p[field::temperature][row] = temperature;
   p[field::enthalpy][row] = heat_content(world, row);
+  follow_phase(world, row);
   return p[field::enthalpy][row] - before;
 }
 
@@ -46,6 +72,11 @@ void add_heat(World& world, Stage stage, Change change) {
   const bool melts = p.has(field::liquid_fraction.name);
   const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
   const std::vector<Fusion> fusions = melts ? fusions_of(world.scene) : std::vector<Fusion>{};
+  std::vector<Conductivity> conducts;  // empty where no phase change touches it
+  if (melts && stage == Stage::last && std::ranges::any_of(world.scene.materials, [](const Material& one) { return one.solid_conductivity.has_value(); }))
+    for (const Material& one : world.scene.materials) conducts.push_back(conductivity_of(one));
+  const auto k = p[field::conductivity];
+  const auto phase = p[field::phase];
   static const bool leaks = defect_size("heat.held") > 0.0;
   std::vector<std::array<double, 1>> blocks;
   const auto to_walls = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
@@ -57,11 +88,22 @@ void add_heat(World& world, Stage stage, Change change) {
     T[i] = temperature_of(m[i], c_p[i], H[i]);
     if (!melts) return;
     const Fusion& fusion = fusions[static_cast<std::size_t>(material[i])];
-    const ThermalState state = settled(fusion, T[i] - fusion.heat * f[i], f[i]);
+    const ThermalState state = settled(fusion, temperature_at(fusion, T[i], f[i]), f[i]);
     T[i] = state.temperature;
     if (stage == Stage::last) f[i] = state.liquid_fraction;
+    if (!conducts.empty()) k[i] = conducts[static_cast<std::size_t>(material[i])].of(phase[i], f[i]);
   });
   world.booked.walls += to_walls[0];
+  if (!leaks) book_held(world, change);
+}
+
+/// Least heat capacity of either phase over that of the solid, by material: a particle may change its phase within the step. Empty where
+/// the phases do not differ.
+std::vector<double> least_capacities(const World& world) {
+  std::vector<double> shares;
+  if (!world.particles.has(field::liquid_fraction.name) || std::ranges::none_of(world.scene.materials, [](const Material& m) { return m.solid_heat_capacity.has_value(); })) return shares;
+  for (const Fusion& fusion : fusions_of(world.scene)) shares.push_back(std::min(1.0, 1.0 + fusion.jump));
+  return shares;
 }
 
 }  // namespace
@@ -73,8 +115,7 @@ void CorrectedHeat::load(World& world, const InitialState& initial) {
 
 void CorrectedHeat::set_material(World& world, std::size_t row) const {
   Particles& p = world.particles;
-  static const double factor = 1.0 + defect_size("heat.conductivity");
-  p[field::conductivity][row] = factor * *world.material_of(row).conductivity;
+  follow_phase(world, row);
   p[field::rest_volume][row] = p[field::mass][row] / world.material_of(row).density;
   p[field::enthalpy][row] = heat_content(world, row);
 }
@@ -138,11 +179,12 @@ void CorrectedHeat::happen(World& world, const Happening& now) { hold_temperatur
 TimeStepBound CorrectedHeat::max_dt(const World& world) const {
   const Particles& p = world.particles;
   const auto G = p[field::conductance], m = p[field::mass], c_p = p[field::heat_capacity];
-  const auto held = p[field::held];
+  const auto held = p[field::held], material = p[field::material];
+  const std::vector<double> least = least_capacities(world);
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (!held[i]) greatest = std::max(greatest, G[i] / (m[i] * c_p[i]));
+    if (!held[i]) greatest = std::max(greatest, G[i] / (m[i] * c_p[i] * (least.empty() ? 1.0 : least[static_cast<std::size_t>(material[i])])));
   }
   TimeStepBound bound;
   if (greatest > 0.0) tighten(bound, 1.0 / greatest, "heat");

@@ -5,12 +5,14 @@
 
 #include "effects/heat/enthalpy.hpp"
 #include "effects/ordered_sum.hpp"
+#include "scene/phase_values.hpp"
 
 namespace tripoint::heat {
 namespace {
 
 double heat_content(const World& world, std::size_t row, double temperature) {
-  return enthalpy_of(world.particles[field::mass][row], *world.material_of(row).heat_capacity, temperature);
+  const auto phase = static_cast<Phase>(world.particles[field::phase][row]);
+  return enthalpy_of(world.particles[field::mass][row], heat_capacity_of(world.material_of(row), phase), temperature);
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ void PaperHeat::drift(World& world, double dt) {
     T[i] = state.temperature, f[i] = state.liquid_fraction;
   });
   world.booked.walls += to_walls[0];
+  book_held(world, [&](std::size_t i) { return enthalpy_of(m[i], c_p[i], rate[i] * dt); });
 }
 
 void PaperHeat::clear(World& world, PassName pass) {

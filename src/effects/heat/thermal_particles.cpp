@@ -31,14 +31,21 @@ void load_particle(World& world, std::size_t row, double temperature) {
     throw InputError("the scene conducts heat, and the material " + material.name +
                      " has no heat_capacity or no conductivity: give both");
   }
-  p[field::heat_capacity][row] = *material.heat_capacity;
+  const bool liquid = p[field::phase][row] == static_cast<int>(Phase::liquid);
+  p[field::heat_capacity][row] = !p.has(field::liquid_fraction.name) && liquid ? *material.heat_capacity : solid_capacity(material);
   p[field::temperature][row] = temperature;
   if (!std::isfinite(temperature))
     throw InputError("particle " + std::to_string(p[field::id][row]) + " has no temperature: give its body or inflow one");
   p[field::held][row] = held_by_scene(world, row);
   if (!p.has(field::liquid_fraction.name)) return;
-  p[field::liquid_fraction][row] = p[field::phase][row] == static_cast<int>(Phase::liquid) ? 1.0 : 0.0;
+  p[field::liquid_fraction][row] = liquid ? 1.0 : 0.0;
   if (const Fusion fusion = fusion_of(world.scene, material); fusion.soft_band) p[field::liquid_fraction][row] = settled(fusion, temperature, 0.0).liquid_fraction;
+}
+
+double liquid_share(const World& world, std::size_t row) {
+  const Particles& p = world.particles;
+  if (p.has(field::liquid_fraction.name)) return p[field::liquid_fraction][row];
+  return p[field::phase][row] == static_cast<int>(Phase::liquid) ? 1.0 : 0.0;
 }
 
 double latent_heat(const World& world, std::size_t row) {
@@ -72,7 +79,11 @@ void hold_temperature(World& world, const Happening& now, SetTemperature set) {
     const auto& names = now.event.bodies;
     const bool named = names.empty() || (source < world.scene.bodies.size() && std::find(names.begin(), names.end(), world.scene.bodies[source].name) != names.end());
     if (!named || !inside(world.unwrapped(i))) continue;
-    if (now.begins) world.booked.walls -= set(world, i, *now.event.temperature);
+    if (now.begins) {
+      const double given = set(world, i, *now.event.temperature);
+      world.booked.walls -= given;
+      if (const int b = p[field::body][i]; b >= 0 && world.bodies.has(field::body_heat.name)) world.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
+    }
     held[i] = now.begins || held_by_scene(world, i);
   }
 }

@@ -16,10 +16,23 @@ void load_particle(World&, std::size_t row, double temperature);
 /// Sets one particle's temperature, and with it the state of the form that is on. @return heat given to it [J]
 using SetTemperature = double (*)(World&, std::size_t row, double temperature);
 
+/// Liquid fraction of a particle; where nothing changes its phase, that of its phase.
+[[nodiscard]] double liquid_share(const World&, std::size_t row);
 /// m L f [J] of a particle of a scene that has phase change.
 [[nodiscard]] double latent_heat(const World&, std::size_t row);
 /// Melts or freezes a particle whose temperature is set from outside [K]; nothing where the scene has no phase change.
 void set_melted(World&, std::size_t row, double temperature);
+
+/// Counts the heat that held particles hand on, body by body: what holds a body has given it what its neighbours took. @param change of a
+/// row [J]
+template <class Change>
+void book_held(World& world, Change change) {
+  if (!world.bodies.has(field::body_heat.name)) return;
+  const auto held = world.particles[field::held], body = world.particles[field::body];
+  const auto heat = world.bodies[field::body_heat];
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i] != 0 && body[i] >= 0) heat[static_cast<std::size_t>(body[i])] -= change(i);
+}
 
 /// An event `heat`: its particles take the temperature and hold it until the end; the heat given is booked at the walls.
 void hold_temperature(World&, const Happening&, SetTemperature);
