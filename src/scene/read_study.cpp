@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scene/expression.hpp"
 #include "scene/nearest.hpp"
 #include "scene/readers.hpp"
 
@@ -27,6 +28,19 @@ EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading&
   return e;
 }
 
+/// The texts of an expression, but for those that are words.
+static void check_formulas(const TableReader& in, const Settings& args) {
+  for (const auto& [name, value] : args) {
+    const auto* text = std::get_if<std::string>(&value);
+    if (!text || name == "axis" || name == "phase" || name == "other") continue;
+    try {
+      static_cast<void>(Expression(*text, Expression::Time::known));
+    } catch (const InputError& e) {
+      in.refuse("args", fmt::format("`{}`: {}", printable(name), e.what()));
+    }
+  }
+}
+
 ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Reading& reading) {
   TableReader in(node, "reference", path, reading.decisions);
   ReferenceChoice r;
@@ -35,8 +49,10 @@ ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Re
   const bool formula = r.kind == "analytic" || r.kind == "discrete_exact" || r.kind == "mms";
   if (formula && r.function.empty()) in.refuse(in.has("function") ? "function" : "kind", fmt::format("a reference of kind \"{}\" needs the key `function`: the exact solution's name", r.kind));
   r.args = in.settings("args");
+  if (r.function == "expression") check_formulas(in, r.args);
   r.file = in.text("file");
   if (r.kind == "experiment" && r.file.empty()) in.refuse("kind", "a reference of kind \"experiment\" needs the key `file`: the data beside the case");
+  if (r.function == "table" && r.file.empty()) in.refuse("function", "a reference by `table` needs the key `file`: the table beside the case");
   if (!r.file.empty()) {
     const auto full = std::filesystem::path(reading.folder) / r.file;
     std::error_code error;

@@ -30,6 +30,27 @@ TEST(Expression, KnowsPlaceConstantAndFunctions) {
   EXPECT_EQ(at("min(x, y) - max(y, z)"), -3.0);
 }
 
+TEST(Expression, KnowsTheFunctionsOfTextbooks) {
+  EXPECT_DOUBLE_EQ(at("erf(0.5) + erfc(0.5)"), 1.0);
+  EXPECT_DOUBLE_EQ(at("log(exp(3)) + tan(pi/4)"), 4.0);
+  EXPECT_DOUBLE_EQ(at("cosh(1)^2 - sinh(1)^2"), 1.0);
+  EXPECT_DOUBLE_EQ(at("tanh(2)"), std::tanh(2.0));
+}
+
+TEST(Expression, SumsASeries) {
+  EXPECT_EQ(at("sum(n, 1, 10, n)"), 55.0);
+  EXPECT_EQ(at("1 + 2*sum(k, -1, 2, k*x)"), 9.0);
+  EXPECT_NEAR(at("4*sum(n, 0, 9999, (-1)^n/(2*n + 1))"), std::numbers::pi, 1.1e-4);
+  for (const char* text : {"sum(1, 1, 2, 3)", "sum(x, 1, 2, x)", "sum(n, 2, 1, n)", "sum(n, 1, 20000, n)", "sum(n, 1, 2)", "sum(n, 1, y, n)", "sum(n, 1, 2, sum(m, 1, 2, m))", "sum(n, 1, 2, n) + n"})
+    EXPECT_THROW(Expression{text}, InputError) << text;
+}
+
+TEST(Expression, KnowsTimeWhereThereIsOne) {
+  EXPECT_EQ(Expression("x + 10*t", Expression::Time::known)({2.0, 0.0, 0.0}, 3.0), 32.0);
+  EXPECT_EQ(Expression("sum(n, 1, 2, t^n)", Expression::Time::known)({}, 3.0), 12.0);
+  EXPECT_THROW(Expression("x + t"), InputError);
+}
+
 TEST(Expression, RefusesWithTheColumn) {
   const auto refused = [](const char* text) -> std::string {
     try {

@@ -142,6 +142,7 @@ std::string study_axis(const Study& study) {
 }
 
 bool has_states(const ReferenceChoice& reference) {
+  if (reference.function == "expression" || reference.function == "table") return false;  // a field of place, not of particles
   return !reference.function.empty() && (reference.kind == "analytic" || reference.kind == "discrete_exact" || reference.kind == "mms");
 }
 

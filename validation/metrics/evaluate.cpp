@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/nearest.hpp"
+#include "validation/metrics/dominant_frequency.hpp"
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/norms.hpp"
@@ -38,13 +39,13 @@ const Quantity* find_quantity(const MetricInput& input) {
   if (of_body && body_row(input) >= 0) return of_body;
   if (const auto* q = in(particle_quantities(), choice.quantity)) return q;
   if (of_body) return of_body;
-  for (const auto* list : {&conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(), &phase_quantities()})
+  for (const auto* list : {&conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(), &phase_quantities(), &probe_quantities()})
     if (const auto* q = in(*list, choice.quantity)) return q;
   return in(profile_quantities(), choice.quantity);
 }
 
 const RunQuantity* find_run_quantity(const MetricChoice& choice) {
-  for (const auto* list : {&run_quantities(), &motion_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities()})
+  for (const auto* list : {&run_quantities(), &motion_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
     for (const auto& q : *list)
       if (q.word.name == choice.quantity) return &q;
   return nullptr;
@@ -104,7 +105,20 @@ MetricValue stationary(const Series& s, MetricValue v) {
   return v;
 }
 
-MetricValue over_time(const std::string& norm, const Series& s) {
+/// The dominant frequency less the one that the case states: of a damped or uneven swing as of a sine.
+MetricValue frequency(const MetricInput& in, const Series& s, MetricValue v) {
+  const auto truth = in.reference.number("stated_frequency");
+  if (!truth) return unformed("the norm frequency needs the true one in Hz: reference = {function = \"stated\", args = {frequency = ...}}");
+  const auto found = dominant_frequency(s.times, s.value);
+  if (!found.problem.empty()) return unformed(found.problem);
+  v.value = found.frequency - *truth;
+  v.uncertainty.numerical = found.uncertainty;
+  v.note = std::to_string(found.frequency) + " Hz against " + std::to_string(*truth) + ", amplitude " + std::to_string(found.amplitude) + ", " + std::to_string(100.0 * found.share) + " % of the variance";
+  return v;
+}
+
+MetricValue over_time(const MetricInput& in, const Series& s) {
+  const std::string& norm = in.choice.norm;
   MetricValue v;
   v.times = s.times, v.series = s.value;
   std::size_t k = s.value.size() - 1;
@@ -119,6 +133,7 @@ MetricValue over_time(const std::string& norm, const Series& s) {
     return v;
   }
   if (norm == "stationary") return stationary(s, v);
+  if (norm == "frequency") return frequency(in, s, v);
   if (norm == "slope") {
     if (s.value.size() < 2) return unformed("a slope needs two output times or more");
     std::tie(v.value, v.uncertainty.numerical) = slope_over_time(s);
@@ -155,9 +170,11 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
   const std::string in_space = is_spatial(norm) ? norm : norm == "rms" ? "L2" : "Linf";
   Series series;
   for (const auto* now : chosen) {
-    const Snapshot truth = norm == "drift" ? *all.front() : in.reference.beside(*now);
+    const bool own_start = norm == "drift" || norm == "frequency";
+    const Snapshot truth = own_start ? *all.front() : in.reference.beside(*now);
     const auto error = quantity.error({in, *now, truth, *all.front()});
     if (!error.problem.empty()) return unformed(error.problem);
+    if (norm == "frequency" && error.error.size() != 1) return unformed("the norm frequency is of a single number in time, and " + in.choice.quantity + " is of many: choose a probe, a mean or a body");
     const auto value = spatial_norm(in_space, error);
     if (!std::isfinite(value.value)) return unformed("no finite value at t = " + std::to_string(now->time) + " s");
     series.times.push_back(now->time);
@@ -165,7 +182,10 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
     series.uncertainty.push_back(value.uncertainty);
     series.worst.push_back(value.worst);
   }
-  return over_time(norm, series);
+  MetricValue v = over_time(in, series);
+  for (const auto* now : chosen)  // that of the last frame for the last value, else the largest
+    if (norm != "final" || now == chosen.back()) v.uncertainty.data = std::max(v.uncertainty.data, in.reference.uncertainty(in.choice.quantity, now->time).value_or(0.0));
+  return v;
 }
 
 void scale(MetricValue& v, double by) {
@@ -203,10 +223,10 @@ const std::vector<MetricWord>& metric_quantities() {
   static const std::vector<MetricWord> words = [] {
     std::vector<MetricWord> list;
     for (const auto* group : {&particle_quantities(), &body_quantities(), &conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(), &phase_quantities(),
-                              &profile_quantities()})
+                              &profile_quantities(), &probe_quantities()})
       for (const auto& q : *group)
         if (!q.word.meaning.empty()) list.push_back(q.word);
-    for (const auto* group : {&run_quantities(), &motion_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities()})
+    for (const auto* group : {&run_quantities(), &motion_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
       for (const auto& q : *group) list.push_back(q.word);
     return list;
   }();
@@ -227,6 +247,7 @@ const std::vector<MetricWord>& metric_norms() {
       {"stationary", "", "mean, with its sign, of a series that fluctuates about a steady value: burn-in cut, statistical uncertainty from block averages"},
       {"final", "", "at the end; keeps the sign of a single number"},
       {"drift", "", "largest change since the run's own start; needs no reference"},
+      {"frequency", "Hz", "of a single number: the frequency of the sine about an offset that explains most of it, by least squares, minus the stated `frequency`; its numerical uncertainty is the fit's"},
       {"slope", "1/s", "trend of the largest error over time, least squares"}};
   return words;
 }

@@ -59,6 +59,7 @@ struct Quantity {
 [[nodiscard]] const std::vector<Quantity>& solid_quantities();
 [[nodiscard]] const std::vector<Quantity>& contact_quantities();
 [[nodiscard]] const std::vector<Quantity>& phase_quantities();
+[[nodiscard]] const std::vector<Quantity>& probe_quantities();
 
 /// A quantity that needs the whole run: decay_rate, event_time, event_count. The value is signed, run minus truth, in SI.
 struct RunQuantity {
@@ -70,6 +71,7 @@ struct RunQuantity {
 [[nodiscard]] const std::vector<RunQuantity>& front_quantities();
 [[nodiscard]] const std::vector<RunQuantity>& solid_run_quantities();
 [[nodiscard]] const std::vector<RunQuantity>& phase_run_quantities();
+[[nodiscard]] const std::vector<RunQuantity>& heat_run_quantities();
 
 /// r - r0 by the nearest image in periodic directions [m].
 [[nodiscard]] Vec3 displacement(const Scene&, const Vec3& r, const Vec3& r0);

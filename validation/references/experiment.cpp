@@ -44,7 +44,8 @@ struct Stated {
 /// Reads line by line; whatever is wrong is said with file and line.
 class Reader {
  public:
-  explicit Reader(const std::string& path) : place_{path} {}
+  /// @param first names that the first column may have
+  Reader(const std::string& path, std::vector<std::string> first) : place_{path}, first_(std::move(first)) {}
 
   ExperimentFile read(const std::string& text) {
     std::istringstream lines(text);
@@ -101,7 +102,8 @@ class Reader {
 
   void head(const std::string& line) {
     columns_ = split(line);
-    if (columns_.size() < 2 || columns_.front() != "time") refuse("the first line of the table names the columns: `time` and at least one that was measured");
+    if (columns_.size() < 2 || std::find(first_.begin(), first_.end(), columns_.front()) == first_.end())
+      refuse(fmt::format("the first line of the table names the columns: `{}` and at least one more", fmt::join(first_, "`, `")));
     for (std::size_t c = 0; c < columns_.size(); ++c) {
       if (columns_[c].empty() || std::count(columns_.begin(), columns_.end(), columns_[c]) > 1) refuse(fmt::format("column {} has no name of its own", c + 1));
       if (!units_.count(columns_[c])) refuse(fmt::format("no line `# unit {}: ...` stands above the table", printable(columns_[c])));
@@ -118,7 +120,7 @@ class Reader {
       if (!s.rest.empty()) refuse("`" + printable(cell) + "` is not a number");
       values.push_back(s.number);
     }
-    if (!rows_.empty() && !(values[0] > rows_.back()[0])) refuse("times must rise from row to row");
+    if (!rows_.empty() && !(values[0] > rows_.back()[0])) refuse(fmt::format("{} must rise from row to row", columns_.front() == "time" ? "times" : columns_.front()));
     rows_.push_back(std::move(values));
   }
 
@@ -132,13 +134,13 @@ class Reader {
 
   [[nodiscard]] ExperimentFile finished() const {
     ExperimentFile file;
-    file.source = source_, file.uncertainty = words_;
+    file.source = source_, file.uncertainty = words_, file.first = columns_.front();
     for (std::size_t c = 1; c < columns_.size(); ++c) {
       const auto& u = uncertainty_.at(columns_[c]);
       const double unit = units_.at(columns_[c]);
       auto& curve = file.curves[columns_[c]];
       for (const auto& values : rows_) {
-        curve.time.push_back(values[0] * units_.at("time")), curve.value.push_back(values[c] * unit);
+        curve.time.push_back(values[0] * units_.at(columns_.front())), curve.value.push_back(values[c] * unit);
         curve.uncertainty.push_back(u.rest == "%" ? 0.01 * u.number * std::abs(values[c]) * unit : u.number * unit);
       }
     }
@@ -146,6 +148,7 @@ class Reader {
   }
 
   SourcePlace place_;
+  std::vector<std::string> first_;
   std::string source_, hash_;
   std::map<std::string, double> units_;
   std::map<std::string, Stated> uncertainty_;
@@ -206,11 +209,14 @@ std::string experiment_hash(const std::string& text) {
   return fmt::format("fnv1a64:{:016x}", hash);
 }
 
-ExperimentFile read_experiment(const std::string& path) { return Reader(path).read(text_of(path)); }
+ExperimentFile read_experiment(const std::string& path) { return Reader(path, {"time"}).read(text_of(path)); }
+
+ExperimentFile read_table(const std::string& path) { return Reader(path, {"time", "x", "y", "z"}).read(text_of(path)); }
 
 void check_data_files(const Case& value) {
   const auto check = [](const ReferenceChoice& choice) {
-    if (choice.kind == "experiment") (void)read_experiment(choice.file);
+    if (choice.function == "table") (void)read_table(choice.file);
+    else if (choice.kind == "experiment") (void)read_experiment(choice.file);
   };
   check(value.reference);
   for (const auto& m : value.metrics)
@@ -218,9 +224,9 @@ void check_data_files(const Case& value) {
 }
 
 ReferenceChoice with_source_of_file(ReferenceChoice choice) {
-  if (choice.kind != "experiment" || !choice.source.empty()) return choice;
+  if ((choice.kind != "experiment" && choice.function != "table") || !choice.source.empty()) return choice;
   try {
-    const auto file = read_experiment(choice.file);
+    const auto file = choice.function == "table" ? read_table(choice.file) : read_experiment(choice.file);
     choice.source = file.source;
     for (const auto& [column, words] : file.uncertainty) choice.source += fmt::format("; standard uncertainty of {}: {}", column, words);
   } catch (const InputError&) {  // gone or changed since the case began: check_data_files() saw it whole

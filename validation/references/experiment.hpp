@@ -22,12 +22,16 @@ namespace tripoint {
 /// A data file as read.
 struct ExperimentFile {
   std::string source;
+  std::string first;  ///< name of the first column
   std::map<std::string, MeasuredCurve> curves;     ///< by column; SI
   std::map<std::string, std::string> uncertainty;  ///< by column, as the file words it
 };
 
 /// @throws InputError naming file and line: what is missing, unknown, not a number, not rising, of another width, or changed since it was hashed
 [[nodiscard]] ExperimentFile read_experiment(const std::string& path);
+
+/// Likewise of a table whose first column is time, x, y or z; the curves' `time` is then that column.
+[[nodiscard]] ExperimentFile read_table(const std::string& path);
 
 /// FNV-1a over the lines without the one that begins with "# hash:" and without carriage returns, as it stands in the file.
 [[nodiscard]] std::string experiment_hash(const std::string& text);

@@ -57,6 +57,8 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry hysteresis_entry();
 [[nodiscard]] ReferenceEntry elastic_wave_entry();
 [[nodiscard]] ReferenceEntry stated_entry();
+[[nodiscard]] ReferenceEntry expression_entry();
+[[nodiscard]] ReferenceEntry table_entry();
 [[nodiscard]] ReferenceEntry experiment_entry();
 [[nodiscard]] ReferenceEntry invariant_entry();
 

@@ -14,7 +14,7 @@ const std::vector<ReferenceEntry>& all_references() {
       liquid_ball_entry(), archimedes_entry(), added_mass_entry(), elastic_collision_entry(),
       resting_entry(), bouncing_entry(), elliptic_drop_entry(), taylor_green_entry(), couette_cylinders_entry(),
       cosine_carried_entry(), cosine_sum_entry(), cantilever_entry(), tension_entry(), spinning_rod_entry(), pressed_block_entry(), elastic_wave_entry(),
-      stefan_entry(), hysteresis_entry(), stated_entry(), experiment_entry(), invariant_entry()};
+      stefan_entry(), hysteresis_entry(), stated_entry(), expression_entry(), table_entry(), experiment_entry(), invariant_entry()};
   return entries;
 }
 

@@ -29,6 +29,8 @@ class Reference {
   [[nodiscard]] virtual std::optional<double> number(std::string_view quantity) const { (void)quantity; return {}; }
   /// Measured values by the name of their column; nullptr when it has none.
   [[nodiscard]] virtual const MeasuredCurve* measured(std::string_view column) const { (void)column; return nullptr; }
+  /// Standard uncertainty of what it says of a quantity at a time, in SI; empty where its data state none.
+  [[nodiscard]] virtual std::optional<double> uncertainty(std::string_view quantity, double time) const { (void)quantity, (void)time; return {}; }
   /// A number that changes in time: stretch, front_position ...; one that does not is the same at all times.
   [[nodiscard]] virtual std::optional<double> number_at(std::string_view quantity, double time) const { (void)time; return number(quantity); }
 };

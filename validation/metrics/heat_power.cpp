@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "validation/metrics/frames.hpp"
+#include "validation/metrics/members.hpp"
+
+namespace tripoint {
+namespace {
+
+/// Heat of all whose temperature is not held, above 0 K [J].
+std::optional<double> heat_of_free(const MetricInput& in, const Snapshot& s) {
+  if (s.temperature.size() < in.initial.size()) return {};
+  long double sum = 0;
+  for (std::size_t i = 0; i < in.initial.size(); ++i) {
+    const auto source = static_cast<std::size_t>(in.initial.source[i]);
+    if (!is_alive(s, i) || (source < in.job.bodies.size() && in.job.bodies[source].temperature_held)) continue;
+    const auto& m = in.job.scene.materials.at(static_cast<std::size_t>(in.initial.material[i]));
+    if (!m.heat_capacity) return {};
+    sum += particle_mass(in, s, i) * heat_per_mass(m, s, i);
+  }
+  return double(sum);
+}
+
+/// Heat that what holds the body's temperature has given so far: as the engine counts it, else as the others have gained, where nothing else
+/// brings heat.
+std::optional<double> heat_given(const MetricInput& in, const Snapshot& s, std::string& why) {
+  if (const auto counted = s.heat_given.find(in.choice.body); counted != s.heat_given.end()) return counted->second;
+  const auto held = std::count_if(in.job.bodies.begin(), in.job.bodies.end(), [](const JobBody& b) { return b.temperature_held; });
+  if (held != 1 || !in.job.bodies[job_body(in)].temperature_held || !in.job.scene.events.empty() || !in.job.scene.inflows.empty()) {
+    why = "the trajectory does not count the heat of `" + in.choice.body + "` (heat_given), and it is not the only one that brings heat";
+    return {};
+  }
+  const auto gained = heat_of_free(in, s);
+  if (!gained) why = "the trajectory has no temperature";
+  return gained;
+}
+
+/// Mean of the stated power over the window, by Simpson's rule between frames.
+std::optional<double> true_mean(const MetricInput& in, double from, double to) {
+  constexpr int parts = 64;
+  double sum = 0.0;
+  for (int n = 0; n <= parts; ++n) {
+    const auto value = truth_of(in, "heat_power", from + (to - from) * n / parts);
+    if (!value) return {};
+    sum += (n == 0 || n == parts ? 1.0 : n % 2 == 1 ? 4.0 : 2.0) * *value;
+  }
+  return sum / (3.0 * parts);
+}
+
+MetricValue heat_power(const MetricInput& in, const Frames& frames) {
+  (void)job_body(in);
+  if (frames.size() < 2) return not_formed("a power needs two output times or more");
+  std::string why;
+  const auto first = heat_given(in, *frames.front(), why), last = heat_given(in, *frames.back(), why);
+  if (!first || !last) return not_formed(why);
+  const double from = frames.front()->time, to = frames.back()->time, power = (*last - *first) / (to - from);
+  const auto truth = true_mean(in, from, to);
+  if (!truth) return not_formed("the reference does not know the heat_power and states no value for all of the window");
+  MetricValue v;
+  v.value = power - *truth;
+  v.uncertainty.data = in.reference.uncertainty("heat_power", to).value_or(0.0);
+  v.note = std::to_string(power) + " W from t = " + std::to_string(from) + " s to " + std::to_string(to) + " s";
+  return v;
+}
+
+}  // namespace
+
+const std::vector<RunQuantity>& heat_run_quantities() {
+  static const std::vector<RunQuantity> list{
+      {{"heat_power", "W", "mean over the window of the heat a second that holding the named body's temperature gives to what it touches, minus the true mean"}, heat_power}};
+  return list;
+}
+
+}  // namespace tripoint

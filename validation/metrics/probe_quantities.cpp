@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "validation/metrics/members.hpp"
+#include "validation/references/measuring.hpp"
+
+/// Numbers at a point and means over a region, of what any engine shows of its particles.
+namespace tripoint {
+namespace {
+
+constexpr double probe_reach = 2.5;  ///< particles that a probe sees [spacings]
+
+/// A scalar of every particle in a frame, or why there is none.
+struct Column {
+  std::vector<double> value;
+  std::string problem;
+};
+
+enum class Of { temperature, pressure, density, velocity };
+
+Column column_of(const MetricInput& in, const Snapshot& s, Of what) {
+  const auto given = [&](const std::vector<double>& column, const char* name) { return column.size() == s.position.size() ? Column{column, ""} : Column{{}, std::string("the trajectory has no ") + name}; };
+  if (what == Of::temperature) return given(s.temperature, "temperature");
+  if (what == Of::pressure) return given(s.pressure, "pressure");
+  if (what == Of::density) return given(s.density, "density");
+  const auto axis = in.reference.number("axis");
+  if (!axis) return {{}, "a component of velocity needs its axis: reference = {function = \"stated\", args = {axis = \"x\", ...}}"};
+  if (s.velocity.size() != s.position.size()) return {{}, "the trajectory has no velocity"};
+  Column out;
+  for (const Vec3& v : s.velocity) out.value.push_back(v[static_cast<std::size_t>(*axis)]);
+  return out;
+}
+
+bool counts(const MetricInput& in, const Snapshot& s, std::size_t i) { return takes(in, i) && is_alive(s, i) && (s.phase.empty() || of_stated_phase(in, s, i)); }
+
+/// Value and slope of a scalar at a point, by least squares over what lies near: exact where the scalar is linear, also beside a surface.
+Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std::vector<std::size_t>& particles, const std::vector<double>& value, const Vec3& point) {
+  const double reach = probe_reach * in.job.scene.spacing;
+  Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d b = Eigen::Vector4d::Zero();
+  std::size_t seen = 0;
+  for (const auto i : particles) {
+    const Vec3 d = (1.0 / in.job.scene.spacing) * displacement(in.job.scene, place[i], point);
+    const double q = norm(d) / probe_reach;
+    if (!(q < 1.0)) continue;
+    if (!std::isfinite(value[i])) return {{}, "particle " + std::to_string(i) + " beside the probe has no finite value"};
+    const double w = (1.0 - q) * (1.0 - q) * (1.0 + 2.0 * q);
+    const Eigen::Vector4d basis(1.0, d.x, d.y, d.z);
+    A += w * basis * basis.transpose(), b += w * value[i] * basis, ++seen;
+  }
+  if (seen == 0) return {{}, "no particle that the metric takes lies within " + std::to_string(reach) + " m of the probe's point"};
+  // directions in which all that is seen lies in one layer have no slope: the least solution leaves it out
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix4d> solver(A);
+  return {{solver.solve(b)[0]}, ""};
+}
+
+FrameError probe(const FramePair& f, Of what, const char* quantity) {
+  const auto point = stated_point(f.in.reference);
+  if (!point) return problem(std::string(quantity) + " needs the probe's place: reference = {function = \"stated\", args = {point = [x, y, z], value = ...}}");
+  std::vector<std::size_t> particles;
+  for (std::size_t i = 0; i < f.now.position.size(); ++i)
+    if (counts(f.in, f.now, i)) particles.push_back(i);
+  const auto read = [&](const Snapshot& s) {
+    const Column column = column_of(f.in, s, what);
+    return column.problem.empty() ? at_point(f.in, f.now.position, particles, column.value, *point) : column;
+  };
+  const Column measured = read(f.now);
+  if (!measured.problem.empty()) return problem(measured.problem);
+  if (truth_of(f.in, quantity, f.now.time)) return against_truth(f, quantity, measured.value[0]);
+  Snapshot truth = f.truth;
+  truth.position = f.now.position;
+  const Column known = read(truth);
+  return known.problem.empty() ? single(measured.value[0] - known.value[0]) : problem(std::string("the reference does not know the ") + quantity + " and states no value");
+}
+
+// --- means ----------------------------------------------------------------------------------------------------------------
+
+/// Whether a place is in the stated box; everywhere is where none is stated.
+bool in_region(const MetricInput& in, const Vec3& r) {
+  const char* low[] = {"low.x", "low.y", "low.z"};
+  const char* high[] = {"high.x", "high.y", "high.z"};
+  if (!in.reference.number(low[0])) return true;
+  bool inside = true;
+  for (std::size_t k = 0; k < 3; ++k) inside = inside && r[k] >= *in.reference.number(low[k]) && r[k] <= *in.reference.number(high[k]);
+  return inside != (in.reference.number("outside").value_or(0.0) != 0.0);
+}
+
+FrameError mean(const FramePair& f, Of what, const char* quantity) {
+  std::vector<std::size_t> particles;
+  for (std::size_t i = 0; i < f.now.position.size(); ++i)
+    if (counts(f.in, f.now, i) && in_region(f.in, f.now.position[i])) particles.push_back(i);
+  if (particles.empty()) return problem(std::string("no particle that the metric takes lies in the region of ") + quantity);
+  const auto read = [&](const Snapshot& s) -> Column {
+    Column column = column_of(f.in, s, what);
+    if (!column.problem.empty()) return column;
+    long double sum = 0, volume = 0;
+    for (const auto i : particles) {
+      if (!std::isfinite(column.value[i])) return {{}, "particle " + std::to_string(i) + " of the region has no finite value"};
+      const long double v = i < f.in.initial.size() ? rest_volume(f.in, i) : particle_mass(f.in, f.now, i);
+      sum += v * column.value[i], volume += v;
+    }
+    return {{double(sum / volume)}, ""};
+  };
+  const Column measured = read(f.now);
+  if (!measured.problem.empty()) return problem(measured.problem);
+  if (truth_of(f.in, quantity, f.now.time)) return against_truth(f, quantity, measured.value[0]);
+  Snapshot truth = f.truth;
+  truth.position = f.now.position;
+  const Column known = read(truth);
+  return known.problem.empty() ? single(measured.value[0] - known.value[0]) : problem(std::string("the reference does not know the ") + quantity + " and states no value");
+}
+
+// --- places ---------------------------------------------------------------------------------------------------------------
+
+/// Way of a point of matter since the start, along the stated axis: read from the particles that began around it.
+FrameError displacement_of_point(const FramePair& f) {
+  const auto point = stated_point(f.in.reference);
+  const auto axis = f.in.reference.number("axis");
+  if (!point || !axis) return problem("displacement needs a place at the start and an axis: reference = {function = \"stated\", args = {point = [x, y, z], axis = \"x\", value = ...}}");
+  const auto along = static_cast<std::size_t>(*axis);
+  std::vector<std::size_t> particles;
+  std::vector<double> way(f.in.initial.size(), 0.0);
+  for (std::size_t i = 0; i < f.in.initial.size(); ++i) {
+    if (!counts(f.in, f.now, i)) continue;
+    particles.push_back(i);
+    way[i] = displacement(f.in.job.scene, f.now.position[i], f.in.initial.position[i])[along];
+  }
+  const Column measured = at_point(f.in, f.in.initial.position, particles, way, *point);
+  return measured.problem.empty() ? against_truth(f, "displacement", measured.value[0]) : problem(measured.problem);
+}
+
+FrameError centre(const FramePair& f) {
+  const auto axis = f.in.reference.number("axis");
+  if (!axis) return problem("centre needs an axis: reference = {function = \"stated\", args = {axis = \"z\", value = ...}}");
+  long double sum = 0, mass = 0;
+  for (std::size_t i = 0; i < f.now.position.size(); ++i) {
+    if (!counts(f.in, f.now, i)) continue;
+    const long double m = particle_mass(f.in, f.now, i);
+    sum += m * f.now.position[i][static_cast<std::size_t>(*axis)], mass += m;
+  }
+  if (!(mass > 0)) return problem("the metric takes no particle that is alive");
+  return against_truth(f, "centre", double(sum / mass));
+}
+
+}  // namespace
+
+const std::vector<Quantity>& probe_quantities() {
+  const auto at = [](const char* name, const char* unit, const char* meaning, Of what) { return Quantity{{name, unit, meaning}, [=](const FramePair& f) { return probe(f, what, name); }}; };
+  const auto over = [](const char* name, const char* unit, const char* meaning, Of what) { return Quantity{{name, unit, meaning}, [=](const FramePair& f) { return mean(f, what, name); }}; };
+  static const std::vector<Quantity> list{
+      at("temperature_at", "K", "temperature at the stated point, by a linear fit to the particles within 2.5 spacings (of the body, or phase), minus the true one", Of::temperature),
+      at("pressure_at", "Pa", "pressure at the stated point, by the same fit, minus the true one", Of::pressure),
+      at("density_at", "kg/m3", "density at the stated point, by the same fit, minus the true one", Of::density),
+      at("velocity_at", "m/s", "component of velocity along the stated axis at the stated point, by the same fit, minus the true one", Of::velocity),
+      over("mean_temperature", "K", "mean temperature by volume of the body, or phase, in the stated box, minus the stated value or the mean of the true field", Of::temperature),
+      over("mean_pressure", "Pa", "mean pressure there, minus the true one", Of::pressure),
+      over("mean_density", "kg/m3", "mean density there, minus the true one", Of::density),
+      over("mean_velocity", "m/s", "mean component of velocity along the stated axis there, minus the true one", Of::velocity),
+      {{"displacement", "m", "way since the start, along the stated axis, of the matter (of the body) that began at the stated point, minus the true one"}, displacement_of_point},
+      {{"centre", "m", "place of the centre of mass of the body (or all, or a phase) along the stated axis, minus the true one"}, centre}};
+  return list;
+}
+
+}  // namespace tripoint
