@@ -38,8 +38,9 @@ def worst(verdicts):
 
 
 def columns(results):
-    """Engine and preset, in the order in which they first appear."""
-    return list(dict.fromkeys(engine.label for case in results.cases for engine in case.engines))
+    """Engine and preset, in the order in which they first appear; one that is nowhere here, and need not be, is in the table of engines only."""
+    here = {engine.label for case in results.cases for engine in case.engines if engine.status != "missing" or engine.required}
+    return [label for label in dict.fromkeys(engine.label for case in results.cases for engine in case.engines) if label in here]
 
 
 def cell(case, label):

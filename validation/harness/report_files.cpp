@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "core/durable_file.hpp"
 #include "scene/read_case.hpp"
@@ -51,11 +52,13 @@ std::string notes_text(const Results& results) {
   std::string text;
   for (const auto& p : results.problems) text += "problem: " + p + "\n";
   std::map<std::string, int> missing, unjudged;
-  for (const auto& c : results.cases)
+  for (const auto& c : results.cases) {
+    std::set<std::string> absent;  // each once a case, however many presets it has
     for (const auto& e : c.engines) {
-      if (e.status == "missing") ++missing[e.name];
+      if (e.status == "missing" && absent.insert(e.name).second) ++missing[e.name];
       if (is_unjudged(e)) ++unjudged[label_of(e.name, e.preset)];
     }
+  }
   const auto list = [&](const char* what, const std::map<std::string, int>& rows) {
     std::string names;
     for (const auto& [name, count] : rows) names += fmt::format("{}{} in {} case{}", names.empty() ? "" : ", ", name, count, count == 1 ? "" : "s");

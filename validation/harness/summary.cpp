@@ -18,10 +18,18 @@ std::string cell(std::string text) {
   return text;
 }
 
+/// The engines' rows; those that are not here and need not be stand together at the end, each once.
 std::string engines_of(const CaseResult& c) {
   std::string list;
-  for (const auto& e : c.engines) list += fmt::format("{}{}{}", list.empty() ? "" : ", ", label_of(e.name, e.preset), e.status != "ok" ? ": " + e.status : is_unjudged(e) ? ": not judged" : "");
-  return list;
+  std::vector<std::string> absent;
+  for (const auto& e : c.engines) {
+    if (e.status == "missing" && !e.required) {
+      if (absent.empty() || absent.back() != e.name) absent.push_back(e.name);
+      continue;
+    }
+    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", label_of(e.name, e.preset), e.status != "ok" ? ": " + e.status : is_unjudged(e) ? ": not judged" : "");
+  }
+  return absent.empty() ? list : fmt::format("{}{}not here: {}", list, list.empty() ? "" : "; ", fmt::join(absent, " "));
 }
 
 int green(const CaseResult& c, int& all) {
