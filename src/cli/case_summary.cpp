@@ -54,7 +54,7 @@ std::string judged_by(const Case& c) {
   if (c.gates.empty()) return "no gate: the case measures and judges nothing";
   std::set<std::string> metrics;
   for (const auto& g : c.gates) metrics.insert(g.metric);
-  return fmt::format("{} gates on {}{}", c.gates.size(), fmt::join(metrics, ", "), c.expect == "pass" ? "" : "; expected: " + c.expect);
+  return fmt::format("{} gate{} on {}{}", c.gates.size(), c.gates.size() == 1 ? "" : "s", fmt::join(metrics, ", "), c.expect == "pass" ? "" : "; expected: " + c.expect);
 }
 
 std::string engines_of(const Case& c) {

@@ -54,7 +54,7 @@ int check(const std::string& file, const std::vector<std::string>& set) {
     errors += f.error ? 1 : 0;
     say(fmt::format("{}: {}: {}", f.error ? "error" : "warning", to_string(f.place), f.what));
   }
-  print(fmt::format("{}: {} particles in {} bodies, {} errors, {} warnings\n", file, state.size(), scene.bodies.size(), errors, static_cast<long>(findings.size()) - errors));
+  print(fmt::format("{}: {} particles in {} {}, {} errors, {} warnings\n", file, state.size(), scene.bodies.size(), scene.bodies.size() == 1 ? "body" : "bodies", errors, static_cast<long>(findings.size()) - errors));
   return errors > 0 ? 2 : 0;
 }
 

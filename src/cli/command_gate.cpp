@@ -70,7 +70,7 @@ bool on_github() {
 }
 
 int judge_file(const GateOptions& o) {
-  const auto results = judged(o.results);
+  const auto results = judged(results_file(o.results));
   auto remarks = verdict_remarks(results);
   for (const auto& list : {slack_remarks(results), baseline_remarks(results, o.require_baselines)}) remarks.insert(remarks.end(), list.begin(), list.end());
   std::set<int> codes{results.exit_code};
@@ -123,7 +123,7 @@ int selftest(SelftestOptions options, const std::string& profile, int seeds, boo
 void add_gate(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("gate", description);
   auto o = std::make_shared<GateOptions>();
-  command->add_option("RESULTS", o->results, "a results.json");
+  command->add_option("RESULTS", o->results, "a results.json, or the folder of one");
   command->add_flag("--annotations", o->annotations, "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, the worst first");
   command->add_flag("--require-baselines", o->require_baselines, "a case that has no baseline is an error, exit 4 (else one warning names them)");
   command->add_option("--history", o->history, "append a line of JSON a case, with every value and count, to this file (validate has done so to OUT/history.jsonl)");

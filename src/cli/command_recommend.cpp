@@ -173,10 +173,10 @@ int recommend(Options o) {
 int plan_for(Options o) {
   catch_interrupts();
   const auto value = case_of(o);
-  if (o.out.empty()) o.out = own_folder("plan", value.id);
-  make_folder(o.out);
   const auto metric = metric_of(o, value);
   const double wish = wish_of(o.error);
+  if (o.out.empty()) o.out = own_folder("plan", value.id);
+  make_folder(o.out);
   const auto result = o.from.empty() ? measure(o, value, [&](const RunPlan& run) { return is_coarse(value, run, 3); }) : read_case_of(o.from, value.id);
   const auto ladders = ladders_of(result, metric);
   print_ladders(ladders, metric);

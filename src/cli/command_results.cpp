@@ -37,7 +37,6 @@ std::string finish(const Results& results, const std::string& out, bool pdf = fa
 }
 
 int merge(const std::vector<std::string>& folders, const std::string& out) {
-  make_folder(out);
   auto results = merge_shards(folders, out);
   results.history = "history.jsonl";
   append_history((std::filesystem::path(out) / results.history).string(), history_lines(results));
@@ -46,7 +45,8 @@ int merge(const std::vector<std::string>& folders, const std::string& out) {
   return results.exit_code;
 }
 
-int report(const std::string& path, bool pdf) {
+int report(const std::string& path_or_folder, bool pdf) {
+  const auto path = results_file(path_or_folder);
   auto results = read_results(path);
   judge(results);
   const auto folder = std::filesystem::path(path).parent_path();
@@ -67,7 +67,7 @@ void add_merge(CLI::App& app, int& exit_code) {
 void add_report(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("report", report_description);
   auto path = std::make_shared<std::string>();
-  command->add_option("RESULTS", *path, "a results.json")->required();
+  command->add_option("RESULTS", *path, "a results.json, or the folder of one")->required();
   auto pdf = std::make_shared<bool>(false);
   command->add_flag("--pdf", *pdf, "also write report.pdf");
   command->callback([=, &exit_code] { exit_code = guarded([&] { return report(*path, *pdf); }); });

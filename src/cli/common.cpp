@@ -107,6 +107,8 @@ std::string no_such_engine(const std::string& name, const std::vector<EngineEntr
 
 std::string own_folder(const std::string& command, const std::string& case_id) { return "report-" + command + (case_id.empty() ? "" : "/" + case_id); }
 
+std::string results_file(const std::string& path) { return std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "results.json").string() : path; }
+
 void make_folder(const std::string& out) {
   std::error_code error;
   std::filesystem::create_directories(out, error);

@@ -42,6 +42,9 @@ struct EngineWords {
 /// Folder that a command writes to where no --out is given: one for each command and case, so that none overwrites another's report.
 [[nodiscard]] std::string own_folder(const std::string& command, const std::string& case_id);
 
+/// A results.json, or that of the folder of a report.
+[[nodiscard]] std::string results_file(const std::string& path);
+
 /// Makes the folder of --out before anything runs. @throws InputError that says why it cannot be made or written to
 void make_folder(const std::string& out);
 

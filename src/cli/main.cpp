@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
 
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
@@ -16,8 +18,22 @@ constexpr const char* description =
     "  tripoint new my-case.toml             start a case of your own\n";
 
 constexpr const char* footer =
+    "tripoint COMMAND --help says more, with examples.\n"
     "Exit codes: 0 pass, 1 an accuracy, order or invariant gate fails, 2 bad input, 3 inconclusive, 4 a required engine, reference\n"
     "or metric is missing or not comparable, 5 the gate's self-test fails, 6 cost regression, 7 diverged, 130 Ctrl-C.";
+
+/// Lists commands by the first sentence of their descriptions: the rest is in each one's own help.
+class FirstSentences : public CLI::Formatter {
+ public:
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::string text = command->get_description();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text = text.substr(0, std::min({text.find(". "), text.find(": "), text.find("; ")}));
+    std::ostringstream out;
+    CLI::detail::format_help(out, command->get_name(), text, 14);
+    return out.str();
+  }
+};
 
 }  // namespace
 
@@ -26,6 +42,7 @@ int main(int argc, char** argv) {
   remember_command_line(argc, argv);
   CLI::App app{description, "tripoint"};
   app.footer(footer);
+  app.formatter(std::make_shared<FirstSentences>());
   app.set_version_flag("--version", TRIPOINT_VERSION);
   app.require_subcommand(1);
   int exit_code = exit_pass;

@@ -40,7 +40,7 @@ unit = "m"
 [[gate]]
 metric = "position"
 engine = "tripoint"
-limit = 1e-9
+limit = 1e-10
 reason = "kick-drift-kick is exact in a uniform field, but for round-off"
 )",
                      id);

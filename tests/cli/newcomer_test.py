@@ -129,6 +129,16 @@ class Newcomer(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("First steps", done.stderr)
 
+    def test_a_case_of_ones_own_goes_by_its_name_and_a_report_by_its_folder(self):
+        self.assertEqual(self.call("new", "my-case").returncode, 0)
+        for words in (["check", "my-case"], ["run", "my-case"], ["validate", "my-case", "--no-report"], ["gate", "report"], ["report", "report"]):
+            done = self.call(*words)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertTrue((self.path / "report" / "index.html").exists())
+
+    def test_a_mistyped_tag_gets_the_nearest(self):
+        self.assertIn("`heat`", self.call("validate", "heat", "--tag", "haet").stderr)
+
     # Folders that cannot be
     def test_an_out_that_cannot_be_made_is_said_in_one_line_before_anything_runs(self):
         (self.path / "file").write_text("")
@@ -185,6 +195,10 @@ class Newcomer(unittest.TestCase):
         self.assertEqual(commit, [c["id"] for c in json.loads(every)["cases"] if "commit" in c["profiles"]])
         carried = [id for id in heat if "cosine" in id]
         self.assertIn(f"{len(carried)} case", self.call("validate", "heat", "-k", "cosine", "--engines", "exact", "--no-report").stderr)
+
+    def test_a_folder_of_runs_with_the_name_of_a_subject_is_not_taken_for_it(self):
+        (self.path / "heat" / "runs").mkdir(parents=True)
+        self.assertIn("heat/cosine-mode", self.call("list", "heat").stdout)
 
     def on_a_terminal(self, *words, **environment):
         leader, follower = pty.openpty()
@@ -244,6 +258,14 @@ class Newcomer(unittest.TestCase):
         self.assertEqual(done.returncode, 4, done.stderr)
         line = re.search(r"type:  (\S+) (--selftest) \d", done.stderr)
         self.assertIn(line[2] + ")", (SOURCE / line[1]).read_text())
+
+    def test_the_build_for_the_selftest_needs_no_library_of_the_tests(self):
+        build = self.path / "build"
+        subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", "-DTRIPOINT_TESTS=OFF", "-DTRIPOINT_SELFTEST=ON"], check=True, capture_output=True, timeout=240)
+        self.assertNotIn("GTest_DIR", (build / "CMakeCache.txt").read_text())
+        targets = subprocess.run(["ninja", "-C", build, "-t", "targets", "all"], check=True, capture_output=True, text=True, timeout=60).stdout
+        self.assertIn("libexec/tripoint/selftest/engine-tripoint:", targets)
+        self.assertNotIn("test-effects", targets)
 
     def test_a_plan_offers_no_level_far_beyond_what_was_measured(self):
         self.call("converge", CASE, "--axis", "time_step", "--engine", "bullet", "--levels", "0.04,0.02,0.01", "--out", "c")

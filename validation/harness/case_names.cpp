@@ -52,16 +52,16 @@ std::string case_file(const std::string& path_or_id) {
   if (fs::exists(path_or_id, none) && !fs::is_directory(path_or_id, none)) return path_or_id;
   const auto by_id = shipped() / (path_or_id + ".toml");
   if (fs::is_regular_file(by_id, none)) return by_id.string();
-  if (!case_folder(path_or_id).empty()) throw InputError(path_or_id + ": is a folder of cases, and one case is wanted (tripoint list prints the ids)");
+  if (fs::is_regular_file(path_or_id + ".toml", none)) return path_or_id + ".toml";
+  if (fs::is_directory(path_or_id, none) || !subject_folder(path_or_id).empty()) throw InputError(path_or_id + ": is a folder of cases, and one case is wanted (tripoint list prints the ids)");
   throw InputError(no_such_case(path_or_id));
 }
 
-std::string case_folder(const std::string& path_or_subject) {
+std::string subject_folder(const std::string& subject) {
   std::error_code none;
-  if (fs::is_directory(path_or_subject, none)) return path_or_subject;
-  const bool plain = !path_or_subject.empty() && path_or_subject.front() != '/' && path_or_subject.find("..") == std::string::npos;
-  const auto subject = shipped() / path_or_subject;
-  return plain && path_or_subject != "materials" && fs::is_directory(subject, none) ? subject.string() : "";
+  const bool plain = !subject.empty() && subject.front() != '/' && subject.find("..") == std::string::npos && subject != "materials";
+  const auto folder = shipped() / subject;
+  return plain && fs::is_directory(folder, none) ? folder.string() : "";
 }
 
 std::string no_such_case(const std::string& what) {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "core/errors.hpp"
+#include "scene/nearest.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
@@ -33,8 +35,13 @@ std::vector<Found> files_below(const fs::path& folder) {
 
 std::vector<Found> files_for(const std::string& what) {
   std::error_code none;
-  const bool is_file = (fs::exists(what, none) && !fs::is_directory(what, none)) || fs::is_regular_file(fs::path(share_folder()) / "cases" / (what + ".toml"), none);
-  if (const auto folder = case_folder(what); !is_file && !folder.empty()) return files_below(folder);
+  const auto subject = subject_folder(what);
+  if (fs::is_directory(what, none)) {
+    auto files = files_below(what);
+    return files.empty() && !subject.empty() ? files_below(subject) : files;  // a folder of runs that has a subject's name is not meant
+  }
+  const bool is_file = fs::exists(what, none) || fs::is_regular_file(what + ".toml", none);
+  if (!is_file && !subject.empty()) return files_below(subject);
   return {{case_file(what), true}};
 }
 
@@ -76,13 +83,16 @@ std::string shown_path(const std::string& path) {
 
 std::vector<Case> select_cases(const CaseFilter& filter) {
   std::map<std::string, Case> by_id;
+  std::set<std::string> tags;
   for (const auto& file : all_files(filter.what)) {
     auto value = read_case(shown_path(file.path)).value;
+    tags.insert(value.tags.begin(), value.tags.end());
     if (!matches(filter, value, file.by_name)) continue;
     const auto [at, is_new] = by_id.emplace(value.id, value);
     if (!is_new && at->second.file != value.file) throw InputError(fmt::format("{}: the id {} is already that of {}", value.file, value.id, at->second.file));
   }
-  if (by_id.empty()) throw InputError("no case matches " + describe(filter));
+  const bool no_such_tag = !filter.tag.empty() && tags.count(filter.tag) == 0;
+  if (by_id.empty()) throw InputError("no case matches " + describe(filter) + (no_such_tag ? suggestion(filter.tag, {tags.begin(), tags.end()}) : ""));
   std::vector<Case> chosen;
   int index = 0;
   for (auto& [id, value] : by_id)
