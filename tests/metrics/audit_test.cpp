@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Right runs that look frozen at output times, and frozen ones that do not get away with it.
+#include <gtest/gtest.h>
+
+#include "fakes.hpp"
+
+namespace tripoint {
+namespace {
+
+using namespace test;
+
+/// A body on a principal axis, one frame a turn.
+Prepared spinning(double turns_a_frame) {
+  auto s = block({0.0, 0.0, 10.0}, turns_a_frame * 2.0 * pi / 10.0 * 5.0, 5);
+  s.job.reference.kind = "invariant", s.job.reference.function = "";
+  return s;
+}
+
+void freeze(Trajectory& run) {
+  for (auto& f : run.frames) {
+    const double time = f.time;
+    f = run.frames.front();
+    f.time = time;
+  }
+}
+
+TEST(Audit, LetsABodyBeWhereItWasAfterAWholeTurn) {
+  Trial whole(spinning(1.0), "torque_free");
+  freeze(whole.run);
+  EXPECT_EQ(whole.sound(), "");
+  Trial half(spinning(0.5), "torque_free");
+  freeze(half.run);
+  EXPECT_NE(half.sound().find("frozen"), std::string::npos);
+}
+
+TEST(Audit, FindsAFrozenFlightThatSpinsByWholeTurns) {
+  auto s = spinning(1.0);
+  s.job.bodies[0].velocity = {1.0, 0.0, 0.0};
+  for (auto& v : s.initial.velocity) v += Vec3{1.0, 0.0, 0.0};
+  Trial t(std::move(s), "torque_free");
+  freeze(t.run);
+  EXPECT_NE(t.sound().find("frozen"), std::string::npos);
+}
+
+/// Two frames at the same height, one on the way up and one on the way down.
+TEST(Audit, LetsAThrownBodyComeBack) {
+  auto s = thrown_block();
+  for (auto& v : s.initial.velocity) v = {0.0, 0.0, 9.81};
+  s.job.bodies[0].velocity = {0.0, 0.0, 9.81}, s.job.bodies[0].angular_velocity = {};
+  set_times(s, 2.0, 1);
+  Trial t(std::move(s), "ballistic");
+  auto& last = t.run.frames.back();
+  last.position = t.run.frames.front().position;  // to the last digit
+  EXPECT_EQ(t.sound(), "");
+  last.velocity = t.run.frames.front().velocity;
+  EXPECT_NE(t.sound().find("frozen"), std::string::npos);
+}
+
+TEST(Audit, LetsWhatItsOwnExactSolutionSaysComeBack) {
+  auto s = spinning(1.0);
+  s.job.bodies[0].velocity = {0.0, 0.0, 0.0};
+  s.job.bodies[0].angular_velocity = {3.0, 0.0, 4.0};  // no principal axis: no whole turn by itself
+  s.job.reference = function("keyframes");
+  s.job.bodies[0].motion = s.job.scene.bodies[0].motion = Motion::prescribed;
+  s.job.bodies[0].keyframes = {{0.0, {}, {}}, {0.5, {1.0, 0.0, 0.0}, {}}, {1.0, {}, {}}, {1.5, {1.0, 0.0, 0.0}, {}}, {2.0, {}, {}}};
+  s.job.scene.bodies[0].keyframes = s.job.bodies[0].keyframes;
+  set_times(s, 2.0, 2);
+  for (auto& v : s.initial.velocity) v = {2.0, 0.0, 0.0};
+  Trial t(std::move(s), "keyframes");
+  EXPECT_EQ(t.sound(), "") << "there and back between two frames";
+}
+
+/// A hot and a cold block, apart by a gap of whole spacings.
+Prepared hot_and_cold(int gap) {
+  auto s = bar({4, 4, 4}, 0.1, [](const Vec3&) { return 400.0; }, 1000.0, 2, false);
+  add_body(s, "floor", {{4, 4, 4}, 0.1, {0.0, 0.0, -0.4 - 0.1 * gap}, 64.0}, {}, Motion::fixed);
+  s.initial.temperature.resize(128, 300.0);
+  return s;
+}
+
+TEST(Audit, AsksForNoHeatBetweenBodiesThatDoNotTouch) {
+  const auto kept = [](Prepared s) {
+    Trial t(std::move(s), "invariant");
+    for (auto& f : t.run.frames) f.position = t.s.initial.position, f.velocity = t.s.initial.velocity, f.temperature = t.s.initial.temperature;
+    return t.sound();
+  };
+  EXPECT_EQ(kept(hot_and_cold(3)), "");
+  EXPECT_NE(kept(hot_and_cold(0)).find("no temperature has changed"), std::string::npos);
+  auto held = hot_and_cold(0);
+  for (auto& b : held.job.bodies) b.temperature_held = true;
+  EXPECT_EQ(kept(held), "") << "both are held";
+  auto brief = hot_and_cold(0);
+  set_times(brief, 1e-12, 2);
+  EXPECT_EQ(kept(brief), "") << "less than the last digit flows";
+}
+
+}  // namespace
+}  // namespace tripoint
