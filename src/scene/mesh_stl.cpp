@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <sstream>
 
 #include "core/errors.hpp"
 #include "scene/mesh_files.hpp"
+#include "scene/nearest.hpp"
 
 namespace tripoint {
 namespace {
@@ -21,12 +23,13 @@ void add(Mesh& mesh, const Vec3& corner) {
 }
 
 /// 80 bytes of header, a count, and for each triangle 12 floats (normal, three corners) and 2 bytes.
-Mesh binary(const std::string& bytes, std::uint32_t count) {
+Mesh binary(const std::string& bytes, std::uint32_t count, const std::string& file) {
   Mesh mesh;
   for (std::uint32_t t = 0; t < count; ++t)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       float xyz[3];
       std::memcpy(xyz, bytes.data() + 84 + std::size_t{50} * t + 12 * (corner + 1), sizeof xyz);
+      if (!std::isfinite(xyz[0] + xyz[1] + xyz[2])) throw InputError({file, 0, 0}, fmt::format("corner {} of triangle {} is at ({}, {}, {}): write finite numbers", corner + 1, t + 1, xyz[0], xyz[1], xyz[2]));
       add(mesh, {xyz[0], xyz[1], xyz[2]});
     }
   return mesh;
@@ -40,7 +43,8 @@ Mesh ascii(const std::string& bytes, const std::string& file) {
     std::istringstream words(line);
     if (!(words >> word) || word != "vertex") continue;
     Vec3 p;
-    if (!(words >> p.x >> p.y >> p.z)) throw InputError({file, n, 0}, "a vertex needs three numbers");
+    std::string rest;
+    if (!(words >> p.x >> p.y >> p.z) || !finite(p) || words >> rest) throw InputError({file, n, 0}, "a vertex needs three finite numbers and nothing else: \"" + printable(line) + "\"");
     add(mesh, p);
   }
   if (mesh.points.size() % 3 != 0) throw InputError({file, 0, 0}, fmt::format("{} vertices make no whole triangles: the file is cut", mesh.points.size()));
@@ -53,7 +57,7 @@ Mesh parse_stl(const std::string& bytes, const std::string& file) {
   std::uint32_t count = 0;
   if (bytes.size() >= 84) {
     std::memcpy(&count, bytes.data() + 80, 4);
-    if (bytes.size() == 84 + std::size_t{50} * count) return binary(bytes, count);
+    if (bytes.size() == 84 + std::size_t{50} * count) return binary(bytes, count, file);
   }
   if (bytes.rfind("solid", 0) == 0 && bytes.find("facet") != std::string::npos) return ascii(bytes, file);
   throw InputError({file, 0, 0}, bytes.size() < 84 ? std::string("no STL: shorter than its header")

@@ -109,6 +109,34 @@ TEST(Mesh, OfAStrangerIsRefusedWithoutACrash) {
   EXPECT_NE(refused(folder, "i.ply", "ply"), "");
 }
 
+TEST(Mesh, WithACornerThatIsNoNumberIsRefusedByItsLine) {
+  const Folder folder;
+  const auto broken = [&](const std::string& line) {
+    std::string text = cube_obj();
+    const auto third = text.find("v 0 1 0");
+    return refused(folder, "cube.obj", text.replace(third, text.find('\n', third) - third, line));
+  };
+  for (const char* line : {"v abc 1 1", "v nan 1 0", "v 0 1", "v inf 1 0", "v 0 1 1e999", "v 0 1x 0", "v"}) EXPECT_NE(broken(line).find("cube.obj:3: "), std::string::npos) << line << ": " << broken(line);
+  EXPECT_EQ(broken("v 0 1 0 # corner"), "");
+  for (const char* faces : {"f 1 3 x 2\n", "f 1 3\n", "f 1 3 0 2\n", "f 1/a 3/2 4/2\n"}) EXPECT_NE(refused(folder, "face.obj", cube_obj(faces)).find("face.obj:9: "), std::string::npos) << faces;
+  EXPECT_EQ(refused(folder, "textured.obj", cube_obj("vt 0 0\nvn 0 0 1\nf 1/1 3/1 4/1 2/1\nf 5//1 6//1 8//1 7//1\nf 1/1/1 2/1/1 6/1/1 5/1/1\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")), "");
+}
+
+TEST(Mesh, AsStlWithACornerThatIsNoNumberIsRefusedByItsPlace) {
+  const Folder folder;
+  const auto cube = read_mesh(folder.write("cube.obj", cube_obj()), 1.0);
+  std::string text = as_stl(cube, false);
+  const auto first = text.find("vertex");
+  for (const char* line : {"vertex nan 0 0", "vertex 0 0", "vertex 0 0 0x", "vertex 0 0 0 7"}) {
+    std::string broken = text;
+    EXPECT_NE(refused(folder, "text.stl", broken.replace(first, text.find('\n', first) - first, line)).find("text.stl:4: "), std::string::npos) << line;
+  }
+  std::string bytes = as_stl(cube, true);
+  const float nan = std::nanf("");
+  std::memcpy(bytes.data() + 84 + 50 + 12, &nan, sizeof nan);
+  EXPECT_NE(refused(folder, "bytes.stl", bytes).find("corner 1 of triangle 2"), std::string::npos);
+}
+
 TEST(MeshInterior, OfACubeHoldsJustItsLattice) {
   const Folder folder;
   static_cast<void>(folder.write("cube.obj", cube_obj()));
