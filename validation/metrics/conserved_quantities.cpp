@@ -95,6 +95,7 @@ FrameError ledger(const FramePair& f) {
   if (!now) return problem("the trajectory has no ledger term `" + term + "`");
   auto truth = term_of(f.in, term == "residual" ? f.first : f.truth, term);
   if (!truth && term == "kinetic") truth = f.in.reference.number("kinetic_energy");  // a law of conservation knows it without particles
+  if (const auto stated = f.in.reference.number("value"); !truth && stated) return single(*now - *stated);
   if (!truth) return problem("the reference does not know the ledger term `" + term + "`: use norm = \"drift\"");
   return single(*now - *truth);
 }

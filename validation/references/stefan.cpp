@@ -109,6 +109,17 @@ Course course_of(const ReferenceInput& in) {
   return c;
 }
 
+/// Length of a bar whose far end is warmed by no more than `allowed` [K], and that the front does not reach [m].
+double least_length(const NeumannFront& front, double diffusivity, double end, double allowed) {
+  const double reach = std::sqrt(diffusivity * end), far = std::abs(front.far - front.change);
+  double low = 0.0, high = 20.0;  // of 2 sqrt(D t): erfc(20) is below any number
+  for (int n = 0; n < 60; ++n) {
+    const double middle = 0.5 * (low + high);
+    (far * std::erfc(middle) > allowed ? low : high) = middle;
+  }
+  return std::max(front.front(end), 2.0 * high * reach);
+}
+
 std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
   auto course = course_of(in);
   const auto& material = in.job.scene.material(in.job.bodies[course.bar].material);
@@ -127,7 +138,10 @@ std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
   if ((front.surface - front.change) * (front.change - front.far) < 0.0 || front.surface == front.change)
     throw InputError("stefan: the temperature of the change must lie between that of the wall and that of the bar");
   const double end = in.job.scene.end_time, warmed = std::abs(front.far - front.change) * std::erfc(0.5 * course.length / std::sqrt(left.diffusivity() * end));
-  if (front.front(end) > course.length || warmed > 1e-3 * std::abs(front.surface - front.change)) throw InputError("stefan holds for a half space: the bar is too short for this end_time");
+  const double allowed = 1e-3 * std::abs(front.surface - front.change);
+  if (front.front(end) > course.length || warmed > allowed)
+    throw InputError("stefan holds for a half space: the bar is " + std::to_string(course.length) + " m long, and until end_time = " + std::to_string(end) + " s it must be " +
+                     std::to_string(least_length(front, left.diffusivity(), end, allowed)) + " m or longer: lengthen it, or end sooner");
   return std::make_unique<Stefan>(in, front, course);
 }
 
