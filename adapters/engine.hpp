@@ -30,6 +30,8 @@ class Engine {
   virtual ~Engine() = default;
   [[nodiscard]] virtual EngineInfo info() const = 0;
   [[nodiscard]] virtual std::string refusal(const Job&) const = 0;  ///< why not; empty = can. A report row, not an error
+  /// What only a start with the job's particles tells, asked by --check after refusal(): why it cannot begin; empty = it can.
+  [[nodiscard]] virtual std::string trial(const Job&) const { return {}; }
   virtual void load(const Job&, const InitialState&) = 0;           ///< @throws EngineError with the engine's own words
   virtual void advance_to(double time) = 0;                         ///< [s] @throws Diverged, EngineError
   [[nodiscard]] virtual Snapshot observe() const = 0;               ///< SI, world frame, particles by id

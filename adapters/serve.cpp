@@ -78,7 +78,9 @@ std::string refusal(const Engine& engine, const Job& job) {
 }
 
 int print_check(const Engine& engine, const std::string& path) {
-  const std::string reason = refusal(engine, read_job(path));
+  const Job job = read_job(path);
+  std::string reason = refusal(engine, job);
+  if (reason.empty() && job.resume.empty()) reason = engine.trial(job);
   fmt::print("{}\n", json{{"can", reason.empty()}, {"reason", reason}}.dump());
   return ok;
 }
@@ -103,7 +105,7 @@ class Run {
       if (restartable_) catch_stops();
       result_.message = refusal(engine_, job_);
       if (!result_.message.empty()) return finish("refused", Exit::refused);
-      if (!set_up()) return finish("refused", Exit::refused);
+      if (!sets_up()) return finish("refused", Exit::refused);
       step_to_the_end();
       return finish("ok", Exit::ok);
     } catch (const Interrupted& e) {
@@ -124,6 +126,16 @@ class Run {
   }
 
  private:
+  /// @return false when the scene cannot be set up, which the message then says
+  bool sets_up() {
+    try {
+      return set_up();
+    } catch (const InputError& e) {
+      result_.message = engine_.info().name + ": " + e.what();
+      return false;
+    }
+  }
+
   /// @return false when the checkpoint does not fit, which the message then says
   bool set_up() {
     const double cpu = cpu_seconds(), wall = wall_seconds();

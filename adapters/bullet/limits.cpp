@@ -39,6 +39,7 @@ std::string refuse_scene(const Scene& scene) {
   if (scene.mode == Mode::paper) return "the paper's forms belong to the particle solver; Bullet has none";
   if (std::any_of(scene.periodic.begin(), scene.periodic.end(), [](bool p) { return p; })) return "Bullet has no periodic directions";
   if (!scene.inflows.empty()) return "Bullet has no inflow";
+  if (!scene.contact && scene.bodies.size() > 1) return "Bullet's bodies meet, and the scene says contact = \"none\"";
   return {};
 }
 

@@ -13,6 +13,7 @@ class TripointEngine : public Engine, public Restartable {
  public:
   [[nodiscard]] EngineInfo info() const override;
   [[nodiscard]] std::string refusal(const Job&) const override;
+  [[nodiscard]] std::string trial(const Job&) const override;
   void load(const Job&, const InitialState&) override;
   void advance_to(double time) override;
   [[nodiscard]] Snapshot observe() const override;

@@ -2,54 +2,37 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "effects/plan.hpp"
-#include "scene/nearest.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
-#include "validation/metrics/metric.hpp"
+#include "validation/harness/trial.hpp"
 #include "validation/references/experiment.hpp"
-#include "validation/references/reference.hpp"
 
 namespace tripoint {
 namespace {
 
 constexpr const char* description =
-    "Checks a case before anything runs: every key, unit and name; then the particles: bodies that overlap, that are too\n"
-    "coarse or of wrong mass, a time step above a bound. Ends 2 where it finds an error, 0 where it finds none or warnings.\n"
+    "Checks a case before anything runs: every key, unit and name; then the particles: bodies that overlap or stand too near,\n"
+    "that are too coarse or of wrong mass, a time step above a bound; then metrics, references and engines: what would be refused.\n"
+    "Ends 2 where it finds an error, 0 where it finds none or warnings.\n"
     "  tripoint check my.toml\n"
     "  tripoint check my.toml --set scene.spacing=0.01";
 
-/// Words of the judge, which the scene does not know: a name that nobody evaluates would pass silently.
-void check_words(const Case& c) {
-  std::vector<std::string> quantities, functions;
-  for (const auto& q : metric_quantities()) quantities.push_back(q.name);
-  for (const auto& f : reference_functions()) functions.push_back(f.name);
-  const auto known = [](const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); };
-  for (const auto& m : c.metrics) {
-    const bool ledger = m.quantity.starts_with("ledger.");
-    if (!ledger && !known(quantities, m.quantity)) throw InputError(m.place, fmt::format("metric \"{}\": no quantity is named \"{}\"{}", m.name, printable(m.quantity), suggestion(m.quantity, quantities)));
-    if (m.reference && !m.reference->function.empty() && !known(functions, m.reference->function))
-      throw InputError(m.place, fmt::format("metric \"{}\": no reference function is named \"{}\"{}", m.name, printable(m.reference->function), suggestion(m.reference->function, functions)));
-  }
-  if (!c.reference.function.empty() && !known(functions, c.reference.function))
-    throw InputError({c.file, 0, 0}, fmt::format("no reference function is named \"{}\"{}", printable(c.reference.function), suggestion(c.reference.function, functions)));
-}
-
 int check(const std::string& file, const std::vector<std::string>& set) {
   const CaseReading reading = read_case(file, set);
-  check_words(reading.value);
   check_data_files(reading.value);
   const Scene scene = scene_for(reading.value, {});
   static_cast<void>(plan_of(reading));
   const InitialState state = sample(scene);
-  const auto findings = preflight(reading.value, scene, state);
+  auto findings = preflight(reading.value, scene, state);
+  for (auto& f : trial(reading.value)) findings.push_back(std::move(f));
   long errors = 0;
+  for (const auto& f : library_values(reading)) say(fmt::format("note: {}: {}", to_string(f.place), f.what));
   for (const auto& f : findings) {
     errors += f.error ? 1 : 0;
     say(fmt::format("{}: {}: {}", f.error ? "error" : "warning", to_string(f.place), f.what));

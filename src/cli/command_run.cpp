@@ -138,6 +138,12 @@ void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std:
             .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
+/// What `check` would say of the particles: a run of its own is not refused for it, but not silent either.
+void say_findings(const CaseReading& reading, const Scene& scene, const InitialState& initial) {
+  for (const auto& f : library_values(reading)) say(fmt::format("note: {}: {}", to_string(f.place), f.what));
+  for (const auto& f : preflight(reading.value, scene, initial)) say(fmt::format("{}: {}: {}", f.error ? "error, run all the same" : "warning", to_string(f.place), f.what));
+}
+
 /// The engine's base run in the case's first mode.
 EnginePlan plan_for(const Case& value, const std::vector<EngineEntry>& engines, const std::string& name) {
   Selection selection;
@@ -151,7 +157,8 @@ EnginePlan plan_for(const Case& value, const std::vector<EngineEntry>& engines, 
 int run(RunOptions o) {
   catch_interrupts();
   if (!o.until.empty()) o.set.push_back("scene.end_time=" + o.until);
-  const Case value = read_case(shown_path(case_file(o.what)), o.set).value;
+  const CaseReading reading = read_case(shown_path(case_file(o.what)), o.set);
+  const Case& value = reading.value;
   if (!o.resume.empty()) o.resume = checkpoint_file(o.resume);
   if (o.out.empty() && !o.resume.empty()) o.out = fs::path(o.resume).parent_path().string();
   if (o.out.empty()) o.out = "runs/" + value.id + "/" + o.engine.substr(o.engine.rfind('/') + 1);
@@ -161,6 +168,7 @@ int run(RunOptions o) {
   const auto& base = plan.runs.front();
   const Scene scene = scene_of(value, base);
   const auto initial = sample(scene);
+  if (!o.quiet) say_findings(reading, scene, initial);
   auto job = make_job(value, plan, base, scene, initial);
   job.threads = o.threads;
   job.resume = o.resume;

@@ -72,7 +72,7 @@ class Checker {
       turning(b);
       const Material& m = scene_.material(b.material);
       if (b.temperature && !(m.conductivity && m.heat_capacity))
-        throw InputError(place(fmt::format("body.{}.temperature", b.name), b.place), fmt::format("body \"{}\" has a temperature, but its material \"{}\" lacks {}: give it, or remove the temperature", b.name, m.name, m.conductivity ? "heat_capacity" : "conductivity"));
+        throw InputError(place(fmt::format("body.{}.temperature", b.name), b.place), fmt::format("body \"{}\" has a temperature, but its material \"{}\" lacks {}: give it (a conductivity of 1e-12 W/m/K insulates), or remove the temperatures of all bodies", b.name, m.name, m.conductivity ? "heat_capacity" : "conductivity"));
       if (!b.keyframes.empty() && b.keyframes.back().time < scene_.end_time && b.keyframes.size() < 2)
         throw InputError(place(fmt::format("body.{}.keyframes", b.name), b.place), fmt::format("body \"{}\" has one keyframe: give at least two, the motion lies between them", b.name));
     }
@@ -112,17 +112,27 @@ class Checker {
     for (const auto& e : scene_.events)
       if (!e.name.empty()) born.push_back(e.name);
     std::size_t n = 0;
+    std::vector<std::pair<std::string, double>> absorbed;
+    for (const auto& e : scene_.events)
+      for (std::size_t k = 1; e.kind == Event::Kind::merge && k < e.bodies.size(); ++k) absorbed.emplace_back(e.bodies[k], e.time);
     for (const auto& e : scene_.events) {
       ++n;
       const auto path = e.name.empty() ? fmt::format("event.{}", n) : "event." + e.name;
       for (const auto& name : e.bodies) known_body(name, path + ".bodies", e.place, born);
       if (e.time > scene_.end_time) throw InputError(place(path + ".time", e.place), fmt::format("the event at {} s never comes: end_time is {} s", e.time, scene_.end_time));
+      for (const auto& [name, time] : absorbed)
+        if (e.time > time && holds(e.bodies, name))
+          throw InputError(place(path + ".bodies", e.place), fmt::format("body \"{}\" is absorbed by a merge at {} s and is no more at {} s: name the body that absorbs it", printable(name), time, e.time));
+      if (e.kind == Event::Kind::heat && std::none_of(scene_.bodies.begin(), scene_.bodies.end(), [](const Body& b) { return b.temperature.has_value(); }))
+        throw InputError(place(path + ".temperature", e.place), "no body has a temperature, so that nothing can be heated: give every body one");
       if (e.kind == Event::Kind::split && holds(names_of(scene_.bodies), e.name))
         throw InputError(place(path + ".name", e.place), fmt::format("a body \"{}\" exists already: give the part that splits off another name", printable(e.name)));
     }
     n = 0;
     for (const auto& f : scene_.inflows) {
       ++n;
+      if (f.start >= scene_.end_time)
+        throw InputError(place(fmt::format("inflow.{}.start", n), {}), fmt::format("nothing flows in before end_time = {} s, since start = {} s: begin sooner, or remove the inflow", scene_.end_time, f.start));
       if (!holds(names_of(scene_.materials), f.material))
         throw InputError(place(fmt::format("inflow.{}.material", n), {}), fmt::format("no material is named \"{}\"{}", printable(f.material), suggestion(f.material, names_of(scene_.materials))));
     }

@@ -17,7 +17,8 @@ bool any_body(const Scene& s, Test test) {
 
 std::string why_no_fluid(const Scene& s) {
   if (any_body(s, [](const Body& b, const Material&) { return b.phase == Phase::liquid; })) return "every liquid is held in place, and nothing can touch";
-  if (std::ranges::none_of(s.materials, [](const Material& m) { return m.stiffness.has_value(); })) return "nothing is liquid, and no material has a stiffness to touch with";
+  if (!s.contact) return "nothing is liquid, and the scene says contact = \"none\"";
+  if (std::ranges::none_of(s.materials, [](const Material& m) { return m.stiffness.has_value(); })) return "nothing is liquid, no two bodies can meet before the end of the run, and no material has a stiffness";
   return "nothing is liquid, and no free body has another to touch";
 }
 

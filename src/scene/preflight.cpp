@@ -20,6 +20,8 @@ class Preflight {
 
   std::vector<Finding> run() {
     overlaps();
+    gaps();
+    pieces();
     for (std::size_t n = 0; n < scene_.bodies.size(); ++n) {
       resolution(n);
       mass(n);
@@ -42,6 +44,37 @@ class Preflight {
       const auto& a = scene_.bodies[o.a];
       const auto& b = scene_.bodies[o.b];
       error(b.place, fmt::format("bodies \"{}\" and \"{}\" overlap: {} pairs of particles are nearer than {:.3g} m, the nearest {:.3g} m; move them apart or cut one by a difference", a.name, b.name, o.pairs, near, o.nearest));
+    }
+  }
+
+  [[nodiscard]] bool presses() const {
+    const auto called = called_effects(scene_);
+    return std::any_of(called.begin(), called.end(), [](const CalledEffect& e) { return e.name == "fluid"; });
+  }
+
+  /// Rows of two bodies nearer than rows of one body are matter that is compressed from the start, and flies apart.
+  void gaps() {
+    const double overlap = std::min(0.5, 0.99 * (1.0 - 2.0 * scene_.jitter)), near = std::min(0.8, 0.99 * (1.0 - 2.0 * scene_.jitter));
+    if (!(near > overlap) || !presses()) return;
+    const auto joined = [](const Body& a, const Body& b) { return std::find(a.joined_to.begin(), a.joined_to.end(), b.name) != a.joined_to.end(); };
+    for (const auto& o : find_overlaps(scene_, state_, near * scene_.spacing)) {
+      const auto& a = scene_.bodies[o.a];
+      const auto& b = scene_.bodies[o.b];
+      const bool both_driven = a.motion != Motion::free && b.motion != Motion::free && a.phase != Phase::liquid && b.phase != Phase::liquid;
+      if (o.nearest < overlap * scene_.spacing || both_driven || joined(a, b) || joined(b, a)) continue;
+      warn(b.place, fmt::format("bodies \"{}\" and \"{}\": their nearest particles are {:.3g} m apart, {:.2g} of a spacing ({} pairs below {:.2g}): as if compressed, and they fly apart at the start; "
+                                "put the faces where they touch on multiples of scene.spacing = {:g} m (a wall's thickness too), so that rows are one spacing apart",
+                                a.name, b.name, o.nearest, o.nearest / scene_.spacing, o.pairs, near, scene_.spacing));
+    }
+  }
+
+  /// Nothing keeps the pieces of a broken body apart where nothing presses.
+  void pieces() {
+    if (presses() || !scene_.contact) return;
+    for (const auto& b : scene_.bodies) {
+      const Material& m = scene_.material(b.material);
+      if (b.phase != Phase::elastic || b.motion == Motion::fixed || !(m.fracture_stretch || m.fracture_distance)) continue;
+      warn(b.place, fmt::format("body \"{}\" can break, and its pieces would pass through each other: give material \"{}\" a sound_speed, or say so by scene.contact = \"none\"", b.name, m.name));
     }
   }
 

@@ -73,6 +73,7 @@ void read_scene(TableReader& in, Scene& s) {
   read_modes(in, s);
   s.time_step = in.maybe_number("time_step");
   if (s.time_step && *s.time_step > s.end_time) in.refuse("time_step", fmt::format("{} s is longer than end_time = {} s: shorten it", *s.time_step, s.end_time));
+  if (s.time_step && s.end_time > most_steps * *s.time_step) in.refuse("time_step", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made; lengthen it", *s.time_step, s.end_time / *s.time_step, s.end_time, most_steps));
   s.seed = static_cast<std::uint64_t>(in.integer("seed"));
   s.jitter = in.number("jitter");
   read_domain(in, s);
@@ -82,6 +83,7 @@ void read_scene(TableReader& in, Scene& s) {
   if (s.end_time / s.output_interval > 1e6) in.refuse("output_interval", fmt::format("{:.3g} frames would be written; at most 1e6: lengthen it", s.end_time / s.output_interval));
   s.viscosity_form = in.text("viscosity_form"), s.transport_velocity = in.flag("transport_velocity"), s.clamp = in.flag("clamp");
   s.hourglass = in.number("hourglass"), s.contact_viscosity = in.number("contact_viscosity");
+  s.contact = in.text("contact") == "auto";
   s.recovers = in.text("on_failure") == "recover", s.unguarded = in.texts("unguarded");
 }
 
@@ -153,7 +155,7 @@ void read_judgement(TableReader& top, Case& c, Reading& reading) {
   }
   for (const auto* node : top.tables("metric")) c.metrics.push_back(read_metric(*node, reading));
   std::size_t n = 0;
-  for (const auto* node : top.tables("study")) c.studies.push_back(read_study(*node, ++n, reading));
+  for (const auto* node : top.tables("study")) c.studies.push_back(read_study(*node, ++n, c.scene.end_time, reading));
   n = 0;
   for (const auto* node : top.tables("gate")) c.gates.push_back(read_gate(*node, ++n, reading));
   n = 0;
@@ -204,8 +206,10 @@ CaseReading read_case(const std::string& path, const std::vector<std::string>& s
   for (const auto* node : top.tables("event")) c.scene.events.push_back(read_event(*node, ++n, reading));
   n = 0;
   for (const auto* node : top.tables("inflow")) c.scene.inflows.push_back(read_inflow(*node, ++n, c.scene.end_time, reading));
+  const bool flows = !c.scene.inflows.empty() || std::any_of(c.scene.bodies.begin(), c.scene.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; });
+  if (!c.scene.contact && flows) in.refuse("contact", "a liquid meets every solid by the same forces as solids meet each other: remove it");
   if (const auto stiffness = default_stiffness(c.scene))
-    reading.decisions.push_back({"material.stiffness", show(*stiffness), "(10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 g depth of the liquids)", false, {}});
+    reading.decisions.push_back({"material.stiffness", show(stiffness->value), stiffness->rule, false, {}});
   read_judgement(top, c, reading);
   check_references(c, reading);
   out.decisions = std::move(reading.decisions);

@@ -36,10 +36,16 @@ struct RunChoice {
 /// The scene of one run: modes resolved for every term, support ratio by its default rule where the file gives none.
 [[nodiscard]] Scene scene_for(const Case&, const RunChoice&);
 
-/// Stiffness k = (10 v)^2 [m2/s2] of a scene that flows and whose materials give none: v the greatest of initial and prescribed
-/// speeds and sqrt(2 |g| depth of the liquids), so that the speed of sound is ten times what is to be expected. Velocities by
-/// expression do not count. Empty where it is given, nothing flows, or no speed is known.
-[[nodiscard]] std::optional<double> default_stiffness(const Scene&);
+/// Stiffness k [m2/s2] of a scene whose materials give none, and its rule in words.
+struct DefaultStiffness {
+  double value = 0.0;
+  std::string rule;
+};
+/// What flows takes k = (10 v)^2: v the greatest of initial and prescribed speeds and sqrt(2 |g| depth of the liquids), so that the speed
+/// of sound is ten times what is to be expected. Solids of which two can meet (meeting.hpp) take it from their speed of approach and the
+/// height of the scene, and from the moduli of elastic bodies. Empty where a material gives one, nothing flows or can meet, or no speed
+/// is known.
+[[nodiscard]] std::optional<DefaultStiffness> default_stiffness(const Scene&);
 
 /// How near a freezing particle joins where the scene does not say [spacings]: as the paper has it, whatever its bonds reach
 /// (h = 2.12 dx); corrected, nearest and diagonal neighbours of the lattice, so that no bond bridges a molten layer.
@@ -69,8 +75,11 @@ struct Finding {
   std::string what;    ///< with what to do
   SourcePlace place;
 };
-/// Overlaps, bodies under-resolved or of wrong mass, a time step above a bound: without running anything.
+/// Overlaps and gaps, bodies under-resolved or of wrong mass, spins that move nothing, a time step above a bound: without running anything.
 [[nodiscard]] std::vector<Finding> preflight(const Case&, const Scene&, const InitialState&);
+
+/// One warning for each [[material]] of the case that bears the name of one of the library and takes values from it.
+[[nodiscard]] std::vector<Finding> library_values(const CaseReading&);
 
 /// Motion of a fixed or prescribed body by its keyframes (position linear, rotation slerp), velocity their derivative.
 struct PrescribedState {

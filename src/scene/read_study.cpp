@@ -25,6 +25,10 @@ EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading&
   const bool says = in.has("required");
   e.required = in.flag("required") || (name == "tripoint" && !says);  // ours is required where a case says nothing else
   e.presets = in.texts("preset"), e.settings = in.settings("settings");
+  if (const auto limit = e.settings.find("wall_limit"); limit != e.settings.end()) {
+    const auto* seconds = std::get_if<double>(&limit->second);
+    if (!seconds || !(*seconds > 0.0)) in.refuse("settings", "wall_limit must be a number of seconds above 0: a run that takes longer is stopped");
+  }
   return e;
 }
 
@@ -89,7 +93,7 @@ std::vector<double> read_together(TableReader& in, std::string_view key, const S
   return *values;
 }
 
-Study read_study(const TomlNode& node, std::size_t number, Reading& reading) {
+Study read_study(const TomlNode& node, std::size_t number, double end_time, Reading& reading) {
   TableReader in(node, "study", fmt::format("study.{}", number), reading.decisions);
   Study s;
   s.place = node.place;
@@ -101,6 +105,7 @@ Study read_study(const TomlNode& node, std::size_t number, Reading& reading) {
     if (i > 0 && (refines_upward ? s.levels[i] <= s.levels[i - 1] : s.levels[i] >= s.levels[i - 1]))
       in.refuse("levels", fmt::format("write the levels from coarse to fine: for {} that is {}", s.axis, refines_upward ? "rising" : "falling"));
   }
+  if (s.axis == "time_step" && end_time > most_steps * s.levels.back()) in.refuse("levels", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made", s.levels.back(), end_time / s.levels.back(), end_time, most_steps));
   s.support_ratios = read_together(in, "support_ratios", s), s.time_steps = read_together(in, "time_steps", s);
   s.jitter = in.number("jitter");
   s.seeds = static_cast<int>(std::min(in.integer("seeds"), 100000L));

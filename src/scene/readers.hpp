@@ -8,6 +8,9 @@
 /// The parts of the case reader, one function a table. All throw InputError with the place and what to write instead.
 namespace tripoint {
 
+/// Of one run: years on any machine, and far below what a counter holds.
+inline constexpr double most_steps = 1e12;
+
 /// What the parts share.
 struct Reading {
   std::string folder;  ///< of the case, where meshes and data lie
@@ -27,7 +30,7 @@ struct Reading {
 [[nodiscard]] EngineChoice read_engine(const TomlNode&, const std::string& name, Reading&);
 [[nodiscard]] ReferenceChoice read_reference(const TomlNode&, const std::string& path, Reading&);
 [[nodiscard]] MetricChoice read_metric(const TomlNode&, Reading&);
-[[nodiscard]] Study read_study(const TomlNode&, std::size_t number, Reading&);
+[[nodiscard]] Study read_study(const TomlNode&, std::size_t number, double end_time, Reading&);
 [[nodiscard]] Gate read_gate(const TomlNode&, std::size_t number, Reading&);
 [[nodiscard]] UncertainInput read_input(const TomlNode&, std::size_t number, Reading&);
 [[nodiscard]] Defect read_defect(const TomlNode&, std::size_t number, Reading&);

@@ -92,11 +92,22 @@ std::vector<Vec3> velocities(const Body& b, const std::vector<Vec3>& centres) {
   return out;
 }
 
+/// A spin that moves no particle would be lost in silence: of one particle, or about the line that all of a body lie on.
+void refuse_lost_spin(const Scene& s, const Body& b, const std::vector<Vec3>& centres) {
+  if (b.motion != Motion::free || b.angular_velocity == Vec3{}) return;
+  const double w = norm(b.angular_velocity);
+  const Vec3 line = centres.back() - centres.front();
+  const auto off_line = [&](const Vec3& r) { return norm(cross(r - centres.front(), line)) > 1e-6 * s.spacing * norm(line); };
+  if (norm(line) > 0.0 && (std::any_of(centres.begin(), centres.end(), off_line) || std::abs(dot(b.angular_velocity, line)) <= 1e-9 * w * norm(line))) return;
+  if (centres.size() == 1) throw InputError(b.place, fmt::format("body \"{}\" is one particle, which cannot spin: remove angular_velocity, or refine scene.spacing", b.name));
+  throw InputError(b.place, fmt::format("body \"{}\" is a line of {} particles, and a spin about its own axis moves none of them: leave out that part of angular_velocity, or make the body wider than one spacing", b.name, centres.size()));
+}
+
 void check_temperatures(const Scene& s) {
   const auto heated = std::find_if(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.temperature.has_value(); });
   if (heated == s.bodies.end()) return;
   for (const auto& b : s.bodies)
-    if (!b.temperature) throw InputError(b.place, fmt::format("body \"{}\" has no temperature, but \"{}\" has: give every body one, or none", b.name, heated->name));
+    if (!b.temperature) throw InputError(b.place, fmt::format("body \"{}\" has no temperature, but \"{}\" has: give every body one, or none; a body that takes up no heat has a temperature too, and a material of conductivity 1e-12 W/m/K", b.name, heated->name));
 }
 
 /// Shifts each particle at random. A body that keyframes lead keeps its centre, which is where they begin: it would jump there.
@@ -125,6 +136,7 @@ InitialState sample(const Scene& s) {
     const double mass = s.material(b.material).density * s.spacing * s.spacing * s.spacing;
     auto centres = fill(s, b);
     if (out.size() + centres.size() > max_particles) throw InputError(b.place, fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing", max_particles, b.name));
+    refuse_lost_spin(s, b, centres);
     if (s.jitter > 0.0) disturb(s, b, out.size(), centres);
     const auto velocity = velocities(b, centres);
     std::optional<TemperatureAt> temperature;

@@ -149,6 +149,7 @@ struct Scene {
   double merge_distance = 1.5;  ///< [spacings]
   bool merge_distance_given = false;
   double hourglass = 1.0, contact_viscosity = 0.0;
+  bool contact = true;                  ///< false: solids pass through each other (contact = "none")
   bool recovers = false;                ///< a guard that trips sends the run back to a good state, with half the step
   std::vector<std::string> unguarded;  ///< guards that are off
   std::vector<Material> materials;

@@ -24,7 +24,7 @@ Scene scene_for(const Case& c, const RunChoice& choice) {
   else if (!s.support_ratio_given) s.support_ratio = paper ? 2.12 : 2.6;
   if (!s.merge_distance_given) s.merge_distance = default_merge_distance(s);
   if (const auto stiffness = default_stiffness(s)) {
-    for (Material& m : s.materials) m.stiffness = stiffness;
+    for (Material& m : s.materials) m.stiffness = stiffness->value;
   }
   return s;
 }
@@ -63,7 +63,7 @@ std::string bodies_that_touch(const Scene& s) {
     const Material& m = s.material(b.material);
     return b.phase == Phase::elastic && (m.fracture_stretch || m.fracture_distance);
   };
-  if (!stiff || !any_free || (s.bodies.size() < 2 && std::none_of(s.bodies.begin(), s.bodies.end(), breaks))) return "";
+  if (!s.contact || !stiff || !any_free || (s.bodies.size() < 2 && std::none_of(s.bodies.begin(), s.bodies.end(), breaks))) return "";
   return bodies_where(s, [](const Body&, const Material&) { return true; });
 }
 

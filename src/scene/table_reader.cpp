@@ -15,6 +15,8 @@ namespace {
 
 using Kind = TomlNode::Kind;
 
+constexpr double most_of_any_unit = 1e30;  ///< squares of energies of such numbers are still finite
+
 /// The row's fallback as a value; parsed once for each use, which costs nothing beside reading the file.
 TomlNode fallback_value(const Key& row) {
   TomlNode n;
@@ -43,6 +45,18 @@ TomlNode fallback_value(const Key& row) {
   return n;
 }
 
+/// For words that other programs have: why this one has not, and what serves.
+std::string what_there_is_instead(std::string_view key) {
+  const auto holds = [&](std::string_view word) { return key.find(word) != key.npos; };
+  if (holds("friction"))
+    return "particles of two solids meet by pressure and viscosity alone, there is no law of Coulomb; scene.contact_viscosity [Pa s] brakes solids that slide on each other, joined_to bonds them";
+  if (holds("restitution"))
+    return "contact is elastic by its energy, and nothing sets what a hit gives back; scene.contact_viscosity [Pa s] takes energy from a contact";
+  if (holds("damping")) return "no term damps a motion; scene.contact_viscosity [Pa s] takes energy where solids touch, viscosity [Pa s] in a liquid";
+  if (holds("surface_tension")) return "surface tension is not simulated";
+  return {};
+}
+
 std::string expected(const Key& row) {
   std::string what(type_text(row.type));
   if (!row.unit.empty()) what += fmt::format(" in {}", row.unit);
@@ -63,8 +77,10 @@ TableReader::TableReader(const TomlNode& node, std::string_view table, std::stri
   auto known = key_names(table);
   known.insert(known.begin(), extra.begin(), extra.end());
   for (const auto& [key, value] : node.members)
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      throw InputError(value.key_place, fmt::format("unknown key `{}`{}{}", printable(key), path_.empty() ? "" : fmt::format(" in `{}`", printable(path_)), suggestion(key, known)));
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      const auto taught = what_there_is_instead(key);
+      throw InputError(value.key_place, fmt::format("unknown key `{}`{}{}", printable(key), path_.empty() ? "" : fmt::format(" in `{}`", printable(path_)), taught.empty() ? suggestion(key, known) : ": " + taught));
+    }
 }
 
 void TableReader::fall_back_on(const TomlNode& library, std::string reason) {
@@ -136,6 +152,7 @@ double number_of(const TomlNode& v, const Key& row, const std::string& path) {
   const double value = raw_number(v, row, path);
   const auto refuse = [&](const std::string& why) { throw InputError(v.place, fmt::format("`{}` = {}{}", printable(path, 120), value, why)); };
   if (!std::isfinite(value)) refuse(fmt::format(": write a finite number{}{}", row.unit.empty() ? "" : " in ", row.unit));
+  if (!row.unit.empty() && std::abs(value) > most_of_any_unit) refuse(fmt::format(" {}: products of such numbers are not finite; write a number of size up to {:.0e}", row.unit, most_of_any_unit));
   if (row.range == Range::poisson && value >= 0.5)
     refuse(": at 0.5 the solid is incompressible and its stiffness infinite, so no time step is short enough; write less than 0.5 (0.45 serves for rubber)");
   if (!in_range(row.range, value)) refuse(fmt::format(" must be {}{}{}", range_text(row.range), row.unit.empty() ? "" : " ", row.unit));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/machine.hpp"
+#include "scene/meeting.hpp"
 
 namespace tripoint {
 namespace {
@@ -111,18 +112,29 @@ void check_finite(const World& world) {
   refuse_cold(world);
 }
 
-void check_escape(const World& world) {
+Enclosure enclosure_of(const Scene& s, const InitialState& initial) {
+  if (!s.min || !s.max) {
+    constexpr Vec3 far{INFINITY, INFINITY, INFINITY};
+    return {s.end_time > 0.0 ? escape_domain(s, initial) : Bounds{-far, far}, false};
+  }
+  const Vec3 around{s.spacing, s.spacing, s.spacing};
+  return {{*s.min - around, *s.max + around}, true};
+}
+
+void check_escape(const World& world, const Enclosure& domain) {
   const Scene& s = world.scene;
-  if (!s.min || !s.max || is_off(s, "escape")) return;
+  if (is_off(s, "escape") || (!domain.given && world.time > s.end_time)) return;
   const auto x = positions(world.particles);
   const std::array<std::span<const double>, 3> r{x.x, x.y, x.z};
   const Movable movable(world);
   for (std::size_t a = 0; a < 3; ++a) {
     if (s.periodic[a]) continue;
-    const double low = (*s.min)[a] - s.spacing, high = (*s.max)[a] + s.spacing;
+    const double low = domain.box.min[a], high = domain.box.max[a];
     for (std::size_t i = 0; i < r[a].size(); ++i) {
       if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
-      fail(world, "escape", i, "position", "drift", fmt::format("has left the domain: {} = {:.6g} m is outside {:.6g} m .. {:.6g} m", "xyz"[a], r[a][i], (*s.min)[a], (*s.max)[a]));
+      const std::string where = domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
+                                             : fmt::format("{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and scene.max where it may, or unguarded = [\"escape\"]", low, high);
+      fail(world, "escape", i, "position", "drift", fmt::format("has left the domain: {} = {:.6g} m is outside {}", "xyz"[a], r[a][i], where));
     }
   }
 }
@@ -147,10 +159,16 @@ void check_step(const World& world, const TimeStepBound& bound, GuardMemory& mem
        fmt::format("moves fastest ({:.4g} m/s) where the bound of {} has shrunk the time step to {:.3g} s, from {:.3g} s at first", norm(world.particles.velocity(i)), bound.name, bound.dt, memory.first_step));
 }
 
+void refuse_small_step(const World& world, double dt, double length, const std::string& name) {
+  const std::size_t i = fastest(world);
+  fail(world, "time_step", i, "time_step", "bound",
+       fmt::format("moves fastest ({:.4g} m/s) where a time step of {:.3g} s, set by {}, would need {:.3g} steps to the next output", norm(world.particles.velocity(i)), dt, name, length / dt));
+}
+
 void refuse_step(const World& world, double dt, double bound, const std::string& name) {
   const std::size_t i = fastest(world);
   fail(world, "time_step", i, "time_step", "bound",
-       fmt::format("moves fastest ({:.4g} m/s) where the scene's time_step, {:.4g} s, has come to lie above the bound of {}, {:.4g} s: make it smaller, or set force_time_step to run all the same",
+       fmt::format("moves fastest ({:.4g} m/s) where the scene's time_step, {:.4g} s, has come to lie above the bound of {}, {:.4g} s: make it smaller, or run all the same with [engines.tripoint] settings = {{ force_time_step = true }}",
                    norm(world.particles.velocity(i)), dt, name, bound));
 }
 

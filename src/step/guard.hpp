@@ -3,6 +3,7 @@
 #include "effects/effect.hpp"
 #include "effects/failure.hpp"
 #include "effects/world.hpp"
+#include "scene/geometry.hpp"
 
 /// Guards that belong to no single effect; those of effects are in their check(). Each names particle, body, field, stage and time,
 /// and changes nothing.
@@ -13,9 +14,15 @@ namespace tripoint {
 /// @throws Diverged
 void check_finite(const World&);
 
-/// Looks for particles that no keyframe moves and that are outside the scene's domain, where it is not periodic, by more than one
-/// spacing. @throws Diverged
-void check_escape(const World&);
+/// Where particles may be: the scene's domain with one spacing around it or, where it gives none, escape_domain().
+struct Enclosure {
+  Bounds box;
+  bool given = false;  ///< by the scene
+};
+[[nodiscard]] Enclosure enclosure_of(const Scene&, const InitialState&);
+
+/// Looks for particles that no keyframe moves and that are outside, where the domain is not periodic. @throws Diverged
+void check_escape(const World&, const Enclosure&);
 
 /// What guards must remember of a run; a checkpoint keeps it.
 struct GuardMemory {
@@ -32,6 +39,9 @@ void check_energy(const World&, const Ledger&, double dt, GuardMemory&);
 /// A step that shrinks to a hundred-thousandth of the first goes on, if at all, for ever.
 /// @throws Diverged naming the bound and the particle of the greatest kinetic energy
 void check_step(const World&, const TimeStepBound&, GuardMemory&);
+
+/// @throws Diverged: the steps to the next output would be more than can be made
+[[noreturn]] void refuse_small_step(const World&, double dt, double length, const std::string& name);
 
 /// @throws Diverged: the step that the scene chose has come to lie above a bound
 [[noreturn]] void refuse_step(const World&, double dt, double bound, const std::string& name);

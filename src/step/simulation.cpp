@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "step/simulation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,7 @@
 namespace tripoint {
 namespace {
 
+constexpr double most_steps = 1e12;       ///< of a run: years on any machine, and still far below what a counter holds
 constexpr long steps_between_bounds = 32;  ///< a step that changes more often would break the time symmetry of kick-drift-kick
 
 PeriodicBox box_of(const Scene& scene) {
@@ -85,6 +88,8 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   check_finite(world_);
   bound_ = next_bound();
   refuse_large_step();
+  if (const double first = scene.time_step.value_or(bound_.dt); scene.end_time > most_steps * first)
+    throw InputError(fmt::format("the run would take {:.3g} steps: its first step is {:.3g} s, set by {}, and it ends at {:.3g} s; at most {:.0e} can be made", scene.end_time / first, first, scene.time_step ? "the scene" : bound_.name, scene.end_time, most_steps));
   const Ledger start = ledger();
   if (start.energy.count("compression")) world_.booked.start_compression = start.energy.at("compression");
   if (start.energy.count("elastic")) world_.booked.start_deformation = start.energy.at("elastic") + start.energy.at("hourglass");
@@ -106,6 +111,7 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   world_.axis_order = options_.axis_order;
   world_.box = box_of(scene);
   load(initial);
+  enclosure_ = enclosure_of(scene, initial);
   if (passes_.needed()) {
     world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.box,
                               options_.threads, passes_.lanes());
@@ -212,6 +218,7 @@ void Simulation::plan_stretch(double stop) {
 /// Equal steps, none longer than the scene's own or the bound.
 long Simulation::steps_to(double time) const {
   const double length = time - world_.time, most = recovery_.share() * world_.scene.time_step.value_or(bound_.dt);
+  if (length > most_steps * most) refuse_small_step(world_, most, length, world_.scene.time_step ? "scene" : bound_.name);
   return std::max(1L, static_cast<long>(std::ceil(length / most - 1e-9)));
 }
 
@@ -240,9 +247,9 @@ void Simulation::step(double end) {
 
 /// Guards, none of which changes anything; energy is summed over all particles and bonds, so only now and then.
 void Simulation::check() {
-  constexpr long steps_between_ledgers = 128;
+  constexpr long steps_between_ledgers = 128, steps_between_looks = 32;
   check_finite(world_);
-  check_escape(world_);
+  if (enclosure_.given || steps_ % steps_between_looks == 0) check_escape(world_, enclosure_);
   for (const Active& a : effects_) a.effect->check(world_);
   if (steps_ % steps_between_ledgers == 0) check_energy(world_, ledger(), dt_, guards_);
 }
@@ -297,8 +304,7 @@ void Simulation::refuse_large_step() const {
   const auto& given = world_.scene.time_step;
   if (!given || options_.force_time_step || recovery_.share() * *given <= bound_.dt * (1.0 + 1e-9)) return;
   if (steps_ > 0) refuse_step(world_, recovery_.share() * *given, bound_.dt, bound_.name);
-  throw InputError("time_step " + std::to_string(*given) + " s is above the bound of " + bound_.name + ", " +
-                   std::to_string(bound_.dt) + " s: make it smaller, or set force_time_step to run all the same");
+  throw InputError(fmt::format("time_step {:.4g} s is above the bound of {}, {:.4g} s: make it smaller, or run all the same with [engines.tripoint] settings = {{ force_time_step = true }}", *given, bound_.name, bound_.dt));
 }
 
 std::string Simulation::time_step_set_by() const {

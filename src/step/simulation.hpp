@@ -103,6 +103,7 @@ class Simulation {
   TimeStepBound bound_;
   long steps_ = 0;
   GuardMemory guards_;
+  Enclosure enclosure_;
   Recovery recovery_;
   InitialState start_;  ///< what a run that recovers is set up from again; else empty
 };

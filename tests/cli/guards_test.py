@@ -39,7 +39,8 @@ def body(name, material, phase, low, high, more=""):
 FORCED = "[engines.tripoint]\nsettings = { force_time_step = true }\n"
 # guard -> (scene, particles that may be to blame, body, words of the message)
 TRIPS = {
-    "finite": (scene("end_time = 1.0") + STEEL + body("drop", "steel", "liquid", [0.0, 0.0, 0.0], [2.0, 2.0, 2.0], "velocity = [1e150, 0.0, 0.0]"), range(8), -1, "not finite"),
+    "finite": (scene('end_time = 1e6\ntime_step = 10.0\nunguarded = ["inversion", "overlap", "escape", "ledger", "time_step"]') + FORCED + JELLY
+               + body("cube", "jelly", "elastic", [0.0, 0.0, 0.0], [2.0, 2.0, 2.0], "angular_velocity = [0.0, 0.0, 0.02]"), range(8), 0, "no finite"),
     "temperature": (scene("end_time = 1e7\ntime_step = 1e6") + FORCED + WAX
                     + body("bar", "wax", "rigid", [0.0, 0.0, 0.0], [8.0, 2.0, 2.0], 'motion = "fixed"\ntemperature = { kind = "step", point = [4.0, 0.0, 0.0], normal = [1.0, 0.0, 0.0], behind = 900.0, ahead = 1.0 }'),
                     range(32), 0, "absolute zero"),

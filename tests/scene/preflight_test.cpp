@@ -45,6 +45,23 @@ TEST(Preflight, FindsOverlapAcrossAPeriodicSide) {
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Finding& f) { return f.error && f.what.find("overlap") != std::string::npos; }));
 }
 
+TEST(Preflight, WarnsOfRowsThatStandTooNear) {
+  const std::string liquid = "[[body]]\nname='pool'\nmaterial='water'\nshape={kind='box',min=[0,0,0],max=[0.5,0.5,0.5]}\n";
+  EXPECT_EQ(found(scene_with(liquid + box("wall", "[-0.36,0,0]", "[0,0.5,0.5]", "motion='fixed'"), "gravity=[0,0,-9.81]"), "of a spacing"), "warning") << "3.6 spacings thick: 0.6 from the first liquid row";
+  EXPECT_EQ(found(scene_with(liquid + box("wall", "[-0.3,0,0]", "[0,0.5,0.5]", "motion='fixed'"), "gravity=[0,0,-9.81]"), "of a spacing"), "");
+  EXPECT_EQ(found(scene_with(box("a", "[0,0,0]", "[0.5,0.5,0.5]", "motion='fixed'") + box("b", "[-0.36,0,0]", "[0,0.5,0.5]", "motion='fixed'")), "of a spacing"), "") << "nothing presses";
+}
+
+TEST(Preflight, WarnsOfPiecesThatNothingKeepsApart) {
+  const auto bar = [](const std::string& more, const std::string& scene = "") {
+    return scene_with("[[material]]\nname='glue'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.3\n" + more + "[[body]]\nname='bar'\nmaterial='glue'\nshape={kind='box',min=[0,0,0],max=[0.5,0.5,0.5]}\n", scene);
+  };
+  EXPECT_EQ(found(bar("fracture_stretch=1.1\n"), "pass through each other"), "warning");
+  EXPECT_EQ(found(bar("fracture_stretch=1.1\nsound_speed=10\n"), "pass through each other"), "");
+  EXPECT_EQ(found(bar("fracture_stretch=1.1\n", "contact='none'\n"), "pass through each other"), "");
+  EXPECT_EQ(found(bar(""), "pass through each other"), "");
+}
+
 TEST(Preflight, FindsBodiesTooCoarseOrOfWrongMass) {
   EXPECT_EQ(found(scene_with(box("a", "[0,0,0]", "[0.5,0.5,0.2]")), "2 particles across along z"), "warning");
   EXPECT_EQ(found(scene_with(box("a", "[0,0,0]", "[0.5,0.5,0.3]")), "across"), "");

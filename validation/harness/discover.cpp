@@ -107,6 +107,22 @@ std::vector<Candidate> candidates(const std::vector<std::string>& extra) {
   return list;
 }
 
+/// Asks all at once. @throws EngineError for two of one name
+std::vector<EngineEntry> ask_all(const std::vector<Candidate>& list) {
+  std::vector<std::future<EngineEntry>> asked;
+  for (const auto& c : list) asked.push_back(std::async(std::launch::async, ask_engine, c.path));
+  std::vector<EngineEntry> engines;
+  for (std::size_t k = 0; k < asked.size(); ++k) {
+    auto entry = asked[k].get();
+    entry.joins = list[k].joins;
+    if (const auto* other = find_engine(engines, entry.name))  // neither may stand in the rows of the other without a word
+      throw EngineError(fmt::format("{}: calls itself {}, which is the name of {}: give it a name of its own, or take one of the two away", entry.executable, entry.name, other->executable));
+    engines.push_back(std::move(entry));
+  }
+  std::sort(engines.begin(), engines.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return engines;
+}
+
 }  // namespace
 
 std::string program_folder() {
@@ -130,20 +146,12 @@ EngineEntry ask_engine(const std::string& executable) {
   return entry;
 }
 
-std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) {
-  const auto list = candidates(extra);
-  std::vector<std::future<EngineEntry>> asked;
-  for (const auto& c : list) asked.push_back(std::async(std::launch::async, ask_engine, c.path));
-  std::vector<EngineEntry> engines;
-  for (std::size_t k = 0; k < asked.size(); ++k) {
-    auto entry = asked[k].get();
-    entry.joins = list[k].joins;
-    if (const auto* other = find_engine(engines, entry.name))  // neither may stand in the rows of the other without a word
-      throw EngineError(fmt::format("{}: calls itself {}, which is the name of {}: give it a name of its own, or take one of the two away", entry.executable, entry.name, other->executable));
-    engines.push_back(std::move(entry));
-  }
-  std::sort(engines.begin(), engines.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-  return engines;
+std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) { return ask_all(candidates(extra)); }
+
+std::vector<EngineEntry> discover_engines_named(const std::vector<std::string>& names) {
+  auto list = candidates({});
+  std::erase_if(list, [&](const Candidate& c) { return std::find(names.begin(), names.end(), name_of_file(c.path)) == names.end(); });
+  return ask_all(list);
 }
 
 const EngineEntry* find_engine(const std::vector<EngineEntry>& engines, const std::string& name) {

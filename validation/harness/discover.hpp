@@ -30,6 +30,9 @@ struct EngineEntry {
 /// @throws EngineError when an extra path is no executable file, and when two executables call themselves by one name
 [[nodiscard]] std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra = {});
 
+/// Those of the names that stand beside this program or in TRIPOINT_ENGINE_PATH; no other is started.
+[[nodiscard]] std::vector<EngineEntry> discover_engines_named(const std::vector<std::string>& names);
+
 /// nullptr when there is none of that name.
 [[nodiscard]] const EngineEntry* find_engine(const std::vector<EngineEntry>&, const std::string& name);
 

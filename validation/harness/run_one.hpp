@@ -37,12 +37,19 @@ struct Outcome {
 /// Writes the job, asks --check, runs, and reads back; what the engine does wrong becomes a status with its reason, never an exception.
 [[nodiscard]] Outcome run_one(const RunRequest&);
 
+/// Writes the job and asks --check: status ok where the engine can run it, else refused, error, timeout or killed with the reason.
+[[nodiscard]] Outcome ask(const RunRequest&);
+
 /// Reads result and trajectory from the folder of a run that has ended.
 [[nodiscard]] Outcome read_back(const RunRequest&, const ProcessEnd&);
 
 /// Compares what the engine holds with what it was given: gravity, masses, inertia, damping.
 /// @return empty when it is the same scene, else what differs, by name
 [[nodiscard]] std::string audit_scene(const Job&, const Readback&);
+
+/// One metric of one run. A norm that compares a run with its own start ("drift") does without the case's reference where that does not
+/// fit the scene. @throws InputError where the reference or the metric's words do not fit
+[[nodiscard]] MetricValue metric_of(const Case&, const MetricChoice&, const Job&, const InitialState&, const Trajectory&);
 
 /// The metrics of a case for one run that is ok, by name.
 [[nodiscard]] std::map<std::string, MetricValue> evaluate_all(const Case&, const Job&, const InitialState&, const Trajectory&);

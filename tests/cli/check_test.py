@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`tripoint check` finds before a run what the run would be refused or spoilt by, and scenes that once ran wrong in silence run right:
+check_test.py TRIPOINT [unittest arguments]."""
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+TRIPOINT = sys.argv[1]
+BALL = '[[material]]\nname = "gum"\ndensity = 1000.0\nyoung_modulus = 1e6\npoisson_ratio = 0.3\n'
+STONE = '[[material]]\nname = "stone"\ndensity = 1000.0\n'
+WARM = STONE + "conductivity = 1.0\nheat_capacity = 1000.0\n"
+INVARIANT = '[reference]\nkind = "invariant"\n'
+LEDGER = '[[metric]]\nname = "ledger"\nquantity = "ledger.residual"\nnorm = "drift"\n'
+ICE = '[[material]]\nname = "frost"\ndensity = 1000.0\nconductivity = 2.0\nheat_capacity = 1000.0\nt_melt = 273.0\nlatent_heat = 1e5\nsolid = "rigid"\n'
+
+
+def scene(keys):
+    return f"format = 1\n[scene]\nspacing = 0.1\n{keys}\n"
+
+
+def body(name, material, low, high, more=""):
+    return f'[[body]]\nname = "{name}"\nmaterial = "{material}"\nshape = {{ kind = "box", min = {low}, max = {high} }}\n{more}\n'
+
+
+def metric(quantity, norm="max", more=""):
+    return f'[[metric]]\nname = "m"\nquantity = "{quantity}"\nnorm = "{norm}"\n{more}\n'
+
+
+CUBE = body("cube", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4], "velocity = [1.0, 0.0, 0.0]")
+STILL = body("cube", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4], 'motion = "fixed"\ntemperature = 300.0')
+BAR = (ICE + body("bar", "frost", [0.0, 0.0, 0.0], [0.8, 0.4, 0.4], 'phase = "rigid"\nmotion = "fixed"\ntemperature = 272.0')
+       + body("plate", "frost", [-0.4, 0.0, 0.0], [0.0, 0.4, 0.4], 'phase = "rigid"\nmotion = "fixed"\ntemperature = 300.0\ntemperature_held = true'))
+# what is wrong -> (case, words of the error that check must give)
+WRONG = {
+    "a periodic width too small for bonds": (scene("end_time = 0.1\nmin = [0.0, 0.0, 0.0]\nmax = [0.4, 2.0, 2.0]\nperiodic = [\"x\"]") + BALL
+                                             + body("bar", "gum", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]), ["0.4", "wide", "bonds"]),
+    "a reference argument of the wrong type": (scene("end_time = 0.1") + STONE + CUBE + metric("overlap", more='reference = { kind = "bound", function = "stated", args = { value = "zero" } }'),
+                                               ["`value`", "must be a number"]),
+    "an unknown argument": (scene("end_time = 0.1") + STONE + CUBE + metric("overlap", more='reference = { kind = "bound", function = "stated", args = { valu = 0.0 } }'), ["no argument `valu`"]),
+    "a bar that is too short": (scene("end_time = 1e7") + BAR + '[reference]\nfunction = "stefan"\n' + metric("front_position"), ["the bar is 0.8", "it must be", "m or longer"]),
+    "a number for a field": (scene("end_time = 1.0") + WARM + STILL + metric("temperature", more='reference = { kind = "bound", function = "stated", args = { value = 300.0 } }'), ["does not know the temperature"]),
+    "a ratio at a start that is 0": (scene("end_time = 1.0") + BAR + '[reference]\nfunction = "stefan"\n' + metric("front_ratio"), ["the front has not started"]),
+    "a norm that is none": (scene("end_time = 0.1") + STONE + CUBE + metric("velocity", "larges"), ["no norm", "larges"]),
+    "a quantity that is none": (scene("end_time = 0.1") + STONE + CUBE + metric("velocty"), ["no quantity", "`velocity`"]),
+    "a time that is no output time": (scene("end_time = 1.0\noutput_interval = 0.1") + STONE + CUBE + '[reference]\nfunction = "ballistic"\n' + metric("velocity", "Linf", 'at = "0.123"'), ["no output time"]),
+    "a window between output times": (scene("end_time = 1.0\noutput_interval = 0.5") + STONE + CUBE + LEDGER + metric("velocity", "max", "window = [0.1, 0.2]") + '[reference]\nfunction = "ballistic"\n', ["no output time lies"]),
+    "a reference that does not fit": (scene("end_time = 1.0") + STONE + CUBE + '[reference]\nfunction = "couette"\n' + metric("velocity"), ["liquid"]),
+    "a step above a bound": (scene("end_time = 10.0\ntime_step = 1.0\ngravity = [0.0, 0.0, -9.81]") + STONE.replace("1000.0", "1000.0\nviscosity = 1.0") + body("pool", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]),
+                             ["bound of", "[engines.tripoint] settings = { force_time_step = true }"]),
+    "a setting that nobody reads": (scene("end_time = 1.0") + STONE + CUBE + "[engines.tripoint]\nsettings = { force_time_stp = true }\n", ["no setting is named force_time_stp", "force_time_step"]),
+    "a step that needs a sound without end": (scene("end_time = 1.0") + STONE.replace("1000.0", "1000.0\nstiffness = 1e30\nviscosity = 1.0") + body("pool", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]), ["steps"]),
+    "a liquid that is joined": (scene("end_time = 1.0\ngravity = [0.0, 0.0, -9.81]") + BALL + '[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = 1.0\n'
+                                + body("pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]) + body("bar", "gum", [0.4, 0.0, 0.0], [0.8, 0.4, 0.4], 'joined_to = ["pool"]'), ["pool", "liquid"]),
+}
+
+
+def call(verb, text, folder, *more):
+    case = Path(folder) / "case.toml"
+    case.write_text(text)
+    return subprocess.run([TRIPOINT, verb, str(case), *map(str, more)], capture_output=True, text=True, timeout=300)
+
+
+class Check(unittest.TestCase):
+    def test_it_finds_what_a_run_or_its_judgement_would_stop_at(self):
+        for name, (text, words) in WRONG.items():
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                done = call("check", text, folder)
+                self.assertEqual(done.returncode, 2, f"{name}: {done.stdout}{done.stderr}")
+                for word in words:
+                    self.assertIn(word, done.stderr, name)
+                self.assertIn("case.toml", done.stderr, name)
+
+    def test_it_finds_nothing_in_what_is_right(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = call("check", scene("end_time = 1.0") + STONE + CUBE + '[reference]\nfunction = "ballistic"\n' + metric("velocity"), folder)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+
+    def test_it_leaves_nothing_behind(self):
+        with tempfile.TemporaryDirectory() as folder:
+            before = {p.name for p in Path(tempfile.gettempdir()).glob("tripoint-check-*")}
+            call("check", scene("end_time = 1.0") + STONE + CUBE, folder)
+            self.assertEqual([p.name for p in Path(folder).iterdir()], ["case.toml"])
+            self.assertLessEqual({p.name for p in Path(tempfile.gettempdir()).glob("tripoint-check-*")}, before)
+
+
+class Run(unittest.TestCase):
+    def run_case(self, text, folder, *more):
+        done = call("run", text, folder, "--out", Path(folder) / "out", "--json", *more)
+        return done, json.loads(done.stdout) if done.stdout.startswith("{") else None
+
+    def test_says_what_check_would_warn_of(self):
+        wall = body("wall", "stone", [-0.36, 0.0, 0.0], [0.0, 0.4, 0.4], 'motion = "fixed"')
+        oil = '[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = 50.0\n'
+        with tempfile.TemporaryDirectory() as folder:
+            done, _ = self.run_case(scene("end_time = 0.001\ngravity = [0.0, 0.0, -9.81]") + oil + STONE + body("pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4]) + wall, folder)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("0.6 of a spacing", done.stderr)
+
+    def test_a_block_on_a_slope_slides_and_does_not_sink(self):
+        slope = body("slope", "stone", [-0.4, -0.3, -0.3], [2.0, 0.7, 0.0], 'motion = "fixed"')
+        stated = 'reference = { kind = "bound", function = "stated", args = { value = 0.0 } }'
+        with tempfile.TemporaryDirectory() as folder:
+            _, told = self.run_case(scene("end_time = 0.6\ngravity = [3.3552, 0.0, -9.2184]") + STONE + body("block", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.2]) + slope + INVARIANT
+                                    + metric("overlap", more=stated) + LEDGER, folder)
+            self.assertEqual(told["status"], "ok")
+            self.assertLess(told["metrics"]["m"]["value"], 0.2)
+
+    def test_a_failed_reference_spoils_no_metric_that_needs_none(self):
+        with tempfile.TemporaryDirectory() as folder:
+            _, told = self.run_case(scene("end_time = 0.1") + STONE + CUBE + '[reference]\nfunction = "couette"\n' + metric("velocity") + LEDGER, folder)
+            self.assertIsNone(told["metrics"]["m"]["value"])
+            self.assertEqual(told["metrics"]["ledger"]["value"], 0.0)
+
+    def test_bodies_that_have_not_touched_yet_are_not_frozen(self):
+        hot = body("hot", "stone", [0.0, 0.0, 1.0], [0.4, 0.4, 1.4], "temperature = 400.0")
+        floor = body("floor", "stone", [-0.4, -0.4, -0.3], [0.8, 0.8, 0.0], 'motion = "fixed"\ntemperature = 300.0')
+        with tempfile.TemporaryDirectory() as folder:
+            done, told = self.run_case(scene("end_time = 0.2\ngravity = [0.0, 0.0, -9.81]") + WARM + hot + floor + INVARIANT + LEDGER, folder)
+            self.assertEqual((done.returncode, told["status"]), (0, "ok"), told)
+
+    def test_one_frame_a_turn_is_not_frozen(self):
+        rod = body("rod", "stone", [-0.5, -0.1, -0.1], [0.5, 0.1, 0.1], "angular_velocity = [0.0, 0.0, 10.0]")
+        with tempfile.TemporaryDirectory() as folder:
+            done, told = self.run_case(scene("end_time = 3.141592653589793\noutput_interval = 0.6283185307179586\ntime_step = 0.005") + STONE + rod + '[reference]\nfunction = "torque_free"\n' + metric("shape"), folder, "--engine", "exact")
+            self.assertEqual((done.returncode, told["status"]), (0, "ok"), told)
+
+    def test_matter_that_leaks_from_its_scene_is_named(self):
+        drop = '[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = 1.0\n' + body("pool", "oil", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4])
+        wall = body("wall", "stone", [2.0, 0.0, -1.0], [2.4, 0.4, 1.0], 'motion = "fixed"')  # beside it and lower: nothing holds the liquid
+        with tempfile.TemporaryDirectory() as folder:
+            done, told = self.run_case(scene("end_time = 3.0\ngravity = [0.0, 0.0, -9.81]") + STONE + drop + wall + INVARIANT + LEDGER, folder)
+            self.assertEqual(done.returncode, 7, told)
+            self.assertIn("made from the scene: give scene.min", told["reason"])
+            done, told = self.run_case(scene('end_time = 3.0\ngravity = [0.0, 0.0, -9.81]\nunguarded = ["escape"]') + STONE + drop + wall + INVARIANT + LEDGER, folder)
+            self.assertEqual(done.returncode, 0, told)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:])

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+#include "scene/read_case.hpp"
+
+namespace tripoint {
+
+/// What only the harness can tell of a case before anything runs: words that nobody evaluates; references that do not fit the scene; metrics
+/// that no run could form, seen on particles that stay where they start; and engines that refuse a job of the case, asked by --check.
+/// tripoint is asked for every run of the case, the engines that the case names for its own resolution.
+/// A refusal by an engine that the case requires is an error, by another a warning.
+/// @throws InputError where the particles of a run cannot be sampled
+[[nodiscard]] std::vector<Finding> trial(const Case&);
+
+}  // namespace tripoint
