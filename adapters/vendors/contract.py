@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The contract of an engine (docs/engines.md): the three calls, the job, the trajectory, and the result by rename.
 
-An adapter is a class of `Engine` and one line, `sys.exit(serve(MyEngine(), sys.argv[1:]))`. Only the standard library is used here,
+An adapter is a class of `Engine` and one line, `sys.exit(serve(MyEngine(), sys.argv[1:]))`. Only the standard library is used,
 because each engine runs in an environment of its own."""
 from __future__ import annotations
 
@@ -71,8 +71,8 @@ def read_job(path: str) -> Job:
             raise BadJob("times must rise, and there must be one at least")
         scene = document["scene"]
         step = document["resolution"].get("time_step")
-        return Job(document, Path(path).resolve(), scene, scene["bodies"], times, document.get("preset") or "default",
-                   document.get("settings") or {}, None if step is None else float(step))
+        preset, settings = document.get("preset") or "default", document.get("settings") or {}
+        return Job(document, Path(path).resolve(), scene, scene["bodies"], times, preset, settings, None if step is None else float(step))
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise BadJob(f"{path}: {error!r}") from error
 
@@ -155,23 +155,26 @@ def write_result(job: Job, result: dict[str, Any]) -> None:
 
 
 def _result(status: str, message: str, time_reached: float, outcome: Outcome, spent: tuple[float, float]) -> dict[str, Any]:
+    """@param spent wall and CPU seconds of the whole run"""
     stepping_cpu = max(0.0, spent[1] - outcome.setup_cpu)
     return {"contract": 1, "status": status, "message": message, "time_reached": time_reached, "steps": outcome.steps,
             "counters": {"pairs": outcome.pairs, "iterations": outcome.iterations},
-            "seconds": {"setup_wall": 0.0, "setup_cpu": outcome.setup_cpu, "stepping_wall": spent[0], "stepping_cpu": stepping_cpu},
+            "seconds": {"setup_wall": 0.0, "setup_cpu": outcome.setup_cpu,
+                        "stepping_wall": spent[0], "stepping_cpu": stepping_cpu},
             "state_hash": outcome.state_hash, "readback": outcome.readback, "divergence": None}
 
 
 def _run(engine: Engine, job: Job) -> int:
     reason = engine.refusal(job)
+    nothing = Outcome(readback={"gravity": job.scene["gravity"], "bodies": []})
     if reason:
-        write_result(job, _result("refused", reason, 0.0, Outcome(readback={"gravity": job.scene["gravity"], "bodies": []}), (0.0, 0.0)))
+        write_result(job, _result("refused", reason, 0.0, nothing, (0.0, 0.0)))
         return REFUSED
     wall, cpu = time.perf_counter(), time.process_time()
     try:
         outcome = engine.run(job)
     except Diverged as end:
-        result = _result("diverged", str(end), end.time, Outcome(readback={"gravity": job.scene["gravity"], "bodies": []}), (0.0, 0.0))
+        result = _result("diverged", str(end), end.time, nothing, (0.0, 0.0))
         result["divergence"] = {"particle": -1, "body": end.body, "field": "position", "stage": "step", "time": end.time}
         write_result(job, result)
         return DIVERGED

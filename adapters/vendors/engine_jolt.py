@@ -69,7 +69,8 @@ class JoltWorld(World):
 
     def held(self, number: int) -> Held:
         held = self.opened["bodies"][self.rows[number]]
-        return Held(held["mass"], vector(held["inertia"]), held["friction"], held["restitution"], held["linear_damping"], held["angular_damping"])
+        return Held(held["mass"], vector(held["inertia"]), held["friction"], held["restitution"],
+                    held["linear_damping"], held["angular_damping"])
 
     def gravity(self) -> Vector:
         return vector(self.opened["gravity"])
@@ -95,7 +96,8 @@ class Jolt(RigidEngine):
         return Path(os.environ.get("TRIPOINT_ENGINE_FOLDER", "")) / "node_modules/jolt-physics/dist/jolt-physics.wasm-compat.js"
 
     def refuse(self, job: Job) -> str:
-        planes = [b["name"] for b in job.bodies if b["shape"]["kind"] == "union" and any(part["kind"] == "half_space" for part in b["shape"]["of"])]
+        unions = [body for body in job.bodies if body["shape"]["kind"] == "union"]
+        planes = [body["name"] for body in unions if any(part["kind"] == "half_space" for part in body["shape"]["of"])]
         return f"Jolt's half space is a body of its own, and {planes[0]} is a union with one" if planes else ""
 
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""MuJoCo (Apache-2.0), any release from 2.3: rigid bodies, contact by its soft constraints. Presets are its integrators by name."""
+"""MuJoCo (Apache-2.0), any release from 2.3: rigid bodies, contact by soft constraints. Presets are its integrators by name."""
 from __future__ import annotations
 
 import os
@@ -99,7 +99,8 @@ class Mujoco(RigidEngine):
     name, title = "mujoco", "MuJoCo"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
     presets = ("Euler", "implicitfast", "implicit", "RK4")
-    settings = SHARED_SETTINGS | {"solref": "time constant and damping ratio of contacts, MuJoCo's default 0.02 1; negative: stiffness and damping",
+    settings = SHARED_SETTINGS | {"solref": "time constant and damping ratio of contacts, MuJoCo's default 0.02 1; "
+                                            "negative: stiffness and damping",
                                   "solimp": "impedance of contacts, MuJoCo's default 0.9 0.95 0.001 0.5 2"}
     default_step = 0.002  # MuJoCo's own
 

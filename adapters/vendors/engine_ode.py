@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""ODE (BSD-3-Clause or LGPL-2.1+), Debian's library in double precision: rigid bodies, contact joints. Presets are its two steppers by name."""
+"""ODE (BSD-3-Clause or LGPL-2.1+), Debian's library in double precision: rigid bodies, contact joints.
+
+Presets are its two steppers by name."""
 from __future__ import annotations
 
 import os
@@ -127,10 +129,14 @@ class Ode(RigidEngine):
     name, title = "ode", "ODE"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
     presets = ("dWorldStep", "dWorldQuickStep")
-    settings = SHARED_SETTINGS | {"gyroscopic": "gyroscopic term, true (ODE's default) or false", "finite_rotation": "orientation by a finite rotation, true or false (ODE's default: an infinitesimal one)",
-                                  "bounce": "restitution of every pair, default 0",
-                                  "bounce_vel": "slower hits than this do not bounce, default 0 [m/s]", "erp": "share of an error that a step removes, ODE's default 0.2",
-                                  "cfm": "constraint force mixing, ODE's default 1e-10", "iterations": "of dWorldQuickStep, ODE's default 20"}
+    settings = SHARED_SETTINGS | {
+        "gyroscopic": "gyroscopic term, true (ODE's default) or false",
+        "finite_rotation": "orientation by a finite rotation, true or false (ODE's default: an infinitesimal one)",
+        "bounce": "restitution of every pair, default 0",
+        "bounce_vel": "slower hits than this do not bounce, default 0 [m/s]",
+        "erp": "share of an error that a step removes, ODE's default 0.2",
+        "cfm": "constraint force mixing, ODE's default 1e-10",
+        "iterations": "of dWorldQuickStep, ODE's default 20"}
     default_step = 1.0 / 240.0  # ours: ODE has none
 
     def version(self) -> str:

@@ -13,10 +13,13 @@ from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World,
 from rotation import Quaternion, Vector, norm, rotate, vector
 
 WORLD_SETTINGS = {  # attributes of IntegrationParameters, in Rapier's words, with what they are
-    "num_solver_iterations": "Rapier's default 4", "num_internal_stabilization_iterations": "Rapier's default 1",
-    "normalized_allowed_linear_error": "Rapier's default 0.005 [m]", "normalized_prediction_distance": "Rapier's default 0.02 [m]",
+    "num_solver_iterations": "Rapier's default 4",
+    "num_internal_stabilization_iterations": "Rapier's default 1",
+    "normalized_allowed_linear_error": "Rapier's default 0.005 [m]",
+    "normalized_prediction_distance": "Rapier's default 0.02 [m]",
     "normalized_max_corrective_velocity": "Rapier's default 3 [m/s]", "warmstart_coefficient": "Rapier's default 1"}
-FASTEST_TURN = math.pi / 4  # of a step [rad]: Rapier slows a faster spin down, unless allow_fast_rotation is set, which is not its default
+# Of a step [rad]: Rapier slows a faster spin down, unless allow_fast_rotation is set, which is not its default.
+FASTEST_TURN = math.pi / 4
 
 
 def xyz(v: Any) -> Vector:
@@ -48,7 +51,8 @@ class RapierWorld(World):
         if body.free:
             # The colliders have no density: the mass is the job's alone.
             mass = self.rapier.MassProperties((0.0, 0.0, 0.0), body.mass, body.inertia)
-            builder = builder.linvel(body.velocity).angvel(body.spin).additional_mass_properties(mass).gyroscopic_forces(self.gyroscopic)
+            builder = builder.linvel(body.velocity).angvel(body.spin).additional_mass_properties(mass)
+            builder = builder.gyroscopic_forces(self.gyroscopic)
         handle = self.world.add_body(builder, [self.collider(piece) for piece in body.pieces])
         # Else the mass would be 0 until the first step, and could not be read back.
         self.world.rigid_bodies[handle].recompute_mass_properties_from_colliders(self.world.colliders)
@@ -57,7 +61,8 @@ class RapierWorld(World):
     def collider(self, piece: Piece) -> Any:
         collider = self.rapier.Collider
         if piece.kind == "plane":
-            shape = collider.halfspace(rotate(piece.rotation, (0.0, 0.0, 1.0))).position(self.isometry(piece.centre, (1.0, 0.0, 0.0, 0.0)))
+            shape = collider.halfspace(rotate(piece.rotation, (0.0, 0.0, 1.0)))
+            shape = shape.position(self.isometry(piece.centre, (1.0, 0.0, 0.0, 0.0)))
         else:
             shape = collider.cuboid(*piece.size) if piece.kind == "box" else collider.ball(piece.size[0])
             shape = shape.position(self.isometry(piece.centre, piece.rotation))
@@ -86,7 +91,8 @@ class Rapier(RigidEngine):
     name, title = "rapier", "Rapier"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
     presets = ("SIMPLIFIED", "COULOMB")
-    settings = SHARED_SETTINGS | WORLD_SETTINGS | {"gyroscopic_forces": "true (Rapier's default) or false", "restitution": "of every pair, default 0"}
+    settings = SHARED_SETTINGS | WORLD_SETTINGS | {"gyroscopic_forces": "true (Rapier's default) or false",
+                                                   "restitution": "of every pair, default 0"}
     precision = "single"
     default_step = 1.0 / 60.0  # Rapier's own
 

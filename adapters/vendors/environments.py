@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which engines can be installed, and where their environments are.
 
-An environment is the folder HOME/NAME-VERSION with a file `installed.json`, which is written last; HOME/NAME points to the version that
-the plain name means. HOME is $TRIPOINT_ENGINES, else `.venv-engines` of the checkout. Nothing else is written to."""
+An environment is the folder HOME/NAME-VERSION with a file `installed.json`, which is written last; HOME/NAME points to the version
+that the plain name means. HOME is $TRIPOINT_ENGINES, else `.venv-engines` of the checkout. Nothing else is written to."""
 from __future__ import annotations
 
 import json
@@ -76,4 +76,5 @@ def release(words: str) -> Release:
     if pins is None:
         raise InstallError(f"{name}@{version}: no such version is pinned; there are {', '.join(engine['versions'])}")
     files = tuple(File(pin, known["files"][pin]["sha256"], known["files"][pin]["bytes"]) for pin in pins)
-    return Release(name, engine["title"], version, engine["licence"], engine["from"], ADAPTERS / engine["adapter"], files, engine["disk_mb"])
+    adapter = ADAPTERS / engine["adapter"]
+    return Release(name, engine["title"], version, engine["licence"], engine["from"], adapter, files, engine["disk_mb"])

@@ -35,8 +35,8 @@ def ask(wanted: Release, yes: bool) -> None:
 def write_executable(wanted: Release) -> None:
     """HOME/NAME-VERSION/engine-NAME: the adapter on this environment's Python, or on Debian's where the engine is no wheel."""
     python = '"$here/bin/python"' if wanted.registry == "PyPI" else PYTHON
-    lines = ["#!/bin/sh", 'here=$(dirname "$(readlink -f "$0")")', f'export TRIPOINT_ENGINE_FOLDER="$here" TRIPOINT_ENGINE_VERSION={wanted.version}',
-             f'exec {python} -B "{wanted.adapter}" "$@"', ""]
+    lines = ["#!/bin/sh", 'here=$(dirname "$(readlink -f "$0")")',
+             f'export TRIPOINT_ENGINE_FOLDER="$here" TRIPOINT_ENGINE_VERSION={wanted.version}', f'exec {python} -B "{wanted.adapter}" "$@"', ""]
     wanted.executable.write_text("\n".join(lines), encoding="utf-8")
     wanted.executable.chmod(0o755)
 
@@ -69,7 +69,8 @@ def install(wanted: Release, yes: bool, keep: bool) -> None:
         write_executable(wanted)
         info = check_answer(wanted)
         part = wanted.folder / (STAMP + ".part")
-        part.write_text(json.dumps({"name": wanted.engine, "version": wanted.version, "library": info["library"]}, indent=1), encoding="utf-8")
+        done = {"name": wanted.engine, "version": wanted.version, "library": info["library"]}
+        part.write_text(json.dumps(done, indent=1), encoding="utf-8")
         os.replace(part, wanted.folder / STAMP)
     write_executable(wanted)  # the adapter may have moved since
     if not (keep and (home() / wanted.engine).exists()):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""libode.so.8 by ctypes: the structures and the functions that the adapter calls, as ode/contact.h, mass.h and objects.h declare them."""
+"""libode.so.8 by ctypes: the structures and functions that the adapter calls, as ode/contact.h, mass.h and objects.h have them."""
 from __future__ import annotations
 
 from ctypes import CDLL, CFUNCTYPE, POINTER, RTLD_GLOBAL, Structure, c_char_p, c_double, c_int, c_uint, c_void_p

@@ -78,6 +78,8 @@ class Refusals(unittest.TestCase):
 
     def test_every_adapter_of_rigid_bodies_takes_a_block_and_refuses_what_it_has_no_law_for(self):
         for name, engine in catalogue()["engines"].items():
+            if name == "scikit-fem":  # of fields: below
+                continue
             command = ["/usr/bin/python3", "-B", str(ADAPTERS / engine["adapter"])]
             preset = engine["presets"][0]
             with self.subTest(name):
@@ -89,6 +91,23 @@ class Refusals(unittest.TestCase):
         command = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_rapier.py")]
         for spin, word in ((70.0, ""), (90.0, "pi/4")):
             self.assertIn(word, check(command, job([body(angular_velocity=[0.0, 0.0, spin])], preset="SIMPLIFIED"))["reason"])
+
+
+class Fields(unittest.TestCase):
+    COMMAND = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_scikit_fem.py")]
+    WARM = {"motion": "fixed", "temperature": {"kind": "constant", "value": 300.0}, "velocity": [0.0, 0.0, 0.0]}
+
+    def answer(self, changes, **scene):
+        return check(self.COMMAND, job([body(**{**self.WARM, **changes})], preset="ElementHex1", **scene))
+
+    def test_conduction_at_rest_is_taken(self):
+        self.assertEqual(self.answer({}), {"can": True, "reason": ""})
+        self.assertTrue(self.answer({"motion": "free"}, gravity=[0.0, 0.0, 0.0])["can"])
+
+    def test_what_moves_melts_or_has_no_temperature_is_refused(self):
+        for changes, scene, word in (({"temperature": None}, {}, "no temperature"), ({"phase": "liquid"}, {}, "may move"), ({"motion": "free"}, {}, "may move"),
+                                     ({}, {"materials": [{"name": "stuff", "t_melt": 273.0}]}, "may melt"), ({}, {"jitter": 0.1}, "lattice"), ({}, {"mode": "paper"}, "paper")):
+            self.assertIn(word, self.answer(changes, **scene)["reason"])
 
 
 class Surfaces(unittest.TestCase):

@@ -22,7 +22,8 @@ def floor(**changes):
 
 
 def job(bodies, times=(0.0, 0.5, 1.0), time_step=0.01, preset="default", settings=None, **scene):
-    whole = {"mode": "corrected", "gravity": [0.0, 0.0, -9.81], "periodic": [], "inflows": [], "events": [], "bodies": bodies, "spacing": 0.1, "materials": []}
+    whole = {"mode": "corrected", "gravity": [0.0, 0.0, -9.81], "periodic": [], "inflows": [], "events": [], "bodies": bodies, "spacing": 0.1, "jitter": 0.0,
+             "materials": [{"name": "stuff", "t_melt": None}]}
     return {"contract": 1, "case": "test", "scene": {**whole, **scene}, "particles": "particles.h5", "resolution": {"time_step": time_step},
             "preset": preset, "settings": settings or {}, "times": list(times), "output": "."}
 

@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""scikit-fem (BSD-3-Clause) as a witness of conduction: finite elements on hexahedra, one element a particle.
+
+Presets are its elements. Each particle is a cube of one spacing, and its temperature is the mean of its element, which is what it
+holds. Time is stepped by Crank and Nicolson, the first step in four of backward Euler, because Crank-Nicolson does not damp a step
+of temperature. What touches nothing is insulated; what is held keeps its temperature up to its sides."""
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from contract import HEAT_COLUMNS, Engine, Job, Outcome, Row, serve, write_trajectory
+from rigid import steps_in
+
+START_STEPS = 4  # of backward Euler, in the place of the first step
+
+
+def refuse_scene(job: Job) -> str:
+    """Why the scene is no conduction at rest; "" if it is."""
+    scene = job.scene
+    if scene["mode"] == "paper":
+        return "the paper's forms belong to the particle solver; scikit-fem has none"
+    if scene["events"] or scene["inflows"]:
+        return "events and inflow are not handed to scikit-fem"
+    if scene["jitter"]:
+        return "particles off their lattice are no elements"
+    names = {material["name"]: material for material in scene["materials"]}
+    for body in job.bodies:
+        if body["temperature"] is None:
+            return f"scikit-fem is handed conduction only, and {body['name']} has no temperature"
+        driven = any(scene["gravity"]) or any(body["velocity"]) or any(body["angular_velocity"])
+        if body["phase"] == "liquid" or (body["motion"] != "fixed" and driven):
+            return f"scikit-fem is handed conduction at rest, and {body['name']} may move"
+        if names[body["material"]]["t_melt"] is not None:
+            return f"{body['name']} may melt, and the elements here have no latent heat"
+    return ""
+
+
+def of_solid(material: dict[str, Any], key: str) -> float:
+    """A value of the solid, which is the liquid's where it has none of its own."""
+    own = material.get("solid_" + key)
+    return float(material[key] if own is None else own)
+
+
+class Bar:
+    """The scene as a linear system: M dT/dt = -K T over the degrees of freedom that are not held."""
+
+    def __init__(self, job: Job, element: str) -> None:
+        import h5py
+        import numpy as np
+        import skfem
+        from skfem.helpers import dot, grad
+
+        self.np = np
+        with h5py.File(job.particles) as file:
+            column = {key: file[f"particles/all/{key}/value"][0] for key in ("position", "velocity", "temperature", "source")}
+        self.start = column
+        dx = float(job.scene["spacing"])
+        origin = column["position"].min(axis=0)
+        cell = np.rint((column["position"] - origin) / dx).astype(int)  # (particles, 3): place on the lattice
+        sides = [np.arange(n + 2) * dx - 0.5 * dx + o for n, o in zip(cell.max(axis=0), origin)]
+        box = skfem.MeshHex.init_tensor(*sides)
+        shape = [len(side) - 1 for side in sides]
+        middle = np.rint((box.p[:, box.t].mean(axis=1).T - origin) / dx).astype(int)
+        place = np.full(shape, -1)
+        place[tuple(cell.T)] = np.arange(len(cell))
+        particle = place[tuple(middle.T)]
+        mesh = box.restrict(np.nonzero(particle >= 0)[0])
+        self.particle = particle[particle >= 0]  # of each element
+
+        bodies = [job.bodies[k] for k in column["source"][self.particle]]
+        materials = {m["name"]: m for m in job.scene["materials"]}
+        own = [materials[body["material"]] for body in bodies]
+        k = np.array([of_solid(m, "conductivity") for m in own])[:, None]  # [W/(m K)]
+        c = np.array([m["density"] * of_solid(m, "heat_capacity") for m in own])[:, None]  # [J/(m3 K)]
+        basis = skfem.Basis(mesh, getattr(skfem, element)())
+        cells = basis.with_element(skfem.ElementHex0())
+        stiffness = skfem.BilinearForm(lambda u, v, w: k * dot(grad(u), grad(v))).assemble(basis)
+        mass = skfem.BilinearForm(lambda u, v, w: c * u * v).assemble(basis)
+        content = skfem.BilinearForm(lambda u, v, w: u * v).assemble(basis, cells)  # (elements, dofs): integral over each [m3]
+        warmth = skfem.BilinearForm(lambda u, v, w: c * u * v).assemble(basis, cells)
+        join = self.joined(basis.doflocs, job, sides)
+        self.stiffness, self.mass = join.T @ stiffness @ join, join.T @ mass @ join
+        self.mean = (content @ join) / dx**3
+        held = np.array([body["temperature_held"] for body in bodies])
+        fixed = np.unique(join[basis.element_dofs[:, held].ravel()].indices) if held.any() else np.array([], int)
+        given = column["temperature"][self.particle]
+        self.free = np.setdiff1d(np.arange(join.shape[1]), fixed)
+        self.fixed = fixed
+        self.temperature = self.solve(self.mass, join.T @ (warmth.T @ given))
+        if held.any():
+            weight = (content @ join)[held]
+            total = np.maximum(np.asarray(weight.sum(axis=0)).ravel(), 1e-300)
+            self.temperature[fixed] = ((weight.T @ given[held]) / total)[fixed]
+        self.elements = len(self.particle)
+        self.diffusivity = float((k / c).max())  # [m2/s]
+
+    def joined(self, places: Any, job: Job, sides: list[Any]) -> Any:
+        """(dofs, unknowns): dofs that are one across a periodic direction which the particles fill."""
+        import scipy.sparse as sparse
+
+        np, scene = self.np, job.scene
+        dx = float(scene["spacing"])
+        at = np.rint((places.T - [side[0] for side in sides]) / (0.25 * dx)).astype(int)  # half nodes of quadratic elements too
+        for axis, name in enumerate("xyz"):
+            length = scene["max"][axis] - scene["min"][axis] if scene["max"] else 0.0
+            cells = len(sides[axis]) - 1
+            if name in scene["periodic"] and abs(cells * dx - length) < 1e-6 * dx * cells:
+                at[:, axis] %= 4 * cells
+        _, number = np.unique(at, axis=0, return_inverse=True)
+        number = number.ravel()
+        return sparse.csr_matrix((np.ones(len(number)), (np.arange(len(number)), number)))
+
+    def solve(self, matrix: Any, right: Any) -> Any:
+        """Conjugate gradients: the mass matrix prevails, so that a few dozen iterations reach round-off."""
+        from scipy.sparse import diags
+        from scipy.sparse.linalg import cg
+
+        found, left = cg(matrix, right, rtol=1e-13, atol=0.0, maxiter=2000, M=diags(1.0 / matrix.diagonal()))
+        if left != 0:
+            raise RuntimeError(f"conjugate gradients did not converge ({left})")
+        return found
+
+    def advance(self, dt: float, count: int, theta: float) -> None:
+        """`count` steps of dt [s]; theta 1/2 is Crank and Nicolson, 1 backward Euler."""
+        free = self.free
+        left = (self.mass + theta * dt * self.stiffness)[free][:, free]
+        for _ in range(count):
+            flow = -(self.stiffness @ self.temperature)  # [W]
+            self.temperature[free] += self.solve(left, dt * flow[free])
+
+    def of_particles(self) -> Any:
+        """[K], by particle"""
+        values = self.np.empty(self.elements)
+        values[self.particle] = self.mean @ self.temperature
+        return values
+
+
+class ScikitFem(Engine):
+    name = "scikit-fem"
+    capabilities = ("heat", "heat-held")
+    presets = ("ElementHex1", "ElementHex2")
+    settings = {"time_step": "goes before the job's [s]; default half of dx^2 over the greatest diffusivity"}
+
+    def version(self) -> str:
+        return version("scikit-fem")
+
+    def library(self) -> Path | None:
+        found = find_spec("skfem")
+        return Path(found.origin).parent / "assembly/form/bilinear_form.py" if found and found.origin else None
+
+    def refusal(self, job: Job) -> str:
+        if job.preset not in self.presets:
+            return f"scikit-fem: no preset '{job.preset}'; there are {', '.join(self.presets)}"
+        unknown = [key for key in job.settings if key not in self.settings]
+        if unknown:
+            return f"scikit-fem: no setting '{unknown[0]}'; there are {', '.join(self.settings)}"
+        return refuse_scene(job)
+
+    def run(self, job: Job) -> Outcome:
+        began = time.process_time()
+        bar = Bar(job, job.preset)
+        limit = float(job.settings.get("time_step", job.time_step or 0.5 * job.scene["spacing"] ** 2 / bar.diffusivity))
+        outcome = Outcome(setup_cpu=time.process_time() - began)
+        outcome.readback = {"gravity": job.scene["gravity"], "time_step": limit, "precision": "double", "bodies": []}
+        outcome.state_hash = write_trajectory(job, HEAT_COLUMNS, _rows(job, bar, limit, outcome))
+        outcome.pairs = float(bar.elements * outcome.steps)
+        return outcome
+
+
+def _rows(job: Job, bar: Bar, limit: float, outcome: Outcome) -> Iterator[Row]:
+    now, place = job.times[0], bar.start["position"].tolist()
+    start = bar.start["temperature"].tolist()
+    for at in job.times:
+        if at > now:
+            count = steps_in(at - now, limit)
+            dt = (at - now) / count
+            if outcome.steps == 0:
+                bar.advance(dt / START_STEPS, START_STEPS, 1.0)
+                bar.advance(dt, count - 1, 0.5)
+            else:
+                bar.advance(dt, count, 0.5)
+            outcome.steps += count
+            now = at
+        values = bar.of_particles().tolist() if outcome.steps else start
+        for number, (x, temperature) in enumerate(zip(place, values)):
+            yield [at, number, *x, 0.0, 0.0, 0.0, temperature]
+
+
+if __name__ == "__main__":
+    sys.exit(serve(ScikitFem(), sys.argv[1:]))
