@@ -92,6 +92,10 @@ class Refusals(unittest.TestCase):
         for spin, word in ((70.0, ""), (90.0, "pi/4")):
             self.assertIn(word, check(command, job([body(angular_velocity=[0.0, 0.0, spin])], preset="SIMPLIFIED"))["reason"])
 
+    def test_dart_refuses_half_spaces(self):
+        command = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_dart.py")]
+        self.assertIn("floor", check(command, job([body(), floor()]))["reason"])
+
 
 class Fields(unittest.TestCase):
     COMMAND = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_scikit_fem.py")]

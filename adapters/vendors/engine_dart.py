@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""DART (BSD-2-Clause), its wheel in double precision: free joints with semi-implicit Euler, contacts by its default solver."""
+from __future__ import annotations
+
+import sys
+from importlib.metadata import distribution, version
+from pathlib import Path
+from typing import Any
+
+from contract import Job, serve
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb, pieces_of
+from rotation import IDENTITY, Quaternion, Vector, quaternion, rotate, vector
+
+
+def matrix_of(q: Quaternion) -> list[list[float]]:
+    """The rotation as a matrix: its columns are the turned axes."""
+    columns = [rotate(q, axis) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+    return [[columns[c][r] for c in range(3)] for r in range(3)]
+
+
+class DartWorld(World):
+    def __init__(self, dart: Any, job: Job, bodies: list[Body], dt: float) -> None:
+        import numpy as np
+
+        self.dart, self.np = dart, np
+        self.world = dart.simulation.World()
+        self.world.setTimeStep(dt)
+        self.world.setGravity(np.array(job.scene["gravity"]))
+        self.friction = coulomb(job)
+        self.restitution = float(job.settings.get("restitution", 0.0))
+        self.nodes = {number: self.add(body) for number, body in enumerate(bodies)}
+
+    def transform(self, at: Vector, turn: Quaternion) -> Any:
+        whole = self.dart.math.Isometry3()
+        whole.set_rotation(self.np.array(matrix_of(turn)))
+        whole.set_translation(self.np.array(at))
+        return whole
+
+    def add(self, body: Body) -> Any:
+        np, dynamics = self.np, self.dart.dynamics
+        skeleton = dynamics.Skeleton(f"body {body.index}")
+        if body.free:
+            joint, node = skeleton.createFreeJointAndBodyNodePair()
+            node.setInertia(dynamics.Inertia(body.mass, np.zeros(3), np.diag(body.inertia)))
+            joint.setTransform(self.transform(body.centre, body.frame))
+            joint.setLinearVelocity(np.array(body.velocity))
+            joint.setAngularVelocity(np.array(body.spin))
+        else:
+            joint, node = skeleton.createWeldJointAndBodyNodePair()
+            joint.setTransformFromParentBodyNode(self.transform(body.centre, body.frame))
+        for piece in body.pieces:
+            self.surface(node, piece)
+        self.world.addSkeleton(skeleton)
+        return node
+
+    def surface(self, node: Any, piece: Piece) -> None:
+        np, dynamics = self.np, self.dart.dynamics
+        if piece.kind == "box":
+            shape = dynamics.BoxShape(np.array([2.0 * half for half in piece.size]))
+        else:
+            shape = dynamics.SphereShape(piece.size[0])
+        held = node.createShapeNode(shape)
+        held.setRelativeTransform(self.transform(piece.centre, piece.rotation))
+        held.createCollisionAspect()
+        held.createDynamicsAspect()
+        aspect = held.getDynamicsAspect()
+        aspect.setFrictionCoeff(self.friction)
+        aspect.setRestitutionCoeff(self.restitution)
+
+    def step(self, dt: float, count: int) -> None:
+        self.world.setTimeStep(dt)
+        for _ in range(count):
+            self.world.step()
+
+    def state(self, number: int) -> State:
+        node = self.nodes[number]
+        place = node.getWorldTransform()
+        turn = quaternion(place.quaternion().wxyz())
+        return State(vector(place.translation()), vector(node.getLinearVelocity()), turn, vector(node.getAngularVelocity()))
+
+    def held(self, number: int) -> Held:
+        inertia = self.nodes[number].getInertia()
+        moment = inertia.getMoment()
+        return Held(float(inertia.getMass()), (float(moment[0][0]), float(moment[1][1]), float(moment[2][2])), self.friction, self.restitution)
+
+    def gravity(self) -> Vector:
+        return vector(self.world.getGravity())
+
+
+class Dart(RigidEngine):
+    name, title = "dart", "DART"
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
+    presets = ("default",)
+    settings = SHARED_SETTINGS | {"restitution": "of every surface, default 0"}
+    default_step = 0.001  # DART's own
+
+    def version(self) -> str:
+        return version("dartpy")
+
+    def library(self) -> Path | None:
+        files = distribution("dartpy").files or []
+        return next((Path(str(f.locate())) for f in files if f.name.startswith("dartpy") and f.name.endswith(".so")), None)
+
+    def refuse(self, job: Job) -> str:
+        for body in job.bodies:
+            if any(piece.kind == "plane" for piece in pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) or ()):
+                return f"half spaces are not handed to DART, and {body['name']} has one"
+        return ""
+
+    def open(self, job: Job, bodies: list[Body], dt: float) -> World:
+        import dartpy  # here, because --info and --check need no engine
+
+        return DartWorld(dartpy, job, bodies, dt)
+
+
+if __name__ == "__main__":
+    sys.exit(serve(Dart(), sys.argv[1:]))
