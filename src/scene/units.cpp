@@ -163,7 +163,7 @@ double parse_quantity(std::string_view text, std::string_view expected) {
   const Unit unit = parse_unit(name);
   if (unit.dimension != target.dimension)
     throw std::invalid_argument(fmt::format("`{}` is in {}, but {} is expected{}", printable(text), to_string(unit.dimension), want,
-                                            expected.empty() ? "" : fmt::format(" (write 3 or \"3 {}\")", expected)));
+                                            expected.empty() ? ": write it without unit and quotes" : fmt::format(" (write 3 or \"3 {}\")", expected)));
   const double si = value * unit.numerator / unit.denominator + unit.offset;
   if (!std::isfinite(si)) throw std::invalid_argument(fmt::format("`{}` is too large for a number in SI: write a smaller one", printable(text)));
   return si;

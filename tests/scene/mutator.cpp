@@ -149,7 +149,7 @@ Mutant other_value(const std::string& text, Dice& dice) {
 
 /// One number of the file becomes another.
 Mutant other_number(std::string text, Dice& dice) {
-  static constexpr std::array<std::string_view, 12> numbers{"nan", "inf", "-3.5", "0.0", "1e300", "1e-300", "7", "-1e-9", "1e9", "0.4999", "0.5", "1..2"};
+  static constexpr std::array<std::string_view, 12> numbers{"nan", "inf", "-3.5", "0.0", "1e29", "1e-300", "7", "-1e-9", "1e9", "0.4999", "0.5", "1..2"};
   std::vector<std::pair<std::size_t, std::size_t>> found;
   const auto digits = places(text, "0123456789");
   for (std::size_t k = 0; k < digits.size(); ++k) {
