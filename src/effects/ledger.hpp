@@ -19,10 +19,10 @@ struct Ledger {
 struct Booked {
   double pressure_work = 0.0;     ///< done by pressure on liquids and free bodies [J]
   double viscous_work = 0.0;      ///< done by viscous forces on liquids and free bodies: what they dissipate leaves as minus this [J]
+  double bulk_viscous = 0.0;      ///< taken by the numerical bulk viscosity of liquids [J]
   double gravity_work = 0.0;      ///< done by gravity on liquids and free bodies [J]
   double wall_pressure_work = 0.0;  ///< done by pressure on driven walls [J]
   double wall_viscous_work = 0.0;   ///< done by viscous forces on driven walls [J]
-  double extrapolated_work = 0.0;   ///< done on liquids by walls that take the liquid's own pressure: no energy stands behind it [J]
   double elastic_work = 0.0;      ///< done by bonds, of strain energy and hourglass energy, on liquids, deformable solids and free bodies [J]
   double wall_elastic_work = 0.0;   ///< done by bonds on driven walls [J]
   double deformation_released = 0.0;  ///< elastic and hourglass energy that events turned into heat, plastic or fracture entries [J]

@@ -11,7 +11,7 @@ struct PairPasses {
   PassFunction (*density)(const std::array<int, 2>&);
   PassFunction (*rates)(const std::array<int, 2>&);
   PassFunction (*spread)(const std::array<int, 1>&);  ///< of viscosity: 1 as printed, 2 central, 3 laplacian
-  PassFunction wall_extrapolation, wall_force, transport;
+  PassFunction wall_extrapolation, transport;
 };
 
 /// As compiled for a vector unit, for clusters as wide as it.

@@ -17,7 +17,6 @@ using RatePass = Pass<Slot<Together<PressurePaper, ViscosityPaper>, Together<Pre
                       Slot<HeatFlowPaper, HeatFlowCorrected>>;
 using SpreadPass = Pass<Slot<ViscousSpread<ViscosityPaper>, ViscousSpread<ViscosityCentral>, ViscousSpread<ViscosityLaplacian>>>;
 using WallExtrapolationPass = Pass<Slot<WallExtrapolation>>;
-using WallForcePass = Pass<Slot<WallPressureForce>>;
 using TransportPass = Pass<Slot<TransportForces>>;
 
 }  // namespace
@@ -25,7 +24,10 @@ using TransportPass = Pass<Slot<TransportForces>>;
 template <>
 PairPasses pair_passes_for<Unit>() {
   constexpr int lanes = TRIPOINT_UNIT_LANES;
-  return {&DensityPass::choose<lanes, Unit>, &RatePass::choose<lanes, Unit>, &SpreadPass::choose<lanes, Unit>, WallExtrapolationPass::choose<lanes, Unit>({1}), WallForcePass::choose<lanes, Unit>({1}),
+  return {&DensityPass::choose<lanes, Unit>,
+          &RatePass::choose<lanes, Unit>,
+          &SpreadPass::choose<lanes, Unit>,
+          WallExtrapolationPass::choose<lanes, Unit>({1}),
           TransportPass::choose<lanes, Unit>({1})};
 }
 

@@ -28,10 +28,12 @@ void check_escape(const World&, const Enclosure&);
 struct GuardMemory {
   double turned_over = 0.0;  ///< greatest sum of the sizes of all entries of the ledger so far [J]
   double first_step = 0.0;   ///< first finite bound [s]
+  bool still = false;        ///< the scene was laid at rest, of liquids and what is fixed alone: what moves then falls, or is made by the scheme
 };
 
-/// Energy that the scheme makes or loses, the entry "time_integration", against all that the scene has turned over: more than half of
-/// that is no error of integration any more. Below a ten-billionth of the energy that the mass would have at one spacing a step
+/// Energy that the scheme makes or loses, against all that the scene has turned over: more than half of that is no error of integration any more.
+/// It is the entry "time_integration"; what viscous forces have made, that of walls included, which may only take; and in a scene that was laid at
+/// rest what the printed pressure has made. Below a ten-billionth of the energy that the mass would have at one spacing a step
 /// nothing is told apart from round-off.
 /// @throws Diverged naming the particle of the greatest kinetic energy
 void check_energy(const World&, const Ledger&, double dt, GuardMemory&);

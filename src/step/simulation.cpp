@@ -40,6 +40,12 @@ bool is_static(const Scene& scene, const InitialState& initial) {
   return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) && scene.events.empty();
 }
 
+/// Whether liquids and what is fixed are all that there is, laid at rest.
+bool is_still(const Scene& scene, const InitialState& initial) {
+  const auto rests = [](const Body& b) { return b.phase == Phase::liquid || b.motion == Motion::fixed; };
+  return scene.inflows.empty() && scene.events.empty() && std::ranges::all_of(scene.bodies, rests) && std::ranges::all_of(initial.velocity, [](const Vec3& v) { return v == Vec3{}; });
+}
+
 /// Whether an energy stands behind the pressure: its forces are the gradient of one where one kernel serves density and force and the
 /// particles move with their own velocity (model 8.3). Printed (4), (7) and (9) and the transport velocity have none.
 bool stores_compression(const Scene& scene) {
@@ -54,10 +60,10 @@ void book_mechanical(const Scene& scene, const Booked& booked, Ledger& sum) {
   const bool presses = sum.energy.count("compression") > 0, deforms = sum.energy.count("elastic") > 0;
   if (!presses && !deforms) return;
   sum.energy["viscous"] -= booked.viscous_work + booked.wall_viscous_work;
-  sum.energy["walls"] += booked.wall_pressure_work + booked.wall_viscous_work + booked.wall_elastic_work - booked.extrapolated_work;
+  sum.energy["walls"] += booked.wall_pressure_work + booked.wall_viscous_work + booked.wall_elastic_work;
   const double compression = sum.energy["compression"] - booked.start_compression;
   const double potential = sum.energy["potential"] - booked.start_potential - booked.driven_potential;
-  const double pressure_work = booked.pressure_work + booked.wall_pressure_work - booked.extrapolated_work;
+  const double pressure_work = booked.pressure_work + booked.wall_pressure_work;
   const bool stored = stores_compression(scene);
   const double by_pressure = stored ? compression + booked.compression_released + pressure_work : 0.0;
   if (!stored) sum.energy.erase("compression"), sum.energy["pressure_work"] -= pressure_work;
@@ -65,7 +71,7 @@ void book_mechanical(const Scene& scene, const Booked& booked, Ledger& sum) {
   const double by_bonds = deformation + booked.deformation_released + booked.elastic_work + booked.wall_elastic_work;
   const double released = stored ? booked.compression_released : 0.0;
   if (sum.energy.count("latent") > 0 || released != 0.0) sum.energy["phase_work"] += released;
-  sum.energy["time_integration"] = -by_pressure - by_bonds - (potential + booked.gravity_work) - booked.rotation_drift;
+  sum.energy["time_integration"] = -booked.bulk_viscous - by_pressure - by_bonds - (potential + booked.gravity_work) - booked.rotation_drift;
 }
 
 std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& effects) {
@@ -110,6 +116,7 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   world_.threads = options_.threads;
   world_.axis_order = options_.axis_order;
   world_.box = box_of(scene);
+  guards_.still = is_still(scene, initial);
   load(initial);
   enclosure_ = enclosure_of(scene, initial);
   if (passes_.needed()) {

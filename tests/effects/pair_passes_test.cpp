@@ -23,7 +23,7 @@ std::vector<int> widths_of_this_machine() {
 /// Every pass at every choice of forms, by name.
 std::vector<std::pair<std::string, PassFunction>> all_passes(int lanes) {
   const PairPasses p = pair_passes(lanes);
-  std::vector<std::pair<std::string, PassFunction>> list{{"wall_extrapolation", p.wall_extrapolation}, {"wall_force", p.wall_force}, {"transport", p.transport}};
+  std::vector<std::pair<std::string, PassFunction>> list{{"wall_extrapolation", p.wall_extrapolation}, {"transport", p.transport}};
   for (int a = 0; a <= 2; ++a)
     for (int b = 0; b <= 1; ++b) list.emplace_back("density " + std::to_string(a) + std::to_string(b), p.density({a, b}));
   for (int a = 1; a <= 3; ++a) list.emplace_back("spread " + std::to_string(a), p.spread({a}));

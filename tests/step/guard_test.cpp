@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "effects/fluid_lab.hpp"
 #include "effects/solid_lab.hpp"
 
 namespace tripoint {
@@ -142,6 +143,32 @@ TEST(Guard, NamesEnergyThatTheSchemeMakes) {
   EXPECT_EQ(e.particle, 21) << "the fastest";
   ledger.energy["thermal"] = 1e9;
   EXPECT_THROW(check_energy(s.world(), ledger, dt, memory), Diverged) << "heat hides no energy of motion";
+}
+
+/// A column between fixed walls whose ledger says that forces have made what moves.
+TEST(Guard, CountsWhatForcesMakeAsMadeByTheScheme) {
+  const lab::Lab lab = lab::column(4, 4, 5.0, 1000.0, 10.0);
+  Simulation s(lab.scene, lab.initial);
+  Ledger ledger = s.ledger();
+  ASSERT_EQ(ledger.energy.count("viscous"), 1u);
+  GuardMemory memory;
+  const auto check = [&] { check_energy(s.world(), ledger, s.bound().dt, memory); };
+  ledger.energy["kinetic"] = 100.0;
+  ledger.energy["viscous"] = -40.0;
+  EXPECT_NO_THROW(check());
+  ledger.energy["viscous"] = -60.0;
+  const Diverged viscous = tripped(check);
+  EXPECT_EQ(viscous.guard, "ledger");
+  EXPECT_NE(std::string(viscous.what()).find("made 60 J by viscous forces"), std::string::npos) << viscous.what();
+  ledger.energy["viscous"] = 10.0;
+  ledger.energy["pressure_work"] = -90.0;
+  EXPECT_NO_THROW(check()) << "bodies that move give energy to the printed pressure, and take it again";
+  memory.still = true;
+  const Diverged printed = tripped(check);
+  EXPECT_NE(std::string(printed.what()).find("made 80 J by the printed pressure"), std::string::npos) << printed.what();
+  EXPECT_NE(std::string(printed.what()).find("the corrected forms"), std::string::npos) << printed.what();
+  ledger.energy["viscous"] = 50.0;
+  EXPECT_NO_THROW(check()) << "viscosity has taken half of it again";
 }
 
 TEST(Guard, NamesTheBoundThatLetsTheStepCollapse) {

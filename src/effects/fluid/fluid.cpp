@@ -7,6 +7,7 @@
 #include "core/machine.hpp"
 #include "effects/body_table.hpp"
 #include "effects/fill.hpp"
+#include "effects/fluid/bulk_viscosity.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
 #include "effects/fluid/phase_jump.hpp"
@@ -42,11 +43,8 @@ bool can_have_walls(const Scene& scene) {
   return std::ranges::any_of(scene.bodies, is_wall) || std::ranges::any_of(scene.events, makes_one);
 }
 
-/// Whether walls are seen as extrapolated (model 8.4).
-bool has_corrected_walls(const Scene& scene) { return scene.mode_of(Term::walls) == Mode::corrected && can_have_walls(scene); }
-
-/// Whether the work of the pressure that walls borrow is booked.
-bool splits_wall_forces(const Scene& scene) { return can_have_walls(scene) && numbers_of(scene).extrapolates && scene.mode_of(Term::pressure) == Mode::corrected; }
+/// Whether viscous pairs see walls by the mirrored velocity (model 8.4).
+bool mirrors_velocities(const Scene& scene) { return scene.mode_of(Term::walls) == Mode::corrected && can_have_walls(scene); }
 
 class Fluid : public Effect {
  public:
@@ -54,8 +52,9 @@ class Fluid : public Effect {
       : numbers_(numbers_of(scene)),
         kernels_(pair_kernels(scene)),
         transports_(uses_transport_velocity(scene)),
-        has_walls_(has_corrected_walls(scene)),
-        splits_(splits_wall_forces(scene)) {}
+        damps_(has_bulk_viscosity(scene)),
+        mirrors_(mirrors_velocities(scene)),
+        averages_(numbers_.averages_walls && can_have_walls(scene)) {}
   void load(World&, const InitialState&) override;
   void kick(World&, double dt) override;
   void drift(World&, double dt) override;
@@ -67,6 +66,7 @@ class Fluid : public Effect {
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World& world, Ledger& ledger) const override {
     add_fluid(world, numbers_, kernels_, ledger);
+    if (damps_) ledger.energy["bulk_viscous"] += world.booked.bulk_viscous;
     if (transports_) ledger.energy["transport"] -= world.booked.transport_work;
   }
 
@@ -74,14 +74,14 @@ class Fluid : public Effect {
   void set_material(World&, std::size_t row) const;
   void set_own_density(World&, std::size_t row) const;
   void set_groups(World&);
-  void book_driven_walls(World&, double dt) const;
 
   SceneNumbers numbers_;
   PairKernels kernels_;
   bool transports_;
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
-  bool has_walls_;  ///< corrected ones
-  bool splits_;     ///< the work of the walls' borrowed pressure is booked
+  bool damps_;      ///< liquids have a numerical bulk viscosity
+  bool mirrors_;    ///< viscous pairs see walls by the mirrored velocity
+  bool averages_;   ///< walls press by the mean density of a patch of their face
   Walls walls_;
 };
 
@@ -133,21 +133,7 @@ void Fluid::set_groups(World& world) {
 
 void Fluid::kick(World& world, double dt) {
   drifted_ = 0.0;
-  if (splits_) book_driven_walls(world, dt);
   world.lagged.half_step = dt;
-}
-
-/// The walls' side of the work of the pressure that they borrow.
-void Fluid::book_driven_walls(World& world, double dt) const {
-  if (world.bodies.size() == 0 || std::ranges::none_of(world.bodies[field::body_motion], [](int motion) { return motion == static_cast<int>(Motion::prescribed); })) return;
-  const Particles& p = world.particles;
-  const auto E = triple(p, field::wall_force_x, field::wall_force_y, field::wall_force_z);
-  const auto v = velocities(p);
-  const auto body = p[field::body];
-  double work = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i)
-    if (body[i] >= 0) work += dt * dot(E.at(i), v.at(i));
-  world.booked.extrapolated_work += work;
 }
 
 void Fluid::drift(World& world, double dt) {
@@ -176,12 +162,16 @@ void Fluid::clear(World& world, PassName pass) {
 }
 
 void Fluid::state(World& world) {
-  if (world.moved) set_density(world, numbers_);
+  if (world.moved) {
+    set_density(world, numbers_);
+    if (averages_) walls_.average_density(world, numbers_, kernels_);
+  }
   set_pressure(world, numbers_);
+  if (damps_ && world.moved) set_bulk_pressure(world, numbers_);
   predict_velocities(world);
-  if (has_walls_) walls_.extrapolate(world, numbers_, kernels_);
+  if (mirrors_) walls_.mirror_velocities(world, kernels_);
   if (world.scene.mode_of(Term::pressure) == Mode::corrected) set_pressure_shares(world, numbers_);
-  if (splits_) walls_.split_forces(world, kernels_);
+  if (averages_) walls_.hand_down_shares(world);
   if (transports_) set_transport_forces(world, numbers_, kernels_);
   update_viscous_bound(world, kernels_);
 }
@@ -213,11 +203,8 @@ EffectSpec spec(const Scene& scene) {
   if (scene.mode_of(Term::density) == Mode::corrected) own({field::number_density});
   if (scene.mode_of(Term::pressure) == Mode::corrected) own({field::pressure_share});
   if (scene.mode_of(Term::density) == Mode::corrected && can_have_deformable_bodies(scene)) own({field::own_density});
-  if (has_corrected_walls(scene)) {
-    own({field::wall_weight, field::wall_pressure, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z, field::wall_velocity_x, field::wall_velocity_y,
-         field::wall_velocity_z});
-    if (splits_wall_forces(scene)) own({field::wall_force_x, field::wall_force_y, field::wall_force_z});
-  }
+  if (has_bulk_viscosity(scene)) own({field::number_density_before, field::bulk_pressure});
+  if (mirrors_velocities(scene)) own({field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z});
   if (uses_transport_velocity(scene))
     own({field::shift_x, field::shift_y, field::shift_z, field::background_x, field::background_y, field::background_z, field::transport_force_x,
          field::transport_force_y, field::transport_force_z});
@@ -232,13 +219,15 @@ std::vector<DefectEntry> defects() {
           {"fluid.pressure", "corrected pressure force times 1 + size", "fluid/hydrostatic"},
           {"fluid.paper.pressure", "pressure force (7) times 1 + size", "fluid/hydrostatic"},
           {"fluid.core", "reach of the core of pairs times 1 + size", "fluid/hydrostatic"},
-          {"walls.pressure", "extrapolated pressure of walls times 1 - size", "fluid/hydrostatic"},
+          {"walls.pressure", "pressure of walls on liquids times 1 - size", "fluid/still-water"},
+          {"walls.clamp", "walls are not clamped: they pull where liquid is thin", "fluid/still-water"},
+          {"fluid.bulk_viscosity", "numerical bulk viscosity of liquids times 1 - size", "fluid/still-water"},
           {"fluid.phase_jump", "share of 0..1 of the compression that changes of phase let go left untold", "phase/melt-elastic"},
           {"fluid.state", "scaled pressure of (9) times 1 + size", "fluid/sound-wave"},
           {"fluid.paper.state", "pressure (9) as printed times 1 + size", "fluid/sound-wave"},
           {"fluid.viscosity.laplacian", "laplacian viscous force times 1 + size", "fluid/poiseuille"},
           {"fluid.paper.viscosity", "viscous force (8) times 1 + size", "fluid/poiseuille"},
-          {"walls.velocity", "part of the extrapolated velocity of walls left out", "fluid/poiseuille"},
+          {"walls.velocity", "part of the mirrored velocity of walls left out", "fluid/poiseuille"},
           {"fluid.viscosity.central", "part of the central viscous force along the velocity, not the line of centres", "fluid/liquid-ball"},
           {"fluid.viscosity.contact", "viscosity of solids that touch times 1 + size", "coupling/sliding-slab"},
           {"fluid.viscosity.mean", "share of the arithmetic mean in the viscosity between two liquids", "fluid/two-viscosities"},

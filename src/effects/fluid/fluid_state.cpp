@@ -48,12 +48,13 @@ void set_density(World& world, const SceneNumbers& n) {
 
 void set_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
-  const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure];
+  const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure], group = p[field::group];
   const bool paper = world.scene.mode_of(Term::state) == Mode::paper;
   static const double stiffer = 1.0 + defect_size("fluid.state"), paper_stiffer = 1.0 + defect_size("fluid.paper.state");
+  static const bool walls_pull = defect_size("walls.clamp") > 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < rho.size(); ++i) {
-    const EquationOfState e = state_of(n, rest[i], world.scene.clamp);
+    const EquationOfState e = state_of(n, rest[i], world.scene.clamp && !(walls_pull && group[i] == 0.0));
     pressure[i] = paper ? paper_stiffer * pressure_paper(e, rho[i]) : stiffer * pressure_corrected(e, rho[i]);
   }
 }
@@ -61,8 +62,9 @@ void set_pressure(World& world, const SceneNumbers& n) {
 void set_pressure_shares(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure];
+  const auto q = p.has(field::bulk_pressure) ? p[field::bulk_pressure] : std::span<double>{};
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-  for (std::size_t i = 0; i < share.size(); ++i) share[i] = V[i] * V[i] * pressure[i] / n.gradient_moment;
+  for (std::size_t i = 0; i < share.size(); ++i) share[i] = V[i] * V[i] * (q.empty() ? pressure[i] : pressure[i] + q[i]) / n.gradient_moment;
 }
 
 void predict_velocities(World& world) {

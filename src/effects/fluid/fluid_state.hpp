@@ -13,7 +13,7 @@ void refuse_overlap(const World&, const SceneNumbers&);
 void set_density(World&, const SceneNumbers&);
 /// (9), printed or scaled (model 8.3).
 void set_pressure(World&, const SceneNumbers&);
-/// V^2 p over the kernel's lattice moment, what the corrected pressure force takes of each particle.
+/// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment, what the corrected pressure force takes of each particle.
 void set_pressure_shares(World&, const SceneNumbers&);
 /// The velocities that viscous pairs see: of the full step, a half kick with the old rates ahead (model 7, time).
 void predict_velocities(World&);

@@ -2,6 +2,7 @@
 #include "effects/fluid/material_numbers.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "core/defect.hpp"
 #include "core/errors.hpp"
@@ -37,12 +38,13 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.lattice_density = moments.density;
   n.overlap_density = 1.0 + moments.layer / moments.density;
   n.gradient_moment = moments.gradient;
+  n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);  // half of what a plane face has
   if (scene.mode_of(Term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
   n.core_reach = 0.9 * (1.0 + defect_size("fluid.core")) * scene.spacing;
-  const bool paper_walls = scene.mode_of(Term::walls) == Mode::paper;
+  const bool corrected = std::ranges::all_of(std::array{Term::walls, Term::density, Term::pressure}, [&](Term t) { return scene.mode_of(t) == Mode::corrected; });
   const bool freezes = std::ranges::any_of(called_effects(scene), [](const CalledEffect& e) { return e.name == "phase"; });
-  n.extrapolates = !paper_walls && !freezes && !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
+  n.averages_walls = corrected && !freezes && !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   return n;
 }
 

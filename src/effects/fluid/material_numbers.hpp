@@ -17,7 +17,8 @@ struct SceneNumbers {
   double pressure_work = 1.0;      ///< energy of compression a p dV: lattice_density/gradient_moment, 1 as printed
   double core_stiffness = 0.0;     ///< kappa = 0.03 k rho_ref dx [N/m]
   double core_reach = 0.0;         ///< 0.9 dx [m]
-  bool extrapolates = false;       ///< walls take the liquid's pressure: no free body in the scene
+  double least_exposure = 0.0;     ///< a wall particle is at the face of its wall where this share of its number density can be other than wall
+  bool averages_walls = false;     ///< the pressure of walls is that of a patch of their face: liquid alone touches them
 };
 /// @throws InputError when no material of the scene has a stiffness or a speed of sound
 [[nodiscard]] SceneNumbers numbers_of(const Scene&);

@@ -2,7 +2,9 @@
 #include "effects/fluid/walls.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/defect.hpp"
 #include "effects/fill.hpp"
 #include "effects/fluid/wall_terms.hpp"
 #include "effects/pair_passes.hpp"
@@ -13,61 +15,119 @@ namespace {
 
 constexpr double wall_group = 0.0;
 
-bool has_near(const World& world, std::span<const double> group, std::size_t i, bool liquid) {
-  return std::ranges::any_of(world.neighbours->of(i), [&](Entry e) { return liquid ? group[e.row()] == -1.0 : group[e.row()] == wall_group; });
+/// What a wall particle moves with: all that is fixed moves as one, each driven body by itself.
+int frame_of(const World& world, std::size_t row) {
+  const int body = world.particles[field::body][row];
+  return world.bodies[field::body_motion][static_cast<std::size_t>(body)] == static_cast<int>(Motion::fixed) ? -1 : body;
+}
+
+/// mean[k] over the patch of k of what was put to its members.
+void take_mean(const std::vector<std::size_t>& start, const std::vector<std::uint32_t>& patch, const std::vector<double>& of, std::vector<double>& mean, int threads) {
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t k = 0; k < mean.size(); ++k) {
+    double sum = 0.0;
+    for (std::size_t e = start[k]; e < start[k + 1]; ++e) sum += of[patch[e]];
+    mean[k] = sum / static_cast<double>(start[k + 1] - start[k]);
+  }
+}
+
+/// The transpose: member k is given its part of the mean of each patch that it is in. Who is in my patch has me in its own.
+void give_parts(const std::vector<std::size_t>& start, const std::vector<std::uint32_t>& patch, const std::vector<double>& of, std::vector<double>& part, int threads) {
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    double sum = 0.0;
+    for (std::size_t e = start[k]; e < start[k + 1]; ++e) sum += of[patch[e]] / static_cast<double>(start[patch[e] + 1] - start[patch[e]]);
+    part[k] = sum;
+  }
 }
 
 }  // namespace
 
-Vec3 wall_acceleration(const World& world, std::size_t row) {
-  const auto b = static_cast<std::size_t>(world.particles[field::body][row]);
-  const Vec3 omega = world.bodies[field::body_angular_velocity][b];
-  if (omega == Vec3{}) return {};
-  return cross(omega, cross(omega, world.unwrapped(row) - world.bodies[field::body_centre][b]));
-}
-
 void Walls::find(const World& world) {
   if (known_ == world.neighbours->rebuilds()) return;
   known_ = world.neighbours->rebuilds();
-  wet_walls_.clear(), border_.clear();
+  wet_walls_.clear();
   const auto group = world.particles[field::group];
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const bool wall = group[i] == wall_group, liquid = group[i] == -1.0;
-    if (!(wall && has_near(world, group, i, true)) && !(liquid && has_near(world, group, i, false))) continue;
-    border_.push_back(static_cast<std::uint32_t>(i));
-    if (wall) wet_walls_.push_back(static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < group.size(); ++i)
+    if (group[i] == wall_group && std::ranges::any_of(world.neighbours->of(i), [&](Entry e) { return group[e.row()] == -1.0; })) wet_walls_.push_back(static_cast<std::uint32_t>(i));
+}
+
+void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
+  if (known_faces_ == world.neighbours->rebuilds()) return;
+  known_faces_ = world.neighbours->rebuilds();
+  const Particles& p = world.particles;
+  const auto group = p[field::group];
+  const auto x = positions(p);
+  const double patch = 1.75 * world.scene.spacing, full = n.lattice_density / std::pow(world.scene.spacing, 3);
+  const auto each_of_wall = [&](std::size_t i, auto visit) {
+    for (const Entry e : world.neighbours->of(i)) {
+      const std::size_t j = e.row();
+      if (j != i && group[j] == wall_group && frame_of(world, i) == frame_of(world, j)) visit(j, norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())));
+    }
+  };
+  face_.clear(), hidden_.clear();
+  constexpr std::uint32_t none = ~std::uint32_t{0};
+  std::vector<std::uint32_t> place(p.size(), none);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (group[i] != wall_group) continue;
+    double wall = kernels.wendland.value(0.0);
+    each_of_wall(i, [&](std::size_t, double r) { wall += kernels.wendland.value(r); });
+    const bool at_face = wall < (1.0 - n.least_exposure) * full;
+    if (at_face) place[i] = static_cast<std::uint32_t>(face_.size());
+    (at_face ? face_ : hidden_).push_back(static_cast<std::uint32_t>(i));
+  }
+  start_.assign(1, 0), patch_.clear();
+  for (const std::uint32_t i : face_) {
+    patch_.push_back(place[i]);
+    each_of_wall(i, [&](std::size_t j, double r) {
+      if (r < patch && place[j] != none) patch_.push_back(place[j]);
+    });
+    start_.push_back(patch_.size());
+  }
+  first_.resize(face_.size()), second_.resize(face_.size());
+}
+
+void Walls::average_density(World& world, const SceneNumbers& n, const PairKernels& kernels) {
+  find_faces(world, n, kernels);
+  Particles& p = world.particles;
+  const auto rho = p[field::density], rest = p[field::rest_density], m = p[field::mass], V = p[field::volume];
+  for (const std::uint32_t i : hidden_) rho[i] = rest[i], V[i] = m[i] / rest[i];
+  for (std::size_t k = 0; k < face_.size(); ++k) first_[k] = rho[face_[k]] / rest[face_[k]];
+  take_mean(start_, patch_, first_, second_, world.threads);
+  take_mean(start_, patch_, second_, first_, world.threads);
+  for (std::size_t k = 0; k < face_.size(); ++k) {
+    const std::size_t i = face_[k];
+    rho[i] = first_[k] * rest[i];
+    V[i] = m[i] / rho[i];
   }
 }
 
-void Walls::extrapolate(World& world, const SceneNumbers& n, const PairKernels& kernels) {
+void Walls::hand_down_shares(World& world) {
+  const auto share = world.particles[field::pressure_share];
+  static const double weaker = 1.0 - defect_size("walls.pressure");
+  for (std::size_t k = 0; k < face_.size(); ++k) first_[k] = weaker * share[face_[k]];
+  give_parts(start_, patch_, first_, second_, world.threads);
+  give_parts(start_, patch_, second_, first_, world.threads);
+  for (std::size_t k = 0; k < face_.size(); ++k) share[face_[k]] = first_[k];
+}
+
+void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
   find(world);
   if (wet_walls_.empty()) return;
   Particles& p = world.particles;
   for (const Field<double>* f : WallExtrapolation::adds::list) fill(p[*f], 0.0, world.threads);
   run_pass(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads, wet_walls_);
 
-  const auto weight = p[field::wall_weight], sum = p[field::wall_pressure], pressure = p[field::pressure];
-  const auto lever = triple(p, field::wall_lever_x, field::wall_lever_y, field::wall_lever_z);
+  const auto weight = p[field::wall_weight];
   const auto moved = triple(p, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z);
   const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
   const auto v = velocities(p);
-  static const double weaker = 1.0 - defect_size("walls.pressure"), slip = 1.0 - defect_size("walls.velocity");
+  static const double slip = 1.0 - defect_size("walls.velocity");
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t k = 0; k < wet_walls_.size(); ++k) {
     const std::size_t i = wet_walls_[k];
-    if (!(weight[i] > 0.0)) continue;
-    seen.set(i, v.at(i) + slip * (v.at(i) - moved.at(i) / weight[i]));
-    if (!n.extrapolates) continue;
-    const double p_w = weaker * (sum[i] + dot(world.scene.gravity - wall_acceleration(world, i), lever.at(i))) / weight[i];
-    pressure[i] = world.scene.clamp ? std::max(p_w, 0.0) : p_w;
+    if (weight[i] > 0.0) seen.set(i, v.at(i) + slip * (v.at(i) - moved.at(i) / weight[i]));
   }
-}
-
-void Walls::split_forces(World& world, const PairKernels& kernels) {
-  find(world);
-  if (border_.empty()) return;
-  for (const Field<double>* f : WallPressureForce::adds::list) fill(world.particles[*f], 0.0, world.threads);
-  run_pass(pair_passes(world.neighbours->clusters().lanes).wall_force, world.particles, *world.neighbours, kernels, world.threads, border_);
 }
 
 }  // namespace tripoint::fluid

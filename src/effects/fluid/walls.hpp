@@ -8,28 +8,33 @@
 
 namespace tripoint::fluid {
 
-/// Walls that take what the liquid in front of them has (model 8.4) [Adami, Hu, Adams 2012]: pressure
-/// p_w = sum (p_f + rho_f (g - a_w).(r_w - r_f)) W / sum W, clamped, in scenes without free bodies; velocity
-/// v = 2 v_wall - sum v_f W / sum W in all. Their own number-density pressure where no liquid is near.
+/// What fixed and driven walls do to liquids (model 8.4). Their pressure is the gradient of an energy, as that of all particles is, so that walls
+/// do no net work. In a scene where liquid alone touches them it follows from the mean number density of a patch of the wall's face: how single wall
+/// particles lie then matters little. The velocity that viscous pairs see is the mirrored one, v = 2 v_wall - mean v_f [Adami, Hu, Adams 2012].
 class Walls {
  public:
-  /// Sets pressure and viscous velocity of the walls that liquid is near.
-  void extrapolate(World&, const SceneNumbers&, const PairKernels&);
-  /// Sets the part of the pressure forces that comes from the pressure of walls: no energy stands behind it, so its work is
-  /// booked by itself. For the corrected pressure force.
-  void split_forces(World&, const PairKernels&);
+  /// Puts the mean density of its patch to each particle at the face of a wall, and the rest density to those behind: A A rho, A the mean
+  /// over the particles of the face within 1.75 spacings that move as one with it.
+  void average_density(World&, const SceneNumbers&, const PairKernels&);
+  /// Hands the pressure shares of the patches to their particles, by the transpose of average_density(): the force is the gradient of the energy
+  /// of compression at the mean density.
+  void hand_down_shares(World&);
+  /// Sets the viscous velocity of the walls that liquid is near.
+  void mirror_velocities(World&, const PairKernels&);
   /// Groups have changed: look again which particles are walls.
-  void forget() { known_ = -1; }
+  void forget() { known_ = known_faces_ = -1; }
 
  private:
   void find(const World&);
+  void find_faces(const World&, const SceneNumbers&, const PairKernels&);
 
   std::vector<std::uint32_t> wet_walls_;  ///< rows of walls with liquid in their lists
-  std::vector<std::uint32_t> border_;     ///< these, and the liquids with walls in theirs
-  long known_ = -1;                       ///< the rebuild that the rows are of
+  std::vector<std::uint32_t> hidden_;     ///< rows of walls that are not at a face
+  std::vector<std::uint32_t> face_;       ///< rows of those that are
+  std::vector<std::size_t> start_;        ///< first entry of each patch, and one past the last
+  std::vector<std::uint32_t> patch_;      ///< places in face_, the particle itself first
+  std::vector<double> first_, second_;    ///< of the face: memory that is used again
+  long known_ = -1, known_faces_ = -1;    ///< the rebuild that the rows are of
 };
-
-/// Acceleration of a driven body's particle [m/s2]: towards the axis it turns about; keyframe legs have none.
-[[nodiscard]] Vec3 wall_acceleration(const World&, std::size_t row);
 
 }  // namespace tripoint::fluid

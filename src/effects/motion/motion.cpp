@@ -21,7 +21,7 @@ class FreeMotion : public Effect {
   void add_to(const World&, Ledger&) const override;
 
  private:
-  enum Work : std::size_t { by_gravity = most_forces, by_wall_pressure, works_on_free, works = works_on_free + most_forces };
+  enum Work : std::size_t { by_gravity = most_forces, works_on_free, works = works_on_free + most_forces };
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
 };
 
@@ -31,8 +31,6 @@ void FreeMotion::kick(World& world, double dt) {
   Particles& p = world.particles;
   const auto v = velocities(p);
   const std::vector<ForceColumns> forces = force_columns(world);
-  const bool splits = p.has(field::wall_force_x.name);
-  const auto E = splits ? triple(std::as_const(p), field::wall_force_x, field::wall_force_y, field::wall_force_z) : Triple<const double>{};
   const auto m = p[field::mass];
   const RigidMembers is_member(world);
   static const double heavier = 1.0 + defect_size("motion.gravity");
@@ -49,7 +47,6 @@ void FreeMotion::kick(World& world, double dt) {
     const Vec3 way = (0.5 * dt) * (before + after);
     for (std::size_t k = 0; k < forces.size(); ++k) work[k] += dot(forces[k].force.at(i), way);
     work[by_gravity] += m[i] * dot(g, way);
-    if (splits) work[by_wall_pressure] += dot(E.at(i), way);
     v.set(i, after);
   });
   for (std::size_t k = 0; k < forces.size(); ++k) {
@@ -57,7 +54,6 @@ void FreeMotion::kick(World& world, double dt) {
     world.booked.*forces[k].work_on_driven += sums[works_on_free + k];
   }
   world.booked.gravity_work += sums[by_gravity];
-  world.booked.extrapolated_work += sums[by_wall_pressure];
 }
 
 /// r += dt v; with the transport velocity of the scene's choice, dt (v + shift).

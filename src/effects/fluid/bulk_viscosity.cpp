@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/fluid/bulk_viscosity.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "core/defect.hpp"
+#include "effects/ordered_sum.hpp"
+#include "scene/read_case.hpp"
+
+namespace tripoint::fluid {
+
+bool has_bulk_viscosity(const Scene& scene) {
+  const auto corrected = [&](Term term) { return scene.mode_of(term) == Mode::corrected; };
+  const bool liquid = !scene.inflows.empty() || std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid; });
+  const bool freezes = std::ranges::any_of(called_effects(scene), [](const CalledEffect& e) { return e.name == "phase"; });
+  return scene.clamp && liquid && !freezes && corrected(Term::density) && corrected(Term::pressure) && corrected(Term::state);
+}
+
+void set_bulk_pressure(World& world, const SceneNumbers& n) {
+  Particles& p = world.particles;
+  static const double thinner = 1.0 - defect_size("fluid.bulk_viscosity");
+  const double dt = 2.0 * world.lagged.half_step;  // the step was begun by a half kick
+  const bool flows = dt > 0.0 && world.change.empty();  // what is born changes densities at once
+  const double viscosity = flows ? 0.2 * thinner * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
+  const auto delta = p[field::number_density], before = p[field::number_density_before], q = p[field::bulk_pressure];
+  const auto rest = p[field::rest_density], pressure = p[field::pressure], V = p[field::volume], group = p[field::group];
+  std::vector<std::array<double, 1>> blocks;
+  const auto taken = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+    const double squeezed = flows && group[i] == -1.0 ? delta[i] / before[i] - 1.0 : 0.0;
+    const double next = pressure[i] > 0.0 ? std::max(viscosity * rest[i] * squeezed, -pressure[i]) : 0.0;
+    sum[0] += 0.5 * (q[i] + next) * V[i] * squeezed;
+    q[i] = next;
+    before[i] = delta[i];
+  });
+  world.booked.bulk_viscous += n.pressure_work * taken[0];
+}
+
+}  // namespace tripoint::fluid

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "effects/fluid_lab.hpp"
+
+namespace tripoint {
+namespace {
+
+/// A jittered column that is pressed on a jittered floor.
+lab::Lab pressed_column(const char* form = "laplacian") {
+  lab::Lab lab = lab::column(4, 6, 1.0, 1000.0, 10.0);
+  lab.scene.viscosity_form = form;
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(-0.1 * lab.scene.spacing, 0.1 * lab.scene.spacing);
+  for (std::size_t i = 0; i < lab.initial.size(); ++i) {
+    if (lab.initial.body[i] < 0) lab.initial.position[i].z *= 0.9;
+    lab.initial.position[i] += {uniform(random), uniform(random), uniform(random)};
+  }
+  return lab;
+}
+
+double compression(const lab::Lab& lab) { return Simulation(lab.scene, lab.initial).ledger().energy.at("compression"); }
+
+TEST(Walls, PressByTheGradientOfTheEnergyThatTheLedgerHolds) {
+  const lab::Lab lab = pressed_column();
+  const Simulation s(lab.scene, lab.initial);
+  const Particles& p = s.world().particles;
+  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  int looked_at = 0;
+  for (std::size_t id = 0; id < lab.initial.size(); id += 5) {
+    if (lab.initial.body[id] >= 0 || lab.initial.position[id].z > lab.scene.spacing) continue;
+    ++looked_at;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double step = 1e-5 * lab.scene.spacing;
+      lab::Lab ahead = lab, behind = lab;
+      ahead.initial.position[id][axis] += step, behind.initial.position[id][axis] -= step;
+      const double slope = (compression(ahead) - compression(behind)) / (2.0 * step);
+      EXPECT_NEAR(F.at(p.row(id))[axis], -slope, 1e-5 * norm(F.at(p.row(id)))) << "particle " << id << ", axis " << axis;  // round-off of energies over a step of 1e-5
+    }
+  }
+  EXPECT_GT(looked_at, 5);
+}
+
+TEST(Walls, HaveTheMeanDensityOfTheirFaceAndTheRestDensityBehindIt) {
+  const lab::Lab lab = pressed_column();
+  const Simulation s(lab.scene, lab.initial);
+  const Particles& p = s.world().particles;
+  const auto own = [&](std::size_t id) { return p[field::mass][p.row(id)] * p[field::number_density][p.row(id)] / 1000.0; };
+  double least = 1e300, most = 0.0, least_own = 1e300, most_own = 0.0;
+  for (std::size_t id = 0; id < lab.initial.size(); ++id) {
+    if (lab.initial.body[id] < 0) continue;
+    const double z = lab.initial.position[id].z / lab.scene.spacing, relative = p[field::density][p.row(id)] / 1000.0;
+    if (z > -2.0 && z < -1.0) EXPECT_EQ(relative, 1.0) << "of a particle between two layers";
+    if (z < -1.0) continue;
+    least = std::min(least, relative), most = std::max(most, relative);
+    least_own = std::min(least_own, own(id)), most_own = std::max(most_own, own(id));
+  }
+  EXPECT_GT(least, 1.0) << "the liquid is pressed on the floor";
+  EXPECT_LT(most - least, 0.3 * (most_own - least_own)) << "a mean of 9 particles, taken twice, of a scatter that neighbours share in part";
+}
+
+/// Of viscous forces on liquid at random velocities beside a wall at rest.
+double viscous_power(const char* form, unsigned seed) {
+  lab::Lab lab = pressed_column(form);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  lab::set_velocity(lab, [&](const Vec3&) { return Vec3{normal(random), normal(random), normal(random)}; });
+  const Simulation s(lab.scene, lab.initial);
+  const Particles& p = s.world().particles;
+  const auto F = triple(p, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
+  double power = 0.0;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (p[field::body][i] < 0) power += dot(F.at(i), p.velocity(i));
+  return power;
+}
+
+TEST(Walls, TakeEnergyByViscosityInBothForms) {
+  for (const char* form : {"laplacian", "central"})
+    for (unsigned seed = 1; seed <= 20; ++seed) EXPECT_LT(viscous_power(form, seed), 0.0) << form << ", seed " << seed;
+}
+
+TEST(Walls, DoNoWorkWhereTheyAreFixedAndTheStepsLittle) {
+  lab::Lab lab = lab::column(5, 6, 1e-3, 1000.0, 10.0);
+  lab::jitter(lab, 0.05);
+  Simulation s(lab.scene, lab.initial);
+  const double weight = 1000.0 * 10.0 * 1.2 * 1.2;  // rho g H V, H = 1 m
+  double kinetic = 0.0;
+  for (int n = 1; n <= 20; ++n) {
+    s.advance_to(0.1 * n);
+    const Ledger now = s.ledger();
+    EXPECT_EQ(now.energy.at("walls"), 0.0);
+    EXPECT_GE(now.energy.at("bulk_viscous"), 0.0);
+    kinetic = now.energy.at("kinetic");
+  }
+  EXPECT_LT(std::abs(s.ledger().energy.at("time_integration")), 1e-3 * weight);  // falls with the square of the step
+  EXPECT_LT(kinetic, 2e-3 * weight);  // what the start lets go is of the order of (g H/c)^2
+}
+
+}  // namespace
+}  // namespace tripoint
