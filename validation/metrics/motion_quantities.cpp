@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"
+#include "validation/metrics/solid_motion.hpp"
 
 namespace tripoint {
 namespace {
@@ -143,6 +145,26 @@ MetricValue spin_rate(const MetricInput& in, const Frames& frames) {
   return v;
 }
 
+/// Of the centre of mass of the metric's body along the stated axis: a sine about an offset by least squares.
+MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
+  const auto axis = in.reference.number("axis"), truth = in.reference.number("value");
+  if (!axis || !truth) return unformed("the reference states no axis, or no frequency as its value");
+  if (frames.size() < 8) return unformed("a swing needs eight output times or more");
+  std::vector<double> t, y;
+  for (const auto* s : frames) {
+    double mass = 0.0, moment = 0.0;
+    for (std::size_t i = 0; i < in.initial.size(); ++i)
+      if (takes(in, i)) mass += in.initial.mass[i], moment += in.initial.mass[i] * displacement(in.job.scene, s->position[i], in.initial.position[i])[static_cast<std::size_t>(*axis)];
+    t.push_back(s->time), y.push_back(moment / mass);
+  }
+  const Swing swing = fit_swing(t, y, 2.0 * std::numbers::pi * *truth);
+  if (!swing.problem.empty()) return unformed(swing.problem);
+  MetricValue v;
+  v.value = swing.frequency / (2.0 * std::numbers::pi * *truth) - 1.0;
+  v.note = std::to_string(swing.frequency / (2.0 * std::numbers::pi)) + " Hz against " + std::to_string(*truth) + ", amplitude " + std::to_string(swing.amplitude) + " m";
+  return v;
+}
+
 }  // namespace
 
 const std::vector<RunQuantity>& motion_quantities() {
@@ -150,7 +172,8 @@ const std::vector<RunQuantity>& motion_quantities() {
       {{"acceleration", "m/s2", "acceleration of the body against gravity over the window, by least squares, minus the true one"}, acceleration},
       {{"touch_time", "s", "time at which the body's speed has made half of its change minus the true time of touch"}, touch_time},
       {{"frequency_squared", "1", "square of the standing wave's frequency over the true one, minus 1"}, frequency_squared},
-      {{"spin_rate", "1/s", "rate at which the angular momentum about the centre of mass falls, minus the true one"}, spin_rate}};
+      {{"spin_rate", "1/s", "rate at which the angular momentum about the centre of mass falls, minus the true one"}, spin_rate},
+      {{"sway_frequency", "1", "frequency of the swing of the body's centre of mass along the stated axis, a sine about an offset by least squares, over the stated value in Hz, minus 1"}, sway_frequency}};
   return list;
 }
 
