@@ -183,6 +183,8 @@ class Checker {
 
   void known_mode(const std::string& mode, const std::string& key, const SourcePlace& table) const {
     if (mode.empty()) return;
+    if (mode != "corrected" && mode != "paper")
+      throw InputError(place(key, table), fmt::format("`{}`: unknown mode \"{}\": write corrected or paper, or for a gate \"not paper\"", key, printable(mode)));
     if (std::find(case_.modes.begin(), case_.modes.end(), mode_from(mode)) == case_.modes.end())
       throw InputError(place(key, table), fmt::format("`{}`: this case does not run mode \"{}\": add it to case.modes", key, mode));
   }
@@ -190,7 +192,7 @@ class Checker {
   void gate(const Gate& g, const std::string& path) const {
     known_metric(g.metric, path + ".metric", g.place);
     known_engine(g.engine, path + ".engine", g.place);
-    known_mode(g.mode, path + ".mode", g.place);
+    if (g.mode != "not paper") known_mode(g.mode, path + ".mode", g.place);
     if (g.metric.ends_with(".order") && case_.studies.empty() && !holds(names_of(case_.metrics), g.metric))
       throw InputError(place(path + ".metric", g.place), fmt::format("`{}.metric`: \"{}\" needs a [[study]] to find an order with", path, printable(g.metric)));
     if (!g.level) return;

@@ -193,7 +193,7 @@ constexpr auto keys = std::to_array<Key>({
     // [[gate]]
     {"gate", "metric", text, "", any, "!", "", "", "a metric's name, NAME.order or NAME.statistical"},
     {"gate", "engine", text, "", any, "\"\"", "all", "", "engine that the gate judges"},
-    {"gate", "mode", word, "", any, "\"\"", "all", "corrected paper", "mode that the gate judges"},
+    {"gate", "mode", text, "", any, "\"\"", "all", "", "form of our solver that is judged: corrected, paper; \"not paper\": every engine's runs but those of our printed form"},
     {"gate", "preset", text, "", any, "\"\"", "all", "", "preset that the gate judges"},
     {"gate", "limit", number, "", any, "", "none", "", "greatest magnitude of the value"},
     {"gate", "at_least", number, "", any, "", "none", "", "least value"},

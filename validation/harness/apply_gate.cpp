@@ -42,7 +42,7 @@ struct Group {
 std::vector<Group> groups_for(const Gate& gate, const EngineRow& engine) {
   std::vector<Group> groups;
   for (const auto& run : engine.runs) {
-    if (!run.input.empty() || (!gate.mode.empty() && run.knobs.mode != gate.mode) || !is_at_level(run, gate.level)) continue;
+    if (!run.input.empty() || !fits_mode(gate, run.knobs.mode) || !is_at_level(run, gate.level)) continue;
     const auto same = [&](const Group& g) { return !run.group.empty() && g.mode == run.knobs.mode && g.runs.front()->group == run.group; };
     const auto at = std::find_if(groups.begin(), groups.end(), same);
     if (at == groups.end()) groups.push_back({run.knobs.mode, run.levels, {&run}});
@@ -82,7 +82,7 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
   std::vector<MetricValue> values;
   for (const auto* run : group.runs) {
     if (run->status != "ok" || !run->comparable) {
-      if (!engine.required && run->comparable && run->status != "diverged") return false;
+      if (!engine.required && run->comparable && run->status != "diverged" && !crashed(*run)) return false;
       row.verdict = to_string(run->status == "diverged" ? Verdict::diverged : Verdict::missing);
       row.why = run->reason.empty() ? run->status : run->reason;
       engine.gates.push_back(row);
@@ -103,11 +103,13 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
   return true;
 }
 
-bool has_mode(const EngineRow& engine, const std::string& mode) {
-  return mode.empty() || std::any_of(engine.runs.begin(), engine.runs.end(), [&](const auto& r) { return r.knobs.mode == mode; });
+bool has_mode(const EngineRow& engine, const Gate& gate) {
+  return gate.mode.empty() || std::any_of(engine.runs.begin(), engine.runs.end(), [&](const auto& r) { return fits_mode(gate, r.knobs.mode); });
 }
 
-bool some_run_failed(const EngineRow& engine) {
+/// Runs that the engine refused, and none that it broke off: then it owes no order.
+bool declined(const EngineRow& engine) {
+  if (std::any_of(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return crashed(r); })) return false;
   return std::any_of(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != "ok" || !r.comparable; });
 }
 
@@ -115,7 +117,7 @@ bool some_run_failed(const EngineRow& engine) {
 bool level_is_due(const CaseResult& result, const Gate& gate, const EngineRow& engine) {
   return std::any_of(result.studies.begin(), result.studies.end(), [&](const Study& s) {
     if (engine.name == "exact" || (!s.engine.empty() && s.engine != engine.name)) return false;
-    if (!gate.mode.empty() && !s.mode.empty() && s.mode != gate.mode) return false;
+    if (!s.mode.empty() && !fits_mode(gate, s.mode)) return false;
     return !gate.level || std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, *gate.level); });
   });
 }
@@ -123,7 +125,7 @@ bool level_is_due(const CaseResult& result, const Gate& gate, const EngineRow& e
 Applied judge_order(const CaseResult& result, const Gate& gate, EngineRow& engine) {
   bool judged = false;
   for (const auto& order : engine.order) {
-    if (order.metric != name_of_order(gate.metric) || (!gate.mode.empty() && order.mode != gate.mode)) continue;
+    if (order.metric != name_of_order(gate.metric) || !fits_mode(gate, order.mode)) continue;
     auto row = new_row(gate, order.mode);
     row.value = order.order.value, row.low = order.order.low, row.high = order.order.high, row.fit_class = order.order.fit_class;
     const auto verdict = verdict_of(gate, order.order);
@@ -135,7 +137,7 @@ Applied judge_order(const CaseResult& result, const Gate& gate, EngineRow& engin
   }
   if (judged) return Applied::judged;
   if (!level_is_due(result, gate, engine)) return Applied::not_applicable;
-  if (some_run_failed(engine) && !engine.required) return Applied::absent;
+  if (declined(engine) && !engine.required) return Applied::absent;
   engine.gates.push_back(missing_row(gate, "no order could be fitted: a level is missing or not finite"));
   return Applied::judged;
 }
@@ -161,6 +163,11 @@ Verdict verdict_of(const Gate& gate, const Order& order) {
   return verdict;
 }
 
+bool fits_mode(const Gate& gate, const std::string& mode) {
+  if (gate.mode == "not paper") return mode != "paper";
+  return gate.mode.empty() || gate.mode == mode;
+}
+
 std::string describe(const Gate& gate) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
@@ -172,7 +179,7 @@ std::string describe(const Gate& gate) {
 
 Applied apply_gate(const CaseResult& result, const Gate& gate, EngineRow& engine) {
   if (engine.runs.empty()) return Applied::absent;
-  if (!has_mode(engine, gate.mode)) return Applied::not_applicable;
+  if (!has_mode(engine, gate)) return Applied::not_applicable;
   if (!name_of_order(gate.metric).empty()) return judge_order(result, gate, engine);
   const auto groups = groups_for(gate, engine);
   if (groups.empty()) {
@@ -188,7 +195,7 @@ Applied apply_gate(const CaseResult& result, const Gate& gate, EngineRow& engine
 Applied apply_expected_class(const CaseResult& result, const Study& study, EngineRow& engine) {
   const std::string metric = !study.metric.empty() ? study.metric : result.metrics.empty() ? std::string() : result.metrics.front().name;
   Gate gate;
-  gate.metric = metric + ".order", gate.engine = engine.name, gate.place = study.place;
+  gate.metric = metric + ".order", gate.engine = engine.name, gate.mode = study.mode, gate.place = study.place;
   gate.reason = fmt::format("the study over {} declares the class {}", study.axis, study.expect);
   auto applied = Applied::not_applicable;
   for (const auto& order : fit_orders(result, engine, study)) {
@@ -202,7 +209,7 @@ Applied apply_expected_class(const CaseResult& result, const Study& study, Engin
     applied = Applied::judged;
   }
   if (applied == Applied::judged || engine.runs.empty() || !(study.engine.empty() || study.engine == engine.name)) return applied;
-  if (engine.name == "exact" || !has_mode(engine, study.mode) || (some_run_failed(engine) && !engine.required)) return Applied::absent;
+  if (engine.name == "exact" || !has_mode(engine, gate) || (declined(engine) && !engine.required)) return Applied::absent;
   auto row = missing_row(gate, "no order could be fitted: a level is missing or not finite");
   row.expect = study.expect;
   engine.gates.push_back(row);
