@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -13,6 +15,7 @@
 #include "validation/harness/history.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
+#include "validation/harness/recheck.hpp"
 #include "validation/harness/report_files.hpp"
 #include "validation/harness/seeds.hpp"
 #include "validation/harness/selftest.hpp"
@@ -24,7 +27,8 @@ namespace tripoint {
 namespace {
 
 constexpr const char* description =
-    "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored verdict. Then it judges the\n"
+    "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored verdict, and\n"
+    "reads the case files again: metrics, gates, runs and values must be those of the cases as they are. Then it judges the\n"
     "limits: none more than 10 times its error (above 3 times warns) unless its reason is dated, none looser than the accepted baseline,\n"
     "no gate gone that was accepted, no value moved by more than the drift that its gate states, no run with more than 1 % more pairs, steps or\n"
     "instructions than accepted. A case without a baseline yet is named in a warning.\n"
@@ -50,12 +54,13 @@ constexpr const char* selftest_description =
     "  tripoint gate selftest --seeds 20     twenty other seeds: no gate of the commit profile may turn";
 
 struct GateOptions {
-  std::string results, history, profile;
+  std::string results, history, profile, baselines;
   int seeds = 0;
   bool annotations = false, json = false, require_baselines = false;
   SelftestOptions selftest;
   std::vector<std::string> accepted;  ///< a results.json and ids, in any order
   std::string reason;
+  bool removed = false;  ///< the ids are of cases that are no more
 };
 
 Results judged(const std::string& path) {
@@ -72,7 +77,12 @@ bool on_github() {
 int judge_file(const GateOptions& o) {
   const auto results = judged(results_file(o.results));
   auto remarks = verdict_remarks(results);
-  for (const auto& list : {slack_remarks(results), baseline_remarks(results, o.require_baselines)}) remarks.insert(remarks.end(), list.begin(), list.end());
+  if (!o.baselines.empty() && !std::filesystem::is_directory(o.baselines)) throw InputError("--baselines " + o.baselines + ": is no folder");
+  for (const auto& list : {recheck_remarks(results), slack_remarks(results), baseline_remarks(results, o.require_baselines, o.baselines), lost_case_remarks(results, o.baselines)}) remarks.insert(remarks.end(), list.begin(), list.end());
+  if (const auto commit = this_tool().commit; results.tool.commit != commit)
+    remarks.push_back({false, 0, {}, "the results", fmt::format("were made by commit {}, and this program is of {}: validate again to judge what is here", results.tool.commit, commit), 1.0, {}});
+  if (!results.shard.empty() && !results.shard.ends_with("/1"))
+    remarks.push_back({false, 0, {}, "the results", fmt::format("are part {} of a suite: tripoint merge joins the parts, and the whole is judged", results.shard), 1.0, {}});
   std::set<int> codes{results.exit_code};
   for (const auto& r : remarks)
     if (r.error) codes.insert(r.code);
@@ -80,7 +90,10 @@ int judge_file(const GateOptions& o) {
   for (const auto& c : results.cases) print(case_line(c) + "\n");
   print(o.annotations || on_github() ? annotations_text(remarks) : remarks_text(remarks));
   if (!o.history.empty()) append_history(o.history, history_lines(results));
-  print("verdict " + verdict_word(code) + " exit " + std::to_string(code) + "\n");
+  print(notes_text(results));
+  std::string absent;
+  for (const auto& [name, count] : accepted_but_absent(results, o.baselines)) absent += fmt::format("{}{} of {}", absent.empty() ? "; accepted gates that are not judged here: " : ", ", count, name);
+  print(fmt::format("verdict {} exit {}{}\n", verdict_word(code, results, remarks), code, absent));
   return code;
 }
 
@@ -88,7 +101,9 @@ int accept_file(const GateOptions& o) {
   std::string path = "report/results.json";
   std::vector<std::string> ids;
   for (const auto& word : o.accepted) (word.ends_with(".json") ? path = word : ids.emplace_back(word));
+  if (o.removed) return print(accept_removal(ids, {{}, {}, o.reason})), exit_pass;
   const auto results = judged(path);
+  if (const auto wrong = recheck_remarks(results); !wrong.empty()) throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
   const Acceptance acceptance{results.date.substr(0, 10), results.tool.commit, o.reason};
   print(accept(results, ids, acceptance));
   if (const auto history = history_file(results, path); !history.empty()) append_history(history, acceptance_lines(results, ids, acceptance));
@@ -125,10 +140,12 @@ void add_gate(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<GateOptions>();
   command->add_option("RESULTS", o->results, "a results.json, or the folder of one");
   command->add_flag("--annotations", o->annotations, "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, the worst first");
+  command->add_option("--baselines", o->baselines, "judge by the baselines in this folder, for example those of the branch that a change is to go into (default: beside the cases)")->type_name("DIR");
   command->add_flag("--require-baselines", o->require_baselines, "a case that has no baseline is an error, exit 4 (else one warning names them)");
   command->add_option("--history", o->history, "append a line of JSON a case, with every value and count, to this file (validate has done so to OUT/history.jsonl)");
   auto* accepts = command->add_subcommand("accept", accept_description);
   accepts->add_option("--reason", o->reason, "who decided what, and why")->required();
+  accepts->add_flag("--removed", o->removed, "the ids (or paths) are of cases that are no more: their baselines are removed");
   accepts->add_option("RESULTS|ID", o->accepted, "a results.json (default report/results.json), and the ids of the cases; none = all");
   auto* self = command->add_subcommand("selftest", selftest_description);
   self->add_option("CASE", o->selftest.what, "case files, folders or ids; none = every case")->type_name("CASE|DIR");

@@ -80,6 +80,7 @@ int validate(ValidateOptions o) {
   if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
   o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";
   if (o.seed_given) o.suite.selection.seed = o.seed;
+  set_aside_report(o.suite.out);  // what ends 2 must not leave the results of an earlier call to be judged
   const auto words = sort_engine_words(o.engine);
   o.suite.selection.engines = split(o.engines);
   for (const auto& name : words.names) o.suite.selection.extra.push_back(name);
@@ -101,6 +102,8 @@ int validate(ValidateOptions o) {
       for (const auto& value : cases)
         if (value.id == c.id && !interrupted()) time_case(value, engines, o.timing, o.suite, c);
   results.command = command_line(), results.profile = o.filter.profile, results.date = now(), results.shard = o.shard;
+  results.what = o.filter.what, results.tag = o.filter.tag;
+  results.filter_known = !o.last_failed && o.filter.substring.empty();  // else it is a part, and nobody can say of what
   judge(results);  // a shard is asked less than a whole suite
   if (o.keep_history) {
     const auto file = o.history.empty() ? (std::filesystem::path(o.suite.out) / "history.jsonl").string() : o.history;

@@ -100,7 +100,8 @@ TEST(Engines, OneEngineThatFailsDoesNotStopTheOthers) {
   ASSERT_EQ(c.engines.size(), 2u);
   EXPECT_EQ(c.engines[0].name + " " + c.engines[0].status, "good ok");
   EXPECT_EQ(c.engines[1].name + " " + c.engines[1].status, "bad killed");
-  EXPECT_EQ(c.exit_code, exit_pass);  // none of them is required, and the gate is green on the other
+  EXPECT_EQ(c.exit_code, exit_missing);  // the gate is for every engine, and one of them broke off
+  EXPECT_EQ(c.engines[0].gates.at(0).verdict + " " + c.engines[1].gates.at(0).verdict, "pass missing");
 }
 
 TEST(Engines, AnEngineThatHoldsAnotherSceneIsNotComparable) {

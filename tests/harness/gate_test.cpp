@@ -52,7 +52,7 @@ TEST(Remarks, TheTenWorstAreAnnotatedAndTheLastSaysHowManyMoreThereAre) {
 }
 
 TEST(Remarks, WhatWouldEndAWorkflowCommandIsEscaped) {
-  const std::vector<Remark> list{{true, 1, {"a,b:c.toml", 3, 0}, "t:1,2", "100 %\nnext", 1.0}};
+  const std::vector<Remark> list{{true, 1, {"a,b:c.toml", 3, 0}, "t:1,2", "100 %\nnext", 1.0, {}}};
   EXPECT_EQ(annotations_text(list), "::error file=a%2Cb%3Ac.toml,line=3,title=t%3A1%2C2::100 %25%0Anext\n");
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "validation/harness/case_hash.hpp"
 #include "validation/harness/remarks.hpp"
 
 /// The last accepted figures of a case: `baselines/<subject>/<case>.toml` beside the folder `cases`. `tripoint gate accept` writes it, nothing else does.
@@ -18,6 +21,9 @@ struct AcceptedGate {
   std::string fit_class;                  ///< of an order
   double first_room = 0.0, first_value = 0.0;  ///< of the first baseline: against creep
   double loosened = 0.0;  ///< sum of ln(new/old) of every loosening since then; tightening takes nothing off
+  std::optional<double> limit, at_least, drift;  ///< each edge as it was accepted; baselines of older versions have only `allows`
+  std::optional<std::array<double, 2>> band;
+  std::string measures;   ///< hash of the metric: CaseHashes::metrics; empty = it was accepted by an older version
 };
 
 /// What one run counted. Never seconds: they belong to the machine.
@@ -37,13 +43,22 @@ struct Baseline {
   std::vector<Acceptance> accepted;  ///< oldest first
   std::vector<AcceptedGate> gates;
   std::vector<AcceptedCost> cost;
+  std::string scene, reference;       ///< CaseHashes; empty = accepted by an older version
+  std::vector<std::string> profiles;  ///< that the case belonged to
+  std::vector<std::string> required;  ///< engines that it required
+  bool sealed = true;  ///< the file is as `gate accept` wrote it; false = it was edited by hand
   int removed = 0;  ///< gates that were accepted once and that an acceptance has let go since
 };
 
 /// Where the baseline of a case file lies: below the folder `baselines` beside the nearest folder `cases` above it; else in `baselines` beside the file.
-[[nodiscard]] std::string baseline_file(const std::string& case_file);
+/// @param root a folder that stands for `baselines`: another copy of it, such as that of the branch that a change is to go into
+[[nodiscard]] std::string baseline_file(const std::string& case_file, const std::string& root = {});
+/// The folder `baselines` that a case file belongs to.
+[[nodiscard]] std::string baseline_folder(const std::string& case_file);
 /// Whether the suite that a case belongs to keeps baselines at all: the folder is there.
 [[nodiscard]] bool keeps_baselines(const std::string& case_file);
+/// The folder of cases that a case file belongs to: `cases` beside `baselines`, or the folder that it lies in.
+[[nodiscard]] std::string folder_of_cases(const std::string& case_file);
 
 /// @throws InputError with the place of what is wrong
 [[nodiscard]] Baseline read_baseline(const std::string& file);
@@ -52,18 +67,32 @@ struct Baseline {
 /// The room that a gate leaves: its limit; half the width of a band; 1/at_least (of an order, and of anything else).
 [[nodiscard]] double room_of(const Gate&);
 
-/// The baseline that these results would be, after the one that was accepted before.
-[[nodiscard]] Baseline accepted_from(const CaseResult&, const Tool&, std::uint64_t seed, const Baseline* before, const Acceptance&);
+/// Which edge of `now` lets pass what `old` did not: both ends of a band count, and an edge that is gone. Empty = none.
+[[nodiscard]] std::string looser_edge(const AcceptedGate& now, const AcceptedGate& old);
 
-/// Results against their baselines. A limit looser than the accepted one, or a gate that is gone: error, exit 4. A value that has moved by
+/// The baseline that these results would be, after the one that was accepted before.
+[[nodiscard]] Baseline accepted_from(const CaseResult&, const Tool&, std::uint64_t seed, const Baseline* before, const Acceptance&, bool engines_were_chosen = false);
+
+/// Results against their baselines. An edge looser than the accepted one, a gate that is gone, or one whose engine was there and refused or
+/// ended before its time: error, exit 4. So is another metric, scene, reference, or an engine that is required no more. A value that has moved by
 /// more than the `drift` that its gate states and its uncertainty: error, exit 1. More than 1 % more pairs or steps, or instructions where
 /// they were counted in the same way on the same machine, at the accepted seed: error, exit 6. Where no drift is stated, a value that has
 /// got worse than the accepted or the first one by more than a tenth; another class of convergence; another case file: warning.
 /// Cases of a suite that keeps baselines and that have none yet: one warning that names them; with `required` an error of each, exit 4.
-[[nodiscard]] std::vector<Remark> baseline_remarks(const Results&, bool required = false);
+[[nodiscard]] std::vector<Remark> baseline_remarks(const Results&, bool required = false, const std::string& root = {});
+
+/// Baselines whose case is gone, or has left a profile that it was accepted in, in every suite that the results are of: error, exit 4.
+[[nodiscard]] std::vector<Remark> lost_case_remarks(const Results&, const std::string& root = {});
+
+/// Accepted gates that are not judged here, by engine: one that is missing on this machine, or that was left out by name.
+[[nodiscard]] std::map<std::string, int> accepted_but_absent(const Results&, const std::string& root = {});
 
 /// Accepts the cases with these ids (empty: all). @return what changed, old and new, and the sum of all loosenings since the first baseline
 /// @throws InputError for an id that the results do not hold, and where a case is not green
 [[nodiscard]] std::string accept(const Results&, const std::vector<std::string>& ids, const Acceptance&);
+
+/// Removes the baselines of cases that are no more. @return what was removed
+/// @throws InputError for an id that has no baseline, and for one whose case is still there
+[[nodiscard]] std::string accept_removal(const std::vector<std::string>& ids, const Acceptance&);
 
 }  // namespace tripoint

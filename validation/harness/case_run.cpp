@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "validation/harness/finished_run.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/references/experiment.hpp"
 
@@ -17,24 +18,29 @@ namespace {
 class Sampler {
  public:
   explicit Sampler(fs::path folder) : folder_(std::move(folder)) {}
-  const std::pair<std::shared_ptr<const InitialState>, std::string>& of(const Scene& scene) {
+  struct Sample {
+    std::shared_ptr<const InitialState> state;
+    std::string file;
+    std::shared_ptr<std::string> hash;
+  };
+  const Sample& of(const Scene& scene) {
     const auto key = sampling_key(scene);
     const auto at = samples_.find(key);
     return at != samples_.end() ? at->second : (samples_[key] = make(scene, key));
   }
 
  private:
-  std::pair<std::shared_ptr<const InitialState>, std::string> make(const Scene& scene, const std::string& key) {
+  Sample make(const Scene& scene, const std::string& key) {
     auto state = std::make_shared<InitialState>(sample(scene));
     fs::create_directories(folder_);
     const auto file = (folder_ / (key + ".h5")).string();
     const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
     fs::remove(file);
     write_particles(file, *state);
-    return {state, file};
+    return {state, file, std::make_shared<std::string>(file_hash(file))};
   }
   fs::path folder_;
-  std::map<std::string, std::pair<std::shared_ptr<const InitialState>, std::string>> samples_;
+  std::map<std::string, Sample> samples_;
 };
 
 double wall_limit(const EnginePlan& engine, const SuiteOptions& options) {
@@ -77,6 +83,7 @@ std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePla
   const std::lock_guard lock(no_spawn_mutex());
   fs::remove(made->particles);
   write_particles(made->particles, made->initial);
+  made->particles_hash = std::make_shared<std::string>(file_hash(made->particles));
   return made;
 }
 
@@ -103,8 +110,8 @@ CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, 
       if (options.wanted && !options.wanted(engine, plan)) continue;
       CaseRun run;
       const Scene scene = scene_of(value, plan);
-      const auto& [initial, file] = sampler.of(scene);
-      run.engine = e, run.plan = plan, run.initial = initial, run.particles = file;
+      const auto& [initial, file, hash] = sampler.of(scene);
+      run.engine = e, run.plan = plan, run.initial = initial, run.particles = file, run.particles_hash = hash;
       run.job = make_job(value, engine, plan, scene, *initial);
       run.job.threads = options.threads;
       if (options.change) run.changed = changed_run(value, engine, run, *options.change);
@@ -121,6 +128,7 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   request.engine = engine.entry, request.job = &run.job, request.initial = run.initial.get();
   if (run.changed) request.job = &run.changed->job, request.initial = &run.changed->initial;
   request.folder = fs::absolute(run.folder).string(), request.particles = fs::absolute(run.changed ? run.changed->particles : run.particles).string();
+  request.particles_hash = run.changed ? run.changed->particles_hash : run.particles_hash;
   request.wall_limit = wall_limit(engine, options), request.environment = options.environment;
   request.keep_finished = options.resume, request.count_below = options.count_below;
   auto outcome = run_one(request);

@@ -15,6 +15,7 @@ struct ChangedRun {
   Job job;
   InitialState initial;
   std::string particles;
+  std::shared_ptr<std::string> particles_hash;
 };
 
 /// One run of a case, ready to be made; and what came of it.
@@ -25,6 +26,7 @@ struct CaseRun {
   std::shared_ptr<const InitialState> initial;
   std::shared_ptr<const ChangedRun> changed;  ///< what is run in its place; empty = itself
   std::string folder, particles;
+  std::shared_ptr<std::string> particles_hash;  ///< shared by the runs that start from one file
   RunRow row;
   bool kept = false;  ///< taken from an earlier call, not made again
   std::shared_ptr<const Trajectory> trajectory;  ///< kept of base runs, for the comparison of engines

@@ -73,11 +73,21 @@ bool is_program(const fs::path& path) {
   return fs::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;
 }
 
+/// A name is a word of the report and a folder of its own: nothing that leads elsewhere, or looks like the name of another engine.
+bool is_plain(const std::string& name) {
+  const auto good = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.'; };
+  return !name.empty() && name.size() <= 64 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
+}
+
+/// Also one that is no program: an engine that was put there and cannot be started is a row that says so.
 std::vector<std::string> engines_in(const fs::path& folder) {
   std::vector<std::string> found;
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.path().filename().string().rfind("engine-", 0) == 0 && is_program(entry.path())) found.push_back(fs::absolute(entry.path()).string());
+  for (const auto& entry : fs::directory_iterator(folder, none)) {
+    const auto name = entry.path().filename().string();
+    const bool part_of_one = entry.path().has_extension() && !is_program(entry.path());  // engine-mine.cpp beside engine-mine
+    if (name.rfind("engine-", 0) == 0 && entry.is_regular_file(none) && !part_of_one) found.push_back(fs::absolute(entry.path()).string());
+  }
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -102,8 +112,11 @@ std::vector<Candidate> candidates(const std::vector<std::string>& extra) {
   const char* folders = std::getenv("TRIPOINT_ENGINE_PATH");
   std::istringstream path(folders ? folders : "");
   for (std::string folder; std::getline(path, folder, ':');)
-    if (!folder.empty())
-      for (const auto& path : engines_in(folder)) add(path, true);
+    if (!folder.empty()) {
+      const auto found = engines_in(folder);
+      if (found.empty()) throw EngineError("TRIPOINT_ENGINE_PATH: " + folder + " holds no engine-NAME: put the engine there, or take the folder off");
+      for (const auto& engine : found) add(engine, true);
+    }
   return list;
 }
 
@@ -134,6 +147,7 @@ EngineEntry ask_engine(const std::string& executable) {
   EngineEntry entry;
   entry.executable = executable;
   entry.name = name_of_file(executable);
+  if (!is_program(executable)) return unavailable(entry, executable + " is not executable (chmod +x)");
   ProcessSpec spec;
   spec.argv = {executable, "--info"};
   spec.wall_limit = info_limit;
@@ -143,7 +157,11 @@ EngineEntry ask_engine(const std::string& executable) {
   if (!info.is_object() || text(info, "contract") != "1" || text(info, "name").empty())
     return unavailable(entry, "--info did not print one JSON object of contract 1 with a name");
   read_info(info, entry);
-  return entry;
+  for (const auto& preset : entry.presets)
+    if (!is_plain(preset)) return unavailable(entry, "one of its presets has a name that is not 1 to 64 letters, digits, '-', '_' or '.'");
+  if (is_plain(entry.name)) return entry;
+  entry.name = name_of_file(executable);
+  return unavailable(entry, "its name is not 1 to 64 letters, digits, '-', '_' or '.'");
 }
 
 std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) { return ask_all(candidates(extra)); }

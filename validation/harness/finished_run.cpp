@@ -19,13 +19,23 @@ std::string text_of(const fs::path& file) {
 }
 
 fs::path record_file(const RunRequest& request) { return fs::path(request.folder) / "outcome.json"; }
-/// Hash of the files that were left beside the record.
+/// Hash of the files that were left beside the record: what is judged is what the run wrote.
 std::string hash_of_files(const RunRequest& request) {
   const fs::path folder(request.folder);
-  return text_hash(text_of(folder / "job.json") + '\0' + text_of(folder / "result.json"));
+  std::string all;
+  for (const char* name : {"job.json", "result.json", "trajectory.h5", "trajectory.csv"}) all += file_hash((folder / name).string()) + '\0';
+  return text_hash(all);
 }
 
 }  // namespace
+
+std::string file_hash(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return {};
+  std::string part(1u << 20, '\0'), all;  // a trajectory may be larger than memory: the hash is of the hashes of its parts
+  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0) all += text_hash(part.substr(0, static_cast<std::size_t>(in.gcount())));
+  return text_hash(all);
+}
 
 std::string run_hash(const RunRequest& request, const std::string& job) {
   const EngineEntry& e = *request.engine;

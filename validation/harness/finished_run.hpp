@@ -10,14 +10,17 @@
 /// cut need not make them again.
 namespace tripoint {
 
+/// Of a file's bytes; empty where it cannot be read.
+[[nodiscard]] std::string file_hash(const std::string& file);
+
 /// Of the job's text, its particles, the engine's version, build and library, and the environment that it is started with.
 [[nodiscard]] std::string run_hash(const RunRequest&, const std::string& job_text);
 
 /// Leaves outcome.json where the run is ok or diverged: an outcome that the same run would have again.
 void record_finished(const RunRequest&, const std::string& hash, const ProcessEnd&, const Outcome&);
 
-/// The outcome that is recorded under this hash, with the cost that was paid then; nothing when there is none, when the job or the
-/// result is not as it was left, or when the result does not read back to the same status.
+/// The outcome that is recorded under this hash, with the cost that was paid then; nothing when there is none, when the job, the
+/// result or the trajectory is not as it was left, or when the result does not read back to the same status.
 [[nodiscard]] std::optional<Outcome> finished_run(const RunRequest&, const std::string& hash);
 
 /// Paths of the checkpoints in a run's folder, oldest first.

@@ -57,7 +57,8 @@ void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen
     judged += applied == Applied::judged;
     absent += applied == Applied::absent;
   }
-  if (judged > 0 || absent > 0 || (named == 0 && engines_were_chosen)) return;
+  const bool left_out = engines_were_chosen && !gate.engine.empty() && std::none_of(result.engines.begin(), result.engines.end(), [&](const auto& e) { return e.name == gate.engine; });
+  if (judged > 0 || absent > 0 || (named == 0 && left_out)) return;
   findings.add(exit_missing, fmt::format("{}: the gate on {} judges nothing: no engine, mode or level of the case fits it", to_string(gate.place), gate.metric));
 }
 
@@ -120,6 +121,9 @@ void judge(CaseResult& result, bool engines_were_chosen) {
   for (const auto& study : result.studies)
     if (!study.expect.empty())
       for (auto& engine : result.engines) apply_expected_class(result, study, engine);
+  for (const auto& engine : result.engines)
+    if (engine.required && is_unjudged(engine) && result.expect != "diverges")
+      findings.add(exit_missing, label_of(engine.name, engine.preset) + " is required, and no gate of the case judges it");
   count_gates(result, findings);
   check_divergence(result, findings);
   result.exit_code = first_of(findings.codes);

@@ -35,6 +35,8 @@ bool is_part(const std::string& shard) { return !shard.empty() && !shard.ends_wi
 
 }  // namespace
 
+bool crashed(const RunRow& run) { return run.status == "killed" || run.status == "timeout" || run.status == "error"; }
+
 bool is_unjudged(const EngineRow& engine) { return engine.name != "exact" && engine.status == "ok" && engine.gates.empty(); }
 
 std::vector<std::string> unanswered(const Results& results) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/report_files.hpp"
@@ -50,7 +52,8 @@ std::vector<TestCase> tests_of(const CaseResult& c) {
   std::vector<TestCase> tests;
   for (const auto& e : c.engines) {
     if (e.status != "ok") {
-      const bool counts = e.required || e.status == "diverged";
+      const bool broke_off = std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return crashed(r); });
+      const bool counts = e.required || e.status == "diverged" || broke_off;
       tests.push_back({c.id, e.name + " runs", counts ? fmt::format("<failure type=\"{}\" message=\"{}\"/>", e.status, escaped(e.reason))
                                                       : fmt::format("<skipped message=\"{}: {}\"/>", e.status, escaped(e.reason)), counts, !counts});
     }

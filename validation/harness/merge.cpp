@@ -31,7 +31,7 @@ void check_shards(const std::vector<std::string>& folders, const std::vector<Res
 void check_same_question(const std::vector<std::string>& folders, const std::vector<Results>& parts) {
   for (std::size_t k = 1; k < parts.size(); ++k) {
     const auto &a = parts.front(), &b = parts[k];
-    if (a.profile != b.profile || a.seed != b.seed || a.only_engines != b.only_engines || a.asked != b.asked || a.tool.commit != b.tool.commit)
+    if (a.profile != b.profile || a.seed != b.seed || a.only_engines != b.only_engines || a.asked != b.asked || a.what != b.what || a.tag != b.tag || a.tool.commit != b.tool.commit)
       throw InputError(fmt::format("{}: was made with another profile, seed, choice of engines or commit than {}", folders[k], folders.front()));
   }
 }

@@ -66,14 +66,25 @@ double share_used(const GateRow& row) {
 std::vector<Remark> verdict_remarks(const Results& results) {
   std::vector<Remark> list;
   for (const auto& c : results.cases) {
-    for (const auto& p : c.problems) list.push_back({true, c.exit_code, {c.file, 1, 0}, c.id, p, infinity});
+    for (const auto& p : c.problems) list.push_back({true, c.exit_code, {c.file, 1, 0}, c.id, p, infinity, {}});
     for (const auto& e : c.engines)
       for (const auto& row : e.gates)
         if (row.verdict != "pass") list.push_back(remark_on(c, e, row));
   }
-  for (const auto& p : results.problems) list.push_back({true, results.exit_code, {}, "the results", p, infinity});
+  for (const auto& p : results.problems) list.push_back({true, results.exit_code, {}, "the results", p, infinity, {}});
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.excess > b.excess; });
   return list;
+}
+
+std::string verdict_word(int exit_code, const Results& results, const std::vector<Remark>& list) {
+  std::string word;
+  if (results.exit_code == exit_code || exit_code == exit_pass) return verdict_word(exit_code);
+  for (const auto& r : list) {
+    if (!r.error || r.code != exit_code) continue;
+    if (r.word.empty() || (!word.empty() && r.word != word)) return verdict_word(exit_code);
+    word = r.word;
+  }
+  return word.empty() ? verdict_word(exit_code) : word;
 }
 
 std::string remarks_text(const std::vector<Remark>& list) {

@@ -15,7 +15,11 @@ struct Remark {
   std::string title;    ///< case and what is judged
   std::string text;     ///< one sentence
   double excess = 0.0;  ///< how far beyond the limit, to put the worst first: |value|/limit; infinite where there is no value
+  std::string word;     ///< the verdict where nothing else is wrong: LOOSENED, CHANGED, GONE; empty = that of the code
 };
+
+/// The word of the verdict: that of the remarks where all that give the code share one, else that of the code.
+[[nodiscard]] std::string verdict_word(int exit_code, const Results&, const std::vector<Remark>&);
 
 /// How much of what its gate allows a value takes: its size over the limit; distance from the middle of a band over half its width; at_least over it.
 /// Infinite where there is no value or nothing is allowed.

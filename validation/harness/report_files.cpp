@@ -48,6 +48,13 @@ std::string write_report(const Results& results, const std::string& folder, bool
   return make_page(fs::absolute(folder) / "results.json", pdf);
 }
 
+void set_aside_report(const std::string& folder) {
+  const fs::path out(folder);
+  std::error_code none;
+  if (fs::exists(out / "results.json", none)) fs::rename(out / "results.json", out / "results.previous.json");
+  for (const char* made : {"junit.xml", "summary.md", "index.html"}) fs::remove(out / made, none);
+}
+
 std::string notes_text(const Results& results) {
   std::string text;
   for (const auto& p : results.problems) text += "problem: " + p + "\n";

@@ -21,6 +21,9 @@ void write_results(const Results&, const std::string& folder);
 /// @return why the page could not be made; empty when it is there. @throws EngineError when a file cannot be written
 [[nodiscard]] std::string write_report(const Results&, const std::string& folder, bool pdf = false);
 
+/// Puts results.json of an earlier call aside as results.previous.json, and removes the files that were made from it: nothing of it is taken for new.
+void set_aside_report(const std::string& folder);
+
 /// The line that ends every validation: `verdict PASS exit 0  report/index.html`; without a page it names results.json.
 [[nodiscard]] std::string last_line(const Results&, const std::string& folder);
 

@@ -132,6 +132,10 @@ struct Results {
   std::string shard;                    ///< "i/n", empty = whole
   bool interrupted = false;             ///< Ctrl-C ended it before every planned case was complete
   std::vector<std::string> planned;     ///< ids of every case that this run had to do
+  std::vector<std::string> what;          ///< files, folders and ids that were asked for; empty = the cases beside the program
+  std::string tag;                        ///< --tag; empty = any
+  bool filter_known = false;              ///< these are all cases of `what`, `tag` and `profile`: not with -k or --last-failed, and older results do not say
+  bool seed_given = false;                ///< --seed replaced the cases' own
   std::vector<std::string> only_engines;  ///< --engines; empty = all
   std::vector<std::string> asked;         ///< engines that the command line named, by --engine or --engines: none of them passes unjudged
   std::vector<std::string> problems;

@@ -156,6 +156,7 @@ MetricChoice metric_choice(const Json& from) {
   MetricChoice m;
   m.name = text(from, "name"), m.quantity = text(from, "quantity"), m.norm = text(from, "norm"), m.body = text(from, "body"), m.at = text(from, "at");
   m.scale = number_or(from, "scale", 1.0), m.unit = text(from, "unit");
+  if (const auto window = numbers(from, "window"); window.size() == 2) m.window = {window[0], window[1]};
   return m;
 }
 
@@ -213,6 +214,7 @@ Results read_results(const std::string& path) {
   r.verdict = text(document, "verdict"), r.exit_code = static_cast<int>(number_or(document, "exit_code", 4.0));
   r.interrupted = member(document, "interrupted") == Json(true);
   r.planned = strings(document, "planned"), r.only_engines = strings(document, "only_engines");
+  r.filter_known = flag(document, "whole", false), r.what = strings(document, "what"), r.tag = text(document, "tag"), r.seed_given = flag(document, "seed_given", false);
   r.asked = document.contains("asked") ? strings(document, "asked") : r.only_engines;
   r.cases = rows<CaseResult>(document, "cases", case_result);
   return r;

@@ -157,7 +157,7 @@ Json timing(const CaseResult& c) {
 Json json(const CaseResult& c) {
   Json metrics = Json::array(), studies = Json::array(), gates = Json::array(), engines = Json::array(), equivalence = Json::array(), ledger = Json::object();
   for (const auto& m : c.metrics)
-    metrics.push_back({{"name", m.name}, {"quantity", m.quantity}, {"norm", m.norm}, {"body", m.body}, {"at", m.at}, {"scale", m.scale}, {"unit", m.unit}});
+    metrics.push_back({{"name", m.name}, {"quantity", m.quantity}, {"norm", m.norm}, {"body", m.body}, {"at", m.at}, {"window", m.window}, {"scale", m.scale}, {"unit", m.unit}});
   for (const auto& s : c.studies) studies.push_back(json(s));
   for (const auto& g : c.gates) gates.push_back(json(g));
   for (const auto& e : c.engines) engines.push_back(json(e));
@@ -179,6 +179,7 @@ std::string results_text(const Results& r) {
   const Json document{{"format", r.format},
                       {"tool", {{"version", r.tool.version}, {"commit", r.tool.commit}, {"compiler", r.tool.compiler}, {"flags", r.tool.flags}, {"cpu", r.tool.cpu}, {"cores", r.tool.cores}}},
                       {"command", r.command}, {"date", r.date}, {"profile", r.profile}, {"seed", r.seed}, {"shard", r.shard}, {"interrupted", r.interrupted}, {"history", r.history}, {"planned", r.planned},
+                      {"what", r.what}, {"tag", r.tag}, {"whole", r.filter_known}, {"seed_given", r.seed_given},
                       {"only_engines", r.only_engines}, {"asked", r.asked}, {"verdict", r.verdict}, {"exit_code", r.exit_code}, {"problems", r.problems}, {"cases", cases}};
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

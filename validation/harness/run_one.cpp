@@ -26,6 +26,18 @@ Outcome failed(Outcome outcome, const std::string& status, const std::string& re
   return outcome;
 }
 
+/// Whether an engine has written into the shared file; the runs that follow find it as it was.
+bool particles_were_changed(const RunRequest& request) {
+  if (!request.particles_hash) return false;
+  const std::lock_guard lock(no_spawn_mutex());
+  if (file_hash(request.particles) == *request.particles_hash) return false;
+  std::error_code none;
+  fs::remove_all(request.particles, none);
+  write_particles(request.particles, *request.initial);
+  *request.particles_hash = file_hash(request.particles);
+  return true;
+}
+
 /// The last lines of a log that say something, for a reason in one line.
 std::string last_words(const std::string& log) {
   std::istringstream lines(log);
@@ -186,6 +198,8 @@ Outcome run_one(const RunRequest& request) {
   spec.progress = request.progress;
   const auto end = run_process(spec);
   auto outcome = read_back(request, end);
+  if (particles_were_changed(request))
+    return failed(outcome, "error", "the particles that all engines start from were changed while it ran: they are for reading");
   count_instructions(request, spec, outcome);
   record_finished(request, hash, end, outcome);
   return outcome;

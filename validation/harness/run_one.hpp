@@ -18,6 +18,7 @@ struct RunRequest {
   const InitialState* initial = nullptr;
   std::string folder;     ///< results of an earlier run in it are removed first: they are never judged
   std::string particles;  ///< path of particles.h5
+  std::shared_ptr<std::string> particles_hash;  ///< file_hash of it as it was written last; no engine may change what all engines start from
   double wall_limit = 600.0;  ///< [s]
   std::map<std::string, std::string> environment;
   std::function<void(double)> progress;

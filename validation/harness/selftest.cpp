@@ -25,7 +25,8 @@ DefectOutcome try_defect(const Case& value, const Defect& defect, const EngineEn
   const auto text = fmt::format("{}={}", defect.name, defect.size);
   const auto broken = run_with_defect(value, engine, defect.killed_by, text, text, o);
   for (const auto& metric : defect.killed_by) {
-    const auto before = look(whole, metric), after = look(broken, metric);
+    const auto mode = decisive_mode(whole, metric, defect.name);
+    const auto before = look(whole, metric, mode), after = look(broken, metric, mode);
     const bool good = before.any && before.all_green && after.red;
     outcome.killed = outcome.killed && good;
     outcome.found += fmt::format("{}without: {}; with: {}", outcome.found.empty() ? "" : "; ", before.any ? before.words : "no gate on " + metric, after.any ? after.words : "nothing");
@@ -41,19 +42,28 @@ void try_all(const std::vector<Case>& cases, const EngineEntry& engine, const Se
     for (auto& row : try_harmless(value, engine, options)) outcome.harmless.push_back(std::move(row));
 }
 
-void check_registry(const std::vector<Case>& cases, const EngineEntry& engine, bool whole, SelftestOutcome& outcome) {
+}  // namespace
+
+std::vector<std::string> registry_problems(const std::vector<Case>& cases, const EngineEntry& engine, bool whole) {
+  std::vector<std::string> problems;
   const auto declared = [&](const std::string& name) {
     return std::any_of(cases.begin(), cases.end(), [&](const Case& c) { return std::any_of(c.defects.begin(), c.defects.end(), [&](const Defect& d) { return d.name == name; }); });
   };
   const auto registered = [&](const std::string& name) { return std::any_of(engine.defects.begin(), engine.defects.end(), [&](const auto& d) { return d.name == name; }); };
-  for (const auto& d : engine.defects)
-    if (whole && !declared(d.name)) outcome.problems.push_back(fmt::format("{} ({}): no case declares it, {} should", d.name, d.what, d.case_id));
+  const auto declared_by = [&](const std::string& id, const std::string& name) {
+    const auto at = std::find_if(cases.begin(), cases.end(), [&](const Case& c) { return c.id == id; });
+    return at != cases.end() && std::any_of(at->defects.begin(), at->defects.end(), [&](const Defect& d) { return d.name == name; });
+  };
+  for (const auto& d : engine.defects) {
+    if (!whole) continue;
+    if (!declared(d.name)) problems.push_back(fmt::format("{} ({}): no case declares it, {} should", d.name, d.what, d.case_id));
+    else if (!declared_by(d.case_id, d.name)) problems.push_back(fmt::format("{} ({}): the term names {} as the case that kills it, which is not there or does not declare it", d.name, d.what, d.case_id));
+  }
   for (const auto& c : cases)
     for (const auto& d : c.defects)
-      if (!registered(d.name)) outcome.problems.push_back(fmt::format("{}: the solver has no defect {}", to_string(d.place), d.name));
+      if (!registered(d.name)) problems.push_back(fmt::format("{}: the solver has no defect {}", to_string(d.place), d.name));
+  return problems;
 }
-
-}  // namespace
 
 SelftestOutcome run_selftest(const SelftestOptions& options) {
   SelftestOutcome outcome;
@@ -61,7 +71,7 @@ SelftestOutcome run_selftest(const SelftestOptions& options) {
   CaseFilter filter;
   filter.what = options.what;
   const auto cases = select_cases(filter);
-  check_registry(cases, engine, options.what.empty(), outcome);
+  outcome.problems = registry_problems(cases, engine, options.what.empty());
   for (const auto& value : cases)
     for (auto& row : try_smallest(value, engine, options)) outcome.smallest.push_back(std::move(row));
   if (!options.only_smallest) try_all(cases, engine, options, outcome);

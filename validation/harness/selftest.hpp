@@ -68,6 +68,10 @@ struct SelftestOutcome {
 /// The same as one JSON document, format 1.
 [[nodiscard]] std::string selftest_json(const SelftestOutcome&);
 
+/// Defects that the terms register and no case declares, whose own case is gone or does not declare them (both asked of the whole suite only),
+/// and those that cases declare and the engine does not have.
+[[nodiscard]] std::vector<std::string> registry_problems(const std::vector<Case>&, const EngineEntry&, bool whole);
+
 /// Each defect of the case that states a smallest size, bisected.
 [[nodiscard]] std::vector<SmallestOutcome> try_smallest(const Case&, const EngineEntry&, const SelftestOptions&);
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "validation/harness/apply_gate.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/suite.hpp"
 
@@ -19,7 +20,7 @@ bool is_ours(const Gate& gate, const std::string& metric) { return gate.metric =
 bool is_needed(const Case& value, const std::vector<std::string>& metrics, const RunPlan& run) {
   for (const auto& metric : metrics)
     for (const auto& gate : value.gates) {
-      if (!is_ours(gate, metric) || (!gate.mode.empty() && gate.mode != run.mode)) continue;
+      if (!is_ours(gate, metric) || !fits_mode(gate, run.mode)) continue;
       if (metric.ends_with(".order") ? !run.levels.empty() : !gate.level && run.base) return true;
       for (const auto& [axis, level] : run.levels)
         if (gate.level && same_level(level, *gate.level)) return true;
@@ -41,11 +42,26 @@ CaseResult run_with_defect(const Case& value, const EngineEntry& engine, const s
   return results.cases.front();
 }
 
-Seen look(const CaseResult& result, const std::string& metric) {
+std::vector<std::string> judged_modes(const CaseResult& result, const std::string& metric) {
+  std::vector<std::string> modes;
+  for (const auto& engine : result.engines)
+    for (const auto& row : engine.gates)
+      if (row.metric == metric && row.verdict != "missing" && std::find(modes.begin(), modes.end(), row.mode) == modes.end()) modes.push_back(row.mode);
+  return modes;
+}
+
+std::string decisive_mode(const CaseResult& result, const std::string& metric, const std::string& defect) {
+  const auto modes = judged_modes(result, metric);
+  const std::string wanted = defect.find(".paper.") != std::string::npos ? "paper" : "corrected";
+  if (std::find(modes.begin(), modes.end(), wanted) != modes.end()) return wanted;
+  return modes.empty() ? std::string() : modes.front();
+}
+
+Seen look(const CaseResult& result, const std::string& metric, const std::string& mode) {
   Seen seen;
   for (const auto& engine : result.engines)
     for (const auto& row : engine.gates) {
-      if (row.metric != metric || row.verdict == "missing") continue;  // levels that the defect's gates do not need were not run
+      if (row.metric != metric || row.mode != mode || row.verdict == "missing") continue;  // levels that the defect's gates do not need were not run
       seen.any = true;
       seen.all_green = seen.all_green && row.verdict == "pass";
       seen.red = seen.red || row.verdict == "fail" || row.verdict == "diverged";

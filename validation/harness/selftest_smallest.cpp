@@ -10,8 +10,8 @@ namespace tripoint {
 namespace {
 
 /// First of the metrics whose gate is red; empty = none.
-std::string red_metric(const CaseResult& result, const std::vector<std::string>& metrics) {
-  const auto at = std::find_if(metrics.begin(), metrics.end(), [&](const std::string& m) { return look(result, m).red; });
+std::string red_metric(const CaseResult& result, const std::vector<std::string>& metrics, const std::string& defect) {
+  const auto at = std::find_if(metrics.begin(), metrics.end(), [&](const std::string& m) { return look(result, m, decisive_mode(result, m, defect)).red; });
   return at == metrics.end() ? std::string() : *at;
 }
 
@@ -21,7 +21,7 @@ SmallestOutcome bisect(const Case& value, const Defect& defect, const EngineEntr
   for (const auto& d : engine.defects)
     if (d.name == defect.name) outcome.what = d.what;
   const auto is_red = [&](double size) {
-    const auto metric = red_metric(run_with_defect(value, engine, defect.killed_by, fmt::format("{}={:.17g}", defect.name, size), "smallest-" + defect.name, o), defect.killed_by);
+    const auto metric = red_metric(run_with_defect(value, engine, defect.killed_by, fmt::format("{}={:.17g}", defect.name, size), "smallest-" + defect.name, o), defect.killed_by, defect.name);
     if (!metric.empty()) outcome.metric = metric;
     return !metric.empty();
   };

@@ -106,7 +106,9 @@ MetricValue stationary(const Series& s, MetricValue v) {
 }
 
 /// The dominant frequency less the one that the case states: of a damped or uneven swing as of a sine.
-MetricValue frequency(const MetricInput& in, const Series& s, MetricValue v) {
+MetricValue frequency(const MetricInput& in, const Series& s) {
+  MetricValue v;
+  v.times = s.times, v.series = s.value;
   const auto truth = in.reference.number("stated_frequency");
   if (!truth) return unformed("the norm frequency needs the true one in Hz: reference = {function = \"stated\", args = {frequency = ...}}");
   const auto found = dominant_frequency(s.times, s.value);
@@ -117,8 +119,7 @@ MetricValue frequency(const MetricInput& in, const Series& s, MetricValue v) {
   return v;
 }
 
-MetricValue over_time(const MetricInput& in, const Series& s) {
-  const std::string& norm = in.choice.norm;
+MetricValue over_time(const std::string& norm, const Series& s) {
   MetricValue v;
   v.times = s.times, v.series = s.value;
   std::size_t k = s.value.size() - 1;
@@ -133,7 +134,6 @@ MetricValue over_time(const MetricInput& in, const Series& s) {
     return v;
   }
   if (norm == "stationary") return stationary(s, v);
-  if (norm == "frequency") return frequency(in, s, v);
   if (norm == "slope") {
     if (s.value.size() < 2) return unformed("a slope needs two output times or more");
     std::tie(v.value, v.uncertainty.numerical) = slope_over_time(s);
@@ -182,7 +182,7 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
     series.uncertainty.push_back(value.uncertainty);
     series.worst.push_back(value.worst);
   }
-  MetricValue v = over_time(in, series);
+  MetricValue v = norm == "frequency" ? frequency(in, series) : over_time(norm, series);
   for (const auto* now : chosen)  // that of the last frame for the last value, else the largest
     if (norm != "final" || now == chosen.back()) v.uncertainty.data = std::max(v.uncertainty.data, in.reference.uncertainty(in.choice.quantity, now->time).value_or(0.0));
   return v;
@@ -217,6 +217,12 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
   scale(value, choice.scale);
   if (value.uncertainty.data == 0.0) value.uncertainty.data = (choice.reference ? *choice.reference : job.reference).uncertainty;
   return value;
+}
+
+std::optional<double> value_of_series(const MetricChoice& choice, const MetricValue& stored) {
+  if (stored.series.empty() || stored.series.size() != stored.times.size() || choice.norm == "L2mean" || choice.norm == "frequency" || find_run_quantity(choice)) return {};
+  const std::vector<double> nothing(stored.series.size(), 0.0);
+  return over_time(choice.norm, {stored.times, stored.series, nothing, std::vector<long>(stored.series.size(), -1)}).value;
 }
 
 const std::vector<MetricWord>& metric_quantities() {

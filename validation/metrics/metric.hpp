@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct MetricValue {
 /// Compares a trajectory with its reference by the metric's quantity and norm.
 /// @throws InputError for an unknown quantity or norm; a trajectory that does not fit (count, ids, times, units) gives NaN and a note.
 [[nodiscard]] MetricValue evaluate(const MetricChoice&, const Job&, const InitialState&, const Trajectory&, const Reference&);
+
+/// The value that a stored series gives by the metric's norm in time, by the same rules; nothing where the value is not the norm of a series.
+[[nodiscard]] std::optional<double> value_of_series(const MetricChoice&, const MetricValue&);
 
 /// Refuses what cannot be judged: times missing to 1e-9 of the end, permuted ids, non-finite values, frozen frames, changed masses.
 /// @return empty when sound, else what is wrong ("time not reached", "ids are permuted", ...)

@@ -21,7 +21,7 @@ namespace tripoint::fracture {
 class BondLimits {
  public:
   explicit BondLimits(const Scene& scene) : paper_(scene.mode_of(Term::elastic) == Mode::paper) {
-    static const double stretch = 1.0 + defect_size("fracture.stretch"), distance = 1.0 + defect_size("fracture.distance");
+    static const double stretch = 1.0 + defect_size("fracture.stretch"), distance = 1.0 + defect_size("fracture.paper.distance");
     constexpr double never = std::numeric_limits<double>::infinity();
     for (const Material& m : scene.materials) {
       const std::optional<double>& given = paper_ ? m.fracture_distance : m.fracture_stretch;

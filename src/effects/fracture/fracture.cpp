@@ -184,7 +184,7 @@ std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fract
 
 std::vector<DefectEntry> defects() {
   return {{"fracture.stretch", "bonds bear 1 + size times their stretch", "solid/torn-bar"},
-          {"fracture.distance", "as printed: bonds bear 1 + size times their distance", "solid/torn-bar"},
+          {"fracture.paper.distance", "as printed: bonds bear 1 + size times their distance", "solid/torn-bar"},
           {"fracture.weaker", "where two materials meet the higher limit holds", "solid/weak-joint"},
           {"fracture.energy", "share of 0..1 of the energy let go that is not booked", "solid/torn-bar"},
           {"fracture.plastic_strain", "plastic strain of what loses bonds stays as it was", "solid/torn-ductile"}};

@@ -72,7 +72,7 @@ std::vector<DefectEntry> defects() {
           {"heat.harmonic_mean", "arithmetic instead of harmonic mean of conductivities", "heat/two-conductivities"},
           {"heat.one_sided", "size of 0..1: conductivity and moment lean to the receiving particle, so that energy is not kept",
            "heat/step-insulated"},
-          {"heat.held", "temperatures that should be held are let go", "heat/bar-3x3"},
+          {"heat.held", "temperatures that should be held are let go", "heat/held-ends"},
           {"heat.first_order", "second stage of the time scheme left out: first order", "heat/temporal"},
           {"heat.paper.diffusivity", "diffusivity of (21) as printed times 1 + size", "heat/cosine-mode"},
           {"heat.paper.density", "rest density in the paper's diffusivity times 1 + size", "heat/cosine-mode"}};

@@ -85,6 +85,9 @@ def run(path):
     except (OSError, ValueError, KeyError):
         sys.exit(2)
     folder = Path(path).parent / job["output"]
+    if WRONG == "writes into the particles":
+        with (Path(path).parent / job["particles"]).open("ab") as particles:
+            particles.write(b"more")
     if WRONG == "leaves no result":
         return
     if WRONG == "hangs":
