@@ -81,7 +81,8 @@ std::vector<double> accepted(const Figure& f) {
       return at == std::string::npos ? std::nan("") : std::strtod(gate.c_str() + at + key.size() + 4, nullptr);
     };
     const bool level = f.level.empty() || std::abs(number("level") / std::stod(f.level) - 1.0) < 1e-9;
-    if (is("metric", f.metric) && is("engine", "tripoint") && is("mode", f.mode) && level) values.push_back(number("value"));
+    if (is("metric", f.metric) && is("engine", "tripoint") && is("mode", f.mode) && level && !std::ranges::count(values, number("value")))
+      values.push_back(number("value"));  // two gates may judge one value
     from = text.find("[[gate]]", from + 2);
   }
   return values;

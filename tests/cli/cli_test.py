@@ -149,7 +149,7 @@ class Cli(unittest.TestCase):
 
         self.assertEqual(spoilt(lambda bad, e: None), 0)
         metric = lambda e: e["runs"][0]["metrics"]["position"]
-        for name, change, code in (("an error a million times larger", lambda b, e: metric(e).update(value=1e6), 1), ("null", lambda b, e: metric(e).update(value=None, finite=False), 1),
+        for name, change, code in (("an error that its series does not show", lambda b, e: metric(e).update(value=1e6), 4), ("null", lambda b, e: metric(e).update(value=None, finite=False), 1),
                                    ("a metric removed", lambda b, e: e["runs"][0]["metrics"].clear(), 4), ("runs removed", lambda b, e: e.update(runs=[]), 4),
                                    ("cases removed", lambda b, e: b.update(cases=[]), 4), ("diverged", lambda b, e: e["runs"][0].update(status="diverged"), 7),
                                    ("the engine removed", lambda b, e: b["cases"][0].update(engines=[]), 4), ("gates removed", lambda b, e: b["cases"][0].update(gates=[]), 4)):

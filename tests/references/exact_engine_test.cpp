@@ -46,7 +46,7 @@ TEST_F(ExactEngineTest, ServesTheTruthAtEveryTime) {
 TEST_F(ExactEngineTest, RefusesInTheReferencesOwnWords) {
   ExactEngine engine;
   s_.job.reference = test::function("invariant");
-  EXPECT_NE(engine.refusal(s_.job).find("no states"), std::string::npos);
+  EXPECT_NE(engine.refusal(s_.job).find("not particle positions"), std::string::npos);
   s_.job.reference = test::function("cosine_mode");
   EXPECT_NE(engine.refusal(s_.job), "");
   s_.job.reference = test::function("no_such_function");
