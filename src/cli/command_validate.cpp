@@ -74,17 +74,31 @@ std::vector<std::string> failed_last_time(const std::string& out) {
   return failed;
 }
 
+/// The cases of this call; the report of an earlier one is set aside, so that what ends 2 leaves nothing to be judged in its place. A call that
+/// selects nothing, as one with a mistyped tag, asks for no run and leaves the report as it is.
+std::vector<Case> cases_of(const ValidateOptions& o) {
+  try {
+    auto cases = select_cases(o.filter);
+    set_aside_report(o.suite.out);
+    return cases;
+  } catch (const NothingSelected&) {
+    throw;
+  } catch (...) {
+    set_aside_report(o.suite.out);
+    throw;
+  }
+}
+
 int validate(ValidateOptions o) {
   catch_interrupts();
   if (!o.shard.empty()) std::tie(o.filter.shard, o.filter.shards) = read_shard(o.shard);
   if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
   o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";
   if (o.seed_given) o.suite.selection.seed = o.seed;
-  set_aside_report(o.suite.out);  // what ends 2 must not leave the results of an earlier call to be judged
+  const auto cases = cases_of(o);
   const auto words = sort_engine_words(o.engine);
   o.suite.selection.engines = split(o.engines);
   for (const auto& name : words.names) o.suite.selection.extra.push_back(name);
-  const auto cases = select_cases(o.filter);
   const auto engines = discover_engines(words.paths);
   for (const auto& path : words.paths) o.suite.selection.extra.push_back(ask_engine(path).name);
   for (const auto* list : {&o.suite.selection.engines, &o.suite.selection.extra}) o.suite.selection.asked.insert(o.suite.selection.asked.end(), list->begin(), list->end());

@@ -134,6 +134,17 @@ class Cli(unittest.TestCase):
                 self.assertEqual(self.validate(fault).returncode, code)
                 self.assertEqual(self.results()["exit_code"], code)
 
+    def test_a_call_that_ends_early_leaves_no_results_to_be_judged(self):
+        self.write_cases("flight")
+        self.validate()
+        results = self.path / "out" / "results.json"
+        self.assertEqual(self.validate("nothing", "--tag", "no-such-tag").returncode, 2)
+        self.assertTrue(results.exists(), "a mistyped tag asks for no run: the last report stays")
+        (self.path / "cases" / "test" / "broken.toml").write_text("no case")
+        self.assertEqual(self.validate("nothing").returncode, 2)
+        self.assertFalse(results.exists())
+        self.assertTrue(results.with_name("results.previous.json").exists())
+
     def test_results_that_were_spoilt_do_not_pass_the_gate(self):
         self.write_cases("flight")
         self.validate()

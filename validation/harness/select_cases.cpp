@@ -92,7 +92,7 @@ std::vector<Case> select_cases(const CaseFilter& filter) {
     if (!is_new && at->second.file != value.file) throw InputError(fmt::format("{}: the id {} is already that of {}", value.file, value.id, at->second.file));
   }
   const bool no_such_tag = !filter.tag.empty() && tags.count(filter.tag) == 0;
-  if (by_id.empty()) throw InputError("no case matches " + describe(filter) + (no_such_tag ? suggestion(filter.tag, {tags.begin(), tags.end()}) : ""));
+  if (by_id.empty()) throw NothingSelected("no case matches " + describe(filter) + (no_such_tag ? suggestion(filter.tag, {tags.begin(), tags.end()}) : ""));
   std::vector<Case> chosen;
   int index = 0;
   for (auto& [id, value] : by_id)

@@ -5,12 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "validation/harness/harmless.hpp"
 #include "validation/harness/plan_runs.hpp"
 #include "validation/harness/results.hpp"
 
 /// Runs cases on engines and judges them.
 namespace tripoint {
+
+/// A tag, name or profile that no case has: nothing was asked to run.
+class NothingSelected : public InputError {
+ public:
+  using InputError::InputError;
+};
 
 struct CaseFilter {
   std::vector<std::string> what;  ///< files, folders or case ids; empty = all cases beside the program
@@ -21,7 +28,7 @@ struct CaseFilter {
   int shard = 1, shards = 1;      ///< takes the cases shard, shard + shards, ... of the list by id
 };
 
-/// Reads the cases, in order of their ids. @throws InputError for a file that is wrong, an id used twice, and a filter that nothing matches
+/// Reads the cases, in order of their ids. @throws InputError for a file that is wrong, an id used twice; NothingSelected for a filter that nothing matches
 [[nodiscard]] std::vector<Case> select_cases(const CaseFilter&);
 
 struct SuiteOptions {
