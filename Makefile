@@ -60,4 +60,4 @@ docs: build  ## write the reference of the case file, docs/case-file.md
 	@mv build/case-file.md docs/case-file.md
 
 clean:  ## remove build/ and every report; .venv, .venv-peers and .venv-engines stay
-	rm -rf build report report-ablate report-compare report-converge report-plan report-recommend
+	rm -rf build releases report report-ablate report-compare report-converge report-plan report-recommend
