@@ -230,6 +230,7 @@ std::vector<DefectEntry> defects() {
           {"walls.velocity", "part of the mirrored velocity of walls left out", "fluid/poiseuille"},
           {"fluid.viscosity.central", "part of the central viscous force along the velocity, not the line of centres", "fluid/liquid-ball"},
           {"fluid.viscosity.contact", "viscosity of solids that touch times 1 + size", "coupling/sliding-slab"},
+          {"fluid.viscosity.lag", "viscous forces see the velocity of `size` steps before", "fluid/viscous-order"},
           {"fluid.viscosity.mean", "share of the arithmetic mean in the viscosity between two liquids", "fluid/two-viscosities"},
           {"fluid.transport.background", "background pressure of the transport velocity times 1 - size", "fluid/taylor-green"},
           {"fluid.transport.stress", "stress that the transport velocity carries times 1 - size", "fluid/taylor-green"},

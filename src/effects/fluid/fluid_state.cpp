@@ -69,7 +69,8 @@ void set_pressure_shares(World& world, const SceneNumbers& n) {
 
 void predict_velocities(World& world) {
   Particles& p = world.particles;
-  const double ahead = world.lagged.half_step;
+  static const double late = defect_size("fluid.viscosity.lag");  // 1: the velocity of the whole step before
+  const double ahead = (1.0 - 2.0 * late) * world.lagged.half_step;
   const Vec3 g = world.scene.gravity;
   const std::vector<ForceColumns> forces = force_columns(world);
   const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
@@ -83,7 +84,7 @@ void predict_velocities(World& world) {
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (!is_member(i)) {
-      seen.set(i, ahead > 0.0 ? v.at(i) + ahead * (g + total_force(forces, i) / m[i]) : v.at(i));
+      seen.set(i, ahead != 0.0 ? v.at(i) + ahead * (g + total_force(forces, i) / m[i]) : v.at(i));
       continue;
     }
     const auto b = static_cast<std::size_t>(body[i]);
