@@ -254,7 +254,7 @@ json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
   json out{{"end_time", s.end_time}, {"gravity", to_json(s.gravity)}, {"spacing", s.spacing}, {"support_ratio", s.support_ratio}, {"mode", to_string(s.mode)},
            {"modes", modes}, {"time_step", maybe(s.time_step)}, {"seed", s.seed}, {"jitter", s.jitter}, {"min", maybe(s.min)}, {"max", maybe(s.max)},
            {"periodic", periodic}, {"output_interval", s.output_interval}, {"viscosity_form", s.viscosity_form}, {"transport_velocity", s.transport_velocity},
-           {"clamp", s.clamp}, {"merge_distance", s.merge_distance}, {"hourglass", s.hourglass}, {"contact", s.contact ? "auto" : "none"}, {"contact_viscosity", s.contact_viscosity},
+           {"clamp", s.clamp}, {"settle", s.settle}, {"merge_distance", s.merge_distance}, {"hourglass", s.hourglass}, {"contact", s.contact ? "auto" : "none"}, {"contact_viscosity", s.contact_viscosity},
            {"on_failure", s.recovers ? "recover" : "stop"}, {"unguarded", s.unguarded}};
   out["materials"] = out["bodies"] = out["events"] = out["inflows"] = json::array();
   for (const Material& m : s.materials) out["materials"].push_back(to_json(m));
@@ -283,6 +283,7 @@ void scene_from_json(const json& value, Scene& s, std::vector<JobBody>& bodies) 
   s.viscosity_form = o.text_or("viscosity_form", "central");
   s.transport_velocity = o.flag_or("transport_velocity", false);
   s.clamp = o.flag_or("clamp", true);
+  s.settle = o.flag_or("settle", false);
   s.merge_distance = o.number_or("merge_distance", 1.5);
   s.hourglass = o.number_or("hourglass", 1.0);
   s.contact_viscosity = o.number_or("contact_viscosity", 0.0);

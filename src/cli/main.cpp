@@ -5,6 +5,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
+#include "scene/read_case.hpp"
+#include "step/settle.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace {
@@ -40,6 +42,7 @@ class FirstSentences : public CLI::Formatter {
 int main(int argc, char** argv) {
   using namespace tripoint;
   remember_command_line(argc, argv);
+  set_settler(settled);
   CLI::App app{description, "tripoint"};
   app.footer(footer);
   app.formatter(std::make_shared<FirstSentences>());

@@ -57,6 +57,7 @@ constexpr auto keys = std::to_array<Key>({
     {"scene", "output_interval", number, "s", positive, "=", "a twentieth of end_time", "", "time between frames"},
     {"scene", "viscosity_form", word, "", any, "\"central\"", "keeps angular momentum; right wherever a surface or body is free", "laplacian central", "corrected viscosity; laplacian for wall-bounded shear only"},
     {"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "", "move particles by the transport velocity"},
+    {"scene", "settle", flag, "", any, "false", "liquids start on a lattice, which falls by a tenth of a spacing and breaks up", "", "let the liquids down into equilibrium under gravity before time 0, between solids that stand where they start"},
     {"scene", "clamp", flag, "", any, "true", "negative pressure would glue bodies together", "", "no negative pressure"},
     {"scene", "merge_distance", number, "", positive, "=", "1.5, nearest and diagonal neighbours of the lattice; where phase is paper 2.12, the reach of its bonds", "", "how near a freezing particle joins, in spacings"},
     {"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "", "coefficient of the energy against zero-energy modes"},

@@ -60,8 +60,13 @@ struct CalledEffect {
 /// The effects that a scene does without, and the proof that each can never act.
 [[nodiscard]] std::vector<CalledEffect> idle_effects(const Scene&);
 
-/// Particles of the scene on its lattice, row = id, bodies in order. @throws InputError (no particles, mesh not closed, ...)
+/// Particles of the scene, row = id, bodies in order: on its lattice, and then let down into equilibrium where the scene says `settle`.
+/// @throws InputError (no particles, mesh not closed, nothing to settle with, ...)
 [[nodiscard]] InitialState sample(const Scene&);
+
+/// How sample() lets liquids down. The program that has a solver sets it, once, before it samples: this room and the judge know none.
+using Settler = InitialState (*)(const Scene&, InitialState);
+void set_settler(Settler) noexcept;
 
 /// Row in /particles/bodies of each [[body]]; -1 for a liquid.
 [[nodiscard]] std::vector<int> body_rows(const Scene&);

@@ -124,9 +124,9 @@ void disturb(const Scene& s, const Body& b, std::size_t first, std::vector<Vec3>
   for (Vec3& centre : centres) centre -= mean;
 }
 
-}  // namespace
+Settler settler = nullptr;
 
-InitialState sample(const Scene& s) {
+InitialState laid(const Scene& s) {
   check_temperatures(s);
   InitialState out;
   const auto rows = body_rows(s);
@@ -156,6 +156,16 @@ InitialState sample(const Scene& s) {
     }
   }
   return out;
+}
+
+}  // namespace
+
+void set_settler(Settler s) noexcept { settler = s; }
+
+InitialState sample(const Scene& s) {
+  if (!s.settle) return laid(s);
+  if (!settler) throw InputError("settle = true needs the solver, and this program has none");
+  return settler(s, laid(s));
 }
 
 }  // namespace tripoint

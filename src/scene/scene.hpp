@@ -146,6 +146,7 @@ struct Scene {
   double output_interval = 0.0;  ///< [s]
   std::string viscosity_form = "central";
   bool transport_velocity = false, clamp = true;
+  bool settle = false;  ///< liquids are let down into equilibrium before time 0
   double merge_distance = 1.5;  ///< [spacings]
   bool merge_distance_given = false;
   double hourglass = 1.0, contact_viscosity = 0.0;

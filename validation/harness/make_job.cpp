@@ -48,7 +48,10 @@ std::vector<double> output_times(double interval, double end) {
 }
 
 std::string sampling_key(const Scene& scene) {
-  return scene.jitter > 0.0 ? fmt::format("dx={:.17g}-jitter={:g}-seed={}", scene.spacing, scene.jitter, scene.seed) : fmt::format("dx={:.17g}", scene.spacing);
+  auto key = fmt::format("dx={:.17g}", scene.spacing);
+  if (scene.jitter > 0.0) key += fmt::format("-jitter={:g}-seed={}", scene.jitter, scene.seed);
+  if (scene.settle) key += "-settled";
+  return key;
 }
 
 Job make_job(const Case& value, const EnginePlan& engine, const RunPlan& run, const Scene& scene, const InitialState& initial) {

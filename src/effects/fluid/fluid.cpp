@@ -220,6 +220,7 @@ std::vector<DefectEntry> defects() {
           {"fluid.paper.pressure", "pressure force (7) times 1 + size", "fluid/hydrostatic"},
           {"fluid.core", "reach of the core of pairs times 1 + size", "fluid/hydrostatic"},
           {"walls.pressure", "pressure of walls on liquids times 1 - size", "fluid/still-water"},
+          {"walls.stiffness", "stiffness of walls times 1 - size", "fluid/hydrostatic-ladder"},
           {"walls.clamp", "walls are not clamped: they pull where liquid is thin", "fluid/still-water"},
           {"fluid.bulk_viscosity", "numerical bulk viscosity of liquids times 1 - size", "fluid/still-water"},
           {"fluid.phase_jump", "share of 0..1 of the compression that changes of phase let go left untold", "phase/melt-elastic"},

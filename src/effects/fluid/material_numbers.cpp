@@ -33,7 +33,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   double lightest = n.reference_density;
   for (const Body& b : scene.bodies) lightest = std::min(lightest, scene.material(b.material).density);
   const bool paper = scene.mode_of(Term::state) == Mode::paper;
-  n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, lightest, false));
+  n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, -1.0, lightest, false));
   const LatticeMoments moments = wendland_moments(scene.support_ratio);
   n.lattice_density = moments.density;
   n.overlap_density = 1.0 + moments.layer / moments.density;
@@ -45,6 +45,8 @@ SceneNumbers numbers_of(const Scene& scene) {
   const bool corrected = std::ranges::all_of(std::array{Term::walls, Term::density, Term::pressure}, [&](Term t) { return scene.mode_of(t) == Mode::corrected; });
   const bool freezes = std::ranges::any_of(called_effects(scene), [](const CalledEffect& e) { return e.name == "phase"; });
   n.averages_walls = corrected && !freezes && !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
+  // Half of what a wall particle sees is wall, which does not move: it reads half of the strain of the liquid.
+  if (n.averages_walls) n.wall_stiffness = 2.0 * (1.0 - defect_size("walls.stiffness"));
   return n;
 }
 

@@ -18,6 +18,7 @@ struct SceneNumbers {
   double core_stiffness = 0.0;     ///< kappa = 0.03 k rho_ref dx [N/m]
   double core_reach = 0.0;         ///< 0.9 dx [m]
   double least_exposure = 0.0;     ///< a wall particle is at the face of its wall where this share of its number density can be other than wall
+  double wall_stiffness = 1.0;     ///< of a wall's equation of state over that of liquids (model 8.4)
   bool averages_walls = false;     ///< the pressure of walls is that of a patch of their face: liquid alone touches them
 };
 /// @throws InputError when no material of the scene has a stiffness or a speed of sound
@@ -26,8 +27,10 @@ struct SceneNumbers {
 /// The kernels of the scene with its core and its lattice moment.
 [[nodiscard]] PairKernels pair_kernels(const Scene&);
 
-[[nodiscard]] inline EquationOfState state_of(const SceneNumbers& n, double rest_density, bool clamp) {
-  return {n.stiffness, rest_density, n.reference_density, clamp, n.pressure_work};
+/// @param group of the particle, `field::group`: 0 is wall
+[[nodiscard]] inline EquationOfState state_of(const SceneNumbers& n, double group, double rest_density, bool clamp) {
+  const double stiffness = group == 0.0 ? n.wall_stiffness * n.stiffness : n.stiffness;
+  return {stiffness, rest_density, n.reference_density, clamp, n.pressure_work};
 }
 
 }  // namespace tripoint::fluid
