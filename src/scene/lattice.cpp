@@ -86,4 +86,14 @@ double counter_noise(std::uint64_t seed, std::uint64_t particle, std::uint64_t a
   return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
 }
 
+Vec3 wrapped(const Scene& s, Vec3 r) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!s.periodic[a]) continue;
+    const double low = (*s.min)[a], high = (*s.max)[a];
+    if (r[a] < low) r[a] += high - low;
+    if (r[a] >= high) r[a] -= high - low;
+  }
+  return r;
+}
+
 }  // namespace tripoint

@@ -65,16 +65,6 @@ class VelocityAt {
   std::vector<Expression> expressions_;
 };
 
-Vec3 wrapped(const Scene& s, Vec3 r) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (!s.periodic[a]) continue;
-    const double low = (*s.min)[a], high = (*s.max)[a];
-    if (r[a] < low) r[a] += high - low;
-    if (r[a] >= high) r[a] -= high - low;
-  }
-  return r;
-}
-
 /// Velocity of each particle of a body: its field and its spin about the centre of mass, or its prescribed motion.
 std::vector<Vec3> velocities(const Body& b, const std::vector<Vec3>& centres) {
   std::vector<Vec3> out(centres.size());

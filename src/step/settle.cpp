@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "scene/read_case.hpp"
+#include "scene/lattice.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint {
 namespace {
 
 constexpr double rest = 2e-3;        ///< of sqrt(g H), rms: a tenth of what counts as still water
+constexpr double shaken = 0.05;      ///< spacings, to either side
 constexpr long most_steps = 20'000;  ///< tanks 5 to 10 across take 4,000 to 10,000
 constexpr int calm_cycles = 5;       ///< one after the other below `rest`: single low peaks come of the fastest swings
 
@@ -57,6 +58,15 @@ double mean_square_speed(const World& world, const InitialState& at) {
   return sum / mass;
 }
 
+/// Shifts the liquids at random: an undisturbed lattice is a saddle of the energy, which a relaxation takes long to leave.
+void shake(const Scene& s, InitialState& at) {
+  for (std::size_t id = 0; id < at.size(); ++id) {
+    if (at.body[id] >= 0) continue;
+    for (std::size_t a = 0; a < 3; ++a) at.position[id][a] += shaken * s.spacing * counter_noise(s.seed, id, a);
+    at.position[id] = wrapped(s, at.position[id]);
+  }
+}
+
 /// Steps until the kinetic energy has passed a peak; moves the liquids of `at` there and returns the peak's rms speed [m/s].
 double swing(const Scene& scene, InitialState& at, long& steps) {
   Simulation simulation(scene, at);
@@ -83,6 +93,7 @@ InitialState settled(const Scene& scene, InitialState initial, Settling* how) {
   InitialState at = initial;
   std::ranges::fill(at.velocity, Vec3{});
   at.temperature.clear();
+  shake(scene, at);
   Settling s;
   s.goal = rest * std::sqrt(pull * H);
   for (int calm = 0; calm < calm_cycles && s.steps < most_steps;) {

@@ -14,7 +14,7 @@ namespace tripoint {
 namespace {
 
 constexpr double dx = 0.04, g = 9.81;
-constexpr int across = 6, deep = 8;
+constexpr int across = 5, deep = 6;
 
 /// Water on a floor, repeated sideways.
 lab::Lab pond(double jitter = 0.1) {

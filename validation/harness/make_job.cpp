@@ -50,7 +50,7 @@ std::vector<double> output_times(double interval, double end) {
 std::string sampling_key(const Scene& scene) {
   auto key = fmt::format("dx={:.17g}", scene.spacing);
   if (scene.jitter > 0.0) key += fmt::format("-jitter={:g}-seed={}", scene.jitter, scene.seed);
-  if (scene.settle) key += "-settled";
+  if (scene.settle) key += fmt::format("-settled-seed={}", scene.seed);
   return key;
 }
 
