@@ -21,6 +21,7 @@ Row = Sequence[float]  # of trajectory.csv
 DONE, BAD_JOB, REFUSED, DIVERGED = 0, 2, 4, 7  # exit codes of --run
 
 BODY_COLUMNS = "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz"  # s, -, m, m/s, quaternion (w, x, y, z), rad/s in the world frame
+PARTICLE_COLUMNS = "time,id,x,y,z,vx,vy,vz"  # s, -, m, m/s
 HEAT_COLUMNS = "time,id,x,y,z,vx,vy,vz,temperature"  # s, -, m, m/s, K
 
 

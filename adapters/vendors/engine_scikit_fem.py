@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""scikit-fem (BSD-3-Clause) as a witness of conduction: finite elements on hexahedra, one element a particle.
+"""scikit-fem (BSD-3-Clause) as a witness of conduction and of linear elasticity: finite elements on hexahedra, one element a particle.
 
 Presets are its elements. Each particle is a cube of one spacing, and its temperature is the mean of its element, which is what it
 holds. Time is stepped by Crank and Nicolson, the first step in four of backward Euler, because Crank-Nicolson does not damp a step
-of temperature. What touches nothing is insulated; what is held keeps its temperature up to its sides."""
+of temperature. What touches nothing is insulated; what is held keeps its temperature up to its sides. Elastic bodies that something
+fixed holds are in scikit_fem_solid.py."""
 from __future__ import annotations
 
 import sys
@@ -14,14 +15,20 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from contract import HEAT_COLUMNS, Engine, Job, Outcome, Row, serve, write_trajectory
+from contract import HEAT_COLUMNS, PARTICLE_COLUMNS, Engine, Job, Outcome, Row, serve, write_trajectory
 from rigid import steps_in
+from scikit_fem_mesh import Lattice
+from scikit_fem_solid import Solid
 
 START_STEPS = 4  # of backward Euler, in the place of the first step
 
 
+def is_elastic(job: Job) -> bool:
+    return any(body["phase"] == "elastic" and body["temperature"] is None for body in job.bodies)
+
+
 def refuse_scene(job: Job) -> str:
-    """Why the scene is no conduction at rest; "" if it is."""
+    """Why the scene is neither conduction at rest nor a held elastic body; "" if it is."""
     scene = job.scene
     if scene["mode"] == "paper":
         return "the paper's forms belong to the particle solver; scikit-fem has none"
@@ -29,6 +36,46 @@ def refuse_scene(job: Job) -> str:
         return "events and inflow are not handed to scikit-fem"
     if scene["jitter"]:
         return "particles off their lattice are no elements"
+    return refuse_solids(job) if is_elastic(job) else refuse_heat(job)
+
+
+def linked(job: Job) -> list[set[str]]:
+    """Names of the bodies that hang together by `joined_to`."""
+    groups = [{body["name"]} for body in job.bodies]
+    for body in job.bodies:
+        for other in body["joined_to"]:
+            one = next(group for group in groups if body["name"] in group)
+            two = next((group for group in groups if other in group), one)
+            if one is not two:
+                groups.remove(two)
+                one |= two
+    return groups
+
+
+def refuse_solids(job: Job) -> str:
+    names = {material["name"]: material for material in job.scene["materials"]}
+    fixed = {body["name"] for body in job.bodies if body["motion"] == "fixed"}
+    for body in job.bodies:
+        name, material = body["name"], names[body["material"]]
+        if body["phase"] == "liquid" or body["temperature"] is not None:
+            return f"scikit-fem is handed elastic bodies without heat or liquid, and {name} is not that"
+        if body["motion"] == "prescribed":
+            return f"prescribed motion is not handed to scikit-fem, and {name} has one"
+        if any(body["angular_velocity"]):
+            return f"small strains know no turning body, and {name} turns"
+        if body["phase"] == "elastic" and any(material[key] is not None for key in ("elastic_limit", "fracture_stretch", "fracture_distance", "t_melt")):
+            return f"linear elasticity has no plastic flow, fracture or melting, and {name} may do so"
+    for body in job.bodies:
+        group = next(g for g in linked(job) if body["name"] in g)
+        if body["motion"] == "free" and not group & fixed:
+            return f"bodies that nothing holds are not handed to scikit-fem, and {body['name']} is free"
+    if len(linked(job)) > 1:
+        return "contact is not handed to scikit-fem, and not all bodies hang together"
+    return ""
+
+
+def refuse_heat(job: Job) -> str:
+    scene = job.scene
     names = {material["name"]: material for material in scene["materials"]}
     for body in job.bodies:
         if body["temperature"] is None:
@@ -51,29 +98,16 @@ class Bar:
     """The scene as a linear system: M dT/dt = -K T over the degrees of freedom that are not held."""
 
     def __init__(self, job: Job, element: str) -> None:
-        import h5py
         import numpy as np
         import skfem
         from skfem.helpers import dot, grad
 
         self.np = np
-        with h5py.File(job.particles) as file:
-            column = {key: file[f"particles/all/{key}/value"][0] for key in ("position", "velocity", "temperature", "source")}
-        self.start = column
-        dx = float(job.scene["spacing"])
-        origin = column["position"].min(axis=0)
-        cell = np.rint((column["position"] - origin) / dx).astype(int)  # (particles, 3): place on the lattice
-        sides = [np.arange(n + 2) * dx - 0.5 * dx + o for n, o in zip(cell.max(axis=0), origin)]
-        box = skfem.MeshHex.init_tensor(*sides)
-        shape = [len(side) - 1 for side in sides]
-        middle = np.rint((box.p[:, box.t].mean(axis=1).T - origin) / dx).astype(int)
-        place = np.full(shape, -1)
-        place[tuple(cell.T)] = np.arange(len(cell))
-        particle = place[tuple(middle.T)]
-        mesh = box.restrict(np.nonzero(particle >= 0)[0])
-        self.particle = particle[particle >= 0]  # of each element
-
-        bodies = [job.bodies[k] for k in column["source"][self.particle]]
+        lattice = Lattice(job, ("position", "velocity", "temperature", "source"))
+        column = self.start = lattice.start
+        dx = lattice.spacing
+        mesh, self.particle = lattice.mesh(np.ones(len(column["source"]), bool))
+        bodies = lattice.bodies(self.particle)
         materials = {m["name"]: m for m in job.scene["materials"]}
         own = [materials[body["material"]] for body in bodies]
         k = np.array([of_solid(m, "conductivity") for m in own])[:, None]  # [W/(m K)]
@@ -84,7 +118,7 @@ class Bar:
         mass = skfem.BilinearForm(lambda u, v, w: c * u * v).assemble(basis)
         content = skfem.BilinearForm(lambda u, v, w: u * v).assemble(basis, cells)  # (elements, dofs): integral over each [m3]
         warmth = skfem.BilinearForm(lambda u, v, w: c * u * v).assemble(basis, cells)
-        join = self.joined(basis.doflocs, job, sides)
+        join = lattice.joined(basis.doflocs, np.zeros(basis.N, int))
         self.stiffness, self.mass = join.T @ stiffness @ join, join.T @ mass @ join
         self.mean = (content @ join) / dx**3
         held = np.array([body["temperature_held"] for body in bodies])
@@ -99,22 +133,6 @@ class Bar:
             self.temperature[fixed] = ((weight.T @ given[held]) / total)[fixed]
         self.elements = len(self.particle)
         self.diffusivity = float((k / c).max())  # [m2/s]
-
-    def joined(self, places: Any, job: Job, sides: list[Any]) -> Any:
-        """(dofs, unknowns): dofs that are one across a periodic direction which the particles fill."""
-        import scipy.sparse as sparse
-
-        np, scene = self.np, job.scene
-        dx = float(scene["spacing"])
-        at = np.rint((places.T - [side[0] for side in sides]) / (0.25 * dx)).astype(int)  # half nodes of quadratic elements too
-        for axis, name in enumerate("xyz"):
-            length = scene["max"][axis] - scene["min"][axis] if scene["max"] else 0.0
-            cells = len(sides[axis]) - 1
-            if name in scene["periodic"] and abs(cells * dx - length) < 1e-6 * dx * cells:
-                at[:, axis] %= 4 * cells
-        _, number = np.unique(at, axis=0, return_inverse=True)
-        number = number.ravel()
-        return sparse.csr_matrix((np.ones(len(number)), (np.arange(len(number)), number)))
 
     def solve(self, matrix: Any, right: Any) -> Any:
         """Conjugate gradients: the mass matrix prevails, so that a few dozen iterations reach round-off."""
@@ -143,9 +161,10 @@ class Bar:
 
 class ScikitFem(Engine):
     name = "scikit-fem"
-    capabilities = ("heat", "heat-held")
+    capabilities = ("heat", "heat-held", "elastic")
     presets = ("ElementHex1", "ElementHex2")
-    settings = {"time_step": "goes before the job's [s]; default half of dx^2 over the greatest diffusivity"}
+    settings = {"time_step": "goes before the job's [s]; default half of dx^2 over the greatest diffusivity, or twice the time "
+                               "of a pressure wave through a spacing"}
 
     def version(self) -> str:
         return version("scikit-fem")
@@ -163,6 +182,9 @@ class ScikitFem(Engine):
         return refuse_scene(job)
 
     def run(self, job: Job) -> Outcome:
+        return self.run_solid(job) if is_elastic(job) else self.run_heat(job)
+
+    def run_heat(self, job: Job) -> Outcome:
         began = time.process_time()
         bar = Bar(job, job.preset)
         limit = float(job.settings.get("time_step", job.time_step or 0.5 * job.scene["spacing"] ** 2 / bar.diffusivity))
@@ -171,6 +193,29 @@ class ScikitFem(Engine):
         outcome.state_hash = write_trajectory(job, HEAT_COLUMNS, _rows(job, bar, limit, outcome))
         outcome.pairs = float(bar.elements * outcome.steps)
         return outcome
+
+    def run_solid(self, job: Job) -> Outcome:
+        began = time.process_time()
+        solid = Solid(job, job.preset)
+        limit = float(job.settings.get("time_step", solid.natural_step))
+        outcome = Outcome(setup_cpu=time.process_time() - began)
+        outcome.readback = {"gravity": solid.gravity, "time_step": limit, "precision": "double", "bodies": []}
+        outcome.state_hash = write_trajectory(job, PARTICLE_COLUMNS, _solid_rows(job, solid, limit, outcome))
+        outcome.pairs = float(solid.elements * outcome.steps)
+        return outcome
+
+
+def _solid_rows(job: Job, solid: Solid, limit: float, outcome: Outcome) -> Iterator[Row]:
+    now = job.times[0]
+    for at in job.times:
+        if at > now:
+            count = steps_in(at - now, limit)
+            solid.advance((at - now) / count, count)
+            outcome.steps += count
+            now = at
+        place, velocity = solid.of_particles() if outcome.steps else (solid.start["position"], solid.start["velocity"])
+        for number, (x, v) in enumerate(zip(place.tolist(), velocity.tolist())):
+            yield [at, number, *x, *v]
 
 
 def _rows(job: Job, bar: Bar, limit: float, outcome: Outcome) -> Iterator[Row]:

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Drake (BSD-3-Clause), the wheel: rigid bodies of its MultibodyPlant, contact by points or hydroelastic patches, without restitution.
+
+Presets: `discrete` is the plant's own discrete update with its contact solvers; the others are names of its `integration_scheme` with a
+fixed step. Optional solvers of other licences are not loaded."""
+from __future__ import annotations
+
+import sys
+from importlib.metadata import distribution, version
+from pathlib import Path
+from typing import Any
+
+from contract import Job, serve
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb
+from rotation import IDENTITY, Quaternion, Vector, add, product, quaternion, rotate, vector
+
+APPROXIMATIONS = ("tamsi", "sap", "similar", "lagged")  # discrete_contact_approximation, in Drake's words
+
+
+class DrakeWorld(World):
+    def __init__(self, job: Job, bodies: list[Body], dt: float) -> None:
+        self.job, self.bodies = job, bodies
+        self.free = [number for number, body in enumerate(bodies) if body.free]
+        self.build(dt, {number: State(bodies[number].centre, bodies[number].velocity, bodies[number].frame, bodies[number].spin) for number in self.free})
+
+    def build(self, dt: float, states: dict[int, State]) -> None:
+        """A plant of this step with the bodies in these states; Drake's discrete plants cannot change their step."""
+        from pydrake.math import RigidTransform
+        from pydrake.multibody.math import SpatialVelocity
+        from pydrake.multibody.plant import AddMultibodyPlantSceneGraph
+        from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
+        from pydrake.systems.framework import DiagramBuilder
+
+        self.dt, self.ticks = dt, 0
+        builder = DiagramBuilder()
+        discrete = self.job.preset == "discrete"
+        self.plant, _ = AddMultibodyPlantSceneGraph(builder, dt if discrete else 0.0)
+        if "discrete_contact_approximation" in self.job.settings:
+            from pydrake.multibody.plant import DiscreteContactApproximation
+
+            word = self.job.settings["discrete_contact_approximation"]
+            self.plant.set_discrete_contact_approximation(getattr(DiscreteContactApproximation, "k" + word.capitalize()))
+        self.plant.mutable_gravity_field().set_gravity_vector(list(self.job.scene["gravity"]))
+        self.rigid = {number: self.add(number) for number in self.free}
+        for body in self.bodies:
+            for piece in () if body.free else body.pieces:
+                self.surface(self.plant.world_body(), piece, body.centre, body.frame)
+        self.plant.Finalize()
+        self.simulator = Simulator(builder.Build())
+        self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
+        for number, state in states.items():
+            self.plant.SetFreeBodyPose(self.context, self.rigid[number], self.pose(state.centre, state.orientation, RigidTransform))
+            self.plant.SetFreeBodySpatialVelocity(self.context, self.rigid[number], SpatialVelocity(list(state.spin), list(state.velocity)))
+        if not discrete:
+            config = SimulatorConfig()
+            config.integration_scheme, config.max_step_size, config.use_error_control = self.job.preset, dt, False
+            ApplySimulatorConfig(config, self.simulator)
+        self.simulator.Initialize()
+
+    @staticmethod
+    def pose(at: Vector, turn: Quaternion, transform: Any) -> Any:
+        from pydrake.common.eigen_geometry import Quaternion as Turn
+
+        length = sum(c * c for c in turn) ** 0.5
+        return transform(Turn([c / length for c in turn]), list(at))
+
+    def add(self, number: int) -> Any:
+        from pydrake.multibody.tree import SpatialInertia, UnitInertia
+
+        body = self.bodies[number]
+        unit = [moment / body.mass for moment in body.inertia]
+        rigid = self.plant.AddRigidBody(f"body{number}", SpatialInertia(body.mass, [0.0, 0.0, 0.0], UnitInertia(*unit)))
+        for piece in body.pieces:
+            self.surface(rigid, piece, (0.0, 0.0, 0.0), IDENTITY)
+        return rigid
+
+    def surface(self, rigid: Any, piece: Piece, at: Vector, turn: Quaternion) -> None:
+        from pydrake.geometry import Box, HalfSpace, Sphere
+        from pydrake.math import RigidTransform
+        from pydrake.multibody.plant import CoulombFriction
+
+        place = self.pose(add(at, rotate(turn, piece.centre)), product(turn, piece.rotation), RigidTransform)
+        shape = HalfSpace() if piece.kind == "plane" else Box(*(2.0 * half for half in piece.size)) if piece.kind == "box" else Sphere(piece.size[0])
+        mu = coulomb(self.job)
+        self.count = getattr(self, "count", 0) + 1
+        self.plant.RegisterCollisionGeometry(rigid, place, shape, f"surface{self.count}", CoulombFriction(mu, mu))
+
+    def step(self, dt: float, count: int) -> None:
+        if abs(dt / self.dt - 1.0) > 1e-9:
+            self.build(dt, {number: self.state(number) for number in self.free})
+        self.ticks += count
+        self.simulator.AdvanceTo(self.ticks * self.dt)
+
+    def state(self, number: int) -> State:
+        rigid = self.rigid[number]
+        pose = self.plant.EvalBodyPoseInWorld(self.context, rigid)
+        speed = self.plant.EvalBodySpatialVelocityInWorld(self.context, rigid)
+        return State(vector(pose.translation()), vector(speed.translational()), quaternion(pose.rotation().ToQuaternion().wxyz()), vector(speed.rotational()))
+
+    def held(self, number: int) -> Held:
+        inertia = self.rigid[number].CalcSpatialInertiaInBodyFrame(self.context)
+        mass = float(inertia.get_mass())
+        return Held(mass, vector([mass * float(moment) for moment in inertia.get_unit_inertia().get_moments()]), coulomb(self.job))
+
+    def gravity(self) -> Vector:
+        return vector(self.plant.gravity_field().gravity_vector())
+
+
+class Drake(RigidEngine):
+    name, title = "drake", "Drake"
+    capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
+    presets = ("discrete", "runge_kutta2", "runge_kutta3", "semi_explicit_euler")
+    settings = SHARED_SETTINGS | {"discrete_contact_approximation": "tamsi, sap, similar or lagged (Drake's default), of the preset discrete"}
+    default_step = 0.001  # of Drake's own MultibodyPlantConfig
+
+    def version(self) -> str:
+        return version("drake")
+
+    def library(self) -> Path | None:
+        files = distribution("drake").files or []
+        return next((Path(str(f.locate())) for f in files if f.name.startswith("libdrake.so")), None)
+
+    def refuse(self, job: Job) -> str:
+        word = job.settings.get("discrete_contact_approximation", "lagged")
+        if word not in APPROXIMATIONS:
+            return f"drake: discrete_contact_approximation is one of {', '.join(APPROXIMATIONS)}"
+        for body in job.bodies:
+            moments = sorted(body["principal_inertia"])
+            if body["motion"] == "free" and moments[0] + moments[1] < moments[2] * (1.0 - 1e-12):
+                return f"Drake refuses moments of inertia that no body can have, and those of {body['name']} are such"
+        return ""
+
+    def open(self, job: Job, bodies: list[Body], dt: float) -> World:
+        return DrakeWorld(job, bodies, dt)
+
+
+if __name__ == "__main__":
+    sys.exit(serve(Drake(), sys.argv[1:]))
