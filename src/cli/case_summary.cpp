@@ -32,6 +32,13 @@ std::string simulated(const Scene& scene, const bench::Trial& trial) {
   return fmt::format("{}{:g} m apart, from 0 to {:g} s", particles, scene.spacing, scene.end_time);
 }
 
+/// What a liquid under gravity does first.
+std::string start_of(const Scene& scene) {
+  if (scene.settle) return "liquids are let down into equilibrium before time 0 (settle = true)";
+  if (scene.gravity == Vec3{} || std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; })) return "";
+  return "liquids lie on a lattice, which sinks by a tenth of a spacing and breaks up; settle = true would start them at rest";
+}
+
 std::string effects_of(const Plan& plan) {
   std::vector<std::string> names;
   for (const auto& e : plan.effects) names.push_back(fmt::format("{} ({})", e.name, e.mode));
@@ -79,7 +86,7 @@ std::string cost(const bench::Trial& t) {
 }  // namespace
 
 std::string case_summary(const Case& c, const Scene& scene, const Plan& plan, const bench::Trial& trial) {
-  return fmt::format("{}: {}\n", c.id, c.title) + line("claims", c.claims) + line("simulates", simulated(scene, trial)) + line("bodies", matter(scene)) + line("effects", effects_of(plan)) +
+  return fmt::format("{}: {}\n", c.id, c.title) + line("claims", c.claims) + line("simulates", simulated(scene, trial)) + line("bodies", matter(scene)) + line("starts", start_of(scene)) + line("effects", effects_of(plan)) +
          line("truth", truth(c.reference)) + line("measures", measured_by(c)) + line("judged by", judged_by(c)) + line("engines", engines_of(c)) + line("refined", studies_of(c)) + line("costs", cost(trial)) + "\n";
 }
 
