@@ -9,6 +9,11 @@
 #include "scene/read_case.hpp"
 
 namespace tripoint::fluid {
+namespace {
+
+constexpr double bulk_viscosity = 0.2;  ///< zeta, over rho0 c h
+
+}  // namespace
 
 bool has_bulk_viscosity(const Scene& scene) {
   const auto corrected = [&](Term term) { return scene.mode_of(term) == Mode::corrected; };
@@ -19,21 +24,21 @@ bool has_bulk_viscosity(const Scene& scene) {
 
 void set_bulk_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
-  static const double thinner = 1.0 - defect_size("fluid.bulk_viscosity");
+  static const double thinner = 1.0 - defect_size("fluid.bulk_viscosity"), told = 1.0 - defect_size("fluid.bulk_viscosity.entry");
   const double dt = 2.0 * world.lagged.half_step;  // the step was begun by a half kick
   const bool flows = dt > 0.0 && world.change.empty();  // what is born changes densities at once
-  const double viscosity = flows ? 0.2 * thinner * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
+  const double viscosity = flows ? bulk_viscosity * thinner * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
   const auto delta = p[field::number_density], before = p[field::number_density_before], q = p[field::bulk_pressure];
   const auto rest = p[field::rest_density], pressure = p[field::pressure], V = p[field::volume], group = p[field::group];
   std::vector<std::array<double, 1>> blocks;
   const auto taken = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     const double squeezed = flows && group[i] == -1.0 ? delta[i] / before[i] - 1.0 : 0.0;
-    const double next = pressure[i] > 0.0 ? std::max(viscosity * rest[i] * squeezed, -pressure[i]) : 0.0;
+    const double next = pressure[i] > 0.0 ? std::max(viscosity * std::min(rest[i], n.damped_density) * squeezed, -pressure[i]) : 0.0;
     sum[0] += 0.5 * (q[i] + next) * V[i] * squeezed;
     q[i] = next;
     before[i] = delta[i];
   });
-  world.booked.bulk_viscous += n.pressure_work * taken[0];
+  world.booked.bulk_viscous += told * n.pressure_work * taken[0];
 }
 
 }  // namespace tripoint::fluid

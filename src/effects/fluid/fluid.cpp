@@ -177,7 +177,7 @@ void Fluid::state(World& world) {
 }
 
 /// Sound C h/(c + |v|), C = 0.45 corrected, 0.35 with transport velocity (its background pressure adds half to the stiffness),
-/// 0.7 printed; viscosity (model 8.10).
+/// 0.7 printed; viscosity (model 8.10). The numerical bulk viscosity needs no bound beside that of sound (bulk_viscosity.hpp).
 TimeStepBound Fluid::max_dt(const World& world) const {
   const auto v = velocities(world.particles);
   double v2 = 0.0;
@@ -223,6 +223,7 @@ std::vector<DefectEntry> defects() {
           {"walls.stiffness", "stiffness of walls times 1 - size", "fluid/hydrostatic-ladder"},
           {"walls.clamp", "walls are not clamped: they pull where liquid is thin", "fluid/still-water"},
           {"fluid.bulk_viscosity", "numerical bulk viscosity of liquids times 1 - size", "fluid/still-water"},
+          {"fluid.bulk_viscosity.entry", "share of what the numerical bulk viscosity takes left untold", "fluid/breathing-column"},
           {"fluid.phase_jump", "share of 0..1 of the compression that changes of phase let go left untold", "phase/melt-elastic"},
           {"fluid.state", "scaled pressure of (9) times 1 + size", "fluid/sound-wave"},
           {"fluid.paper.state", "pressure (9) as printed times 1 + size", "fluid/sound-wave"},

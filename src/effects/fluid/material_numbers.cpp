@@ -32,6 +32,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.reference_density = reference_density(scene);
   double lightest = n.reference_density;
   for (const Body& b : scene.bodies) lightest = std::min(lightest, scene.material(b.material).density);
+  n.damped_density = 4.0 * lightest;
   const bool paper = scene.mode_of(Term::state) == Mode::paper;
   n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, -1.0, lightest, false));
   const LatticeMoments moments = wendland_moments(scene.support_ratio);
