@@ -77,17 +77,22 @@ def install_wheels(release: Release, downloads: Path) -> None:
         call([pip, "download", "--quiet", "--no-deps", "--require-hashes", "--only-binary", ":all:", "--retries", "2", "--timeout", "30",
               "--dest", str(to), "--requirement", str(pins)], to)
 
-    wheels = [fetched(file, downloads, fetch) for file in release.files]
+    unpack_debian(release, downloads, tuple(file for file in release.files if "==" not in file.name))
+    wheels = [fetched(file, downloads, fetch) for file in release.files if "==" in file.name]
     call([pip, "install", "--quiet", "--no-deps", "--no-index", *map(str, wheels)], folder)
 
 
-def install_debian(release: Release, downloads: Path) -> None:
-    """Unpacks the packages into the environment: nothing of the system is changed, and no root is needed."""
+def unpack_debian(release: Release, downloads: Path, files: tuple[File, ...]) -> None:
+    """Unpacks Debian's packages into the environment: nothing of the system is changed, and no root is needed."""
     def fetch(file: File, to: Path) -> None:
         call(["apt-get", "download", "--quiet", file.name], to)
 
-    for file in release.files:
+    for file in files:
         call(["dpkg-deb", "--extract", str(fetched(file, downloads, fetch)), str(release.folder)], release.folder)
+
+
+def install_debian(release: Release, downloads: Path) -> None:
+    unpack_debian(release, downloads, release.files)
 
 
 def install_npm(release: Release, downloads: Path) -> None:

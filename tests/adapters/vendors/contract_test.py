@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the adapters of installed engines share: the calls, the refusals, surfaces and steps. MuJoCo's adapter runs on a stand-in."""
+import json
 import math
 import os
+import shutil
 import sys
+import tempfile
 import unittest
 from ctypes import sizeof
 from pathlib import Path
@@ -12,7 +15,10 @@ HERE = Path(__file__).resolve().parent
 ADAPTERS = Path(os.environ["TRIPOINT_VENDORS"])
 sys.path[:0] = [str(ADAPTERS), str(HERE)]
 
+import engine_calculix  # noqa: E402
+from contract import read_job  # noqa: E402
 from environments import catalogue  # noqa: E402
+from lattice import formula  # noqa: E402
 from engine_jolt import piece_words  # noqa: E402
 from engine_mujoco import model_text  # noqa: E402
 from engine_ode import plane_of  # noqa: E402
@@ -78,7 +84,7 @@ class Refusals(unittest.TestCase):
 
     def test_every_adapter_of_rigid_bodies_takes_a_block_and_refuses_what_it_has_no_law_for(self):
         for name, engine in catalogue()["engines"].items():
-            if name in ("scikit-fem",):  # of fields: below
+            if name in ("scikit-fem", "calculix"):  # of fields: below
                 continue
             command = ["/usr/bin/python3", "-B", str(ADAPTERS / engine["adapter"])]
             preset = engine["presets"][0]
@@ -115,7 +121,7 @@ class Fields(unittest.TestCase):
 
 
 class HeldSolids(unittest.TestCase):
-    """A bar between a clamp and nothing, as scikit-fem takes it."""
+    """A bar between a clamp and nothing, as scikit-fem and CalculiX take it."""
 
     BAR = {"phase": "elastic", "name": "bar", "velocity": [0.0, 0.0, 0.0], "joined_to": ["clamp"], "velocity_field": {"kind": "constant", "value": [0.0, 0.0, 0.0]},
            "shape": {"kind": "box", "min": [0.0, 0.0, 0.0], "max": [0.4, 0.1, 0.1]}}
@@ -123,25 +129,62 @@ class HeldSolids(unittest.TestCase):
              "shape": {"kind": "box", "min": [-0.1, 0.0, 0.0], "max": [0.0, 0.1, 0.1]}}
     STUFF = {"name": "stuff", "density": 1000.0, "young_modulus": 1e6, "poisson_ratio": 0.0, "t_melt": None, "elastic_limit": None, "fracture_stretch": None,
              "fracture_distance": None}
-    TIP = [{"metric": "tip", "quantity": "displacement", "body": "bar", "where": {"point": [0.4, 0.05, 0.05], "axis": "x"}}]
 
-    def scene(self, bar=None, clamp=None, gauges=TIP, preset="C3D8", **scene):
-        document = job([body(**{**self.BAR, **(bar or {})}), body(**{**self.CLAMP, **(clamp or {})})], preset=preset, **{"materials": [self.STUFF], **scene})
-        return {**document, "gauges": gauges}
+    def scene(self, bar=None, clamp=None, preset="C3D8", **scene):
+        return job([body(**{**self.BAR, **(bar or {})}), body(**{**self.CLAMP, **(clamp or {})})], preset=preset, **{"materials": [self.STUFF], **scene})
 
     def answer(self, name, preset, **changes):
         return check(["/usr/bin/python3", "-B", str(ADAPTERS / name)], self.scene(preset=preset, **changes))
 
     def test_a_clamped_bar_is_taken(self):
-        for name, preset in (("engine_scikit_fem.py", "ElementHex2"),):
+        for name, preset in (("engine_scikit_fem.py", "ElementHex2"), ("engine_calculix.py", "C3D20R")):
             self.assertEqual(self.answer(name, preset), {"can": True, "reason": ""}, name)
 
     def test_what_linear_elasticity_does_not_know_is_refused(self):
         plastic = [{**self.STUFF, "elastic_limit": 0.01}]
-        for name, preset in (("engine_scikit_fem.py", "ElementHex1"),):
+        for name, preset in (("engine_scikit_fem.py", "ElementHex1"), ("engine_calculix.py", "C3D8")):
             for changes, word in (({"bar": {"joined_to": []}}, "free"), ({"bar": {"angular_velocity": [0, 0, 1]}}, "turns"), ({"materials": plastic}, "plastic"),
                                   ({"clamp": {"motion": "prescribed"}}, "prescribed"), ({"mode": "paper"}, "paper"), ({"events": [{}]}, "events")):
                 self.assertIn(word, self.answer(name, preset, **changes)["reason"], (name, word))
+
+    def test_the_deck_of_calculix_holds_the_clamps_nodes_and_bears_the_weight(self):
+        path = Path(tempfile.mkdtemp()) / "job.json"
+        path.write_text(json.dumps(self.scene()))
+        self.addCleanup(shutil.rmtree, path.parent)
+        deck = engine_calculix.Deck(read_job(str(path)))
+        lines = list(deck.lines())
+        self.assertEqual((len(deck.mesh.elements), len(deck.mesh.node)), (4, 20))
+        held = lines[lines.index("*BOUNDARY") + 1:lines.index("*STEP, INC=" + str(deck.count() + 1))]
+        self.assertEqual(len(held), 4)
+        self.assertIn("EALL,GRAV,9.81,0.0,0.0,-1.0", lines)
+
+    def test_what_ccx_prints_becomes_rows_of_particles(self):
+        path = Path(tempfile.mkdtemp()) / "job.json"
+        path.write_text(json.dumps(self.scene()))
+        self.addCleanup(shutil.rmtree, path.parent)
+        deck = engine_calculix.Deck(read_job(str(path)))
+        text = ""
+        for at in (0.5, 1.0):
+            text += f"\n displacements (vx,vy,vz) for set ALL and time  {at:.7E}\n\n"
+            text += "".join(f"  {n}  {at * deck.place_of(n)[0]:.6E}  0.000000E+00  0.000000E+00\n" for n in deck.mesh.node.values())
+            text += f"\n velocities (vx,vy,vz) for set ALL and time  {at:.7E}\n\n"
+            text += "".join(f"  {n}  0.000000E+00  2.000000E+00  0.000000E+00\n" for n in deck.mesh.node.values())
+            text += f"\n total volume for set ALL and time  {at:.7E}\n\n        4.000000E-03\n"
+        frames, volume = deck.read(text)
+        self.assertEqual(volume, 4e-3)
+        places = [[-0.05, 0.05, 0.05], [0.05, 0.05, 0.05], [0.35, 0.05, 0.05]]  # of the clamp, and the ends of the bar
+        rows = list(deck.rows(frames, {"position": places, "velocity": [[0.0] * 3] * 3}))
+        self.assertEqual([row[:2] for row in rows], [(t, i) for t in (0.0, 0.5, 1.0) for i in range(3)])
+        self.assertEqual([round(row[2], 9) for row in rows[6:]], [-0.05, 0.10, 0.70])  # the clamp stays; u = x t
+        self.assertEqual([row[6] for row in rows[6:]], [0.0, 2.0, 2.0])
+
+
+class Formulas(unittest.TestCase):
+    def test_arithmetic_of_the_place_is_worked_out_and_nothing_else_is(self):
+        self.assertAlmostEqual(formula("0.2*x^2/0.4 - max(y, sin(pi*z))", (2.0, 3.0, 0.5)), 2.0 - 3.0)
+        for text in ("__import__('os')", "x.real", "open('f')", "[x]", "t"):
+            with self.assertRaises(ValueError):
+                formula(text, (0.0, 0.0, 0.0))
 
 
 class Surfaces(unittest.TestCase):
