@@ -36,7 +36,7 @@ std::string simulated(const Scene& scene, const bench::Trial& trial) {
 std::string start_of(const Scene& scene) {
   if (scene.settle) return "liquids are let down into equilibrium before time 0 (settle = true)";
   if (scene.gravity == Vec3{} || std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; })) return "";
-  return "liquids lie on a lattice, which sinks by a tenth of a spacing and breaks up; settle = true would start them at rest";
+  return "liquids lie on a lattice, which sinks by a tenth of a spacing and breaks up; settle = true lets them down first, where solids hold them";
 }
 
 std::string effects_of(const Plan& plan) {

@@ -167,6 +167,7 @@ int run(RunOptions o) {
   const auto plan = plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);
   const auto& base = plan.runs.front();
   const Scene scene = scene_of(value, base);
+  if (scene.settle && !o.quiet) say("letting the liquids down into equilibrium, which takes as long as some thousand steps (scene.settle)");
   const auto initial = sample(scene);
   if (!o.quiet) say_findings(reading, scene, initial);
   auto job = make_job(value, plan, base, scene, initial);
