@@ -10,6 +10,8 @@
 
 #include "adapters/scene_json.hpp"
 #include "core/durable_file.hpp"
+#include "core/nesting.hpp"
+#include "io/foreign_file.hpp"
 
 namespace tripoint {
 namespace {
@@ -18,12 +20,9 @@ using json = nlohmann::ordered_json;
 constexpr std::uintmax_t greatest_file = 64u << 20;  // a job or result of more than 64 MiB is no job
 
 json parse(const std::string& path) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw InputError(path + ": cannot be read");
-  if (size > greatest_file) throw InputError(path + ": is larger than 64 MiB; refused");
-  std::ifstream in(path);
-  json value = json::parse(in, nullptr, false);
+  const std::string text = text_of_regular_file(path, greatest_file);
+  if (nests_too_deep(text)) throw InputError(fmt::format("{}: nests deeper than {} levels; refused", path, most_levels));
+  json value = json::parse(text, nullptr, false);
   if (value.is_discarded()) throw InputError(path + ": is no JSON");
   return value;
 }

@@ -54,6 +54,14 @@ std::vector<std::size_t> shape_of(hid_t dataset, const std::string& what) {
   return {dims, dims + rank};
 }
 
+/// A small file can claim a great dataset: what was never written reads as fill values, and zeros pack a thousandfold.
+void refuse_bombs(hid_t dataset, const std::vector<std::size_t>& shape, const std::string& what) {
+  constexpr double harmless = 1e9, packed = 64.0;  // [bytes], and as dense as particles ever pack
+  double bytes = 8.0;
+  for (const std::size_t s : shape) bytes *= static_cast<double>(s);
+  if (bytes > harmless && bytes > packed * static_cast<double>(H5Dget_storage_size(dataset))) throw InputError(what + ": claims far more than the file holds; refused");
+}
+
 std::size_t count(const std::vector<std::size_t>& shape) {
   std::size_t n = 1;
   for (const std::size_t s : shape) n *= s;
@@ -86,7 +94,7 @@ void expect_class(hid_t dataset, H5T_class_t wanted, const std::string& what) {
 }  // namespace
 
 Handle::Handle(hid_t id, Closer closer, const std::string& what) : id_(id), closer_(closer) {
-  if (id < 0) throw EngineError(what + ": HDF5 refused (no space left, or no permission?)");
+  if (id < 0) throw EngineError(what + ": HDF5 refused (damaged, a link, no space left or no permission?)");
 }
 
 Handle& Handle::operator=(Handle&& other) noexcept {
@@ -161,6 +169,7 @@ Block read_real(hid_t file, const std::string& path, const std::string& name_of_
   expect_class(dataset.get(), H5T_FLOAT, what);
   Block block;
   block.shape = shape_of(dataset.get(), what);
+  refuse_bombs(dataset.get(), block.shape, what);
   read_whole_frames(dataset.get(), H5T_NATIVE_DOUBLE, block.shape, block.real, what);
   return block;
 }
@@ -171,6 +180,7 @@ Block read_whole(hid_t file, const std::string& path, const std::string& name_of
   expect_class(dataset.get(), H5T_INTEGER, what);
   Block block;
   block.shape = shape_of(dataset.get(), what);
+  refuse_bombs(dataset.get(), block.shape, what);
   read_whole_frames(dataset.get(), H5T_NATIVE_INT, block.shape, block.whole, what);
   return block;
 }

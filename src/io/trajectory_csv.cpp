@@ -27,7 +27,8 @@ class Table {
  public:
   Table(const std::string& path, const std::string& header) : path_(path) {
     const auto names = split(header);
-    for (std::size_t k = 0; k < names.size(); ++k) column_[names[k]] = k;
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (!column_.emplace(names[k], k).second) throw InputError({path, 1, 0}, "the header names the column \"" + names[k] + "\" twice");
   }
   void line(const std::string& text, int number) {
     place_ = {path_, number, 0};

@@ -35,26 +35,25 @@ class Reader {
     const std::string given = h5::unit_of(file_.get(), value);
     if (given != unit) throw InputError(path_ + ": " + value + " is in \"" + given + "\", expected \"" + unit + "\"");
     expect(block, width, value);
+    block.real.resize(total(block), not_a_number);
     return block;
   }
   h5::Block whole(const std::string& element) {
     const std::string value = "/" + element + "/value";
     h5::Block block = h5::read_whole(file_.get(), value, path_);
     expect(block, 1, value);
+    block.whole.resize(total(block), -1);
     return block;
   }
 
  private:
+  static std::size_t total(const h5::Block& block) { return block.shape[0] * block.shape[1] * block.shape[2]; }
+
   /// Blocks that a killed writer left torn are filled up with what can never pass for a value; their frames are cut off at the end.
   void expect(h5::Block& block, std::size_t width, const std::string& what) {
     if (block.shape.size() < 3) block.shape.resize(3, 1);
     whole_ = std::min(whole_, block.shape[0]);
-    if (block.shape[0] < frames_) {
-      const std::size_t total = frames_ * block.shape[1] * block.shape[2];
-      if (!block.real.empty()) block.real.resize(total, not_a_number);
-      if (!block.whole.empty()) block.whole.resize(total, -1);
-      block.shape[0] = frames_;
-    }
+    block.shape[0] = std::max(block.shape[0], frames_);
     if (block.shape[2] != width) throw InputError(path_ + ": " + what + " has " + std::to_string(block.shape[2]) + " components, expected " + std::to_string(width));
   }
 
@@ -104,7 +103,8 @@ void read_bodies(Reader& in, Frames& frames) {
     if (!needed && !in.has(element)) return;
     const h5::Block b = in.real(element, 3, unit);
     for (std::size_t f = 0; f < frames.size(); ++f) {
-      frames[f].bodies.resize(b.shape[1]);
+      if (frames[f].bodies.empty()) frames[f].bodies.resize(b.shape[1]);
+      if (frames[f].bodies.size() != b.shape[1]) throw InputError("bodies: columns of unequal length");
       for (std::size_t i = 0; i < b.shape[1]; ++i) {
         const double* v = &b.real[(f * b.shape[1] + i) * 3];
         frames[f].bodies[i].*member = {v[0], v[1], v[2]};
@@ -132,6 +132,7 @@ void read_observables(Reader& in, Frames& frames) {
   const auto numbers = [&](const std::string& name, const std::string& unit, auto&& put) {
     if (!in.has("observables/" + name)) return;
     const h5::Block b = in.real("observables/" + name, 1, unit);
+    if (b.shape[1] == 0) throw InputError("observables/" + name + " has no components");
     for (std::size_t f = 0; f < frames.size(); ++f) put(frames[f], &b.real[f * b.shape[1]], b.shape[1]);
   };
   const auto three = [](const double* v, std::size_t n) { return n == 3 ? Vec3{v[0], v[1], v[2]} : Vec3{not_a_number, not_a_number, not_a_number}; };

@@ -178,6 +178,29 @@ TEST_F(Io, ACsvCellThatIsNoNumberIsRefusedWithItsLine) {
   }
 }
 
+TEST_F(Io, ACsvHeaderThatNamesAColumnTwiceIsRefused) {
+  InitialState start;
+  start.position = start.velocity = {{}};
+  start.mass = {1};
+  start.phase = start.body = start.material = {0};
+  std::ofstream(path("trajectory.csv")) << "time,id,x,y,z,vx,vy,vz,x\n0,0,0,0,0,0,0,0,0\n";
+  EXPECT_THROW((void)read_trajectory_csv(path("trajectory.csv"), start, 0), InputError);
+}
+
+/// Each once made a reader die, or take 16 GiB.
+TEST_F(Io, DamagedTrajectoriesAreRefusedOrEmpty) {
+  int files = 0;
+  for (const auto& file : std::filesystem::directory_iterator(DAMAGED_FILES)) {
+    ++files;
+    try {
+      EXPECT_TRUE(read_trajectory(file.path().string()).frames.empty()) << file.path();
+    } catch (const InputError&) {  // named
+    } catch (const EngineError&) {
+    }
+  }
+  EXPECT_GE(files, 6);
+}
+
 TEST_F(Io, ParticlesReadBackWithTheirSources) {
   InitialState s;
   s.position = {{0, 0, 0}, {1, 0, 0}};

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "core/nesting.hpp"
 #include "validation/harness/process.hpp"
 
 namespace tripoint {
@@ -153,7 +154,7 @@ EngineEntry ask_engine(const std::string& executable) {
   spec.wall_limit = info_limit;
   const auto end = run_process(spec);
   if (end.how != ProcessEnd::How::exited || end.code != 0) return unavailable(entry, "--info " + describe(end));
-  const auto info = Json::parse(end.output, nullptr, false);
+  const auto info = nests_too_deep(end.output) ? Json() : Json::parse(end.output, nullptr, false);
   if (!info.is_object() || text(info, "contract") != "1" || text(info, "name").empty())
     return unavailable(entry, "--info did not print one JSON object of contract 1 with a name");
   read_info(info, entry);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/nesting.hpp"
+#include "io/foreign_file.hpp"
 #include "validation/harness/results.hpp"
 
 namespace tripoint {
@@ -198,12 +200,9 @@ Tool tool(const Json& from) {
 }  // namespace
 
 Results read_results(const std::string& path) {
-  std::error_code none;
-  const auto size = std::filesystem::file_size(path, none);
-  if (none) throw InputError(path + ": cannot be read");
-  if (size > largest_file) throw InputError(path + ": is larger than 512 MiB, which no results file is");
-  std::ifstream file(path);
-  const auto document = Json::parse(file, nullptr, false);
+  const std::string text_of_file = text_of_regular_file(path, largest_file);
+  if (nests_too_deep(text_of_file)) throw InputError(fmt::format("{}: nests deeper than {} levels, which no results file does", path, most_levels));
+  const auto document = Json::parse(text_of_file, nullptr, false);
   if (!document.is_object()) throw InputError(path + ": is not a JSON object (a results.json of tripoint validate is wanted)");
   if (number(document, "format") != 1.0) throw InputError(path + ": has not \"format\": 1");
   if (!member(document, "cases").is_array()) throw InputError(path + ": has no list \"cases\"");

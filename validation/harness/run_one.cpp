@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "core/nesting.hpp"
+#include "io/foreign_file.hpp"
 #include "io/trajectory.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/instructions.hpp"
@@ -17,6 +19,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::size_t most_words = 4096;  // of an engine's reason
 constexpr double check_limit = 60.0, check_limit_a_particle = 1e-4;  // [s]: --check runs nothing, but may set up the scene
 
 Outcome failed(Outcome outcome, const std::string& status, const std::string& reason) {
@@ -26,13 +29,14 @@ Outcome failed(Outcome outcome, const std::string& status, const std::string& re
   return outcome;
 }
 
-/// Whether an engine has written into the shared file; the runs that follow find it as it was.
+/// Whether an engine has written into the shared file, or taken it away; the runs that follow find it as it was.
 bool particles_were_changed(const RunRequest& request) {
   if (!request.particles_hash) return false;
   const std::lock_guard lock(no_spawn_mutex());
   if (file_hash(request.particles) == *request.particles_hash) return false;
   std::error_code none;
   fs::remove_all(request.particles, none);
+  fs::create_directories(fs::path(request.particles).parent_path(), none);
   write_particles(request.particles, *request.initial);
   *request.particles_hash = file_hash(request.particles);
   return true;
@@ -48,10 +52,11 @@ std::string last_words(const std::string& log) {
 }
 
 std::string reason_for_refusal(const std::string& check_output) {
-  const auto answer = nlohmann::json::parse(check_output, nullptr, false);
+  const auto answer = nests_too_deep(check_output) ? nlohmann::json() : nlohmann::json::parse(check_output, nullptr, false);
   if (!answer.is_object() || !answer.contains("can") || !answer["can"].is_boolean()) return "--check did not print {can, reason}";
   if (answer["can"].get<bool>()) return {};
-  return answer.value("reason", std::string("it gives no reason"));
+  const auto reason = answer.find("reason");
+  return reason != answer.end() && reason->is_string() && !reason->empty() ? reason->get<std::string>().substr(0, most_words) : "it gives no reason";
 }
 
 /// Job as it is written into the folder.
@@ -114,9 +119,18 @@ void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& ou
   fs::remove_all(folder, ignored);
 }
 
+/// Bytes that a trajectory can need: what flows in, twice as much again and again, is far below the gibibyte.
+std::uintmax_t greatest_trajectory(const RunRequest& request) {
+  constexpr std::uintmax_t a_row = 4096, at_least = std::uintmax_t{1} << 30;
+  return at_least + a_row * request.job->times.size() * (request.initial->size() + request.job->bodies.size());
+}
+
 std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
   const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
   const fs::path folder(request.folder);
+  const auto most = greatest_trajectory(request);
+  for (const char* name : {"trajectory.h5", "trajectory.csv"})
+    if (fs::exists(folder / name)) expect_regular_file((folder / name).string(), most);
   if (fs::exists(folder / "trajectory.h5")) return std::make_shared<Trajectory>(read_trajectory((folder / "trajectory.h5").string()));
   const auto& bodies = request.job->bodies;
   const auto solids = std::count_if(bodies.begin(), bodies.end(), [](const auto& b) { return b.index >= 0; });
@@ -195,6 +209,8 @@ Outcome run_one(const RunRequest& request) {
   if (auto answer = ask(request); answer.status != "ok") return answer;
   auto spec = call(request, "--run", request.wall_limit);
   spec.log = (fs::path(request.folder) / "log.txt").string();
+  std::error_code none;
+  fs::remove(spec.log, none);  // --check may have left a link there, to a file of somebody else
   spec.progress = request.progress;
   const auto end = run_process(spec);
   auto outcome = read_back(request, end);

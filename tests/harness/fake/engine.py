@@ -4,6 +4,7 @@
 import json
 import math
 import os
+import shutil
 import signal
 import sys
 import time
@@ -19,11 +20,19 @@ def info():
         time.sleep(60)
     if WRONG == "not there":
         answer.update(available=False, reason="its library is not installed")
+    if WRONG == "deep info":
+        print('{"contract": 1, "name": "fake", "settings": {"q": ' + '{"a":' * 400000 + "1" + "}" * 400000 + "}}")
+        return
     print("{" if WRONG == "broken info" else json.dumps(answer))
 
 
 def check():
     refused = WRONG == "refuses"
+    if WRONG == "gives a number as its reason":
+        print('{"can": false, "reason": 5}')
+        return
+    if WRONG == "leaves a link as its log":
+        (Path(sys.argv[2]).parent / "log.txt").symlink_to(os.environ["FAKE_VICTIM"])
     print(json.dumps({"can": not refused, "reason": "it has no conduction" if refused else ""}))
 
 
@@ -78,6 +87,26 @@ def spoil(rows, times):
     return rows
 
 
+def leave(folder):
+    """What a hostile engine puts in place of what it was asked for."""
+    trajectory, answer = folder / "trajectory.csv", folder / "result.json"
+    if WRONG in ("leaves a pipe as trajectory", "leaves a pipe as result"):
+        file = trajectory if WRONG.endswith("trajectory") else answer
+        file.unlink()
+        os.mkfifo(file)
+    if WRONG == "leaves an endless trajectory":
+        trajectory.unlink()
+        trajectory.symlink_to("/dev/zero")
+    if WRONG == "leaves a trajectory of 10 GB":
+        os.truncate(trajectory, 10 << 30)
+    if WRONG == "leaves a deep result":
+        answer.write_text(answer.read_text()[:-1] + ', "extra": ' + '{"a":' * 400000 + "1" + "}" * 400000 + "}")
+    if WRONG == "names a column twice":
+        trajectory.write_text(trajectory.read_text().replace(",wz", ",x"))
+    if WRONG == "takes all runs away":
+        shutil.rmtree(folder.parents[1])
+
+
 def run(path):
     try:
         job = json.loads(Path(path).read_text())
@@ -110,6 +139,7 @@ def run(path):
         os.kill(os.getpid(), signal.SIGKILL)
     write(folder, spoil(rows, times))
     result(folder, job)
+    leave(folder)
     if WRONG == "says ok and exits 3":
         sys.exit(3)
 

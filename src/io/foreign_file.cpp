@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/foreign_file.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "core/errors.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+
+void expect_regular_file(const std::string& path, std::uintmax_t most) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (!fs::exists(status)) throw InputError(path + ": cannot be read");
+  if (!fs::is_regular_file(status)) throw InputError(path + ": is no regular file; refused");
+  const auto size = fs::file_size(path, error);
+  if (error) throw InputError(path + ": cannot be read");
+  if (size > most) throw InputError(fmt::format("{}: has {} bytes, more than the {} that it can need; refused", path, size, most));
+}
+
+std::string text_of_regular_file(const std::string& path, std::uintmax_t most) {
+  expect_regular_file(path, most);
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw InputError(path + ": cannot be read");
+  return std::move(text).str();
+}
+
+}  // namespace tripoint

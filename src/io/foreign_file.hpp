@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace tripoint {
+
+/// A file that an engine left is read only where it is a regular file of at most `most` bytes: a pipe would never end, and a device is endless.
+/// @throws InputError naming what it is instead
+void expect_regular_file(const std::string& path, std::uintmax_t most);
+/// Its whole text. @throws InputError as above
+[[nodiscard]] std::string text_of_regular_file(const std::string& path, std::uintmax_t most);
+
+}  // namespace tripoint
