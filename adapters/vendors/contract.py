@@ -91,11 +91,12 @@ class Outcome:
 
 
 class Engine(ABC):
-    """One engine: five answers. `presets` and `settings` are in the vendor's own words."""
+    """One engine: five answers. `presets`, `preset_words` and `settings` are in the vendor's own words."""
 
     name: str
     capabilities: tuple[str, ...]
     presets: tuple[str, ...]
+    preset_words: dict[str, str] = {}  # preset -> a short quotation of the vendor on it, and where it stands
     settings: dict[str, str] = {}
     precision = "double"
     deterministic = True
@@ -123,7 +124,7 @@ class Engine(ABC):
         library = self.library()
         held = {"path": str(library or ""), "hash": file_hash(library) if library else ""}
         return {"contract": 1, "name": self.name, "version": self.version(), "build": self.build(), "library": held,
-                "capabilities": list(self.capabilities), "presets": list(self.presets), "settings": self.settings,
+                "capabilities": list(self.capabilities), "presets": list(self.presets), "preset_words": self.preset_words, "settings": self.settings,
                 "deterministic": self.deterministic}
 
 

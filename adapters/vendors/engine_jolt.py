@@ -85,6 +85,9 @@ class Jolt(RigidEngine):
     name, title = "jolt", "Jolt"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
     presets = ("default", "mApplyGyroscopicForce")
+    preset_words = {"default": '"mApplyGyroscopicForce = false" (Jolt, Physics/Body/BodyCreationSettings.h)',
+                    "mApplyGyroscopicForce": '"Set to indicate that the gyroscopic force should be applied to this body (aka Dzhanibekov '
+                                             'effect...)" (Jolt, Physics/Body/BodyCreationSettings.h)'}
     settings = SHARED_SETTINGS | WORLD_SETTINGS | {"restitution": "of every pair, default 0"}
     precision = "single"
     default_step = 1.0 / 60.0  # of Jolt's own example

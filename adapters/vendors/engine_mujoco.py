@@ -99,6 +99,12 @@ class Mujoco(RigidEngine):
     name, title = "mujoco", "MuJoCo"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
     presets = ("Euler", "implicitfast", "implicit", "RK4")
+    preset_words = {"Euler": '"Use Euler for compatibility with older models" (MuJoCo, doc/computation/index.rst)',
+                    "implicitfast": '"the recommended integrator for most models" (MuJoCo, doc/computation/index.rst)',
+                    "implicit": '"the implicit integration of Coriolis and centripetal forces, including gyroscopic forces" '
+                                "(MuJoCo, doc/computation/index.rst)",
+                    "RK4": '"best for systems which are energy conserving, or almost energy-conserving" '
+                           "(MuJoCo, doc/computation/index.rst)"}
     settings = SHARED_SETTINGS | {"solref": "time constant and damping ratio of contacts, MuJoCo's default 0.02 1; "
                                             "negative: stiffness and damping",
                                   "solimp": "impedance of contacts, MuJoCo's default 0.9 0.95 0.001 0.5 2"}

@@ -17,6 +17,9 @@ from rotation import (IDENTITY, Quaternion, Vector, add, between, conjugate, nor
                       vector)
 
 
+LARGEST = 1e30  # m, m/s or rad/s: what is beyond has diverged, though it still has a number
+
+
 class Piece(NamedTuple):
     """A part of a body's surface, in its principal frame."""
 
@@ -222,8 +225,8 @@ def _rows(job: Job, bodies: list[Body], world: World, limit: float, outcome: Out
 def _row(at: float, body: Body, state: State | None) -> Row:
     if state is None:
         return [at, body.index, *body.centre, 0.0, 0.0, 0.0, *IDENTITY, 0.0, 0.0, 0.0]
-    if not all(math.isfinite(c) for part in state for c in part):
-        raise Diverged(f"the state of {body.name} is not finite", body.index, at)
+    if not all(abs(c) < LARGEST for part in state for c in part):  # nor is a number that is none below it
+        raise Diverged(f"the state of {body.name} is not finite, or beyond {LARGEST:g}", body.index, at)
     turned = product(normalised(state.orientation), conjugate(body.frame))
     return [at, body.index, *state.centre, *state.velocity, *turned, *state.spin]
 

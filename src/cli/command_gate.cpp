@@ -9,6 +9,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
+#include "cli/gate_adopt.hpp"
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
 #include "validation/harness/baseline.hpp"
@@ -34,6 +35,7 @@ constexpr const char* description =
     "instructions than accepted. A case without a baseline yet is named in a warning.\n"
     "  tripoint gate report/results.json     exit 0 only when every gate is green\n"
     "  tripoint gate accept report/results.json --reason 'who decided what, and why'     the only writer of baselines\n"
+    "  tripoint gate adopt --engine ./my-engine --out cases     writes gates for an engine of your own\n"
     "  tripoint gate selftest                proves that the gates can fail, and only where they should";
 
 constexpr const char* accept_description =
@@ -155,7 +157,9 @@ void add_gate(CLI::App& app, int& exit_code) {
   self->add_option("--seeds", o->seeds, "other seeds to run what chance has a hand in with; nothing else is then done")->check(CLI::Range(1, 10000));
   self->add_option("--profile", o->profile, "with --seeds: only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release"}));
   self->add_flag("--json", o->json, "print selftest.json, and nothing else, on stdout");
+  auto* adopts = add_gate_adopt(*command, exit_code);
   command->callback([=, &exit_code] {
+    if (adopts->parsed()) return;  // it has run
     exit_code = guarded([&] {
       if (self->parsed()) return selftest(o->selftest, o->profile, o->seeds, o->json);
       if (accepts->parsed()) return accept_file(*o);

@@ -17,6 +17,7 @@ constexpr const char* description =
     "  tripoint list heat             those of one subject\n"
     "  tripoint list --tag heat       only cases with this tag\n"
     "  tripoint list --profile commit those that a plain tripoint validate runs\n"
+    "  tripoint list --profile acceptance   those with a limit that any engine must hold\n"
     "  tripoint list -k floating      those with this in their id\n"
     "  tripoint list --json           one JSON document";
 
@@ -38,7 +39,7 @@ void add_list(CLI::App& app, int& exit_code) {
   auto json = std::make_shared<bool>(false);
   command->add_option("CASE", filter->what, "only these: case files, folders of them, subjects or ids")->type_name("CASE|DIR");
   command->add_option("--tag", filter->tag, "only cases with this tag");
-  command->add_option("--profile", filter->profile, "only cases of this profile")->check(CLI::IsMember({"commit", "nightly", "release"}));
+  command->add_option("--profile", filter->profile, "only cases of this profile")->check(CLI::IsMember({"commit", "nightly", "release", "acceptance"}));
   command->add_option("-k", filter->substring, "only cases with this in their id")->type_name("SUBSTRING");
   command->add_flag("--json", *json, "print one JSON document");
   command->callback([=, &exit_code] { exit_code = guarded([&] { return list(*filter, *json); }); });

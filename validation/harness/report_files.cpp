@@ -52,7 +52,7 @@ void set_aside_report(const std::string& folder) {
   const fs::path out(folder);
   std::error_code none;
   if (fs::exists(out / "results.json", none)) fs::rename(out / "results.json", out / "results.previous.json");
-  for (const char* made : {"junit.xml", "summary.md", "index.html"}) fs::remove(out / made, none);
+  for (const char* made : {"junit.xml", "summary.md", "index.html", "scorecard.json", "scorecard.md", "scorecard.html"}) fs::remove(out / made, none);
 }
 
 std::string notes_text(const Results& results) {

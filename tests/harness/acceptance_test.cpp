@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Limits that any engine must hold, declared defects, and the scorecard, on results made by hand.
+#include <gtest/gtest.h>
+
+#include "judged.hpp"
+#include "validation/harness/known_defect.hpp"
+#include "validation/harness/scorecard.hpp"
+
+namespace tripoint {
+namespace {
+
+EngineRow row(const std::string& name, double e, const std::string& preset = "default") {
+  EngineRow r;
+  r.name = name, r.preset = preset, r.runs = {run_with({{"error", value(e)}})};
+  r.runs[0].cost.cpu_s = 2.0;
+  return r;
+}
+
+Gate declared(const std::string& engine, double low, double high) {
+  auto g = limit("error", 0.0);
+  g.limit.reset();
+  g.engine = engine, g.band = {low, high}, g.reason = "known defect no-term: it leaves the term out";
+  return g;
+}
+
+/// `green()` with a second engine that is `e` off, beside the limit of 0.1.
+Results with(double e) {
+  auto r = green();
+  engine(r).runs[0].cost.cpu_s = 1.0;
+  r.cases[0].engines.push_back(row("stone", e));
+  return r;
+}
+
+Scorecard card_of(Results r) {
+  judge(r);
+  return scorecard_of(r, {}, {});
+}
+
+const ScoreRow& of(const Scorecard& card, const std::string& engine) {
+  for (const auto& s : card.engines)
+    if (s.engine == engine) return s.rows.at(0);
+  throw std::out_of_range(engine);
+}
+
+TEST(KnownDefect, IsNamedByTheReason) {
+  EXPECT_EQ(known_defect(declared("stone", 0.2, 0.4)), "no-term");
+  EXPECT_EQ(known_defect(limit("error", 0.1)), "");
+  auto words = limit("error", 0.1);
+  words.reason = "known defect of the core of pairs: 0.44 measured";  // a sentence, no declaration
+  EXPECT_EQ(known_defect(words), "");
+}
+
+TEST(KnownDefect, ExcusesTheEngineThatItNamesAndNoOther) {
+  auto r = with(0.3);
+  EXPECT_EQ(exit_of(r), exit_fail);
+  r.cases[0].gates.push_back(declared("stone", 0.2, 0.4));
+  EXPECT_EQ(exit_of(r), exit_pass);
+  r.cases[0].engines.push_back(row("brick", 0.3));
+  EXPECT_EQ(exit_of(r), exit_fail);
+}
+
+TEST(KnownDefect, ThatHasChangedIsRed) {
+  auto r = with(0.5);
+  r.cases[0].gates.push_back(declared("stone", 0.2, 0.4));
+  EXPECT_EQ(exit_of(r), exit_fail);
+}
+
+TEST(KnownDefect, ThatIsThereNoMoreIsRedThoughItsBandHolds) {
+  auto r = with(0.05);
+  r.cases[0].gates.push_back(declared("stone", 0.01, 0.4));
+  judge(r);
+  EXPECT_EQ(r.exit_code, exit_fail);
+  EXPECT_NE(r.cases[0].engines[1].gates[0].why.find("take the declaration away"), std::string::npos);
+}
+
+TEST(KnownDefect, OfOnePresetExcusesNoOther) {
+  auto r = with(0.3);
+  r.cases[0].engines[1].preset = "plain";
+  r.cases[0].engines.push_back(row("stone", 0.3, "fancy"));
+  auto g = declared("stone", 0.2, 0.4);
+  g.preset = "plain";
+  r.cases[0].gates.push_back(g);
+  judge(r);
+  EXPECT_EQ(r.exit_code, exit_fail);
+  EXPECT_EQ(r.cases[0].engines[2].gates[0].verdict, "fail");
+}
+
+TEST(AcceptanceOrder, OfRoundOffIsNoneAndHoldsForEveryEngineAlone) {
+  auto r = study_of({1e-15, 2e-15, 1e-15, 3e-15});
+  r.cases[0].gates[0].at_least = 1.0;
+  EXPECT_EQ(exit_of(r), exit_pass);
+  r.cases[0].gates[0].engine = "tripoint";  // who is named is asked for what is known of it
+  EXPECT_EQ(exit_of(r), exit_fail);
+}
+
+TEST(AcceptanceOrder, BelowTheLeastIsRed) {
+  auto r = study_of({0.1, 0.09, 0.081, 0.073});
+  r.cases[0].gates[0].at_least = 0.8;
+  EXPECT_EQ(exit_of(r), exit_fail);
+}
+
+TEST(NotPaper, StudiesLeaveOutOurPrintedFormOnly) {
+  Study s;
+  s.mode = "not paper";
+  EXPECT_TRUE(applies(s, "tripoint", "corrected"));
+  EXPECT_FALSE(applies(s, "tripoint", "paper"));
+  EXPECT_TRUE(applies(s, "stone", ""));
+  EXPECT_FALSE(applies(s, "exact", ""));
+}
+
+TEST(Scorecard, HoldsErrorLimitCostAndRank) {
+  const auto card = card_of(with(0.08));
+  const auto& stone = of(card, "stone");
+  EXPECT_EQ(stone.verdict, "pass");
+  EXPECT_EQ(stone.error, 0.08);
+  EXPECT_EQ(stone.allowed, "limit 0.1");
+  EXPECT_NEAR(stone.share, 0.8, 1e-12);
+  EXPECT_EQ(stone.cost, 2.0);
+  EXPECT_EQ(stone.rank, 2);
+  EXPECT_EQ(stone.of, 2);
+  EXPECT_EQ(of(card, "tripoint").rank, 1);
+  EXPECT_TRUE(card.disagreements.empty());
+}
+
+TEST(Scorecard, EqualErrorsShareAPlace) {
+  const auto card = card_of(with(0.05 * (1.0 + 1e-9)));
+  EXPECT_EQ(of(card, "stone").rank, 1);
+  EXPECT_EQ(of(card, "tripoint").rank, 1);
+}
+
+TEST(Scorecard, TellsFailRefusedCrashedAndKnownDefectsApart) {
+  EXPECT_EQ(of(card_of(with(0.2)), "stone").verdict, "fail");
+  auto r = with(0.3);
+  r.cases[0].gates.push_back(declared("stone", 0.2, 0.4));
+  EXPECT_EQ(of(card_of(r), "stone").verdict, "known defect");
+  EXPECT_NE(of(card_of(r), "stone").reason.find("no-term"), std::string::npos);
+  r = with(0.05);
+  auto& run = r.cases[0].engines[1].runs[0];
+  run.status = "refused", run.reason = "knows no heat";
+  EXPECT_EQ(of(card_of(r), "stone").verdict, "refused");
+  EXPECT_EQ(of(card_of(r), "stone").reason, "knows no heat");
+  run.status = "timeout";
+  EXPECT_EQ(of(card_of(r), "stone").verdict, "crashed");
+}
+
+TEST(Scorecard, WhatNoAcceptanceLimitLooksAtIsNotJudged) {
+  auto r = with(0.05);
+  r.cases[0].gates[0].engine = "tripoint";
+  EXPECT_EQ(of(card_of(r), "stone").verdict, "not judged");
+}
+
+TEST(Scorecard, SaysWhoIsRightWhereTwoDiffer) {
+  const auto card = card_of(with(0.3));
+  ASSERT_EQ(card.disagreements.size(), 1U);
+  const auto& d = card.disagreements[0];
+  EXPECT_NEAR(d.difference, 0.25, 1e-12);
+  EXPECT_EQ(d.witnesses.at(0).label, "tripoint");
+  EXPECT_EQ(d.witnesses.at(1).error, 0.3);
+  EXPECT_NE(scorecard_markdown(card).find("| stone | 0.3 | fail |"), std::string::npos);
+}
+
+TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
+  auto r = green();
+  auto& mine = engine(r);
+  mine.name = "mine", mine.required = false, mine.runs[0].status = "refused", mine.runs[0].reason = "knows no heat";
+  EXPECT_EQ(exit_of(r), exit_missing);  // nobody chose: a case that no gate judges
+  r.only_engines = r.asked = {"mine"};
+  EXPECT_EQ(exit_of(r), exit_missing);  // it ran no case at all
+  auto other = green().cases[0];
+  other.id = "test/two", other.engines[0].name = "mine";
+  r.cases.push_back(other), r.planned.push_back(other.id);
+  judge(r);
+  EXPECT_EQ(r.exit_code, exit_pass);
+  EXPECT_EQ(r.cases[0].verdict, "REFUSED");
+  r.cases[0].engines[0].required = true;
+  EXPECT_EQ(exit_of(r), exit_missing);
+}
+
+TEST(Scorecard, LeavesOutWhoIsNotHereUnlessAskedFor) {
+  auto r = with(0.05);
+  r.cases[0].engines[1].runs.clear(), r.cases[0].engines[1].status = "missing";
+  EXPECT_EQ(card_of(r).engines.size(), 1U);
+  r.asked = {"stone"};
+  EXPECT_EQ(of(card_of(r), "stone").verdict, "missing");
+}
+
+}  // namespace
+}  // namespace tripoint

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/scorecard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/harness/apply_gate.hpp"
+#include "validation/harness/judge.hpp"
+#include "validation/harness/known_defect.hpp"
+#include "validation/harness/releases.hpp"
+#include "validation/harness/slack.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr double same_error = 1e-6;     // share by which two errors may differ and still share a place
+constexpr double disagreement = 0.5;    // of the acceptance limit
+
+bool is_order(const Gate& g) { return g.metric.ends_with(".order"); }
+
+const MetricChoice* metric_of(const CaseResult& c, const std::string& name) {
+  const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == name; });
+  return at == c.metrics.end() ? nullptr : &*at;
+}
+
+bool is_conserved(const MetricChoice& m) {
+  return m.norm == "drift" || m.quantity.starts_with("ledger.") || m.quantity == "momentum" || m.quantity == "angular_momentum" || m.quantity == "mass";
+}
+
+/// The run at the case's own resolution; of our solver the corrected one.
+const RunRow* own_run(const EngineRow& e) {
+  const auto at = std::find_if(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.base && r.knobs.mode != "paper"; });
+  return at == e.runs.end() ? nullptr : &*at;
+}
+
+double error_of(const EngineRow& e, const Gate* gate) {
+  const auto* run = own_run(e);
+  if (!gate || !run || run->status != "ok" || !run->comparable) return not_a_number;
+  const auto value = measured(*run, gate->metric);
+  return value ? value->value : not_a_number;
+}
+
+/// The edge of the acceptance limit that is farthest from zero.
+double edge(const Gate& g) { return g.limit ? *g.limit : g.band ? std::max(std::abs((*g.band)[0]), std::abs((*g.band)[1])) : not_a_number; }
+
+bool same_place(double a, double b) { return std::abs(a - b) <= same_error * std::max(a, b) || std::max(a, b) <= roundoff_limit; }
+
+void place(const CaseResult& c, const Gate* gate, const EngineRow& engine, ScoreRow& row) {
+  const double own = std::abs(row.error);
+  if (!std::isfinite(own)) return;
+  row.rank = 1;
+  for (const auto& e : c.engines) {
+    const double other = std::abs(error_of(e, gate));
+    if (e.name == "exact" || !std::isfinite(other)) continue;
+    ++row.of;
+    if (&e != &engine && other < own && !same_place(other, own)) ++row.rank;
+  }
+}
+
+void conservation(const CaseResult& c, const RunRow& run, ScoreRow& row) {
+  for (const auto& m : c.metrics) {
+    const auto at = run.metrics.find(m.name);
+    if (!is_conserved(m) || at == run.metrics.end() || !std::isfinite(at->second.value)) continue;
+    if (std::isfinite(row.drift) && std::abs(at->second.value) <= std::abs(row.drift)) continue;
+    row.drift = at->second.value, row.drift_metric = m.name;
+  }
+}
+
+/// The order of the metric that ranks, else of the first study that gave one.
+void observed(const EngineRow& e, ScoreRow& row) {
+  const OrderRow* chosen = nullptr;
+  for (const auto& o : e.order) {
+    if (o.mode == "paper") continue;
+    if (!chosen || (o.metric == row.metric && chosen->metric != row.metric)) chosen = &o;
+  }
+  if (chosen) row.order = chosen->order.value, row.order_metric = chosen->metric, row.order_class = chosen->order.fit_class;
+}
+
+std::string why(const GateRow& g) { return g.metric + ": " + (g.why.empty() ? g.verdict : g.why); }
+
+void settle(const EngineRow& e, ScoreRow& row) {
+  const auto set = [&](const std::string& verdict, const std::string& reason) { row.verdict = verdict, row.reason = reason; };
+  if (e.status == "missing" || e.status == "refused") return set(e.status, e.reason);
+  if (e.status == "killed" || e.status == "timeout" || e.status == "error") return set("crashed", e.status + ": " + e.reason);
+  const GateRow* known = nullptr;
+  bool judged = false;
+  for (const char* bad : {"diverged", "fail", "missing", "inconclusive"})
+    for (const auto& g : e.gates)
+      if (g.mode != "paper" && g.verdict == bad) return set(g.verdict == "missing" ? "not judged" : g.verdict, why(g));
+  for (const auto& g : e.gates) {
+    if (g.mode == "paper") continue;
+    judged = judged || is_acceptance(g.gate);
+    if (!known_defect(g.gate).empty() && !known) known = &g;
+  }
+  if (known) return set("known defect", fmt::format("{} ({}: {:.3g})", known_defect(known->gate), known->metric, known->value));
+  if (e.status == "diverged") return set("diverged", e.reason);
+  if (!judged) return set("not judged", "no acceptance limit fits its runs");
+  set("pass", "");
+}
+
+ScoreRow row_of(const CaseResult& c, const EngineRow& e) {
+  ScoreRow row;
+  row.case_id = c.id, row.title = c.title;
+  const auto* gate = ranking_gate(c);
+  if (gate) {
+    const auto* metric = metric_of(c, gate->metric);
+    row.metric = gate->metric, row.unit = metric ? metric->unit : "", row.allowed = describe(*gate);
+    row.error = error_of(e, gate), row.share = std::abs(row.error) / edge(*gate);
+    place(c, gate, e, row);
+  }
+  observed(e, row);
+  if (const auto* run = own_run(e); run && run->status == "ok") {
+    conservation(c, *run, row);
+    row.cpu_s = run->cost.cpu_s;
+    for (const auto& ours : c.engines)
+      if (const auto* base = own_run(ours); ours.name == "tripoint" && base && base->status == "ok" && base->cost.cpu_s > 0.0) row.cost = row.cpu_s / base->cost.cpu_s;
+  }
+  settle(e, row);
+  return row;
+}
+
+std::string words_on(const EngineRow& e, const Case* value, const std::vector<EngineEntry>& engines) {
+  const auto* entry = find_engine(engines, e.name);
+  if (!entry) return {};
+  std::string text;
+  if (const auto at = entry->settings.find("preset " + e.preset); at != entry->settings.end()) text = at->second;
+  if (!value) return text;
+  for (const auto& choice : value->engines)
+    for (const auto& [key, setting] : choice.settings)
+      if (const auto at = entry->settings.find(key); choice.name == e.name && at != entry->settings.end()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", key, at->second);
+  return text;
+}
+
+/// How far two engines are apart in a metric: by their own trajectories where these are compared, else by their values.
+double apart(const CaseResult& c, const Gate& gate, const EngineRow& a, const EngineRow& b) {
+  const auto la = label_of(a.name, a.preset), lb = label_of(b.name, b.preset);
+  for (const auto& q : c.equivalence)
+    if (q.metric == gate.metric && ((q.a == la && q.b == lb) || (q.a == lb && q.b == la))) return std::abs(q.difference);
+  return std::abs(error_of(a, &gate) - error_of(b, &gate));
+}
+
+std::optional<Disagreement> disagreement_of(const CaseResult& c, const Case* value, const std::vector<EngineEntry>& engines) {
+  const auto* gate = ranking_gate(c);
+  if (!gate || !(edge(*gate) > 0.0)) return {};
+  std::vector<const EngineRow*> ran;
+  for (const auto& e : c.engines)
+    if (e.name != "exact" && std::isfinite(error_of(e, gate))) ran.push_back(&e);
+  const auto* metric = metric_of(c, gate->metric);
+  Disagreement d{c.id, gate->metric, metric ? metric->unit : "", describe(*gate), {}, {}, 0.0, {}};
+  for (std::size_t i = 0; i < ran.size(); ++i)
+    for (std::size_t j = i + 1; j < ran.size(); ++j)
+      if (const double x = apart(c, *gate, *ran[i], *ran[j]); x > d.difference) d.difference = x, d.a = label_of(ran[i]->name, ran[i]->preset), d.b = label_of(ran[j]->name, ran[j]->preset);
+  if (!(d.difference > disagreement * edge(*gate))) return {};
+  std::stable_sort(ran.begin(), ran.end(), [&](const auto* a, const auto* b) { return std::abs(error_of(*a, gate)) < std::abs(error_of(*b, gate)); });
+  for (const auto* e : ran) {
+    ScoreRow row;
+    settle(*e, row);
+    d.witnesses.push_back({label_of(e->name, e->preset), row.verdict, error_of(*e, gate), words_on(*e, value, engines)});
+  }
+  return d;
+}
+
+EngineScore& score_of(Scorecard& card, const EngineRow& e) {
+  for (auto& s : card.engines)
+    if (s.engine == e.name && s.preset == e.preset) return s;
+  card.engines.push_back({e.name, e.preset, e.version, {}});
+  return card.engines.back();
+}
+
+/// An engine that is missing everywhere was not asked for and is not here: it has no score.
+bool is_absent(const EngineScore& s, const std::vector<std::string>& asked) {
+  return s.count("missing") == static_cast<int>(s.rows.size()) && std::find(asked.begin(), asked.end(), s.engine) == asked.end();
+}
+
+}  // namespace
+
+bool is_acceptance(const Gate& g) { return g.engine.empty() && g.preset.empty() && g.mode != "paper" && g.mode != "corrected"; }
+
+const Gate* ranking_gate(const CaseResult& c) {
+  const auto at = std::find_if(c.gates.begin(), c.gates.end(), [](const Gate& g) { return is_acceptance(g) && !is_order(g); });
+  return at == c.gates.end() ? nullptr : &*at;
+}
+
+int EngineScore::count(const std::string& verdict) const {
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [&](const auto& r) { return r.verdict == verdict; }));
+}
+
+Scorecard scorecard_of(const Results& results, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines) {
+  Scorecard card;
+  card.command = results.command, card.verdict = results.verdict, card.exit_code = results.exit_code, card.date = results.date, card.commit = results.tool.commit;
+  for (const auto& c : results.cases) {
+    const auto at = std::find_if(cases.begin(), cases.end(), [&](const auto& value) { return value.id == c.id; });
+    const Case* value = at == cases.end() ? nullptr : &*at;
+    for (const auto& e : c.engines)
+      if (e.name != "exact") score_of(card, e).rows.push_back(row_of(c, e));
+    if (auto d = disagreement_of(c, value, engines)) card.disagreements.push_back(std::move(*d));
+  }
+  std::erase_if(card.engines, [&](const auto& s) { return is_absent(s, results.asked); });
+  std::stable_sort(card.engines.begin(), card.engines.end(), [](const auto& a, const auto& b) { return a.engine < b.engine; });
+  return card;
+}
+
+}  // namespace tripoint
