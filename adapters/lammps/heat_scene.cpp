@@ -92,21 +92,53 @@ Readback rest_readback(const Job& job, double time_step) {
   return back;
 }
 
+namespace {
+
+/// Makes a face of the box one of fixed temperature. @return why the held body is no plate that covers one
+std::string hold_face(const Body& plate, double spacing, CellBox& box) {
+  const Vec3 &low = plate.shape.min, &high = plate.shape.max;
+  if (plate.temperature->kind != TemperatureField::Kind::constant) return fmt::format("walkers need faces of one held temperature, and that of {} changes in place", plate.name);
+  const double slack = 1e-6 * spacing;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+    const bool covers = low[a] <= box.min[a] + slack && high[a] >= box.max[a] - slack && low[b] <= box.min[b] + slack && high[b] >= box.max[b] - slack;
+    const bool below = std::abs(high[k] - box.min[k]) < slack, above = std::abs(low[k] - box.max[k]) < slack;
+    if (!covers || !(below || above)) continue;
+    const int axis = static_cast<int>(k);
+    if (box.periodic[k] || (box.held_axis >= 0 && box.held_axis != axis)) return fmt::format("walkers know held faces across one direction only, and {} is another", plate.name);
+    auto& face = below ? box.held_low : box.held_high;
+    if (face) return fmt::format("{} is the second held body at one face", plate.name);
+    box.held_axis = axis;
+    face = plate.temperature->value;
+    return {};
+  }
+  return fmt::format("walkers need held bodies that cover a whole face, and {} does not", plate.name);
+}
+
+}  // namespace
+
 std::optional<CellBox> cell_box(const Scene& scene, std::string& why) {
   CellBox box;
   double filled = 0.0;
+  bool first = true;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Shape& shape = scene.bodies[i].shape;
     if (shape.kind != Shape::Kind::box) {
       why = fmt::format("walkers need boxes, and {} is none", scene.bodies[i].name);
       return {};
     }
+    if (scene.bodies[i].temperature_held) continue;
     const Vec3 e = shape.max - shape.min;
     filled += e.x * e.y * e.z;
     for (std::size_t k = 0; k < 3; ++k) {
-      box.min[k] = i == 0 ? shape.min[k] : std::min(box.min[k], shape.min[k]);
-      box.max[k] = i == 0 ? shape.max[k] : std::max(box.max[k], shape.max[k]);
+      box.min[k] = first ? shape.min[k] : std::min(box.min[k], shape.min[k]);
+      box.max[k] = first ? shape.max[k] : std::max(box.max[k], shape.max[k]);
     }
+    first = false;
+  }
+  if (first) {
+    why = "walkers need a body whose temperature is free";
+    return {};
   }
   const Vec3 e = box.max - box.min;
   if (std::abs(filled / (e.x * e.y * e.z) - 1.0) > 1e-9) why = "walkers need one box, and the bodies do not tile one";
@@ -117,6 +149,8 @@ std::optional<CellBox> cell_box(const Scene& scene, std::string& why) {
     if (!scene.periodic[k] || !scene.min || !scene.max) continue;
     box.periodic[k] = std::abs((*scene.max)[k] - (*scene.min)[k] - e[k]) < 1e-9 * e[k];
   }
+  for (const Body& b : scene.bodies)
+    if (why.empty() && b.temperature_held) why = hold_face(b, scene.spacing, box);
   return why.empty() ? std::optional(box) : std::nullopt;
 }
 

@@ -32,8 +32,11 @@ namespace tripoint::lammps {
 struct CellBox {
   Vec3 min, max;
   std::array<int, 3> cells{};
-  std::array<bool, 3> periodic{};  ///< the body reaches across the periodic domain; else an insulated wall
+  std::array<bool, 3> periodic{};  ///< the body reaches across the periodic domain; else an insulated wall, unless it is held
+  int held_axis = -1;              ///< across the faces whose temperature is held; -1 = none is
+  std::optional<double> held_low, held_high;  ///< temperatures of these faces [K]
 };
+/// Of the bodies whose temperature is free; those that are held must be plates that cover whole faces of it.
 /// @param why receives the reason where the bodies tile no such box
 [[nodiscard]] std::optional<CellBox> cell_box(const Scene&, std::string& why);
 

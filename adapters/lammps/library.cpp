@@ -74,6 +74,18 @@ std::vector<Vec3> Library::unordered_positions() const {
   return all;
 }
 
+std::vector<int> Library::unordered_types() const {
+  const auto* type = static_cast<const int*>(lammps_extract_atom(handle_, "type"));
+  return {type, type + local_count()};
+}
+
+double Library::compute_value(const std::string& id, int index) const {
+  const auto* value = static_cast<const double*>(lammps_extract_compute(handle_, id.c_str(), LMP_STYLE_GLOBAL, LMP_TYPE_VECTOR));
+  check();
+  if (!value) throw EngineError("LAMMPS has no value of compute " + id);
+  return value[index];
+}
+
 std::vector<Vec3> Library::vectors(const char* name) const {
   const auto* const* x = static_cast<const double* const*>(lammps_extract_atom(handle_, name));
   std::vector<Vec3> by_id(static_cast<std::size_t>(local_count()));

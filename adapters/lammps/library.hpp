@@ -34,6 +34,9 @@ class Library {
   void set_scalars(const char* name, const std::vector<double>& by_id);
   /// Positions in LAMMPS's own order, without a copy by id: for walkers, which are only counted.
   [[nodiscard]] std::vector<Vec3> unordered_positions() const;
+  [[nodiscard]] std::vector<int> unordered_types() const;  ///< in the same order
+  /// One number of a compute's global vector, brought up to date now.
+  [[nodiscard]] double compute_value(const std::string& id, int index) const;
 
   [[nodiscard]] bool has_style(const char* category, const char* name) const;
   [[nodiscard]] std::string version() const;  ///< yyyymmdd

