@@ -2,6 +2,7 @@
 #include "cli/common.hpp"
 
 #include <fmt/format.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <array>
@@ -81,6 +82,18 @@ void print(const std::string& plain) {
   const std::string text = coloured ? all_painted(plain) : plain;
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
+}
+
+void hold_standard_streams() {
+  constexpr std::array<const char*, 3> instead{"/dev/null", "/dev/full", "/dev/null"};
+  for (int stream = 0; stream < 3; ++stream)
+    if (::fcntl(stream, F_GETFD) == -1 && ::open(instead[static_cast<std::size_t>(stream)], O_RDWR) != stream) std::abort();
+}
+
+bool output_arrived() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  say("tripoint: what it printed could not be written (standard output is closed, or the disk is full)");
+  return false;
 }
 
 std::vector<std::string> split(const std::string& list, char separator) {

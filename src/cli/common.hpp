@@ -51,6 +51,11 @@ void make_folder(const std::string& out);
 /// What is said of a command or option that does not exist, with the nearest one; empty where none is mistyped.
 [[nodiscard]] std::string mistyped_word(const CLI::App& app, int argc, char** argv);
 
+/// Opens the standard streams that the caller has closed: the next file that is opened would take their place, and our words would go into it.
+void hold_standard_streams();
+/// Whether all that was printed has arrived; says so where it has not (a full disk, a closed pipe).
+[[nodiscard]] bool output_arrived();
+
 /// The command line as it was typed, for the report.
 void remember_command_line(int argc, char** argv);
 [[nodiscard]] const std::string& command_line();

@@ -41,6 +41,7 @@ class FirstSentences : public CLI::Formatter {
 
 int main(int argc, char** argv) {
   using namespace tripoint;
+  hold_standard_streams();
   remember_command_line(argc, argv);
   set_settler(settled);
   CLI::App app{description, "tripoint"};
@@ -61,5 +62,5 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? exit_pass : exit_bad_input;  // CLI11's own codes, 106 and others, mean nothing here
   }
-  return exit_code;
+  return output_arrived() || exit_code != exit_pass ? exit_code : exit_bad_input;
 }

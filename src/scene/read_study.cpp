@@ -108,7 +108,10 @@ Study read_study(const TomlNode& node, std::size_t number, double end_time, Read
   if (s.axis == "time_step" && end_time > most_steps * s.levels.back()) in.refuse("levels", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made", s.levels.back(), end_time / s.levels.back(), end_time, most_steps));
   s.support_ratios = read_together(in, "support_ratios", s), s.time_steps = read_together(in, "time_steps", s);
   s.jitter = in.number("jitter");
-  s.seeds = static_cast<int>(std::min(in.integer("seeds"), 100000L));
+  constexpr long most_seeds = 1000;
+  const long seeds = in.integer("seeds");
+  if (seeds > most_seeds) in.refuse("seeds", fmt::format("{} runs for each level are more than the {} that can be planned", seeds, most_seeds));
+  s.seeds = static_cast<int>(seeds);
   s.engine = in.text("engine"), s.mode = in.text("mode"), s.expect = in.text("expect"), s.order = in.maybe_number("order"), s.metric = in.text("metric");
   return s;
 }

@@ -103,6 +103,14 @@ class Cli(unittest.TestCase):
                       ["validate", "--profile", "daily"], ["gate"], ["gate", "absent.json"], ["validate", "--shard", "3/2"], ["compare", self.path / "cases/test/flight.toml", "--engines", "one"]):
             self.assertEqual(call(*words).returncode, 2, words)
 
+    def test_output_that_cannot_be_written_is_no_success(self):
+        with open("/dev/full", "w") as full:
+            end = subprocess.run([TRIPOINT, "list"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(end.returncode, 2)
+        self.assertIn("could not be written", end.stderr)
+        end = subprocess.run(f"exec {TRIPOINT} list >&-", shell=True, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(end.returncode, 2)
+
     def test_a_case_that_is_wrong_ends_2_and_names_file_and_line_before_anything_runs(self):
         self.write_cases("flight", "wrong")
         wrong = self.path / "cases/test/wrong.toml"
