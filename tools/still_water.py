@@ -162,7 +162,7 @@ def summary(rows):
         seen = [(r["windows"][n][0], r["windows"][n][1], r["name"]) for r in done if r["windows"][n]]
         if seen:
             worst, fastest = max(seen), max(seen, key=lambda s: s[1])
-            lines.append(f"- {first:g} to {last:g} s: {sum(s[0] < GOAL for s in seen)} of {len(seen)} cells stay below {GOAL:g} sqrt(g H) rms; the worst has {worst[0]:.3f} (`{worst[2]}`), the fastest particle {fastest[1]:.3f} (`{fastest[2]}`).")
+            lines.append(f"- {first:g} to {last:g} s: {sum(s[0] < GOAL for s in seen)} of {len(seen)} cells stay below {GOAL:g} sqrt(g H) rms; the worst has {worst[0]:.4f} (`{worst[2]}`), the fastest particle {fastest[1]:.3f} (`{fastest[2]}`).")
     if done:
         lines.append(f"- Work of walls: {small(max(r['greatest_wall_work'] for r in done))} rho g H V at most. Made by finite steps: {small(max(abs(r['steps_most']) for r in done))} at most.")
     return "\n".join(lines)
@@ -170,7 +170,7 @@ def summary(rows):
 
 def page(args):
     print("# Still water\n\nWater at rest in an open tank must stay at rest. `tools/still_water.py` runs the case `fluid/still-water` in other tanks and with other water. The tank's short side is\n"
-          "0.2 m, the other follows from the ratio; \"across\" counts particles along the short side. The layer is 6 particles thick and periodic. Everything else is a default.\n\n"
+          "0.2 m, the other follows from the ratio; \"across\" counts particles along the short side. The layer is 6 particles thick and periodic. Everything else is a default;\nsettled cells have `scene.settle = true` ([decision 13](decisions/013-a-settled-start.md)). Cells whose cost was above the budget ran shorter, or not at all.\n\n"
           "A cell of the columns by time holds the greatest rms speed of any frame of that window, and the greatest speed of any particle in it, both over sqrt(g H). Energies are over\n"
           "rho g H V: the most that fixed walls did, and what finite steps had made at the end.")
     for folder in args.out:
