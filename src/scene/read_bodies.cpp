@@ -179,7 +179,7 @@ Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
   const auto needs = [&](bool there, std::string_view key) {
     if (!there) in.refuse("", fmt::format("a {} event needs the key `{}`", kind, key));
   };
-  if (e.kind == Event::Kind::merge && e.bodies.size() < 2) in.refuse("bodies", "a merge names at least two bodies: bodies[0] absorbs the rest");
+  if (e.kind == Event::Kind::merge && e.bodies.size() < 2) in.refuse("bodies", "a merge needs at least two bodies: name another one, which bodies[0] absorbs, or remove the event");
   if (e.kind == Event::Kind::split) needs(e.region.has_value(), "region"), needs(!e.name.empty(), "name");
   if (e.kind == Event::Kind::heat) needs(e.temperature.has_value(), "temperature"), needs(e.region || !e.bodies.empty(), "region` or `bodies");
   if (e.kind == Event::Kind::grip) needs(e.region.has_value(), "region"), needs(!e.keyframes.empty(), "keyframes");

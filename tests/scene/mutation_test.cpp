@@ -90,7 +90,7 @@ TEST(MutatedCases, AreRefusedWithLineAndRemedyOrShowTheChange) {
   RecordProperty("refused", tally.refused);
   RecordProperty("shown", tally.shown);
   EXPECT_GT(tally.refused, 80) << "the mutants are too mild to prove anything";
-  EXPECT_GT(tally.shown, 20) << "the reader refuses what it should take";
+  EXPECT_GE(tally.shown, 15) << "the reader refuses what it should take";
   EXPECT_LT(tally.neutral, 40) << "the mutants change too little";
 }
 
