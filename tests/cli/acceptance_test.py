@@ -107,6 +107,12 @@ class Acceptance(unittest.TestCase):
         self.assertEqual(done.returncode, 4, done.stdout)
         self.assertIn("bullet was asked for and ran no case", done.stdout)
 
+    def test_the_page_of_all_engines_is_the_one_that_the_program_writes(self):
+        page = (SOURCE / "docs" / "acceptance.md").read_text()
+        self.assertTrue(page.startswith("# Acceptance: engines by the limits that any engine must hold\n\nWritten by `tripoint validate --profile acceptance --engines "))
+        for case in profile():
+            self.assertIn(case, page)
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
