@@ -54,7 +54,7 @@ Readback readback_from(const JsonObject& o) {
   r.time_step = o.number_or("time_step", 0.0);
   r.precision = o.text_or("precision", "double");
   for (const JsonObject& b : o.objects("bodies"))
-    r.bodies.push_back({b.text("name"), b.number("mass"), b.vector("centre"), b.vector("principal_inertia"), b.number_or("friction", 0.0), b.number_or("restitution", 0.0),
+    r.bodies.push_back({b.text("name"), b.number("mass"), b.vector("centre"), b.vector("principal_inertia"), b.number_or("friction", not_a_number), b.number_or("restitution", not_a_number),
                         b.number_or("linear_damping", 0.0), b.number_or("angular_damping", 0.0)});
   return r;
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "adapters/bullet/limits.hpp"
+#include "adapters/bullet/pieces.hpp"
 #include "adapters/bullet/presets.hpp"
 #include "scene/read_case.hpp"
 
@@ -63,14 +64,12 @@ void BulletEngine::set_arms(Row& row, const std::vector<Vec3>& at, const Vec3& c
   for (const Vec3& x : at) row.arms.push_back(rotate_back(principal, x - centre));
 }
 
-/// The case's own box or sphere where the preset wants it, else one piece a particle.
+/// The case's own shape where the preset wants it and Bullet has one for it, else one piece a particle.
 std::vector<Piece> BulletEngine::start_pieces(const Row& row, const JobBody& body) const {
-  const Shape& shape = job_.scene.body(body.name).shape;
   const Quaternion& axes = row.frame;
-  const auto local = [&](const Vec3& x) { return rotate_back(axes, x - body.properties.centre); };
   if (preset_for(job_).collision == Collision::solid) {
-    if (shape.kind == Shape::Kind::box) return {{false, local(0.5 * (shape.min + shape.max)), conjugate(axes), 0.5 * (shape.max - shape.min)}};
-    if (shape.kind == Shape::Kind::sphere) return {{true, local(shape.centre), {}, Vec3{shape.radius, shape.radius, shape.radius}}};
+    auto own = pieces_of(job_.scene.body(body.name).shape, {body.properties.centre, axes, body.motion == Motion::free});
+    if (!own.empty()) return own;
   }
   std::vector<Piece> pieces(row.arms.size(), particle_piece());
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -82,7 +81,7 @@ std::vector<Piece> BulletEngine::start_pieces(const Row& row, const JobBody& bod
 
 Piece BulletEngine::particle_piece() const {
   const double half = 0.5 * job_.resolution.spacing;
-  return {preset_for(job_).collision == Collision::spheres, {}, {}, {half, half, half}};
+  return {preset_for(job_).collision == Collision::spheres ? Piece::Kind::sphere : Piece::Kind::box, {}, {}, {half, half, half}};
 }
 
 RigidMotion BulletEngine::start_motion(const Row& row, const JobBody& body) const {

@@ -20,10 +20,14 @@ Vec3 spin_of(const MassProperties& p, const Vec3& angular_momentum) {
 }
 
 Piece to_world(const Piece& piece, const RigidMotion& m) {
-  return {piece.sphere, m.centre + rotate(m.orientation, piece.centre), m.orientation * piece.rotation, piece.half_extents};
+  Piece out = piece;
+  out.centre = m.centre + rotate(m.orientation, piece.centre), out.rotation = m.orientation * piece.rotation;
+  return out;
 }
 Piece to_frame(const Piece& piece, const Vec3& centre, const Quaternion& axes) {
-  return {piece.sphere, rotate_back(axes, piece.centre - centre), conjugate(axes) * piece.rotation, piece.half_extents};
+  Piece out = piece;
+  out.centre = rotate_back(axes, piece.centre - centre), out.rotation = conjugate(axes) * piece.rotation;
+  return out;
 }
 
 }  // namespace

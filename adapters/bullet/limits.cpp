@@ -53,16 +53,7 @@ std::string refuse_spin(const Job& job) {
   return {};
 }
 
-/// The particle model meets by pressure and viscosity alone: it has no law of Coulomb that Bullet's could be compared with.
-std::string refuse_friction(const Settings& settings) {
-  for (const auto& [key, value] : settings)
-    if (key.find("friction") != std::string::npos)
-      return fmt::format("no comparison: {} asks for a law of Coulomb, and the particle model has none; Bullet is run without friction", key);
-  return {};
-}
-
 std::string refuse_settings(const Job& job) {
-  if (auto reason = refuse_friction(job.settings); !reason.empty()) return reason;
   try {
     (void)preset_for(job);
     return wanted_time_step(job) > 0.0 ? "" : "bullet: time_step must be above zero";

@@ -35,6 +35,12 @@ double number(const std::string& key, const Setting& value) {
   throw InputError(fmt::format("bullet: the setting {} must be a number", key));
 }
 
+double not_negative(const std::string& key, const Setting& value) {
+  const double d = number(key, value);
+  if (!(d >= 0.0)) throw InputError(fmt::format("bullet: the setting {} is 0 or more", key));
+  return d;
+}
+
 template <class T>
 T word(const std::string& key, const Setting& value, const std::map<std::string, T>& allowed) {
   const auto* text = std::get_if<std::string>(&value);
@@ -56,8 +62,8 @@ const std::map<std::string, Entry>& entries() {
                      [](Preset& p, const std::string& k, const Setting& v) { p.collision = word(k, v, collision_words); }}},
       {"iterations", {"solver iterations, default 10 (resting: 200); the job's resolution.iterations goes first",
                       [](Preset& p, const std::string& k, const Setting& v) { p.iterations = static_cast<int>(number(k, v)); }}},
-      {"restitution", {"of a pair of bodies, default 0 (impact: 1)",
-                       [](Preset& p, const std::string& k, const Setting& v) { p.restitution = number(k, v); }}}};
+      {"friction", {"Coulomb's coefficient of a pair of bodies, default 0", [](Preset& p, const std::string& k, const Setting& v) { p.friction = not_negative(k, v); }}},
+      {"restitution", {"of a pair of bodies, default 0 (impact: 1)", [](Preset& p, const std::string& k, const Setting& v) { p.restitution = not_negative(k, v); }}}};
   return table;
 }
 

@@ -20,6 +20,7 @@ struct Preset {
   double restitution_threshold = 0.2;    ///< slower hits than this do not bounce [m/s]
   double contact_threshold = 1e30;       ///< contacts act from this distance on [m]
   double restitution = 0.0;              ///< of a pair of bodies
+  double friction = 0.0;                 ///< Coulomb's coefficient, of a pair of bodies
   Gyro gyro = Gyro::implicit_body;
   Collision collision = Collision::solid;
 };

@@ -37,6 +37,7 @@ double inverse_or_zero(double x) { return x > 0.0 ? 1.0 / x : 0.0; }
 
 /// A body with its shapes, freed in the right order.
 struct Solid {
+  std::vector<std::unique_ptr<btTriangleMesh>> meshes;
   std::vector<std::unique_ptr<btCollisionShape>> parts;
   std::unique_ptr<btCompoundShape> shape;
   std::unique_ptr<btRigidBody> body;
@@ -76,15 +77,35 @@ World::~World() = default;
 
 namespace {
 
+std::unique_ptr<btCollisionShape> hull_of(const Piece& piece) {
+  auto hull = std::make_unique<btConvexHullShape>();
+  for (const Vec3& corner : piece.corners) hull->addPoint(bt(corner), false);
+  hull->recalcLocalAabb();
+  hull->setMargin(0.0);  // Bullet's 4 cm would lie outside the faces
+  hull->initializePolyhedralFeatures();
+  return hull;
+}
+
+std::unique_ptr<btCollisionShape> surface_of(const Piece& piece, btTriangleMesh& mesh) {
+  for (const auto& t : piece.triangles) mesh.addTriangle(bt(piece.corners[t[0]]), bt(piece.corners[t[1]]), bt(piece.corners[t[2]]));
+  auto surface = std::make_unique<btBvhTriangleMeshShape>(&mesh, true);
+  surface->setMargin(0.0);
+  return surface;
+}
+
 Solid build_shapes(const std::vector<Piece>& pieces) {
   Solid solid;
   solid.shape = std::make_unique<btCompoundShape>(true, static_cast<int>(pieces.size()));
   for (const Piece& piece : pieces) {
     std::unique_ptr<btCollisionShape> part;
-    if (piece.sphere)
-      part = std::make_unique<btSphereShape>(piece.half_extents.x);
-    else
-      part = std::make_unique<btBoxShape>(bt(piece.half_extents));
+    switch (piece.kind) {
+      case Piece::Kind::sphere: part = std::make_unique<btSphereShape>(piece.half_extents.x); break;
+      case Piece::Kind::box: part = std::make_unique<btBoxShape>(bt(piece.half_extents)); break;
+      case Piece::Kind::hull: part = hull_of(piece); break;
+      case Piece::Kind::surface:
+        solid.meshes.push_back(std::make_unique<btTriangleMesh>());
+        part = surface_of(piece, *solid.meshes.back());
+    }
     solid.shape->addChildShape(btTransform(bt(piece.rotation), bt(piece.centre)), part.get());
     solid.parts.push_back(std::move(part));
   }
@@ -120,10 +141,10 @@ int World::add(const RigidPart& part) {
   body.setFlags(singular(part.principal_inertia) ? 0 : flags(impl_->preset.gyro));
   body.setActivationState(DISABLE_DEACTIVATION);
   body.setDamping(0.0, 0.0);
-  body.setFriction(0.0);  // the particle model has no Coulomb law to compare with
+  body.setFriction(std::sqrt(impl_->preset.friction));  // a pair's value is the product of both
   body.setRollingFriction(0.0);
   body.setSpinningFriction(0.0);
-  body.setRestitution(std::sqrt(impl_->preset.restitution));  // a pair's value is the product of both
+  body.setRestitution(std::sqrt(impl_->preset.restitution));
   if (impl_->preset.contact_threshold < 1e30) body.setContactProcessingThreshold(impl_->preset.contact_threshold);
   const int all = -1, none = 0;
   impl_->world.addRigidBody(&body, btBroadphaseProxy::DefaultFilter, impl_->preset.collision == Collision::none ? none : all);
@@ -157,7 +178,7 @@ HeldBody World::held(int handle) const {
   const btVector3& inverse = body.getInvInertiaDiagLocal();
   return {inverse_or_zero(body.getInvMass()), vec(body.getCenterOfMassPosition()),
           {inverse_or_zero(inverse.x()), inverse_or_zero(inverse.y()), inverse_or_zero(inverse.z())},
-          body.getFriction(), body.getRestitution(), body.getLinearDamping(), body.getAngularDamping()};
+          body.getFriction() * body.getFriction(), body.getRestitution() * body.getRestitution(), body.getLinearDamping(), body.getAngularDamping()};
 }
 
 Vec3 World::gravity() const { return vec(impl_->world.getGravity()); }
@@ -171,7 +192,9 @@ Wrench World::contact(int handle, double dt) const {
     if (!first && manifold.getBody1() != body) continue;
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
-      const Vec3 force = ((first ? 1.0 : -1.0) * point.getAppliedImpulse() / dt) * vec(point.m_normalWorldOnB);
+      const btVector3 impulse = point.getAppliedImpulse() * point.m_normalWorldOnB + point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+                                point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
+      const Vec3 force = ((first ? 1.0 : -1.0) / dt) * vec(impulse);
       const Vec3 arm = vec(first ? point.getPositionWorldOnA() : point.getPositionWorldOnB()) - vec(body->getCenterOfMassPosition());
       sum.force += force;
       sum.torque += cross(arm, force);

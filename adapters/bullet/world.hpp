@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,12 +13,14 @@
 /// Bullet's world behind plain data; the only file pair that includes Bullet's headers.
 namespace tripoint::bullet {
 
-/// One convex part of a body, in the body's principal frame.
+/// One part of a body, in the body's principal frame.
 struct Piece {
-  bool sphere = false;
+  enum class Kind { box, sphere, hull, surface } kind = Kind::box;
   Vec3 centre;           ///< [m]
-  Quaternion rotation;   ///< of the box's axes
+  Quaternion rotation;   ///< of the part's axes
   Vec3 half_extents;     ///< box [m]; a sphere's radius is half_extents.x
+  std::vector<Vec3> corners{};                           ///< hull, surface: about `centre`, in the part's axes [m]
+  std::vector<std::array<std::uint32_t, 3>> triangles{};  ///< surface: counter-clockwise seen from outside
 };
 
 /// A body's place and motion; orientation takes principal axes to world axes.
@@ -41,7 +45,8 @@ struct RigidPart {
 struct HeldBody {
   double mass = 0.0;  ///< 0 = infinite, as for fixed and driven bodies
   Vec3 centre, principal_inertia;
-  double friction = 0.0, restitution = 0.0, linear_damping = 0.0, angular_damping = 0.0;
+  double friction = 0.0, restitution = 0.0;  ///< of a pair of such bodies
+  double linear_damping = 0.0, angular_damping = 0.0;
 };
 
 struct Wrench {

@@ -2,13 +2,14 @@
 """DART (BSD-2-Clause), its wheel in double precision: free joints with semi-implicit Euler, contacts by its default solver."""
 from __future__ import annotations
 
+import math
 import sys
 from importlib.metadata import distribution, version
 from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb, pieces_of
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, pieces_of
 from rotation import IDENTITY, Quaternion, Vector, quaternion, rotate, vector
 
 
@@ -27,7 +28,7 @@ class DartWorld(World):
         self.world.setTimeStep(dt)
         self.world.setGravity(np.array(job.scene["gravity"]))
         self.friction = coulomb(job)
-        self.restitution = float(job.settings.get("restitution", 0.0))
+        self.restitution = math.sqrt(bounciness(job))  # a pair's value is the product of both
         self.nodes = {number: self.add(body) for number, body in enumerate(bodies)}
 
     def transform(self, at: Vector, turn: Quaternion) -> Any:
@@ -81,7 +82,7 @@ class DartWorld(World):
     def held(self, number: int) -> Held:
         inertia = self.nodes[number].getInertia()
         moment = inertia.getMoment()
-        return Held(float(inertia.getMass()), (float(moment[0][0]), float(moment[1][1]), float(moment[2][2])), self.friction, self.restitution)
+        return Held(float(inertia.getMass()), (float(moment[0][0]), float(moment[1][1]), float(moment[2][2])), self.friction, self.restitution * self.restitution)
 
     def gravity(self) -> Vector:
         return vector(self.world.getGravity())
@@ -91,7 +92,7 @@ class Dart(RigidEngine):
     name, title = "dart", "DART"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
     presets = ("default",)
-    settings = SHARED_SETTINGS | {"restitution": "of every surface, default 0"}
+    settings = SHARED_SETTINGS
     default_step = 0.001  # DART's own
 
     def version(self) -> str:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
 from rotation import Vector, dot, quaternion, rotate, vector
 
 WORLD_SETTINGS = {  # members of PhysicsSettings, in Jolt's words
@@ -40,7 +40,7 @@ class JoltWorld(World):
         program = str(Path(__file__).resolve().parent / "jolt_world.mjs")
         self.node = subprocess.Popen(["node", program, str(package)], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         scene = {"gravity": job.scene["gravity"], "gyroscopic": job.preset == "mApplyGyroscopicForce", "friction": coulomb(job),
-                 "restitution": float(job.settings.get("restitution", 0.0)), "bodies": [body_words(body) for body in bodies],
+                 "restitution": bounciness(job), "bodies": [body_words(body) for body in bodies],
                  "settings": {key: job.settings[key] for key in WORLD_SETTINGS if key in job.settings}}
         self.opened = self.ask({"open": scene})
         self.states = self.opened["states"]
@@ -88,7 +88,7 @@ class Jolt(RigidEngine):
     preset_words = {"default": '"mApplyGyroscopicForce = false" (Jolt, Physics/Body/BodyCreationSettings.h)',
                     "mApplyGyroscopicForce": '"Set to indicate that the gyroscopic force should be applied to this body (aka Dzhanibekov '
                                              'effect...)" (Jolt, Physics/Body/BodyCreationSettings.h)'}
-    settings = SHARED_SETTINGS | WORLD_SETTINGS | {"restitution": "of every pair, default 0"}
+    settings = SHARED_SETTINGS | WORLD_SETTINGS
     precision = "single"
     default_step = 1.0 / 60.0  # of Jolt's own example
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
 from rotation import Quaternion, Vector, add, product, quaternion, rotate, vector
 
 os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here, so no window library is wanted
@@ -86,7 +86,9 @@ class MujocoWorld(World):
 
     def held(self, number: int) -> Held:
         body = self.rows[number] + 1  # 0 is the world
-        return Held(float(self.model.body_mass[body]), vector(self.model.body_inertia[body]))
+        geom = int(self.model.body_geomadr[body])
+        friction = float(self.model.geom_friction[geom][0]) if geom >= 0 else None
+        return Held(float(self.model.body_mass[body]), vector(self.model.body_inertia[body]), friction)
 
     def gravity(self) -> Vector:
         return vector(self.model.opt.gravity)
@@ -122,6 +124,9 @@ class Mujoco(RigidEngine):
         for key in ("solref", "solimp"):
             if key in job.settings and not isinstance(job.settings[key], str):
                 return f'mujoco: the setting {key} is a text of numbers, for example "0.02 1"'
+        bounce = bounciness(job)
+        if bounce > 0.0 and len(job.bodies) > 1 and "solref" not in job.settings:
+            return f"MuJoCo has no coefficient of restitution, and {bounce:g} is asked for; the setting solref makes contacts springs with a damping"
         return ""
 
     def open(self, job: Job, bodies: list[Body], dt: float) -> World:

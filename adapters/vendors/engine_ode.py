@@ -12,7 +12,7 @@ from typing import Any
 
 from contract import Job, serve
 from ode_library import APPROX_1, BOUNCE, Contact, Mass, Near, load, reals
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, moves
 from rotation import Vector, add, dot, product, quaternion, rotate, vector
 
 MOST_CONTACTS = 8  # of a pair of surfaces
@@ -38,7 +38,7 @@ class OdeWorld(World):
         self.space = ode.dHashSpaceCreate(None)
         self.joints = ode.dJointGroupCreate(0)
         self.mu = coulomb(job)
-        self.bounce = float(job.settings.get("bounce", 0.0))
+        self.bounce = float(job.settings.get("bounce", bounciness(job)))
         self.bounce_vel = float(job.settings.get("bounce_vel", 0.0))
         self.touched = 0
         self.found = (Contact * MOST_CONTACTS)()
@@ -48,7 +48,9 @@ class OdeWorld(World):
         self.bodies = {number: self.add_free(body, gyroscopic) for number, body in enumerate(bodies) if body.free}
         self.surfaces = sum(len(body.pieces) for body in bodies)
         for body in bodies:
-            if not body.free:
+            if moves(body):
+                self.add_moved(body)
+            elif not body.free:
                 self.add_fixed(body)
 
     def add_free(self, body: Body, gyroscopic: int) -> Any:
@@ -61,12 +63,26 @@ class OdeWorld(World):
         ode.dBodySetAngularVel(handle, *body.spin)
         ode.dBodySetGyroscopicMode(handle, gyroscopic)
         ode.dBodySetFiniteRotationMode(handle, self.finite)
+        self.cover(handle, body)
+        return handle
+
+    def cover(self, handle: Any, body: Body) -> None:
+        """Gives a body of ODE its surface."""
+        ode = self.ode
         for piece in body.pieces:
             geom = self.geom(piece)
             ode.dGeomSetBody(geom, handle)
             ode.dGeomSetOffsetPosition(geom, *piece.centre)
             ode.dGeomSetOffsetQuaternion(geom, reals(piece.rotation))
-        return handle
+
+    def add_moved(self, body: Body) -> None:
+        """A kinematic body goes on at its velocity, and contacts see it."""
+        handle = self.ode.dBodyCreate(self.world)
+        self.ode.dBodySetPosition(handle, *body.centre)
+        self.ode.dBodySetQuaternion(handle, reals(body.frame))
+        self.ode.dBodySetKinematic(handle)
+        self.ode.dBodySetLinearVel(handle, *body.velocity)
+        self.cover(handle, body)
 
     def add_fixed(self, body: Body) -> None:
         for piece in body.pieces:
@@ -132,11 +148,12 @@ class Ode(RigidEngine):
     settings = SHARED_SETTINGS | {
         "gyroscopic": "gyroscopic term, true (ODE's default) or false",
         "finite_rotation": "orientation by a finite rotation, true or false (ODE's default: an infinitesimal one)",
-        "bounce": "restitution of every pair, default 0",
+        "bounce": "ODE's word for restitution, which it goes before",
         "bounce_vel": "slower hits than this do not bounce, default 0 [m/s]",
         "erp": "share of an error that a step removes, ODE's default 0.2",
         "cfm": "constraint force mixing, ODE's default 1e-10",
         "iterations": "of dWorldQuickStep, ODE's default 20"}
+    moves_bodies = True
     default_step = 1.0 / 240.0  # ours: ODE has none
 
     def version(self) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
 from rotation import Quaternion, Vector, norm, rotate, vector
 
 WORLD_SETTINGS = {  # attributes of IntegrationParameters, in Rapier's words, with what they are
@@ -38,7 +38,7 @@ class RapierWorld(World):
             if key in job.settings:
                 setattr(parameters, key, type(getattr(parameters, key))(job.settings[key]))
         self.friction = coulomb(job)
-        self.restitution = float(job.settings.get("restitution", 0.0))
+        self.restitution = bounciness(job)
         self.gyroscopic = bool(job.settings.get("gyroscopic_forces", True))
         self.handles = {number: self.add(body) for number, body in enumerate(bodies)}
 
@@ -91,8 +91,7 @@ class Rapier(RigidEngine):
     name, title = "rapier", "Rapier"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
     presets = ("SIMPLIFIED", "COULOMB")
-    settings = SHARED_SETTINGS | WORLD_SETTINGS | {"gyroscopic_forces": "true (Rapier's default) or false",
-                                                   "restitution": "of every pair, default 0"}
+    settings = SHARED_SETTINGS | WORLD_SETTINGS | {"gyroscopic_forces": "true (Rapier's default) or false"}
     precision = "single"
     default_step = 1.0 / 60.0  # Rapier's own
 

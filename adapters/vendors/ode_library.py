@@ -39,7 +39,7 @@ _FUNCTIONS: dict[str, tuple[Any, tuple[Any, ...]]] = {  # name -> result, argume
     "dHashSpaceCreate": (_V, (_V,)), "dSpaceCollide": (None, (_V, _V, Near)),
     "dJointGroupCreate": (_V, (_I,)), "dJointGroupEmpty": (None, (_V,)), "dJointCreateContact": (_V, (_V, _V, POINTER(Contact))),
     "dJointAttach": (None, (_V, _V, _V)),
-    "dBodyCreate": (_V, (_V,)), "dBodySetMass": (None, (_V, POINTER(Mass))), "dBodyGetMass": (None, (_V, POINTER(Mass))),
+    "dBodyCreate": (_V, (_V,)), "dBodySetKinematic": (None, (_V,)), "dBodySetMass": (None, (_V, POINTER(Mass))), "dBodyGetMass": (None, (_V, POINTER(Mass))),
     "dMassSetParameters": (None, (POINTER(Mass),) + (_D,) * 10),
     "dBodySetPosition": (None, (_V, _D, _D, _D)), "dBodySetQuaternion": (None, (_V, _R)), "dBodySetLinearVel": (None, (_V, _D, _D, _D)),
     "dBodySetAngularVel": (None, (_V, _D, _D, _D)), "dBodySetGyroscopicMode": (None, (_V, _I)), "dBodySetFiniteRotationMode": (None, (_V, _I)),

@@ -33,14 +33,19 @@ class Piece(NamedTuple):
 class Body:
     name: str
     index: int  # row of the trajectory
-    free: bool  # else fixed
+    free: bool  # else fixed, or moved at its velocity
     mass: float  # [kg]
     centre: Vector  # centre of mass at the start [m]
     frame: Quaternion  # principal to world axes at the start
     inertia: Vector  # principal moments [kg m2]
-    velocity: Vector  # [m/s]
+    velocity: Vector  # [m/s]; of a moved body that of the plane, for ever
     spin: Vector  # angular velocity in the world frame [rad/s]
     pieces: tuple[Piece, ...]  # empty where nothing can be touched
+
+
+def moves(body: Body) -> bool:
+    """Whether it is prescribed: it goes on at its velocity, whatever it meets."""
+    return not body.free and body.velocity != (0.0, 0.0, 0.0)
 
 
 class State(NamedTuple):
@@ -57,8 +62,8 @@ class Held(NamedTuple):
 
     mass: float  # [kg]
     inertia: Vector  # in the order of the principal axes [kg m2]
-    friction: float = 0.0
-    restitution: float = 0.0
+    friction: float | None = None  # of contact with its like; None where the engine has no such number
+    restitution: float | None = None
     linear_damping: float = 0.0
     angular_damping: float = 0.0
 
@@ -128,8 +133,8 @@ def _refuse_body(body: dict[str, Any], engine: str, alone: bool) -> str:
         return f"{engine} knows no heat, and {name} has a temperature"
     if body["joins"] or body["joined_to"]:
         return f"bonds between bodies are not handed to {engine}, and {name} has some"
-    if body["motion"] == "prescribed":
-        return f"prescribed motion is not handed to {engine}, and {name} has one"
+    if body["motion"] == "prescribed" and (body["keyframes"] or any(body["angular_velocity"])):
+        return f"of prescribed motions only a constant velocity is handed over, and {name} has keyframes or turns"
     if body["motion"] == "free" and min(body["principal_inertia"]) <= 0.0:
         return f"{engine} needs three principal moments above 0, and {name} has {body['principal_inertia']} kg m2"
     if not alone and pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) is None:
@@ -163,6 +168,7 @@ class RigidEngine(Engine):
     """An engine that takes rigid bodies: a subclass says its own refusals and opens a `World`."""
 
     title: str  # the vendor's own spelling
+    moves_bodies = False  # whether bodies of constant velocity are handed over
     default_step: float  # [s], where neither the scene nor the settings say one
 
     @abstractmethod
@@ -185,6 +191,9 @@ class RigidEngine(Engine):
             return f"{self.name}: no setting '{unknown[0]}'; there are {', '.join(self.settings)}"
         if not self.wanted_step(job) > 0.0:
             return f"{self.name}: time_step must be above zero"
+        moved = [body["name"] for body in job.bodies if body["motion"] == "prescribed"]
+        if moved and not self.moves_bodies:
+            return f"prescribed motion is not handed to {self.title}, and {moved[0]} has one"
         return refuse_scene(job, self.title) or self.refuse(job)
 
     def run(self, job: Job) -> Outcome:
@@ -224,7 +233,7 @@ def _rows(job: Job, bodies: list[Body], world: World, limit: float, outcome: Out
 
 def _row(at: float, body: Body, state: State | None) -> Row:
     if state is None:
-        return [at, body.index, *body.centre, 0.0, 0.0, 0.0, *IDENTITY, 0.0, 0.0, 0.0]
+        return [at, body.index, *add(body.centre, scaled(at, body.velocity)), *body.velocity, *IDENTITY, 0.0, 0.0, 0.0]
     if not all(abs(c) < LARGEST for part in state for c in part):  # nor is a number that is none below it
         raise Diverged(f"the state of {body.name} is not finite, or beyond {LARGEST:g}", body.index, at)
     turned = product(normalised(state.orientation), conjugate(body.frame))
@@ -232,9 +241,15 @@ def _row(at: float, body: Body, state: State | None) -> Row:
 
 
 def coulomb(job: Job) -> float:
-    """Coefficient of friction of every pair [-]: the setting's, else none, because the particle model has no law of Coulomb."""
+    """Coefficient of friction of every pair [-], none where the settings say none."""
     return float(job.settings.get("friction", 0.0))
 
 
+def bounciness(job: Job) -> float:
+    """Restitution of every pair [-], none where the settings say none."""
+    return float(job.settings.get("restitution", 0.0))
+
+
 SHARED_SETTINGS = {"time_step": "goes before the job's [s]; shortened so that output times are hit exactly",
-                   "friction": "coefficient of every pair, default 0: the particle model has no law of Coulomb"}
+                   "friction": "Coulomb's coefficient of every pair, default 0",
+                   "restitution": "of every pair, default 0"}

@@ -238,7 +238,7 @@ constexpr auto tables_of_case = std::to_array<TableInfo>({
     {"velocity.expression", "velocity = {kind = \"expression\", ...}", "Formulas."},
     {"event", "[[event]]", "An event at a time."},
     {"inflow", "[[inflow]]", "Liquid that flows in."},
-    {"engines", "[engines.NAME]", "Each engine and preset is one row of the results."},
+    {"engines", "[engines.NAME]", "Each engine and preset is one row of the results. [engines.all] is no engine: its settings go to every engine, of which an engine's own go before: `friction` (Coulomb's coefficient) and `restitution` of every pair of bodies."},
     {"reference", "[reference]", "The truth that metrics are compared with."},
     {"metric", "[[metric]]", "A number computed from each run."},
     {"study", "[[study]]", "Runs at several levels of one axis: a convergence study."},

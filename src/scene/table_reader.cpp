@@ -49,9 +49,9 @@ TomlNode fallback_value(const Key& row) {
 std::string what_there_is_instead(std::string_view key) {
   const auto holds = [&](std::string_view word) { return key.find(word) != key.npos; };
   if (holds("friction"))
-    return "particles of two solids meet by pressure and viscosity alone, there is no law of Coulomb; scene.contact_viscosity [Pa s] brakes solids that slide on each other, joined_to bonds them";
+    return "engines that have Coulomb's law take it from [engines.all] settings = { friction = ... }; in the particle solver solids meet by pressure and viscosity alone, there is no law of Coulomb; scene.contact_viscosity [Pa s] brakes solids that slide on each other, joined_to bonds them";
   if (holds("restitution"))
-    return "contact is elastic by its energy, and nothing sets what a hit gives back; scene.contact_viscosity [Pa s] takes energy from a contact";
+    return "engines that have it take it from [engines.all] settings = { restitution = ... }; in the particle solver contact is elastic by its energy, and nothing sets what a hit gives back; scene.contact_viscosity [Pa s] takes energy from a contact";
   if (holds("damping")) return "no term damps a motion; scene.contact_viscosity [Pa s] takes energy where solids touch, viscosity [Pa s] in a liquid";
   if (holds("surface_tension")) return "surface tension is not simulated";
   return {};

@@ -168,6 +168,49 @@ TEST(Bullet, KeepsACollinearBodyFinite) {
   EXPECT_LT(norm(after.bodies[0].angular_velocity - Vec3{0, 0, 1}), 1e-9) << "a line turns about its short axis for ever, though its least moment is 0";
 }
 
+/// A block of 4 x 4 x 2 on a floor.
+Prepared on_floor(double friction, const Vec3& velocity, const Vec3& gravity) {
+  Scene s;
+  s.spacing = 0.1, s.gravity = gravity;
+  s.materials = {test::material(1000.0)};
+  s.bodies = {test::rigid("block", test::box({0, -0.2, 0}, {0.4, 0.2, 0.2}), {velocity, {}}), test::rigid("floor", test::box({-1, -0.5, -0.2}, {3, 0.5, 0}), {}, Motion::fixed)};
+  Prepared p = test::prepare(s, 0.5, 5);
+  p.job.preset = "resting";
+  p.job.settings["friction"] = friction;
+  p.job.resolution.time_step = 1e-3;
+  return p;
+}
+
+TEST(Bullet, BrakesABlockByFriction) {
+  for (const double mu : {0.0, 0.1, 0.3}) {
+    const double v = fly(on_floor(mu, {2, 0, 0}, {0, 0, -9.81})).back().bodies[0].velocity.x;
+    EXPECT_NEAR(v, 2.0 - mu * 9.81 * 0.5, 5e-4) << "mu = " << mu;
+  }
+}
+
+TEST(Bullet, HoldsABlockOnASlopeThatIsNotSteeperThanItsFriction) {
+  const Vec3 g{9.81 * std::sin(0.349066), 0, -9.81 * std::cos(0.349066)};  // 20 degrees, whose tangent is 0.364
+  EXPECT_LT(std::abs(fly(on_floor(0.38, {}, g)).back().bodies[0].velocity.x), 1e-6);
+  EXPECT_NEAR(fly(on_floor(0.35, {}, g)).back().bodies[0].velocity.x, 0.5 * (g.x + 0.35 * g.z), 1e-3);
+}
+
+TEST(Bullet, PutsFrictionIntoTheForceOnABody) {
+  const Prepared p = on_floor(0.3, {2, 0, 0}, {0, 0, -9.81});
+  const BodyState block = fly(p)[2].bodies[0];
+  const double weight = p.job.bodies[0].properties.mass * 9.81;
+  EXPECT_NEAR(block.force.z, weight, 1e-6 * weight);
+  EXPECT_NEAR(block.force.x, -0.3 * weight, 1e-3 * weight);
+}
+
+TEST(Bullet, SaysWhatLawsOfContactItHolds) {
+  Prepared p = on_floor(0.3, {}, {0, 0, -9.81});
+  p.job.settings["restitution"] = 0.6;
+  BulletEngine engine;
+  engine.load(p.job, p.initial);
+  EXPECT_NEAR(engine.readback().bodies.at(0).friction, 0.3, 1e-15);
+  EXPECT_NEAR(engine.readback().bodies.at(0).restitution, 0.6, 1e-15);
+}
+
 TEST(Bullet, RepeatsItsBits) {
   const Prepared p = head_on(0.5, 1e-3);
   EXPECT_EQ(state_hash(fly(p).back()), state_hash(fly(p).back()));
@@ -199,8 +242,9 @@ TEST(Bullet, SaysWhyItRefuses) {
   EXPECT_NE(reason([](Job& j) { j.scene.periodic[1] = true; }).find("periodic"), std::string::npos);
   EXPECT_NE(reason([](Job& j) { j.preset = "soft"; }).find("no preset 'soft'"), std::string::npos);
   EXPECT_NE(reason([](Job& j) { j.settings["gyro"] = std::string("maybe"); }).find("gyro"), std::string::npos);
-  for (const char* key : {"friction", "rolling_friction", "spinning_friction"})
-    EXPECT_NE(reason([&](Job& j) { j.settings[key] = 0.5; }).find("law of Coulomb"), std::string::npos) << key;
+  for (const char* key : {"rolling_friction", "spinning_friction"})
+    EXPECT_NE(reason([&](Job& j) { j.settings[key] = 0.5; }).find("no setting"), std::string::npos) << key;
+  EXPECT_NE(reason([](Job& j) { j.settings["friction"] = -0.5; }).find("0 or more"), std::string::npos);
   EXPECT_NE(reason([](Job& j) { j.bodies[0].angular_velocity = {0, 0, 100}; }).find("pi/4"), std::string::npos);
 }
 

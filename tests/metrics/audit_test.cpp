@@ -42,6 +42,19 @@ TEST(Audit, FindsAFrozenFlightThatSpinsByWholeTurns) {
   EXPECT_NE(t.sound().find("frozen"), std::string::npos);
 }
 
+/// A body that friction has stopped keeps a speed in the last digits, which moves it by nothing.
+TEST(Audit, LetsABodyLieThatKeepsARoundingOfItsSpeed) {
+  for (const double speed : {1e-18, 1e-3}) {
+    Trial t(thrown_block(), "ballistic");
+    auto& frames = t.run.frames;
+    for (auto* f : {&frames[frames.size() - 3], &frames[frames.size() - 2], &frames.back()}) {
+      f->position = frames[frames.size() - 3].position;
+      for (auto& v : f->velocity) v = {speed, 0.0, 0.0};
+    }
+    EXPECT_EQ(t.sound().find("frozen") != std::string::npos, speed > 1e-12) << t.sound();
+  }
+}
+
 /// Two frames at the same height, one on the way up and one on the way down.
 TEST(Audit, LetsAThrownBodyComeBack) {
   auto s = thrown_block();

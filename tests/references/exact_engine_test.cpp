@@ -43,6 +43,26 @@ TEST_F(ExactEngineTest, ServesTheTruthAtEveryTime) {
   EXPECT_NEAR(engine.readback().bodies.at(0).mass, 1.0, 1e-14);
 }
 
+TEST_F(ExactEngineTest, PlacesTheParticlesOfBodiesThatTheReferenceKnows) {
+  s_ = {};
+  s_.job.scene.spacing = 0.1, s_.job.scene.gravity = {0, 0, -9.81};
+  s_.job.settings["friction"] = 0.25;
+  test::add_body(s_, "block", {{4, 4, 2}, 0.1, {}, 4.0}, {{1, 0, 0}, {}});
+  test::add_body(s_, "floor", {{20, 4, 1}, 0.1, {-0.5, 0.0, -0.1}, 1.0}, {}, Motion::fixed);
+  test::set_times(s_, 0.2, 2);
+  s_.job.reference = test::function("sliding"), s_.job.particles = file_.string();
+  write_particles(file_.string(), s_.initial);
+  ExactEngine engine;
+  ASSERT_EQ(engine.refusal(s_.job), "");
+  engine.load(s_.job, s_.initial);
+  engine.advance_to(0.2);
+  const auto frame = engine.observe();
+  const double v = 1.0 - 0.25 * 9.81 * 0.2;
+  EXPECT_NEAR(frame.velocity[3].x, v, 1e-15);
+  EXPECT_NEAR(frame.position[3].x - s_.initial.position[3].x, 0.2 - 0.5 * 0.25 * 9.81 * 0.04, 1e-15);
+  EXPECT_EQ(frame.position.back(), s_.initial.position.back()) << "the floor stays";
+}
+
 TEST_F(ExactEngineTest, RefusesInTheReferencesOwnWords) {
   ExactEngine engine;
   s_.job.reference = test::function("invariant");

@@ -32,6 +32,16 @@ std::string audit_body(const JobBody& given, const ReadbackBody& held, double sp
   return {};
 }
 
+/// What the engine holds of the laws of contact that all engines were handed, where it says it.
+std::string audit_contact(const Settings& asked, const ReadbackBody& held, double share) {
+  for (const auto& [law, found] : {std::pair{"friction", held.friction}, {"restitution", held.restitution}}) {
+    const auto at = asked.find(law);
+    const double* const wanted = at == asked.end() ? nullptr : std::get_if<double>(&at->second);
+    if (wanted && std::isfinite(found) && !same(*wanted, found, share * std::max(1.0, *wanted))) return fmt::format("{} of {} is {:.6g}, given was {:.6g}", law, held.name, found, *wanted);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string audit_scene(const Job& job, const Readback& held) {
@@ -42,6 +52,8 @@ std::string audit_scene(const Job& job, const Readback& held) {
     if (given == job.bodies.end()) return fmt::format("it holds a body {} that the scene does not have", body.name);
     if (given->phase != Phase::rigid || given->motion != Motion::free) continue;  // a driven body's mass is the engine's own affair
     if (const auto other = audit_body(*given, body, job.scene.spacing, roundings(held)); !other.empty()) return other;
+    if (job.bodies.size() < 2) continue;  // alone: it touches nothing
+    if (const auto other = audit_contact(job.settings, body, roundings(held)); !other.empty()) return other;
   }
   return {};
 }

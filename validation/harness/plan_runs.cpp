@@ -18,6 +18,16 @@ std::optional<double> number_setting(const Settings& settings, const std::string
   return std::get<double>(at->second);
 }
 
+constexpr std::string_view every_engine = "all";  ///< [engines.all]: settings, no engine
+
+/// Settings of an engine over those that all engines get.
+Settings settings_of(const Case& value, const EngineChoice& engine) {
+  Settings settings = engine.settings;
+  for (const auto& e : value.engines)
+    if (e.name == every_engine) settings.insert(e.settings.begin(), e.settings.end());
+  return settings;
+}
+
 std::vector<EngineChoice> engines_of(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
   std::vector<EngineChoice> list;
   const auto listed = [&](const std::string& name) { return std::find_if(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; }); };
@@ -29,7 +39,8 @@ std::vector<EngineChoice> engines_of(const Case& value, const std::vector<Engine
     list.push_back(choice);
   };
   add("tripoint", listed("tripoint") == value.engines.end());
-  for (const auto& e : value.engines) add(e.name, false);
+  for (const auto& e : value.engines)
+    if (e.name != every_engine) add(e.name, false);
   if (has_states(value.reference)) add("exact", false);
   for (const auto& name : selection.extra) add(name, false);
   for (const auto& name : selection.engines) add(name, false);
@@ -150,7 +161,7 @@ std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEnt
   std::vector<EnginePlan> plans;
   for (const auto& engine : engines_of(value, found, selection)) {
     EnginePlan plan;
-    plan.name = engine.name, plan.required = engine.required, plan.settings = engine.settings;
+    plan.name = engine.name, plan.required = engine.required, plan.settings = settings_of(value, engine);
     plan.entry = find_engine(found, engine.name);
     if (plan.entry && !plan.entry->available) plan.runs.clear();
     else plan.runs = runs_of(value, engine, selection);

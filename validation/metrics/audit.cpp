@@ -74,10 +74,11 @@ bool should_move(const Job& job) {
 bool same_places(const Snapshot& a, const Snapshot& b) { return !a.position.empty() && a.position == b.position; }
 bool same_motion(const Snapshot& a, const Snapshot& b) { return same_places(a, b) && a.velocity == b.velocity; }
 
-/// Some particle moves the same way in both frames: it has not turned back between them (a pause between keyframes is no fault).
-bool goes_on(const Snapshot& a, const Snapshot& b) {
+/// Some particle moves the same way in both frames: it has not turned back between them (a pause between keyframes is no fault), and by more than
+/// what a body at rest keeps of its speed in the last digits.
+bool goes_on(const Job& job, const Snapshot& a, const Snapshot& b) {
   for (std::size_t i = 0; i < std::min(a.velocity.size(), b.velocity.size()); ++i)
-    if (dot(a.velocity[i], b.velocity[i]) > 0.0) return true;
+    if (dot(a.velocity[i], b.velocity[i]) > 0.0 && norm(a.velocity[i]) * (b.time - a.time) > 1e-12 * job.scene.spacing) return true;
   return false;
 }
 
@@ -161,7 +162,7 @@ std::string frozen(const Job& job, const InitialState& initial, const Frames& fr
   const bool moves = should_move(job);
   for (std::size_t n = 1; n < frames.size(); ++n) {
     const auto &a = *frames[n - 1], &b = *frames[n];
-    if (moves && same_places(a, b) && goes_on(a, b) && goes_far(job, a, b.time - a.time) && is_resolved(job, a, b.time - a.time) && !may_come_back(job, initial, a.time, b.time))
+    if (moves && same_places(a, b) && goes_on(job, a, b) && goes_far(job, a, b.time - a.time) && is_resolved(job, a, b.time - a.time) && !may_come_back(job, initial, a.time, b.time))
       return "frozen: no particle moves from t = " + std::to_string(a.time) + " to " + std::to_string(b.time) + " s, yet they have velocities";
   }
   const auto &first = *frames.front(), &last = *frames.back();

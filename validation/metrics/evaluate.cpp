@@ -7,6 +7,7 @@
 #include "validation/metrics/dominant_frequency.hpp"
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"
+#include "validation/metrics/impact_quantities.hpp"
 #include "validation/metrics/norms.hpp"
 #include "validation/metrics/statistics.hpp"
 
@@ -39,13 +40,13 @@ const Quantity* find_quantity(const MetricInput& input) {
   if (of_body && body_row(input) >= 0) return of_body;
   if (const auto* q = in(particle_quantities(), choice.quantity)) return q;
   if (of_body) return of_body;
-  for (const auto* list : {&conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(), &phase_quantities(), &probe_quantities()})
+  for (const auto* list : {&conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(), &impact_quantities(), &phase_quantities(), &probe_quantities()})
     if (const auto* q = in(*list, choice.quantity)) return q;
   return in(profile_quantities(), choice.quantity);
 }
 
 const RunQuantity* find_run_quantity(const MetricChoice& choice) {
-  for (const auto* list : {&run_quantities(), &motion_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
+  for (const auto* list : {&run_quantities(), &motion_quantities(), &impact_run_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
     for (const auto& q : *list)
       if (q.word.name == choice.quantity) return &q;
   return nullptr;
@@ -228,11 +229,11 @@ std::optional<double> value_of_series(const MetricChoice& choice, const MetricVa
 const std::vector<MetricWord>& metric_quantities() {
   static const std::vector<MetricWord> words = [] {
     std::vector<MetricWord> list;
-    for (const auto* group : {&particle_quantities(), &body_quantities(), &conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(), &phase_quantities(),
+    for (const auto* group : {&particle_quantities(), &body_quantities(), &conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(), &impact_quantities(), &phase_quantities(),
                               &profile_quantities(), &probe_quantities()})
       for (const auto& q : *group)
         if (!q.word.meaning.empty()) list.push_back(q.word);
-    for (const auto* group : {&run_quantities(), &motion_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
+    for (const auto* group : {&run_quantities(), &motion_quantities(), &impact_run_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
       for (const auto& q : *group) list.push_back(q.word);
     return list;
   }();

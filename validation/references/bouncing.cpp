@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "validation/references/on_plane.hpp"
 #include "validation/references/resting.hpp"
 
 namespace tripoint {
@@ -54,7 +55,8 @@ std::unique_ptr<Reference> make_bouncing(const ReferenceInput& in) {
   const auto& box = in.job.bodies[scene.block];
   const Vec3 along = box.velocity - box.velocity[scene.axis] * Vec3{scene.axis == 0 ? 1.0 : 0.0, scene.axis == 1 ? 1.0 : 0.0, scene.axis == 2 ? 1.0 : 0.0};
   if (norm(along) > 0.0 || norm(box.angular_velocity) > 0.0) throw InputError("bouncing holds for a box that falls straight and does not turn");
-  const double restitution = in.args.number("restitution").value_or(1.0);
+  const double of_scene = law_of_contact(in.job, "restitution").value_or(1.0);
+  const double restitution = in.args.number("restitution").value_or(of_scene);
   if (restitution < 0.0 || restitution > 1.0) throw InputError("bouncing: the restitution lies from 0 to 1");
   const Flight start{scene.up * (box.properties.centre[scene.axis] - scene.rest), scene.up * box.velocity[scene.axis]};
   if (!(start.height > 0.0)) throw InputError("bouncing: the box must start above the floor");
@@ -64,8 +66,8 @@ std::unique_ptr<Reference> make_bouncing(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry bouncing_entry() {
-  return {{"bouncing", "analytic", "Newton: parabolas between hits; each hit turns the speed round by the restitution", "a box that falls flat on a fixed floor and bounces",
-           {{"restitution", "1", "speed after a hit over that before it; default 1"}}},
+  return {{"bouncing", "analytic", "Newton: parabolas between hits; each hit turns the speed round by the restitution", "a ball, or a box that falls flat, on a fixed floor: it bounces",
+           {{"restitution", "1", "speed after a hit over that before it; default that of all engines' settings, 1 where they say none"}}},
           make_bouncing};
 }
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "scene/nearest.hpp"
-#include "validation/references/functions.hpp"
+#include "validation/references/contact_entries.hpp"
 
 namespace tripoint {
 
@@ -12,7 +12,7 @@ const std::vector<ReferenceEntry>& all_references() {
       merge_in_flight_entry(), split_in_flight_entry(),         keyframes_entry(),      cosine_mode_entry(),
       cosine_mode_lattice_entry(), sine_held_ends_entry(), step_insulated_entry(),      two_conductivities_entry(), hydrostatic_entry(), poiseuille_entry(), couette_entry(), sound_wave_entry(),
       liquid_ball_entry(), archimedes_entry(), added_mass_entry(), elastic_collision_entry(),
-      resting_entry(), bouncing_entry(), elliptic_drop_entry(), taylor_green_entry(), couette_cylinders_entry(),
+      resting_entry(), bouncing_entry(), sliding_entry(), rolling_entry(), landing_entry(), elliptic_drop_entry(), taylor_green_entry(), couette_cylinders_entry(),
       cosine_carried_entry(), cosine_sum_entry(), cantilever_entry(), tension_entry(), spinning_rod_entry(), pressed_block_entry(), elastic_wave_entry(),
       stefan_entry(), hysteresis_entry(), stated_entry(), expression_entry(), table_entry(), experiment_entry(), invariant_entry()};
   return entries;

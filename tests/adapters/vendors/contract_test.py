@@ -23,7 +23,7 @@ from engine_jolt import piece_words  # noqa: E402
 from engine_mujoco import model_text  # noqa: E402
 from engine_ode import plane_of  # noqa: E402
 from ode_library import Contact, ContactGeom, Mass, Surface  # noqa: E402
-from rigid import body_of, pieces_of, steps_in  # noqa: E402
+from rigid import body_of, moves, pieces_of, steps_in  # noqa: E402
 from rotation import IDENTITY, between, product, rotate  # noqa: E402
 from scenes import body, check, floor, job, run  # noqa: E402
 
@@ -62,7 +62,7 @@ class Calls(unittest.TestCase):
 class Refusals(unittest.TestCase):
     def test_each_names_the_body_and_the_reason(self):
         for change, word in (({"temperature": {"kind": "constant", "value": 300.0}}, "heat"), ({"joined_to": ["b"]}, "bonds"),
-                             ({"motion": "prescribed"}, "prescribed"), ({"principal_inertia": [0.0, 1.0, 1.0]}, "moments")):
+                             ({"motion": "prescribed"}, "prescribed"), ({"motion": "prescribed", "angular_velocity": [0.0, 0.0, 1.0]}, "prescribed"), ({"principal_inertia": [0.0, 1.0, 1.0]}, "moments")):
             reason = refusal([body(**change)])
             self.assertIn(word, reason)
             self.assertIn("cube", reason)
@@ -76,6 +76,12 @@ class Refusals(unittest.TestCase):
         pipe = body(shape={"kind": "cylinder", "base": [0, 0, 0], "axis": [0, 0, 1], "length": 1.0, "radius": 0.1})
         self.assertEqual(refusal([pipe]), "")
         self.assertIn("cylinder", refusal([pipe, floor()]))
+
+    def test_mujoco_has_no_restitution_but_contacts_that_are_springs(self):
+        self.assertIn("no coefficient of restitution", refusal([body(), floor()], settings={"restitution": 0.5}))
+        self.assertEqual(refusal([body(), floor()], settings={"restitution": 0.5, "solref": "-1e5 0"}), "")
+        self.assertEqual(refusal([body(), floor()], settings={"restitution": 0.0}), "")
+        self.assertEqual(refusal([body()], settings={"restitution": 0.5}), "")  # alone it hits nothing
 
     def test_presets_and_settings_are_the_vendors_own_words(self):
         self.assertIn("Euler, implicitfast", refusal([body()], preset="tuned"))
@@ -247,10 +253,35 @@ class MujocoAdapter(unittest.TestCase):
         self.assertEqual({(row["x"], row["z"], row["vz"], row["qw"]) for row in rows}, {(0.0, -0.5, 0.0, 1.0)})
 
     def test_the_model_says_the_presets_integrator_and_the_contacts_settings(self):
-        given = SimpleNamespace(scene=job([])["scene"], preset="RK4", settings={"friction": 0.5, "solref": "-1000 -10"})
+        given = SimpleNamespace(scene=job([])["scene"], preset="RK4", settings={"friction": 0.5, "solref": "-1000 -10"}, bodies=[])
         text = model_text(given, [body_of(body(), True), body_of(floor(), True)], 0.004)
         for words in ('integrator="RK4"', 'timestep="0.004"', 'friction="0.5 0 0"', 'condim="3"', 'solref="-1000 -10"', 'type="plane"', 'diaginertia="1.0 2.0 2.5"'):
             self.assertIn(words, text)
+
+
+class Laws(unittest.TestCase):
+    def test_the_model_gets_the_friction_of_all_engines(self):
+        given = SimpleNamespace(scene=job([])["scene"], preset="Euler", settings={"friction": 0.25}, bodies=[body(), floor()])
+        self.assertIn('friction="0.25 0 0" condim="3"', model_text(given, [body_of(body(), True), body_of(floor(), True)], 0.004))
+
+    def test_every_rigid_engine_takes_friction_and_restitution_0(self):
+        for name, engine in catalogue()["engines"].items():
+            if "(RigidEngine)" not in (ADAPTERS / engine["adapter"]).read_text(encoding="utf-8"):
+                continue
+            command = ["/usr/bin/python3", "-B", str(ADAPTERS / engine["adapter"])]
+            with self.subTest(name):
+                self.assertEqual(check(command, job([body()], preset=engine["presets"][0], settings={"friction": 0.3, "restitution": 0.0}))["reason"], "")
+
+    def test_the_read_back_says_what_friction_the_engine_holds(self):
+        (held,) = mujoco([body(), floor()], settings={"friction": 0.25}).result["readback"]["bodies"]
+        self.assertEqual((held["friction"], held["restitution"]), (0.25, None))
+
+    def test_a_board_that_goes_on_at_its_velocity_is_where_it_is(self):
+        board = body_of(floor(velocity=[0.5, 0.0, 0.0]) | {"motion": "prescribed"}, True)
+        self.assertTrue(moves(board))
+        self.assertFalse(moves(body_of(floor(), True)) or moves(body_of(body(), True)))
+        command = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_ode.py")]
+        self.assertTrue(check(command, job([body(), floor() | {"motion": "prescribed", "velocity": [0.5, 0.0, 0.0]}], preset="dWorldStep"))["can"])
 
 
 class OdeAdapter(unittest.TestCase):

@@ -17,8 +17,8 @@ def body(**changes):
 
 
 def floor(**changes):
-    return body(name="floor", index=1, motion="fixed", centre=[0.0, 0.0, -0.5], velocity=[0.0, 0.0, 0.0],
-                shape={"kind": "half_space", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0]}, **changes)
+    return body(**{"name": "floor", "index": 1, "motion": "fixed", "centre": [0.0, 0.0, -0.5], "velocity": [0.0, 0.0, 0.0],
+                   "shape": {"kind": "half_space", "point": [0.0, 0.0, 0.0], "normal": [0.0, 0.0, 1.0]}, **changes})
 
 
 def job(bodies, times=(0.0, 0.5, 1.0), time_step=0.01, preset="default", settings=None, **scene):

@@ -21,6 +21,9 @@ class MjModel:
         model.body_mass = [0.0] + [float(b.find("inertial").get("mass")) for b in bodies]
         model.body_inertia = [[0.0, 0.0, 0.0]] + [_numbers(b.find("inertial").get("diaginertia")) for b in bodies]
         model.ngeom = len(root.findall(".//geom"))
+        geoms = [[geom.get("friction") for geom in b.findall("geom")] for b in bodies]
+        model.geom_friction = [_numbers(words) for own in geoms for words in own]
+        model.body_geomadr = [-1] + [sum(map(len, geoms[:n])) if own else -1 for n, own in enumerate(geoms)]
         model.start = [number for b in bodies for number in _numbers(b.get("pos")) + _numbers(b.get("quat"))]
         return model
 

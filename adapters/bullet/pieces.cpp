@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adapters/bullet/pieces.hpp"
+
+#include <algorithm>
+
+#include "scene/mesh.hpp"
+
+namespace tripoint::bullet {
+namespace {
+
+/// Whether no corner lies before any face by more than rounding.
+bool convex(const Mesh& mesh) {
+  double size = 0.0;
+  for (const Vec3& p : mesh.points) size = std::max(size, norm(p - mesh.points.front()));
+  return std::ranges::all_of(mesh.triangles, [&](const auto& t) {
+    const Vec3 a = mesh.points[t[0]], normal = cross(mesh.points[t[1]] - a, mesh.points[t[2]] - a);
+    return std::ranges::all_of(mesh.points, [&](const Vec3& p) { return dot(normal, p - a) <= 1e-9 * size * norm(normal); });
+  });
+}
+
+std::vector<Piece> mesh_pieces(const Shape& shape, const PlaceOfShape& place) {
+  const Mesh mesh = read_mesh(shape.file, shape.scale);
+  const bool hull = convex(mesh);
+  if (!hull && place.free) return {};
+  Piece piece{hull ? Piece::Kind::hull : Piece::Kind::surface, {}, {}, {}, mesh.points, mesh.triangles};
+  for (Vec3& corner : piece.corners) corner = rotate_back(place.axes, corner - place.centre);
+  return {piece};
+}
+
+std::vector<Piece> pieces_of_parts(const std::vector<Shape>& parts, const PlaceOfShape& place) {
+  std::vector<Piece> all;
+  for (const Shape& part : parts) {
+    const auto own = pieces_of(part, place);
+    if (own.empty()) return {};
+    all.insert(all.end(), own.begin(), own.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Piece> pieces_of(const Shape& shape, const PlaceOfShape& place) {
+  const auto local = [&](const Vec3& x) { return rotate_back(place.axes, x - place.centre); };
+  switch (shape.kind) {
+    case Shape::Kind::box: return {{Piece::Kind::box, local(0.5 * (shape.min + shape.max)), conjugate(place.axes), 0.5 * (shape.max - shape.min)}};
+    case Shape::Kind::sphere: return {{Piece::Kind::sphere, local(shape.centre), {}, Vec3{shape.radius, shape.radius, shape.radius}}};
+    case Shape::Kind::unite: return pieces_of_parts(shape.of, place);
+    case Shape::Kind::mesh: return mesh_pieces(shape, place);
+    default: return {};
+  }
+}
+
+}  // namespace tripoint::bullet
