@@ -145,16 +145,21 @@ def render_side_by_side(results):
     return fill("side_by_side.html.j2", results, comparisons=side_by_side.read(results), notes=[])
 
 
+def render_headline(results, found, others):
+    """@return HTML of one question that engines are chosen by"""
+    return fill("headline.html.j2", results, page=found, others=others, notes=found.notes)
+
+
 def render_signable(results):
     """@return HTML of the report that is signed; its PDF is made of it"""
     return fill("signable.html.j2", results, **signable.context(results))
 
 
-def render(results, pictures, notes, suite, missing_libraries):
+def render(results, pictures, notes, suite, missing_libraries, headlines=()):
     """@param pictures, notes: case number -> list   @param suite: pictures of all cases   @return HTML"""
     columns = summary.columns(results)
     return fill(
         "report.html.j2", results,
         columns=columns, cells={(case.number, label): summary.cell(case, label) for case in results.cases for label in columns},
         counts=summary.counts(results), engines=summary.engine_table(results), gaps=summary.not_validated(results), pictures=pictures, notes=notes, suite=suite,
-        missing=missing_libraries, proof=signable.selftest_document(results.folder), meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"))
+        missing=missing_libraries, headlines=headlines, proof=signable.selftest_document(results.folder), meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"))

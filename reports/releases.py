@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
+import headlines
 import page
 from model import number, rows, text
 
@@ -90,7 +91,7 @@ def render(document, picture):
     gates = [gate_line(r, row, gate) for r in releases for row in rows(r.get("rows")) for gate in rows(row.get("gates"))]
     red = [gate for gate in gates if gate["verdict"] != "pass"]
     return page.fill("releases.html.j2", SimpleNamespace(tool={}, profile=""), document=document, presets=presets, metrics=metrics, picture=picture,
-                     changes=[change_line(c) for c in rows(document.get("changes"))], gates=len(gates), red=red, notes=[])
+                     answer=headlines.upgrade_answer(document), changes=[change_line(c) for c in rows(document.get("changes"))], gates=len(gates), red=red, notes=[])
 
 
 def main(arguments):

@@ -2,7 +2,7 @@
 """Writes the report of a validation run: python3 report.py RESULTS.json [--out DIR] [--jobs N]
 
 results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is one self-contained file,
-as are the pages that it links to: DIR/printed-equations.html, DIR/table-1.html, DIR/paper-figures.html, DIR/stability.html, DIR/digit-cost.html, DIR/corrections.html, DIR/engines.html and DIR/signable.html (with --pdf also DIR/report.pdf). DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
+as are the pages that it links to: DIR/printed-equations.html, DIR/table-1.html, DIR/paper-figures.html, DIR/stability.html, DIR/digit-cost.html, DIR/corrections.html, DIR/engines.html and DIR/signable.html; and, where their cases were run, DIR/spin.html, DIR/bounce.html, DIR/float.html and DIR/upgrade.html (with --pdf also DIR/report.pdf). DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
 Exit: 0 the page is written, whatever it says; 2 there is nothing to report on.
 """
 from __future__ import annotations
@@ -14,9 +14,11 @@ import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import headlines
 import load
 import page
 import plain
+import releases
 import signable
 import speed
 
@@ -89,7 +91,14 @@ def main(arguments=None):
         write(out / "signable.html", page.render_signable(results))
         if (results.folder / "speed.json").is_file():
             speed.main([str(results.folder / "speed.json"), str(out / "speed.html")])
-        write(out / "index.html", page.render(results, pictures, notes, suite, missing))
+        found, told = headlines.pages(results, out)
+        results.notes.extend(told)
+        for headline in found:
+            if headline.file != "upgrade.html":
+                write(out / headline.file, page.render_headline(results, headline, found))
+        if (results.folder / "releases.json").is_file():
+            releases.main([str(results.folder / "releases.json"), str(out / "upgrade.html")])
+        write(out / "index.html", page.render(results, pictures, notes, suite, missing, found))
     print(out / "index.html")
     if options.pdf:
         why = signable.to_pdf(out / "signable.html", out / "report.pdf")

@@ -14,6 +14,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "reports")]
 import ablation  # noqa: E402
 import digit_cost  # noqa: E402
+import headlines  # noqa: E402
 import load  # noqa: E402
 import report  # noqa: E402
 import side_by_side  # noqa: E402
@@ -192,6 +193,39 @@ class Signable(Pages):
     def test_the_pdf_is_one(self):
         self.assertEqual(self.write(case([ladder(2.0, 5.0)]), words=["--pdf"]), 0)
         self.assertEqual((self.path / "report.pdf").read_bytes()[:5], b"%PDF-")
+
+
+def bounce(case_id, gain):
+    runs = [{"knobs": {"time_step": 1e-3}, "base": True, "status": "ok", "metrics": {"energy_gain": {"value": gain}}, "cost": {}}]
+    return case([{"name": "bullet", "preset": "impact", "status": "ok", "runs": runs, "gates": []}], case_id)
+
+
+class Headlines(Pages):
+    def pages(self, *cases):
+        return headlines.pages(self.load(*cases), self.path)
+
+    def test_an_engine_that_makes_energy_is_named_with_how_much(self):
+        (page,), notes = self.pages(bounce("contact/ball-restitution-100", 0.12), bounce("contact/ball-restitution-050", 0.0))
+        self.assertEqual((page.file, notes), ("bounce.html", []))
+        self.assertIn("bullet · impact makes up to 12 % of the energy of the fall", page.answer)
+        self.assertEqual([line.cells for line in page.lines], [["12 %", "less than 0.1 %"]])
+
+    def test_one_that_makes_none_is_told_so_and_a_case_that_did_not_run_has_no_page(self):
+        (page,), _ = self.pages(bounce("contact/ball-restitution-100", 0.006))
+        self.assertTrue(page.answer.startswith("No: none of 1 "), page.answer)
+        self.assertEqual(self.pages(case([ladder(2, 3)])), ([], []))
+
+    def test_the_front_page_links_what_there_is(self):
+        self.assertEqual(self.write(bounce("contact/ball-restitution-100", 0.0)), 0)
+        self.assertIn("make energy when it bounces", self.text("index.html"))
+        self.assertTrue((self.path / "bounce.html").is_file())
+        self.assertFalse((self.path / "float.html").exists())
+
+    def test_an_upgrade_is_answered_from_the_greatest_change(self):
+        releases = [{"engine": "mujoco", "version": v} for v in ("3.10.0", "3.11.0")]
+        worse = {"from": "3.10.0", "to": "3.11.0", "preset": "implicitfast", "metric": "angle", "before": 4.6e-4, "after": 0.6, "worse": True, "round_off": False}
+        self.assertIn("implicitfast's angle error grows 1.3e+03 times", headlines.upgrade_answer({"releases": releases, "changes": [worse]}))
+        self.assertTrue(headlines.upgrade_answer({"releases": releases, "changes": [], "margin": 1.5}).startswith("Yes"))
 
 
 if __name__ == "__main__":
