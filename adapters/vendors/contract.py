@@ -12,8 +12,9 @@ import platform
 import sys
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from importlib.metadata import distribution
 from pathlib import Path
 from typing import Any
 
@@ -126,6 +127,12 @@ class Engine(ABC):
         return {"contract": 1, "name": self.name, "version": self.version(), "build": self.build(), "library": held,
                 "capabilities": list(self.capabilities), "presets": list(self.presets), "preset_words": self.preset_words, "settings": self.settings,
                 "deterministic": self.deterministic}
+
+
+def file_of(package: str, wanted: Callable[[str], bool]) -> Path | None:
+    """The first file of an installed package whose name, without folders, is wanted."""
+    files = distribution(package).files or []
+    return next((Path(str(f.locate())) for f in files if wanted(f.name)), None)
 
 
 def file_hash(path: Path) -> str:

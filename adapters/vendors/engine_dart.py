@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import sys
-from importlib.metadata import distribution, version
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from contract import Job, serve
+from contract import Job, file_of, serve
 from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, pieces_of
 from rotation import IDENTITY, Quaternion, Vector, quaternion, rotate, vector
 
@@ -99,8 +99,7 @@ class Dart(RigidEngine):
         return version("dartpy")
 
     def library(self) -> Path | None:
-        files = distribution("dartpy").files or []
-        return next((Path(str(f.locate())) for f in files if f.name.startswith("dartpy") and f.name.endswith(".so")), None)
+        return file_of("dartpy", lambda name: name.startswith("dartpy") and name.endswith(".so"))
 
     def refuse(self, job: Job) -> str:
         for body in job.bodies:

@@ -8,7 +8,7 @@ from importlib.metadata import distribution, version
 from pathlib import Path
 from typing import Any
 
-from contract import Job, serve
+from contract import Job, file_of, serve
 from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
 from rotation import Quaternion, Vector, add, product, quaternion, rotate, vector
 
@@ -117,8 +117,7 @@ class Mujoco(RigidEngine):
 
     def library(self) -> Path | None:
         held = next((name for name in ("mujoco-core", "mujoco") if _has(name)), "mujoco")
-        files = distribution(held).files or []
-        return next((Path(str(f.locate())) for f in files if f.name.startswith("libmujoco.so")), None)
+        return file_of(held, lambda name: name.startswith("libmujoco.so"))
 
     def refuse(self, job: Job) -> str:
         for key in ("solref", "solimp"):

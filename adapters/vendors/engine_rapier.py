@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 import sys
-from importlib.metadata import distribution, version
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from contract import Job, serve
+from contract import Job, file_of, serve
 from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
 from rotation import Quaternion, Vector, norm, rotate, vector
 
@@ -99,8 +99,7 @@ class Rapier(RigidEngine):
         return version("rapier3d")
 
     def library(self) -> Path | None:
-        files = distribution("rapier3d").files or []
-        return next((Path(str(f.locate())) for f in files if f.name.endswith(".so")), None)
+        return file_of("rapier3d", lambda name: name.endswith(".so"))
 
     def refuse(self, job: Job) -> str:
         if not isinstance(job.settings.get("gyroscopic_forces", True), bool):
