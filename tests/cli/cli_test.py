@@ -13,44 +13,7 @@ from pathlib import Path
 
 TRIPOINT, FAKE = sys.argv[1], sys.argv[2]
 VERBS = "run validate merge compare report converge recommend plan ablate gate check explain list new schema engines engine".split()
-FLIGHT = """format = 1
-[case]
-title = "Flight"
-requirement = "R"
-claims = "it flies"
-profiles = ["commit"]
-[scene]
-end_time = 0.5
-gravity = [0.0, 0.0, -9.81]
-spacing = 0.1
-time_step = 0.01
-output_interval = 0.05
-[[material]]
-name = "stuff"
-density = 1000.0
-[[body]]
-name = "cube"
-material = "stuff"
-phase = "rigid"
-shape = { kind = "box", min = [0.0, 0.0, 0.0], max = [0.3, 0.3, 0.3] }
-velocity = [1.0, 0.0, 2.0]
-[engines.fake]
-required = true
-[reference]
-kind = "analytic"
-function = "ballistic"
-source = "the parabola"
-[[metric]]
-name = "position"
-quantity = "position"
-norm = "max"
-unit = "m"
-[[gate]]
-metric = "position"
-engine = "fake"
-limit = 1e-10
-reason = "round-off"
-"""
+FLIGHT = Path(FAKE).with_name("flight.toml").read_text().replace("[reference]", "[engines.fake]\nrequired = true\n[reference]").replace("limit = 1e-10", 'engine = "fake"\nlimit = 1e-10')
 
 
 def call(*words, **more):

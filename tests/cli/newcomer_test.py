@@ -16,41 +16,7 @@ from pathlib import Path
 
 TRIPOINT, FAKE, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:4])
 CASE = "rigid/ballistic"
-FLIGHT = """format = 1
-[case]
-title = "Flight"
-requirement = "R"
-claims = "it flies"
-profiles = ["commit"]
-[scene]
-end_time = 0.5
-gravity = [0.0, 0.0, -9.81]
-spacing = 0.1
-time_step = 0.01
-output_interval = 0.05
-[[material]]
-name = "stuff"
-density = 1000.0
-[[body]]
-name = "cube"
-material = "stuff"
-phase = "rigid"
-shape = { kind = "box", min = [0.0, 0.0, 0.0], max = [0.3, 0.3, 0.3] }
-velocity = [1.0, 0.0, 2.0]
-[reference]
-kind = "analytic"
-function = "ballistic"
-source = "the parabola"
-[[metric]]
-name = "position"
-quantity = "position"
-norm = "max"
-unit = "m"
-[[gate]]
-metric = "position"
-limit = 1e-10
-reason = "round-off"
-"""
+FLIGHT = FAKE.with_name("flight.toml").read_text()
 
 
 def hashes(folder):

@@ -43,42 +43,10 @@ inline std::string fake_engine(const TestFolder& folder, const std::string& wron
   return path;
 }
 
-/// One body in free flight, judged against the parabola at round-off.
+/// One body in free flight, judged against the parabola at round-off: fake/flight.toml, and more.
 inline std::string flight_case(const std::string& more = "") {
-  return R"(format = 1
-[case]
-title = "Flight"
-requirement = "R"
-claims = "it flies"
-[scene]
-end_time = 0.5
-gravity = [0.0, 0.0, -9.81]
-spacing = 0.1
-time_step = 0.01
-output_interval = 0.05
-[[material]]
-name = "stuff"
-density = 1000.0
-[[body]]
-name = "cube"
-material = "stuff"
-phase = "rigid"
-shape = { kind = "box", min = [0.0, 0.0, 0.0], max = [0.3, 0.3, 0.3] }
-velocity = [1.0, 0.0, 2.0]
-[reference]
-kind = "analytic"
-function = "ballistic"
-source = "the parabola"
-[[metric]]
-name = "position"
-quantity = "position"
-norm = "max"
-unit = "m"
-[[gate]]
-metric = "position"
-limit = 1e-10
-reason = "round-off"
-)" + more;
+  std::ifstream file(std::filesystem::path(TRIPOINT_FAKE_ENGINE).replace_filename("flight.toml"));
+  return std::string{std::istreambuf_iterator<char>(file), {}} + more;
 }
 
 inline Case read_flight_case(const TestFolder& folder, const std::string& more = "") {
