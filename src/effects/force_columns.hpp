@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <vector>
 
 #include "effects/world.hpp"
@@ -13,17 +14,27 @@ struct ForceColumns {
   double Booked::*work_on_driven;  ///< on what the scene moves
 };
 
-/// All forces that the effects of this scene make, each once, in a fixed order. Valid until particles are sorted anew.
+/// A force that an effect can make: its fields, and where its work is booked.
+struct ForceFields {
+  Field<double> x, y, z;
+  double Booked::*work;
+  double Booked::*work_on_driven;
+};
+
+/// Every force that there is, each once, in the order in which forces are summed.
+inline constexpr auto force_fields = std::to_array<ForceFields>({
+    {field::force_x, field::force_y, field::force_z, &Booked::pressure_work, &Booked::wall_pressure_work},
+    {field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, &Booked::viscous_work, &Booked::wall_viscous_work},
+    {field::transport_force_x, field::transport_force_y, field::transport_force_z, &Booked::transport_work, &Booked::transport_work},
+    {field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, &Booked::elastic_work, &Booked::wall_elastic_work},
+});
+
+/// Those of them that the effects of this scene make. Valid until particles are sorted anew.
 [[nodiscard]] inline std::vector<ForceColumns> force_columns(const World& world) {
   const Particles& p = world.particles;
   std::vector<ForceColumns> list;
-  const auto add = [&](const Field<double>& x, const Field<double>& y, const Field<double>& z, double Booked::*work, double Booked::*on_driven) {
-    if (p.has(x.name)) list.push_back({triple(p, x, y, z), work, on_driven});
-  };
-  add(field::force_x, field::force_y, field::force_z, &Booked::pressure_work, &Booked::wall_pressure_work);
-  add(field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, &Booked::viscous_work, &Booked::wall_viscous_work);
-  add(field::transport_force_x, field::transport_force_y, field::transport_force_z, &Booked::transport_work, &Booked::transport_work);
-  add(field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, &Booked::elastic_work, &Booked::wall_elastic_work);
+  for (const ForceFields& f : force_fields)
+    if (p.has(f.x.name)) list.push_back({triple(p, f.x, f.y, f.z), f.work, f.work_on_driven});
   return list;
 }
 

@@ -11,7 +11,7 @@
 namespace tripoint::motion {
 namespace {
 
-constexpr std::size_t most_forces = 5;
+constexpr std::size_t most_forces = force_fields.size();
 
 class FreeMotion : public Effect {
  public:
