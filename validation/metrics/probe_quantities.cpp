@@ -56,6 +56,18 @@ Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std
   return {{solver.solve(b)[0]}, ""};
 }
 
+/// A number read off the run, less what the reference states, or else the same number read off the true field at the run's own places.
+template <class Read>
+FrameError against_stated_or_field(const FramePair& f, const char* quantity, Read read) {
+  const Column measured = read(f.now);
+  if (!measured.problem.empty()) return problem(measured.problem);
+  if (truth_of(f.in, quantity, f.now.time)) return against_truth(f, quantity, measured.value[0]);
+  Snapshot truth = f.truth;
+  truth.position = f.now.position;
+  const Column known = read(truth);
+  return known.problem.empty() ? single(measured.value[0] - known.value[0]) : problem(std::string("the reference does not know the ") + quantity + " and states no value");
+}
+
 FrameError probe(const FramePair& f, Of what, const char* quantity) {
   const auto point = stated_point(f.in.reference);
   if (!point) return problem(std::string(quantity) + " needs the probe's place: reference = {function = \"stated\", args = {point = [x, y, z], value = ...}}");
@@ -66,13 +78,7 @@ FrameError probe(const FramePair& f, Of what, const char* quantity) {
     const Column column = column_of(f.in, s, what);
     return column.problem.empty() ? at_point(f.in, f.now.position, particles, column.value, *point) : column;
   };
-  const Column measured = read(f.now);
-  if (!measured.problem.empty()) return problem(measured.problem);
-  if (truth_of(f.in, quantity, f.now.time)) return against_truth(f, quantity, measured.value[0]);
-  Snapshot truth = f.truth;
-  truth.position = f.now.position;
-  const Column known = read(truth);
-  return known.problem.empty() ? single(measured.value[0] - known.value[0]) : problem(std::string("the reference does not know the ") + quantity + " and states no value");
+  return against_stated_or_field(f, quantity, read);
 }
 
 // --- means ----------------------------------------------------------------------------------------------------------------
@@ -103,13 +109,7 @@ FrameError mean(const FramePair& f, Of what, const char* quantity) {
     }
     return {{double(sum / volume)}, ""};
   };
-  const Column measured = read(f.now);
-  if (!measured.problem.empty()) return problem(measured.problem);
-  if (truth_of(f.in, quantity, f.now.time)) return against_truth(f, quantity, measured.value[0]);
-  Snapshot truth = f.truth;
-  truth.position = f.now.position;
-  const Column known = read(truth);
-  return known.problem.empty() ? single(measured.value[0] - known.value[0]) : problem(std::string("the reference does not know the ") + quantity + " and states no value");
+  return against_stated_or_field(f, quantity, read);
 }
 
 // --- places ---------------------------------------------------------------------------------------------------------------
