@@ -76,15 +76,24 @@ bool on_github() {
   return set && std::string(set) == "true";
 }
 
+bool holds_baselines(const std::string& folder) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, std::filesystem::directory_options::follow_directory_symlink))
+    if (entry.path().extension() == ".toml") return true;
+  return false;
+}
+
 int judge_file(const GateOptions& o) {
   const auto results = judged(results_file(o.results));
   auto remarks = verdict_remarks(results);
   if (!o.baselines.empty() && !std::filesystem::is_directory(o.baselines)) throw InputError("--baselines " + o.baselines + ": is no folder");
+  if (!o.baselines.empty() && !holds_baselines(o.baselines)) throw InputError("--baselines " + o.baselines + ": holds no baseline (SUBJECT/CASE.toml), and nothing would be judged by it");
   for (const auto& list : {recheck_remarks(results), slack_remarks(results), baseline_remarks(results, o.require_baselines, o.baselines), lost_case_remarks(results, o.baselines)}) remarks.insert(remarks.end(), list.begin(), list.end());
   if (const auto commit = this_tool().commit; results.tool.commit != commit)
     remarks.push_back({false, 0, {}, "the results", fmt::format("were made by commit {}, and this program is of {}: validate again to judge what is here", results.tool.commit, commit), 1.0, {}});
   if (!results.shard.empty() && !results.shard.ends_with("/1"))
     remarks.push_back({false, 0, {}, "the results", fmt::format("are part {} of a suite: tripoint merge joins the parts, and the whole is judged", results.shard), 1.0, {}});
+  if (!results.filter_known && !results.cases.empty())
+    remarks.push_back({false, 0, {}, "the results", "are of chosen cases (-k, --last-failed, or another command than validate): what was left out is not judged here", 1.0, {}});
   std::set<int> codes{results.exit_code};
   for (const auto& r : remarks)
     if (r.error) codes.insert(r.code);

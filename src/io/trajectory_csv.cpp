@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -30,6 +31,7 @@ class Table {
     for (std::size_t k = 0; k < names.size(); ++k)
       if (!column_.emplace(names[k], k).second) throw InputError({path, 1, 0}, "the header names the column \"" + names[k] + "\" twice");
   }
+  [[noreturn]] void refuse(const std::string& what) const { throw InputError(place_, what); }
   void line(const std::string& text, int number) {
     place_ = {path_, number, 0};
     const auto cells = split(text);
@@ -80,6 +82,7 @@ Snapshot empty_frame(double time, const InitialState& initial, std::size_t bodie
 
 void put_particle(const Table& row, const InitialState& initial, Snapshot& s) {
   const std::size_t i = row.row("id", initial.size());
+  if (s.id[i] >= 0) row.refuse("particle " + std::to_string(i) + " has a row already at this time");
   s.id[i] = static_cast<int>(i);
   s.position[i] = row.vector("x", "y", "z");
   s.velocity[i] = row.vector("vx", "vy", "vz");
@@ -92,10 +95,11 @@ void put_particle(const Table& row, const InitialState& initial, Snapshot& s) {
 void put_body(const Table& row, const InitialState& initial, const std::vector<MassProperties>& start, Snapshot& s) {
   const std::size_t b = row.row("body", s.bodies.size());
   BodyState& body = s.bodies[b];
+  if (std::isfinite(body.mass)) row.refuse("body " + std::to_string(b) + " has a row already at this time");
   body.mass = start[b].mass;
   body.position = row.vector("x", "y", "z");
   body.velocity = row.vector("vx", "vy", "vz");
-  body.orientation = {};  // an engine that writes none does not turn
+  body.orientation = {}, body.angular_velocity = {};  // an engine that writes none does not turn
   if (row.has("qw")) body.orientation = {row["qw"], row["qx"], row["qy"], row["qz"]};
   if (row.has("wx")) body.angular_velocity = row.vector("wx", "wy", "wz");
   for (std::size_t i = 0; i < initial.size(); ++i) {

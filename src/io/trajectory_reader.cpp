@@ -36,6 +36,7 @@ class Reader {
     if (given != unit) throw InputError(path_ + ": " + value + " is in \"" + given + "\", expected \"" + unit + "\"");
     expect(block, width, value);
     block.real.resize(total(block), not_a_number);
+    expect_own_times(element);
     return block;
   }
   h5::Block whole(const std::string& element) {
@@ -43,6 +44,7 @@ class Reader {
     h5::Block block = h5::read_whole(file_.get(), value, path_);
     expect(block, 1, value);
     block.whole.resize(total(block), -1);
+    expect_own_times(element);
     return block;
   }
 
@@ -55,6 +57,15 @@ class Reader {
     whole_ = std::min(whole_, block.shape[0]);
     block.shape[0] = std::max(block.shape[0], frames_);
     if (block.shape[2] != width) throw InputError(path_ + ": " + what + " has " + std::to_string(block.shape[2]) + " components, expected " + std::to_string(width));
+  }
+
+  /// H5MD gives each element times of its own: what is not of the times of the positions is not of these frames.
+  void expect_own_times(const std::string& element) const {
+    const std::string name = "/" + element + "/time";
+    if (!h5::has(file_.get(), name)) return;
+    const std::vector<double> own = h5::read_real(file_.get(), name, path_).real;
+    for (std::size_t f = 0; f < std::min(own.size(), frames_); ++f)
+      if (own[f] != time_[f]) throw InputError(path_ + ": " + element + " is of " + std::to_string(own[f]) + " s in frame " + std::to_string(f) + ", and position of " + std::to_string(time_[f]) + " s");
   }
 
   std::string path_;

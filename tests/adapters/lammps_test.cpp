@@ -16,7 +16,6 @@ using test::Outcome;
 using test::Prepared;
 using test::wheel;
 
-
 TEST(Lammps, FallsExactly) {
   const Vec3 g{0.3, 0, -9.81}, v{1, 0, 5};
   const Prepared p = test::block({v, {}}, g, 1.0, 3, 0.01);
@@ -224,7 +223,7 @@ void expect_sine_between_plates(const std::string& engine, const std::string& co
 TEST(LammpsWalkers, LangevinFindsASineBetweenHeldEnds) { expect_sine_between_plates(debian, "langevin"); }
 
 TEST(LammpsWalkers, BrownianFindsASineBetweenHeldEnds) {
-  if (wheel_is_missing()) GTEST_SKIP() << "no LAMMPS wheel";
+  NEEDS_THE_WHEEL();
   expect_sine_between_plates(wheel, "brownian");
 }
 

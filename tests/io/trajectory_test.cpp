@@ -40,6 +40,32 @@ Snapshot frame_at(double time, int particles, int bodies) {
   return s;
 }
 
+TEST_F(Io, ACsvWithTwoRowsForOneBodyOrParticleAtATimeIsRefused) {
+  InitialState initial;
+  initial.position = {{0, 0, 0}, {1, 0, 0}}, initial.velocity = {{}, {}}, initial.mass = {1.0, 1.0}, initial.phase = {2, 2}, initial.body = {0, 0}, initial.material = {0, 0}, initial.source = {0, 0};
+  const auto refusal = [&](const std::string& text) -> std::string {
+    std::ofstream(path("trajectory.csv")) << text;
+    try {
+      (void)read_trajectory_csv(path("trajectory.csv"), initial, 1);
+      return "";
+    } catch (const InputError& e) {
+      return e.what();
+    }
+  };
+  EXPECT_EQ(refusal("time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n1,0,0.5,0,0,0,0,0\n"), "");
+  EXPECT_NE(refusal("time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n0,0,9.5,0,0,0,0,0\n").find("trajectory.csv:3: body 0 has a row already"), std::string::npos);
+  EXPECT_NE(refusal("time,id,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n0,0,9.5,0,0,0,0,0\n").find("particle 0 has a row already"), std::string::npos);
+}
+
+TEST_F(Io, ACsvOfBodiesWithoutTurningDoesNotTurn) {
+  InitialState initial;
+  initial.position = {{0, 0, 0}, {1, 0, 0}}, initial.velocity = {{}, {}}, initial.mass = {1.0, 1.0}, initial.phase = {2, 2}, initial.body = {0, 0}, initial.material = {0, 0}, initial.source = {0, 0};
+  std::ofstream(path("trajectory.csv")) << "time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,1,2,3\n";
+  const auto frame = read_trajectory_csv(path("trajectory.csv"), initial, 1).frames.at(0);
+  EXPECT_EQ(frame.bodies[0].angular_velocity, Vec3{});
+  EXPECT_EQ(frame.velocity[1], (Vec3{1, 2, 3}));
+}
+
 TEST_F(Io, ATrajectoryReadsBackBitForBit) {
   TrajectoryWriter writer(path("trajectory.h5"));
   for (const double t : {0.0, 0.1, 0.2}) writer.append(frame_at(t, 5, 2));

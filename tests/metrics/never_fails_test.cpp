@@ -170,6 +170,31 @@ TEST(GateThatNeverFails, AnotherUnitAndAnotherMassAreFound) {
   EXPECT_NE(heavy.sound().find("mass"), std::string::npos);
 }
 
+TEST(GateThatNeverFails, AParticleThatIsLostIsFoundWhereverNoMetricLooksAtIt) {
+  auto t = flight();
+  for (auto& f : t.run.frames)
+    if (f.time > 0.0)
+      for (std::size_t i = 1; i < f.id.size(); ++i) f.id[i] = -1, f.position[i] = f.velocity[i] = {not_a_number, not_a_number, not_a_number};
+  EXPECT_NE(t.sound().find("particle 1 is lost"), std::string::npos) << t.sound();
+}
+
+TEST(GateThatNeverFails, ABodysRowThatTellsOtherwiseThanItsParticlesIsFound) {
+  auto t = flight();
+  t.run.frames.back().bodies[0].position.z += 0.1;  // a metric of the body alone would see this, and one of particles the other
+  EXPECT_NE(t.sound().find("from the centre of its particles"), std::string::npos) << t.sound();
+  auto faster = flight();
+  faster.run.frames.back().bodies[0].velocity.z *= 1.1;
+  EXPECT_NE(faster.sound().find("moves otherwise than its particles"), std::string::npos) << faster.sound();
+}
+
+TEST(GateThatNeverFails, TheStartAloneIsNoRun) {
+  const auto t = flight();
+  auto only = metric("position", "max");
+  only.window = {0.0, 1e-6};
+  EXPECT_FALSE(passes(t.value(only), 1e9));
+  EXPECT_NE(t.value(only).note.find("only the start"), std::string::npos);
+}
+
 TEST(Audit, PassesTheSoundRunsOfEveryKind) {
   EXPECT_EQ(flight().sound(), "");
   EXPECT_EQ(heat().sound(), "");

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "core/durable_file.hpp"
@@ -37,10 +39,20 @@ std::string file_hash(const std::string& file) {
   return text_hash(all);
 }
 
+/// Hash of an engine's program, read once a call: what it does may change though it calls itself the same.
+static std::string program_hash(const std::string& executable) {
+  static std::map<std::string, std::string> known;
+  static std::mutex one;
+  const std::lock_guard lock(one);
+  const auto [at, is_new] = known.try_emplace(executable);
+  if (is_new) at->second = file_hash(executable);
+  return at->second;
+}
+
 std::string run_hash(const RunRequest& request, const std::string& job) {
   const EngineEntry& e = *request.engine;
   std::string all = job + '\0' + state_hash(*request.initial);
-  for (const auto& part : {e.name, e.version, e.build, e.library_path, e.library_hash}) all += '\0' + part;
+  for (const auto& part : {e.name, e.version, e.build, e.library_path, e.library_hash, program_hash(e.executable)}) all += '\0' + part;
   for (const auto& [name, value] : request.environment) all += '\0' + name + '=' + value;
   return text_hash(all);
 }

@@ -13,6 +13,7 @@ struct Answer {
   int rows = 0, missing = 0, ran = 0, judged = 0;
   std::string why;      ///< of the first row that did not run
   std::string crashed;  ///< the first row that ended otherwise than it should
+  std::string partly;   ///< the first case of which it ran some and refused the rest
 };
 
 Answer answer_of(const Results& results, const std::string& name) {
@@ -25,6 +26,9 @@ Answer answer_of(const Results& results, const std::string& name) {
       a.ran += std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "ok" || r.status == "diverged"; });
       a.judged += std::any_of(e.gates.begin(), e.gates.end(), [](const auto& g) { return g.verdict != "missing"; });
       if (e.status != "ok" && a.why.empty()) a.why = e.status + " in " + c.id + ": " + e.reason;
+      const auto refused = std::find_if(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "refused"; });
+      const bool some_ran = std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "ok"; });
+      if (refused != e.runs.end() && some_ran && a.partly.empty()) a.partly = fmt::format("{} ({})", c.id, refused->reason);
       if ((e.status == "killed" || e.status == "timeout" || e.status == "error") && a.crashed.empty()) a.crashed = fmt::format("{} in {}: {}", e.status, c.id, e.reason);
     }
   return a;
@@ -46,6 +50,7 @@ std::vector<std::string> unanswered(const Results& results) {
     const auto a = answer_of(results, name);
     if (a.rows == a.missing && !(part && a.rows == 0)) list.push_back(fmt::format("{} was asked for and is not there{}", name, a.why.empty() ? "" : "; " + a.why));
     else if (!a.crashed.empty()) list.push_back(fmt::format("{} was asked for and is {}", name, a.crashed));
+    else if (!a.partly.empty()) list.push_back(fmt::format("{} was asked for, and ran a part of {} and refused the rest", name, a.partly));
     else if (part || name == "exact") continue;
     else if (a.ran == 0) list.push_back(fmt::format("{} was asked for and ran no case; {}", name, a.why));
     else if (a.judged == 0)

@@ -125,12 +125,20 @@ std::uintmax_t greatest_trajectory(const RunRequest& request) {
   return at_least + a_row * request.job->times.size() * (request.initial->size() + request.job->bodies.size());
 }
 
+/// A link would lead to what another engine, or another run, has written. @throws EngineError
+void refuse_links(const fs::path& file) {
+  std::error_code none;
+  if (fs::is_symlink(file, none) || (fs::exists(file, none) && fs::hard_link_count(file, none) > 1))
+    throw EngineError(file.filename().string() + " is a link to another file: an engine writes its own");
+}
+
 std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
   const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
   const fs::path folder(request.folder);
   const auto most = greatest_trajectory(request);
   for (const char* name : {"trajectory.h5", "trajectory.csv"})
     if (fs::exists(folder / name)) expect_regular_file((folder / name).string(), most);
+  for (const char* name : {"trajectory.h5", "trajectory.csv"}) refuse_links(folder / name);
   if (fs::exists(folder / "trajectory.h5")) return std::make_shared<Trajectory>(read_trajectory((folder / "trajectory.h5").string()));
   const auto& bodies = request.job->bodies;
   const auto solids = std::count_if(bodies.begin(), bodies.end(), [](const auto& b) { return b.index >= 0; });

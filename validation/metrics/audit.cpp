@@ -42,6 +42,39 @@ std::string wrong_masses(const Snapshot& s, const InitialState& initial) {
   return {};
 }
 
+/// No job loses what it starts with: a particle that is not alive is one that no metric would look at.
+std::string lost(const Snapshot& s, const InitialState& initial) {
+  for (std::size_t i = 0; i < std::min(s.id.size(), initial.size()); ++i)
+    if (dead(s, i)) return "particle " + std::to_string(i) + " is lost" + at_time(s);
+  return {};
+}
+
+/// A body's own row must be where its particles are, and move as they do: else one metric would see another run than the next.
+std::string apart_from_its_particles(const Job& job, const Snapshot& s) {
+  if (s.body.size() != s.position.size() || s.velocity.size() != s.position.size() || s.mass.size() != s.position.size()) return {};
+  struct Sum {
+    double mass = 0.0, fastest = 0.0;
+    Vec3 off, momentum;
+    bool wraps = false;  ///< it reaches so far along a periodic direction that its centre depends on where one begins
+  };
+  std::vector<Sum> sums(s.bodies.size());
+  for (std::size_t i = 0; i < s.position.size(); ++i) {
+    if (s.body[i] < 0 || static_cast<std::size_t>(s.body[i]) >= sums.size() || dead(s, i)) continue;
+    const auto b = static_cast<std::size_t>(s.body[i]);
+    const Vec3 arm = displacement(job.scene, s.position[i], s.bodies[b].position);
+    for (std::size_t k = 0; k < 3; ++k) sums[b].wraps = sums[b].wraps || (job.scene.periodic[k] && std::abs(arm[k]) > 0.25 * ((*job.scene.max)[k] - (*job.scene.min)[k]));
+    sums[b].mass += s.mass[i], sums[b].off += s.mass[i] * arm, sums[b].momentum += s.mass[i] * s.velocity[i];
+    sums[b].fastest = std::max(sums[b].fastest, norm(s.velocity[i]));
+  }
+  for (std::size_t b = 0; b < sums.size(); ++b) {
+    if (!(sums[b].mass > 0.0) || sums[b].wraps || !finite(s.bodies[b].position)) continue;
+    const double off = norm(sums[b].off) / sums[b].mass, faster = norm(s.bodies[b].velocity - sums[b].momentum / sums[b].mass);
+    if (off > 1e-3 * job.scene.spacing) return "body row " + std::to_string(b) + " is " + std::to_string(off) + " m from the centre of its particles" + at_time(s);
+    if (faster > 1e-3 * std::max(sums[b].fastest, norm(s.bodies[b].velocity))) return "body row " + std::to_string(b) + " moves otherwise than its particles, by " + std::to_string(faster) + " m/s" + at_time(s);
+  }
+  return {};
+}
+
 const JobBody* body_of(const Job& job, const InitialState& initial, std::size_t i) {
   const auto source = i < initial.source.size() ? static_cast<std::size_t>(initial.source[i]) : job.bodies.size();
   return source < job.bodies.size() ? &job.bodies[source] : nullptr;
@@ -178,10 +211,14 @@ std::string audit(const Job& job, const InitialState& initial, const Trajectory&
   if (!frames.problem.empty()) return frames.problem;
   for (const auto* s : frames.list) {
     if (auto why = not_finite(*s); !why.empty()) return why;
+    if (auto why = lost(*s, initial); !why.empty()) return why;
     if (auto why = wrong_masses(*s, initial); !why.empty()) return why;
   }
   if (auto why = other_start(job, initial, *frames.list.front()); !why.empty()) return why;
-  return frozen(job, initial, frames.list);
+  if (auto why = frozen(job, initial, frames.list); !why.empty()) return why;
+  for (const auto* s : frames.list)
+    if (auto why = apart_from_its_particles(job, *s); !why.empty()) return why;
+  return {};
 }
 
 }  // namespace tripoint

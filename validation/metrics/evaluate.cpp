@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "scene/nearest.hpp"
+#include "scene/units.hpp"
 #include "validation/metrics/dominant_frequency.hpp"
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"
@@ -19,6 +21,12 @@ MetricValue unformed(const std::string& why) {
   v.value = not_a_number;
   v.note = why;
   return v;
+}
+
+std::string number_text(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
 }
 
 template <class List>
@@ -63,6 +71,21 @@ void refuse_unknown_words(const MetricChoice& choice) {
   };
   if (!is_ledger(choice.quantity)) check(metric_quantities(), choice.quantity, "quantity");
   check(metric_norms(), choice.norm, "norm");
+}
+
+/// A unit for people that is another than the number beside it has: a value in m, divided by a scale of 1, is none in mm.
+void refuse_another_unit(const MetricChoice& choice) {
+  if (choice.unit.empty() || choice.unit == "degC" || choice.norm == "slope" || choice.norm == "frequency" || choice.norm == "chi") return;
+  const std::string own = is_ledger(choice.quantity) ? "J" : std::find_if(metric_quantities().begin(), metric_quantities().end(), [&](const MetricWord& w) { return w.name == choice.quantity; })->unit;
+  if (choice.unit == own) return;  // what it is divided by beside its own unit is in the baseline
+  double factor = 0.0;
+  try {
+    factor = parse_quantity("1 " + choice.unit, own == "1" ? "" : own);
+  } catch (const std::invalid_argument&) {
+    return;  // of another dimension, or words: what the value is divided by has it
+  }
+  if (std::abs(factor / choice.scale - 1.0) > 1e-9)
+    throw InputError(choice.place, "metric `" + choice.name + "`: its value is in " + own + ", divided by scale = " + number_text(choice.scale) + ", and that is no " + choice.unit + ": write scale = " + number_text(factor) + ", or another unit");
 }
 
 /// Errors of all chosen frames under one norm in space, and what the norm in time makes of them.
@@ -202,12 +225,14 @@ double Uncertainty::combined() const { return std::sqrt(numerical * numerical + 
 MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialState& initial, const Trajectory& run, const Reference& reference) {
   refuse_unknown_words(choice);
   if (!(choice.scale > 0.0)) throw InputError(choice.place, "metric `" + choice.name + "`: scale must be above 0");
+  refuse_another_unit(choice);
   const MetricInput in{choice, job, initial, reference};
   (void)body_row(in);
   const auto frames = frames_of_job(job, initial, run);
   if (!frames.problem.empty()) return unformed(frames.problem);
   const auto chosen = chosen_frames(choice, job, frames.list);
   if (chosen.empty()) return unformed("no output time lies in the metric's window");
+  if (chosen.back() == frames.list.front()) return unformed("only the start lies in the metric's window, and there every run is what it was given");
   MetricValue value;
   if (const auto* whole = find_run_quantity(choice)) {
     value = whole->value(in, frames_in_window(choice, job, frames.list));

@@ -58,6 +58,19 @@ def write(folder, rows):
     (folder / "trajectory.csv").write_text("\n".join(lines) + "\n")
 
 
+def write_h5md(folder, times, rows):
+    """One body of one particle as H5MD, whose velocities say that they are of other times than the places."""
+    import h5py
+
+    with h5py.File(folder / "trajectory.h5", "w") as file:
+        file.create_group("h5md")
+        for name, first, late in (("position", 2, 0.0), ("velocity", 5, 0.01)):
+            group = file.create_group(f"particles/all/{name}")
+            group["value"] = [[row[first:first + 3]] for row in rows]
+            group["value"].attrs["unit"] = "m" if first == 2 else "m s-1"
+            group["step"], group["time"] = range(len(times)), [t + late for t in times]
+
+
 def result(folder, job, **changes):
     scene = job["scene"]
     bodies = [{"name": b["name"], "mass": b["mass"], "centre": b["centre"], "principal_inertia": b["principal_inertia"]} for b in scene["bodies"]]
@@ -82,6 +95,8 @@ def spoil(rows, times):
         return [[row[0], row[1]] + [float("nan")] * 6 + row[8:] for row in rows]
     if WRONG == "millimetres":
         return [row[:2] + [1e3 * c for c in row[2:8]] + row[8:] for row in rows]
+    if WRONG == "says everything twice":
+        return [row[:4] + [row[4] + 1.0] + row[5:] for row in rows] + rows
     if WRONG == "shifted time axis":
         return [[row[0] + 0.01 * times[-1]] + row[1:] for row in rows]
     return rows
@@ -138,6 +153,12 @@ def run(path):
         write(folder, rows[:2])
         os.kill(os.getpid(), signal.SIGKILL)
     write(folder, spoil(rows, times))
+    if WRONG == "columns of other times":
+        write_h5md(folder, times, rows)
+    if "link" in WRONG:
+        other = next(path for path in sorted(folder.parents[1].glob("*/*/trajectory.csv")) if path.parent != folder.resolve() and "mine" not in path.parts)
+        (folder / "trajectory.csv").unlink()
+        (os.link if WRONG.startswith("hard") else os.symlink)(other.resolve(), folder / "trajectory.csv")
     result(folder, job)
     leave(folder)
     if WRONG == "says ok and exits 3":
