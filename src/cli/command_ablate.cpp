@@ -37,7 +37,7 @@ struct Options {
 
 /// Terms that act where an effect is on.
 const std::map<std::string, std::vector<Term>>& terms_of_effects() {
-  static const std::map<std::string, std::vector<Term>> terms{{"fluid", {Term::kernel, Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}}, {"elastic", {Term::elastic, Term::hourglass}},
+  static const std::map<std::string, std::vector<Term>> terms{{"fluid", {Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}}, {"elastic", {Term::elastic, Term::hourglass}},
                                                               {"heat", {Term::heat}}, {"phase", {Term::phase}}, {"rigid", {Term::rotation}}};
   return terms;
 }

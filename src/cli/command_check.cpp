@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "effects/plan.hpp"
+#include "scene/idle_keys.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
@@ -18,7 +19,8 @@ namespace {
 
 constexpr const char* description =
     "Checks a case before anything runs: every key, unit and name; then the particles: bodies that overlap or stand too near,\n"
-    "that are too coarse or of wrong mass, a time step above a bound; then metrics, references and engines: what would be refused.\n"
+    "that are too coarse or of wrong mass, a time step above a bound; events and keys that can change nothing; then metrics,\n"
+    "references and engines: what would be refused.\n"
     "Ends 2 where it finds an error, 0 where it finds none or warnings.\n"
     "  tripoint check my.toml\n"
     "  tripoint check my.toml --set scene.spacing=0.01";
@@ -30,12 +32,13 @@ int check(const std::string& file, const std::vector<std::string>& set) {
   static_cast<void>(plan_of(reading));
   const InitialState state = sample(scene);
   auto findings = preflight(reading.value, scene, state);
+  for (auto& f : idle_keys(reading, scene, state)) findings.push_back(std::move(f));
   for (auto& f : trial(reading.value)) findings.push_back(std::move(f));
   long errors = 0;
-  for (const auto& f : library_values(reading)) say(fmt::format("note: {}: {}", to_string(f.place), f.what));
+  for (const auto& f : library_values(reading)) say("note: " + with_place(f));
   for (const auto& f : findings) {
     errors += f.error ? 1 : 0;
-    say(fmt::format("{}: {}: {}", f.error ? "error" : "warning", to_string(f.place), f.what));
+    say((f.error ? "error: " : "warning: ") + with_place(f));
   }
   print(fmt::format("{}: {} particles in {} {}, {} errors, {} warnings\n", file, state.size(), scene.bodies.size(), scene.bodies.size() == 1 ? "body" : "bodies", errors, static_cast<long>(findings.size()) - errors));
   return errors > 0 ? 2 : 0;

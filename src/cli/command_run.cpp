@@ -13,12 +13,14 @@
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "core/errors.hpp"
+#include "scene/idle_keys.hpp"
 #include "scene/units.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/run_one.hpp"
 #include "validation/harness/suite.hpp"
+#include "validation/harness/trial.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -138,10 +140,13 @@ void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std:
             .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
-/// What `check` would say of the particles: a run of its own is not refused for it, but not silent either.
-void say_findings(const CaseReading& reading, const Scene& scene, const InitialState& initial) {
-  for (const auto& f : library_values(reading)) say(fmt::format("note: {}: {}", to_string(f.place), f.what));
-  for (const auto& f : preflight(reading.value, scene, initial)) say(fmt::format("{}: {}: {}", f.error ? "error, run all the same" : "warning", to_string(f.place), f.what));
+/// What `check` would say of the particles and metrics: a run of its own is not refused for it, but not silent either.
+void say_findings(const CaseReading& reading, const Scene& scene, const InitialState& initial, const Job& job) {
+  for (const auto& f : library_values(reading)) say("note: " + with_place(f));
+  auto findings = preflight(reading.value, scene, initial);
+  for (auto& f : idle_keys(reading, scene, initial)) findings.push_back(std::move(f));
+  for (auto& f : try_metrics(reading.value, job, initial)) findings.push_back(std::move(f));
+  for (const auto& f : findings) say((f.error ? "error, run all the same: " : "warning: ") + with_place(f));
 }
 
 /// The engine's base run in the case's first mode.
@@ -169,8 +174,8 @@ int run(RunOptions o) {
   const Scene scene = scene_of(value, base);
   if (scene.settle && !o.quiet) say("letting the liquids down into equilibrium, which takes as long as some thousand steps (scene.settle)");
   const auto initial = sample(scene);
-  if (!o.quiet) say_findings(reading, scene, initial);
   auto job = make_job(value, plan, base, scene, initial);
+  if (!o.quiet) say_findings(reading, scene, initial, job);
   job.threads = o.threads;
   job.resume = o.resume;
   if (!o.checkpoint_interval.empty()) job.settings["checkpoint_interval"] = seconds_of(o.checkpoint_interval);

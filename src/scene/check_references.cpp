@@ -31,6 +31,7 @@ class Checker {
     unique(case_.metrics, "metric");
     bodies();
     events();
+    kernel();
     printed_heat();
     judgement();
   }
@@ -78,6 +79,14 @@ class Checker {
     }
   }
 
+  /// A kernel of its own form belongs to each term: alone it cannot be another than what the scene runs.
+  void kernel() const {
+    const auto given = scene_.modes_given[static_cast<std::size_t>(Term::kernel)];
+    if (!given || std::all_of(case_.modes.begin(), case_.modes.end(), [&](Mode m) { return m == *given; })) return;
+    throw InputError(place("scene.modes.kernel", {}), "each term brings the kernel of its form (as printed poly6, spiky and the viscosity kernel, corrected Wendland C2), and none can have another: "
+                                                      "set the terms that are meant (modes.density, modes.pressure, modes.viscosity, modes.heat), or remove it");
+  }
+
   /// (21) and Fig. 5 as printed know one conductivity and one heat capacity of a material.
   void printed_heat() const {
     const bool paper = std::any_of(case_.modes.begin(), case_.modes.end(), [](Mode m) { return m == Mode::paper; });
@@ -119,6 +128,7 @@ class Checker {
       ++n;
       const auto path = e.name.empty() ? fmt::format("event.{}", n) : "event." + e.name;
       for (const auto& name : e.bodies) known_body(name, path + ".bodies", e.place, born);
+      acts_on(e, path);
       if (e.time > scene_.end_time) throw InputError(place(path + ".time", e.place), fmt::format("the event at {} s never comes: end_time is {} s", e.time, scene_.end_time));
       for (const auto& [name, time] : absorbed)
         if (e.time > time && holds(e.bodies, name))
@@ -135,6 +145,17 @@ class Checker {
         throw InputError(place(fmt::format("inflow.{}.start", n), {}), fmt::format("nothing flows in before end_time = {} s, since start = {} s: begin sooner, or remove the inflow", scene_.end_time, f.start));
       if (!holds(names_of(scene_.materials), f.material))
         throw InputError(place(fmt::format("inflow.{}.material", n), {}), fmt::format("no material is named \"{}\"{}", printable(f.material), suggestion(f.material, names_of(scene_.materials))));
+    }
+  }
+
+  /// Bodies that this kind of event cannot act on, or only as what they are not.
+  void acts_on(const Event& e, const std::string& path) const {
+    for (const auto& b : scene_.bodies) {
+      if (!holds(e.bodies, b.name)) continue;
+      const auto refuse = [&](const std::string& why) { throw InputError(place(path + ".bodies", e.place), fmt::format("body \"{}\" {}", b.name, why)); };
+      if ((e.kind == Event::Kind::merge || e.kind == Event::Kind::split) && b.phase == Phase::liquid) refuse("is liquid: only solids merge and split");
+      if (e.kind == Event::Kind::release && b.phase == Phase::elastic && b.motion != Motion::free)
+        refuse("is elastic, and moves as a whole as long as its motion is not free, also after a release: make it free, and hold it by an event until then");
     }
   }
 

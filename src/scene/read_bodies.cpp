@@ -127,6 +127,8 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
   if (b.temperature_held && !b.temperature) in.refuse("temperature_held", "no temperature is given to hold: give temperature too");
   b.motion = motion_from(in.text("motion"));
   b.keyframes = read_keyframes(in, "keyframes", reading);
+  if (!b.keyframes.empty() && (in.has("velocity") || in.has("angular_velocity")))
+    in.refuse(in.has("velocity") ? "velocity" : "angular_velocity", "the keyframes of the body give its velocities: remove it, or the keyframes");
   if (!b.keyframes.empty() && b.motion != Motion::prescribed) in.refuse("keyframes", "only a prescribed body follows keyframes: write motion = \"prescribed\"");
   if (b.motion == Motion::fixed && (in.has("velocity") || in.has("angular_velocity")))
     in.refuse(in.has("velocity") ? "velocity" : "angular_velocity", "a fixed body does not move: remove it, or write motion = \"prescribed\"");
@@ -162,6 +164,17 @@ std::vector<Keyframe> read_keyframes(TableReader& owner, std::string_view key, R
   return frames;
 }
 
+/// A key that this kind of event does not read would be lost without a word.
+static void refuse_keys_of_others(TableReader& in, const std::string& kind) {
+  const std::vector<std::pair<std::string_view, std::string_view>> readers{
+      {"bodies", "merge split release heat hold"}, {"region", "split heat grip"}, {"temperature", "heat"}, {"until", "heat hold grip"}, {"keyframes", "grip"}};
+  for (const auto& [key, kinds] : readers) {
+    const auto known = split_words(kinds);
+    if (in.has(key) && std::find(known.begin(), known.end(), kind) == known.end())
+      in.refuse(key, fmt::format("a {} event does not read it ({} {}): remove it", kind, fmt::join(known, ", "), known.size() == 1 ? "does" : "do"));
+  }
+}
+
 Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in(node, "event", fmt::format("event.{}", entry_name(node, number)), reading.decisions);
   Event e;
@@ -184,7 +197,10 @@ Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
   if (e.kind == Event::Kind::heat) needs(e.temperature.has_value(), "temperature"), needs(e.region || !e.bodies.empty(), "region` or `bodies");
   if (e.kind == Event::Kind::grip) needs(e.region.has_value(), "region"), needs(!e.keyframes.empty(), "keyframes");
   if (e.kind == Event::Kind::hold) needs(!e.bodies.empty(), "bodies");
-  if (e.kind != Event::Kind::grip && !e.keyframes.empty()) in.refuse("keyframes", "only a grip has keyframes: remove them");
+  if (e.kind == Event::Kind::release) needs(!e.bodies.empty(), "bodies");
+  refuse_keys_of_others(in, kind);
+  if (!e.keyframes.empty() && e.keyframes.front().time < e.time)
+    in.refuse("keyframes", fmt::format("the first is at {} s and the grip begins at {} s: what it takes would jump to where the grip is by then; begin with a keyframe at {} s", e.keyframes.front().time, e.time, e.time));
   return e;
 }
 

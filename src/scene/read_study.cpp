@@ -57,6 +57,7 @@ ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Re
   r.file = in.text("file");
   if (r.kind == "experiment" && r.file.empty()) in.refuse("kind", "a reference of kind \"experiment\" needs the key `file`: the data beside the case");
   if (r.function == "table" && r.file.empty()) in.refuse("function", "a reference by `table` needs the key `file`: the table beside the case");
+  if (!r.file.empty() && r.kind != "experiment" && r.function != "table") in.refuse("file", "data are read by kind = \"experiment\" and by function = \"table\": write one of them, or remove the file");
   if (!r.file.empty()) {
     const auto full = std::filesystem::path(reading.folder) / r.file;
     std::error_code error;

@@ -53,7 +53,7 @@ std::string case_reference_page() {
     if (t.name == "scene") {
       out += "`modes.TERM` sets one term: `modes.heat = \"paper\"`. TERM: ";
       for (std::size_t i = 0; i < term_count; ++i) out += fmt::format("{}`{}`", i ? " " : "", to_string(static_cast<Term>(i)));
-      out += ".\n\n";
+      out += ".\n`kernel` can only say what `mode` says: each term brings the kernel of its form.\n\n";
     }
   }
   return out;

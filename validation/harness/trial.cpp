@@ -51,7 +51,7 @@ std::vector<std::string> names_of(const List& list) {
 /// An error of a metric's own words comes with its place; one of a reference with none.
 Finding finding_of(const InputError& e, const MetricChoice& m) {
   const std::string what = e.what(), place = to_string(e.place()) + ": ";
-  const bool placed = !e.place().file.empty() && what.rfind(place, 0) == 0;
+  const bool placed = !e.place().file.empty() && what.starts_with(place);
   return {true, placed ? what.substr(place.size()) : fmt::format("metric \"{}\": {}", m.name, what), placed ? e.place() : m.place};
 }
 
@@ -115,26 +115,13 @@ std::vector<double> times_for(const MetricChoice& m, const Job& job) {
 /// Whether a note tells of the case and not of the particles that stayed where they were.
 bool tells_of_the_case(const std::string& note) {
   if (note == "the trajectory has no temperature") return true;
-  for (const char* start : {"the reference", "no output time", "the front has not started", "mass_in_region needs", "the box follows", "the start has one temperature"})
+  for (const char* start : {"the reference", "no output time", "only the start", "the front has not started", "mass_in_region needs", "the box follows", "the start has one temperature"})
     if (note.rfind(start, 0) == 0 && note.find("the reference's body") == std::string::npos) return true;
   return false;
 }
 
-void try_metrics(const Case& value, const Job& whole, const InitialState& initial, std::vector<Finding>& findings) {
-  for (const MetricChoice& m : value.metrics) {
-    Job job = whole;
-    job.times = times_for(m, whole);
-    Trajectory still;
-    for (const double t : job.times) still.frames.push_back(still_frame(job, initial, t));
-    try {
-      const auto value_of = metric_of(value, m, job, initial, still);
-      if (std::isfinite(value_of.value) || !tells_of_the_case(value_of.note)) continue;
-      findings.push_back({true, fmt::format("metric \"{}\" could not be formed of any run: {}", m.name, value_of.note), m.place});
-    } catch (const InputError& e) {
-      findings.push_back(finding_of(e, m));
-    }
-  }
-}
+/// Whether it tells that the metric takes no particle where it looks: none at the start, and perhaps later.
+bool looks_at_nothing(const std::string& note) { return note.starts_with("no particle that the metric takes lies"); }
 
 /// Particles and their file for each sampling of the case.
 class Samples {
@@ -170,6 +157,27 @@ void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, 
 
 }  // namespace
 
+std::string with_place(const Finding& f) { return (f.place.file.empty() ? "" : to_string(f.place) + ": ") + f.what; }
+
+std::vector<Finding> try_metrics(const Case& value, const Job& whole, const InitialState& initial) {
+  std::vector<Finding> findings;
+  for (const MetricChoice& m : value.metrics) {
+    Job job = whole;
+    job.times = times_for(m, whole);
+    Trajectory still;
+    for (const double t : job.times) still.frames.push_back(still_frame(job, initial, t));
+    try {
+      const auto value_of = metric_of(value, m, job, initial, still);
+      if (std::isfinite(value_of.value)) continue;
+      if (looks_at_nothing(value_of.note)) findings.push_back({false, fmt::format("metric \"{}\": at the start {}: it has no value until one comes there", m.name, value_of.note), m.place});
+      else if (tells_of_the_case(value_of.note)) findings.push_back({true, fmt::format("metric \"{}\" could not be formed of any run: {}", m.name, value_of.note), m.place});
+    } catch (const InputError& e) {
+      findings.push_back(finding_of(e, m));
+    }
+  }
+  return findings;
+}
+
 std::vector<Finding> trial(const Case& value) {
   std::vector<Finding> findings;
   check_words(value, findings);
@@ -192,7 +200,8 @@ std::vector<Finding> trial(const Case& value) {
       const Scene scene = scene_of(value, run);
       const auto& from = samples.of(scene);
       const Job job = make_job(value, plan, run, scene, from.state);
-      if (!tried) try_metrics(value, job, from.state, findings);
+      if (!tried)
+        for (auto& f : try_metrics(value, job, from.state)) findings.push_back(std::move(f));
       tried = true;
       ask_about(value, plan, run, job, from, scratch.path() / "job", findings);
     }

@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "adapters/job.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint {
@@ -12,5 +13,12 @@ namespace tripoint {
 /// A refusal by an engine that the case requires is an error, by another a warning.
 /// @throws InputError where the particles of a run cannot be sampled
 [[nodiscard]] std::vector<Finding> trial(const Case&);
+
+/// "file:line:column: what"; what alone where the place is not known.
+[[nodiscard]] std::string with_place(const Finding&);
+
+/// The part of it that tells of metrics, on particles that stay where they start: those that no run could form, and as a warning those
+/// that take no particle where they look.
+[[nodiscard]] std::vector<Finding> try_metrics(const Case&, const Job&, const InitialState&);
 
 }  // namespace tripoint
