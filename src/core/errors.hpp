@@ -23,8 +23,7 @@ inline std::string to_string(const SourcePlace& p) {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& what) : std::runtime_error(what) {}
-  InputError(const SourcePlace& place, const std::string& what)
-      : std::runtime_error(to_string(place) + ": " + what), place_(place) {}
+  InputError(const SourcePlace& place, const std::string& what) : std::runtime_error(place.file.empty() ? what : to_string(place) + ": " + what), place_(place) {}
   [[nodiscard]] const SourcePlace& place() const noexcept { return place_; }
 
  private:
