@@ -36,7 +36,8 @@ TEST(HostileEngines, ALinkInPlaceOfTheLogHarmsNobody) {
   const TestFolder folder;
   write_text(folder / "victim", "precious");
   ::setenv("FAKE_VICTIM", (folder / "victim").c_str(), 1);
-  EXPECT_EQ(fly(folder, "leaves a link as its log").exit_code, exit_pass);
+  const auto c = fly(folder, "leads its log elsewhere", "[engines.fake]\nrequired = true\n");
+  EXPECT_EQ(c.exit_code, exit_pass) << c.engines.at(0).status << " " << c.engines.at(0).reason;
   ::unsetenv("FAKE_VICTIM");
   std::ifstream in(folder / "victim");
   std::string text;

@@ -31,7 +31,7 @@ def check():
     if WRONG == "gives a number as its reason":
         print('{"can": false, "reason": 5}')
         return
-    if WRONG == "leaves a link as its log":
+    if WRONG == "leads its log elsewhere":
         (Path(sys.argv[2]).parent / "log.txt").symlink_to(os.environ["FAKE_VICTIM"])
     print(json.dumps({"can": not refused, "reason": "it has no conduction" if refused else ""}))
 
