@@ -50,8 +50,12 @@ std::string lost(const Snapshot& s, const InitialState& initial) {
 }
 
 /// A body's own row must be where its particles are, and move as they do: else one metric would see another run than the next.
-std::string apart_from_its_particles(const Job& job, const Snapshot& s) {
-  if (s.body.size() != s.position.size() || s.velocity.size() != s.position.size() || s.mass.size() != s.position.size()) return {};
+std::string apart_from_its_particles(const Job& job, const InitialState& initial, const Snapshot& s) {
+  // An engine that does not say which particle is of which body means those of the start, where nothing unites, parts, melts or freezes.
+  const bool as_at_the_start = job.scene.events.empty() && std::none_of(job.scene.materials.begin(), job.scene.materials.end(), [](const Material& m) { return m.t_melt.has_value(); });
+  const std::vector<int>& of = s.body.empty() && as_at_the_start ? initial.body : s.body;
+  const std::vector<double>& mass = s.mass.empty() ? initial.mass : s.mass;
+  if (of.size() != s.position.size() || s.velocity.size() != s.position.size() || mass.size() != s.position.size()) return {};
   struct Sum {
     double mass = 0.0, fastest = 0.0;
     Vec3 off, momentum;
@@ -59,11 +63,11 @@ std::string apart_from_its_particles(const Job& job, const Snapshot& s) {
   };
   std::vector<Sum> sums(s.bodies.size());
   for (std::size_t i = 0; i < s.position.size(); ++i) {
-    if (s.body[i] < 0 || static_cast<std::size_t>(s.body[i]) >= sums.size() || dead(s, i)) continue;
-    const auto b = static_cast<std::size_t>(s.body[i]);
+    if (of[i] < 0 || static_cast<std::size_t>(of[i]) >= sums.size() || dead(s, i)) continue;
+    const auto b = static_cast<std::size_t>(of[i]);
     const Vec3 arm = displacement(job.scene, s.position[i], s.bodies[b].position);
     for (std::size_t k = 0; k < 3; ++k) sums[b].wraps = sums[b].wraps || (job.scene.periodic[k] && std::abs(arm[k]) > 0.25 * ((*job.scene.max)[k] - (*job.scene.min)[k]));
-    sums[b].mass += s.mass[i], sums[b].off += s.mass[i] * arm, sums[b].momentum += s.mass[i] * s.velocity[i];
+    sums[b].mass += mass[i], sums[b].off += mass[i] * arm, sums[b].momentum += mass[i] * s.velocity[i];
     sums[b].fastest = std::max(sums[b].fastest, norm(s.velocity[i]));
   }
   for (std::size_t b = 0; b < sums.size(); ++b) {
@@ -217,7 +221,7 @@ std::string audit(const Job& job, const InitialState& initial, const Trajectory&
   if (auto why = other_start(job, initial, *frames.list.front()); !why.empty()) return why;
   if (auto why = frozen(job, initial, frames.list); !why.empty()) return why;
   for (const auto* s : frames.list)
-    if (auto why = apart_from_its_particles(job, *s); !why.empty()) return why;
+    if (auto why = apart_from_its_particles(job, initial, *s); !why.empty()) return why;
   return {};
 }
 
