@@ -7,6 +7,7 @@
 
 #include "effects/plan.hpp"
 #include "scene/read_case.hpp"
+#include "step/settle.hpp"
 #include "step/simulation.hpp"
 
 using namespace tripoint;
@@ -20,6 +21,7 @@ void run_steps(Simulation& simulation, long steps) {
 extern "C" [[gnu::noipa]] void counted_steps(Simulation& simulation, long steps) { run_steps(simulation, steps); }
 
 int main(int argc, char** argv) {
+  tripoint::set_settler(tripoint::settled);
   if (argc < 5) return std::fputs("count-steps CASE.toml corrected|paper WARM STEPS [a.b=VALUE]...\n", stderr), 2;
   try {
     const CaseReading reading = read_case(argv[1], std::vector<std::string>(argv + 5, argv + argc));

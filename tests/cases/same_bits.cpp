@@ -13,6 +13,7 @@
 
 #include "core/machine.hpp"
 #include "scene/read_case.hpp"
+#include "step/settle.hpp"
 #include "step/simulation.hpp"
 
 using namespace tripoint;
@@ -96,6 +97,7 @@ bool agrees(const std::string& file, Mode mode, long most) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tripoint::set_settler(tripoint::settled);
   long most = 10;
   bool all = true;
   int states = 0;
