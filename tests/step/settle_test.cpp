@@ -60,8 +60,11 @@ TEST(Settle, MovesLiquidsAlone) {
   ASSERT_EQ(start.size(), lab.initial.size());
   EXPECT_EQ(start.velocity, lab.initial.velocity);
   EXPECT_EQ(start.mass, lab.initial.mass);
-  for (std::size_t i = 0; i < start.size(); ++i)
-    if (start.body[i] >= 0) EXPECT_EQ(start.position[i], lab.initial.position[i]) << i;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    if (start.body[i] >= 0) {
+      EXPECT_EQ(start.position[i], lab.initial.position[i]) << i;
+    }
+  }
 }
 
 TEST(Settle, GivesTheSameParticlesInBothModes) {
