@@ -45,8 +45,11 @@ TEST(PlasticMelting, ClosesTheEnergyAndForgetsTheFlowOfWhatMelts) {
   for (std::size_t i = 0; i < w.particles.size(); ++i) {
     const bool liquid = w.particles[field::phase][i] == 0;
     molten += liquid ? 1 : 0;
-    if (liquid) EXPECT_EQ(solid::plastic_strain_of(w.particles, i), Symmetric{});
-    else flowed += solid::plastic_strain_of(w.particles, i) == Symmetric{} ? 0 : 1;
+    if (liquid) {
+      EXPECT_EQ(solid::plastic_strain_of(w.particles, i), Symmetric{});
+    } else {
+      flowed += solid::plastic_strain_of(w.particles, i) == Symmetric{} ? 0 : 1;
+    }
   }
   EXPECT_EQ(molten, 36u);
   EXPECT_GT(flowed, 18u);

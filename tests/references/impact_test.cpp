@@ -140,13 +140,17 @@ void expect_newtons_impact(double restitution, const Vec3& spin, std::size_t cor
   EXPECT_NEAR(dL.z, 0.0, 1e-6 * dp.z) << "no torque about the normal";
   Vec3 mean;
   for (const Vec3& arm : arms) mean += (1.0 / static_cast<double>(arms.size())) * arm;
-  if (corners == 1) EXPECT_LT(norm(dL - cross(mean, dp)), 1e-6 * dp.z);
+  if (corners == 1) {
+    EXPECT_LT(norm(dL - cross(mean, dp)), 1e-6 * dp.z);
+  }
   for (const Vec3& arm : arms) {
     const double in = before.velocity.z + cross(before.angular_velocity, arm).z, out = after.velocity.z + cross(after.angular_velocity, arm).z;
     EXPECT_LT(in, -1.0);
     EXPECT_NEAR(out, -restitution * in, 1e-6);
   }
-  if (restitution == 1.0) EXPECT_NEAR(energy(s, after), energy(s, before), 1e-6 * energy(s, before));
+  if (restitution == 1.0) {
+    EXPECT_NEAR(energy(s, after), energy(s, before), 1e-6 * energy(s, before));
+  }
   EXPECT_LT(energy(s, after), energy(s, before) * (1.0 + 1e-6));
   EXPECT_TRUE(std::isnan(reference->at(reference->number("next_touch").value() + 0.01).bodies[0].position.z)) << "nothing is known after the second touch";
 }
