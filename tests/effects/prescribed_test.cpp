@@ -33,6 +33,30 @@ TEST(Inflow, BringsALayerASpacingInStepWithItsSpeed) {
   EXPECT_NEAR(s.ledger().mass, 97.0 * 1e-3, 1e-15);      // rho dx^3 each
 }
 
+/// The jet ten times lighter, or heavier, than the one body there is.
+lab::Lab jet_of(double density) {
+  lab::Lab lab = jet();
+  lab.scene.materials[0].viscosity = 0.0;  // leaves the bound to sound
+  Material other = lab.scene.materials[0];
+  other.name = "jet", other.density = density;
+  lab.scene.materials.push_back(other);
+  lab.scene.inflows[0].material = other.name;
+  lab.scene.inflows[0].velocity = {0.0, 0.0, -1e-8 * speed};  // the bound counts it beside sound
+  return lab;
+}
+
+/// Sound is fastest where it is lightest: sqrt(10) times as fast here, in a liquid that no body is made of.
+TEST(Inflow, SetsTheStepOfSoundWhereItIsLighterThanEveryBody) {
+  const auto bound = [](double density) {
+    const lab::Lab lab = jet_of(density);
+    return Simulation(lab.scene, lab.initial).bound();
+  };
+  const double denser = jet().scene.materials[0].density;
+  EXPECT_EQ(bound(0.1 * denser).name, "sound");
+  EXPECT_NEAR(bound(denser).dt / bound(0.1 * denser).dt, std::sqrt(10.0), 1e-6);
+  EXPECT_NEAR(bound(denser).dt / bound(10.0 * denser).dt, std::sqrt(10.0), 1e-6);  // the heavy liquid has the stated speed of sound, the light one more
+}
+
 TEST(Inflow, IsALatticeWhereItEnters) {
   const Simulation s = jet().run(0.09);
   const Particles& p = s.world().particles;

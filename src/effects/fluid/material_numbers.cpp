@@ -14,13 +14,22 @@ namespace {
 
 bool any_body(const Scene& scene, bool (*is)(const Body&)) { return std::ranges::any_of(scene.bodies, is); }
 
-/// Largest rest density of the materials that liquids (or, without liquids, any bodies) are made of.
+/// Largest rest density of the materials that liquids (or, without liquids, any bodies) are made of, those that flow in too.
 double reference_density(const Scene& scene) {
-  const bool wet = any_body(scene, [](const Body& b) { return b.phase == Phase::liquid; });
+  const bool wet = !scene.inflows.empty() || any_body(scene, [](const Body& b) { return b.phase == Phase::liquid; });
   double most = 0.0;
   for (const Body& b : scene.bodies)
     if (!wet || b.phase == Phase::liquid) most = std::max(most, scene.material(b.material).density);
+  for (const Inflow& f : scene.inflows) most = std::max(most, scene.material(f.material).density);
   return most;
+}
+
+/// Smallest rest density that the run can have: what flows in may be lighter than every body, and sound is fastest there.
+double least_density(const Scene& scene) {
+  double least = reference_density(scene);
+  for (const Body& b : scene.bodies) least = std::min(least, scene.material(b.material).density);
+  for (const Inflow& f : scene.inflows) least = std::min(least, scene.material(f.material).density);
+  return least;
 }
 
 }  // namespace
@@ -30,8 +39,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   for (const Material& m : scene.materials) n.stiffness = std::max(n.stiffness, m.stiffness.value_or(0.0));
   if (!(n.stiffness > 0.0)) throw InputError("bodies of this scene can touch or flow, and no material has a stiffness: give one a sound_speed of at least 10 times the fastest motion");
   n.reference_density = reference_density(scene);
-  double lightest = n.reference_density;
-  for (const Body& b : scene.bodies) lightest = std::min(lightest, scene.material(b.material).density);
+  const double lightest = least_density(scene);
   n.damped_density = 4.0 * lightest;
   const bool paper = scene.mode_of(Term::state) == Mode::paper;
   n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, -1.0, lightest, false));
