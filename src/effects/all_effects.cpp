@@ -127,6 +127,29 @@ void check_ownership(const std::vector<Active>& effects, bool periodic) {
   }
 }
 
+/// @throws InputError when two effects declare a force's columns or an account, or there are more forces than sums have room for
+void check_forces(const std::vector<Active>& effects) {
+  std::vector<Account> seen;
+  std::size_t forces = 0;
+  const auto once = [&](const Account& a, const std::string& who) {
+    if (std::ranges::find(seen, a) != seen.end() || Bookings().has(a)) throw InputError("the account " + std::string(a.name) + " of the effect " + who + " is declared twice");
+    seen.push_back(a);
+  };
+  for (const Active& a : effects) {
+    for (const Force& f : a.spec.forces) {
+      ++forces;
+      if (std::ranges::find(a.spec.owns, FieldInfo(f.x)) == a.spec.owns.end()) throw InputError("the effect " + a.name + " makes the force " + std::string(f.x.name) + " and does not own it");
+      if (!f.stored && f.entry.empty()) throw InputError("the work of the force " + std::string(f.x.name) + " has no entry of the ledger, and no energy stores it");
+      once(f.work, a.name);
+      if (f.work_on_driven) once(*f.work_on_driven, a.name);
+      if (f.stored) once(f.stored->at_start, a.name);
+    }
+    for (const Account& one : a.spec.accounts) once(one, a.name);
+    for (const Account& one : a.spec.numerical) once(one, a.name);
+  }
+  if (forces > most_forces) throw InputError("the effects of this scene make " + std::to_string(forces) + " forces, and sums have room for " + std::to_string(most_forces));
+}
+
 /// Place of a form in its slot: 0 = off, 1 = as printed, 2 = corrected.
 int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_view effect, Term term) {
   if (std::ranges::find(effects, effect, &Active::name) == effects.end()) return 0;
@@ -153,6 +176,7 @@ std::vector<Active> active_effects(const Scene& scene) {
     if (call != calls.end()) list.push_back({std::string(r.name), call->why, r.spec(scene), r.make(scene)});
   }
   check_ownership(list, scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
+  check_forces(list);
   return list;
 }
 
@@ -192,6 +216,20 @@ std::vector<DefectEntry> registered_defects() {
     list.insert(list.end(), more.begin(), more.end());
   }
   return list;
+}
+
+void open_accounts(World& world, const std::vector<Active>& effects) {
+  for (const Active& a : effects) {
+    for (const Force& f : a.spec.forces) {
+      world.forces.push_back(f);
+      world.booked.open(f.work);
+      world.booked.open(work_on_driven(f));
+      if (f.stored) world.booked.open(f.stored->at_start);
+    }
+    for (const Account& one : a.spec.accounts) world.booked.open(one);
+    for (const Account& one : a.spec.numerical) world.booked.open(one);
+    world.numerical.insert(world.numerical.end(), a.spec.numerical.begin(), a.spec.numerical.end());
+  }
 }
 
 struct Passes::Impl {

@@ -16,27 +16,29 @@ bool moves(const World& world, std::size_t b) {
   return free || t[field::body_velocity][b] != Vec3{} || t[field::body_angular_velocity][b] != Vec3{};
 }
 
-/// The columns of one force, or none where the scene does not have it.
-class MaybeForce {
- public:
-  MaybeForce(const Particles& p, const Field<double>& x, const Field<double>& y, const Field<double>& z) : there_(p.has(x.name)) {
-    if (there_) force_ = triple(p, x, y, z);
-  }
-  [[nodiscard]] Vec3 at(std::size_t row) const { return there_ ? force_.at(row) : Vec3{}; }
-  [[nodiscard]] bool there() const { return there_; }
-
- private:
-  bool there_;
-  Triple<const double> force_{};
+/// A force that bodies feel: its place among World::forces, its columns, and how much of it and of its torque arrives.
+struct Felt {
+  std::size_t number;
+  Triple<const double> force;
+  double share, torque_share;
 };
+
+std::vector<Felt> felt_forces(const World& world) {
+  std::vector<Felt> list;
+  for (std::size_t k = 0; k < world.forces.size(); ++k) {
+    const Force& f = world.forces[k];
+    if (f.feels != Feels::all) continue;
+    const auto share = [](std::string_view defect) { return defect.empty() ? 1.0 : 1.0 - defect_size(defect); };
+    list.push_back({k, triple(world.particles, f.x, f.y, f.z), share(f.body_force_defect), share(f.body_torque_defect)});
+  }
+  return list;
+}
 
 void sum_forces(const World& world, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
   const Particles& p = world.particles;
-  static const double weaker = 1.0 - defect_size("bodies.force"), turned = 1.0 - defect_size("bodies.torque"), looser = 1.0 - defect_size("bodies.bonds");
-  const MaybeForce F(p, field::force_x, field::force_y, field::force_z), D(p, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
-  const MaybeForce E(p, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z);
+  const std::vector<Felt> felt = felt_forces(world);
   sums.clear();
-  if (!F.there() && !E.there()) return;
+  if (felt.empty()) return;
   sums.assign(world.bodies.size(), {});
   const auto body = p[field::body];
   const auto centre = world.bodies[field::body_centre];
@@ -48,13 +50,11 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
     if (body[i] < 0 || !asked[static_cast<std::size_t>(body[i])]) continue;
     const auto b = static_cast<std::size_t>(body[i]);
     const Vec3 arm = (wraps ? world.unwrapped(i) : x.at(i)) - centre[b];
-    const Vec3 pressure = weaker * F.at(i), viscous = weaker * D.at(i), elastic = looser * E.at(i);
-    sums[b].pressure += pressure;
-    sums[b].viscous += viscous;
-    sums[b].elastic += elastic;
-    sums[b].pressure_torque += turned * cross(arm, pressure);
-    sums[b].viscous_torque += turned * cross(arm, viscous);
-    sums[b].elastic_torque += cross(arm, elastic);
+    for (const Felt& f : felt) {
+      const Vec3 force = f.share * f.force.at(i);
+      sums[b].forces[f.number] += force;
+      sums[b].torques[f.number] += f.torque_share * cross(arm, force);
+    }
   }
 }
 

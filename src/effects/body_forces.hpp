@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <vector>
 
 #include "effects/world.hpp"
 
 namespace tripoint {
 
-/// What the members of one rigid body feel from all others (18): sums of pressure, viscous and elastic (with hourglass) forces,
-/// and their torques about the centre of mass.
+/// What the members of one rigid body feel from all others (18): the sum of each of World::forces that bodies feel, in their order, and
+/// its torque about the centre of mass.
 struct BodyForces {
-  Vec3 pressure, viscous, elastic;                       ///< [N]
-  Vec3 pressure_torque, viscous_torque, elastic_torque;  ///< [N m]
-  [[nodiscard]] Vec3 force() const { return pressure + viscous + elastic; }
-  [[nodiscard]] Vec3 torque() const { return pressure_torque + viscous_torque + elastic_torque; }
+  std::array<Vec3, most_forces> forces;   ///< [N]
+  std::array<Vec3, most_forces> torques;  ///< [N m]
+  [[nodiscard]] Vec3 force() const { return sum_of(forces); }
+  [[nodiscard]] Vec3 torque() const { return sum_of(torques); }
+
+ private:
+  static Vec3 sum_of(const std::array<Vec3, most_forces>& list) {
+    Vec3 sum;
+    for (const Vec3& one : list) sum += one;
+    return sum;
+  }
 };
 /// One entry a body, sums in order of id; empty where no effect of the scene makes forces.
 [[nodiscard]] std::vector<BodyForces> forces_on_bodies(const World&);

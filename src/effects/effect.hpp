@@ -18,6 +18,9 @@ struct EffectSpec {
   std::string_view name;
   Mode mode = Mode::corrected;
   std::vector<FieldInfo> owns, reads;
+  std::vector<Force> forces{};        ///< that it makes
+  std::vector<Account> accounts{};    ///< that it books on beside those of its forces; common ones need no word
+  std::vector<Account> numerical{};   ///< that its numerical terms book on: what they take on purpose
 };
 
 /// Greatest stable step of an effect, and what sets it.

@@ -100,7 +100,7 @@ struct ThermalState {
 inline void give_heat(World& world, std::size_t row, double joules) {
   Particles& p = world.particles;
   if (p[field::held][row] != 0) {
-    world.booked.walls += joules;
+    world.booked[account::walls] += joules;
     return;
   }
   const double capacity = p[field::mass][row] * p[field::heat_capacity][row];

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "effects/account.hpp"
+#include "effects/force.hpp"
 #include "effects/ledger.hpp"
 #include "particles/neighbours.hpp"
 #include "particles/particles.hpp"
@@ -46,7 +48,9 @@ struct World {
   OwnPairs own;       ///< members of deformable bodies that meet through their bonds alone
   Change change;      ///< of this step
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
-  Booked booked;
+  Bookings booked;
+  std::vector<Force> forces;        ///< that the effects make, in the order in which they are summed
+  std::vector<Account> numerical;   ///< what numerical terms take on purpose: no error of finite steps
   Lagged lagged;
   double time = 0.0;       ///< [s]
   double next_time = 0.0;  ///< end of the step that is being taken, exactly as the loop will set it [s]

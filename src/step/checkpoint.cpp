@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a line here; derived state (neighbour lists) is built again from what it was built from, never from the present.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -10,7 +11,6 @@ namespace tripoint {
 namespace {
 
 static_assert(sizeof(Lagged) == 24, "a new member of Lagged must be kept and taken back below");
-static_assert(std::is_trivially_copyable_v<Booked> && sizeof(Booked) % sizeof(double) == 0, "bookings are kept as plain numbers [J]");
 
 template <class T>
 std::vector<double> plain(std::span<const T> values) {
@@ -144,7 +144,7 @@ std::vector<std::string> Simulation::layout() const {
   add(world_.particles);
   add(world_.bodies);
   for (const Active& a : effects_) lines.push_back("effect " + a.name + " " + std::string(to_string(a.spec.mode)));
-  lines.push_back("bookings " + std::to_string(sizeof(Booked)) + " bytes");
+  for (const std::string_view name : world_.booked.names()) lines.push_back("account " + std::string(name));
   return lines;
 }
 
@@ -163,7 +163,8 @@ Checkpoint Simulation::state() const {
   save(world_.bonds, "bonds", kept);
   save(world_.own, "own_pairs", kept);
   kept.whole["step/pairs"] = {static_cast<std::int64_t>(world_.bonds.pairs()), static_cast<std::int64_t>(world_.own.pairs())};
-  kept.real["step/booked"] = plain(world_.booked);
+  kept.real["step/booked"] = plain(world_.booked.values());
+  kept.real["step/undelivered_spin"] = plain(world_.booked.undelivered_spin);
   kept.real["step/time"] = {world_.time, world_.next_time, dt_, pairs_, bound_.dt, stretch_.start, stretch_.end};
   kept.text["step/bound"] = {bound_.name};
   kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(next_moment_), stretch_.count, stretch_.done, world_.moved ? 1 : 0};
@@ -192,7 +193,9 @@ void Simulation::restore(const Checkpoint& kept) {
   const std::vector<std::int64_t>& n = take(kept.whole, "step/count", 5);
   steps_ = n[0], next_moment_ = static_cast<std::size_t>(n[1]), stretch_.count = n[2], stretch_.done = n[3], world_.moved = n[4] != 0;
   if (next_moment_ > moments_.size()) throw InputError("the checkpoint has seen more events than the scene has");
-  std::memcpy(static_cast<void*>(&world_.booked), take(kept.real, "step/booked", sizeof(Booked) / sizeof(double)).data(), sizeof(Booked));
+  std::ranges::copy(take(kept.real, "step/booked", world_.booked.values().size()), world_.booked.values().begin());
+  const std::vector<double>& spin = take(kept.real, "step/undelivered_spin", 3);
+  world_.booked.undelivered_spin = {spin[0], spin[1], spin[2]};
   if (const auto ids = kept.whole.find("particles/id"); ids != kept.whole.end())
     while (world_.particles.size() < ids->second.size()) world_.particles.append();  // those that had flowed in
   const std::vector<std::uint32_t> order = row_order(kept, world_.particles.size());

@@ -46,34 +46,6 @@ bool is_still(const Scene& scene, const InitialState& initial) {
   return scene.inflows.empty() && scene.events.empty() && std::ranges::all_of(scene.bodies, rests) && std::ranges::all_of(initial.velocity, [](const Vec3& v) { return v == Vec3{}; });
 }
 
-/// Whether an energy stands behind the pressure: its forces are the gradient of one where one kernel serves density and force and the
-/// particles move with their own velocity (model 8.3). Printed (4), (7) and (9) and the transport velocity have none.
-bool stores_compression(const Scene& scene) {
-  const auto corrected = [&](Term term) { return scene.mode_of(term) == Mode::corrected; };
-  return corrected(Term::density) && corrected(Term::state) && corrected(Term::pressure) && !scene.transport_velocity;
-}
-
-/// The mechanical entries (model 8.11). What a scheme of finite steps leaves between the work of its conservative forces and the
-/// energy that they store is an entry of its own, so that the whole closes; it falls with dt^2. Work of pressure that no energy stores
-/// does not: it stands in the entry pressure_work, and there is no compression.
-void book_mechanical(const Scene& scene, const Booked& booked, Ledger& sum) {
-  const bool presses = sum.energy.count("compression") > 0, deforms = sum.energy.count("elastic") > 0;
-  if (!presses && !deforms) return;
-  sum.energy["viscous"] -= booked.viscous_work + booked.wall_viscous_work;
-  sum.energy["walls"] += booked.wall_pressure_work + booked.wall_viscous_work + booked.wall_elastic_work;
-  const double compression = sum.energy["compression"] - booked.start_compression;
-  const double potential = sum.energy["potential"] - booked.start_potential - booked.driven_potential;
-  const double pressure_work = booked.pressure_work + booked.wall_pressure_work;
-  const bool stored = stores_compression(scene);
-  const double by_pressure = stored ? compression + booked.compression_released + pressure_work : 0.0;
-  if (!stored) sum.energy.erase("compression"), sum.energy["pressure_work"] -= pressure_work;
-  const double deformation = (deforms ? sum.energy["elastic"] + sum.energy["hourglass"] : 0.0) - booked.start_deformation;
-  const double by_bonds = deformation + booked.deformation_released + booked.elastic_work + booked.wall_elastic_work;
-  const double released = stored ? booked.compression_released : 0.0;
-  if (sum.energy.count("latent") > 0 || released != 0.0) sum.energy["phase_work"] += released;
-  sum.energy["time_integration"] = -booked.bulk_viscous - by_pressure - by_bonds - (potential + booked.gravity_work) - booked.rotation_drift;
-}
-
 std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& effects) {
   std::vector<FieldInfo> fields = common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
   if (can_have_bodies(scene)) {
@@ -96,10 +68,7 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   refuse_large_step();
   if (const double first = scene.time_step.value_or(bound_.dt); scene.end_time > most_steps * first)
     throw InputError(fmt::format("the run would take {:.3g} steps: its first step is {:.3g} s, set by {}, and it ends at {:.3g} s; at most {:.0e} can be made", scene.end_time / first, first, scene.time_step ? "the scene" : bound_.name, scene.end_time, most_steps));
-  const Ledger start = ledger();
-  if (start.energy.count("compression")) world_.booked.start_compression = start.energy.at("compression");
-  if (start.energy.count("elastic")) world_.booked.start_deformation = start.energy.at("elastic") + start.energy.at("hourglass");
-  if (start.energy.count("potential")) world_.booked.start_potential = start.energy.at("potential") - world_.booked.driven_potential;
+  book_start(world_, ledger());
   happen_until_now();
   keep_good_state();
 }
@@ -116,6 +85,7 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   world_.threads = options_.threads;
   world_.axis_order = options_.axis_order;
   world_.box = box_of(scene);
+  open_accounts(world_, effects_);
   guards_.still = is_still(scene, initial);
   load(initial);
   enclosure_ = enclosure_of(scene, initial);
@@ -324,9 +294,7 @@ Ledger Simulation::ledger() const {
   const auto m = world_.particles[field::mass];
   for (std::size_t id = 0; id < m.size(); ++id) sum.mass += m[world_.particles.row(id)];
   for (const Active& a : effects_) a.effect->add_to(world_, sum);
-  book_mechanical(world_.scene, world_.booked, sum);
-  sum.energy["merging"] += world_.booked.merging;
-  sum.energy["walls"] += world_.booked.walls;
+  close_ledger(world_, sum);
   return sum;
 }
 

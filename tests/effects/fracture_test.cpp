@@ -115,7 +115,7 @@ TEST(Fracture, LeavesTheStressOfWhatHasFlowedAsItWas) {
     ++changed;
   }
   EXPECT_GT(changed, 4u);
-  EXPECT_GE(w.booked.fracture, 0.0);
+  EXPECT_GE(w.booked[Account{"fracture"}], 0.0);
 }
 
 TEST(Fracture, GoesOnBitForBitFromACheckpoint) {
@@ -135,9 +135,9 @@ TEST(Fracture, GoesOnBitForBitFromACheckpoint) {
 TEST(Fracture, IsTheSameWithTwoThreads) {
   const lab::Lab lab = bar_pulled_apart(0.1);
   const Simulation one = lab.run(4.0), two = lab.run(4.0, 2);
-  EXPECT_GT(one.world().booked.fracture, 0.0);
+  EXPECT_GT(one.world().booked[Account{"fracture"}], 0.0);
   EXPECT_EQ(lab::by_id(one, field::position_x), lab::by_id(two, field::position_x));
-  EXPECT_EQ(one.world().booked.fracture, two.world().booked.fracture);
+  EXPECT_EQ(one.world().booked[Account{"fracture"}], two.world().booked[Account{"fracture"}]);
 }
 
 }  // namespace

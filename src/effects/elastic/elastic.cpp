@@ -86,6 +86,10 @@ EffectSpec spec(const Scene& scene) {
                 field::strain_xx, field::strain_yy, field::strain_zz, field::strain_yz, field::strain_xz, field::strain_xy},
                {field::mass, field::body, field::material, field::position_x, field::position_y, field::position_z}};
   if (can_freeze(scene)) s.owns.emplace_back(field::bond_frequency);
+  Force bonds{field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, {"elastic_work"}, Account{"wall_elastic_work"}};
+  bonds.stored = StoredEnergy{{"elastic", "hourglass"}, {"start_deformation"}, account::deformation_released};
+  bonds.body_force_defect = "bodies.bonds";
+  s.forces = {bonds};
   return s;
 }
 

@@ -38,7 +38,7 @@ void set_bulk_pressure(World& world, const SceneNumbers& n) {
     q[i] = next;
     before[i] = delta[i];
   });
-  world.booked.bulk_viscous += told * n.pressure_work * taken[0];
+  world.booked[taken_by_bulk_viscosity] += told * n.pressure_work * taken[0];
 }
 
 }  // namespace tripoint::fluid

@@ -5,6 +5,9 @@
 
 namespace tripoint::fluid {
 
+/// Energy that the numerical bulk viscosity of liquids has taken [J].
+inline constexpr Account taken_by_bulk_viscosity{"bulk_viscous"};
+
 /// Whether liquids of this scene have a numerical bulk viscosity: where a free surface or a contact can be (clamp), with the corrected density,
 /// pressure and equation of state, and nothing melts or freezes, which changes densities at once.
 [[nodiscard]] bool has_bulk_viscosity(const Scene&);

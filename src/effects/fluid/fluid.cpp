@@ -46,6 +46,9 @@ bool can_have_walls(const Scene& scene) {
 /// Whether viscous pairs see walls by the mirrored velocity (model 8.4).
 bool mirrors_velocities(const Scene& scene) { return scene.mode_of(Term::walls) == Mode::corrected && can_have_walls(scene); }
 
+/// Energy of compression that changes of phase and of own pairs let go [J].
+constexpr Account compression_released{"compression_released"};
+
 class Fluid : public Effect {
  public:
   explicit Fluid(const Scene& scene)
@@ -65,9 +68,8 @@ class Fluid : public Effect {
   void check(const World& world) const override { refuse_overlap(world, numbers_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World& world, Ledger& ledger) const override {
-    add_fluid(world, numbers_, kernels_, ledger);
-    if (damps_) ledger.energy["bulk_viscous"] += world.booked.bulk_viscous;
-    if (transports_) ledger.energy["transport"] -= world.booked.transport_work;
+    if (stores_compression(world.scene)) add_fluid(world, numbers_, kernels_, ledger);
+    if (damps_) ledger.energy["bulk_viscous"] += world.booked[taken_by_bulk_viscosity];
   }
 
  private:
@@ -115,7 +117,7 @@ void Fluid::set_own_density(World& world, std::size_t row) const {
 
 void Fluid::adopt(World& world) {
   static const double told = 1.0 - defect_size("fluid.phase_jump");
-  world.booked.compression_released -= told * compression_jump(world, numbers_, kernels_, Groups(world), 0.5 * drifted_);
+  world.booked[compression_released] -= told * compression_jump(world, numbers_, kernels_, Groups(world), 0.5 * drifted_);
   for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
@@ -190,6 +192,21 @@ TimeStepBound Fluid::max_dt(const World& world) const {
   return bound;
 }
 
+/// Pressure, viscosity and, where the scene says so, the stress of the transport velocity, with where their work goes (model 8.11).
+std::vector<Force> forces_of(const Scene& scene) {
+  Force pressure{field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
+  if (stores_compression(scene)) pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, compression_released, "phase_work"};
+  else pressure.entry = "pressure_work";
+  Force viscous{field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, {"viscous_work"}, Account{"wall_viscous_work"}};
+  viscous.entry = "viscous";
+  for (Force* f : {&pressure, &viscous}) f->body_force_defect = "bodies.force", f->body_torque_defect = "bodies.torque";
+  if (!uses_transport_velocity(scene)) return {pressure, viscous};
+  Force transport{field::transport_force_x, field::transport_force_y, field::transport_force_z, {"transport_work"}};
+  transport.entry = "transport";
+  transport.feels = Feels::particles;
+  return {pressure, viscous, transport};
+}
+
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
@@ -208,6 +225,9 @@ EffectSpec spec(const Scene& scene) {
   if (uses_transport_velocity(scene))
     own({field::shift_x, field::shift_y, field::shift_z, field::background_x, field::background_y, field::background_z, field::transport_force_x,
          field::transport_force_y, field::transport_force_z});
+  s.forces = forces_of(scene);
+  s.accounts = {compression_released};
+  if (has_bulk_viscosity(scene)) s.numerical = {taken_by_bulk_viscosity};
   return s;
 }
 

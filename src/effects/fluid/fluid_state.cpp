@@ -72,7 +72,7 @@ void predict_velocities(World& world) {
   static const double late = defect_size("fluid.viscosity.lag");  // 1: the velocity of the whole step before
   const double ahead = (1.0 - 2.0 * late) * world.lagged.half_step;
   const Vec3 g = world.scene.gravity;
-  const std::vector<ForceColumns> forces = force_columns(world);
+  const std::vector<Triple<const double>> forces = force_columns(world);
   const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
   const auto x = positions(p), v = velocities(p);
   const auto m = p[field::mass];

@@ -14,6 +14,9 @@ namespace {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
+/// Energy that broken bonds have let go [J].
+constexpr Account let_go_by_bonds{"fracture"};
+
 class Fracture : public Effect {
  public:
   explicit Fracture(const Scene& scene) : limits_(scene) {}
@@ -22,7 +25,7 @@ class Fracture : public Effect {
   void change(World&) override;
   void adopt(World&) override { calm_.forget(); }
   void happen(World&, const Happening&) override { calm_.forget(); }
-  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["fracture"] += world.booked.fracture; }
+  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["fracture"] += world.booked[let_go_by_bonds]; }
 
  private:
   [[nodiscard]] std::vector<Pair> broken(const World&);
@@ -116,8 +119,8 @@ class Release {
     double let_go = 0.0;
     for (const auto& [id, before] : before_) let_go += before.energy - solid::deformation_energy(world_, forms_, id).total();
     static const double booked = 1.0 - defect_size("fracture.energy");
-    world_.booked.fracture += booked * let_go;
-    world_.booked.deformation_released += booked * let_go;
+    world_.booked[let_go_by_bonds] += booked * let_go;
+    world_.booked[account::deformation_released] += booked * let_go;
   }
 
  private:
@@ -177,7 +180,7 @@ void Fracture::change(World& world) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  return {"fracture", scene.mode_of(Term::elastic), {}, {field::body, field::material, field::solid_volume, field::shape_rank, field::position_x, field::position_y, field::position_z}};
+  return {"fracture", scene.mode_of(Term::elastic), {}, {field::body, field::material, field::solid_volume, field::shape_rank, field::position_x, field::position_y, field::position_z}, {}, {let_go_by_bonds}};
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fracture>(scene); }

@@ -93,7 +93,7 @@ void add_heat(World& world, Stage stage, Change change) {
     if (stage == Stage::last) f[i] = state.liquid_fraction;
     if (!conducts.empty()) k[i] = conducts[static_cast<std::size_t>(material[i])].of(phase[i], f[i]);
   });
-  world.booked.walls += to_walls[0];
+  world.booked[account::walls] += to_walls[0];
   if (!leaks) book_held(world, change);
 }
 
@@ -126,7 +126,7 @@ void CorrectedHeat::adopt(World& world) {
     const std::size_t i = world.particles.row(id);
     load_particle(world, i, inflow_temperature(world, i));
     set_material(world, i);
-    world.booked.inflow += world.particles[field::enthalpy][i];
+    world.booked[account::inflow] += world.particles[field::enthalpy][i];
   }
 }
 

@@ -24,7 +24,7 @@ void EqualHeat::load(World&, const InitialState& initial) {
 
 /// What flowed in brings its heat.
 void EqualHeat::adopt(World& world) {
-  for (const std::uint32_t id : world.change.born) world.booked.inflow += heat_content(world, world.particles.row(id), temperature_);
+  for (const std::uint32_t id : world.change.born) world.booked[account::inflow] += heat_content(world, world.particles.row(id), temperature_);
 }
 
 void EqualHeat::add_to(const World& world, Ledger& ledger) const {

@@ -50,7 +50,7 @@ void PaperHeat::adopt(World& world) {
     const std::size_t i = p.row(id);
     load_particle(world, i, inflow_temperature(world, i));
     set_material(world, i);
-    world.booked.inflow += heat_content(world, i);
+    world.booked[account::inflow] += heat_content(world, i);
   }
 }
 
@@ -72,7 +72,7 @@ void PaperHeat::drift(World& world, double dt) {
     const ThermalState state = settled(fusions[static_cast<std::size_t>(material[i])], T[i], f[i]);
     T[i] = state.temperature, f[i] = state.liquid_fraction;
   });
-  world.booked.walls += to_walls[0];
+  world.booked[account::walls] += to_walls[0];
   book_held(world, [&](std::size_t i) { return enthalpy_of(m[i], c_p[i], rate[i] * dt); });
 }
 

@@ -81,7 +81,7 @@ void hold_temperature(World& world, const Happening& now, SetTemperature set) {
     if (!named || !inside(world.unwrapped(i))) continue;
     if (now.begins) {
       const double given = set(world, i, *now.event.temperature);
-      world.booked.walls -= given;
+      world.booked[account::walls] -= given;
       if (const int b = p[field::body][i]; b >= 0 && world.bodies.has(field::body_heat.name)) world.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
     }
     held[i] = now.begins || held_by_scene(world, i);

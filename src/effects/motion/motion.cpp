@@ -11,8 +11,6 @@
 namespace tripoint::motion {
 namespace {
 
-constexpr std::size_t most_forces = force_fields.size();
-
 class FreeMotion : public Effect {
  public:
   void kick(World&, double dt) override;
@@ -30,7 +28,7 @@ class FreeMotion : public Effect {
 void FreeMotion::kick(World& world, double dt) {
   Particles& p = world.particles;
   const auto v = velocities(p);
-  const std::vector<ForceColumns> forces = force_columns(world);
+  const std::vector<Triple<const double>> forces = force_columns(world);
   const auto m = p[field::mass];
   const RigidMembers is_member(world);
   static const double heavier = 1.0 + defect_size("motion.gravity");
@@ -40,20 +38,20 @@ void FreeMotion::kick(World& world, double dt) {
   const auto sums = ordered_sums(p.size(), world.threads, blocks_, [&](std::size_t i, std::array<double, works>& work) {
     if (is_member(i)) return;
     if (guided && driven[i] != 0) {  // whoever moves it takes the work
-      for (std::size_t k = 0; k < forces.size(); ++k) work[works_on_free + k] += dt * dot(forces[k].force.at(i), v.at(i));
+      for (std::size_t k = 0; k < forces.size(); ++k) work[works_on_free + k] += dt * dot(forces[k].at(i), v.at(i));
       return;
     }
     const Vec3 before = v.at(i), after = before + (dt / m[i]) * total_force(forces, i) + dt * g;
     const Vec3 way = (0.5 * dt) * (before + after);
-    for (std::size_t k = 0; k < forces.size(); ++k) work[k] += dot(forces[k].force.at(i), way);
+    for (std::size_t k = 0; k < forces.size(); ++k) work[k] += dot(forces[k].at(i), way);
     work[by_gravity] += m[i] * dot(g, way);
     v.set(i, after);
   });
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    world.booked.*forces[k].work += sums[k];
-    world.booked.*forces[k].work_on_driven += sums[works_on_free + k];
+    world.booked[world.forces[k].work] += sums[k];
+    world.booked[work_on_driven(world.forces[k])] += sums[works_on_free + k];
   }
-  world.booked.gravity_work += sums[by_gravity];
+  world.booked[account::gravity_work] += sums[by_gravity];
 }
 
 /// r += dt v; with the transport velocity of the scene's choice, dt (v + shift).
@@ -74,7 +72,7 @@ void FreeMotion::drift(World& world, double dt) {
 /// 0.25 sqrt(h/|a|max) (model 8.10).
 TimeStepBound FreeMotion::max_dt(const World& world) const {
   const Particles& p = world.particles;
-  const std::vector<ForceColumns> forces = force_columns(world);
+  const std::vector<Triple<const double>> forces = force_columns(world);
   const auto m = p[field::mass];
   const Vec3 g = world.scene.gravity;
   const RigidMembers is_member(world);

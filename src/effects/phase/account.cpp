@@ -59,7 +59,7 @@ void Account::settle_deformation(World& world) const {
   for (const auto& [id, entry] : entries_) difference[id] = entry.before - energy_(id);
   for (const auto& [id, entry] : entries_) {
     if (difference.at(id) == 0.0) continue;
-    world.booked.deformation_released += difference.at(id);
+    world.booked[account::deformation_released] += difference.at(id);
     std::vector<std::uint32_t> events = entry.events;
     std::ranges::sort(events);
     share(world, events.empty() ? std::vector{id} : events, difference.at(id));

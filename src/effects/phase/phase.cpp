@@ -22,6 +22,10 @@ class PhaseChange : public Effect {
   void change(World&) override;
   void settle(World&) override;
   void happen(World&, const Happening&) override;
+  /// The entry is told also where nothing stands on it yet.
+  void add_to(const World& world, Ledger& ledger) const override {
+    if (!world.forces.empty()) ledger.energy["phase_work"] += 0.0;
+  }
 
  private:
   bool softens_;

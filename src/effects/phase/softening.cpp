@@ -39,7 +39,7 @@ void follow_stiffness(World& world) {
     share[i] = now;
     if (!is_elastic(i)) continue;
     const double released = before - solid::deformation_energy(world, forms, id).total();
-    world.booked.deformation_released += released;
+    world.booked[account::deformation_released] += released;
     give_heat(world, i, released);
   }
 }

@@ -10,12 +10,15 @@
 namespace tripoint::plastic {
 namespace {
 
+/// Energy that plastic flow has dissipated [J].
+constexpr Account dissipation{"plastic"};
+
 class PlasticFlow : public Effect {
  public:
   explicit PlasticFlow(const Scene&);
   void state(World&) override;
   void adopt(World&) override;
-  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["plastic"] += world.booked.plastic; }
+  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["plastic"] += world.booked[dissipation]; }
 
  private:
   double flow(World&, std::size_t row) const;
@@ -62,8 +65,8 @@ void PlasticFlow::state(World& world) {
   const auto lost = ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
     if (is_elastic(row)) sum[0] += flow(world, row);
   });
-  world.booked.plastic += booked * lost[0];
-  world.booked.deformation_released += booked * lost[0];
+  world.booked[dissipation] += booked * lost[0];
+  world.booked[account::deformation_released] += booked * lost[0];
 }
 
 /// What melts forgets how it has flowed.
@@ -78,7 +81,9 @@ EffectSpec spec(const Scene& scene) {
   return {"plastic",
           scene.mode_of(Term::elastic),
           {field::plastic_strain_xx, field::plastic_strain_yy, field::plastic_strain_zz, field::plastic_strain_yz, field::plastic_strain_xz, field::plastic_strain_xy},
-          {field::body, field::material, field::solid_volume, field::shape_rank, field::shape_inverse_xx, field::strain_xx}};
+          {field::body, field::material, field::solid_volume, field::shape_rank, field::shape_inverse_xx, field::strain_xx},
+          {},
+          {dissipation}};
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<PlasticFlow>(scene); }

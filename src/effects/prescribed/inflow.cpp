@@ -62,8 +62,8 @@ void append(World& world, std::size_t inflow, const Vec3& place, const Vec3& vel
   p[field::source][row] = static_cast<int>(world.scene.bodies.size() + inflow);
   p[field::driven][row] = driven_in;
   const double potential = -m * dot(world.scene.gravity, place);
-  world.booked.inflow += 0.5 * m * dot(velocity, velocity) + potential;
-  world.booked.driven_potential += potential;
+  world.booked[account::inflow] += 0.5 * m * dot(velocity, velocity) + potential;
+  world.booked[account::driven_potential] += potential;
   world.change.born.push_back(static_cast<std::uint32_t>(p[field::id][row]));
 }
 

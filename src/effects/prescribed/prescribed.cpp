@@ -18,7 +18,7 @@ class Prescribed : public Effect {
   void change(World&) override;
   void adopt(World&) override;
   void happen(World&, const Happening&) override;
-  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["inflow"] -= world.booked.inflow; }
+  void add_to(const World& world, Ledger& ledger) const override { ledger.energy["inflow"] -= world.booked[account::inflow]; }
 
  private:
   std::vector<Entrance> entrances_;
@@ -37,8 +37,8 @@ void guide(World& world, std::size_t row, const Vec3& place, const Vec3& velocit
   const auto r = positions(world.particles);
   r.set(row, r.at(row) + way);
   velocities(world.particles).set(row, velocity);
-  world.booked.walls -= energy_of(world, row) - before;
-  world.booked.driven_potential -= world.particles[field::mass][row] * dot(world.scene.gravity, way);
+  world.booked[account::walls] -= energy_of(world, row) - before;
+  world.booked[account::driven_potential] -= world.particles[field::mass][row] * dot(world.scene.gravity, way);
 }
 
 void Prescribed::load(World& world, const InitialState&) {

@@ -108,7 +108,7 @@ void Adoption::measure_anew(std::size_t b) {
   if (old.driven) {
     go_on_driven(world_, b, old.motion);
     world_.change.kinetic_lost[b] = in_its_frame;
-    world_.booked.walls += kinetic - in_its_frame - kinetic_energy(world_, b);
+    world_.booked[account::walls] += kinetic - in_its_frame - kinetic_energy(world_, b);
   } else {
     t[field::body_velocity][b] = P / t[field::body_mass][b];
     t[field::body_angular_momentum][b] = L;

@@ -92,7 +92,7 @@ void merge(World& world, const Event& event) {
   } else {
     go_on_driven(world, stays, old);
   }
-  world.booked.merging += before.kinetic - kinetic_energy(world, stays);
+  world.booked[account::merging] += before.kinetic - kinetic_energy(world, stays);
   give_velocities(world);
 }
 
@@ -150,7 +150,7 @@ void split(World& world, const Event& event) {
     deliver(b);
   }
   world.booked.undelivered_spin += owed - delivered;
-  world.booked.walls += kinetic;
+  world.booked[account::walls] += kinetic;
   give_velocities(world);
 }
 

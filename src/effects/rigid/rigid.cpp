@@ -118,13 +118,12 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   t[field::body_acceleration][b] = (1.0 / dt) * (v - v_before);
   t[field::body_angular_acceleration][b] = (1.0 / dt) * (t[field::body_angular_velocity][b] - omega_before);
   const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
-  world.booked.pressure_work += dt * (dot(f.pressure, mean) + dot(f.pressure_torque, spin));
-  world.booked.viscous_work += dt * (dot(f.viscous, mean) + dot(f.viscous_torque, spin));
-  world.booked.elastic_work += dt * (dot(f.elastic, mean) + dot(f.elastic_torque, spin));
-  world.booked.gravity_work += dt * m * dot(g, mean);
+  for (std::size_t k = 0; k < world.forces.size(); ++k)
+    if (world.forces[k].feels == Feels::all) world.booked[world.forces[k].work] += dt * (dot(f.forces[k], mean) + dot(f.torques[k], spin));
+  world.booked[account::gravity_work] += dt * m * dot(g, mean);
 }
 
-/// What liquids and bonds do to a driven body goes to whoever drives it. Half a kick works along the drift that it is beside: at a
+/// What forces do to a driven body goes to whoever drives it. Half a kick works along the drift that it is beside: at a
 /// keyframe the one before goes with the old velocity and the one after with the new.
 void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
   if (forces.empty()) return;
@@ -132,9 +131,8 @@ void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& 
   const PrescribedState s = driven_state(world, b, ends_step ? world.time - dt : world.time + dt);
   const Vec3 omega = s.angular_velocity, v = s.velocity + cross(omega, rotate(s.rotation, world.bodies[field::body_offset][b]));
   const BodyForces& f = forces[b];
-  world.booked.wall_pressure_work += dt * (dot(f.pressure, v) + dot(f.pressure_torque, omega));
-  world.booked.wall_viscous_work += dt * (dot(f.viscous, v) + dot(f.viscous_torque, omega));
-  world.booked.wall_elastic_work += dt * (dot(f.elastic, v) + dot(f.elastic_torque, omega));
+  for (std::size_t k = 0; k < world.forces.size(); ++k)
+    if (world.forces[k].feels == Feels::all) world.booked[work_on_driven(world.forces[k])] += dt * (dot(f.forces[k], v) + dot(f.torques[k], omega));
 }
 
 void RigidBodies::load(World& world, const InitialState& initial) {
@@ -186,13 +184,13 @@ void RigidBodies::drift(World& world, double dt) {
       t[field::body_centre][b] += dt * t[field::body_velocity][b];
       const double before = kinetic_energy(world, b);
       turn(world, b, dt);
-      world.booked.rotation_drift += kinetic_energy(world, b) - before;
+      world.booked[account::rotation_drift] += kinetic_energy(world, b) - before;
     } else {
       const double kinetic = kinetic_energy(world, b), potential = potential_energy(world, b);
       drive(world, b, world.next_time);
       const double raised = potential_energy(world, b) - potential;
-      world.booked.driven_potential += raised;
-      world.booked.walls -= kinetic_energy(world, b) - kinetic + raised;
+      world.booked[account::driven_potential] += raised;
+      world.booked[account::walls] -= kinetic_energy(world, b) - kinetic + raised;
     }
     any = true;
   }
@@ -216,7 +214,7 @@ void set_motion(World& world, std::size_t b, Motion motion) {
   if (motion == Motion::fixed) {
     t[field::body_velocity][b] = t[field::body_angular_momentum][b] = t[field::body_angular_velocity][b] = {};
   }
-  world.booked.walls += before - kinetic_energy(world, b);
+  world.booked[account::walls] += before - kinetic_energy(world, b);
 }
 
 /// Free bodies with most of their members in the region are driven by the grip from now on.

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/field.hpp"
+#include "core/vec3.hpp"
+
+/// Energies that a run sums as it goes. Accounts are typed keys, as fields are: an effect declares its own in its folder.
+namespace tripoint {
+
+/// A sum of energy over the run [J]: what a force has done, what an event has let go, what was stored at time 0.
+struct Account {
+  std::string_view name;
+  std::uint64_t key = key_of(name);
+  bool operator==(const Account& other) const noexcept { return key == other.key; }
+};
+
+/// Accounts that every scene has, since several effects book on them.
+namespace account {
+inline constexpr Account gravity_work{"gravity_work"};      ///< done by gravity on liquids and free bodies
+inline constexpr Account start_potential{"start_potential"};
+inline constexpr Account driven_potential{"driven_potential"};  ///< change of the potential energy of driven bodies
+inline constexpr Account rotation_drift{"rotation_drift"};  ///< change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly
+inline constexpr Account deformation_released{"deformation_released"};  ///< elastic and hourglass energy that events turned into heat, plastic or fracture entries
+inline constexpr Account inflow{"inflow"};    ///< kinetic, potential and thermal energy that flowed in
+inline constexpr Account merging{"merging"};  ///< kinetic energy lost as bodies became one
+inline constexpr Account walls{"walls"};      ///< taken by what is held, fixed or prescribed from outside
+}  // namespace account
+
+/// An account was asked for that no effect of this scene has declared: a fault of the program, so it says the account by name.
+class MissingAccount : public std::logic_error {
+ public:
+  explicit MissingAccount(std::string_view name) : std::logic_error("no effect of this scene has declared the account " + std::string(name)) {}
+};
+
+/// The accounts of a scene and what stands on them.
+class Bookings {
+ public:
+  Bookings();
+  /// Adds an account at 0; one that is there stays as it is.
+  void open(const Account&);
+  [[nodiscard]] bool has(const Account& a) const noexcept { return find(a.key) >= 0; }
+  /// [J] @throws MissingAccount
+  [[nodiscard]] double& operator[](const Account& a) { return values_[place(a)]; }
+  [[nodiscard]] double operator[](const Account& a) const { return values_[place(a)]; }
+
+  /// In the order in which they were opened.
+  [[nodiscard]] std::span<const std::string_view> names() const noexcept { return names_; }
+  [[nodiscard]] std::span<const double> values() const noexcept { return values_; }
+  [[nodiscard]] std::span<double> values() noexcept { return values_; }
+
+  Vec3 undelivered_spin;  ///< angular momentum about truncated axes that a split could not hand on [kg m2/s]
+
+ private:
+  static constexpr std::size_t places = 128;  ///< several times as many as there are accounts: few keys share a place
+  [[nodiscard]] int find(std::uint64_t key) const noexcept {
+    for (std::size_t s = key % places;; s = (s + 1) % places) {
+      if (number_[s] == 0) return -1;
+      if (keys_[number_[s] - 1u] == key) return number_[s] - 1;
+    }
+  }
+  [[nodiscard]] std::size_t place(const Account& a) const {
+    const int n = find(a.key);
+    if (n < 0) throw MissingAccount(a.name);
+    return static_cast<std::size_t>(n);
+  }
+
+  std::vector<std::string_view> names_;
+  std::vector<std::uint64_t> keys_;
+  std::vector<double> values_;
+  std::array<std::uint8_t, places> number_{};  ///< open addressing: 1 + the account whose key has, or shares, this place
+};
+
+}  // namespace tripoint
