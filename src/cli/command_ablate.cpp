@@ -13,6 +13,7 @@
 #include "cli/common.hpp"
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
+#include "scene/effect_rule.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
 #include "validation/harness/suite.hpp"
@@ -35,19 +36,11 @@ struct Options {
   int jobs = 1;
 };
 
-/// Terms that act where an effect is on.
-const std::map<std::string, std::vector<Term>>& terms_of_effects() {
-  static const std::map<std::string, std::vector<Term>> terms{{"fluid", {Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}}, {"elastic", {Term::elastic, Term::hourglass}},
-                                                              {"heat", {Term::heat}}, {"phase", {Term::phase}}, {"rigid", {Term::rotation}}};
-  return terms;
-}
-
+/// Terms of two forms that act in a scene: those of the effects that it calls for, and the time scheme.
 std::vector<Term> terms_of(const Scene& scene) {
   std::vector<Term> terms;
-  for (const auto& effect : called_effects(scene)) {
-    const auto at = terms_of_effects().find(effect.name);
-    if (at != terms_of_effects().end()) terms.insert(terms.end(), at->second.begin(), at->second.end());
-  }
+  for (const EffectRule& rule : effect_rules())
+    if (calls_for(scene, rule.name)) terms.insert(terms.end(), rule.terms.begin(), rule.terms.end());
   if (!terms.empty()) terms.push_back(Term::time);
   std::sort(terms.begin(), terms.end());
   terms.erase(std::unique(terms.begin(), terms.end()), terms.end());

@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/all_effects.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 
 #include "effects/body_table.hpp"
-#include "effects/density/density.hpp"
-#include "effects/elastic/elastic.hpp"
-#include "effects/fluid/fluid.hpp"
 #include "effects/fluid/material_numbers.hpp"
-#include "effects/fracture/fracture.hpp"
-#include "effects/heat/heat.hpp"
-#include "effects/motion/motion.hpp"
 #include "effects/pair_passes.hpp"
-#include "effects/phase/phase.hpp"
-#include "effects/plastic/plastic.hpp"
-#include "effects/prescribed/prescribed.hpp"
-#include "effects/rigid/rigid.hpp"
 #include "effects/run_pass.hpp"
-#include "scene/read_case.hpp"
+#include "scene/effect_rule.hpp"
 #include "scene/temperatures.hpp"
 
+#ifndef TRIPOINT_EFFECT_LIST
+#define TRIPOINT_EFFECT_LIST "effects/effect_list.inc"
+#endif
+
 namespace tripoint {
+
+#define TRIPOINT_EFFECT(name)                      \
+  namespace name {                                 \
+  EffectSpec spec(const Scene&);                   \
+  std::unique_ptr<Effect> make(const Scene&);      \
+  std::vector<DefectEntry> defects();              \
+  }
+#include TRIPOINT_EFFECT_LIST
+#undef TRIPOINT_EFFECT
+
 namespace {
 
 struct Registered {
@@ -33,18 +35,11 @@ struct Registered {
   std::vector<DefectEntry> (*defects)();
 };
 
-/// The one list of effects, in the order in which they run within a stage.
+/// In the order in which they run within a stage.
 constexpr Registered every_effect[] = {
-    {"rigid", rigid::spec, rigid::make, rigid::defects},
-    {"fluid", fluid::spec, fluid::make, fluid::defects},
-    {"motion", motion::spec, motion::make, motion::defects},
-    {"prescribed", prescribed::spec, prescribed::make, prescribed::defects},
-    {"density", density::spec, density::make, density::defects},
-    {"elastic", elastic::spec, elastic::make, elastic::defects},
-    {"plastic", plastic::spec, plastic::make, plastic::defects},
-    {"fracture", fracture::spec, fracture::make, fracture::defects},
-    {"heat", heat::spec, heat::make, heat::defects},
-    {"phase", phase::spec, phase::make, phase::defects},
+#define TRIPOINT_EFFECT(name) {#name, name::spec, name::make, name::defects},
+#include TRIPOINT_EFFECT_LIST
+#undef TRIPOINT_EFFECT
 };
 
 /// Whether this build has an effect: TRIPOINT_EFFECTS lists those that it has, between commas; without it it has all.
@@ -69,34 +64,6 @@ constexpr auto all_effects = [] {
 const Registered* find(std::string_view name) {
   const auto* place = std::ranges::find(all_effects, name, &Registered::name);
   return place == std::end(all_effects) ? nullptr : place;
-}
-
-/// Whether an event holds or grips particles that are no members of rigid bodies for good.
-bool moves_particles(const Scene& scene) {
-  const auto loose = [&](const std::string& name) { return scene.body(name).phase != Phase::rigid; };
-  return std::ranges::any_of(scene.events, [&](const Event& e) {
-    return e.kind == Event::Kind::grip || (e.kind == Event::Kind::hold && std::ranges::any_of(e.bodies, loose));
-  });
-}
-
-/// What the scene calls for, and what that in turn needs.
-std::vector<CalledEffect> wanted(const Scene& scene) {
-  std::vector<CalledEffect> list = called_effects(scene);
-  const auto has = [&](std::string_view name) { return std::ranges::find(list, name, &CalledEffect::name) != list.end(); };
-  const auto driven = [](const Body& b) { return b.phase == Phase::rigid || (b.phase == Phase::elastic && b.motion != Motion::free); };
-  if (!has("rigid") && std::ranges::any_of(scene.bodies, driven)) list.push_back({"rigid", "fixed and prescribed bodies move as rigid ones"});
-  if (!has("rigid") && has("phase") && std::ranges::any_of(scene.materials, [](const Material& m) { return m.t_melt && m.solid == "rigid"; }))
-    list.push_back({"rigid", "what freezes becomes rigid"});
-  const bool wet = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid; }) || !scene.inflows.empty();
-  if ((wet && has("fluid")) || has("elastic") || has("phase")) list.push_back({"motion", "liquids and deformable solids move by the forces on their particles"});
-  if (has("motion") && !scene.inflows.empty()) list.push_back({"prescribed", "an inflow brings particles in"});
-  else if (has("motion") && moves_particles(scene)) list.push_back({"prescribed", "a hold or a grip moves particles"});
-  const auto equal = equal_temperature(scene);
-  if (const auto heat = std::ranges::find(list, "heat", &CalledEffect::name); equal && heat != list.end()) heat->why = fmt::format("all has {:.6g} K and nothing brings another temperature: no heat flows, none is computed", *equal);
-  if (has("heat") && !equal && scene.mode_of(Term::heat) == Mode::paper && !has("fluid")) {
-    list.push_back({"density", "(21) as printed divides by the summed density (4)"});
-  }
-  return list;
 }
 
 /// @throws InputError when two effects own a field, or one is read and owned by none
@@ -159,14 +126,14 @@ int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_
 }  // namespace
 
 std::string missing_effect(const Scene& scene) {
-  for (const CalledEffect& called : wanted(scene)) {
+  for (const CalledEffect& called : needed_effects(scene)) {
     if (!find(called.name)) return called.name;
   }
   return {};
 }
 
 std::vector<Active> active_effects(const Scene& scene) {
-  const std::vector<CalledEffect> calls = wanted(scene);
+  const std::vector<CalledEffect> calls = needed_effects(scene);
   if (const std::string missing = missing_effect(scene); !missing.empty()) {
     throw InputError("tripoint: the " + missing + " effect is not in this build");
   }
@@ -190,7 +157,7 @@ Plan plan(const Scene& scene) {
   if (can_have_bodies(scene))
     for (const FieldInfo& f : body_table_fields()) add(f, "bodies");
   // What is called for and not in this build is listed all the same: explain says what a scene means.
-  for (const CalledEffect& c : wanted(scene)) {
+  for (const CalledEffect& c : needed_effects(scene)) {
     if (!find(c.name)) p.effects.push_back({c.name, c.why + " (not in this build)", std::string(to_string(scene.mode))});
   }
   if (!p.effects.empty()) return p;

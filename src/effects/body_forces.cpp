@@ -40,6 +40,7 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
   sums.clear();
   if (felt.empty()) return;
   sums.assign(world.bodies.size(), {});
+  for (BodyForces& sum : sums) sum.count = world.forces.size();
   const auto body = p[field::body];
   const auto centre = world.bodies[field::body_centre];
   const auto x = positions(p);

@@ -12,13 +12,14 @@ namespace tripoint {
 struct BodyForces {
   std::array<Vec3, most_forces> forces;   ///< [N]
   std::array<Vec3, most_forces> torques;  ///< [N m]
+  std::size_t count = 0;                  ///< of them that the scene has
   [[nodiscard]] Vec3 force() const { return sum_of(forces); }
   [[nodiscard]] Vec3 torque() const { return sum_of(torques); }
 
  private:
-  static Vec3 sum_of(const std::array<Vec3, most_forces>& list) {
+  [[nodiscard]] Vec3 sum_of(const std::array<Vec3, most_forces>& list) const {
     Vec3 sum;
-    for (const Vec3& one : list) sum += one;
+    for (std::size_t k = 0; k < count; ++k) sum += list[k];
     return sum;
   }
 };

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
-#include "scene/read_case.hpp"
+#include "scene/effect_rule.hpp"
 
 namespace tripoint {
 
@@ -15,19 +15,13 @@ std::vector<FieldInfo> body_table_fields() {
           field::body_source, field::body_grip, field::body_grip_centre, field::body_grip_orientation};
 }
 
-namespace {
-bool calls(const Scene& scene, std::string_view effect) {
-  return std::ranges::any_of(called_effects(scene), [&](const CalledEffect& e) { return e.name == effect; });
-}
-}  // namespace
-
 bool can_have_bodies(const Scene& scene) {
   const bool solid = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; });
-  return solid || calls(scene, "phase");
+  return solid || calls_for(scene, "phase");
 }
 
 bool can_have_deformable_bodies(const Scene& scene) {
-  return calls(scene, "elastic");
+  return calls_for(scene, "elastic");
 }
 
 std::vector<std::size_t> members(const World& world, std::size_t body) {

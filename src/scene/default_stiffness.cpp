@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/meeting.hpp"
 #include "scene/read_case.hpp"
@@ -61,8 +62,7 @@ double stiffness_of_solids(const Scene& s, const std::vector<Meeting>& meetings)
 std::optional<DefaultStiffness> default_stiffness(const Scene& s) {
   if (std::ranges::any_of(s.materials, [](const Material& m) { return m.stiffness.has_value(); })) return {};
   DefaultStiffness k;
-  const auto called = called_effects(s);
-  if (std::ranges::find(called, "fluid", &CalledEffect::name) != called.end()) {
+  if (calls_for(s, "fluid")) {
     k = {stiffness_of_liquids(s), "(10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 g depth of the liquids)"};
   } else if (const auto pairs = s.contact ? meetings(s) : std::vector<Meeting>{}; !pairs.empty()) {
     k = {stiffness_of_solids(s, pairs), "solids can meet: (10 v)^2, v the greatest speed of approach with the fall by the scene's height, or the longitudinal modulus of an elastic body over the greatest density"};

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/lattice.hpp"
 #include "scene/meeting.hpp"
@@ -48,7 +49,7 @@ class IdleKeys {
   }
   [[nodiscard]] bool any_mode(const auto& test) const { return std::ranges::any_of(scenes_, test); }
   [[nodiscard]] bool calls(const std::string& effect) const {
-    return any_mode([&](const Scene& s) { return std::ranges::any_of(called_effects(s), [&](const CalledEffect& e) { return e.name == effect; }); });
+    return any_mode([&](const Scene& s) { return calls_for(s, effect); });
   }
   [[nodiscard]] bool corrected(Term term) const {
     return any_mode([&](const Scene& s) { return s.mode_of(term) == Mode::corrected; });
@@ -245,12 +246,8 @@ class IdleKeys {
   }
 
   [[nodiscard]] bool acts(Term term) const {
-    if (term == Term::time) return true;
-    if (term == Term::elastic || term == Term::hourglass) return calls("elastic");
-    if (term == Term::phase) return calls("phase");
-    if (term == Term::rotation) return calls("rigid");
-    if (term == Term::heat) return calls("heat");
-    return calls("fluid") || calls("heat");  // heat as printed sums densities too
+    const auto has = [&](const std::vector<Term>& terms) { return std::ranges::find(terms, term) != terms.end(); };
+    return term == Term::time || std::ranges::any_of(effect_rules(), [&](const EffectRule& r) { return (has(r.terms) || has(r.terms_shared)) && calls(std::string(r.name)); });
   }
 
   void judgement() {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/overlap.hpp"
 #include "scene/phase_values.hpp"
@@ -48,8 +49,7 @@ class Preflight {
   }
 
   [[nodiscard]] bool presses() const {
-    const auto called = called_effects(scene_);
-    return std::any_of(called.begin(), called.end(), [](const CalledEffect& e) { return e.name == "fluid"; });
+    return calls_for(scene_, "fluid");
   }
 
   /// Rows of two bodies nearer than rows of one body are matter that is compressed from the start, and flies apart.

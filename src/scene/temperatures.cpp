@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "scene/effect_rule.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint {
@@ -42,8 +43,7 @@ std::optional<double> equal_temperature(const Scene& s) {
   const bool bodies = std::ranges::all_of(s.bodies, [&](const Body& b) { return has_heat(b, s.material(b.material)); });
   const bool inflows = std::ranges::all_of(s.inflows, [&](const Inflow& f) { return f.temperature && conducts(s.material(f.material)); });
   if (!bodies || !inflows) return {};
-  const auto calls = called_effects(s);
-  if (std::ranges::find(calls, "phase", &CalledEffect::name) != calls.end()) return {};
+  if (calls_for(s, "phase")) return {};
   return range.least;
 }
 

@@ -9,7 +9,7 @@
 #include "core/errors.hpp"
 #include "effects/body_table.hpp"
 #include "effects/solid_particles.hpp"
-#include "scene/read_case.hpp"
+#include "scene/effect_rule.hpp"
 #include "step/guard.hpp"
 
 namespace tripoint {
@@ -33,7 +33,7 @@ bool is_static(const Scene& scene, const InitialState& initial) {
   const auto at_rest = [](const Vec3& v) { return v == Vec3{}; };
   if (!scene.inflows.empty()) return false;
   if (std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid && b.motion != Motion::fixed; })) return false;
-  if (std::ranges::any_of(called_effects(scene), [](const CalledEffect& e) { return e.name == "phase"; })) return false;
+  if (calls_for(scene, "phase")) return false;
   const bool all_fixed = std::ranges::all_of(scene.bodies, [](const Body& b) { return b.motion == Motion::fixed; });
   if (all_fixed) return scene.events.empty();
   const bool none_prescribed = std::ranges::none_of(scene.bodies, [](const Body& b) { return b.motion == Motion::prescribed; });

@@ -7,7 +7,7 @@
 
 #include "effects/elastic/bond_forces.hpp"
 #include "effects/ordered_sum.hpp"
-#include "scene/read_case.hpp"
+#include "scene/effect_rule.hpp"
 
 namespace tripoint::elastic {
 namespace {
@@ -73,7 +73,7 @@ void Elastic::add_to(const World& world, Ledger& ledger) const {
 }
 
 bool can_freeze(const Scene& scene) {
-  return std::ranges::any_of(called_effects(scene), [](const CalledEffect& e) { return e.name == "phase"; });
+  return calls_for(scene, "phase");
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "core/defect.hpp"
 #include "effects/ordered_sum.hpp"
-#include "scene/read_case.hpp"
+#include "scene/effect_rule.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -18,7 +18,7 @@ constexpr double bulk_viscosity = 0.2;  ///< zeta, over rho0 c h
 bool has_bulk_viscosity(const Scene& scene) {
   const auto corrected = [&](Term term) { return scene.mode_of(term) == Mode::corrected; };
   const bool liquid = !scene.inflows.empty() || std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid; });
-  const bool freezes = std::ranges::any_of(called_effects(scene), [](const CalledEffect& e) { return e.name == "phase"; });
+  const bool freezes = calls_for(scene, "phase");
   return scene.clamp && liquid && !freezes && corrected(Term::density) && corrected(Term::pressure) && corrected(Term::state);
 }
 

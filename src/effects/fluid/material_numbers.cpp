@@ -6,7 +6,7 @@
 
 #include "core/defect.hpp"
 #include "core/errors.hpp"
-#include "scene/read_case.hpp"
+#include "scene/effect_rule.hpp"
 #include "sph/lattice.hpp"
 
 namespace tripoint::fluid {
@@ -52,7 +52,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
   n.core_reach = 0.9 * (1.0 + defect_size("fluid.core")) * scene.spacing;
   const bool corrected = std::ranges::all_of(std::array{Term::walls, Term::density, Term::pressure}, [&](Term t) { return scene.mode_of(t) == Mode::corrected; });
-  const bool freezes = std::ranges::any_of(called_effects(scene), [](const CalledEffect& e) { return e.name == "phase"; });
+  const bool freezes = calls_for(scene, "phase");
   n.averages_walls = corrected && !freezes && !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   // Half of what a wall particle sees is wall, which does not move: it reads half of the strain of the liquid.
   if (n.averages_walls) n.wall_stiffness = 2.0 * (1.0 - defect_size("walls.stiffness"));

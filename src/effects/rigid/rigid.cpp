@@ -165,11 +165,12 @@ void RigidBodies::kick(World& world, double dt) {
   static const double factor = 1.0 + defect_size("rigid.gravity");
   const Vec3 g = factor * world.scene.gravity;
   forces_on_moving_bodies(world, forces_);
+  static const BodyForces none;
   bool any = false;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (!is_alive(world, b) || !is_rigid(world, b) || is_fixed(world, b)) continue;
     any = true;
-    is_free(world, b) ? push(world, b, forces_.empty() ? BodyForces{} : forces_[b], g, dt) : book_wall_work(world, b, forces_, dt);
+    is_free(world, b) ? push(world, b, forces_.empty() ? none : forces_[b], g, dt) : book_wall_work(world, b, forces_, dt);
   }
   if (any) give_velocities(world);
 }

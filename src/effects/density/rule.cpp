@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/effect_rule.hpp"
+#include "scene/temperatures.hpp"
+
+namespace tripoint::density {
+namespace {
+
+std::string needed_for(const Scene& s, const Called& called) {
+  const bool printed = s.mode_of(Term::heat) == Mode::paper && !called("fluid");
+  return called("heat") && printed && !equal_temperature(s) ? "(21) as printed divides by the summed density (4)" : "";
+}
+
+}  // namespace
+
+EffectRule rule() { return {"density", nullptr, nullptr, needed_for}; }
+
+}  // namespace tripoint::density

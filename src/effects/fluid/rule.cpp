@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "scene/effect_rule.hpp"
+
+namespace tripoint::fluid {
+namespace {
+
+bool has_stiffness(const Material& m) { return m.stiffness.has_value(); }
+
+bool can_break(const Scene&, const Body& b, const Material& m) { return b.phase == Phase::elastic && (m.fracture_stretch || m.fracture_distance); }
+
+/// Bodies that can meet others: contact needs a stiffness, two bodies, or one that can break in two, and one of them free.
+std::string who_can_touch(const Scene& s) {
+  const bool any_free = std::ranges::any_of(s.bodies, [](const Body& b) { return b.motion == Motion::free; });
+  if (!s.contact || !any_material(s, has_stiffness) || !any_free || (s.bodies.size() < 2 && !any_body(s, can_break))) return "";
+  return bodies_where(s, [](const Scene&, const Body&, const Material&) { return true; });
+}
+
+std::string called_for(const Scene& s) {
+  std::string liquid = bodies_where(s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::liquid && moves(scene, b); });
+  if (liquid.empty() && !s.inflows.empty()) liquid = "an inflow";
+  if (!liquid.empty()) return because(liquid, "liquid, and not held in place");
+  if (const std::string touch = who_can_touch(s); !touch.empty()) return because(touch, "more than one body, one of them free, and a stiffness: they can touch");
+  const bool flows = any_material(s, has_stiffness) || s.gravity != Vec3{};
+  return flows ? because(who_changes_phase(s), "what melts flows") : "";
+}
+
+std::string left_out(const Scene& s) {
+  if (any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; })) return "every liquid is held in place, and nothing can touch";
+  if (!s.contact) return "nothing is liquid, and the scene says contact = \"none\"";
+  if (!any_material(s, has_stiffness)) return "nothing is liquid, no two bodies can meet before the end of the run, and no material has a stiffness";
+  return "nothing is liquid, and no free body has another to touch";
+}
+
+}  // namespace
+
+EffectRule rule() { return {"fluid", called_for, left_out, nullptr, {Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}, {Term::kernel}}; }
+
+}  // namespace tripoint::fluid

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "scene/effect_rule.hpp"
+#include "scene/temperatures.hpp"
+
+namespace tripoint::heat {
+namespace {
+
+std::string called_for(const Scene& s) {
+  const std::string who = bodies_where(s, [](const Scene&, const Body& b, const Material& m) { return has_heat(b, m); });
+  const auto equal = who.empty() ? std::optional<double>() : equal_temperature(s);
+  if (equal) return fmt::format("all has {:.6g} K and nothing brings another temperature: no heat flows, none is computed", *equal);
+  return because(who, "a temperature is given, and the material conducts");
+}
+
+std::string left_out(const Scene& s) {
+  if (temperatures_of(s).empty()) return "no temperature is given";
+  return "no body with a temperature has a conductivity and a heat_capacity";
+}
+
+}  // namespace
+
+/// As printed it divides by sums of density.
+EffectRule rule() { return {"heat", called_for, left_out, nullptr, {Term::heat}, {Term::kernel, Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}}; }
+
+}  // namespace tripoint::heat

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/effect_rule.hpp"
+
+namespace tripoint::motion {
+namespace {
+
+std::string needed_for(const Scene& s, const Called& called) {
+  const bool wet = any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }) || !s.inflows.empty();
+  const bool moves = (wet && called("fluid")) || called("elastic") || called("phase");
+  return moves ? "liquids and deformable solids move by the forces on their particles" : "";
+}
+
+}  // namespace
+
+EffectRule rule() { return {"motion", nullptr, nullptr, needed_for}; }
+
+}  // namespace tripoint::motion

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/read_case.hpp"
+
+/// What an effect says of itself to whoever reads scenes and runs nothing. Each effect's rule stands in its folder, in rule.cpp; a build
+/// without the effect has its rule all the same.
+namespace tripoint {
+
+/// Effects that a scene has called for so far.
+class Called {
+ public:
+  explicit Called(const std::vector<CalledEffect>& list) : list_(list) {}
+  [[nodiscard]] bool operator()(std::string_view effect) const {
+    for (const CalledEffect& e : list_)
+      if (e.name == effect) return true;
+    return false;
+  }
+
+ private:
+  const std::vector<CalledEffect>& list_;
+};
+
+struct EffectRule {
+  std::string_view name;
+  /// Who calls for the effect, and why: "body a: elastic, and not held in place". "" = nobody does.
+  std::string (*called_for)(const Scene&) = nullptr;
+  /// The proof that it can never act, asked where nobody calls for it. Both empty: it only serves others.
+  std::string (*left_out)(const Scene&) = nullptr;
+  /// What effects that are called for, or needed before this one, need of it; "" = nothing. Asked where nobody calls for it.
+  std::string (*needed_for)(const Scene&, const Called&) = nullptr;
+  std::vector<Term> terms{};         ///< of two forms that act where it is on: a row of `tripoint ablate` each
+  std::vector<Term> terms_shared{};  ///< of others that its forms read too
+};
+
+/// Of every effect, in the order in which effects run.
+[[nodiscard]] std::span<const EffectRule> effect_rules();
+
+/// Whether a scene calls for that one effect.
+[[nodiscard]] bool calls_for(const Scene&, std::string_view effect);
+/// What a scene calls for, and what that in turn needs.
+[[nodiscard]] std::vector<CalledEffect> needed_effects(const Scene&);
+
+// --- what rules ask ----------------------------------------------------------------------------------------------------
+
+/// "WHO: why", "" where nobody.
+[[nodiscard]] std::string because(const std::string& who, std::string_view why);
+
+/// Names of the bodies that a test picks: "body a", "bodies a, b"; "" when it picks none.
+using BodyTest = bool (*)(const Scene&, const Body&, const Material&);
+[[nodiscard]] std::string bodies_where(const Scene&, BodyTest);
+[[nodiscard]] bool any_body(const Scene&, BodyTest);
+[[nodiscard]] bool any_material(const Scene&, bool (*test)(const Material&));
+/// A body that is held for good needs no equations of motion.
+[[nodiscard]] bool moves(const Scene&, const Body&);
+
+/// Who melts or freezes: the scene's temperatures pass t_melt or t_solid of the material. "" = nobody.
+[[nodiscard]] std::string who_changes_phase(const Scene&);
+/// Who is elastic once it has frozen, of a material that passes the test.
+[[nodiscard]] std::string who_freezes_elastic(const Scene&, bool (*limited)(const Material&));
+
+}  // namespace tripoint
