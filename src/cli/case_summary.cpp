@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <set>
 
+#include "validation/harness/foreign_text.hpp"
+
 namespace tripoint {
 namespace {
 
-std::string line(const std::string& name, const std::string& text) { return text.empty() ? "" : fmt::format("  {:10} {}\n", name, text); }
+std::string line(const std::string& name, const std::string& text) { return text.empty() ? "" : one_line(fmt::format("  {:10} {}", name, text)) + "\n"; }
 
 std::string matter(const Scene& scene) {
   std::vector<std::string> bodies;
@@ -86,7 +88,7 @@ std::string cost(const bench::Trial& t) {
 }  // namespace
 
 std::string case_summary(const Case& c, const Scene& scene, const Plan& plan, const bench::Trial& trial) {
-  return fmt::format("{}: {}\n", c.id, c.title) + line("claims", c.claims) + line("simulates", simulated(scene, trial)) + line("bodies", matter(scene)) + line("starts", start_of(scene)) + line("effects", effects_of(plan)) +
+  return one_line(fmt::format("{}: {}", c.id, c.title)) + "\n" + line("claims", c.claims) + line("simulates", simulated(scene, trial)) + line("bodies", matter(scene)) + line("starts", start_of(scene)) + line("effects", effects_of(plan)) +
          line("truth", truth(c.reference)) + line("measures", measured_by(c)) + line("judged by", judged_by(c)) + line("engines", engines_of(c)) + line("refined", studies_of(c)) + line("costs", cost(trial)) + "\n";
 }
 

@@ -14,6 +14,7 @@
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
 #include "scene/effect_rule.hpp"
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
 #include "validation/harness/suite.hpp"
@@ -115,9 +116,9 @@ int ablate(const Options& o) {
     Json metrics = Json::array();
     for (const auto& m : c.metrics) metrics.push_back({{"name", m.name}, {"unit", m.unit}, {"quantity", m.quantity}});
     document.push_back({{"id", c.id}, {"title", c.title}, {"metrics", metrics}, {"corrected", base.at(c.id)}, {"printed", terms.count(c.id) ? terms[c.id] : Json::object()}});
-    print(fmt::format("{}\n", c.id));
+    print_line(c.id);
     for (const auto& m : c.metrics) {
-      print(fmt::format("  {:24} corrected {:>12}", m.name, number_text(base.at(c.id), m.name)));
+      print(fmt::format("  {:24} corrected {:>12}", one_line(m.name), number_text(base.at(c.id), m.name)));
       if (terms.count(c.id))
         for (const auto& [term, run] : terms[c.id].items()) print(fmt::format("  {} {:>10}", term, number_text(run, m.name)));
       print("\n");

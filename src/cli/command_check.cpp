@@ -40,7 +40,7 @@ int check(const std::string& file, const std::vector<std::string>& set) {
     errors += f.error ? 1 : 0;
     say((f.error ? "error: " : "warning: ") + with_place(f));
   }
-  print(fmt::format("{}: {} particles in {} {}, {} errors, {} warnings\n", file, state.size(), scene.bodies.size(), scene.bodies.size() == 1 ? "body" : "bodies", errors, static_cast<long>(findings.size()) - errors));
+  print_line(fmt::format("{}: {} particles in {} {}, {} errors, {} warnings", file, state.size(), scene.bodies.size(), scene.bodies.size() == 1 ? "body" : "bodies", errors, static_cast<long>(findings.size()) - errors));
   return errors > 0 ? 2 : 0;
 }
 

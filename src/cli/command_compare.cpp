@@ -85,7 +85,7 @@ int compare(const CompareOptions& o) {
   if (results.cases.empty()) return exit_interrupted;
   print(fmt::format("{:20} {:20} {:20} {:>11} {:>11} {:>11} {:>11} {:>11}  verdict\n", "a", "b", "metric", "difference", "uncertainty", "margin", "error a", "error b"));
   for (const auto& q : results.cases.front().equivalence)
-    print(fmt::format("{:20} {:20} {:20} {:11.4g} {:11.2g} {:>11} {:11.4g} {:11.4g}  {}\n", q.a, q.b, q.metric, q.difference, q.uncertainty, q.margin ? fmt::format("{:.4g}", *q.margin) : "-", q.error_a, q.error_b, q.verdict));
+    print_line(fmt::format("{:20} {:20} {:20} {:11.4g} {:11.2g} {:>11} {:11.4g} {:11.4g}  {}", q.a, q.b, q.metric, q.difference, q.uncertainty, q.margin ? fmt::format("{:.4g}", *q.margin) : "-", q.error_a, q.error_b, q.verdict));
   print((std::filesystem::path(options.out) / "index.html").string() + "\n");
   return code_of_runs(results.cases.front());
 }
@@ -102,10 +102,10 @@ Study study_for(const Case& value, const ConvergeOptions& o) {
 }
 
 void print_order(const OrderRow& o) {
-  print(fmt::format("{}{}{} over {}\n", o.metric, o.mode.empty() ? "" : ", ", o.mode, o.axis));
+  print_line(fmt::format("{}{}{} over {}", o.metric, o.mode.empty() ? "" : ", ", o.mode, o.axis));
   for (std::size_t k = 0; k < o.step.size(); ++k) {
     const bool ratio = k > 0 && o.error[k] != 0.0;
-    print(fmt::format("  {:<12.5g} {:12.5g}  +- {:<9.2g} {}\n", o.step[k], o.error[k], o.uncertainty[k], ratio ? fmt::format("/ {:.3g}", o.error[k - 1] / o.error[k]) : ""));
+    print_line(fmt::format("  {:<12.5g} {:12.5g}  +- {:<9.2g} {}", o.step[k], o.error[k], o.uncertainty[k], ratio ? fmt::format("/ {:.3g}", o.error[k - 1] / o.error[k]) : ""));
   }
   print(fmt::format("  order {:.3f}, 95 % interval {:.3f} to {:.3f}, {}\n", o.order.value, o.order.low, o.order.high, o.order.fit_class));
 }

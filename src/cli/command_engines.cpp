@@ -46,10 +46,10 @@ int list(bool json) {
   const auto engines = discover_engines();
   if (json) return print(engines_json(engines) + "\n"), 0;
   for (const auto& e : engines) {
-    print(fmt::format("{:14} {}\n", e.name, e.available ? e.version : "missing: " + e.reason));
+    print_line(fmt::format("{:14} {}", e.name, e.available ? e.version : "missing: " + e.reason));
     if (!e.available) continue;
-    print(fmt::format("               can: {}\n               presets: {}\n", short_list(e.capabilities), short_list(e.presets)));
-    if (!e.library_path.empty()) print(fmt::format("               library: {} ({})\n", e.library_path, e.library_hash));
+    print_line("               can: " + short_list(e.capabilities)), print_line("               presets: " + short_list(e.presets));
+    if (!e.library_path.empty()) print_line(fmt::format("               library: {} ({})", e.library_path, e.library_hash));
   }
   return 0;
 }
@@ -98,7 +98,7 @@ int install(const std::string& words, bool yes) {
 int check(const std::string& path) {
   bool good = true;
   for (const auto& c : check_engine(path)) {
-    print(fmt::format("{}  {}{}\n", c.passed ? "ok   " : "FAILS", c.what, c.found.empty() ? "" : ": " + c.found));
+    print_line(fmt::format("{}  {}{}", c.passed ? "ok   " : "FAILS", c.what, c.found.empty() ? "" : ": " + c.found));
     good = good && c.passed;
   }
   return good ? 0 : 1;

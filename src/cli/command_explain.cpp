@@ -48,7 +48,7 @@ void print_decisions(const std::vector<Decision>& decisions) {
       ++unset;
       continue;
     }
-    print(fmt::format("{:{}}  {:24}  # {}\n", d.key, width, d.value, origin(d)));
+    print_line(fmt::format("{:{}}  {:24}  # {}", d.key, width, d.value, origin(d)));
   }
   print(fmt::format("\n{} keys are not set (with --json: each with what that means).\n", unset));
 }
@@ -65,13 +65,13 @@ std::vector<std::pair<std::string, std::size_t>> bytes_by_owner(const Plan& plan
 
 void print_plan(const Plan& plan) {
   print("\nEffects\n");
-  for (const auto& e : plan.effects) print(fmt::format("  {:10} {:10} {}\n", e.name, e.mode, e.why));
+  for (const auto& e : plan.effects) print_line(fmt::format("  {:10} {:10} {}", e.name, e.mode, e.why));
   print("\nDoes without\n");
-  for (const auto& e : plan.idle) print(fmt::format("  {:10} {}\n", e.name, e.why));
+  for (const auto& e : plan.idle) print_line(fmt::format("  {:10} {}", e.name, e.why));
   print("\nFields\n");
-  for (const auto& f : plan.fields) print(fmt::format("  {:24} {:8} {:8} of {:10} {} bytes\n", f.name, f.unit, f.per, f.owner, f.bytes));
+  for (const auto& f : plan.fields) print_line(fmt::format("  {:24} {:8} {:8} of {:10} {} bytes", f.name, f.unit, f.per, f.owner, f.bytes));
   print(fmt::format("\n{} bytes a particle\n", plan.bytes_per_particle));
-  for (const auto& [owner, bytes] : bytes_by_owner(plan)) print(fmt::format("  {:10} {}\n", owner, bytes));
+  for (const auto& [owner, bytes] : bytes_by_owner(plan)) print_line(fmt::format("  {:10} {}", owner, bytes));
 }
 
 void print_trial(const bench::Trial& t, int threads) {

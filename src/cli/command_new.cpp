@@ -39,7 +39,7 @@ int create(const std::string& name) {
   const auto text = new_case_text("my/" + stem);
   const bool whole = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   if (::close(file) != 0 || !whole) throw InputError({path.string(), 0, 0}, "could not be written whole: is the disk full?");
-  print(fmt::format("wrote {}\n", path.string()));
+  print_line(fmt::format("wrote {}", path.string()));
   say(fmt::format("next: tripoint explain {0}; tripoint run {0}", path.string()));
   return 0;
 }

@@ -117,7 +117,7 @@ std::string name_of(const Ladder& l) {
 void print_ladders(const std::vector<Ladder>& ladders, const std::string& metric) {
   print(fmt::format("measured front of {}\n  {:28} {:14} {:>12} {:>12} {:>10} {:>12}\n", metric, "engine", "axis", "level", "error", "CPU s", "pairs"));
   for (const auto& l : ladders)
-    for (const auto& p : l.points) print(fmt::format("  {:28} {:14} {:12.5g} {:12.4g} {:10.3g} {:12.4g}\n", name_of(l), l.axis, p.level, p.error, p.cpu_s, p.pairs));
+    for (const auto& p : l.points) print_line(fmt::format("  {:28} {:14} {:12.5g} {:12.4g} {:10.3g} {:12.4g}", name_of(l), l.axis, p.level, p.error, p.cpu_s, p.pairs));
 }
 
 double factor_between(double a, double b) { return a > 0.0 && b > 0.0 ? std::max(a / b, b / a) : std::numeric_limits<double>::infinity(); }
@@ -190,18 +190,18 @@ int plan_for(Options o) {
       if (p.error <= wish && step == 0.0) step = p.step;
     if (step == 0.0 && slope > 0.05) step = fine.step * std::pow(wish / fine.error, 1.0 / slope);
     if (step == 0.0) {
-      print(fmt::format("  {:28} {:14} {:>12}  its error falls with no power of the level (slope {:.2f}): no level brings it there\n", name_of(l), l.axis, "-", slope));
+      print_line(fmt::format("  {:28} {:14} {:>12}  its error falls with no power of the level (slope {:.2f}): no level brings it there", name_of(l), l.axis, "-", slope));
       continue;
     }
     const bool upward = l.axis == "walkers" || l.axis == "iterations" || l.axis == "support_ratio";
     if (fine.step > farthest * step) {
-      print(fmt::format("  {:28} {:14} {:>12}  out of reach: its error falls as the level to the {:.2g}, which would take {:.2g}, {:.2g} times beyond what was measured\n", name_of(l), l.axis, "-", slope,
+      print_line(fmt::format("  {:28} {:14} {:>12}  out of reach: its error falls as the level to the {:.2g}, which would take {:.2g}, {:.2g} times beyond what was measured", name_of(l), l.axis, "-", slope,
                         upward ? 1.0 / step : step, fine.step / step));
       continue;
     }
     any = true;
     const auto e = predicted_error(l, step), c = predicted_cpu(l, step);
-    print(fmt::format("  {:28} {:14} {:12.5g} {:>24} {:>24}\n", name_of(l), l.axis, upward ? 1.0 / step : step, fmt::format("{:.3g} ({:.3g}..{:.3g})", c.value, c.value / c.factor, c.value * c.factor),
+    print_line(fmt::format("  {:28} {:14} {:12.5g} {:>24} {:>24}", name_of(l), l.axis, upward ? 1.0 / step : step, fmt::format("{:.3g} ({:.3g}..{:.3g})", c.value, c.value / c.factor, c.value * c.factor),
                       fmt::format("{:.3g} ({:.3g}..{:.3g})", e.value, e.value / e.factor, e.value * e.factor)));
   }
   return any ? exit_pass : exit_inconclusive;

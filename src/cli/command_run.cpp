@@ -113,18 +113,18 @@ void print_metrics(const Case& value, const EnginePlan& plan, const std::map<std
     const auto at = metrics.find(choice.name);
     if (at == metrics.end()) continue;
     const auto& m = at->second;
-    print(fmt::format("  {:26} {:12.5g} {:8} {:9.2g}{}{}\n", choice.name, m.value, choice.unit.empty() ? "1" : choice.unit, m.uncertainty.combined(), limits_of(value, plan, plan.runs.front(), choice.name, m),
+    print_line(fmt::format("  {:26} {:12.5g} {:8} {:9.2g}{}{}", choice.name, m.value, choice.unit.empty() ? "1" : choice.unit, m.uncertainty.combined(), limits_of(value, plan, plan.runs.front(), choice.name, m),
                       m.note.empty() ? "" : "  (" + m.note + ")"));
   }
 }
 
 void print_text(const RunOptions& o, const Case& value, const EnginePlan& plan, const Outcome& outcome, const std::map<std::string, MetricValue>& metrics) {
-  print(fmt::format("{}{}{}\n", outcome.status, outcome.reason.empty() ? "" : ": ", outcome.reason));
+  print_line(fmt::format("{}{}{}", outcome.status, outcome.reason.empty() ? "" : ": ", outcome.reason));
   const auto& r = outcome.result;
-  if (r.steps > 0) print(fmt::format("  t = {:g} s in {} steps; last step {:g} s{}\n", r.time_reached, r.steps, r.readback.time_step, r.time_step_bound.empty() ? "" : ", bound by " + r.time_step_bound));
+  if (r.steps > 0) print_line(fmt::format("  t = {:g} s in {} steps; last step {:g} s{}", r.time_reached, r.steps, r.readback.time_step, r.time_step_bound.empty() ? "" : ", bound by " + r.time_step_bound));
   print(fmt::format("  {:.3g} CPU s, {:.3g} s, {:.3g} MB\n", outcome.cost.cpu_s, outcome.cost.wall_s, outcome.cost.peak_bytes / 1e6));
   print_metrics(value, plan, metrics);
-  print(fmt::format("  in {}\n", o.out));
+  print_line(fmt::format("  in {}", o.out));
 }
 
 void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std::string, MetricValue>& metrics) {

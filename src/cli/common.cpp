@@ -13,6 +13,7 @@
 
 #include "core/errors.hpp"
 #include "scene/nearest.hpp"
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -74,12 +75,20 @@ int guarded(const std::function<int()>& command) {
 }
 
 void say(const std::string& line) {
-  std::fwrite((line + "\n").data(), 1, line.size() + 1, stderr);
+  std::string text;
+  for (const auto& part : split(line, '\n')) text += (text.empty() ? "" : "  ") + one_line(part) + "\n";
+  text = without_commands(text.empty() ? "\n" : text);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void print_commands(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
 }
 
 void print(const std::string& plain) {
   static const bool coloured = wants_colour();
-  const std::string text = coloured ? all_painted(plain) : plain;
+  const std::string text = without_commands(coloured ? all_painted(plain) : plain);
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
 }
@@ -95,6 +104,8 @@ bool output_arrived() {
   say("tripoint: what it printed could not be written (standard output is closed, or the disk is full)");
   return false;
 }
+
+void print_line(const std::string& line) { print(one_line(line) + "\n"); }
 
 std::vector<std::string> split(const std::string& list, char separator) {
   std::vector<std::string> parts;

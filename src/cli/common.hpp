@@ -21,11 +21,18 @@ namespace tripoint {
 /// What a case simulates and stores. @throws InputError naming its file, also where the scene as a whole asks for what cannot be
 [[nodiscard]] Plan plan_of(const CaseReading&);
 
-/// One line on stderr.
+/// One line on stderr; further lines of it are indented, and none of them is a workflow command.
 void say(const std::string& line);
 
 /// One piece of the result, on stdout, at once. On a terminal its verdicts have colours, unless NO_COLOR is set.
+/// No line of it is a workflow command, whatever name or reason it holds; names in it must have gone through one_line().
 void print(const std::string& text);
+
+/// One line of the result, whatever names and reasons it holds.
+void print_line(const std::string& line);
+
+/// Workflow commands for a runner, as annotations_text() makes them.
+void print_commands(const std::string& text);
 
 /// "A,B" -> {"A", "B"}.
 [[nodiscard]] std::vector<std::string> split(const std::string& list, char separator = ',');

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/json_number.hpp"
 #include "validation/harness/releases.hpp"
 
@@ -41,24 +42,24 @@ std::string cell(const Release& r, const std::string& preset, const std::string&
 }
 
 std::string table_of(const ReleaseTable& t, const MetricChoice& metric) {
-  std::string text = fmt::format("\n**{}**{}: error at the case's own time step (observed order)\n\n| release |", metric.name, metric.unit.empty() ? "" : " [" + metric.unit + "]");
+  std::string text = fmt::format("\n**{}**{}: error at the case's own time step (observed order)\n\n| release |", markdown(metric.name), metric.unit.empty() ? "" : " [" + markdown(metric.unit) + "]");
   std::string rule = "|---|";
   std::vector<std::string> presets;
   for (const auto& r : t.releases)
     for (const auto& e : r.result.engines)
       if (std::find(presets.begin(), presets.end(), e.preset) == presets.end()) presets.push_back(e.preset);
-  for (const auto& preset : presets) text += fmt::format(" {} |", preset), rule += "---|";
+  for (const auto& preset : presets) text += fmt::format(" {} |", markdown(preset)), rule += "---|";
   text += "\n" + rule + "\n";
   for (const auto& r : t.releases) {
-    text += fmt::format("| {} {} |", r.engine.name, r.engine.version);
-    for (const auto& preset : presets) text += fmt::format(" {} |", cell(r, preset, metric.name));
+    text += fmt::format("| {} {} |", markdown(r.engine.name), markdown(r.engine.version));
+    for (const auto& preset : presets) text += fmt::format(" {} |", markdown(cell(r, preset, metric.name)));
     text += "\n";
   }
   return text;
 }
 
 std::string change_line(const ReleaseChange& c) {
-  std::string text = fmt::format("- {} -> {}, {} `{}`: {:.3g} -> {:.3g}", c.from, c.to, c.preset, c.metric, c.before, c.after);
+  std::string text = fmt::format("- {} -> {}, {} {}: {:.3g} -> {:.3g}", markdown(c.from), markdown(c.to), markdown(c.preset), markdown(c.metric), c.before, c.after);
   if (c.round_off) text += c.worse ? ", worse: it was round-off" : ", better: it is round-off";
   else text += std::isfinite(c.ratio) ? fmt::format(", {:.3g} times {}", c.ratio, c.worse ? "worse" : "better") : c.worse ? ", worse" : ", better";
   if (std::abs(c.order_after - c.order_before) > 0.5) text += fmt::format("; order {:.1f} -> {:.1f}", c.order_before, c.order_after);
@@ -78,7 +79,7 @@ std::string gates_of(const ReleaseTable& t) {
         if (g.verdict != "pass") red += fmt::format("{}{} {}: {}", red.empty() ? "" : "; ", e.preset, g.metric, g.why);
       }
     any = any || all > 0;
-    text += fmt::format("| {} {} | {} of {} | {} |\n", r.engine.name, r.engine.version, good, all, red);
+    text += fmt::format("| {} {} | {} of {} | {} |\n", markdown(r.engine.name), markdown(r.engine.version), good, all, markdown(red));
   }
   return any ? text : "\nThe case has no gate for this engine.\n";
 }
@@ -102,7 +103,7 @@ std::string releases_text(const ReleaseTable& t) {
 }
 
 std::string releases_markdown(const ReleaseTable& t) {
-  std::string text = fmt::format("# {}: {}\n\n{}.\n", t.case_id, t.title, upgrade_line(t));
+  std::string text = fmt::format("# {}: {}\n\n{}.\n", markdown(t.case_id), markdown(t.title), markdown(upgrade_line(t)));
   if (t.releases.empty()) return text;
   for (const auto& metric : t.releases.front().result.metrics) text += table_of(t, metric);
   text += fmt::format("\nFrom one release to the next, errors that differ by more than {:g} times:\n\n", t.margin);
@@ -110,7 +111,7 @@ std::string releases_markdown(const ReleaseTable& t) {
   for (std::size_t k = 1; k < t.releases.size(); ++k)
     for (const auto& c : changes_between(t.releases[k - 1], t.releases[k], t.margin)) changes += change_line(c);
   text += (changes.empty() ? "- none\n" : changes) + gates_of(t);
-  text += fmt::format("\nRun again: `{}`\n", t.command);
+  text += fmt::format("\nRun again: {}\n", markdown(t.command));
   return text;
 }
 

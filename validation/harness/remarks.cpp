@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -28,26 +29,12 @@ Remark remark_on(const CaseResult& c, const EngineRow& e, const GateRow& row) {
   return remark;
 }
 
-/// Of a workflow command: what would end the line, and in a property also what would end the property.
-std::string escaped(const std::string& text, bool property) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '%': out += "%25"; break;
-      case '\r': out += "%0D"; break;
-      case '\n': out += "%0A"; break;
-      case ':': out += property ? "%3A" : ":"; break;
-      case ',': out += property ? "%2C" : ","; break;
-      default: out += c;
-    }
-  return out;
-}
-
 std::string command(const Remark& r, std::size_t more) {
   std::string place;
-  if (!r.place.file.empty()) place = fmt::format(" file={},line={},", escaped(r.place.file, true), std::max(r.place.line, 1));
+  if (!r.place.file.empty()) place = fmt::format(" file={},line={},", command_text(r.place.file, true), std::max(r.place.line, 1));
   else place = " ";
   const std::string rest = more > 0 ? fmt::format(" (and {} more, which results.json lists)", more) : "";
-  return fmt::format("::{}{}title={}::{}\n", r.error ? "error" : "warning", place, escaped(r.title, true), escaped(r.text + rest, false));
+  return fmt::format("::{}{}title={}::{}\n", r.error ? "error" : "warning", place, command_text(r.title, true), command_text(r.text + rest, false));
 }
 
 }  // namespace
@@ -89,7 +76,7 @@ std::string verdict_word(int exit_code, const Results& results, const std::vecto
 
 std::string remarks_text(const std::vector<Remark>& list) {
   std::string text;
-  for (const auto& r : list) text += fmt::format("{}: {}{}: {}\n", r.error ? "error" : "warning", r.place.file.empty() ? "" : to_string(r.place) + ": ", r.title, r.text);
+  for (const auto& r : list) text += one_line(fmt::format("{}: {}{}: {}", r.error ? "error" : "warning", r.place.file.empty() ? "" : to_string(r.place) + ": ", r.title, r.text)) + "\n";
   return text;
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/durable_file.hpp"
 #include "scene/read_case.hpp"
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 
@@ -57,7 +58,7 @@ void set_aside_report(const std::string& folder) {
 
 std::string notes_text(const Results& results) {
   std::string text;
-  for (const auto& p : results.problems) text += "problem: " + p + "\n";
+  for (const auto& p : results.problems) text += "problem: " + one_line(p) + "\n";
   std::map<std::string, int> missing, unjudged;
   for (const auto& c : results.cases) {
     std::set<std::string> absent;  // each once a case, however many presets it has
@@ -69,14 +70,14 @@ std::string notes_text(const Results& results) {
   const auto list = [&](const char* what, const std::map<std::string, int>& rows) {
     std::string names;
     for (const auto& [name, count] : rows) names += fmt::format("{}{} in {} case{}", names.empty() ? "" : ", ", name, count, count == 1 ? "" : "s");
-    if (!names.empty()) text += fmt::format("{}: {}\n", what, names);
+    if (!names.empty()) text += fmt::format("{}: {}\n", what, one_line(names));
   };
   list("missing", missing), list("not judged", unjudged);
   return text;
 }
 
 std::string last_line(const Results& results, const std::string& folder) {
-  return fmt::format("verdict {} exit {}  {}", results.verdict, results.exit_code, (fs::path(folder) / (fs::exists(fs::path(folder) / "index.html") ? "index.html" : "results.json")).string());
+  return fmt::format("verdict {} exit {}  {}", results.verdict, results.exit_code, one_line((fs::path(folder) / (fs::exists(fs::path(folder) / "index.html") ? "index.html" : "results.json")).string()));
 }
 
 }  // namespace tripoint

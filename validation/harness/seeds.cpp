@@ -11,6 +11,7 @@
 
 #include "core/errors.hpp"
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/json_number.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/suite.hpp"
@@ -118,11 +119,11 @@ std::string seeds_table(const SeedsOutcome& all) {
   std::size_t alarms = 0;
   for (const auto& g : all.gates) {
     alarms += g.alarms.size();
-    text += fmt::format("{:6} {:24} {:18} {:10} {:24} {:10.4g} {:9.2g} {:>6}  {}{}{}\n", g.alarms.empty() ? "quiet" : "ALARM", g.case_id, g.engine, g.mode, g.metric, g.mean, g.deviation,
+    text += one_line(fmt::format("{:6} {:24} {:18} {:10} {:24} {:10.4g} {:9.2g} {:>6}  {}{}{}", g.alarms.empty() ? "quiet" : "ALARM", g.case_id, g.engine, g.mode, g.metric, g.mean, g.deviation,
                         room_of(g), g.allows, g.level ? fmt::format(" at {:g}", *g.level) : "",
-                        g.alarms.empty() ? "" : fmt::format("  {} of {}: seeds {} ({})", g.alarms.size(), g.values.size(), fmt::join(g.alarms, ", "), to_string(g.gate.place)));
+                        g.alarms.empty() ? "" : fmt::format("  {} of {}: seeds {} ({})", g.alarms.size(), g.values.size(), fmt::join(g.alarms, ", "), to_string(g.gate.place)))) + "\n";
   }
-  for (const auto& p : all.problems) text += "PROBLEM " + p + "\n";
+  for (const auto& p : all.problems) text += "PROBLEM " + one_line(p) + "\n";
   return text + fmt::format("{} cases, {} gates, {} seeds: {} false alarms, exit {}\n", all.cases.size(), all.gates.size(), all.seeds, alarms, all.exit_code);
 }
 

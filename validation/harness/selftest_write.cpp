@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/json_number.hpp"
 #include "validation/harness/selftest.hpp"
 #include "validation/harness/smallest.hpp"
@@ -28,10 +29,10 @@ std::string smallest_table(const std::vector<SmallestOutcome>& rows) {
 std::string selftest_table(const SelftestOutcome& outcome) {
   std::string text;
   for (const auto& d : outcome.defects)
-    text += fmt::format("{:9} {:24} {:<9g} {:26} {}{}\n", d.killed ? "killed" : "SURVIVES", d.defect, d.size, d.case_id, d.found, d.killed ? "" : "  (" + to_string(d.place) + ")");
-  for (const auto& p : outcome.problems) text += "PROBLEM   " + p + "\n";
+    text += one_line(fmt::format("{:9} {:24} {:<9g} {:26} {}{}", d.killed ? "killed" : "SURVIVES", d.defect, d.size, d.case_id, d.found, d.killed ? "" : "  (" + to_string(d.place) + ")")) + "\n";
+  for (const auto& p : outcome.problems) text += "PROBLEM   " + one_line(p) + "\n";
   for (const auto& h : outcome.harmless)
-    text += fmt::format("{:9} {:24} {:<9.2g} {:26} {}\n", h.borne ? "borne" : "FELT", h.change, h.greatest, h.case_id, h.found);
+    text += one_line(fmt::format("{:9} {:24} {:<9.2g} {:26} {}", h.borne ? "borne" : "FELT", h.change, h.greatest, h.case_id, h.found)) + "\n";
   text += smallest_table(outcome.smallest);
   const auto borne = std::count_if(outcome.harmless.begin(), outcome.harmless.end(), [](const auto& h) { return h.borne; });
   const auto killed = std::count_if(outcome.defects.begin(), outcome.defects.end(), [](const auto& d) { return d.killed; });

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/report_files.hpp"
 
@@ -11,12 +10,6 @@ namespace tripoint {
 namespace {
 
 constexpr std::size_t longest = 900'000;  // GitHub cuts a job's summary at 1 MiB
-
-std::string cell(std::string text) {
-  std::replace(text.begin(), text.end(), '|', '/');
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
 
 /// The engines' rows; those that are not here and need not be stand together at the end, each once.
 std::string engines_of(const CaseResult& c) {
@@ -42,18 +35,18 @@ int green(const CaseResult& c, int& all) {
 std::string row_of(const CaseResult& c) {
   int all = 0;
   const int passed = green(c, all);
-  return fmt::format("| {} | {} | {} of {} | {} |\n", c.verdict, cell(c.id), passed, all, cell(engines_of(c)));
+  return fmt::format("| {} | {} | {} of {} | {} |\n", c.verdict, markdown(c.id), passed, all, markdown(engines_of(c)));
 }
 
 std::string not_green(const CaseResult& c) {
   std::string text;
-  for (const auto& p : c.problems) text += fmt::format("- **{}**: {}\n", c.id, cell(p));
+  for (const auto& p : c.problems) text += fmt::format("- **{}**: {}\n", markdown(c.id), markdown(p));
   for (const auto& e : c.engines) {
     for (const auto& g : e.gates)
       if (g.verdict != "pass")
-        text += fmt::format("- **{}** {}{} `{}` {}: {} ({}; limit because: {})\n", c.id, e.name, g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, cell(g.why), to_string(g.gate.place), cell(g.gate.reason));
-    if (is_unjudged(e)) text += fmt::format("- {} {} ran and is not judged: no gate of the case names it or every engine\n", c.id, label_of(e.name, e.preset));
-    if (e.status != "ok") text += fmt::format("- {} {} {}: {}\n", c.id, e.name, e.status, cell(e.reason));
+        text += fmt::format("- **{}** {}\n", markdown(c.id), markdown(fmt::format("{}{} {} {}: {} ({}; limit because: {})", e.name, g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, g.why, to_string(g.gate.place), g.gate.reason)));
+    if (is_unjudged(e)) text += fmt::format("- {} {} ran and is not judged: no gate of the case names it or every engine\n", markdown(c.id), markdown(label_of(e.name, e.preset)));
+    if (e.status != "ok") text += fmt::format("- {} {} {}: {}\n", markdown(c.id), markdown(e.name), markdown(e.status), markdown(e.reason));
   }
   return text;
 }
@@ -63,21 +56,21 @@ std::string not_green(const CaseResult& c) {
 std::string case_line(const CaseResult& c) {
   int all = 0;
   const int passed = green(c, all);
-  std::string line = fmt::format("{:13} {:40} {}/{} gates; {}", c.verdict, c.id, passed, all, engines_of(c));
+  std::string line = fmt::format("{:13} {:40} {}/{} gates; {}", c.verdict, one_line(c.id), passed, all, one_line(engines_of(c)));
   if (c.exit_code == 0) return line;
-  for (const auto& p : c.problems) line += "\n              " + p;
+  for (const auto& p : c.problems) line += "\n              " + one_line(p);
   for (const auto& e : c.engines)
     for (const auto& g : e.gates)
-      if (g.verdict != "pass") line += fmt::format("\n              {}: {}{} {}: {}: {}", to_string(g.gate.place), e.name, g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, g.why);
+      if (g.verdict != "pass") line += "\n              " + one_line(fmt::format("{}: {}{} {}: {}: {}", to_string(g.gate.place), e.name, g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, g.why));
   return line;
 }
 
 std::string summary_text(const Results& r) {
   std::string text = fmt::format("# tripoint: {} (exit {})\n\n{} cases, profile {}, commit {}, {}, {}\n\n| verdict | case | gates | engines |\n|---|---|---|---|\n", r.verdict, r.exit_code,
-                                 r.cases.size(), r.profile.empty() ? "any" : r.profile, r.tool.commit, r.tool.compiler, r.tool.cpu);
+                                 r.cases.size(), r.profile.empty() ? "any" : markdown(r.profile), markdown(r.tool.commit), markdown(r.tool.compiler), markdown(r.tool.cpu));
   for (const auto& c : r.cases) text += row_of(c);
   std::string rest;
-  for (const auto& p : r.problems) rest += fmt::format("- {}\n", p);
+  for (const auto& p : r.problems) rest += fmt::format("- {}\n", markdown(p));
   for (const auto& c : r.cases) rest += not_green(c);
   if (!rest.empty()) text += "\n## Not green\n\n" + rest;
   if (text.size() > longest) text = text.substr(0, text.rfind('\n', longest)) + "\n\n(cut; the rest is in results.json)\n";
