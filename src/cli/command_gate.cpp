@@ -2,14 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <set>
 
 #include "cli/commands.hpp"
 #include "cli/common.hpp"
 #include "cli/gate_adopt.hpp"
+#include "cli/gate_judge.hpp"
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
 #include "validation/harness/baseline.hpp"
@@ -17,10 +16,8 @@
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/recheck.hpp"
-#include "validation/harness/report_files.hpp"
 #include "validation/harness/seeds.hpp"
 #include "validation/harness/selftest.hpp"
-#include "validation/harness/slack.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -34,6 +31,7 @@ constexpr const char* description =
     "no gate gone that was accepted, no value moved by more than the drift that its gate states, no run with more than 1 % more pairs, steps or\n"
     "instructions than accepted. A case without a baseline yet is named in a warning.\n"
     "  tripoint gate report/results.json     exit 0 only when every gate is green\n"
+    "  tripoint gate report --against base/results.json     every metric beside that of a base, in units of its limit\n"
     "  tripoint gate accept report/results.json --reason 'who decided what, and why'     the only writer of baselines\n"
     "  tripoint gate adopt --engine ./my-engine --out cases     writes gates for an engine of your own\n"
     "  tripoint gate selftest                proves that the gates can fail, and only where they should";
@@ -56,9 +54,11 @@ constexpr const char* selftest_description =
     "  tripoint gate selftest --seeds 20     twenty other seeds: no gate of the commit profile may turn";
 
 struct GateOptions {
-  std::string results, history, profile, baselines;
+  JudgeOptions judge;
+  ProposeOptions propose;
+  std::string profile;
   int seeds = 0;
-  bool annotations = false, json = false, require_baselines = false;
+  bool json = false;
   SelftestOptions selftest;
   std::vector<std::string> accepted;  ///< a results.json and ids, in any order
   std::string reason;
@@ -69,43 +69,6 @@ Results judged(const std::string& path) {
   auto results = read_results(path);
   judge(results);
   return results;
-}
-
-bool on_github() {
-  const char* set = std::getenv("GITHUB_ACTIONS");
-  return set && std::string(set) == "true";
-}
-
-bool holds_baselines(const std::string& folder) {
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, std::filesystem::directory_options::follow_directory_symlink))
-    if (entry.path().extension() == ".toml") return true;
-  return false;
-}
-
-int judge_file(const GateOptions& o) {
-  const auto results = judged(results_file(o.results));
-  auto remarks = verdict_remarks(results);
-  if (!o.baselines.empty() && !std::filesystem::is_directory(o.baselines)) throw InputError("--baselines " + o.baselines + ": is no folder");
-  if (!o.baselines.empty() && !holds_baselines(o.baselines)) throw InputError("--baselines " + o.baselines + ": holds no baseline (SUBJECT/CASE.toml), and nothing would be judged by it");
-  for (const auto& list : {recheck_remarks(results), slack_remarks(results), baseline_remarks(results, o.require_baselines, o.baselines), lost_case_remarks(results, o.baselines)}) remarks.insert(remarks.end(), list.begin(), list.end());
-  if (const auto commit = this_tool().commit; results.tool.commit != commit)
-    remarks.push_back({false, 0, {}, "the results", fmt::format("were made by commit {}, and this program is of {}: validate again to judge what is here", results.tool.commit, commit), 1.0, {}});
-  if (!results.shard.empty() && !results.shard.ends_with("/1"))
-    remarks.push_back({false, 0, {}, "the results", fmt::format("are part {} of a suite: tripoint merge joins the parts, and the whole is judged", results.shard), 1.0, {}});
-  if (!results.filter_known && !results.cases.empty())
-    remarks.push_back({false, 0, {}, "the results", "are of chosen cases (-k, --last-failed, or another command than validate): what was left out is not judged here", 1.0, {}});
-  std::set<int> codes{results.exit_code};
-  for (const auto& r : remarks)
-    if (r.error) codes.insert(r.code);
-  const int code = first_of(codes);
-  for (const auto& c : results.cases) print(case_line(c) + "\n");
-  print(o.annotations || on_github() ? annotations_text(remarks) : remarks_text(remarks));
-  if (!o.history.empty()) append_history(o.history, history_lines(results));
-  print(notes_text(results));
-  std::string absent;
-  for (const auto& [name, count] : accepted_but_absent(results, o.baselines)) absent += fmt::format("{}{} of {}", absent.empty() ? "; accepted gates that are not judged here: " : ", ", count, name);
-  print(fmt::format("verdict {} exit {}{}\n", verdict_word(code, results, remarks), code, absent));
-  return code;
 }
 
 int accept_file(const GateOptions& o) {
@@ -149,11 +112,8 @@ int selftest(SelftestOptions options, const std::string& profile, int seeds, boo
 void add_gate(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("gate", description);
   auto o = std::make_shared<GateOptions>();
-  command->add_option("RESULTS", o->results, "a results.json, or the folder of one");
-  command->add_flag("--annotations", o->annotations, "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, the worst first");
-  command->add_option("--baselines", o->baselines, "judge by the baselines in this folder, for example those of the branch that a change is to go into (default: beside the cases)")->type_name("DIR");
-  command->add_flag("--require-baselines", o->require_baselines, "a case that has no baseline is an error, exit 4 (else one warning names them)");
-  command->add_option("--history", o->history, "append a line of JSON a case, with every value and count, to this file (validate has done so to OUT/history.jsonl)");
+  add_judge_options(*command, o->judge);
+  auto* proposes = add_propose(*command, o->propose);
   auto* accepts = command->add_subcommand("accept", accept_description);
   accepts->add_option("--reason", o->reason, "who decided what, and why")->required();
   accepts->add_flag("--removed", o->removed, "the ids (or paths) are of cases that are no more: their baselines are removed");
@@ -172,8 +132,9 @@ void add_gate(CLI::App& app, int& exit_code) {
     exit_code = guarded([&] {
       if (self->parsed()) return selftest(o->selftest, o->profile, o->seeds, o->json);
       if (accepts->parsed()) return accept_file(*o);
-      if (o->results.empty()) throw InputError("gate: name a results.json, or accept, or selftest");
-      return judge_file(*o);
+      if (proposes->parsed()) return propose_baselines(o->propose);
+      if (o->judge.results.empty()) throw InputError("gate: name a results.json, or accept, propose or selftest");
+      return judge_results(o->judge);
     });
   });
 }

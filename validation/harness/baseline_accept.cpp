@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <tuple>
 
 #include "core/durable_file.hpp"
 #include "scene/read_case.hpp"
+#include "validation/harness/baseline_propose.hpp"
 #include "validation/harness/baseline_rows.hpp"
+#include "validation/harness/foreign_text.hpp"
 #include "validation/harness/slack.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -42,16 +46,29 @@ Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed
 
 namespace {
 
+/// Runs that count more than 1 % more or fewer pairs or steps: a gate would compare them with the new figures.
+std::string changes_of_cost(const Baseline& before, const Baseline& after) {
+  constexpr double seen = 0.01;
+  std::string text;
+  for (const auto& now : after.cost) {
+    const auto old = std::find_if(before.cost.begin(), before.cost.end(), [&](const auto& o) { return o.run == now.run; });
+    if (old == before.cost.end()) continue;
+    for (const auto& [what, is, was] : {std::tuple{"pairs", now.pairs, old->pairs}, std::tuple{"steps", now.steps, old->steps}})
+      if (std::abs(is - was) > seen * was) text += one_line(fmt::format("{} {}: {} {:.6g} -> {:.6g}", after.id, now.run, what, was, is)) + "\n";
+  }
+  return text;
+}
+
 /// What acceptance changes of one case: each gate whose edges, metric or value have changed.
 std::string changes(const Baseline* before, const Baseline& after) {
-  if (!before) return fmt::format("{}: first baseline, {} gates\n", after.id, after.gates.size());
+  if (!before) return fmt::format("{}: first baseline, {} gates\n", one_line(after.id), after.gates.size());
   std::string text;
-  if (!before->scene.empty() && before->scene != after.scene) text += after.id + ": another scene, study or setting\n";
-  if (!before->reference.empty() && before->reference != after.reference) text += after.id + ": another reference\n";
+  if (!before->scene.empty() && before->scene != after.scene) text += one_line(after.id) + ": another scene, study or setting\n";
+  if (!before->reference.empty() && before->reference != after.reference) text += one_line(after.id) + ": another reference\n";
   for (std::size_t k = 0; k < after.gates.size(); ++k) {
     const auto& now = after.gates[k];
     const auto* old = counterpart(after.gates, k, before->gates);
-    const std::string name = fmt::format("{} {}{}{} {}{}", after.id, now.engine, now.mode.empty() ? "" : " ", now.mode, now.metric, now.level ? fmt::format(" at {:g}", *now.level) : "");
+    const std::string name = one_line(fmt::format("{} {}{}{} {}{}", after.id, now.engine, now.mode.empty() ? "" : " ", now.mode, now.metric, now.level ? fmt::format(" at {:g}", *now.level) : ""));
     if (!old) {
       text += fmt::format("{}: new, {}\n", name, now.allows);
       continue;
@@ -63,13 +80,18 @@ std::string changes(const Baseline* before, const Baseline& after) {
     else if (!edge.empty()) text += fmt::format("{}: {} -> {}, LOOSER: {}\n", name, old->allows, now.allows, edge);
     else if (std::abs(now.value - old->value) > 1e-3 * std::abs(old->value) + roundoff_limit) text += fmt::format("{}: value {:.4g} -> {:.4g}\n", name, old->value, now.value);
   }
-  return text;
+  return text + changes_of_cost(*before, after);
 }
 
 double loosenings(const Baseline& b, int& count) {
   double sum = 0.0;
   for (const auto& g : b.gates) sum += g.loosened, count += g.loosened > 0.0;
   return sum;
+}
+
+std::string text_of_file(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void check_reason(const Acceptance& acceptance) {
@@ -82,7 +104,7 @@ void check_acceptable(const CaseResult& c) {
 
 }  // namespace
 
-std::string accept(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance) {
+std::vector<Proposal> proposals(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance) {
   check_reason(acceptance);
   const bool engines_were_chosen = !results.only_engines.empty();
   std::vector<const CaseResult*> chosen;
@@ -91,22 +113,35 @@ std::string accept(const Results& results, const std::vector<std::string>& ids, 
   for (const auto& id : ids)
     if (std::none_of(chosen.begin(), chosen.end(), [&](const auto* c) { return c->id == id; })) throw InputError(id + ": the results hold no case of this id");
   for (const auto* c : chosen) check_acceptable(*c);
+  std::vector<Proposal> list;
+  for (const auto* c : chosen) {
+    Proposal p;
+    p.id = c->id, p.file = baseline_file(c->file);
+    std::optional<Baseline> before;
+    if (fs::exists(p.file)) before = read_baseline(p.file), p.before = text_of_file(p.file);
+    const auto after = accepted_from(*c, results.tool, results.seed, before ? &*before : nullptr, acceptance, engines_were_chosen);
+    p.after = baseline_text(after), p.changes = changes(before ? &*before : nullptr, after);
+    if (before)
+      for (const auto* g : gone(*c, gates_of(*c, {}), *before, engines_were_chosen))
+        p.removed += one_line(fmt::format("{} {} {} {}: REMOVED, it was {}", c->id, g->engine, g->mode, g->metric, g->allows)) + "\n";
+    p.loosened = loosenings(after, p.limits_loosened), p.limits_removed = after.removed;
+    list.push_back(std::move(p));
+  }
+  return list;
+}
+
+std::string accept(const Results& results, const std::vector<std::string>& ids, const Acceptance& acceptance) {
+  const auto list = proposals(results, ids, acceptance);
   std::string text;
   double sum = 0.0;
   int count = 0, removed = 0;
-  for (const auto* c : chosen) {
-    const auto file = baseline_file(c->file);
-    std::optional<Baseline> before;
-    if (fs::exists(file)) before = read_baseline(file);
-    const auto after = accepted_from(*c, results.tool, results.seed, before ? &*before : nullptr, acceptance, engines_were_chosen);
-    fs::create_directories(fs::path(file).parent_path());
-    write_durably(file, baseline_text(after));
-    text += changes(before ? &*before : nullptr, after);
-    if (before)
-      for (const auto* g : gone(*c, gates_of(*c, {}), *before, engines_were_chosen)) text += fmt::format("{} {} {} {}: REMOVED, it was {}\n", c->id, g->engine, g->mode, g->metric, g->allows);
-    sum += loosenings(after, count), removed += after.removed;
+  for (const auto& p : list) {
+    fs::create_directories(fs::path(p.file).parent_path());
+    write_durably(p.file, p.after);
+    text += p.changes + p.removed;
+    sum += p.loosened, count += p.limits_loosened, removed += p.limits_removed;
   }
-  return text + fmt::format("{} cases accepted; since the first baseline {} limits were loosened, in all by a factor {:.4g} (sum of ln new/old {:.3g}), and {} were removed\n", chosen.size(), count, std::exp(sum), sum, removed);
+  return text + fmt::format("{} cases accepted; since the first baseline {} limits were loosened, in all by a factor {:.4g} (sum of ln new/old {:.3g}), and {} were removed\n", list.size(), count, std::exp(sum), sum, removed);
 }
 
 std::string accept_removal(const std::vector<std::string>& ids, const Acceptance& acceptance) {
@@ -120,7 +155,7 @@ std::string accept_removal(const std::vector<std::string>& ids, const Acceptance
     if (fs::exists(of)) throw InputError(of + ": the case is still there, and its baseline stays");
     const auto b = read_baseline(file);
     fs::remove(file);
-    text += fmt::format("{}: REMOVED with {} gates: {}\n", b.id, b.gates.size(), acceptance.reason);
+    text += one_line(fmt::format("{}: REMOVED with {} gates: {}", b.id, b.gates.size(), acceptance.reason)) + "\n";
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "validation/harness/baseline_propose.hpp"
 #include "validation/harness/baseline_rows.hpp"
 #include "validation/harness/slack.hpp"
 #include "validation/harness/verdict.hpp"
@@ -73,6 +74,7 @@ void compare_cost(const CaseResult& c, const Tool& tool, const Baseline& b, std:
 void compare_question(const CaseResult& c, const Baseline& b, const std::optional<CaseHashes>& now, std::vector<Remark>& list) {
   const auto say = [&](const std::string& what) { list.push_back({true, exit_missing, {c.file, 1, 0}, c.id, what + decide, infinity, "CHANGED"}); };
   if (!b.sealed) say("its baseline was edited by hand, and `tripoint gate accept` is its only writer");
+  if (!b.accepted.empty() && b.accepted.back().reason == undecided_reason) say("its baseline was proposed, and nobody has accepted it");
   if (b.scene.empty()) {  // accepted by an older version, which kept a hash of the text alone
     if (b.case_hash != hash_of_file(c)) list.push_back({false, 0, {c.file, 1, 0}, c.id, "the case file has changed since its figures were accepted", 1.0, {}});
     return;

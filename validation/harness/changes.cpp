@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/harness/changes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "validation/harness/apply_gate.hpp"
+#include "validation/harness/baseline.hpp"
+#include "validation/harness/judge.hpp"
+#include "validation/harness/slack.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What makes two rows the same metric; `nth` tells gates apart that judge the same row.
+using Key = std::tuple<std::string, std::string, std::string, std::string, double, int>;
+
+struct Row {
+  Key key;
+  Change change;  ///< all but the two standings
+  Standing standing;
+  Gate gate;
+};
+
+std::string unit_of(const CaseResult& c, const std::string& metric) {
+  if (metric.ends_with(".order")) return "";
+  const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == metric; });
+  return at == c.metrics.end() ? "" : at->unit;
+}
+
+Row new_row(const CaseResult& c, const EngineRow& e, const std::string& mode, const std::string& metric) {
+  Row row;
+  row.change.case_id = c.id, row.change.engine = label_of(e.name, e.preset), row.change.mode = mode, row.change.metric = metric;
+  row.change.unit = unit_of(c, metric), row.change.place = {c.file, 1, 0};
+  return row;
+}
+
+/// Runs that differ by seed only, of which the row's value is the mean.
+int seeds_of(const EngineRow& e, const GateRow& g) {
+  std::map<std::string, int> groups;
+  int most = 1;
+  for (const auto& run : e.runs) {
+    const bool at_level = g.level ? std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *g.level); }) : run.levels.empty() || run.base;
+    if (run.knobs.mode == g.mode && run.input.empty() && at_level && !run.group.empty()) most = std::max(most, ++groups[run.group]);
+  }
+  return most;
+}
+
+Row row_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
+  auto row = new_row(c, e, g.mode, g.expect.empty() ? g.metric : g.metric + " class");
+  row.change.level = g.level, row.gate = g.gate;
+  if (!g.gate.place.file.empty()) row.change.place = g.gate.place;
+  auto& s = row.standing;
+  s.value = g.value, s.verdict = g.verdict, s.fit_class = g.fit_class, s.seeds = seeds_of(e, g);
+  s.allows = g.expect.empty() ? describe(g.gate) : "class " + g.expect;
+  s.used = g.expect.empty() ? used_of(g.gate, g.value) : not_a_number;
+  s.noise = g.low && g.high ? 0.25 * (*g.high - *g.low) : g.budget.statistical;  // a 95 % interval is four standard deviations wide
+  return row;
+}
+
+/// Metrics of the case's own run that no gate judges.
+void add_unjudged(const CaseResult& c, const EngineRow& e, std::vector<Row>& rows) {
+  for (const auto& run : e.runs) {
+    if (!run.base || !run.input.empty() || run.status != "ok") continue;
+    for (const auto& [name, value] : run.metrics) {
+      const bool judged = std::any_of(e.gates.begin(), e.gates.end(), [&](const auto& g) { return g.metric == name && g.mode == run.knobs.mode; });
+      if (judged) continue;
+      auto row = new_row(c, e, run.knobs.mode, name);
+      row.standing.value = value.value, row.standing.used = not_a_number, row.standing.noise = value.uncertainty.statistical;
+      rows.push_back(row);
+    }
+  }
+}
+
+std::vector<Row> rows_of(const Results& r) {
+  std::vector<Row> rows;
+  for (const auto& c : r.cases)
+    for (const auto& e : c.engines) {
+      if (e.name == "exact") continue;  // its error is that of the reference to itself
+      for (const auto& g : e.gates) rows.push_back(row_of(c, e, g));
+      add_unjudged(c, e, rows);
+    }
+  std::map<Key, int> seen;
+  for (auto& row : rows) {
+    const auto& c = row.change;
+    Key key{c.case_id, c.engine, c.mode, c.metric, c.level.value_or(-1.0), 0};
+    std::get<5>(key) = seen[key]++;
+    row.key = key;
+  }
+  return rows;
+}
+
+/// The unit in which a change of this gate's value is stated: a limit, half a band, at_least.
+double unit_of(const Gate& g) {
+  if (g.limit) return *g.limit > 0.0 ? *g.limit : 1.0;
+  if (g.band) return 0.5 * ((*g.band)[1] - (*g.band)[0]);
+  return g.at_least ? std::abs(*g.at_least) : not_a_number;
+}
+
+bool is_roundoff(const Gate& g) { return g.limit && *g.limit <= roundoff_limit; }
+
+/// Where the larger part of the noise is from.
+std::string source_of_noise(const Standing& base, const Standing& head, bool is_order, double again) {
+  const double chance = std::hypot(base.noise, head.noise);
+  if (again > 2.0 * chance) return "A/A";
+  if (!(chance > 0.0)) return "none known";
+  if (is_order) return "interval of the fit";
+  const int seeds = std::max(base.seeds, head.seeds);
+  return seeds > 1 ? fmt::format("{} seeds", seeds) : "stated by the run";
+}
+
+/// Noise of head less base, in the metric's unit: two standard uncertainties by chance, or what the same code was seen to differ by, the larger one.
+double noise_between(const Standing& base, const Standing& head, double again) { return std::max(2.0 * std::hypot(base.noise, head.noise), again); }
+
+void settle_class(Change& c) {
+  if (c.base->fit_class == c.head->fit_class) return;
+  c.change = c.head->verdict == "pass" ? 0.0 : infinity;
+  c.trend = c.head->verdict == "pass" ? Trend::same : Trend::worse;
+  c.noise_from = "a class has no size";
+}
+
+void settle_unlimited(Change& c, double again) {
+  const double size = std::abs(c.base->value), difference = std::abs(c.head->value - c.base->value);
+  c.change = difference > 0.0 ? difference / (size > 0.0 ? size : 1.0) : 0.0;
+  c.noise = noise_between(*c.base, *c.head, again) / (size > 0.0 ? size : 1.0);
+  c.noise_from = source_of_noise(*c.base, *c.head, false, again);
+}
+
+/// @param again how far the same code was seen to differ from itself (A/A), in the metric's unit; 0 = not tried
+void settle(Change& c, const Gate& base_gate, const Gate& head_gate, double again) {
+  if (!c.base || !c.head) return static_cast<void>(c.trend = c.head ? Trend::appeared : Trend::gone);
+  c.limit_changed = c.base->allows != c.head->allows;
+  c.looser = c.limit_changed && (c.head->allows.empty() || room_of(head_gate) > room_of(base_gate) * (1.0 + 1e-9));
+  if (!c.base->fit_class.empty() && std::isnan(c.base->used) && std::isnan(c.head->used)) return settle_class(c);
+  const Gate& gate = c.base->allows.empty() ? head_gate : base_gate;  // a change that loosens a limit is measured by the limit that was there
+  const double unit = unit_of(gate);
+  if (std::isnan(unit)) return settle_unlimited(c, again);
+  const double before = used_of(gate, c.base->value), now = used_of(gate, c.head->value);
+  if (!std::isfinite(before) || !std::isfinite(now)) {
+    c.change = std::isfinite(before) ? infinity : std::isfinite(now) ? -infinity : 0.0, c.noise_from = "no value";
+  } else {
+    c.change = now - before;
+    c.noise = noise_between(*c.base, *c.head, again) / unit;
+    c.noise_from = source_of_noise(*c.base, *c.head, !c.head->fit_class.empty(), again);
+    if (is_roundoff(gate) && c.noise < 1.0) c.noise = 1.0, c.noise_from = "round-off";
+  }
+  if (std::abs(c.change) > std::max(c.noise, least_change)) c.trend = c.change > 0.0 ? Trend::worse : Trend::better;
+}
+
+/// Worse and better first, by their size; then what has not moved; then new, then gone.
+bool goes_before(const Change& a, const Change& b) {
+  const auto rank = [](const Change& c) { return c.trend == Trend::worse || c.trend == Trend::better ? 0 : c.trend == Trend::same ? (std::isnan(c.base->used) ? 2 : 1) : c.trend == Trend::appeared ? 3 : 4; };
+  return rank(a) != rank(b) ? rank(a) < rank(b) : std::abs(a.change) > std::abs(b.change);
+}
+
+std::vector<std::string> remarks_on(const Results& base, const Results& head) {
+  std::vector<std::string> list;
+  const auto differ = [&](const char* what, const std::string& b, const std::string& h) {
+    if (b != h) list.push_back(fmt::format("{} of the base: {}; here: {}", what, b.empty() ? "none" : b, h.empty() ? "none" : h));
+  };
+  differ("profile", base.profile, head.profile);
+  differ("seed", fmt::format("{}", base.seed), fmt::format("{}", head.seed));
+  differ("version of tripoint", base.tool.version, head.tool.version);
+  if (base.interrupted) list.push_back("the base was interrupted and does not hold every case");
+  if (base.exit_code != exit_pass) list.push_back(fmt::format("the base was itself {}", base.verdict));
+  return list;
+}
+
+}  // namespace
+
+double used_of(const Gate& g, double value) {
+  if (!std::isfinite(value)) return not_a_number;
+  double used = -infinity;
+  if (g.limit) used = std::max(used, *g.limit > 0.0 ? std::abs(value) / *g.limit : std::abs(value));
+  if (g.band) {
+    const double half = 0.5 * ((*g.band)[1] - (*g.band)[0]);
+    if (half > 0.0) used = std::max(used, std::abs(value - 0.5 * ((*g.band)[0] + (*g.band)[1])) / half);
+  }
+  if (g.at_least && *g.at_least != 0.0) used = std::max(used, 1.0 + (*g.at_least - value) / std::abs(*g.at_least));
+  return std::isfinite(used) ? used : not_a_number;
+}
+
+int Comparison::count(Trend trend) const {
+  return static_cast<int>(std::count_if(changes.begin(), changes.end(), [&](const auto& c) { return c.trend == trend; }));
+}
+
+Comparison compare_results(const Results& base, const Results& head, const std::string& base_name, const Results* repeat) {
+  Comparison all;
+  all.base_name = base_name, all.remarks = remarks_on(base, head);
+  std::map<Key, Row> before, again;
+  for (auto& row : rows_of(base)) before.emplace(row.key, row);
+  if (repeat)
+    for (auto& row : rows_of(*repeat)) again.emplace(row.key, row);
+  for (auto& row : rows_of(head)) {
+    row.change.head = row.standing;
+    const auto at = before.find(row.key);
+    Gate base_gate;
+    double differs = 0.0;
+    if (at != before.end()) {
+      row.change.base = at->second.standing, base_gate = at->second.gate;
+      if (const auto twin = again.find(row.key); twin != again.end()) differs = std::abs(twin->second.standing.value - at->second.standing.value);
+      before.erase(at);
+    }
+    settle(row.change, base_gate, row.gate, std::isfinite(differs) ? differs : 0.0);
+    all.changes.push_back(std::move(row.change));
+  }
+  for (auto& [key, row] : before) {
+    row.change.base = row.standing;
+    settle(row.change, row.gate, {}, 0.0);
+    all.changes.push_back(std::move(row.change));
+  }
+  std::stable_sort(all.changes.begin(), all.changes.end(), goes_before);
+  return all;
+}
+
+std::vector<Remark> change_remarks(const Comparison& all, bool no_worse) {
+  std::vector<Remark> list;
+  const auto say = [&](const Change& c, int code, const std::string& text, const char* word) {
+    list.push_back({no_worse, no_worse ? code : 0, c.place, c.case_id + " " + name_of(c), text, std::isfinite(c.change) ? 1.0 + std::abs(c.change) : infinity, no_worse ? word : ""});
+  };
+  for (const auto& c : all.changes) {
+    if (c.trend == Trend::worse && c.head->verdict == "pass")
+      say(c, exit_fail, fmt::format("is worse than the base by {} of its limit, and within it: {}, {} of {}; noise {}", change_text(c), values_text(c), used_text(c), c.base->allows, noise_text(c)), "WORSE");
+    if (c.trend == Trend::gone) say(c, exit_missing, fmt::format("is in the base ({}) and not here", values_text(c)), "GONE");
+    if (c.limit_changed && !c.base->allows.empty())
+      list.push_back({no_worse && c.looser, no_worse && c.looser ? exit_missing : 0, c.place, c.case_id + " " + name_of(c),
+                      fmt::format("its limit has changed: {} -> {}{}", c.base->allows, c.head->allows.empty() ? "none" : c.head->allows, c.looser ? ", looser" : ""), 1.0, no_worse && c.looser ? "LOOSENED" : ""});
+  }
+  return list;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "validation/harness/remarks.hpp"
+#include "validation/harness/results.hpp"
+
+/// Results beside those of a base, metric by metric: what a change to an engine did, in units of each limit, and whether noise can explain it.
+namespace tripoint {
+
+/// A change of less than this share of its limit is none, however small the noise: another compiler or processor does as much.
+inline constexpr double least_change = 1e-3;
+
+enum class Trend { better, worse, same, appeared, gone };
+
+/// One metric in one of the two results.
+struct Standing {
+  double value = 0.0;     ///< in the metric's unit; NaN where there is none
+  double used = 0.0;      ///< in units of the limit, see used_of(); NaN where no gate judges the metric
+  double noise = 0.0;     ///< standard uncertainty by chance, in the metric's unit
+  int seeds = 1;          ///< runs that the value is the mean of
+  std::string allows;     ///< "limit 0.01"; empty = no gate
+  std::string verdict, fit_class;
+};
+
+/// One metric of one engine in one case, judged (a row for each gate) or not.
+struct Change {
+  std::string case_id, engine, mode, metric, unit;  ///< engine with its preset
+  std::optional<double> level;
+  SourcePlace place;                    ///< of the limit; of the case file where there is none
+  std::optional<Standing> base, head;
+  double change = 0.0;                  ///< head less base in units of the limit, above 0 = worse; without a limit as a share of the base, of no sign
+  double noise = 0.0;                   ///< two standard uncertainties of that difference, in the same unit
+  std::string noise_from;               ///< "5 seeds", "A/A", "stated by the run", "round-off", "interval of the fit", "none known"
+  Trend trend = Trend::same;
+  bool limit_changed = false, looser = false;
+};
+
+struct Comparison {
+  std::string base_name;
+  std::vector<Change> changes;        ///< most changed first, then what is new and what is gone
+  std::vector<std::string> remarks;   ///< why the two may not be comparable: another profile, other seeds, another version of the program
+  [[nodiscard]] int count(Trend) const;
+};
+
+/// How much of what a gate allows a value takes, 1 at the edge, less is better: |value| over the limit; distance from the middle of a band over half its
+/// width; 2 - value/at_least. Of several edges the largest. A limit of 0 has the metric's own unit. NaN for no value, and for a gate without an edge.
+[[nodiscard]] double used_of(const Gate&, double value);
+
+/// @param repeat the base once more (A/A): what differs between the two is noise of its own, the larger one counts   @pre both are judged
+[[nodiscard]] Comparison compare_results(const Results& base, const Results& head, const std::string& base_name, const Results* repeat = nullptr);
+
+/// What got worse by more than its noise and is within its limit, what is gone, and which limits changed: warnings.
+/// @param no_worse errors instead: worse is exit 1, gone or looser exit 4
+[[nodiscard]] std::vector<Remark> change_remarks(const Comparison&, bool no_worse);
+
+/// "2 better, 1 worse, 9 unchanged, 1 new, 0 gone"
+[[nodiscard]] std::string counts_text(const Comparison&);
+/// "0.0049 -> 0.0025 m", "0.82 -> 0.41", "0.004, 5 seeds": base beside head, the same in units of the limit, and the noise in that unit.
+[[nodiscard]] std::string values_text(const Change&);
+[[nodiscard]] std::string used_text(const Change&);
+[[nodiscard]] std::string noise_text(const Change&);
+[[nodiscard]] std::string change_text(const Change&);
+/// "verlet corrected position at 0.1"
+[[nodiscard]] std::string name_of(const Change&);
+[[nodiscard]] std::string word_of(Trend);
+
+/// Every metric of both, a line each, for a terminal.
+[[nodiscard]] std::string changes_table(const Comparison&);
+
+}  // namespace tripoint
