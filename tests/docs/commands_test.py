@@ -28,7 +28,7 @@ PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "do
 PROGRAMS = ("tripoint", "build/bin/tripoint", "make", "cmake", "ctest", "ninja", "sed", "git", "echo", ".ci/run")
 TYPED = ("tripoint", "build/bin/tripoint", "sed", "git", "echo")
 LISTINGS = ("case file -> runs ->", "report/index.html ")  # blocks that are no commands: a diagram, the files of a report
-PICTURES = ("math", "mermaid")  # fences with these words are drawn
+PICTURES = ("math", "mermaid", "markdown")  # fences with these words are drawn, or hold a text that another test makes
 SPARED = re.compile(r"\b(\d+|an?|a few) (minutes?|hours?)\b|\bdownload")  # what the page itself says of a line that is not typed
 PLACEHOLDER = re.compile(r"\b[A-Z]{4,}\b|[a-z]/n\b|\.\.\.")  # CASE, RESULTS.json, i/n: stands for what the reader fills in
 AUTHOR = {f"GIT_{who}_{what}": f"nobody{'' if what == 'NAME' else '@localhost'}" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
