@@ -8,7 +8,7 @@ OUT ?= report
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-print-directory
 
-.PHONY: help setup build test validate test-fresh bench bench-peers gallery docs clean
+.PHONY: help setup build test validate test-fresh test-image bench bench-peers gallery docs clean
 
 help:  ## this text
 	@echo 'tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.'
@@ -42,6 +42,9 @@ test:  ## install the test tools too, build and run every test
 test-fresh:  ## make validate, then make test, in a bare Debian 12 root (needs root and mmdebstrap; KEEP=1 keeps it)
 	@tools/test-fresh.sh
 
+test-image:  ## the Dockerfile's instructions in bare roots by chroot, and a gate in the image (needs root and mmdebstrap)
+	@tools/image_root.py
+
 bench: build  ## time standard work on this machine, beside the machine's own limit
 	@build/bin/tripoint bench
 
@@ -55,9 +58,10 @@ gallery: setup build  ## run the paper's figures, draw them as films; leaves $(O
 	@build/bin/tripoint validate paper --profile commit --engines tripoint --out $(OUT)/gallery --jobs $(JOBS) --no-report --no-history || test -f $(OUT)/gallery/results.json
 	@/usr/bin/python3 reports/gallery.py $(OUT)/gallery/results.json
 
-docs: build  ## write the reference of the case file, docs/case-file.md
+docs: build  ## write what pages hold of the program: docs/case-file.md, the comments in docs/ci.md
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
+	@/usr/bin/python3 -B tests/cli/pull_requests.py build/bin/tripoint --write docs/ci.md
 
 clean:  ## remove build/ and every report; .venv, .venv-peers and .venv-engines stay
 	rm -rf build releases report report-ablate report-compare report-converge report-plan report-recommend

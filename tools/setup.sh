@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing and nothing else: Debian 12's packages by apt, engines' wheels from PyPI into .venv.
-#   tools/setup.sh [validate|test|peers]     test adds the test tools, peers what `make bench-peers` compares with; a second run only rechecks
+#   tools/setup.sh [build|validate|test|peers]     build is what compiles, test adds the test tools, peers what `make bench-peers` compares with; a second run only rechecks
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -87,10 +87,11 @@ install_peers() {
 }
 
 case ${1:-validate} in
+  build) install_packages "${core[@]}" && exit ;;
   validate) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" ;;
   test) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${tests[@]}" ;;
   peers) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${peers[@]}" ;;
-  *) say "usage: tools/setup.sh [validate|test|peers]"; exit 2 ;;
+  *) say "usage: tools/setup.sh [build|validate|test|peers]"; exit 2 ;;
 esac
 install_wheels
 [[ ${1:-validate} != peers ]] || install_peers
