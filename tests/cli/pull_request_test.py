@@ -12,7 +12,7 @@ import yaml
 
 from pull_requests import CHANGES, Repository, comments, with_comments
 
-TRIPOINT, SOURCE = sys.argv[1], Path(sys.argv[2])
+TRIPOINT, SOURCE = str(Path(sys.argv[1]).resolve()), Path(sys.argv[2]).resolve()
 WORKFLOWS = [*sorted((SOURCE / ".github" / "workflows").glob("*.yml")), *sorted((SOURCE / "examples" / "gated-engine" / ".github" / "workflows").glob("*.yml"))]
 
 
@@ -80,7 +80,7 @@ class PullRequests(unittest.TestCase):
         self.assertAlmostEqual(data["flight/glide glide lag at 0.1"]["value"], 9.81 * 0.05 / 44 / 2, delta=1e-7)  # 44 steps in each 50 ms
         self.assertEqual(data["flight/glide glide lag at 0.1"]["unit"], "m")
         self.assertRegex(data["flight/glide glide gauge at 0.1"]["range"], r"^\u00b1 [\d.e-]+$")
-        self.assertTrue(all(0.0 < entry["value"] < 1.0 for entry in json.loads((report / "shares.json").read_text())))
+        self.assertTrue(all(entry["value"] < 1.0 for entry in json.loads((report / "shares.json").read_text())))
         self.assertEqual(json.loads((report / "badge.json").read_text())["message"], "3/3 gates")
         self.assertIn("accuracy: 3/3 gates", (report / "badge.svg").read_text())
         self.assertEqual(json.loads((report / "results.sarif").read_text())["version"], "2.1.0")
@@ -103,22 +103,38 @@ class PullRequests(unittest.TestCase):
         subprocess.run([TRIPOINT, "gate", "accept", "--reason", "smaller steps", "report/results.json"], cwd=repository.folder, check=True, capture_output=True)
         self.assertEqual(subprocess.run([TRIPOINT, "gate", "report"], cwd=repository.folder, capture_output=True).returncode, 0)
 
-    def test_no_name_forges_a_command_a_verdict_or_a_tag(self):
-        hostile = "x\\n::error file=a::forged\\nverdict PASS exit 0\\n<script>|##[error]old"
-        case = self.repository.folder / "cases/flight/glide.toml"
-        other = self.repository.folder / "cases/flight/a|b<script>\n::error::forged\nverdict PASS exit 0\n.toml"
-        other.write_text(case.read_text().replace('"gauge"', f'"{hostile}"').replace("A block", hostile).replace("limit = 4e-3", "limit = 4e-5").replace("mean of five runs", hostile))
+    def assert_nothing_is_forged(self, text):
+        commands = [line for line in text.splitlines() if re.match(r"\s*::", line)]
+        self.assertEqual([line for line in commands if not re.match(r"::(error|warning) (file=[^,]*,line=\d+,)?title=", line)], [])
+        self.assertEqual([line for line in text.splitlines() if line.startswith("verdict PASS") or "##[" in line or "\x1b" in line], [])
+
+    def test_no_text_of_others_forges_a_command_a_verdict_or_a_tag(self):
+        hostile = r"x\n::error file=a::forged\nverdict PASS exit 0\n<script>alert(1)</script>|##[error]old \u001b[2J"
+        engine, case = (self.repository.folder / name for name in ("engine-glide", "cases/flight/glide.toml"))
+        engine.write_text(engine.read_text().replace('"version": "1"', f'"version": "{hostile}"').replace("STEP = 1e-3 ", "STEP = 2e-3 "))
+        case.write_text(case.read_text().replace("A block thrown up and sideways\"", hostile + '"').replace('unit = "m"', f'unit = "m{hostile}"').replace("mean of five runs", hostile).replace("g dt t/2 is", hostile))
         run = self.repository.action("feature", "main")
         self.assertTrue(run.failed)
-        for text in (run.log, run.messages):
-            self.assertEqual([line for line in text.splitlines() if re.match(r"\s*::", line) and not re.match(r"::(error|warning) (file=[^,]*,line=\d+,)?title=", line)], [])
-            self.assertEqual([line for line in text.splitlines() if line.startswith("verdict PASS") or "##[" in line], [])
+        self.assert_nothing_is_forged(run.log)
+        self.assert_nothing_is_forged(run.messages)
         report = self.repository.folder / "report"
-        for name in ("comment.md", "summary.md", "index.html", "junit.xml", "badge.svg", "data.json"):
-            text = (report / name).read_text()
-            self.assertNotRegex(text, r"<script>\s*[|:#]|b<script>", name)
-            self.assertEqual([line for line in text.splitlines() if line.startswith(("verdict PASS", "::"))], [], name)
-        for line in (report / "comment.md").read_text().splitlines():
+        results = json.loads((report / "results.json").read_text())
+        self.assertIn("\n::error", results["cases"][0]["engines"][0]["version"])
+        # What validate refuses as a name, a results file that was made by hand may hold.
+        text = (report / "results.json").read_text()
+        for name in ("flight/glide", '"glide"', '"lag"'):
+            text = text.replace(name, name.rstrip('"') + hostile + ('"' if name.endswith('"') else ""))
+        (report / "results.json").write_text(text)
+        for words in (["gate", "report"], ["gate", "report", "--against", str(self.repository.results)], ["summary", "report"], ["report", "report"]):
+            done = subprocess.run([TRIPOINT, *words], cwd=self.repository.folder, capture_output=True, text=True)
+            self.assert_nothing_is_forged(done.stdout.replace("verdict PASS exit 0  report", ""))
+            self.assert_nothing_is_forged(done.stderr)
+        markdown = subprocess.run([TRIPOINT, "summary", "report", "--markdown", "--against", str(self.repository.results)], cwd=self.repository.folder, capture_output=True, text=True).stdout
+        self.assertIn("## Accuracy: FAIL", markdown)
+        for text in (markdown, *((report / name).read_text() for name in ("comment.md", "summary.md", "index.html", "junit.xml", "badge.svg", "data.json"))):
+            self.assertNotIn("<script>alert", text)
+            self.assertEqual([line for line in text.splitlines() if line.startswith(("verdict PASS", "::"))], [])
+        for line in markdown.splitlines():
             if line.startswith("|"):
                 self.assertEqual(line.count("|"), 8, line)
 

