@@ -71,6 +71,7 @@ TEST(ForeignText, InXmlAndUrlsNothingEndsAnything) {
   EXPECT_EQ(url_path("cases/a b(c)/\xc3\xbc.toml"), "cases/a%20b%28c%29/%C3%BC.toml");
   EXPECT_EQ(command_text("a:b,c%\nd", true), "a%3Ab%2Cc%25%0Ad");
   EXPECT_EQ(command_text("a:b,c%\nd", false), "a:b,c%25%0Ad");
+  EXPECT_EQ(command_text("a\x1b[2J ##[error]b", false), "a?[2J # #[error]b");
 }
 
 TEST(ForeignText, ALogHoldsNoCommandOfOthers) {

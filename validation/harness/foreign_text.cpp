@@ -98,15 +98,22 @@ std::string url_path(std::string_view text) {
 }
 
 std::string command_text(std::string_view text, bool property) {
-  std::string out;
-  for (const char c : text) switch (c) {
-      case '%': out += "%25"; break;
-      case '\r': out += "%0D"; break;
-      case '\n': out += "%0A"; break;
-      case ':': out += property ? "%3A" : ":"; break;
-      case ',': out += property ? "%2C" : ","; break;
-      default: out += c;
-    }
+  std::string out, line;
+  const auto end_line = [&] {
+    for (const char c : one_line(line)) switch (c) {
+        case '%': out += "%25"; break;
+        case ':': out += property ? "%3A" : ":"; break;
+        case ',': out += property ? "%2C" : ","; break;
+        default: out += c;
+      }
+    line.clear();
+  };
+  for (const char c : text) {
+    if (c != '\r' && c != '\n') line += c;
+    else end_line(), out += c == '\r' ? "%0D" : "%0A";
+  }
+  end_line();
+  for (auto at = out.find("##["); at != std::string::npos; at = out.find("##[", at)) out.insert(at + 1, " ");
   return out;
 }
 

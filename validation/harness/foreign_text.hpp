@@ -19,7 +19,8 @@ namespace tripoint {
 /// For the path of a URL: what is no letter, digit or one of -._~/ is written %XX.
 [[nodiscard]] std::string url_path(std::string_view);
 
-/// For a workflow command of GitHub: what would end its line, and in a property also what would end the property.
+/// For a workflow command of GitHub: what would end its line, and in a property also what would end the property; control characters and commands of the
+/// old form are text.
 [[nodiscard]] std::string command_text(std::string_view, bool property);
 
 /// For the log of a runner, line by line: no line begins a workflow command (`::error::`, also behind spaces) and none holds one of the old form (`##[error]`).
