@@ -113,7 +113,7 @@ std::string command_text(std::string_view text, bool property) {
     else end_line(), out += c == '\r' ? "%0D" : "%0A";
   }
   end_line();
-  for (auto at = out.find("##["); at != std::string::npos; at = out.find("##[", at)) out.insert(at + 1, " ");
+  for (auto at = out.find("##["); at != std::string::npos; at = out.find("##[", at)) out.insert(at + 1, 1, ' ');
   return out;
 }
 
