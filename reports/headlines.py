@@ -62,11 +62,25 @@ def join(words):
 def share(number):
     """A share as percent with two digits."""
     size = 100 * abs(number)
-    return f"{size:.0f} %" if size >= 9.95 else f"{size:.2g} %" if size >= 0.0995 else "less than 0.1 %"
+    return f"{size:.0f} %" if size >= 9.95 else f"{size:.2g} %" if size >= 0.0995 else "< 0.1 %"
 
 
 def count(number, noun):
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def of_all(some, every):
+    """"3 of 4 engines and presets"."""
+    return f"{some} of {count(every, 'engine and preset') if every == 1 else f'{every} engines and presets'}"
+
+
+def by_engine(labels):
+    """Presets of one engine in one word: ["a · x", "a · y", "b"] -> {"a (x, y)": labels, "b": labels}, in the order in which engines come first."""
+    found = {}
+    for label in labels:
+        found.setdefault(label.split(" · ")[0], []).append(label)
+    return {name if members == [name] else f"{name} ({', '.join(label.partition(' · ')[2] or 'default' for label in members)})" if len(members) > 1 else members[0]: members
+            for name, members in found.items()}
 
 
 def trajectories_of(results, case):
@@ -87,9 +101,35 @@ SPIN = "rigid/torque-free"
 
 
 def long_axis(quaternions):
-    """z of the body's x axis, in the world: row 3, column 1 of the rotation."""
+    """The first body's x axis in the world, (frames, 3): the first column of its rotation."""
+    import numpy as np
     w, x, y, z = (quaternions[:, 0, k] for k in range(4))
-    return 2 * (x * z - w * y)
+    return np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)], axis=1)
+
+
+def tip(trajectory):
+    """(times, z of the long axis, its rate): da/dt = omega x a, whose z is omega_x a_y - omega_y a_x. Rate None where the run wrote no angular velocity."""
+    axis = long_axis(trajectory.bodies["orientation"])
+    spins = trajectory.bodies.get("angular_velocity")
+    rate = None if spins is None else spins[:, 0, 0] * axis[:, 1] - spins[:, 0, 1] * axis[:, 0]
+    return trajectory.body_times, axis[:, 2], rate
+
+
+def height(trajectory):
+    """(times, height of the first body, no rate): frames of a fall are close, and a hit has no rate."""
+    return trajectory.body_times, trajectory.bodies["position"][:, 0, 2], None
+
+
+def smooth(times, values, rates, parts=12):
+    """Cubics through values and rates of the frames (Hermite), so that a curve between far frames is no broken line; as it is where there are no rates."""
+    import numpy as np
+    if rates is None or not np.isfinite(rates).all() or len(times) < 2:
+        return times, values
+    s = np.linspace(0.0, 1.0, parts, endpoint=False)
+    step = np.diff(times)[:, None]
+    start, end, leave, come = (part[:, None] for part in (values[:-1], values[1:], rates[:-1], rates[1:]))
+    curve = (1 + 2 * s) * (1 - s) ** 2 * start + s * (1 - s) ** 2 * step * leave + s * s * (3 - 2 * s) * end + s * s * (s - 1) * step * come
+    return np.append((times[:-1, None] + s * step).ravel(), times[-1]), np.append(curve.ravel(), values[-1])
 
 
 def spin(results, out):
@@ -106,11 +146,11 @@ def spin(results, out):
         return None
     lines.sort()
     right = [label for angle, label, _ in lines if angle < 0.01]
-    end = f"after 10 s of tumbling at the case's step, {len(right)} of {count(len(lines), 'engine and preset') if len(lines) == 1 else f'{len(lines)} engines and presets'} point within 0.01 rad of the truth"
+    end = f"after 10 s of tumbling at the case's step, {of_all(len(right), len(lines))} point within 0.01 rad of the truth"
     far = f"; {lines[-1][1]} is {lines[-1][0]:.2g} rad off" if lines[-1][0] >= 0.01 else ""
-    answer = f"{'Yes for ' + join(right) if right else 'No'}: {end}{far}."
-    picture = curves_picture(results, out, case, "spin", "Height of the long axis's tip over ten seconds", "z of the body's long axis [1]", lambda t: (t.body_times, long_axis(t.bodies["orientation"])), "orientation")
-    return Page("spin.html", "Does your engine spin a free body right?", answer, picture, ["engine", "angle error [rad]", "[degrees]", "energy change", "order"],
+    answer = f"{'Yes for ' + join(list(by_engine(right))) if right else 'No'}: {end}{far}."
+    picture = curves_picture(results, out, case, "spin", "Height of the long axis's tip over ten seconds", "z of the body's long axis [1]", tip, "orientation", "Dots are the frames that were written; between them, cubics by attitude and angular velocity.")
+    return Page("spin.html", "Does your engine spin a free body right?", answer, picture, ["engine", "angle error [rad]", "[degrees]", "energy error", "order"],
                 [Line(label, cells, "pass" if angle < 0.01 else "fail" if angle > 0.1 else "open") for angle, label, cells in lines], cases=[case])
 
 
@@ -124,6 +164,9 @@ def signed_energy(run):
 BOUNCES = (("contact/ball-restitution-100", "1"), ("contact/ball-restitution-090", "0.9"), ("contact/ball-restitution-050", "0.5"), ("contact/ball-restitution-000", "0"),
            ("contact/box-restitution-100", "1, box"), ("contact/tumble-elastic", "1, tumbling box"),
            ("contact/tumble-elastic-default", "1, tumbling box"))
+
+
+MAKES = 0.01  # share of the energy of the fall above which the page says that an engine makes energy
 
 
 def bounce(results, out):
@@ -142,20 +185,22 @@ def bounce(results, out):
     columns = list(dict.fromkeys(words for _, words in cases))
     worst = {label: max(found.values()) for label, found in gains.items()}
     ordered = sorted(gains, key=worst.get)
-    makers = [label for label in ordered if worst[label] > 0.01]
+    makers = by_engine([label for label in reversed(ordered) if worst[label] > MAKES])
     if makers:
-        rest = len(ordered) - len(makers)
-        answer = f"{'Some do' if rest else 'Yes'}: {join([f'{label} makes up to {share(worst[label])}' for label in reversed(makers)])} of the energy of the fall in its hits; {rest} of {len(ordered)} engines and presets stay below 1 %."
+        rest = sum(worst[label] <= MAKES for label in ordered)
+        answer = f"{'Some do' if rest else 'Yes'}: {join([f'{name} makes up to {share(max(worst[label] for label in members))}' for name, members in makers.items()])} of the energy of the fall in its hits; {of_all(rest, len(ordered))} stay below 1 %."
     else:
-        answer = f"No: none of {len(ordered)} engines and presets makes more than {share(max(worst.values()))} of the energy of the fall."
-    picture = curves_picture(results, out, cases[0][0], "bounce", f"Height of a ball of restitution {cases[0][1]}", "height of the centre [m]", lambda t: (t.body_times, t.bodies["position"][:, 0, 2]), "position")
-    lines = [Line(label, ["—" if words not in gains[label] else share(gains[label][words]) for words in columns], "fail" if worst[label] > 0.01 else "pass") for label in ordered]
-    return Page("bounce.html", "Does it make energy when it bounces?", answer, picture, ["engine"] + [f"e = {words}" for words in columns], lines, cases=[case for case, _ in cases])
+        answer = f"No: none of {count(len(ordered), 'engine and preset') if len(ordered) == 1 else f'{len(ordered)} engines and presets'} makes more than {share(max(worst.values()))} of the energy of the fall."
+    lines = [Line(label, [share(worst[label])] + ["—" if words not in gains[label] else share(gains[label][words]) for words in columns], "fail" if worst[label] > MAKES else "pass") for label in ordered]
+    return Page("bounce.html", "Does it make energy when it bounces?", answer, gains_picture(out, gains, ordered, columns, cases), ["engine", "greatest"] + [f"e = {words}" for words in columns], lines,
+                notes=["\"—\": the engine refuses this case, or the case does not ask for it."] if any(len(found) < len(columns) for found in gains.values()) else [], cases=[case for case, _ in cases])
 
 
 # --- does it float? -----------------------------------------------------------------------------------------------------
 
 FLOATS = (("coupling/floating-block-025", 0.25), ("coupling/floating-block-050", 0.5), ("coupling/floating-block-080", 0.8))
+
+FLOATS_WITHIN = 0.5  # spacings of draught: below what the particles resolve
 
 
 def floats(results, out):
@@ -172,18 +217,21 @@ def floats(results, out):
         return None
     worst = {label: max(map(abs, found.values())) for label, found in errors.items()}
     ordered = sorted(errors, key=worst.get)
-    good = [label for label in ordered if worst[label] <= 0.5]
+    good = [label for label in ordered if worst[label] <= FLOATS_WITHIN]
     answer = (f"Yes for {join(good)}: blocks of {join([f'{density:g}' for _, density in cases])} of the density of water float within {max(worst[label] for label in good):.2g} spacings of Archimedes' draught."
               if good else f"No: the best, {ordered[0]}, is {worst[ordered[0]]:.2g} spacings off Archimedes' draught.")
-    lines = [Line(label, ["—" if density not in errors[label] else f"{errors[label][density]:+.2f}" for _, density in cases], "pass" if worst[label] <= 0.5 else "fail") for label in ordered]
-    return Page("float.html", "Does it float?", answer, draught_picture(out, depths, cases), ["engine"] + [f"density {density:g}: draught error [spacings]" for _, density in cases], lines, cases=[case for case, _ in cases])
+    lines = [Line(label, ["—" if density not in errors[label] else f"{errors[label][density]:+.2f}" for _, density in cases], "pass" if worst[label] <= FLOATS_WITHIN else "fail") for label in ordered]
+    return Page("float.html", "Does it float?", answer, draught_picture(out, depths, cases), ["engine"] + [f"density {density:g}" for _, density in cases], lines,
+                notes=["The table is of the draught's error in particle spacings; the densities are relative to water."], cases=[case for case, _ in cases])
 
 
 # --- pictures -----------------------------------------------------------------------------------------------------------
 
-def finished(figure, out, name, title, alt, caption):
+def finished(draw, out, name, title, alt, caption):
+    """Draws twice, for a page and for a telephone. @param draw (inches) -> figure"""
     from figures import Picture, style
-    return Picture(name, title, alt, caption, style.inline(style.files(figure, out / "figures" / f"headline-{name}"), f"headline-{name}"), f"figures/headline-{name}", False)
+    broad, slim = (style.inline(style.files(draw(width), out / "figures" / f"headline-{name}{suffix}"), f"headline-{name}{suffix}") for width, suffix in ((style.WIDTH, ""), (style.SLIM, "-narrow")))
+    return Picture(name, title, alt, caption, broad, f"figures/headline-{name}", False, slim)
 
 
 def hues(labels):
@@ -192,55 +240,99 @@ def hues(labels):
     return {label: {"color": palette[k % len(palette)], "linestyle": ("-", "--", ":", "-.")[k // len(palette) % 4]} for k, label in enumerate(labels)}
 
 
-def curves_picture(results, out, case, name, title, axis_label, curve, needs):
-    """Every engine's own curve over the exact one, which is wide and grey."""
-    import numpy as np
-
+def curves_picture(results, out, case, name, title, axis_label, curve, needs, how=""):
+    """Every engine's own curve over the exact one, which is wide and grey. @param curve trajectory -> (times, values, rates or None)"""
     from figures import style
     shown = [entry for entry in trajectories_of(results, case) if needs in entry[2].bodies]
     if not shown:
         return None
-    figure, (axis,) = style.panels(1, 1, height=3.4)
-    figure.set_size_inches(style.WIDTH, 4.2)
     labels = [engine.label for engine, _, _ in shown if engine.name != "exact"][:STRANGERS]
     looks = hues(labels)
-    for engine, _, trajectory in shown:
-        times, heights = curve(trajectory)
-        if engine.name == "exact":
-            axis.plot(times, heights, color=style.GREY, linewidth=5, alpha=0.55, label="exact", zorder=1)
-        elif engine.label in looks:
-            axis.plot(times, np.asarray(heights), linewidth=1.3, label=engine.label, zorder=2, **looks[engine.label])
-    axis.set_xlabel("time [s]")
-    axis.set_ylabel(axis_label)
-    frame(figure, axis, len(labels) + 1)
-    return finished(figure, out, name, title, f"{title}, of {join(labels)} over the exact curve.", f"Case {case.id}, at its own time step. The wide grey curve is exact.")
+
+    def draw(width):
+        figure, axis = canvas(width, 4.2)
+        for engine, _, trajectory in shown:
+            times, values, rates = curve(trajectory)
+            if engine.name == "exact":
+                axis.plot(*smooth(times, values, rates), color=style.GREY, linewidth=5, alpha=0.55, label="exact", zorder=1)
+            elif engine.label in looks:
+                axis.plot(*smooth(times, values, rates), linewidth=1.3, label=engine.label, zorder=2, **looks[engine.label])
+                if rates is not None:
+                    axis.plot(times, values, linestyle="none", marker="o", markersize=2.2, color=looks[engine.label]["color"], zorder=3)
+        axis.set_xlabel("time [s]")
+        axis.set_ylabel(axis_label)
+        frame(figure, axis, len(labels) + 1)
+        return figure
+    return finished(draw, out, name, title, f"{title}, of {join(labels)} over the exact curve.", " ".join(filter(None, [f"Case {case.id}, at its own time step. The wide grey curve is exact.", how])))
 
 
-def frame(figure, axis, entries):
+def canvas(width, height):
+    """One axis on a figure of this size [inches]."""
     from figures import style
-    lines = -(-entries // 5)
-    height = figure.get_figheight()
-    figure.subplots_adjust(left=0.75 / style.WIDTH, right=1 - 0.15 / style.WIDTH, bottom=0.5 / height, top=1 - (0.2 + 0.2 * lines) / height)
+    figure, (axis,) = style.panels(1, 1)
+    figure.set_size_inches(width, height)
+    return figure, axis
+
+
+def frame(figure, axis, entries, left=0.75):
+    from figures import style
+    across = 5 if figure.get_figwidth() > style.HALF else 2
+    width, height = figure.get_figwidth(), figure.get_figheight()
+    figure.subplots_adjust(left=left / width, right=1 - 0.15 / width, bottom=0.5 / height, top=1 - (0.2 + 0.2 * -(-entries // across)) / height)
     style.legend(figure, [axis])
 
 
-def draught_picture(out, depths, cases):
-    """Error of the draught in time; the zero line is Archimedes."""
+def gains_picture(out, gains, ordered, columns, cases):
+    """The greatest energy above that of the start, of each engine in each case: dots in a row an engine. Exact is nothing; the line is at 1 %."""
     from figures import style
-    figure, (axis,) = style.panels(1, 1, height=3.4)
-    figure.set_size_inches(style.WIDTH, 4.2)
+    least, looks = 1e-4, {words: (hue, marker) for words, hue, marker in zip(columns, (style.BLUE, style.SKY, style.GREEN, style.GREY, style.ORANGE, style.PINK, style.RED), "osD^vPX")}
+
+    def draw(width):
+        figure, axis = canvas(width, 1.3 + 0.24 * len(ordered) + (0.2 if width < style.WIDTH else 0.0))
+        axis.axvline(100 * MAKES, color=style.RED, linewidth=1, linestyle="--", zorder=1)
+        for words in columns:
+            points = [(100 * max(gains[label][words], least), row) for row, label in enumerate(ordered) if words in gains[label]]
+            if points:
+                axis.plot(*zip(*points), linestyle="none", color=looks[words][0], marker=looks[words][1], markersize=5.5, alpha=0.85, label=f"e = {words}", zorder=2)
+        axis.set_xscale("log")
+        axis.set_xlim(100 * least / 1.6, max(3.0, 160 * max(max(found.values()) for found in gains.values())))
+        axis.xaxis.set_major_formatter(lambda value, _: f"{value:g}" if value > 100 * least * 1.01 else f"< {value:g}")
+        axis.set_yticks(range(len(ordered)), ordered)
+        axis.set_ylim(len(ordered) - 0.4, -0.6)
+        axis.set_xlabel("energy made [%]")
+        frame(figure, axis, len(columns), left=0.3 + 0.072 * max(map(len, ordered)))
+        return figure
+    return finished(draw, out, "bounce", "Energy made in hits, by engine and restitution e", f"Greatest energy gain of {join(ordered)}.", f"Cases {join([case.id for case, _ in cases])}. The greatest energy above that of the start, at any time, in percent of the energy of the fall; exact is none. The dashed line is at 1 %. A logarithmic axis.")
+
+
+def draught_picture(out, depths, cases):
+    """Error of the draught in time; the zero line is Archimedes, the band what counts as floating right."""
+    from figures import style
     curves = [(f"{label}, {density:g}", metric) for label, found in depths.items() for density, metric in found if len(metric.times) == len(metric.series) > 1]
     looks = hues([label for label, _ in curves])
-    axis.axhline(0.0, color=style.GREY, linewidth=5, alpha=0.55, label="Archimedes", zorder=1)
-    for label, metric in curves:
-        axis.plot(metric.times, metric.series, linewidth=1.3, label=label, zorder=2, **looks[label])
-    axis.set_xlabel("time [s]")
-    axis.set_ylabel("draught less Archimedes' [spacings]")
-    frame(figure, axis, len(curves) + 1)
-    return finished(figure, out, "float", "Draught of floating blocks in time", "Error of the draught of each engine and density against time.", f"Cases {join([case.id for case, _ in cases])}. Labels: engine and density relative to water.")
+
+    def draw(width):
+        figure, axis = canvas(width, 4.2)
+        axis.axhspan(-FLOATS_WITHIN, FLOATS_WITHIN, color=style.GREEN, alpha=0.08, zorder=0)
+        axis.axhline(0.0, color=style.GREY, linewidth=5, alpha=0.55, label="Archimedes", zorder=1)
+        for label, metric in curves:
+            axis.plot(metric.times, metric.series, linewidth=1.3, label=label, zorder=2, **looks[label])
+        low, high = axis.get_ylim()
+        axis.set_ylim(min(low, -1.2 * FLOATS_WITHIN), max(high, 1.2 * FLOATS_WITHIN))
+        axis.set_xlabel("time [s]")
+        axis.set_ylabel("draught less Archimedes' [spacings]")
+        frame(figure, axis, len(curves) + 1)
+        return figure
+    return finished(draw, out, "float", "Error of the draught of floating blocks in time", "Error of the draught of each engine and density against time.",
+                    f"Cases {join([case.id for case, _ in cases])}. Labels: engine and density relative to water. The green band is half a spacing to either side.")
 
 
 # --- can I upgrade? -----------------------------------------------------------------------------------------------------
+
+def times(ratio):
+    """"3.4 times", "1300 times": two digits, without an exponent where it can be read so."""
+    return f"{float(f'{ratio:.2g}'):g} times" if ratio < 1e6 else f"{ratio:.1e} times"
+
 
 def upgrade_answer(document):
     """One sentence from a table of releases: the greatest change for the worse, else that there is none. @return "" where nothing can be said"""
@@ -254,7 +346,7 @@ def upgrade_answer(document):
     names = f"{text(releases[0].get('engine'))} {text(releases[0].get('version'))} to {text(releases[-1].get('version'))}"
     if worse[0] > 1 and worse[1].get("worse"):
         c = worse[1]
-        return f"Not blindly: over {names}, {text(c.get('preset'))}'s {text(c.get('metric'))} error grows {worse[0]:.3g} times from {text(c.get('from'))} to {text(c.get('to'))}."
+        return f"Not blindly: over {names}, {text(c.get('preset'))}'s {text(c.get('metric'))} error grows {times(worse[0])} from {text(c.get('from'))} to {text(c.get('to'))}."
     return f"Yes: over {names} no error of this case grows by more than {document.get('margin', 1)} times."
 
 

@@ -46,29 +46,30 @@ def draw(document, out):
     """@return a picture: a line of panels a metric, its error (log) and its order over the releases"""
     from figures import Picture, style
     presets, releases = presets_of(document), rows(document.get("releases"))
-    names = [text(metric.get("name")) for metric in rows(document.get("metrics"))]
-    figure, flat = style.panels(2 * len(names), len(presets))
-    axes = list(zip(flat[::2], flat[1::2]))
-    colours = (style.BLUE, style.ORANGE, style.GREEN, style.PINK, style.AMBER, style.SKY)
-    for line, name in zip(axes, names):
-        for k, preset in enumerate(presets):
-            found = [measured(release, preset, name) for release in releases]
-            look = {"color": colours[k % len(colours)], "marker": style.MARKERS[k % len(style.MARKERS)], "label": preset}
-            errors = [(x, max(abs(e), 1e-16)) for x, (e, _) in enumerate(found) if e is not None]
-            orders = [(x, o) for x, (_, o) in enumerate(found) if o is not None]
-            for axis, points in ((line[0], errors), (line[1], orders)):
+    versions = [text(release.get("version")) for release in releases]
+    panels = [(name, what) for name in (text(metric.get("name")) for metric in rows(document.get("metrics"))) for what in (0, 1)
+              if any(measured(release, preset, name)[what] is not None for release in releases for preset in presets)]  # round-off has no order, and no empty panel
+    if not panels:
+        return None
+    title = ("error at the case's own time step", "observed order in the time step")
+
+    def drawn(columns, suffix):
+        figure, axes = style.panels(len(panels), len(presets), columns=columns)
+        for axis, (name, what) in zip(axes, panels):
+            for k, preset in enumerate(presets):
+                found = [measured(release, preset, name)[what] for release in releases]
+                points = [(x, y if what else max(abs(y), 1e-16)) for x, y in enumerate(found) if y is not None]
                 if points:
-                    axis.plot(*zip(*points), **look)
-        if line[0].lines:
-            style.logarithmic(line[0], "y")
-        line[0].set_title(f"{name}: error at the case's own time step")
-        line[1].set_title(f"{name}: observed order in the time step")
-        for axis in line:
-            axis.set_xticks(range(len(releases)), [text(release.get("version")) for release in releases], rotation=20, ha="right")
-    style.legend(figure, flat)
+                    axis.plot(*zip(*points), color=style.HUES[k % len(style.HUES)], marker=style.MARKERS[k % len(style.MARKERS)], label=preset)
+            if not what:
+                style.logarithmic(axis, "y")
+            axis.set_title(f"{name}: {title[what]}")
+            axis.set_xticks(range(len(versions)), versions, rotation=20, ha="right")
+        style.legend(figure, axes)
+        return style.inline(style.files(figure, Path(out) / f"releases{suffix}"), f"releases{suffix}")
     return Picture("releases", "Error and observed order by release", f"Error and order of {', '.join(presets)} over {len(releases)} releases.",
-                   "Errors are on a logarithmic axis. An order of 2 means that half the time step leaves a quarter of the error.",
-                   style.inline(style.files(figure, Path(out) / "releases"), "releases"), "releases", False)
+                   "Errors are on a logarithmic axis. An order of 2 means that half the time step leaves a quarter of the error; where errors are round-off there is no order.",
+                   drawn(2, ""), "releases", False, drawn(1, "-narrow"))
 
 
 def change_line(change):
@@ -76,7 +77,7 @@ def change_line(change):
     orders = [number(change.get(key)) for key in ("order_before", "order_after")]
     note = f"order {orders[0]:.1f} to {orders[1]:.1f}" if None not in orders else ""
     return {"from": text(change.get("from")), "to": text(change.get("to")), "preset": text(change.get("preset")), "metric": text(change.get("metric")),
-            "before": page.show(before), "after": page.show(after), "word": "worse" if change.get("worse") else "better", "note": note or ("round-off" if change.get("round_off") else "")}
+            "before": page.show(before), "after": page.show(after), "word": "worse" if change.get("worse") else "better", "note": note or (("was" if change.get("worse") else "is") + " round-off" if change.get("round_off") else "")}
 
 
 def gate_line(release, row, gate):

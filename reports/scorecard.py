@@ -15,6 +15,7 @@ from model import number, rows, table, text
 
 APART = ("refused", "missing")  # verdicts of a case that did not run: they stand below the table, by reason
 TONES = {"pass": "pass", "fail": "fail", "known defect": "open", "inconclusive": "open", "diverged": "fail", "crashed": "fail", "not judged": "none"}
+BROKEN = ("missing", "crashed", "not judged")  # why a scorecard ends 4
 COLUMNS = ("pass", "fail", "known defect", "inconclusive", "refused", "missing", "crashed", "diverged", "not judged")
 
 
@@ -41,8 +42,19 @@ def refused(lines):
 def engine(document):
     lines = [line(row) for row in rows(document.get("rows"))]
     totals = table(document.get("totals"))
-    return {"label": text(document.get("label")), "version": text(document.get("version")), "totals": [totals.get(name) or 0 for name in COLUMNS], "first": document.get("first") or 0,
+    return {"label": text(document.get("label")), "version": text(document.get("version")), "totals": {name: totals.get(name) or 0 for name in COLUMNS}, "first": document.get("first") or 0,
             "cpu": page.show(number(document.get("cpu_s"))), "lines": [row for row in lines if row["verdict"] not in APART], "refused": refused(lines)}
+
+
+def broken(engines):
+    """Which engine is missing, crashed or not judged in which cases, as sentences."""
+    found = []
+    for e in engines:
+        for verdict in BROKEN:
+            cases = [row["case"] for row in e["lines"] if row["verdict"] == verdict] + [case for entry in e["refused"] if entry["verdict"] == verdict for case in entry["cases"]]
+            if cases:
+                found.append(f"{e['label']}: {verdict} in {', '.join(cases)}.")
+    return " ".join(found)
 
 
 def disagreement(document):
@@ -55,7 +67,8 @@ def disagreement(document):
 def render(document):
     """@return HTML"""
     engines = [engine(e) for e in rows(document.get("engines"))]
-    return page.fill("scorecard.html.j2", SimpleNamespace(tool={}, profile=""), document=document, engines=engines, columns=COLUMNS, disagreements=[disagreement(d) for d in rows(document.get("disagreements"))], notes=[])
+    columns = [name for name in COLUMNS if name in ("pass", "fail", "refused") or any(e["totals"][name] for e in engines)]  # of the others only what there is
+    return page.fill("scorecard.html.j2", SimpleNamespace(tool={}, profile=""), document=document, engines=engines, columns=columns, meaning=page.EXITS.get(text(document.get("exit_code"))), broken=broken(engines), disagreements=[disagreement(d) for d in rows(document.get("disagreements"))], notes=[])
 
 
 def main(arguments):

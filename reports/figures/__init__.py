@@ -25,6 +25,7 @@ class Picture:
     svg: str
     file: str
     half: bool  # two of them stand side by side
+    slim: str = ""  # the same, drawn for a narrow screen
 
 
 def stem_of(case):

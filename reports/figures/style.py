@@ -27,8 +27,9 @@ KNOWN = {"exact": INK, "tripoint": BLUE, "bullet": ORANGE, "lammps": GREEN, "lam
 SPARE = (SKY, AMBER, GREY)
 BODIES = ("#3d9fd8", "#e8803a", "#2bb58c", PINK, AMBER, SKY, GREY)  # of a lightness that stands out from white and from black
 MARKERS = "osD^vP"
+HUES = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY)  # of presets, in their order
 TEMPERATURE = ListedColormap(matplotlib.colormaps["inferno"](np.linspace(0.18, 0.93, 256)))  # without the ends that vanish in dark and light
-WIDTH, HALF, DPI = 9.2, 4.6, 110
+WIDTH, HALF, SLIM, DPI = 9.2, 4.6, 4.3, 110  # SLIM: of a telephone, where a figure is not scaled down
 
 matplotlib.rcParams.update({
     "figure.facecolor": PAPER, "axes.facecolor": PAPER, "savefig.facecolor": PAPER, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": SOFT,
@@ -54,9 +55,9 @@ def look(curve):
             "linestyle": "--" if curve.mode == "paper" else "-"}
 
 
-def panels(count, labels, height=2.9):
+def panels(count, labels, height=2.9, columns=None):
     """A figure with `count` axes in a grid under a legend of `labels` entries, drawn without pyplot (no global state)."""
-    columns = 3 if count == 3 else min(2, count)
+    columns = min(columns, count) if columns else 3 if count == 3 else min(2, count)
     lines = -(-count // columns)
     width = WIDTH if columns > 1 else HALF
     above = 0.3 + 0.19 * -(-labels // (5 if columns > 1 else 2))

@@ -16,7 +16,9 @@ import ablation  # noqa: E402
 import digit_cost  # noqa: E402
 import headlines  # noqa: E402
 import load  # noqa: E402
+import releases  # noqa: E402
 import report  # noqa: E402
+import scorecard  # noqa: E402
 import side_by_side  # noqa: E402
 from report_test import Reader  # noqa: E402
 
@@ -195,9 +197,9 @@ class Signable(Pages):
         self.assertEqual((self.path / "report.pdf").read_bytes()[:5], b"%PDF-")
 
 
-def bounce(case_id, gain):
+def bounce(case_id, gain, engines=(("bullet", "impact"),)):
     runs = [{"knobs": {"time_step": 1e-3}, "base": True, "status": "ok", "metrics": {"energy_gain": {"value": gain}}, "cost": {}}]
-    return case([{"name": "bullet", "preset": "impact", "status": "ok", "runs": runs, "gates": []}], case_id)
+    return case([{"name": name, "preset": preset, "status": "ok", "runs": runs, "gates": []} for name, preset in engines], case_id)
 
 
 class Headlines(Pages):
@@ -208,7 +210,7 @@ class Headlines(Pages):
         (page,), notes = self.pages(bounce("contact/ball-restitution-100", 0.12), bounce("contact/ball-restitution-050", 0.0))
         self.assertEqual((page.file, notes), ("bounce.html", []))
         self.assertIn("bullet · impact makes up to 12 % of the energy of the fall", page.answer)
-        self.assertEqual([line.cells for line in page.lines], [["12 %", "less than 0.1 %"]])
+        self.assertEqual([line.cells for line in page.lines], [["12 %", "12 %", "< 0.1 %"]])
 
     def test_one_that_makes_none_is_told_so_and_a_case_that_did_not_run_has_no_page(self):
         (page,), _ = self.pages(bounce("contact/ball-restitution-100", 0.006))
@@ -221,11 +223,71 @@ class Headlines(Pages):
         self.assertTrue((self.path / "bounce.html").is_file())
         self.assertFalse((self.path / "float.html").exists())
 
+    def test_presets_of_one_engine_are_named_together(self):
+        (page,), _ = self.pages(bounce("contact/ball-restitution-000", 0.04, [("mujoco", "Euler"), ("mujoco", "RK4"), ("ode", "dWorldStep")]))
+        self.assertIn("ode · dWorldStep makes up to 4 % and mujoco (RK4, Euler) makes up to 4 %", page.answer)
+
+    def test_a_picture_is_drawn_for_a_page_and_for_a_telephone(self):
+        (page,), _ = self.pages(bounce("contact/ball-restitution-100", 0.12))
+        broad, slim = (float(re.search(r'viewBox="0 0 ([\d.]+) ', svg)[1]) for svg in (page.picture.svg, page.picture.slim))  # [points]
+        self.assertGreater(broad, 600)
+        self.assertLess(slim, 320)  # on 364 pixels a text of 9 points is one of 10 pixels or more
+        for svg in (page.picture.svg, page.picture.slim):
+            self.assertIn("bullet · impact", svg)
+        self.assertEqual(self.write(bounce("contact/ball-restitution-100", 0.12)), 0)
+        self.assertIn('class="drawing slim"', (self.path / "bounce.html").read_text())
+
+    def test_between_frames_stands_the_cubic_through_values_and_rates(self):
+        import numpy as np
+        times = np.array([0.0, 0.5, 1.5])
+        fine, curve = headlines.smooth(times, times ** 3 - times, 3 * times ** 2 - 1)
+        self.assertGreater(len(fine), 20)
+        self.assertLess(np.abs(curve - (fine ** 3 - fine)).max(), 1e-14)  # round-off: a cubic is its own
+        self.assertEqual(headlines.smooth(times, times, None)[0].tolist(), times.tolist())
+
+    def test_the_tip_of_a_body_that_turns_about_y_falls_as_the_sine(self):
+        import numpy as np
+        from trajectories import Trajectory
+        times, rate = np.linspace(0.0, 1.0, 5), 1.3
+        half = 0.5 * rate * times
+        attitude = np.stack([np.cos(half), 0 * half, np.sin(half), 0 * half], axis=1)[:, None]
+        turning = np.broadcast_to([0.0, rate, 0.0], (5, 1, 3))
+        _, z, slope = headlines.tip(Trajectory(times=times, bodies={"orientation": attitude, "angular_velocity": turning}, body_times=times))
+        self.assertLess(np.abs(z + np.sin(rate * times)).max(), 1e-15)
+        self.assertLess(np.abs(slope + rate * np.cos(rate * times)).max(), 1e-15)
+
     def test_an_upgrade_is_answered_from_the_greatest_change(self):
         releases = [{"engine": "mujoco", "version": v} for v in ("3.10.0", "3.11.0")]
         worse = {"from": "3.10.0", "to": "3.11.0", "preset": "implicitfast", "metric": "angle", "before": 4.6e-4, "after": 0.6, "worse": True, "round_off": False}
-        self.assertIn("implicitfast's angle error grows 1.3e+03 times", headlines.upgrade_answer({"releases": releases, "changes": [worse]}))
+        self.assertIn("implicitfast's angle error grows 1300 times", headlines.upgrade_answer({"releases": releases, "changes": [worse]}))
         self.assertTrue(headlines.upgrade_answer({"releases": releases, "changes": [], "margin": 1.5}).startswith("Yes"))
+
+    def test_an_upgrade_draws_no_panel_without_a_point(self):
+        def release(version, error):
+            return {"engine": "mujoco", "version": version, "rows": [{"preset": "RK4", "status": "ok", "metrics": {"angle": {"value": error, "order": 2.0}, "energy": {"value": 1e-15}}}]}
+        document = {"case": "a", "metrics": [{"name": "angle"}, {"name": "energy"}], "releases": [release("1", 0.1), release("2", 0.2)]}
+        picture = releases.draw(document, self.path)
+        for svg in (picture.svg, picture.slim):
+            self.assertIn("angle: observed order", svg)
+            self.assertIn("energy: error", svg)
+            self.assertNotIn("energy: observed order", svg)
+
+
+class Scorecards(unittest.TestCase):
+    CARD = {"verdict": "MISSING", "exit_code": 4, "command": "tripoint validate", "engines": [
+        {"label": "jolt", "totals": {"pass": 1, "crashed": 1}, "rows": [{"case": "contact/a", "verdict": "pass"}, {"case": "contact/b", "verdict": "crashed", "reason": "frozen"}]}]}
+
+    def test_says_why_it_is_not_green(self):
+        text = Reader(scorecard.render(self.CARD)).text
+        self.assertIn("exit 4: a required engine, reference or metric is missing", text)
+        self.assertIn("jolt: crashed in contact/b.", text)
+
+    def test_has_no_column_of_what_never_happened(self):
+        html = scorecard.render(self.CARD)
+        self.assertIn('<th class="n">crashed</th>', html)
+        self.assertIn('<th class="n">refused</th>', html)
+        self.assertNotIn("known defect", html)
+        self.assertNotIn('<th class="n">diverged</th>', html)
 
 
 if __name__ == "__main__":
