@@ -105,7 +105,8 @@ class Acceptance(unittest.TestCase):
         environment = {"CHANGED_INNER": str(executable("exact"))}
         done = self.call("validate", "heat/cosine-mode", "--profile", "acceptance", "--engines", "bullet", "--no-report", "--no-history", **environment)
         self.assertEqual(done.returncode, 4, done.stdout)
-        self.assertIn("bullet was asked for and ran no case", done.stdout)
+        self.assertIn("bullet was asked for and ran no case; it refuses the one case", done.stdout)
+        self.assertIn("verdict REFUSED exit 4", done.stdout)
 
     def test_the_page_of_all_engines_is_the_one_that_the_program_writes(self):
         page = (SOURCE / "docs" / "acceptance.md").read_text()

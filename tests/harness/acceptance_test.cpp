@@ -4,6 +4,7 @@
 
 #include "judged.hpp"
 #include "validation/harness/known_defect.hpp"
+#include "validation/harness/remarks.hpp"
 #include "validation/harness/scorecard.hpp"
 
 namespace tripoint {
@@ -165,7 +166,13 @@ TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
   mine.name = "mine", mine.required = false, mine.runs[0].status = "refused", mine.runs[0].reason = "knows no heat";
   EXPECT_EQ(exit_of(r), exit_missing);  // nobody chose: a case that no gate judges
   r.only_engines = r.asked = {"mine"};
-  EXPECT_EQ(exit_of(r), exit_missing);  // it ran no case at all
+  judge(r);
+  EXPECT_EQ(r.exit_code, exit_missing);  // it ran no case at all
+  EXPECT_EQ(r.verdict, "REFUSED");
+  ASSERT_EQ(r.problems.size(), 1U);
+  EXPECT_NE(r.problems[0].find("refuses the one case, and nothing of it is judged"), std::string::npos) << r.problems[0];
+  EXPECT_NE(r.problems[0].find("knows no heat"), std::string::npos) << r.problems[0];
+  EXPECT_EQ(verdict_word(exit_missing, r, verdict_remarks(r)), "REFUSED");
   auto other = green().cases[0];
   other.id = "test/two", other.engines[0].name = "mine";
   r.cases.push_back(other), r.planned.push_back(other.id);
@@ -173,7 +180,9 @@ TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
   EXPECT_EQ(r.exit_code, exit_pass);
   EXPECT_EQ(r.cases[0].verdict, "REFUSED");
   r.cases[0].engines[0].required = true;
-  EXPECT_EQ(exit_of(r), exit_missing);
+  judge(r);
+  EXPECT_EQ(r.exit_code, exit_missing);
+  EXPECT_EQ(r.verdict, "MISSING");
 }
 
 TEST(Scorecard, LeavesOutWhoIsNotHereUnlessAskedFor) {

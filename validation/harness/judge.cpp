@@ -181,9 +181,11 @@ void judge(Results& results) {
     codes.insert(c.exit_code);
   }
   check_planned(results, results.problems, codes);
+  // Nothing is wrong but that who was asked takes no case: nobody passes unjudged, and nothing of it is missing either.
+  const bool all_refused = codes == std::set<int>{exit_pass} && std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return c.verdict == "REFUSED"; });
   for (const auto& what : unanswered(results)) results.problems.push_back(what), codes.insert(exit_missing);
   results.exit_code = first_of(codes);
-  results.verdict = verdict_word(results.exit_code);
+  results.verdict = all_refused ? "REFUSED" : verdict_word(results.exit_code);
 }
 
 }  // namespace tripoint

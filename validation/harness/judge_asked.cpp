@@ -10,7 +10,7 @@ namespace {
 
 /// What became of one engine over all cases.
 struct Answer {
-  int rows = 0, missing = 0, ran = 0, judged = 0;
+  int rows = 0, missing = 0, refused = 0, ran = 0, judged = 0;
   std::string why;      ///< of the first row that did not run
   std::string crashed;  ///< the first row that ended otherwise than it should
   std::string partly;   ///< the first case of which it ran some and refused the rest
@@ -23,6 +23,7 @@ Answer answer_of(const Results& results, const std::string& name) {
       if (e.name != name) continue;
       ++a.rows;
       a.missing += e.status == "missing";
+      a.refused += e.status == "refused";
       a.ran += std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "ok" || r.status == "diverged"; });
       a.judged += std::any_of(e.gates.begin(), e.gates.end(), [](const auto& g) { return g.verdict != "missing"; });
       if (e.status != "ok" && a.why.empty()) a.why = e.status + " in " + c.id + ": " + e.reason;
@@ -52,6 +53,8 @@ std::vector<std::string> unanswered(const Results& results) {
     else if (!a.crashed.empty()) list.push_back(fmt::format("{} was asked for and is {}", name, a.crashed));
     else if (!a.partly.empty()) list.push_back(fmt::format("{} was asked for, and ran a part of {} and refused the rest", name, a.partly));
     else if (part || name == "exact") continue;
+    else if (a.ran == 0 && a.refused == a.rows)
+      list.push_back(fmt::format("{} was asked for and ran no case; it refuses {}, and nothing of it is judged: leave it out, or ask for a case that it takes; {}", name, a.rows == 1 ? "the one case" : fmt::format("all {} cases", a.rows), a.why));
     else if (a.ran == 0) list.push_back(fmt::format("{} was asked for and ran no case; {}", name, a.why));
     else if (a.judged == 0)
       list.push_back(fmt::format("{} was asked for, ran {} case{}, and is not judged: no gate names it, and none is for every engine ([[gate]] engine = \"{}\", or none)", name, a.ran, a.ran == 1 ? "" : "s", name));

@@ -65,7 +65,8 @@ std::vector<Remark> verdict_remarks(const Results& results) {
 
 std::string verdict_word(int exit_code, const Results& results, const std::vector<Remark>& list) {
   std::string word;
-  if (results.exit_code == exit_code || exit_code == exit_pass) return verdict_word(exit_code);
+  if (exit_code == exit_pass) return verdict_word(exit_code);
+  if (results.exit_code == exit_code) return results.verdict.empty() ? verdict_word(exit_code) : results.verdict;
   for (const auto& r : list) {
     if (!r.error || r.code != exit_code) continue;
     if (r.word.empty() || (!word.empty() && r.word != word)) return verdict_word(exit_code);
