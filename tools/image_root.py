@@ -5,7 +5,7 @@
     image_root.py [--keep DIR]        as root; --keep leaves the image's root in DIR
 
 It knows FROM, RUN (with a cache mount), COPY (with --from), WORKDIR, ENV and CMD in the forms that the file uses, and refuses any other. What a root lacks to
-reach this machine's registries (hosts, certificates, proxies, pip settings) is given to it as tools/test-fresh.sh does, and counts as the machine's, not the image's.
+reach this machine's registries (hosts, certificates, proxies, pip settings) is given to it as tools/test-fresh.sh does, and counts as the machine's, not the image's; so does CI, with which warnings are errors.
 """
 import argparse
 import os
@@ -76,7 +76,7 @@ class Root:
 
     def run(self, words, network=True):
         """A process in the root, with the image's environment. @return seconds"""
-        machine = {name: value for name, value in os.environ.items() if re.fullmatch(r"(?i)(https?|no)_proxy", name)}
+        machine = {name: value for name, value in os.environ.items() if re.fullmatch(r"(?i)(https?|no)_proxy|CI", name)}
         environment = {"HOME": "/root", "LANG": "C.UTF-8", "DEBIAN_FRONTEND": "noninteractive", **(machine if network else {}), **self.environment, **self.extra}
         words = ["chroot", str(self.folder), "/usr/bin/env", "-i", *(f"{k}={v}" for k, v in environment.items()), "sh", "-c", f"cd {shlex.quote(self.workdir)} && exec \"$@\"", "_", *words]
         begin = time.monotonic()
