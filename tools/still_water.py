@@ -3,7 +3,8 @@
 """Still water in tanks of every shape: how fast does it move, and who does work?
 
     tools/still_water.py run --out FOLDER [--budget SECONDS] [--only TEXT]     runs the cells that FOLDER lacks, the cheapest first
-    tools/still_water.py page --out FOLDER [FOLDER ...] > docs/still-water.md  writes the table from what FOLDER holds
+    tools/still_water.py keep --out FOLDER [FOLDER ...] --to docs/still-water  adds what FOLDER holds to docs/still-water/FOLDER.json: of each cell the longest run
+    tools/still_water.py page --out FILE [FILE ...] > docs/still-water.md      writes the table from kept files, or from folders
 
 Each cell is the case fluid/still-water with another spacing, tank, viscosity or slip, set on the command line of `tripoint run`, on one thread. The
 short side of the tank is 0.2 m. A cell runs for 60 s, or for 20 or 5 s where its cost would be above the budget (CPU seconds, estimated from particles
@@ -168,14 +169,32 @@ def summary(rows):
     return "\n".join(lines)
 
 
+def rows_of(place):
+    """Rows by name, of a folder of cells or of a kept file."""
+    place = Path(place)
+    rows = json.loads(place.read_text()) if place.is_file() else [json.loads(p.read_text()) for p in sorted(place.glob("*.json"))]
+    return {r["name"]: r for r in rows}
+
+
+def keep(args):
+    for folder in args.out:
+        file = Path(args.to) / f"{Path(folder).name}.json"
+        kept = rows_of(file) if file.exists() else {}
+        for name, row in rows_of(folder).items():
+            if name not in kept or row["asked"] >= kept[name]["asked"]:
+                kept[name] = row
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("[\n" + ",\n".join(json.dumps(kept[c.name]) for c in cells() if c.name in kept) + "\n]\n")
+
+
 def page(args):
     print("# Still water\n\nWater at rest in an open tank must stay at rest. `tools/still_water.py` runs the case `fluid/still-water` in other tanks and with other water. The tank's short side is\n"
           "0.2 m, the other follows from the ratio; \"across\" counts particles along the short side. The layer is 6 particles thick and periodic. Everything else is a default;\nsettled cells have `scene.settle = true` ([decision 13](decisions/013-a-settled-start.md)). Cells whose cost was above the budget ran shorter, or not at all.\n\n"
           "A cell of the columns by time holds the greatest rms speed of any frame of that window, and the greatest speed of any particle in it, both over sqrt(g H). Energies are over\n"
           "rho g H V: the most that fixed walls did, and what finite steps had made at the end.")
     for folder in args.out:
-        rows = {r["name"]: r for r in (json.loads(p.read_text()) for p in sorted(Path(folder).glob("*.json")))}
-        title = Path(folder).name.replace("-", " ")
+        rows = rows_of(folder)
+        title = Path(folder).stem.replace("-", " ")
         print(f"\n## {title[0].upper() + title[1:]}\n\n{summary(rows)}\n\n{table(rows)}")
 
 
@@ -190,8 +209,11 @@ def main():
     runs.add_argument("--tripoint", default=str(ROOT / "build/bin/tripoint"))
     pages = verbs.add_parser("page")
     pages.add_argument("--out", nargs="+", required=True)
+    keeps = verbs.add_parser("keep")
+    keeps.add_argument("--out", nargs="+", required=True)
+    keeps.add_argument("--to", required=True)
     args = parser.parse_args()
-    return run(args) if args.verb == "run" else page(args)
+    return {"run": run, "keep": keep, "page": page}[args.verb](args)
 
 
 if __name__ == "__main__":

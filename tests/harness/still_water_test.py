@@ -68,6 +68,22 @@ class StillWater(unittest.TestCase):
         self.assertIn("5 to 20 s: 1 of 2 cells stay below 0.02", text)
         self.assertIn("| 5 | 1 : 1 | 1 | no | 20 | 0.0100 / 0.100 | 0.0100 / 0.200 | - | 0 | 1.0e-4 |", text)
 
+    def test_keeps_of_each_cell_the_longest_run(self):
+        cell = still_water.Cell(5, 1.0, 1e-3, "no")
+        with tempfile.TemporaryDirectory() as root:
+            folder, to = Path(root) / "settled", Path(root) / "kept"
+            folder.mkdir()
+            args = types.SimpleNamespace(out=[str(folder)], to=str(to))
+            for asked, steps in ((20.0, 2e-4), (5.0, 5e-4), (60.0, 6e-4)):
+                (folder / f"{cell.name}.json").write_text(json.dumps({"name": cell.name, "asked": asked, "steps": steps}))
+                still_water.keep(args)
+                self.assertEqual(still_water.rows_of(to / "settled.json")[cell.name]["asked"], max(asked, 20.0))
+            other = still_water.Cell(5, 4.0, 1e-3, "no")
+            (folder / f"{cell.name}.json").rename(folder / f"{other.name}.json")
+            (folder / f"{other.name}.json").write_text(json.dumps({"name": other.name, "asked": 5.0}))
+            still_water.keep(args)
+            self.assertEqual(list(still_water.rows_of(to / "settled.json")), [cell.name, other.name])
+
     def test_a_cell_runs(self):
         cell = still_water.Cell(5, 0.25, 1.0, "no")
         with tempfile.TemporaryDirectory() as root:
