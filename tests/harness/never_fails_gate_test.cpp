@@ -203,6 +203,29 @@ TEST(NeverFailsGate, Way37OtherDataBehindAReferenceIsAnotherReference) {
   EXPECT_EQ(after->scene, before->scene);
 }
 
+/// Edited to be easier, validated and put back: limits, metrics and values are then those of the case.
+TEST(NeverFailsGate, Way53ASceneThatWasEasierWhenItRanIsSeenThoughItIsPutBack) {
+  for (const auto& [from, to] : {std::pair{"end_time = 0.5", "end_time = 0.05"}, std::pair{"velocity = [1.0, 0.0, 2.0]", "velocity = [0.0, 0.0, 0.0]"}, std::pair{"density = 1000.0", "density = 1.0"}}) {
+    Accepted suite;
+    suite.write("", from, to);
+    write_text(suite.folder / "results.json", results_text(suite.run("nothing")));
+    const auto easier = read_results(suite.folder / "results.json");
+    EXPECT_TRUE(recheck_remarks(easier).empty()) << all_of(recheck_remarks(easier));
+    suite.write("");
+    EXPECT_TRUE(says(recheck_remarks(easier), "the scene was another", "CHANGED")) << to << "\n" << all_of(recheck_remarks(easier));
+  }
+}
+
+TEST(NeverFailsGate, Way54AMetricWhoseOwnReferenceWasAnotherIsSeenThoughItIsPutBack) {
+  const std::string own = "[[metric]]\nname = \"late\"\nquantity = \"position\"\nnorm = \"final\"\nunit = \"m\"\nreference = { kind = \"analytic\", function = \"ballistic\", source = \"the parabola\", uncertainty = 0.0 }\n";
+  Accepted suite(own);
+  suite.write(own, "uncertainty = 0.0", "uncertainty = 1.0");
+  write_text(suite.folder / "results.json", results_text(suite.run("nothing")));
+  const auto easier = read_results(suite.folder / "results.json");
+  suite.write(own);
+  EXPECT_TRUE(says(recheck_remarks(easier), "the metric late was another", "CHANGED")) << all_of(recheck_remarks(easier));
+}
+
 TEST(NeverFailsGate, Way34TheRedRowOfThePrintedFormDoesNotStandForTheCorrectedOne) {
   auto r = green();
   auto paper = engine(r).runs[0];

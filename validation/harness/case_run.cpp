@@ -100,6 +100,7 @@ CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, 
   check_data_files(value);
   CaseRuns all;
   all.value = &value;
+  all.hashes = case_hashes(value.file);
   all.engines = plan_runs(value, found, options.selection);
   const fs::path folder = fs::path(options.out) / "runs" / value.id;
   Sampler sampler(folder / "particles");
@@ -151,6 +152,7 @@ CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   result.claims = value.claims, result.file = value.file, result.expect = value.expect, result.reference = with_source_of_file(value.reference), result.tags = value.tags;
   result.metrics = value.metrics, result.studies = value.studies, result.gates = value.gates;
   for (auto& study : result.studies) study.axis = study_axis(study), study.support_ratios.clear(), study.time_steps.clear();
+  result.hashes = all.hashes;
   result.repeat = repeat_command(value, options);
   for (std::size_t e = 0; e < all.engines.size(); ++e) {
     auto row = row_of(all.engines[e]);

@@ -34,6 +34,7 @@ struct CaseRun {
 
 struct CaseRuns {
   const Case* value = nullptr;
+  std::optional<CaseHashes> hashes;  ///< of its file, before it is run
   std::vector<EnginePlan> engines;
   std::vector<CaseRun> runs;
 };

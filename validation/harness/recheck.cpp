@@ -10,6 +10,7 @@
 
 #include "scene/read_case.hpp"
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/case_hash.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
 #include "validation/references/experiment.hpp"
@@ -28,6 +29,7 @@ class Recheck {
   void all() {
     if (stored_.id != file_.id) return say({}, fmt::format("its file {} is that of {}", stored_.file, file_.id));
     if (stored_.expect != file_.expect) say({}, fmt::format("expects \"{}\", and the file says \"{}\"", stored_.expect, file_.expect));
+    question();
     reference();
     metrics();
     gates();
@@ -39,6 +41,18 @@ class Recheck {
  private:
   void say(const SourcePlace& place, const std::string& what) {
     list_.push_back({true, exit_missing, place.file.empty() ? SourcePlace{stored_.file, 1, 0} : place, stored_.id, "the results are not of this case: " + what, infinity, "CHANGED"});
+  }
+
+  /// What was run, as its hashes tell: a scene that was easier then, or other data, is seen also where limits and metrics stay.
+  void question() {
+    const auto now = case_hashes(stored_.file);
+    if (!stored_.hashes || !now) return;
+    if (stored_.hashes->scene != now->scene) say({}, "the scene was another when it was run");
+    if (stored_.hashes->reference != now->reference) say({}, "the reference, or its data, were others when it was run");
+    for (const auto& m : file_.metrics) {
+      const auto then = stored_.hashes->metrics.find(m.name), today = now->metrics.find(m.name);
+      if (then != stored_.hashes->metrics.end() && today != now->metrics.end() && then->second != today->second) say(m.place, fmt::format("the metric {} was another when it was run", m.name));
+    }
   }
 
   void reference() {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "validation/harness/case_hash.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/metrics/order.hpp"
 
@@ -115,6 +116,7 @@ struct CaseResult {
   int timing_rounds = 0;              ///< --timing; 0 = runs were made once, and nothing says how far their times may be off
   double timing_floor = not_a_number;  ///< factor >= 1 by which an engine differed from itself
   std::string repeat;
+  std::optional<CaseHashes> hashes;  ///< of the case that was run; older results do not say
 };
 
 struct Tool {

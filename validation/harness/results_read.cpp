@@ -187,6 +187,10 @@ CaseResult case_result(const Json& from) {
   c.gates = rows<Gate>(from, "gates", gate);
   c.engines = rows<EngineRow>(from, "engines", engine_row);
   if (const auto& timing = member(from, "timing"); timing.is_object()) c.timing_rounds = static_cast<int>(number_or(timing, "rounds", 0.0)), c.timing_floor = number(timing, "noise_floor");
+  if (const auto& hashes = member(from, "hashes"); hashes.is_object()) {
+    c.hashes = CaseHashes{text(hashes, "scene"), text(hashes, "reference"), {}, {}, {}};
+    for (const auto& [name, hash] : member(hashes, "metrics").items()) c.hashes->metrics[name] = hash.is_string() ? hash.get<std::string>() : "";
+  }
   c.equivalence = rows<EquivalenceRow>(from, "equivalence", equivalence_row);
   if (const auto& ledger = member(from, "ledger"); ledger.is_object())
     for (const auto& [term, value] : ledger.items()) c.ledger[term] = number(value);

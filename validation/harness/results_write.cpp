@@ -167,6 +167,7 @@ Json json(const CaseResult& c) {
           {"expect", c.expect}, {"verdict", c.verdict}, {"exit_code", c.exit_code}, {"problems", c.problems}, {"reference", json(c.reference)},
           {"metrics", metrics}, {"studies", studies}, {"gates", gates}, {"engines", engines}, {"equivalence", equivalence}, {"ledger", ledger},
           {"repeat", c.repeat}};
+  if (c.hashes) out["hashes"] = {{"scene", c.hashes->scene}, {"reference", c.hashes->reference}, {"metrics", c.hashes->metrics}};
   if (c.timing_rounds > 0) out["timing"] = timing(c);
   return out;
 }
