@@ -185,7 +185,9 @@ std::vector<DefectEntry> registered_defects() {
   return list;
 }
 
-void open_accounts(World& world, const std::vector<Active>& effects) {
+void declare(World& world, const std::vector<Active>& effects) {
+  world.guarded = {{field::position_x, "position", Written::drift}, {field::position_y, "position", Written::drift}, {field::position_z, "position", Written::drift},
+                   {field::velocity_x, "velocity", Written::kick}, {field::velocity_y, "velocity", Written::kick}, {field::velocity_z, "velocity", Written::kick}};
   for (const Active& a : effects) {
     for (const Force& f : a.spec.forces) {
       world.forces.push_back(f);
@@ -196,7 +198,9 @@ void open_accounts(World& world, const std::vector<Active>& effects) {
     for (const Account& one : a.spec.accounts) world.booked.open(one);
     for (const Account& one : a.spec.numerical) world.booked.open(one);
     world.numerical.insert(world.numerical.end(), a.spec.numerical.begin(), a.spec.numerical.end());
+    world.guarded.insert(world.guarded.end(), a.spec.guards.begin(), a.spec.guards.end());
   }
+  std::ranges::stable_sort(world.guarded, {}, &Guarded::written);
 }
 
 struct Passes::Impl {

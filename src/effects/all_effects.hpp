@@ -21,8 +21,8 @@ struct Active {
 /// First effect that the scene calls for and this build does not have; empty = none.
 [[nodiscard]] std::string missing_effect(const Scene&);
 
-/// The forces and accounts that these effects declare.
-void open_accounts(World&, const std::vector<Active>&);
+/// Puts the forces, accounts and guards that these effects declare into the world.
+void declare(World&, const std::vector<Active>&);
 
 /// The fused pair passes, as the scene's modes choose them.
 class Passes {

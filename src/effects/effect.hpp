@@ -21,6 +21,7 @@ struct EffectSpec {
   std::vector<Force> forces{};        ///< that it makes
   std::vector<Account> accounts{};    ///< that it books on beside those of its forces; common ones need no word
   std::vector<Account> numerical{};   ///< that its numerical terms book on: what they take on purpose
+  std::vector<Guarded> guards{};      ///< of its columns those that are looked at after every step
 };
 
 /// Greatest stable step of an effect, and what sets it.

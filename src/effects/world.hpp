@@ -10,6 +10,7 @@
 
 #include "effects/account.hpp"
 #include "effects/force.hpp"
+#include "effects/guarded.hpp"
 #include "effects/ledger.hpp"
 #include "particles/neighbours.hpp"
 #include "particles/particles.hpp"
@@ -51,6 +52,7 @@ struct World {
   Bookings booked;
   std::vector<Force> forces;        ///< that the effects make, in the order in which they are summed
   std::vector<Account> numerical;   ///< what numerical terms take on purpose: no error of finite steps
+  std::vector<Guarded> guarded;     ///< columns that are looked at after every step, in the order in which it writes them
   Lagged lagged;
   double time = 0.0;       ///< [s]
   double next_time = 0.0;  ///< end of the step that is being taken, exactly as the loop will set it [s]

@@ -12,19 +12,6 @@
 namespace tripoint {
 namespace {
 
-struct Guarded {
-  const Field<double>* field;
-  const char *name, *stage;
-};
-/// Fields in the order in which a step writes them.
-constexpr Guarded guarded[] = {
-    {&field::position_x, "position", "drift"}, {&field::position_y, "position", "drift"},
-    {&field::position_z, "position", "drift"}, {&field::temperature, "temperature", "drift"},
-    {&field::density, "density", "density"},   {&field::temperature_rate, "temperature_rate", "rates"},
-    {&field::heat_rate, "heat_rate", "rates"}, {&field::velocity_x, "velocity", "kick"},
-    {&field::velocity_y, "velocity", "kick"},  {&field::velocity_z, "velocity", "kick"},
-};
-
 /// Whether test(from, to) holds for all rows, shared among threads where there are enough: a team costs more than a short column.
 template <class Test>
 bool holds_for_all(std::size_t rows, int threads, Test test) {
@@ -46,19 +33,19 @@ bool all_finite(std::span<const double> values, int threads) {
   });
 }
 
-void refuse_cold(const World& world) {
+/// Looks for values at or below 0 in a column that has none.
+void refuse_not_positive(const World& world, const Guarded& g) {
   const Particles& p = world.particles;
-  if (!p.has(field::temperature)) return;
-  const auto T = p[field::temperature];
-  const bool warm = holds_for_all(T.size(), world.threads, [&](std::size_t from, std::size_t to) {
+  const auto values = p[g.field];
+  const bool positive = holds_for_all(values.size(), world.threads, [&](std::size_t from, std::size_t to) {
     double least = 1.0;
 #pragma omp simd reduction(min : least)
-    for (std::size_t i = from; i < to; ++i) least = std::min(least, T[i]);
+    for (std::size_t i = from; i < to; ++i) least = std::min(least, values[i]);
     return least > 0.0;
   });
-  if (warm) return;
+  if (positive) return;
   for (std::size_t id = 0; id < p.size(); ++id)
-    if (const std::size_t i = p.row(id); !(T[i] > 0.0)) fail(world, "temperature", i, "temperature", "drift", fmt::format("is at {:.4g} K, below absolute zero", T[i]));
+    if (const std::size_t i = p.row(id); !(values[i] > 0.0)) fail(world, g.name, i, g.name, to_string(g.written), fmt::format("is at {:.4g} {}", values[i], g.not_positive));
 }
 
 /// Whether forces move a particle: not a wall, not held, gripped or flowing in.
@@ -125,14 +112,14 @@ double turnover(const Ledger& ledger, double start_potential) {
 
 void check_finite(const World& world) {
   const Particles& p = world.particles;
-  for (const Guarded& g : guarded) {
-    if (!p.has(g.field->name)) continue;
-    const auto values = p[*g.field];
+  for (const Guarded& g : world.guarded) {
+    const auto values = p[g.field];
     if (all_finite(values, world.threads)) continue;
     for (std::size_t id = 0; id < p.size(); ++id)
-      if (const std::size_t i = p.row(id); !std::isfinite(values[i])) fail(world, "finite", i, g.name, g.stage, fmt::format("has no finite {}", g.name));
+      if (const std::size_t i = p.row(id); !std::isfinite(values[i])) fail(world, "finite", i, g.name, to_string(g.written), fmt::format("has no finite {}", g.name));
   }
-  refuse_cold(world);
+  for (const Guarded& g : world.guarded)
+    if (!g.not_positive.empty()) refuse_not_positive(world, g);
 }
 
 Enclosure enclosure_of(const Scene& s, const InitialState& initial) {

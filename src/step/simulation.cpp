@@ -85,7 +85,7 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   world_.threads = options_.threads;
   world_.axis_order = options_.axis_order;
   world_.box = box_of(scene);
-  open_accounts(world_, effects_);
+  declare(world_, effects_);
   guards_.still = is_still(scene, initial);
   load(initial);
   enclosure_ = enclosure_of(scene, initial);

@@ -227,6 +227,7 @@ EffectSpec spec(const Scene& scene) {
          field::transport_force_y, field::transport_force_z});
   s.forces = forces_of(scene);
   s.accounts = {compression_released};
+  s.guards = {{field::density, "density", Written::density}};
   if (has_bulk_viscosity(scene)) s.numerical = {taken_by_bulk_viscosity};
   return s;
 }

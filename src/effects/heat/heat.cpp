@@ -52,6 +52,9 @@ EffectSpec spec_of_form(const Scene& scene) {
 EffectSpec spec(const Scene& scene) {
   if (equal_temperature(scene)) return {"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material}};
   EffectSpec s = spec_of_form(scene);
+  s.guards = {{field::temperature, "temperature", Written::drift, "K, below absolute zero"}};
+  if (s.mode == Mode::paper) s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});
+  else s.guards.push_back({field::heat_rate, "heat_rate", Written::rates});
   if (books_bodies(scene)) s.owns.emplace_back(field::body_heat);
   return s;
 }
