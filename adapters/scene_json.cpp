@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/effect_keys.hpp"
+
 namespace tripoint {
 namespace {
 
@@ -145,20 +147,31 @@ std::vector<Keyframe> keyframes_from(const JsonObject& o) {
 
 // --- materials, bodies, events ----------------------------------------------------------------------------------------
 
-/// The optional numbers of a material, once for both directions.
-template <class M, class F>
-void each_optional(M& m, F&& f) {
-  f("stiffness", m.stiffness), f("young_modulus", m.young_modulus), f("poisson_ratio", m.poisson_ratio);
-  f("conductivity", m.conductivity), f("heat_capacity", m.heat_capacity);
-  f("solid_conductivity", m.solid_conductivity), f("solid_heat_capacity", m.solid_heat_capacity);
-  f("t_melt", m.t_melt), f("t_solid", m.t_solid), f("latent_heat", m.latent_heat);
-  f("elastic_limit", m.elastic_limit), f("plastic_limit", m.plastic_limit);
-  f("fracture_stretch", m.fracture_stretch), f("fracture_distance", m.fracture_distance);
+/// Values of keys that effects bring, as they are kept in a scene or a material.
+template <class Owner>
+void add_effect_values(const Owner& owner, std::string_view table, json& out) {
+  each_effect_key(owner, table, [&]<class T>(const Key& key, const T& value) {
+    if constexpr (std::is_same_v<T, std::optional<double>>) out[std::string(key.name)] = maybe(value);
+    else out[std::string(key.name)] = value;
+  });
+}
+
+/// What is not there stays as the owner has it.
+template <class Owner>
+void take_effect_values(const JsonObject& o, std::string_view table, Owner& owner) {
+  each_effect_key(owner, table, [&]<class T>(const Key& row, T& value) {
+    const std::string key(row.name);
+    if constexpr (std::is_same_v<T, double>) value = o.number_or(key, value);
+    else if constexpr (std::is_same_v<T, bool>) value = o.flag_or(key, value);
+    else if constexpr (std::is_same_v<T, std::string>) value = o.text_or(key, value);
+    else value = o.maybe_number(key);
+  });
 }
 
 json to_json(const Material& m) {
-  json out{{"name", m.name}, {"density", m.density}, {"viscosity", m.viscosity}, {"solid", m.solid}, {"softens", m.softens}};
-  each_optional(m, [&](const char* key, const std::optional<double>& v) { out[key] = maybe(v); });
+  json out{{"name", m.name}, {"density", m.density}, {"solid", m.solid}, {"stiffness", maybe(m.stiffness)},
+           {"solid_conductivity", maybe(m.solid_conductivity)}, {"solid_heat_capacity", maybe(m.solid_heat_capacity)}};
+  add_effect_values(m, "material", out);
   return out;
 }
 
@@ -166,10 +179,10 @@ Material material_from(const JsonObject& o) {
   Material m;
   m.name = o.text("name");
   m.density = o.number("density");
-  m.viscosity = o.number_or("viscosity", 0.0);
   m.solid = o.text_or("solid", "elastic");
-  m.softens = o.flag_or("softens", false);
-  each_optional(m, [&](const char* key, std::optional<double>& v) { v = o.maybe_number(key); });
+  m.stiffness = o.maybe_number("stiffness");
+  m.solid_conductivity = o.maybe_number("solid_conductivity"), m.solid_heat_capacity = o.maybe_number("solid_heat_capacity");
+  take_effect_values(o, "material", m);
   return m;
 }
 
@@ -253,9 +266,9 @@ json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
   for (std::size_t k = 0; k < term_count; ++k) modes[std::string(to_string(static_cast<Term>(k)))] = to_string(s.modes[k]);
   json out{{"end_time", s.end_time}, {"gravity", to_json(s.gravity)}, {"spacing", s.spacing}, {"support_ratio", s.support_ratio}, {"mode", to_string(s.mode)},
            {"modes", modes}, {"time_step", maybe(s.time_step)}, {"seed", s.seed}, {"jitter", s.jitter}, {"min", maybe(s.min)}, {"max", maybe(s.max)},
-           {"periodic", periodic}, {"output_interval", s.output_interval}, {"viscosity_form", s.viscosity_form}, {"transport_velocity", s.transport_velocity},
-           {"clamp", s.clamp}, {"settle", s.settle}, {"merge_distance", s.merge_distance}, {"hourglass", s.hourglass}, {"contact", s.contact ? "auto" : "none"}, {"contact_viscosity", s.contact_viscosity},
+           {"periodic", periodic}, {"output_interval", s.output_interval}, {"settle", s.settle}, {"merge_distance", s.merge_distance}, {"contact", s.contact ? "auto" : "none"},
            {"on_failure", s.recovers ? "recover" : "stop"}, {"unguarded", s.unguarded}};
+  add_effect_values(s, "scene", out);
   out["materials"] = out["bodies"] = out["events"] = out["inflows"] = json::array();
   for (const Material& m : s.materials) out["materials"].push_back(to_json(m));
   for (std::size_t k = 0; k < s.bodies.size(); ++k) out["bodies"].push_back(to_json(s.bodies[k], bodies.at(k)));
@@ -280,13 +293,9 @@ void scene_from_json(const json& value, Scene& s, std::vector<JobBody>& bodies) 
   if (o.has("max")) s.max = o.vector("max");
   for (const std::string& axis : o.texts("periodic")) s.periodic[axis == "x" ? 0 : axis == "y" ? 1 : 2] = true;
   s.output_interval = o.number("output_interval");
-  s.viscosity_form = o.text_or("viscosity_form", "central");
-  s.transport_velocity = o.flag_or("transport_velocity", false);
-  s.clamp = o.flag_or("clamp", true);
+  take_effect_values(o, "scene", s);
   s.settle = o.flag_or("settle", false);
   s.merge_distance = o.number_or("merge_distance", 1.5);
-  s.hourglass = o.number_or("hourglass", 1.0);
-  s.contact_viscosity = o.number_or("contact_viscosity", 0.0);
   s.contact = o.text_or("contact", "auto") == "auto";
   s.recovers = o.text_or("on_failure", "stop") == "recover";
   s.unguarded = o.texts("unguarded");

@@ -3,8 +3,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
+#include "scene/key_table.hpp"
 #include "scene/read_case.hpp"
 
 /// What an effect says of itself to whoever reads scenes and runs nothing. Each effect's rule stands in its folder, in rule.cpp; a build
@@ -25,6 +27,13 @@ class Called {
   const std::vector<CalledEffect>& list_;
 };
 
+/// A key of the case file that an effect brings: its row, and the member that keeps the value. Without a member it is a number of
+/// Scene::values or Material::values, by the key's name.
+struct EffectKey {
+  Key row;
+  std::variant<std::monostate, double Scene::*, bool Scene::*, std::string Scene::*, double Material::*, bool Material::*, std::optional<double> Material::*> kept_in{};
+};
+
 struct EffectRule {
   std::string_view name;
   /// Who calls for the effect, and why: "body a: elastic, and not held in place". "" = nobody does.
@@ -35,6 +44,7 @@ struct EffectRule {
   std::string (*needed_for)(const Scene&, const Called&) = nullptr;
   std::vector<Term> terms{};         ///< of two forms that act where it is on: a row of `tripoint ablate` each
   std::vector<Term> terms_shared{};  ///< of others that its forms read too
+  std::vector<EffectKey> keys{};     ///< of [scene] and [[material]]
 };
 
 /// Of every effect, in the order in which effects run.

@@ -210,10 +210,13 @@ class IdleKeys {
     const bool used = std::ranges::any_of(scene_.bodies, is_of) || std::ranges::any_of(scene_.inflows, is_of);
     if (!used) return warn(given("material." + m.name + ".name"), fmt::format("no body and no inflow is of material \"{}\": name it in one, or remove it", m.name));
     const std::string path = "material." + m.name + ".";
-    const auto limit = [&](const char* key, const std::string& effect) {
-      if (const auto place = given(path + key); !place.file.empty() && !calls(effect)) warn(place, fmt::format("{} of material \"{}\" never acts: {}", key, m.name, why_idle(effect)));
+    const auto limit = [&](std::string_view key, const std::string& effect) {
+      if (const auto place = given(path + std::string(key)); !place.file.empty() && !calls(effect)) warn(place, fmt::format("{} of material \"{}\" never acts: {}", key, m.name, why_idle(effect)));
     };
     limit("elastic_limit", "plastic"), limit("fracture_stretch", "fracture"), limit("fracture_distance", "fracture");
+    for (const EffectRule& rule : effect_rules())
+      for (const EffectKey& key : rule.keys)
+        if (key.row.table == "material" && value_of(m.values, key.row.name) != 0.0) limit(key.row.name, std::string(rule.name));
     if (!calls("fracture")) return;
     const bool printed = any_mode([](const Scene& s) { return s.mode_of(Term::elastic) == Mode::paper; });
     if (m.fracture_distance && !m.fracture_stretch && !printed)
@@ -237,6 +240,9 @@ class IdleKeys {
     if (s.contact_viscosity > 0.0 && !flows) idle("contact_viscosity", why_idle("fluid"));
     if (s.hourglass != 1.0 && !elastic) idle("hourglass", why_idle("elastic"));
     else if (s.hourglass != 1.0 && !(corrected(Term::hourglass) && corrected(Term::elastic))) idle("hourglass", "elasticity as printed has no energy against zero-energy modes");
+    for (const EffectRule& rule : effect_rules())
+      for (const EffectKey& key : rule.keys)
+        if (key.row.table == "scene" && value_of(s.values, key.row.name) != 0.0 && !calls(std::string(rule.name))) idle(key.row.name.data(), why_idle(std::string(rule.name)));
     const bool breaks_up = calls("fracture") || std::ranges::any_of(s.events, [](const Event& e) { return e.kind == Event::Kind::merge || e.kind == Event::Kind::split; });
     if (!calls("phase") && !breaks_up && std::ranges::all_of(s.bodies, [](const Body& b) { return b.joined_to.empty(); })) idle("merge_distance", why_idle("phase"));
     for (std::size_t t = 0; t < term_count; ++t) {

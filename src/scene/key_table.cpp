@@ -5,6 +5,8 @@
 #include <array>
 #include <cassert>
 
+#include "scene/effect_rule.hpp"
+
 namespace tripoint {
 namespace {
 
@@ -14,7 +16,7 @@ constexpr std::string_view axes = "spacing time_step support_ratio walkers itera
 constexpr std::string_view references = "analytic discrete_exact mms self engine experiment invariant bound";
 constexpr std::string_view orders = "asymptotic preasymptotic plateau roundoff oscillating diverging noise-limited too-few";
 
-constexpr auto keys = std::to_array<Key>({
+constexpr auto common_keys = std::to_array<Key>({
     // format
     {"", "format", integer, "", positive, "1", "the first version", "", "version of the case file"},
     {"", "case", table, "", any, "=", "id from the file's place", "case", "what is shown, and how it is judged"},
@@ -55,37 +57,19 @@ constexpr auto keys = std::to_array<Key>({
     {"scene", "max", vector, "m", any, "", "no bounds: no direction is periodic", "", "upper corner of the domain"},
     {"scene", "periodic", words, "", any, "[]", "open in every direction", "x y z", "periodic directions of the domain"},
     {"scene", "output_interval", number, "s", positive, "=", "a twentieth of end_time", "", "time between frames"},
-    {"scene", "viscosity_form", word, "", any, "\"central\"", "keeps angular momentum; right wherever a surface or body is free", "laplacian central", "corrected viscosity; laplacian for wall-bounded shear only"},
-    {"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "", "move particles by the transport velocity"},
     {"scene", "settle", flag, "", any, "false", "liquids start on a lattice, which falls by a tenth of a spacing and breaks up", "", "let the liquids down into equilibrium under gravity before time 0, between solids that stand where they start"},
-    {"scene", "clamp", flag, "", any, "true", "negative pressure would glue bodies together", "", "no negative pressure"},
     {"scene", "merge_distance", number, "", positive, "=", "1.5, nearest and diagonal neighbours of the lattice; where phase is paper 2.12, the reach of its bonds", "", "how near a freezing particle joins, in spacings"},
-    {"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "", "coefficient of the energy against zero-energy modes"},
     {"scene", "contact", word, "", any, "\"auto\"", "solids meet wherever their paths can cross", "auto none", "none: solids pass through each other, and nothing is paid for it; not in a scene that flows"},
-    {"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "", "viscosity between solids that touch"},
     {"scene", "on_failure", word, "", any, "\"stop\"", "a run that has gone wrong is no result", "stop recover", "what a guard does that trips: stop with exit code 7; or go back to the last good state and on with half the step, counted in the results"},
     {"scene", "unguarded", words, "", any, "[]", "every guard is on", "inversion overlap escape ledger time_step", "guards that are off: det F <= 0; a solid or liquid pressed to more than two coinciding layers; a particle leaving min..max; energy made or lost by the scheme; a time step that collapses"},
     // [[material]]
     {"material", "name", text, "", any, "!", "", "", "its name; a name of the library brings the library's values, which keys here replace"},
     {"material", "density", number, "kg/m3", positive, "!", "", "", "rest density, one for both phases"},
-    {"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"},
     {"material", "stiffness", number, "m2/s2", positive, "", "taken from the speeds of the scene, or from elastic moduli, where something flows or solids can meet", "", "k of p = k (rho - rho0), the square of the sound speed"},
     {"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "", "instead of stiffness: k is its square"},
-    {"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"},
-    {"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"},
-    {"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "", "thermal conductivity"},
-    {"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"},
     {"material", "solid_conductivity", number, "W/m/K", positive, "", "conductivity is that of both phases", "", "conductivity of the solid; `conductivity` is then that of the liquid; not as printed"},
     {"material", "solid_heat_capacity", number, "J/kg/K", positive, "", "heat_capacity is that of both phases", "", "specific heat of the solid; `heat_capacity` is then that of the liquid, and `latent_heat` that at t_melt; not as printed"},
-    {"material", "t_melt", number, "K", positive, "", "does not melt", "", "above it the matter is liquid"},
-    {"material", "t_solid", number, "K", positive, "=", "t_melt: no soft band and no hysteresis", "", "below it the matter is solid; at most t_melt"},
-    {"material", "latent_heat", number, "J/kg", not_negative, "=", "melts at once where t_melt is given", "", "heat of fusion"},
     {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid", "elastic rigid", "what it is when solid"},
-    {"material", "softens", flag, "", any, "false", "full stiffness up to melting", "", "stiffness falls with the liquid fraction"},
-    {"material", "elastic_limit", number, "", positive, "", "never yields", "", "deviatoric strain where plastic flow begins"},
-    {"material", "plastic_limit", number, "", positive, "", "flows without end", "", "largest plastic strain"},
-    {"material", "fracture_stretch", number, "", above_one, "", "never breaks", "", "corrected: stretch |r|/|x| that breaks a bond"},
-    {"material", "fracture_distance", number, "", positive, "", "never breaks", "", "paper: distance that breaks a bond, in spacings"},
     {"material", "source", text, "", any, "", "the case's own values", "", "where the values come from"},
     // [[body]]
     {"body", "name", text, "", any, "!", "", "", "name of the body"},
@@ -252,14 +236,29 @@ constexpr std::array type_texts{"number", "integer", "true or false", "text", "w
                                 "text or array of texts", "array of words", "table", "array of tables", "table of free keys", "shape", "number or table", "[x, y, z] or table"};
 constexpr std::array range_texts{"", "greater than 0", "0 or greater", "from 0 to 1", "greater than -1 and less than 0.5", "greater than 1"};
 
+/// Those that every scene reads; in each table behind them those that effects bring.
+std::vector<Key> all_keys() {
+  std::vector<Key> list(common_keys.begin(), common_keys.end());
+  for (const EffectRule& rule : effect_rules()) {
+    for (const EffectKey& key : rule.keys) {
+      const auto last = std::find_if(list.rbegin(), list.rend(), [&](const Key& k) { return k.table == key.row.table; });
+      list.insert(last.base(), key.row);
+    }
+  }
+  return list;
+}
+
 }  // namespace
 
-std::span<const Key> key_table() { return keys; }
+std::span<const Key> key_table() {
+  static const std::vector<Key> keys = all_keys();
+  return keys;
+}
 std::span<const TableInfo> table_infos() { return tables_of_case; }
 
 std::vector<const Key*> keys_of(std::string_view name) {
   std::vector<const Key*> rows;
-  for (const auto& k : keys)
+  for (const auto& k : key_table())
     if (k.table == name) rows.push_back(&k);
   return rows;
 }
@@ -271,8 +270,8 @@ std::vector<std::string> key_names(std::string_view name) {
 }
 
 const Key& key_row(std::string_view table_name, std::string_view name) {
-  const auto found = std::find_if(keys.begin(), keys.end(), [&](const Key& k) { return k.table == table_name && k.name == name; });
-  assert(found != keys.end());
+  const auto found = std::find_if(key_table().begin(), key_table().end(), [&](const Key& k) { return k.table == table_name && k.name == name; });
+  assert(found != key_table().end());
   return *found;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/effect_keys.hpp"
 #include "scene/nearest.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/readers.hpp"
@@ -66,20 +67,14 @@ Material read_material(const TomlNode& node, Reading& reading) {
     in.fall_back_on(library, fmt::format("library, cases/materials/{}.toml{}", m.name, source ? ": " + source->text : ""));
   }
   m.density = in.number("density");
-  m.viscosity = in.number("viscosity");
+  read_effect_keys(in, "material", m);
   m.stiffness = in.maybe_number("stiffness");
   if (const auto c = in.maybe_number("sound_speed")) {
     if (in.has("stiffness")) in.refuse("sound_speed", "stiffness is given too, and is its square: give one of them");
     m.stiffness = *c * *c;
     in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
   }
-  m.young_modulus = in.maybe_number("young_modulus"), m.poisson_ratio = in.maybe_number("poisson_ratio");
-  m.conductivity = in.maybe_number("conductivity"), m.heat_capacity = in.maybe_number("heat_capacity");
   m.solid_conductivity = own_of_solid(in, "solid_conductivity", "conductivity"), m.solid_heat_capacity = own_of_solid(in, "solid_heat_capacity", "heat_capacity");
-  m.t_melt = in.maybe_number("t_melt"), m.t_solid = in.maybe_number("t_solid"), m.latent_heat = in.maybe_number("latent_heat");
-  m.softens = in.flag("softens");
-  m.elastic_limit = in.maybe_number("elastic_limit"), m.plastic_limit = in.maybe_number("plastic_limit");
-  m.fracture_stretch = in.maybe_number("fracture_stretch"), m.fracture_distance = in.maybe_number("fracture_distance");
   static_cast<void>(in.maybe_text("source"));
   check_solid_keys(in, m);
   if (m.t_melt && !m.t_solid) m.t_solid = m.t_melt, in.ruled("t_solid", show(*m.t_solid), "t_melt: no soft band and no hysteresis");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "scene/effect_keys.hpp"
 #include "scene/geometry.hpp"
 #include "scene/nearest.hpp"
 #include "scene/readers.hpp"
@@ -81,9 +82,8 @@ void read_scene(TableReader& in, Scene& s) {
   else in.ruled("output_interval", show(s.output_interval = s.end_time / 20.0), "a twentieth of end_time");
   if (s.output_interval > s.end_time) in.refuse("output_interval", fmt::format("{} s is longer than end_time = {} s: shorten it", s.output_interval, s.end_time));
   if (s.end_time / s.output_interval > 1e6) in.refuse("output_interval", fmt::format("{:.3g} frames would be written; at most 1e6: lengthen it", s.end_time / s.output_interval));
-  s.viscosity_form = in.text("viscosity_form"), s.transport_velocity = in.flag("transport_velocity"), s.clamp = in.flag("clamp");
+  read_effect_keys(in, "scene", s);
   s.settle = in.flag("settle");
-  s.hourglass = in.number("hourglass"), s.contact_viscosity = in.number("contact_viscosity");
   s.contact = in.text("contact") == "auto";
   s.recovers = in.text("on_failure") == "recover", s.unguarded = in.texts("unguarded");
 }

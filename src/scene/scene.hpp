@@ -34,6 +34,14 @@ inline constexpr std::size_t term_count = 12;
 [[nodiscard]] Mode mode_from(std::string_view);
 [[nodiscard]] Term term_from(std::string_view);
 
+/// Numbers of the case file whose keys an effect brings and that have no member here, in SI, by the key's name.
+using EffectValues = std::map<std::string, double, std::less<>>;
+/// 0 where the key has no value: of a scene that no reader made.
+[[nodiscard]] inline double value_of(const EffectValues& values, std::string_view key) {
+  const auto at = values.find(key);
+  return at == values.end() ? 0.0 : at->second;
+}
+
 struct Material {
   std::string name;
   double density = 0.0;                                     ///< rest density [kg/m3]
@@ -48,6 +56,7 @@ struct Material {
   std::optional<double> elastic_limit, plastic_limit;       ///< strain [1]
   std::optional<double> fracture_stretch;                   ///< corrected: |r|/|x| [1]
   std::optional<double> fracture_distance;                  ///< paper: [spacings]
+  EffectValues values;                                      ///< of keys that effects bring (scene/effect_rule.hpp)
 };
 
 /// A region of space. Recursive kinds hold their parts in `of`: union (all), difference (of[0] minus of[1]).
@@ -153,6 +162,7 @@ struct Scene {
   bool contact = true;                  ///< false: solids pass through each other (contact = "none")
   bool recovers = false;                ///< a guard that trips sends the run back to a good state, with half the step
   std::vector<std::string> unguarded;  ///< guards that are off
+  EffectValues values;                 ///< of keys that effects bring (scene/effect_rule.hpp)
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<Event> events;

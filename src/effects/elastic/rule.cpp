@@ -14,8 +14,19 @@ std::string left_out(const Scene& s) {
   return any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::elastic; }) ? "what is elastic is held in place" : "nothing is elastic";
 }
 
+/// Keys of the case file.
+std::vector<EffectKey> keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "", "coefficient of the energy against zero-energy modes"}, &Scene::hourglass},
+      {{"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"}, &Material::young_modulus},
+      {{"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"}, &Material::poisson_ratio},
+  };
+}
+
 }  // namespace
 
-EffectRule rule() { return {"elastic", called_for, left_out, nullptr, {Term::elastic, Term::hourglass}}; }
+EffectRule rule() { return {"elastic", called_for, left_out, nullptr, {Term::elastic, Term::hourglass}, {}, keys()}; }
 
 }  // namespace tripoint::elastic

@@ -33,8 +33,21 @@ std::string left_out(const Scene& s) {
   return "nothing is liquid, and no free body has another to touch";
 }
 
+/// Keys of the case file.
+std::vector<EffectKey> keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"scene", "viscosity_form", word, "", any, "\"central\"", "keeps angular momentum; right wherever a surface or body is free", "laplacian central", "corrected viscosity; laplacian for wall-bounded shear only"}, &Scene::viscosity_form},
+      {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "", "move particles by the transport velocity"}, &Scene::transport_velocity},
+      {{"scene", "clamp", flag, "", any, "true", "negative pressure would glue bodies together", "", "no negative pressure"}, &Scene::clamp},
+      {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "", "viscosity between solids that touch"}, &Scene::contact_viscosity},
+      {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"}, &Material::viscosity},
+  };
+}
+
 }  // namespace
 
-EffectRule rule() { return {"fluid", called_for, left_out, nullptr, {Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}, {Term::kernel}}; }
+EffectRule rule() { return {"fluid", called_for, left_out, nullptr, {Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}, {Term::kernel}, keys()}; }
 
 }  // namespace tripoint::fluid

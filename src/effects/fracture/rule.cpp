@@ -18,8 +18,18 @@ std::string left_out(const Scene& s) {
   return elastic ? "the bodies that have a limit are held in place, or not elastic" : "nothing is elastic";
 }
 
+/// Keys of the case file.
+std::vector<EffectKey> keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"material", "fracture_stretch", number, "", above_one, "", "never breaks", "", "corrected: stretch |r|/|x| that breaks a bond"}, &Material::fracture_stretch},
+      {{"material", "fracture_distance", number, "", positive, "", "never breaks", "", "paper: distance that breaks a bond, in spacings"}, &Material::fracture_distance},
+  };
+}
+
 }  // namespace
 
-EffectRule rule() { return {"fracture", called_for, left_out}; }
+EffectRule rule() { return {"fracture", called_for, left_out, nullptr, {}, {}, keys()}; }
 
 }  // namespace tripoint::fracture

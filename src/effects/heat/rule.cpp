@@ -19,9 +19,19 @@ std::string left_out(const Scene& s) {
   return "no body with a temperature has a conductivity and a heat_capacity";
 }
 
+/// Keys of the case file.
+std::vector<EffectKey> keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "", "thermal conductivity"}, &Material::conductivity},
+      {{"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"}, &Material::heat_capacity},
+  };
+}
+
 }  // namespace
 
 /// As printed it divides by sums of density.
-EffectRule rule() { return {"heat", called_for, left_out, nullptr, {Term::heat}, {Term::kernel, Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}}; }
+EffectRule rule() { return {"heat", called_for, left_out, nullptr, {Term::heat}, {Term::kernel, Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}, keys()}; }
 
 }  // namespace tripoint::heat

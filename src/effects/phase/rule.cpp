@@ -18,8 +18,20 @@ std::string left_out(const Scene& s) {
                      range.greatest);
 }
 
+/// Keys of the case file.
+std::vector<EffectKey> keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"material", "t_melt", number, "K", positive, "", "does not melt", "", "above it the matter is liquid"}, &Material::t_melt},
+      {{"material", "t_solid", number, "K", positive, "=", "t_melt: no soft band and no hysteresis", "", "below it the matter is solid; at most t_melt"}, &Material::t_solid},
+      {{"material", "latent_heat", number, "J/kg", not_negative, "=", "melts at once where t_melt is given", "", "heat of fusion"}, &Material::latent_heat},
+      {{"material", "softens", flag, "", any, "false", "full stiffness up to melting", "", "stiffness falls with the liquid fraction"}, &Material::softens},
+  };
+}
+
 }  // namespace
 
-EffectRule rule() { return {"phase", called_for, left_out, nullptr, {Term::phase}}; }
+EffectRule rule() { return {"phase", called_for, left_out, nullptr, {Term::phase}, {}, keys()}; }
 
 }  // namespace tripoint::phase

@@ -18,8 +18,18 @@ std::string left_out(const Scene& s) {
   return elastic ? "the bodies that have a limit are held in place, or not elastic" : "nothing is elastic";
 }
 
+/// Keys of the case file.
+std::vector<EffectKey> keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
+      {{"material", "elastic_limit", number, "", positive, "", "never yields", "", "deviatoric strain where plastic flow begins"}, &Material::elastic_limit},
+      {{"material", "plastic_limit", number, "", positive, "", "flows without end", "", "largest plastic strain"}, &Material::plastic_limit},
+  };
+}
+
 }  // namespace
 
-EffectRule rule() { return {"plastic", called_for, left_out}; }
+EffectRule rule() { return {"plastic", called_for, left_out, nullptr, {}, {}, keys()}; }
 
 }  // namespace tripoint::plastic

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <type_traits>
+#include <variant>
+
+#include "scene/effect_rule.hpp"
+#include "scene/table_reader.hpp"
+
+/// The keys that effects bring, wherever a scene is read or written: the case file, and JSON in both directions.
+namespace tripoint {
+
+/// Calls visit(row, value) for each key that effects have in this table and keep in an Owner, a Scene or a Material. Numbers that have no
+/// member of their own are a double of Owner::values.
+template <class Owner, class Visit>
+void each_effect_key(Owner& owner, std::string_view table, Visit visit) {
+  for (const EffectRule& rule : effect_rules()) {
+    for (const EffectKey& key : rule.keys) {
+      if (key.row.table != table) continue;
+      const auto kept = [&](const auto& member) {
+        using Member = std::decay_t<decltype(member)>;
+        if constexpr (std::is_same_v<Member, std::monostate>) {
+          if constexpr (std::is_const_v<Owner>) visit(key.row, value_of(owner.values, key.row.name));
+          else visit(key.row, owner.values[std::string(key.row.name)]);
+        } else if constexpr (requires { owner.*member; }) {
+          visit(key.row, owner.*member);
+        }
+      };
+      std::visit(kept, key.kept_in);
+    }
+  }
+}
+
+/// Reads the keys that effects have in a table. @throws InputError as TableReader does
+template <class Owner>
+void read_effect_keys(TableReader& in, std::string_view table, Owner& owner) {
+  each_effect_key(owner, table, [&]<class T>(const Key& key, T& value) {
+    if constexpr (std::is_same_v<T, double>) value = in.number(key.name);
+    else if constexpr (std::is_same_v<T, bool>) value = in.flag(key.name);
+    else if constexpr (std::is_same_v<T, std::string>) value = in.text(key.name);
+    else value = in.maybe_number(key.name);
+  });
+}
+
+}  // namespace tripoint
