@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <utility>
+
+#include "effects/effect.hpp"
+
+/// Linear drag: F = -c m v on every particle, c of its material [1/s]. A body that nothing else moves slows down as exp(-c t).
+namespace tripoint::drag {
+namespace {
+
+constexpr Field<double> force_x{"drag_force.x", "N"}, force_y{"drag_force.y", "N"}, force_z{"drag_force.z", "N"};
+
+class LinearDrag : public Effect {
+ public:
+  explicit LinearDrag(const Scene& scene) {
+    for (const Material& m : scene.materials) coefficient_.push_back(value_of(m.values, "drag"));
+  }
+  void kick(World&, double dt) override { half_step_ = dt; }
+  void bonds(World&) override;
+  [[nodiscard]] TimeStepBound max_dt(const World&) const override;
+
+ private:
+  std::vector<double> coefficient_;  ///< of each material [1/s]
+  double half_step_ = 0.0;           ///< length of the last kick, within a step [s]
+};
+
+/// Of the velocity at the end of the step, v/(1 + c dt/2) of that half a step before: the scheme is then of second order.
+void LinearDrag::bonds(World& world) {
+  static const double weaker = 1.0 - defect_size("drag.force");
+  const auto F = triple(world.particles, force_x, force_y, force_z);
+  const auto v = velocities(std::as_const(world.particles));
+  const auto m = world.particles[field::mass];
+  const auto material = world.particles[field::material];
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    const double c = coefficient_[static_cast<std::size_t>(material[i])];
+    F.set(i, (-weaker * c * m[i] / (1.0 + c * half_step_)) * v.at(i));
+  }
+}
+
+/// c dt <= 1: half of where a step would turn the velocity round.
+TimeStepBound LinearDrag::max_dt(const World&) const {
+  TimeStepBound bound;
+  for (const double c : coefficient_)
+    if (c > 0.0) tighten(bound, 1.0 / c, "drag");
+  return bound;
+}
+
+}  // namespace
+
+EffectSpec spec(const Scene&) {
+  Force drag{force_x, force_y, force_z, {"drag_work"}, Account{"wall_drag_work"}};
+  drag.entry = "drag";
+  return {"drag", Mode::corrected, {force_x, force_y, force_z}, {field::mass, field::material, field::velocity_x, field::velocity_y, field::velocity_z}, {drag}};
+}
+
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<LinearDrag>(scene); }
+
+std::vector<DefectEntry> defects() { return {{"drag.force", "drag times 1 - size", "drag/slowed-ball"}}; }
+
+}  // namespace tripoint::drag

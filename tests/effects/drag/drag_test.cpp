@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// docs/add-an-effect.md, done: an effect that the program does not have, as one folder and one line.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "adapters/scene_json.hpp"
+#include "effects/plan.hpp"
+#include "scene/expression.hpp"
+#include "scene/read_case.hpp"
+#include "step/simulation.hpp"
+
+namespace tripoint {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path root = TRIPOINT_SOURCE_DIR;
+const std::string case_file = (root / "tests/effects/drag/slowed-ball.toml").string();
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Case slowed_ball(const std::vector<std::string>& set = {}) { return read_case(case_file, set).value; }
+
+Simulation start(const Case& value) {
+  const Scene scene = scene_for(value, {});
+  return {scene, sample(scene)};
+}
+
+double way_of(const Simulation& s) { return s.world().bodies[field::body_centre][0].x; }
+
+/// Greatest difference between the way of the ball and the formula that the case states [m].
+double error_of(const Case& value) {
+  const Expression truth(std::get<std::string>(value.reference.args.at("value")), Expression::Time::known);
+  Simulation s = start(value);
+  const double from = way_of(s);
+  double worst = 0.0;
+  for (int n = 1; n <= 20; ++n) {
+    const double time = value.scene.end_time * n / 20.0;
+    s.advance_to(time);
+    worst = std::max(worst, std::abs(way_of(s) - from - truth({}, time)));
+  }
+  return worst;
+}
+
+TEST(AddedEffect, IsCalledForByItsKeyAndLeftOutForAReason) {
+  const Plan with = plan(scene_for(slowed_ball(), {})), without = plan(scene_for(slowed_ball({"material.ball.drag=0"}), {}));
+  const auto on = std::ranges::find(with.effects, "drag", &PlannedEffect::name);
+  ASSERT_NE(on, with.effects.end());
+  EXPECT_EQ(on->why, "body ball: it moves through a gas that brakes it");
+  EXPECT_NE(std::ranges::find(with.fields, "drag_force.x", &PlannedField::name), with.fields.end());
+  const auto idle = std::ranges::find(without.idle, "drag", &PlannedEffect::name);
+  ASSERT_NE(idle, without.idle.end());
+  EXPECT_EQ(idle->why, "no material has a drag");
+  EXPECT_EQ(std::ranges::find(without.fields, "drag_force.x", &PlannedField::name), without.fields.end());
+}
+
+TEST(AddedEffect, BringsItsKeyToTheReaderTheSchemaAndThePage) {
+  EXPECT_EQ(value_of(slowed_ball().scene.material("ball").values, "drag"), 2.0);
+  EXPECT_EQ(value_of(slowed_ball({"material.ball.drag=\"0.5 1/s\""}).scene.material("ball").values, "drag"), 0.5);
+  try {
+    static_cast<void>(slowed_ball({"material.ball.drag=-1"}));
+    ADD_FAILURE() << "a negative drag was taken";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("0 or greater"), std::string::npos) << e.what();
+  }
+  EXPECT_NE(case_reference_page().find("share of the velocity that drag takes in a second"), std::string::npos);
+  EXPECT_NE(case_schema().find("\"drag\""), std::string::npos);
+}
+
+TEST(AddedEffect, PassesItsValueOnToEveryEngine) {
+  const Scene sent = scene_for(slowed_ball(), {});
+  Scene received;
+  std::vector<JobBody> bodies(sent.bodies.size());
+  scene_from_json(scene_to_json(sent, bodies), received, bodies);
+  EXPECT_EQ(value_of(received.materials.at(0).values, "drag"), 2.0);
+}
+
+TEST(AddedEffect, SlowsTheBallAsItsCaseSays) {
+  const Case value = slowed_ball();
+  EXPECT_LT(error_of(value), *value.gates.at(0).limit);
+}
+
+TEST(AddedEffect, HasADefectThatItsCaseKills) {
+  const Case value = slowed_ball();
+  const Defect& defect = value.defects.at(0);
+  const auto known = registered_defects();
+  EXPECT_NE(std::ranges::find(known, defect.name, &DefectEntry::name), known.end());
+  const std::string broken = defect.name + "=" + std::to_string(defect.size);
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // a process of its own: a defect is looked up once in each
+  EXPECT_EXIT(
+      {
+        setenv("TRIPOINT_DEFECT", broken.c_str(), 1);
+        std::exit(error_of(value) > *value.gates.at(0).limit ? 3 : 0);
+      },
+      testing::ExitedWithCode(3), "");
+}
+
+TEST(AddedEffect, BooksItsWorkSoThatTheLedgerCloses) {
+  Simulation s = start(slowed_ball());
+  const double before = s.ledger().energy.at("kinetic");
+  s.advance_to(1.0);
+  const Ledger after = s.ledger();
+  double sum = 0.0;
+  for (const auto& [entry, energy] : after.energy) sum += energy;
+  EXPECT_NEAR(sum / before, 1.0, 1e-13);  // round-off of 100 steps
+  EXPECT_NEAR(after.energy.at("drag") / before, 1.0 - std::exp(-4.0), 1e-4);  // second order in the step
+}
+
+TEST(AddedEffect, IsPaidByWhoDrivesABody) {
+  Simulation s = start(slowed_ball({"body.ball.motion=\"prescribed\""}));
+  s.advance_to(1.0);
+  const std::map<std::string, double> energy = s.ledger().energy;
+  const double m = s.ledger().mass;
+  EXPECT_NEAR(energy.at("drag"), 2.0 * m, 0.02 * m);  // c m v^2 t; the force is that of 1/(1 + c dt/2) of the velocity
+  EXPECT_NEAR(energy.at("walls"), -energy.at("drag"), 1e-12 * m);
+}
+
+TEST(AddedEffect, BoundsTheStep) {
+  const Simulation s = start(slowed_ball({"scene.time_step=\"auto\""}));
+  EXPECT_EQ(s.bound().name, "drag");
+  EXPECT_DOUBLE_EQ(s.bound().dt, 0.5);
+}
+
+TEST(AddedEffect, GoesOnWithTheSameBitsAfterARestart) {
+  const Scene scene = scene_for(slowed_ball(), {});
+  const InitialState initial = sample(scene);
+  Simulation whole(scene, initial), cut(scene, initial);
+  cut.advance_to(0.5);
+  Simulation resumed(scene, initial, {}, cut.checkpoint());
+  whole.advance_to(0.5);
+  whole.advance_to(1.0);
+  resumed.advance_to(1.0);
+  EXPECT_EQ(way_of(whole), way_of(resumed));
+  EXPECT_EQ(whole.ledger().energy, resumed.ledger().energy);
+}
+
+/// Every block of docs/add-an-effect.md stands in the file that it names, and each of these files stands there in full but its licence.
+TEST(AddedEffect, IsTheExampleOfThePage) {
+  const std::string page = text_of(root / "docs/add-an-effect.md");
+  for (const char* file : {"rule.cpp", "drag.cpp", "effect_list.inc"}) {
+    std::string code = text_of(root / "tests/effects/drag" / file);
+    ASSERT_FALSE(code.empty()) << file;
+    code.erase(0, code.find('\n') + 1);
+    EXPECT_NE(page.find("```cpp\n" + code + "```"), std::string::npos) << file << " differs from the page";
+  }
+  const std::string toml = text_of(root / "tests/effects/drag/slowed-ball.toml");
+  EXPECT_NE(page.find("```toml\n" + toml + "```"), std::string::npos) << "the case differs from the page";
+}
+
+}  // namespace
+}  // namespace tripoint
