@@ -23,7 +23,7 @@ Results measured_as(const std::vector<double>& values, double limit_of_error = 0
   return r;
 }
 
-const Change& only(const Comparison& all) {
+const MetricChange& only(const Comparison& all) {
   EXPECT_EQ(all.changes.size(), 1U);
   return all.changes.front();
 }

@@ -25,7 +25,7 @@ using Key = std::tuple<std::string, std::string, std::string, std::string, doubl
 
 struct Row {
   Key key;
-  Change change;  ///< all but the two standings
+  MetricChange change;  ///< all but the two standings
   Standing standing;
   Gate gate;
 };
@@ -120,14 +120,14 @@ std::string source_of_noise(const Standing& base, const Standing& head, bool is_
 /// Noise of head less base, in the metric's unit: two standard uncertainties by chance, or what the same code was seen to differ by, the larger one.
 double noise_between(const Standing& base, const Standing& head, double again) { return std::max(2.0 * std::hypot(base.noise, head.noise), again); }
 
-void settle_class(Change& c) {
+void settle_class(MetricChange& c) {
   if (c.base->fit_class == c.head->fit_class) return;
   c.change = c.head->verdict == "pass" ? 0.0 : infinity;
   c.trend = c.head->verdict == "pass" ? Trend::same : Trend::worse;
   c.noise_from = "a class has no size";
 }
 
-void settle_unlimited(Change& c, double again) {
+void settle_unlimited(MetricChange& c, double again) {
   const double size = std::abs(c.base->value), difference = std::abs(c.head->value - c.base->value);
   c.change = difference > 0.0 ? difference / (size > 0.0 ? size : 1.0) : 0.0;
   c.noise = noise_between(*c.base, *c.head, again) / (size > 0.0 ? size : 1.0);
@@ -135,7 +135,7 @@ void settle_unlimited(Change& c, double again) {
 }
 
 /// @param again how far the same code was seen to differ from itself (A/A), in the metric's unit; 0 = not tried
-void settle(Change& c, const Gate& base_gate, const Gate& head_gate, double again) {
+void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, double again) {
   if (!c.base || !c.head) return static_cast<void>(c.trend = c.head ? Trend::appeared : Trend::gone);
   c.limit_changed = c.base->allows != c.head->allows;
   c.looser = c.limit_changed && (c.head->allows.empty() || room_of(head_gate) > room_of(base_gate) * (1.0 + 1e-9));
@@ -156,8 +156,8 @@ void settle(Change& c, const Gate& base_gate, const Gate& head_gate, double agai
 }
 
 /// Worse and better first, by their size; then what has not moved; then new, then gone.
-bool goes_before(const Change& a, const Change& b) {
-  const auto rank = [](const Change& c) { return c.trend == Trend::worse || c.trend == Trend::better ? 0 : c.trend == Trend::same ? (std::isnan(c.base->used) ? 2 : 1) : c.trend == Trend::appeared ? 3 : 4; };
+bool goes_before(const MetricChange& a, const MetricChange& b) {
+  const auto rank = [](const MetricChange& c) { return c.trend == Trend::worse || c.trend == Trend::better ? 0 : c.trend == Trend::same ? (std::isnan(c.base->used) ? 2 : 1) : c.trend == Trend::appeared ? 3 : 4; };
   return rank(a) != rank(b) ? rank(a) < rank(b) : std::abs(a.change) > std::abs(b.change);
 }
 
@@ -223,7 +223,7 @@ Comparison compare_results(const Results& base, const Results& head, const std::
 
 std::vector<Remark> change_remarks(const Comparison& all, bool no_worse) {
   std::vector<Remark> list;
-  const auto say = [&](const Change& c, int code, const std::string& text, const char* word) {
+  const auto say = [&](const MetricChange& c, int code, const std::string& text, const char* word) {
     list.push_back({no_worse, no_worse ? code : 0, c.place, c.case_id + " " + name_of(c), text, std::isfinite(c.change) ? 1.0 + std::abs(c.change) : infinity, no_worse ? word : ""});
   };
   for (const auto& c : all.changes) {

@@ -26,7 +26,7 @@ struct Standing {
 };
 
 /// One metric of one engine in one case, judged (a row for each gate) or not.
-struct Change {
+struct MetricChange {
   std::string case_id, engine, mode, metric, unit;  ///< engine with its preset
   std::optional<double> level;
   SourcePlace place;                    ///< of the limit; of the case file where there is none
@@ -40,7 +40,7 @@ struct Change {
 
 struct Comparison {
   std::string base_name;
-  std::vector<Change> changes;        ///< most changed first, then what is new and what is gone
+  std::vector<MetricChange> changes;        ///< most changed first, then what is new and what is gone
   std::vector<std::string> remarks;   ///< why the two may not be comparable: another profile, other seeds, another version of the program
   [[nodiscard]] int count(Trend) const;
 };
@@ -59,12 +59,12 @@ struct Comparison {
 /// "2 better, 1 worse, 9 unchanged, 1 new, 0 gone"
 [[nodiscard]] std::string counts_text(const Comparison&);
 /// "0.0049 -> 0.0025 m", "0.82 -> 0.41", "0.004, 5 seeds": base beside head, the same in units of the limit, and the noise in that unit.
-[[nodiscard]] std::string values_text(const Change&);
-[[nodiscard]] std::string used_text(const Change&);
-[[nodiscard]] std::string noise_text(const Change&);
-[[nodiscard]] std::string change_text(const Change&);
+[[nodiscard]] std::string values_text(const MetricChange&);
+[[nodiscard]] std::string used_text(const MetricChange&);
+[[nodiscard]] std::string noise_text(const MetricChange&);
+[[nodiscard]] std::string change_text(const MetricChange&);
 /// "verlet corrected position at 0.1"
-[[nodiscard]] std::string name_of(const Change&);
+[[nodiscard]] std::string name_of(const MetricChange&);
 [[nodiscard]] std::string word_of(Trend);
 
 /// Every metric of both, a line each, for a terminal.

@@ -33,22 +33,22 @@ std::string word_of(Trend trend) {
   }
 }
 
-std::string name_of(const Change& c) { return fmt::format("{}{}{} {}{}", c.engine, c.mode.empty() ? "" : " ", c.mode, c.metric, c.level ? fmt::format(" at {:g}", *c.level) : ""); }
+std::string name_of(const MetricChange& c) { return fmt::format("{}{}{} {}{}", c.engine, c.mode.empty() ? "" : " ", c.mode, c.metric, c.level ? fmt::format(" at {:g}", *c.level) : ""); }
 
-std::string values_text(const Change& c) { return pair_of(c.base, c.head, value_of) + (c.unit.empty() ? "" : " " + c.unit); }
+std::string values_text(const MetricChange& c) { return pair_of(c.base, c.head, value_of) + (c.unit.empty() ? "" : " " + c.unit); }
 
-std::string used_text(const Change& c) {
+std::string used_text(const MetricChange& c) {
   return pair_of(c.base, c.head, [](const Standing& s) { return share(s.used); });
 }
 
-std::string change_text(const Change& c) {
+std::string change_text(const MetricChange& c) {
   if (!c.base || !c.head || (std::isnan(c.base->used) && std::isnan(c.head->used) && c.change == 0.0)) return "-";
   if (std::isinf(c.change)) return c.change > 0.0 ? "+inf" : "-inf";
   if (std::isnan(c.base->used) && std::isnan(c.head->used)) return fmt::format("{:.2g} %", 100.0 * c.change);
   return std::abs(c.change) < 0.5 * least_change ? std::string("0") : fmt::format("{:+.3g}", c.change);
 }
 
-std::string noise_text(const Change& c) {
+std::string noise_text(const MetricChange& c) {
   if (c.noise_from.empty()) return "-";
   if (c.noise_from == "none known" || !(c.noise > 0.0)) return c.noise_from;
   return fmt::format("{:.2g}, {}", c.noise, c.noise_from);

@@ -46,14 +46,14 @@ std::string linked(const std::string& text, const SourcePlace& place, const std:
   return fmt::format("[{}]({}/{}{})", markdown(text), links, url_path(path), place.line > 1 ? fmt::format("#L{}", place.line) : "");
 }
 
-std::string limit_of(const Change& c) {
+std::string limit_of(const MetricChange& c) {
   const std::string& base = c.base ? c.base->allows : c.head->allows;
   const std::string& head = c.head ? c.head->allows : c.base->allows;
   const std::string first = base.empty() ? "no limit" : base, second = head.empty() ? "no limit" : head;
   return first == second ? first : first + " -> " + second;
 }
 
-std::string row_of(const Change& c, const CommentOptions& o) {
+std::string row_of(const MetricChange& c, const CommentOptions& o) {
   return fmt::format("| {} | {} | {} | {} | {} | {} of {} | {} |\n", c.trend == Trend::same ? "same" : fmt::format("**{}**", word_of(c.trend)), change_text(c), linked(c.case_id, c.place, o.links), markdown(name_of(c)),
                      markdown(values_text(c)), used_text(c), markdown(limit_of(c)), markdown(noise_text(c)));
 }
