@@ -35,6 +35,12 @@ ReferenceChoice reference_from(const JsonObject& o) {
   return {o.text_or("kind", "analytic"), o.text_or("function", ""), o.text_or("file", ""), o.text_or("source", ""), o.settings("args"), o.number_or("uncertainty", 0.0)};
 }
 
+json gauges_json(const std::vector<JobGauge>& gauges) {
+  json list = json::array();
+  for (const JobGauge& g : gauges) list.push_back({{"metric", g.metric}, {"quantity", g.quantity}, {"body", g.body}, {"where", to_json(g.where)}});
+  return list;
+}
+
 template <class T>
 json maybe(const std::optional<T>& v) {
   return v ? json(*v) : json(nullptr);
@@ -87,6 +93,8 @@ Job read_job(const std::string& path) {
   job.seed = static_cast<std::uint64_t>(o.integer("seed"));
   job.threads = static_cast<int>(o.number_or("threads", 1));
   job.ranks = static_cast<int>(o.number_or("ranks", 1));
+  if (o.has("gauges"))
+    for (const JsonObject& g : o.objects("gauges")) job.gauges.push_back({g.text("metric"), g.text("quantity"), g.text_or("body", ""), g.settings("where")});
   job.times = o.numbers("times");
   if (job.times.empty()) throw InputError(path + ": times is empty");
   for (std::size_t k = 1; k < job.times.size(); ++k)
@@ -110,6 +118,7 @@ std::string job_text(const Job& job) {
                    {"seed", job.seed},
                    {"threads", job.threads},
                    {"ranks", job.ranks},
+                   {"gauges", gauges_json(job.gauges)},
                    {"times", job.times},
                    {"output", job.output},
                    {"resume", job.resume.empty() ? json(nullptr) : json(job.resume)}};

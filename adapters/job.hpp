@@ -26,6 +26,13 @@ struct JobBody {
   Vec3 angular_velocity;      ///< world frame [rad/s]
 };
 
+/// A number that the case asks for at a point, or of a body or region. A solver of fields may answer these alone.
+struct JobGauge {
+  std::string metric, quantity;  ///< name of the case's metric; displacement, temperature_at, mean_temperature ...
+  std::string body;              ///< empty = all
+  Settings where;                ///< point, axis, min, max, outside, phase: those that the case states, never its value
+};
+
 struct Resolution {
   double spacing = 0.0, support_ratio = 0.0;
   std::optional<double> time_step;  ///< empty = the engine's own choice
@@ -43,6 +50,7 @@ struct Job {
   ReferenceChoice reference;  ///< for the engine `exact` only
   std::uint64_t seed = 1;
   int threads = 1, ranks = 1;
+  std::vector<JobGauge> gauges;
   std::vector<double> times;  ///< output times, t0 .. end [s]
   std::string output;         ///< folder
   std::string resume;         ///< checkpoint to continue from; empty = none

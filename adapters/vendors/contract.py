@@ -58,6 +58,11 @@ class Job:
         return self.path.parent / self.document["output"]
 
     @property
+    def gauges(self) -> list[dict[str, Any]]:
+        """metric, quantity, body, where: what the case asks for at a point, or of a body or region."""
+        return self.document.get("gauges") or []
+
+    @property
     def particles(self) -> Path:
         return self.path.parent / self.document["particles"]
 
@@ -151,6 +156,13 @@ def write_trajectory(job: Job, columns: str, rows: Iterable[Row]) -> str:
             digest.update(line.encode())
             out.write(line)
     return digest.hexdigest()
+
+
+def write_gauges(job: Job, rows: Iterable[Row]) -> str:
+    """Writes gauges.csv: time [s], number of the gauge in `job.gauges`, value [SI]. @return SHA-256 of its text"""
+    text = "time,gauge,value\n" + "".join(f"{time_!r},{number},{value!r}\n" for time_, number, value in rows)
+    (job.folder / "gauges.csv").write_text(text, encoding="ascii")
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def write_result(job: Job, result: dict[str, Any]) -> None:

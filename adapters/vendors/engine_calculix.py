@@ -2,7 +2,7 @@
 """CalculiX (GPL-2.0, a process of its own), Debian's ccx: conduction at rest and elastic bodies that something fixed holds.
 
 Presets are its elements. Each body is meshed with cubes of one spacing, one a particle, and a particle shows the mean of the corners of its
-cube. Time: CalculiX's own `*HEAT TRANSFER` (backward Euler) and `*DYNAMIC` (its alpha method, ALPHA=0: no numerical damping), with direct
+cube. It also answers the job's gauges, each a sum of the values at the nodes about a point or of a body. Time: CalculiX's own `*HEAT TRANSFER` (backward Euler) and `*DYNAMIC` (its alpha method, ALPHA=0: no numerical damping), with direct
 increments."""
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from contract import HEAT_COLUMNS, PARTICLE_COLUMNS, Diverged, Engine, Job, Outcome, Row, serve, write_trajectory
+from contract import HEAT_COLUMNS, PARTICLE_COLUMNS, Diverged, Engine, Job, Outcome, Row, serve, write_gauges, write_trajectory
 from lattice import Mesh, across, mesh_of, nodes_in_box, refuse_boxes, temperature_at, velocity_at
 from rigid import steps_in
 from rotation import norm, vector
 
 FASTEST_RUN = 590.0  # [s] of wall time
+GAUGES = {"temperature_at": "NT", "mean_temperature": "NT", "displacement": "U", "centre": "U", "velocity_at": "V", "mean_velocity": "V"}  # what is summed
 
 
 def is_elastic(job: Job) -> bool:
@@ -106,6 +107,54 @@ class Deck:
         live = [k for k in wanted if not self.job.bodies[k]["temperature_held"]] or list(wanted)
         diffusivity = max(of_solid(self.materials[k], "conductivity") / (self.materials[k]["density"] * of_solid(self.materials[k], "heat_capacity")) for k in live)
         return 0.5 * dx * dx / diffusivity
+
+    def gauge(self, asked: dict[str, Any]) -> tuple[dict[int, float], str, float] | None:
+        """Weights of the nodes, what is summed (NT, U1, V2 ...) and what is added; None for a gauge that has no answer here."""
+        where, mesh = asked["where"], self.mesh
+        kind = GAUGES.get(asked["quantity"], "")
+        bodies = {k for k in set(mesh.body) if asked["body"] in ("", self.job.bodies[k]["name"])}
+        if (kind == "NT") == self.elastic or not kind or not bodies or "phase" in where or (kind != "NT" and "axis" not in where):
+            return None
+        axis = "xyz".index(where["axis"]) if kind != "NT" else 0
+        word = kind if kind == "NT" else f"{kind}{axis + 1}"
+        if asked["quantity"] in ("temperature_at", "displacement", "velocity_at"):
+            weights = mesh.weights(vector(where["point"]), bodies)
+            return (weights, word, 0.0) if weights else None
+        inside = [body in bodies and self.in_region(where, mesh.middle(e)) for e, body in enumerate(mesh.body)]
+        mass = [float(self.materials[body]["density"]) if kind != "NT" else 1.0 for body in mesh.body]
+        total = sum(w for w, take in zip(mass, inside) if take)
+        if total == 0.0:
+            return None
+        start = sum(w * mesh.middle(e)[axis] for e, (w, take) in enumerate(zip(mass, inside)) if take) / total if asked["quantity"] == "centre" else 0.0
+        return mesh.mean(mass, inside), word, start
+
+    @staticmethod
+    def in_region(where: dict[str, Any], at: Sequence[float]) -> bool:
+        if "min" not in where:
+            return True
+        return all(a <= x <= b for x, a, b in zip(at, where["min"], where["max"])) != bool(where.get("outside", False))
+
+    def started(self) -> dict[str, dict[int, float]]:
+        """What the nodes have at the start, which ccx does not print."""
+        values = {f"{letter}{axis}": dict.fromkeys(self.mesh.node.values(), 0.0) for letter in "UV" for axis in (1, 2, 3)}
+        kind = ""
+        for line in self.elastic_start() if self.elastic else self.heat_start():
+            if line.startswith("*"):
+                kind = line
+                continue
+            words = line.split(",")
+            if "TEMPERATURE" in kind:
+                values.setdefault("NT", {})[int(words[0])] = float(words[1])
+            elif "VELOCITY" in kind:
+                values[f"V{words[1]}"][int(words[0])] = float(words[2])
+        return values
+
+    def gauge_rows(self, frames: list[dict[str, dict[int, float]]]) -> Iterator[Row]:
+        """Rows of gauges.csv."""
+        answers = [(number, found) for number, found in enumerate(map(self.gauge, self.job.gauges)) if found]
+        for at, values in zip(self.job.times, [self.started(), *frames]) if answers else ():
+            for number, (weights, word, start) in answers:
+                yield at, number, start + math.fsum(w * values[word][n] for n, w in weights.items())
 
     def lines(self) -> Iterator[str]:
         mesh, job = self.mesh, self.job
@@ -309,6 +358,9 @@ class Calculix(Engine):
         outcome.readback = {"gravity": job.scene["gravity"], "time_step": deck.limit, "precision": "double", "bodies": []}
         columns = PARTICLE_COLUMNS if deck.elastic else HEAT_COLUMNS
         outcome.state_hash = write_trajectory(job, columns, deck.rows(frames, particles_of(job, not deck.elastic)))
+        gauges = list(deck.gauge_rows(frames))
+        if gauges:
+            outcome.state_hash += write_gauges(job, gauges)
         outcome.pairs = float(len(deck.mesh.elements) * outcome.steps)
         return outcome
 

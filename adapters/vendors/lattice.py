@@ -40,6 +40,29 @@ class Mesh:
     def middle(self, element: int) -> Vector:
         return tuple(c + self.spacing * (0.5 * k + 0.5) for c, k in zip(self.corner, self.first[element]))  # type: ignore[return-value]
 
+    def weights(self, point: Vector, wanted: set[int]) -> dict[int, float]:
+        """Trilinear weights of the corner nodes at a point [m]; empty where no element of the wanted bodies holds it."""
+        rest = [(x - c) / self.spacing for x, c in zip(point, self.corner)]
+        for nodes, body, first in zip(self.elements, self.body, self.first):
+            local = [r - 0.5 * k for r, k in zip(rest, first)]
+            if body in wanted and all(-1e-9 <= s <= 1.0 + 1e-9 for s in local):
+                share = {}
+                for n, offset in zip(nodes, CORNERS):
+                    w = math.prod(s if o else 1.0 - s for s, o in zip(local, offset))
+                    if abs(w) > 1e-12:
+                        share[n] = w
+                return share
+        return {}
+
+    def mean(self, weight: list[float], inside: list[bool]) -> dict[int, float]:
+        """Weights of the corner nodes for the mean over elements, each with its own weight."""
+        share: dict[int, float] = {}
+        total = sum(w for w, take in zip(weight, inside) if take)
+        for nodes, w, take in zip(self.elements, weight, inside):
+            for n in nodes[:8] if take else ():
+                share[n] = share.get(n, 0.0) + 0.125 * w / total
+        return share
+
 
 def whole(value: float) -> bool:
     return abs(value - round(value)) < 1e-6

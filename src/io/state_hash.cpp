@@ -51,6 +51,7 @@ void FramesHash::add(const Snapshot& s) {
   hash.add(s.total_mass), hash.add(s.momentum), hash.add(s.angular_momentum);
   for (const auto& [term, joule] : s.energy) hash.add(joule);
   for (const auto& [body, joule] : s.heat_given) hash.add(joule);
+  for (const auto& [name, value] : s.gauges) hash.add(value);
   hash_ = hash.value();
 }
 
@@ -73,6 +74,7 @@ std::string state_hash(const Snapshot& s) {
   for (const Vec3& r : s.position) hash.add(r);
   for (const Vec3& v : s.velocity) hash.add(v);
   for (const double T : s.temperature) hash.add(T);
+  for (const auto& [name, value] : s.gauges) hash.add(value);
   for (const BodyState& b : s.bodies) {
     hash.add(b.position), hash.add(b.velocity), hash.add(b.angular_velocity), hash.add(b.mass);
     hash.add(b.orientation.w), hash.add(b.orientation.x), hash.add(b.orientation.y), hash.add(b.orientation.z);

@@ -35,6 +35,9 @@ struct Snapshot {
   std::map<std::string, double> energy;   ///< TERM of the ledger -> [J]
   std::map<std::string, double> counts;   ///< of what happened so far [1]: recoveries
   std::map<std::string, double> heat_given;  ///< name of a body -> heat given to it so far by what holds its temperature [J]
+  std::map<std::string, double> gauges;      ///< name of a gauge of the job -> what the engine itself reads there [SI]
+  /// Whether the engine shows no particles at all: a solver of fields that answers by its gauges.
+  [[nodiscard]] bool gauges_only() const { return position.empty() && temperature.empty() && !gauges.empty(); }
 };
 
 /// A whole trajectory in memory: frames in order of time. Frames may have unequal row counts only by inflow (later ones longer).
@@ -65,6 +68,9 @@ class TrajectoryWriter {
 /// Reads a small engine's trajectory.csv (contracts): rows of particles or, with the column `body`, of bodies.
 /// Masses, phases and materials come from `initial`.
 [[nodiscard]] Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial, std::size_t bodies);
+/// Reads gauges.csv (rows of time, number of the gauge, value) into the frames of their times, and makes these where there are none.
+/// @param names of the job's gauges, in their order
+void read_gauges_csv(const std::string& path, const std::vector<std::string>& names, Trajectory&);
 
 /// particles.h5: one frame, time 0, of what the harness sampled.
 void write_particles(const std::string& path, const InitialState&);

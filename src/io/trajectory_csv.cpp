@@ -154,4 +154,26 @@ Trajectory read_trajectory_csv(const std::string& path, const InitialState& init
   return trajectory;
 }
 
+void read_gauges_csv(const std::string& path, const std::vector<std::string>& names, Trajectory& trajectory) {
+  std::ifstream file(path);
+  std::string text;
+  if (!file || !std::getline(file, text) || text.size() > greatest_line) throw InputError(path + ": has no header line");
+  Table row(path, text);
+  std::map<double, Snapshot> frames;
+  for (Snapshot& frame : trajectory.frames) frames[frame.time] = std::move(frame);
+  for (int number = 2; std::getline(file, text); ++number) {
+    if (text.empty()) continue;
+    if (text.size() > greatest_line) throw InputError({path, number, 0}, "the line is too long");
+    row.line(text, number);
+    const double time = row["time"];
+    const std::string& name = names.at(row.row("gauge", names.size()));
+    if (!std::isfinite(time) || !std::isfinite(row["value"])) throw InputError({path, number, 0}, "the gauge `" + name + "` is not finite");
+    Snapshot& frame = frames[time];
+    frame.time = time;
+    if (!frame.gauges.emplace(name, row["value"]).second) throw InputError({path, number, 0}, "the gauge `" + name + "` has two values at this time");
+  }
+  trajectory.frames.clear();
+  for (auto& [time, frame] : frames) trajectory.frames.push_back(std::move(frame));
+}
+
 }  // namespace tripoint

@@ -227,6 +227,33 @@ TEST_F(Io, DamagedTrajectoriesAreRefusedOrEmpty) {
   EXPECT_GE(files, 6);
 }
 
+TEST_F(Io, GaugesMakeFramesOfTheirOwnAndJoinThoseThatAreThere) {
+  std::ofstream(path("gauges.csv")) << "time,gauge,value\n0,0,1.5\n0,1,300\n0.5,0,2.5\n0.5,1,310\n";
+  Trajectory alone, beside;
+  beside.frames.push_back(frame_at(0.0, 4, 1));
+  beside.frames.push_back(frame_at(0.5, 4, 1));
+  for (Trajectory* t : {&alone, &beside}) read_gauges_csv(path("gauges.csv"), {"tip", "middle"}, *t);
+  ASSERT_EQ(alone.frames.size(), 2U);
+  ASSERT_EQ(beside.frames.size(), 2U);
+  EXPECT_TRUE(alone.frames[1].gauges_only());
+  EXPECT_FALSE(beside.frames[1].gauges_only());
+  for (const Trajectory* t : {&alone, &beside}) EXPECT_EQ(t->frames[1].gauges, (std::map<std::string, double>{{"tip", 2.5}, {"middle", 310.0}}));
+  EXPECT_NE(state_hash(beside.frames[1]), state_hash(frame_at(0.5, 4, 1)));
+}
+
+TEST_F(Io, AGaugeThatTheJobDoesNotHaveOrThatIsNotFiniteIsRefusedWithItsLine) {
+  for (const char* bad : {"0,2,1.0", "0,0,nan", "0,0,1.0\n0,0,1.0"}) {
+    std::ofstream(path("gauges.csv")) << "time,gauge,value\n0,1,5\n" << bad << "\n";
+    Trajectory t;
+    try {
+      read_gauges_csv(path("gauges.csv"), {"tip", "middle"}, t);
+      FAIL() << "accepted " << bad;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("gauges.csv:"), std::string::npos) << e.what();
+    }
+  }
+}
+
 TEST_F(Io, ParticlesReadBackWithTheirSources) {
   InitialState s;
   s.position = {{0, 0, 0}, {1, 0, 0}};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "metrics/frames.hpp"
 #include "validation/metrics/dominant_frequency.hpp"
 
@@ -161,6 +164,62 @@ TEST(HeatPower, IsThatOfTheLedgerOfTheEngineOrOfTheOnlyHeldBody) {
   EXPECT_NEAR(power("right", 0.0).value, 7.0, 1e-12);
   EXPECT_NEAR(f.of(metric("heat_power", "final", "right"), "expression", {{"value", std::string("14*t")}}).value, 0.0, 1e-9);
   EXPECT_THROW((void)f.of(metric("heat_power", "final"), "stated", {{"value", 0.0}}), InputError);
+}
+
+/// Heat at both ends of a row and in its middle: of shares a, 1 - 2 a and a the mean square distance is 2 a d^2.
+TEST(Diffusivity, IsHalfOfWhatTheMeanSquareDistanceOfHeatGrowsASecond) {
+  Still f(test::blocks());
+  double low = 1e9, high = -1e9;
+  for (std::size_t i = 0; i < f.s.initial.size(); ++i)
+    if (f.s.initial.source[i] == 0) low = std::min(low, f.s.initial.position[i].x), high = std::max(high, f.s.initial.position[i].x);
+  const auto heat = [&](Snapshot& frame, double share) {  // of the two ends; the rest at the two layers beside the middle
+    frame.temperature.assign(frame.position.size(), 300.0);
+    for (std::size_t i = 0; i < frame.position.size(); ++i) {
+      const double off = std::abs(frame.position[i].x - 0.5 * (low + high));
+      if (f.s.initial.source[i] == 0 && off > 0.45 * (high - low)) frame.temperature[i] += share;
+      if (f.s.initial.source[i] == 0 && off < 0.2 * (high - low)) frame.temperature[i] += 1.0 - share;
+    }
+  };
+  for (auto& frame : f.run.frames) heat(frame, 0.0);
+  heat(f.run.frames.back(), 0.25);
+  const double end = std::pow(0.5 * (high - low), 2), inner = std::pow((high - low) / 6.0, 2);  // four layers
+  const double D = 0.5 * 0.25 * (end - inner) / (f.run.frames.back().time - f.run.frames.front().time);
+  const auto value = [&](double truth, const std::string& axis = "x") {
+    return f.of(metric("diffusivity", "final", "left"), "stated", {{"axis", axis}, {"value", 300.0}, {"diffusivity", truth}});
+  };
+  EXPECT_NEAR(value(D).value, 0.0, 1e-12);
+  EXPECT_NEAR(value(D / 1.02).value, 0.02 * D / 1.02, 1e-12) << "2 % are seen";
+  EXPECT_NEAR(value(D, "y").value, -D, 1e-12);
+  EXPECT_EQ(value(D).uncertainty.statistical, 0.0);
+  for (auto& frame : f.run.frames) frame.temperature_error.assign(frame.temperature.size(), 0.01);
+  EXPECT_GT(value(D).uncertainty.statistical, 0.0);
+  EXPECT_NE(f.of(metric("diffusivity", "final", "left"), "stated", {{"value", 300.0}}).note.find("needs its axis"), std::string::npos);
+}
+
+TEST(Gauge, TheEnginesOwnNumberGoesBeforeItsParticles) {
+  Still f = linear_fields();
+  const auto choice = metric("temperature_at", "final");
+  const double read = f.stated(choice, at(0.2, 0.2, 0.2, 0.0));
+  for (auto& frame : f.run.frames) frame.gauges[choice.name] = read + 5.0 + frame.time;
+  EXPECT_NEAR(f.stated(choice, at(0.2, 0.2, 0.2, read)), 6.0, 1e-9);
+  EXPECT_NEAR(f.stated(metric("temperature_at", "drift"), at(0.2, 0.2, 0.2, 0.0)), 1.0, 1e-9);
+}
+
+TEST(Gauge, AnEngineWithoutParticlesIsJudgedByItsGaugesAlone) {
+  Still f(test::blocks());
+  const auto choice = metric("displacement", "final", "left");
+  for (auto& frame : f.run.frames) {
+    const double time = frame.time;
+    frame = Snapshot{};
+    frame.time = time, frame.gauges[choice.name] = 0.1 * time;
+  }
+  EXPECT_EQ(audit(f.s.job, f.s.initial, f.run), "");
+  EXPECT_NEAR(f.stated(choice, at(0.0, 0.2, 0.2, 0.04, "x")), 0.06, 1e-15);
+  for (const char* quantity : {"position", "velocity", "momentum", "temperature"})
+    EXPECT_NE(f.of(metric(quantity, "final"), "stated", {}).note.find("shows no particles"), std::string::npos) << quantity;
+  auto other = choice;
+  other.name = "another";
+  EXPECT_NE(f.of(other, "stated", at(0.0, 0.2, 0.2, 0.0, "x")).note.find("no gauge of this metric"), std::string::npos);
 }
 
 }  // namespace

@@ -154,8 +154,9 @@ bool check_scene(const CheckScene& scene, const EngineEntry& engine, const fs::p
   return true;
 }
 
-bool can_heat(const EngineEntry& engine) {
-  return std::any_of(engine.capabilities.begin(), engine.capabilities.end(), [](const auto& c) { return c.rfind("heat", 0) == 0; });
+/// Whether one of its capabilities begins with the word.
+bool says_that_it_can(const EngineEntry& engine, const std::string& word) {
+  return std::any_of(engine.capabilities.begin(), engine.capabilities.end(), [&](const auto& c) { return c.rfind(word, 0) == 0; });
 }
 
 }  // namespace
@@ -169,7 +170,7 @@ std::vector<EngineCheck> check_engine(const std::string& executable) {
   check_broken_jobs(engine.executable, scratch.path(), checks);
   int taken = 0;
   for (const auto& scene : check_scenes())
-    if (!scene.heat || can_heat(engine)) taken += check_scene(scene, engine, scratch.path(), checks);
+    if (scene.capability.empty() || says_that_it_can(engine, scene.capability)) taken += check_scene(scene, engine, scratch.path(), checks);
   checks.add("it can do one scene of the check at least", taken > 0, "it refused them all");
   return checks.take();
 }

@@ -19,7 +19,7 @@ struct EngineCheck {
 /// A case that the check runs, as text of a case file.
 struct CheckScene {
   std::string name, text;
-  bool heat = false;
+  std::string capability;  ///< run where one of the engine's begins with this; empty = by every engine
 };
 [[nodiscard]] const std::vector<CheckScene>& check_scenes();
 

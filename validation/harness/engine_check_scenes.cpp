@@ -36,7 +36,7 @@ norm = "max"
 metric = "position"
 limit = 0.1
 reason = "units: a tenth of a second's flight"
-)", false},
+)", ""},
       {"conduction", R"(format = 1
 [case]
 title = "Half a cosine of temperature in a bar"
@@ -73,7 +73,81 @@ scale = 10.0
 metric = "temperature"
 limit = 0.2
 reason = "units: a fifth of the step"
-)", true}};
+)", "heat"},
+      {"elasticity", R"(format = 1
+[case]
+title = "A bar clamped at one end, let go under gravity along it"
+[scene]
+end_time = 0.0252982 # 2 L/c: the tip is at its lowest
+gravity = [9.81, 0.0, 0.0]
+spacing = 0.025
+output_interval = 0.00316228
+[[material]]
+name = "band"
+density = 1000.0
+young_modulus = 1e6
+poisson_ratio = 0.0
+[[body]]
+name = "bar"
+material = "band"
+phase = "elastic"
+shape = { kind = "box", min = [0.0, -0.05, -0.05], max = [0.4, 0.05, 0.05] }
+joined_to = ["clamp"]
+[[body]]
+name = "clamp"
+material = "band"
+phase = "rigid"
+motion = "fixed"
+shape = { kind = "box", min = [-0.075, -0.05, -0.05], max = [0.0, 0.05, 0.05] }
+[reference]
+kind = "bound"
+function = "stated"
+source = "d'Alembert: the tip falls to rho g L^2/E, twice its rest"
+args = { point = [0.4, 0.0, 0.0], axis = "x", value = 0.0015696 }
+[[metric]]
+name = "tip"
+quantity = "displacement"
+norm = "final"
+body = "bar"
+scale = 0.0015696
+[[gate]]
+metric = "tip"
+limit = 0.2
+reason = "units: a fifth of the way"
+)", "elastic"},
+      {"liquid", R"(format = 1
+[case]
+title = "A block of liquid falls freely"
+[scene]
+end_time = 0.1
+gravity = [0.0, 0.0, -9.81]
+spacing = 0.02
+output_interval = 0.02
+[[material]]
+name = "water"
+density = 1000.0
+sound_speed = 10.0
+[[body]]
+name = "water"
+material = "water"
+phase = "liquid"
+shape = { kind = "box", min = [0.0, 0.0, 1.0], max = [0.1, 0.1, 1.1] }
+[reference]
+kind = "bound"
+function = "stated"
+source = "the parabola"
+args = { axis = "z", value = 1.00095 }
+[[metric]]
+name = "height"
+quantity = "centre"
+norm = "final"
+body = "water"
+scale = 0.04905
+[[gate]]
+metric = "height"
+limit = 0.2
+reason = "units: a fifth of the fall"
+)", "liquid"}};
   return scenes;
 }
 

@@ -25,7 +25,7 @@ fs::path record_file(const RunRequest& request) { return fs::path(request.folder
 std::string hash_of_files(const RunRequest& request) {
   const fs::path folder(request.folder);
   std::string all;
-  for (const char* name : {"job.json", "result.json", "trajectory.h5", "trajectory.csv"}) all += file_hash((folder / name).string()) + '\0';
+  for (const char* name : {"job.json", "result.json", "trajectory.h5", "trajectory.csv", "gauges.csv"}) all += file_hash((folder / name).string()) + '\0';
   return text_hash(all);
 }
 

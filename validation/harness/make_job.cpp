@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "validation/harness/plan_runs.hpp"
+#include "validation/metrics/metric.hpp"
 
 namespace tripoint {
 namespace {
@@ -31,6 +32,15 @@ JobBody job_body(const Body& body, int row, const Gathered& particles) {
   for (std::size_t i = 0; i < particles.mass.size(); ++i) momentum += particles.mass[i] * particles.velocity[i];
   b.velocity = momentum / b.properties.mass;
   return b;
+}
+
+/// Where a metric's number is read: what its reference states of the place, without what it states of the value.
+JobGauge gauge_of(const Case& value, const MetricChoice& metric) {
+  JobGauge gauge{metric.name, metric.quantity, metric.body, {}};
+  const auto& args = metric.reference.value_or(value.reference).args;
+  for (const char* key : {"point", "axis", "min", "max", "outside", "phase"})
+    if (const auto at = args.find(key); at != args.end()) gauge.where.insert(*at);
+  return gauge;
 }
 
 }  // namespace
@@ -66,9 +76,11 @@ Job make_job(const Case& value, const EnginePlan& engine, const RunPlan& run, co
   if (run.walkers) job.settings["walkers"] = *run.walkers;
   if (run.iterations) job.settings["iterations"] = *run.iterations;
   job.reference = value.reference;
+  for (const auto& metric : value.metrics)
+    if (can_be_gauged(metric.quantity)) job.gauges.push_back(gauge_of(value, metric));
   job.seed = scene.seed;
   job.times = output_times(scene.output_interval, scene.end_time);
-  job.output = ".";
+  job.output.assign(1, '.');  // GCC 12 warns of an overlap in the assignment of a literal here
   return job;
 }
 

@@ -71,7 +71,7 @@ Job job_in_folder(const RunRequest& request) {
 void prepare_folder(const RunRequest& request) {
   const fs::path folder(request.folder);
   fs::create_directories(folder);
-  for (const char* stale : {"job.json", "result.json", "outcome.json", "trajectory.csv", "trajectory.xdmf", "log.txt"}) fs::remove(folder / stale);
+  for (const char* stale : {"job.json", "result.json", "outcome.json", "trajectory.csv", "gauges.csv", "trajectory.xdmf", "log.txt"}) fs::remove(folder / stale);
   std::error_code ignored;
   const bool goes_on = !request.job->resume.empty() && fs::equivalent(fs::path(request.job->resume).parent_path(), folder, ignored);
   if (!goes_on) {
@@ -132,17 +132,31 @@ void refuse_links(const fs::path& file) {
     throw EngineError(file.filename().string() + " is a link to another file: an engine writes its own");
 }
 
-std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
-  const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
+Trajectory read_particle_trajectory(const RunRequest& request) {
   const fs::path folder(request.folder);
-  const auto most = greatest_trajectory(request);
-  for (const char* name : {"trajectory.h5", "trajectory.csv"})
-    if (fs::exists(folder / name)) expect_regular_file((folder / name).string(), most);
-  for (const char* name : {"trajectory.h5", "trajectory.csv"}) refuse_links(folder / name);
-  if (fs::exists(folder / "trajectory.h5")) return std::make_shared<Trajectory>(read_trajectory((folder / "trajectory.h5").string()));
+  if (fs::exists(folder / "trajectory.h5")) return read_trajectory((folder / "trajectory.h5").string());
   const auto& bodies = request.job->bodies;
   const auto solids = std::count_if(bodies.begin(), bodies.end(), [](const auto& b) { return b.index >= 0; });
-  return std::make_shared<Trajectory>(read_trajectory_csv((folder / "trajectory.csv").string(), *request.initial, static_cast<std::size_t>(solids)));
+  return read_trajectory_csv((folder / "trajectory.csv").string(), *request.initial, static_cast<std::size_t>(solids));
+}
+
+/// Particles, gauges or both: an engine that writes gauges need show no particles.
+std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
+  const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
+  const fs::path folder(request.folder), gauges = folder / "gauges.csv";
+  const auto most = greatest_trajectory(request);
+  for (const char* name : {"trajectory.h5", "trajectory.csv", "gauges.csv"}) {
+    if (fs::exists(folder / name)) expect_regular_file((folder / name).string(), most);
+    refuse_links(folder / name);
+  }
+  const bool shows_particles = fs::exists(folder / "trajectory.h5") || fs::exists(folder / "trajectory.csv");
+  auto trajectory = std::make_shared<Trajectory>();
+  if (shows_particles || !fs::exists(gauges)) *trajectory = read_particle_trajectory(request);
+  if (!fs::exists(gauges)) return trajectory;
+  std::vector<std::string> names;
+  for (const JobGauge& gauge : request.job->gauges) names.push_back(gauge.metric);
+  read_gauges_csv(gauges.string(), names, *trajectory);
+  return trajectory;
 }
 
 double alive_at_the_end(const Trajectory& trajectory) {

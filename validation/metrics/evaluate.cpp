@@ -10,6 +10,7 @@
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/impact_quantities.hpp"
+#include "validation/metrics/members.hpp"
 #include "validation/metrics/norms.hpp"
 #include "validation/metrics/statistics.hpp"
 
@@ -194,8 +195,8 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
   const std::string in_space = is_spatial(norm) ? norm : norm == "rms" ? "L2" : "Linf";
   Series series;
   for (const auto* now : chosen) {
-    const bool own_start = norm == "drift" || norm == "frequency";
-    const Snapshot truth = own_start ? *all.front() : in.reference.beside(*now);
+    const bool no_state = norm == "drift" || norm == "frequency" || now->gauges_only();
+    const Snapshot truth = no_state ? *all.front() : in.reference.beside(*now);
     const auto error = quantity.error({in, *now, truth, *all.front()});
     if (!error.problem.empty()) return unformed(error.problem);
     if (norm == "frequency" && error.error.size() != 1) return unformed("the norm frequency is of a single number in time, and " + in.choice.quantity + " is of many: choose a probe, a mean or a body");
@@ -210,6 +211,20 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
   for (const auto* now : chosen)  // that of the last frame for the last value, else the largest
     if (norm != "final" || now == chosen.back()) v.uncertainty.data = std::max(v.uncertainty.data, in.reference.uncertainty(in.choice.quantity, now->time).value_or(0.0));
   return v;
+}
+
+/// The engine's own number in the place of one that is read from its particles.
+Quantity gauge_quantity(const std::string& metric, const std::string& quantity) {
+  return {{quantity, "", ""}, [=](const FramePair& f) {
+            const auto own = f.now.gauges.find(metric), first = f.first.gauges.find(metric);
+            if (own == f.now.gauges.end() || first == f.first.gauges.end()) return problem("the engine shows no gauge of this metric at t = " + std::to_string(f.now.time) + " s");
+            return f.in.choice.norm == "drift" ? single(own->second - first->second) : against_truth(f, quantity.c_str(), own->second);
+          }};
+}
+
+MetricValue of_gauges(const MetricInput& in, const Frames& all, const Frames& chosen) {
+  if (!can_be_gauged(in.choice.quantity)) return unformed("the engine answers by gauges and shows no particles, of which " + in.choice.quantity + " is made");
+  return of_frames(in, gauge_quantity(in.choice.name, in.choice.quantity), all, chosen);
 }
 
 void scale(MetricValue& v, double by) {
@@ -233,8 +248,11 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
   const auto chosen = chosen_frames(choice, job, frames.list);
   if (chosen.empty()) return unformed("no output time lies in the metric's window");
   if (chosen.back() == frames.list.front()) return unformed("only the start lies in the metric's window, and there every run is what it was given");
+  const bool gauged = can_be_gauged(choice.quantity) && chosen.back()->gauges.contains(choice.name);
   MetricValue value;
-  if (const auto* whole = find_run_quantity(choice)) {
+  if (gauged || chosen.back()->gauges_only()) {
+    value = of_gauges(in, frames.list, chosen);
+  } else if (const auto* whole = find_run_quantity(choice)) {
     value = whole->value(in, frames_in_window(choice, job, frames.list));
     if (choice.norm != "final") value.value = std::abs(value.value);
   } else {
@@ -264,6 +282,8 @@ const std::vector<MetricWord>& metric_quantities() {
   }();
   return words;
 }
+
+bool can_be_gauged(const std::string& quantity) { return find_word(probe_quantities(), quantity) != probe_quantities().end(); }
 
 const std::vector<MetricWord>& metric_norms() {
   static const std::vector<MetricWord> words{

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/members.hpp"
@@ -63,11 +65,60 @@ MetricValue heat_power(const MetricInput& in, const Frames& frames) {
   return v;
 }
 
+// --- diffusivity ----------------------------------------------------------------------------------------------------------
+
+/// Mean square distance of the heat above the coldest place from its centre, along an axis, and its standard error [m2].
+struct Spread {
+  double square = 0.0, error = 0.0;
+};
+
+std::optional<Spread> spread_of(const MetricInput& in, const Snapshot& s, std::size_t axis, double base) {
+  const bool states_error = s.temperature_error.size() == s.temperature.size();
+  std::map<double, std::vector<std::size_t>> layers;  // particles by their place along the axis
+  for (std::size_t i = 0; i < s.temperature.size(); ++i)
+    if (takes(in, i) && is_alive(s, i)) layers[s.position[i][axis]].push_back(i);
+  double heat = 0.0, first = 0.0, square = 0.0, variance = 0.0;
+  for (const auto& [x, list] : layers)
+    for (const auto i : list) heat += s.temperature[i] - base, first += x * (s.temperature[i] - base);
+  if (!(heat > 0.0)) return {};
+  for (const auto& [x, list] : layers)
+    for (const auto i : list) square += std::pow(x - first / heat, 2) * (s.temperature[i] - base);
+  square /= heat;
+  for (const auto& [x, list] : layers) {
+    if (!states_error) break;
+    const bool one_count = std::ranges::all_of(list, [&](std::size_t i) { return s.temperature[i] == s.temperature[list.front()]; });
+    double sum = 0.0, squares = 0.0;
+    for (const auto i : list) sum += s.temperature_error[i], squares += std::pow(s.temperature_error[i], 2);
+    variance += std::pow((std::pow(x - first / heat, 2) - square) / heat, 2) * (one_count ? sum * sum : squares);
+  }
+  return Spread{square, std::sqrt(variance)};
+}
+
+/// Half of what the mean square distance grows a second, as long as no heat has come to a wall [Einstein 1905].
+MetricValue diffusivity_by_spread(const MetricInput& in, const Frames& frames) {
+  const auto axis = in.reference.number("axis");
+  const auto base = in.reference.number("value");
+  if (!axis || !in.reference.number("diffusivity")) return not_formed("a diffusivity needs its axis and its true value: reference = {function = \"stated\", args = {axis = \"x\", value = BASE_TEMPERATURE, diffusivity = ...}}");
+  if (frames.size() < 2) return not_formed("a diffusivity needs two output times or more");
+  const Snapshot &begin = *frames.front(), &end = *frames.back();
+  for (const auto* s : {&begin, &end})
+    if (s->temperature.size() != s->position.size()) return not_formed("the trajectory has no temperature");
+  const auto a = spread_of(in, begin, static_cast<std::size_t>(*axis), *base), b = spread_of(in, end, static_cast<std::size_t>(*axis), *base);
+  if (!a || !b) return not_formed("no heat lies above the stated base");
+  const double D = 0.5 * (b->square - a->square) / (end.time - begin.time), truth = *in.reference.number("diffusivity");
+  MetricValue v;
+  v.value = D - truth;
+  v.uncertainty.statistical = 0.5 * std::hypot(a->error, b->error) / (end.time - begin.time);
+  v.note = std::to_string(D / truth) + " of the true diffusivity, from t = " + std::to_string(begin.time) + " s to " + std::to_string(end.time) + " s";
+  return v;
+}
+
 }  // namespace
 
 const std::vector<RunQuantity>& heat_run_quantities() {
   static const std::vector<RunQuantity> list{
-      {{"heat_power", "W", "mean over the window of the heat a second that holding the named body's temperature gives to what it touches, minus the true mean"}, heat_power}};
+      {{"heat_power", "W", "mean over the window of the heat a second that holding the named body's temperature gives to what it touches, minus the true mean"}, heat_power},
+      {{"diffusivity", "m2/s", "half of what the mean square distance of the heat above `value` from its centre, along the stated axis, grows a second, minus the true `diffusivity`"}, diffusivity_by_spread}};
   return list;
 }
 

@@ -42,5 +42,7 @@ struct MetricWord {
 };
 [[nodiscard]] const std::vector<MetricWord>& metric_quantities();
 [[nodiscard]] const std::vector<MetricWord>& metric_norms();
+/// Whether an engine may answer a quantity by a number of its own, read in its own field: a probe, a mean, a way or a centre.
+[[nodiscard]] bool can_be_gauged(const std::string& quantity);
 
 }  // namespace tripoint

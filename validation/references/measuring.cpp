@@ -43,7 +43,8 @@ std::vector<ReferenceArgument> measuring_arguments() {
           {"outside", "", "true: what is not in the box; default false"},
           {"follows", "", "true: the box moves and turns with the metric's body, from where that body began; default false"},
           {"point", "m", "place of a probe; for a displacement the place at the start"},
-          {"frequency", "Hz", "true frequency, for the norm frequency"}};
+          {"frequency", "Hz", "true frequency, for the norm frequency"},
+          {"diffusivity", "m2/s", "true diffusivity, for the quantity of that name"}};
 }
 
 Numbers measuring_numbers(const ReferenceInput& in, const std::string& function) {
@@ -57,6 +58,7 @@ Numbers measuring_numbers(const ReferenceInput& in, const std::string& function)
     if (!(*value > 0.0)) throw InputError("argument `frequency` of reference function " + function + " must be greater than 0");
     n["stated_frequency"] = *value;
   }
+  if (const auto value = in.args.number("diffusivity")) n["diffusivity"] = *value;
   const auto low = in.args.vector("min"), high = in.args.vector("max");
   if (low.has_value() != high.has_value()) throw InputError("reference function " + function + " needs both `min` and `max` for a box, or neither");
   for (std::size_t k = 0; low && k < 3; ++k)

@@ -185,6 +185,20 @@ class HeldSolids(unittest.TestCase):
         self.assertEqual([row[6] for row in rows[6:]], [0.0, 2.0, 2.0])
 
 
+    def test_calculix_answers_gauges_by_its_nodes(self):
+        asked = [{"metric": "tip", "quantity": "displacement", "body": "bar", "where": {"point": [0.4, 0.05, 0.05], "axis": "x"}},
+                 {"metric": "middle", "quantity": "centre", "body": "bar", "where": {"axis": "x"}},
+                 {"metric": "squeeze", "quantity": "pressure_at", "body": "", "where": {"point": [0.0, 0.0, 0.0]}},
+                 {"metric": "beyond", "quantity": "displacement", "body": "bar", "where": {"point": [1.0, 0.0, 0.0], "axis": "x"}}]
+        path = Path(tempfile.mkdtemp()) / "job.json"
+        path.write_text(json.dumps({**self.scene(), "gauges": asked}))
+        self.addCleanup(shutil.rmtree, path.parent)
+        deck = engine_calculix.Deck(read_job(str(path)))
+        stretched = {f"U{axis}": {n: (0.5 * deck.place_of(n)[0] if axis == 1 else 0.0) for n in deck.mesh.node.values()} for axis in (1, 2, 3)}
+        rows = [(at, number, round(value, 12)) for at, number, value in deck.gauge_rows([stretched, stretched])]
+        self.assertEqual(rows, [(t, g, v) for t, tip, middle in ((0.0, 0.0, 0.2), (0.5, 0.2, 0.3), (1.0, 0.2, 0.3)) for g, v in ((0, tip), (1, middle))])
+
+
 class Formulas(unittest.TestCase):
     def test_arithmetic_of_the_place_is_worked_out_and_nothing_else_is(self):
         self.assertAlmostEqual(formula("0.2*x^2/0.4 - max(y, sin(pi*z))", (2.0, 3.0, 0.5)), 2.0 - 3.0)
