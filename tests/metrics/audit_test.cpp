@@ -2,6 +2,8 @@
 // Right runs that look frozen at output times, and frozen ones that do not get away with it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "fakes.hpp"
 
 namespace tripoint {
@@ -46,6 +48,7 @@ TEST(Audit, FindsAFrozenFlightThatSpinsByWholeTurns) {
 TEST(Audit, LetsABodyLieThatKeepsARoundingOfItsSpeed) {
   for (const double speed : {1e-18, 1e-3}) {
     Trial t(thrown_block(), "ballistic");
+    t.s.job.scene.gravity = {};  // it lies where nothing pulls
     auto& frames = t.run.frames;
     for (auto* f : {&frames[frames.size() - 3], &frames[frames.size() - 2], &frames.back()}) {
       f->position = frames[frames.size() - 3].position;
@@ -53,6 +56,38 @@ TEST(Audit, LetsABodyLieThatKeepsARoundingOfItsSpeed) {
     }
     EXPECT_EQ(t.sound().find("frozen") != std::string::npos, speed > 1e-12) << t.sound();
   }
+}
+
+/// A thrown block above a floor that it comes to rest on, or stops in the air of, after half the time; `speed` is what it says that it has then [m/s].
+Trial stopped(double floor_below, double speed, bool from_the_start = false) {
+  auto s = thrown_block();
+  const double lowest = std::ranges::min(s.initial.position, {}, [](const Vec3& x) { return x.z; }).z;
+  add_body(s, "floor", {{20, 20, 1}, 0.1, {-0.5, -0.5, lowest - floor_below}, 400.0}, {}, Motion::fixed);
+  Trial t(std::move(s), "ballistic");
+  auto& frames = t.run.frames;
+  const std::size_t begin = from_the_start ? 0 : frames.size() / 2, block = t.s.initial.source.size() - 400;
+  for (std::size_t n = begin; n < frames.size(); ++n) {
+    for (std::size_t i = 0; i < block; ++i) frames[n].position[i] = t.s.initial.position[i];  // it lies where it began, above the floor
+    if (n > 0)
+      for (std::size_t i = 0; i < block; ++i) frames[n].velocity[i] = {speed * (1.0 + 1e-3 * static_cast<double>(n)), 0.0, 0.0};
+  }
+  return t;
+}
+
+/// Rounding of a coordinate in single precision hides a creep of nanometres a second; gravity does not move what lies.
+TEST(Audit, LetsABodyLieThatCreepsByLessThanItsCoordinatesResolve) {
+  EXPECT_EQ(stopped(0.1, 1e-9).sound().find("frozen"), std::string::npos) << stopped(0.1, 1e-9).sound();
+  EXPECT_NE(stopped(0.1, 1e-3).sound().find("yet they have velocities"), std::string::npos);
+}
+
+TEST(Audit, FindsABodyThatHangsInTheAirWhateverSpeedItSays) {
+  for (const double speed : {0.0, 1e-9, 1e-3}) EXPECT_NE(stopped(1.0, speed).sound().find("frozen"), std::string::npos) << speed;
+  EXPECT_NE(stopped(1.0, 1e-9).sound().find("hangs in the air"), std::string::npos);
+}
+
+/// All places are those of the start: other velocities do not make it a run.
+TEST(Audit, FindsARunWhosePlacesAreThoseOfTheStart) {
+  EXPECT_NE(stopped(0.1, 0.0, true).sound().find("nothing has moved by the end"), std::string::npos) << stopped(0.1, 0.0, true).sound();
 }
 
 /// Two frames at the same height, one on the way up and one on the way down.
