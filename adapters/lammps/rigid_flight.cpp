@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "adapters/lammps/body_fit.hpp"
 #include "scene/read_case.hpp"
@@ -172,6 +173,28 @@ void RigidFlight::refuse_contact(const Snapshot& now) const {
     }
 }
 
+/// Half the shortest side of the box that has the body's principal moments; of a ball 0.775 of its radius [m].
+double inner_radius(const JobBody& b) {
+  const Vec3& I = b.properties.principal_inertia;  // ascending
+  return std::sqrt(std::max(0.0, 1.5 * (I.x + I.y - I.z) / b.properties.mass));
+}
+
+bool is_convex(const Body& b) { return b.shape.kind == Shape::Kind::box || b.shape.kind == Shape::Kind::sphere || b.shape.kind == Shape::Kind::cylinder; }
+
+/// Two convex bodies that fly into each other, whichever way they turn: of the same gravity, so that they come together along a line.
+std::string why_they_meet(const Job& job) {
+  for (std::size_t a = 0; a < job.bodies.size(); ++a)
+    for (std::size_t b = a + 1; b < job.bodies.size(); ++b) {
+      const JobBody &one = job.bodies[a], &two = job.bodies[b];
+      if (one.motion != Motion::free || two.motion != Motion::free || !is_convex(job.scene.bodies[a]) || !is_convex(job.scene.bodies[b])) continue;
+      const Vec3 apart = two.properties.centre - one.properties.centre, speed = two.velocity - one.velocity;
+      if (!(dot(speed, speed) > 0.0)) continue;
+      const double when = std::clamp(-dot(apart, speed) / dot(speed, speed), 0.0, job.times.back());
+      if (norm(apart + when * speed) < inner_radius(one) + inner_radius(two)) return fmt::format("{} and {} meet, and fix rigid runs here without contact", one.name, two.name);
+    }
+  return {};
+}
+
 }  // namespace
 
 std::string why_no_rigid(const Job& job) {
@@ -184,7 +207,7 @@ std::string why_no_rigid(const Job& job) {
   if (!job.scene.events.empty()) return "fix rigid keeps its bodies for the whole run: no merge, split or other events";
   if (!job.scene.inflows.empty()) return "no inflow into fix rigid";
   if (job.scene.periodic[0] || job.scene.periodic[1] || job.scene.periodic[2]) return "rigid bodies across periodic directions are not handed to fix rigid";
-  return {};
+  return why_they_meet(job);
 }
 
 std::unique_ptr<Model> make_rigid_flight(const Job& job, const InitialState& state) { return std::make_unique<RigidFlight>(job, state); }

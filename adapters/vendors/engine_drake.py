@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, coulomb
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
 from rotation import IDENTITY, Quaternion, Vector, add, product, quaternion, rotate, vector
 
 APPROXIMATIONS = ("tamsi", "sap", "similar", "lagged")  # discrete_contact_approximation, in Drake's words
@@ -124,6 +124,11 @@ class Drake(RigidEngine):
         word = job.settings.get("discrete_contact_approximation", "lagged")
         if word not in APPROXIMATIONS:
             return f"drake: discrete_contact_approximation is one of {', '.join(APPROXIMATIONS)}"
+        bounce = bounciness(job)
+        if bounce > 0.0:
+            return f"Drake's contact has no coefficient of restitution, and {bounce:g} is asked for"
+        if job.preset != "discrete" and len(job.bodies) > 1:
+            return "Drake's continuous contact is stiff, and its integrators run here with a fixed step: contact is handed to the preset discrete alone"
         for body in job.bodies:
             moments = sorted(body["principal_inertia"])
             if body["motion"] == "free" and moments[0] + moments[1] < moments[2] * (1.0 - 1e-12):

@@ -50,14 +50,25 @@ TEST(Lammps, PutsItsErrorIntoTheResult) {
   EXPECT_NE(out.result.message.find("nosuch"), std::string::npos) << out.result.message;
 }
 
-TEST(Lammps, StopsWhereBodiesWouldPassThroughEachOther) {
+/// A cube that flies towards another, past its middle by `aside` in both other directions [m].
+Outcome passing(double aside) {
   Scene s;
   s.spacing = 0.1;
   s.materials = {test::material(1000.0)};
-  s.bodies = {test::rigid("left", test::box({0, 0, 0}, {0.2, 0.2, 0.2}), {{1, 0, 0}, {}}), test::rigid("right", test::box({0.6, 0, 0}, {0.8, 0.2, 0.2}))};
-  const Outcome out = test::run(debian, test::prepare(s, 1.0, 20));
-  EXPECT_EQ(out.result.status, "error");
-  EXPECT_NE(out.result.message.find("left and right touch"), std::string::npos) << out.result.message;
+  s.bodies = {test::rigid("left", test::box({0, 0, 0}, {0.2, 0.2, 0.2}), {{1, 0, 0}, {}}), test::rigid("right", test::box({0.6, aside, aside}, {0.8, 0.2 + aside, 0.2 + aside}))};
+  return test::run(debian, test::prepare(s, 1.0, 20));
+}
+
+TEST(Lammps, RefusesBodiesThatFlyIntoEachOther) {
+  EXPECT_EQ(passing(0.0).result.status, "refused");
+  EXPECT_NE(passing(0.0).result.message.find("left and right meet"), std::string::npos) << passing(0.0).result.message;
+  EXPECT_EQ(passing(0.4).result.status, "ok") << passing(0.4).result.message;
+}
+
+TEST(Lammps, StopsWhereBodiesWouldPassThroughEachOther) {
+  const Outcome corners = passing(0.15);
+  EXPECT_EQ(corners.result.status, "error");
+  EXPECT_NE(corners.result.message.find("left and right touch"), std::string::npos) << corners.result.message;
 }
 
 TEST(Lammps, SaysWhyItRefuses) {
