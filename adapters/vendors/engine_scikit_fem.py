@@ -106,10 +106,12 @@ def heat_step(job: Job) -> float:
 
 def refuse_size(job: Job) -> str:
     """Why a run of quadratic elements would take longer than a run may; "" if it would not."""
+    if job.preset != "ElementHex2":
+        return ""
     density = {m["name"]: m["density"] for m in job.scene["materials"]}
     elements = sum(body["mass"] / (density[body["material"]] * job.scene["spacing"] ** 3) for body in job.bodies)
     steps = (job.times[-1] - job.times[0]) / heat_step(job)
-    if job.preset != "ElementHex2" or elements * steps <= MOST_QUADRATIC:
+    if elements * steps <= MOST_QUADRATIC:
         return ""
     return (f"{round(elements)} elements for {math.ceil(steps)} steps are more than ElementHex2 finishes within a run's time; "
             "a longer time_step makes them fewer, and ElementHex1 needs a tenth")
