@@ -7,6 +7,7 @@ wrong kind becomes a note on the page, never an exception.
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import history
@@ -39,11 +40,21 @@ def load(path):
     notes += told
     for case in cases:
         case.history = past.get(case.id, [])
+    name(cases)
     if not cases:
         notes.append("the file lists no case: nothing was validated")
     return Results(table(raw.get("tool")), text(raw.get("command")), text(raw.get("profile")), text(raw.get("seed")),
                    text(raw.get("verdict"), "no verdict").upper(), text(raw.get("exit_code"), "?"), cases,
                    path.resolve().parent, notes, raw)
+
+
+def name(cases):
+    """Gives each case a file name that is safe, and distinct also where ids are not."""
+    taken = set()
+    for case in cases:
+        stem = re.sub(r"[^A-Za-z0-9_-]+", "-", case.id).strip("-")[:60] or "case"
+        case.slug = next(s for s in [stem] + [f"{stem}-{n}" for n in range(2, len(cases) + 2)] if s.lower() not in taken)
+        taken.add(case.slug.lower())
 
 
 def problems(raw):

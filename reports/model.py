@@ -193,6 +193,11 @@ class Case:
     units: dict    # metric -> unit
     notes: list = field(default_factory=list)
     history: list = field(default_factory=list)  # runs before, oldest first: history.Entry
+    slug: str = ""  # its file name, without an ending
+
+    @property
+    def subject(self):
+        return self.id.split("/")[0] if "/" in self.id else "other"
 
 
 @dataclass

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fills the templates: one HTML file that needs nothing else."""
+"""Fills the templates: HTML files that need nothing else."""
 from __future__ import annotations
 
+import base64
+import functools
+import hashlib
 import math
 import time
 from pathlib import Path
 
 import ablation
 import digit_cost
+import front
 import paper_figures
 import printed
 import side_by_side
@@ -19,6 +23,7 @@ import table1
 from model import is_number, number
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
+VENDOR = Path(__file__).resolve().parent / "vendor"  # Tabulator as npm has it; tests/reports holds its hash
 EXITS = {"0": "pass", "1": "accuracy, order or an invariant fails", "2": "bad input", "3": "inconclusive", "4": "a required engine, reference or metric is missing", "5": "the gate's self-test failed",
          "6": "cost regression only", "7": "a run diverged", "130": "interrupted"}
 
@@ -54,8 +59,19 @@ def percent(value):
     return f"{100 * value:.0f} %" if value < 9.995 else f"{value:.3g} times" if value < 1e6 else "far above"
 
 
-def anchor(case):
-    return f"case-{case.number + 1}"
+def page_of(case, up=""):
+    """Where the case stands, seen from the report's folder."""
+    return f"{up}case/{case.slug}.html"
+
+
+def judged(gate):
+    """The word of a gate: one that holds a predicted defect does not look like plain green."""
+    return summary.DEFECT if gate.verdict == "PASS" and gate.reason.startswith(summary.PREDICTED) else gate.verdict
+
+
+def script_hash(script):
+    """What the page's policy lets run: this text and no other."""
+    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
 
 
 def terms(ledgers):
@@ -86,11 +102,22 @@ def truth(row, case, side):
     return None
 
 
-def fill(template, results, **more):
+@functools.lru_cache
+def environment():
     import jinja2
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    environment.filters.update(show=show, size=size, percent=percent, tone=summary.tone, anchor=anchor, terms=terms, measure=measure, truth=truth)
-    return environment.get_template(template).render(results=results, written=time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()), **more)
+    made = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True)
+    made.filters.update(show=show, size=size, percent=percent, tone=summary.tone, page=page_of, terms=terms, measure=measure, truth=truth, judged=judged, hash=script_hash,
+                        headline=summary.headline, standings=summary.standings, ran=summary.ran, share=front.worst_share)
+    return made
+
+
+def fill(template, results, **more):
+    return environment().get_template(template).render(results=results, written=time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()), **{"up": "", "scripts": [], "notes": [], **more})
+
+
+def vendor(name):
+    """A library's file without the line that names its source map, which is not shipped."""
+    return "\n".join(line for line in (VENDOR / name).read_text(encoding="utf-8").splitlines() if "sourceMappingURL" not in line)
 
 
 def render_printed(results):
@@ -112,11 +139,11 @@ def render_stability(results, out):
     return fill("stability.html.j2", results, frontiers=frontiers, drawing=drawing, listed=listed, notes=notes + more, columns=stability.COLUMNS, hits=hits, contact=contact, peers=peers, peer_drawing=engines)
 
 
-def render_figures(results):
-    """@return HTML of the paper's figures: claims met, and the time of a frame"""
+def render_figures(results, out=None):
+    """@param out: the report's folder, which holds the cases' pictures   @return HTML of the paper's figures: pictures, claims met, and the time of a frame"""
     rows = paper_figures.read(results)
     full = any("full-size" in table1.tags(row.case) for row in rows)
-    return fill("paper_figures.html.j2", results, rows=rows, full=full, notes=[], papers_frame=paper_figures.PAPERS_FRAME)
+    return fill("paper_figures.html.j2", results, rows=rows, full=full, notes=[], pictures=paper_figures.pictures(results, out), papers_frame=paper_figures.PAPERS_FRAME)
 
 
 def render_gallery(results, films):
@@ -155,11 +182,16 @@ def render_signable(results):
     return fill("signable.html.j2", results, **signable.context(results))
 
 
-def render(results, pictures, notes, suite, missing_libraries, headlines=()):
-    """@param pictures, notes: case number -> list   @param suite: pictures of all cases   @return HTML"""
-    columns = summary.columns(results)
+def render_case(results, case, pictures, notes):
+    """@param pictures, notes: what figures.draw_case gave   @return HTML of one case"""
+    before, after = (results.cases[n] if 0 <= n < len(results.cases) else None for n in (case.number - 1, case.number + 1))
+    return fill("case.html.j2", results, case=case, drawings=pictures, told=notes, before=before, after=after, up="../")
+
+
+def render(results, missing_libraries, headlines=(), beside=()):
+    """@param headlines: pages of questions   @param beside: (file, name) of the other pages that were written   @return HTML of the front page"""
+    names, matrix, nowhere = front.subjects(results)
     return fill(
-        "report.html.j2", results,
-        columns=columns, cells={(case.number, label): summary.cell(case, label) for case in results.cases for label in columns},
-        counts=summary.counts(results), engines=summary.engine_table(results), gaps=summary.not_validated(results), pictures=pictures, notes=notes, suite=suite,
-        missing=missing_libraries, headlines=headlines, proof=signable.selftest_document(results.folder), meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"))
+        "report.html.j2", results, words=front.verdict_words(results), changed=front.changes(results), near=front.nearest(results), spent=front.cost(results), names=names, matrix=matrix, nowhere=nowhere,
+        engines=summary.engine_table(results), gaps=summary.not_validated(results), missing=missing_libraries, headlines=headlines, beside=beside, proof=signable.selftest_document(results.folder),
+        meaning=EXITS.get(results.exit_code, "not one of the codes of the contracts"), table_style=vendor("tabulator.min.css"), scripts=[vendor("tabulator.min.js"), (TEMPLATES / "front.js").read_text(encoding="utf-8")])

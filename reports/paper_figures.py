@@ -40,6 +40,12 @@ def read(results):
     return sorted(found, key=lambda r: (-(r.particles or 0) // 10000, r.case.title, r.mode))
 
 
+def pictures(results, out):
+    """[(case, file without its ending, what it shows)] of the figures that were drawn, in the order of the ids."""
+    found = [(case, f"figures/{case.slug}-particles", f"Particles of {case.title or case.id} in time") for case in sorted(results.cases, key=lambda case: case.id) if TAG in table1.tags(case)]
+    return [entry for entry in found if out is not None and (out / f"{entry[1]}.svg").is_file()]
+
+
 def row(case, engine, run):
     made = Row(case, run.mode, entry=table1.entry(case, engine, run.mode))
     if run.status != "ok":

@@ -1,26 +1,34 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Writes the report of a validation run: python3 report.py RESULTS.json [--out DIR] [--jobs N]
 
-results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is one self-contained file,
-as are the pages that it links to: DIR/printed-equations.html, DIR/table-1.html, DIR/paper-figures.html, DIR/stability.html, DIR/digit-cost.html, DIR/corrections.html, DIR/engines.html and DIR/signable.html; and, where their cases were run, DIR/spin.html, DIR/bounce.html, DIR/float.html and DIR/upgrade.html (with --pdf also DIR/report.pdf). DIR/figures holds every figure as PNG and SVG. No physics is computed here, and no verdict is formed.
-Exit: 0 the page is written, whatever it says; 2 there is nothing to report on.
+results.json is the one source; trajectories beside it are read to draw them. DIR/index.html is the front page, DIR/case/NAME.html has one case; each is
+one file that loads nothing. Pages that compare cases stand beside index.html, each only where these results hold a case for it. DIR/figures holds every figure
+as SVG, and what it was drawn from: a figure whose inputs are the same is not drawn again. No physics is computed here, and no verdict is formed.
+Exit: 0 the pages are written, whatever they say; 2 there is nothing to report on.
 """
 from __future__ import annotations
 
 import argparse
+import json
+import multiprocessing
 import os
 import sys
 import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import digit_cost
 import headlines
 import load
 import page
 import plain
+import printed
 import releases
+import side_by_side
 import signable
 import speed
+import stability
+import table1
 
 PACKAGES = {"numpy": "python3-numpy", "matplotlib": "python3-matplotlib", "h5py": "python3-h5py", "jinja2": "python3-jinja2"}
 
@@ -36,21 +44,78 @@ def absent():
     return lines
 
 
-def draw(results, out, jobs):
-    """@return (pictures, notes, suite): by case number, and of the suite"""
+def make_case(results, out, missing, case):
+    """Draws one case and writes its page. @return files that it made"""
     try:
         import figures
-    except Exception as error:
-        return {}, {}, ([], [f"no figures: {error}"])
-    cases = results.cases
-    if jobs > 1 and len(cases) > 1:
-        with ProcessPoolExecutor(max_workers=jobs) as pool:
-            drawn = list(pool.map(figures.draw_case, [results.folder] * len(cases), [out] * len(cases), cases))
+        pictures, notes, made = figures.draw_case(results.folder, out, case)
+    except ImportError as error:
+        pictures, notes, made = [], missing or [f"no figures: {error}"], []
+    if not any("jinja2" in line for line in missing):
+        write(out / "case" / f"{case.slug}.html", page.render_case(results, case, pictures, notes))
+        made = [*made, f"case/{case.slug}.html"]
+    return made
+
+
+def make_cases(results, out, missing, jobs):
+    """@return files that belong to the cases. Children are forked, so that the results need not be sent to them."""
+    global WORK
+    WORK = (results, out, missing)
+    (out / "case").mkdir(exist_ok=True)
+    numbers = range(len(results.cases))
+    if jobs > 1 and len(numbers) > 1:
+        with ProcessPoolExecutor(max_workers=jobs, mp_context=multiprocessing.get_context("fork")) as pool:
+            made = list(pool.map(make_nth, numbers, chunksize=4))
     else:
-        drawn = [figures.draw_case(results.folder, out, case) for case in cases]
-    pictures = {case.number: found for case, (found, _) in zip(cases, drawn)}
-    notes = {case.number: found for case, (_, found) in zip(cases, drawn)}
-    return pictures, notes, figures.draw_suite(out, results)
+        made = [make_nth(number) for number in numbers]
+    return [name for names in made for name in names]
+
+
+def make_nth(number):
+    return make_case(*WORK, WORK[0].cases[number])
+
+
+def sweep(out, made):
+    """Removes what an earlier report made of cases that are not among these; what nobody listed stays."""
+    listing = out / "case" / "files.json"
+    try:
+        old = json.loads(listing.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        old = []
+    for name in set(name for name in old if isinstance(name, str) and name.startswith(("case/", "figures/")) and ".." not in name) - set(made) if isinstance(old, list) else ():
+        (out / name).unlink(missing_ok=True)
+    write(listing, json.dumps(sorted(made)))
+
+
+def other_pages(results, out):
+    """Writes those pages beside index.html for which these results hold a case, and removes those for which they do not. @return (pages of questions, [(file, name)])"""
+    tagged = {tag for case in results.cases for tag in table1.tags(case) if isinstance(tag, str)}
+    cases = {case.id for case in results.cases}
+    pages = (("engines.html", "Engines side by side", page.render_side_by_side, side_by_side.read(results)),
+             ("table-1.html", "Table 1: nine features", page.render_table1, any(tag.startswith("feature-") for tag in tagged)),
+             ("paper-figures.html", "The paper's figures", lambda of: page.render_figures(of, out), "paper" in tagged),
+             ("printed-equations.html", "What the printed equations do", page.render_printed, any(row.case_id in cases for row in printed.read(results)[0])),
+             ("digit-cost.html", "Cost of one more digit", lambda of: page.render_digit_cost(of, out), digit_cost.read(results)),
+             ("corrections.html", "What each correction buys", page.render_ablation, (results.folder / "ablation.json").is_file()),
+             ("stability.html", "Stable steps, hard cases", lambda of: page.render_stability(of, out), "hard" in tagged),
+             ("signable.html", "The report to sign", page.render_signable, True))
+    beside = []
+    for file, name, render, wanted in pages:
+        (out / file).unlink(missing_ok=True)
+        if wanted:
+            write(out / file, render(results))
+            beside.append((file, name))
+    if (results.folder / "speed.json").is_file():
+        speed.main([str(results.folder / "speed.json"), str(out / "speed.html")])
+        beside.append(("speed.html", "Speed beside other codes"))
+    found, told = headlines.pages(results, out)
+    results.notes.extend(told)
+    for headline in found:
+        if headline.file != "upgrade.html":
+            write(out / headline.file, page.render_headline(results, headline, found))
+    if (results.folder / "releases.json").is_file():
+        releases.main([str(results.folder / "releases.json"), str(out / "upgrade.html")])
+    return found, beside
 
 
 def write(path, content):
@@ -77,28 +142,13 @@ def main(arguments=None):
     out = Path(options.out) if options.out else results.folder
     out.mkdir(parents=True, exist_ok=True)
     missing = absent()
-    pictures, notes, suite = draw(results, out, options.jobs)
+    made = make_cases(results, out, missing, options.jobs)
+    sweep(out, made)
     if any("jinja2" in line for line in missing):
         write(out / "index.html", plain.render(results, missing))
     else:
-        write(out / "printed-equations.html", page.render_printed(results))
-        write(out / "table-1.html", page.render_table1(results))
-        write(out / "paper-figures.html", page.render_figures(results))
-        write(out / "stability.html", page.render_stability(results, out))
-        write(out / "digit-cost.html", page.render_digit_cost(results, out))
-        write(out / "corrections.html", page.render_ablation(results))
-        write(out / "engines.html", page.render_side_by_side(results))
-        write(out / "signable.html", page.render_signable(results))
-        if (results.folder / "speed.json").is_file():
-            speed.main([str(results.folder / "speed.json"), str(out / "speed.html")])
-        found, told = headlines.pages(results, out)
-        results.notes.extend(told)
-        for headline in found:
-            if headline.file != "upgrade.html":
-                write(out / headline.file, page.render_headline(results, headline, found))
-        if (results.folder / "releases.json").is_file():
-            releases.main([str(results.folder / "releases.json"), str(out / "upgrade.html")])
-        write(out / "index.html", page.render(results, pictures, notes, suite, missing, found))
+        found, beside = other_pages(results, out)
+        write(out / "index.html", page.render(results, missing, found, beside))
     print(out / "index.html")
     if options.pdf:
         why = signable.to_pdf(out / "signable.html", out / "report.pdf")

@@ -2,33 +2,22 @@
 """Tables of the page that are put together from several places of results.json: the matrix, counts, engines, what is not validated."""
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
-from model import is_number
+from model import is_number, text
 
 GRADES = ("DIVERGED", "FAIL", "MISSING", "INCONCLUSIVE", "NO VERDICT", "PASS")  # worst first
 KINDS = {"verification": "an exact solution", "validation": "an experiment", "comparison": "another engine"}
 
 
-@dataclass
-class Cell:
-    """One case by one engine: a word, its tone, what stands behind it."""
-    word: str = ""
-    tone: str = "none"
-    detail: str = ""
-    reason: str = ""
-    modes: list = field(default_factory=list)  # (mode, word, tone) where there are several
+PREDICTED = "predicted defect"  # begins the reason of a gate that holds what the printed equations were predicted to get wrong
+DEFECT, DIVERGENCE, UNJUDGED = "expected defect", "expected divergence", "not judged"
+TONES = {"PASS": "pass", "OK": "pass", "EQUIVALENT": "pass", "FAIL": "fail", "DIVERGED": "fail", "KILLED": "fail", "ERROR": "fail", "TIMEOUT": "fail", "DIFFERENT": "fail",
+         "REFUSED": "refused", "MISSING": "missing", DEFECT.upper(): "defect", DIVERGENCE.upper(): "diverges", UNJUDGED.upper(): "unjudged", "INTERRUPTED": "open"}
 
 
 def tone(verdict):
+    """The look of a word: each tone has its own sign and border, so that none is told by colour alone."""
     verdict = verdict.upper()
-    if verdict in ("PASS", "OK", "EQUIVALENT"):
-        return "pass"
-    if verdict in ("FAIL", "DIVERGED", "KILLED", "ERROR", "TIMEOUT", "DIFFERENT"):
-        return "fail"
-    if verdict.startswith(("INCONCLUSIVE", "UNRESOLVED", "NEGLIGIBLE")):
-        return "open"
-    return "none"
+    return TONES.get(verdict) or ("open" if verdict.startswith(("INCONCLUSIVE", "UNRESOLVED", "NEGLIGIBLE")) else "none")
 
 
 def worst(verdicts):
@@ -37,28 +26,41 @@ def worst(verdicts):
     return unknown[0] if unknown else min(verdicts, key=GRADES.index) if verdicts else ""
 
 
-def columns(results):
-    """Engine and preset, in the order in which they first appear; one that is nowhere here, and need not be, is in the table of engines only."""
-    here = {engine.label for case in results.cases for engine in case.engines if engine.status != "missing" or engine.required}
-    return [label for label in dict.fromkeys(engine.label for case in results.cases for engine in case.engines) if label in here]
+def declared_divergence(case, mode):
+    """Whether the case passes because it diverges in this mode, as it says that it will."""
+    return case.verdict == "PASS" and (text(case.raw.get("expect")) == "diverges" or text(case.raw.get("expect")) == "paper-diverges" and mode in ("paper", ""))
 
 
-def cell(case, label):
-    engines = [engine for engine in case.engines if engine.label == label]
-    if not engines:
-        return Cell(word="—", detail="not asked", reason="the case does not list this engine")
-    engine = engines[0]
-    verdict = worst(gate.verdict for gate in engine.gates)
-    failing = [f"{g.metric}{' (' + g.mode + ')' if g.mode else ''}: {g.why or g.verdict.lower()}" for g in engine.gates if g.verdict != "PASS"]
-    reason = "; ".join(filter(None, [engine.reason] + failing))
-    if not engine.gates:
-        word = engine.status if engine.status != "ok" else "ran"
-        return Cell(word, tone(word) if word != "ran" else "none", "no gate" if word == "ran" else "", reason or ("ran; the case sets no gate on this engine" if word == "ran" else ""))
-    passed = sum(gate.verdict == "PASS" for gate in engine.gates)
-    detail = f"{passed} of {len(engine.gates)} gates" + (f", {engine.status}" if engine.status != "ok" else "")
-    modes = list(dict.fromkeys(gate.mode for gate in engine.gates if gate.mode))
-    each = [(mode, w, tone(w)) for mode in modes for w in [worst(g.verdict for g in engine.gates if g.mode == mode)]]
-    return Cell(verdict, tone(verdict), detail, reason, each if len(each) > 1 else [])
+def standing(case, engine, mode=""):
+    """One word for an engine in a case (in one mode): the worst of its gates, what was expected of it, or why there is no gate."""
+    gates = [gate for gate in engine.gates if not mode or gate.mode in (mode, "")]
+    runs = [run.status for run in engine.runs if not mode or run.mode in (mode, "")]
+    verdict = worst(gate.verdict for gate in gates)
+    if verdict not in ("", "PASS"):
+        return verdict
+    if declared_divergence(case, mode) and "diverged" in (runs or [engine.status]):
+        return DIVERGENCE
+    if verdict == "PASS":
+        return DEFECT if any(gate.reason.startswith(PREDICTED) for gate in gates) and (mode or len(engine.modes) == 1) else verdict
+    return UNJUDGED if engine.status == "ok" else engine.status
+
+
+def standings(case, engine):
+    """[(mode, word)], one without a name where the engine has one mode."""
+    return [(mode if len(engine.modes) > 1 else "", standing(case, engine, mode)) for mode in engine.modes]
+
+
+def headline(case):
+    """The words of a case: its verdict, and what it expected beside."""
+    words = [word for engine in case.engines for _, word in standings(case, engine)]
+    beside = [word for word in (DEFECT, DIVERGENCE) if word in words]
+    if case.verdict == "PASS" and text(case.raw.get("expect")) == "diverges" and DIVERGENCE in words:
+        return [DIVERGENCE]
+    return [case.verdict if case.verdict != "PASS" or any(engine.gates for engine in case.engines) or beside else UNJUDGED] + beside
+
+
+def ran(case):
+    return [engine for engine in case.engines if engine.status not in ("missing", "refused")]
 
 
 def counts(results):
@@ -112,7 +114,7 @@ def not_validated(results):
             lines.append(f"{name}: ran no case ({absent[0][1].status}: {absent[0][1].reason or 'no reason stated'}).")
         elif absent:
             lines.append(f"{name}: no result for " + ", ".join(f"{case.id} ({engine.status})" for case, engine in absent) + ".")
-        ungated = [case.id for case, engine in here if engine.status == "ok" and not engine.gates]
+        ungated = [case.id for case, engine in here if standing(case, engine) == UNJUDGED]
         if ungated and name != "exact":
             lines.append(f"{name}: ran without any gate in {', '.join(dict.fromkeys(ungated))}; its numbers are shown, not judged.")
     open_cases = [case.id for case in results.cases if case.verdict not in ("PASS", "FAIL")]

@@ -19,7 +19,7 @@ class NoTrajectory(Exception):
 
 @dataclass
 class Trajectory:
-    """Rows are particles (or bodies), SI; `strobe` are a few frames of positions from first to last."""
+    """Rows are particles (or bodies), SI; `strobe` are a few frames from first to last."""
     times: np.ndarray
     position: np.ndarray | None = None
     temperature: np.ndarray | None = None
@@ -29,7 +29,21 @@ class Trajectory:
     bodies: dict = field(default_factory=dict)  # name -> (frames, bodies, components)
     body_times: np.ndarray | None = None
     observables: dict = field(default_factory=dict)  # name -> (times, values)
-    pulled: bool = False  # the job has gravity
+    gravity: tuple = (0.0, 0.0, 0.0)  # as the job says
+    domain: tuple | None = None  # (least, greatest) corner of the scene, where the job says both
+
+    @property
+    def pulled(self):
+        return any(self.gravity)
+
+
+@dataclass
+class Frame:
+    time: float
+    position: np.ndarray
+    temperature: np.ndarray | None = None
+    phase: np.ndarray | None = None     # 0 liquid, 1 elastic, 2 rigid
+    material: np.ndarray | None = None
 
 
 def folder_of(root, run):
@@ -49,7 +63,7 @@ def read(root, run):
         if (folder / name).is_file():
             try:
                 found = reader(folder / name)
-                found.pulled = has_gravity(folder / "job.json")
+                found.gravity, found.domain = scene_of(folder / "job.json")
                 return found
             except NoTrajectory:
                 raise
@@ -58,12 +72,15 @@ def read(root, run):
     raise NoTrajectory(f"{run.folder}/trajectory.h5 is missing")
 
 
-def has_gravity(job):
-    """Whether the job says so; a job that is not there or is torn says nothing."""
+def scene_of(job):
+    """(gravity, corners of the domain) as the job says; a job that is not there or is torn says nothing."""
     try:
-        return any(json.loads(job.read_text(encoding="utf-8"))["scene"]["gravity"])
+        scene = json.loads(job.read_text(encoding="utf-8"))["scene"]
+        gravity = tuple(float(g) for g in scene["gravity"])
+        corners = [np.array([np.nan if v is None else float(v) for v in scene[key]]) for key in ("min", "max")] if scene.get("min") and scene.get("max") else None
     except (OSError, ValueError, KeyError, TypeError):
-        return False
+        return (0.0, 0.0, 0.0), None
+    return gravity if len(gravity) == 3 else (0.0, 0.0, 0.0), tuple(corners) if corners and all(c.shape == (3,) for c in corners) else None
 
 
 def read_h5md(path):
@@ -82,8 +99,8 @@ def read_h5md(path):
             if position.shape[1] > MOST_ROWS:
                 raise NoTrajectory(f"{path.name} has {position.shape[1]} rows, more than a picture reads")
             frames = np.unique(np.linspace(0, position.shape[0] - 1, 5).astype(int))
-            result.strobe = [(float(result.times[f]), position[f]) for f in frames]
-            result.position = result.strobe[-1][1]
+            result.strobe = [Frame(float(result.times[f]), position[f], *(at(particles, name, f, position.shape) for name in ("temperature", "phase", "material"))) for f in frames]
+            result.position = result.strobe[-1].position
             result.temperature = last(particles, "temperature", position.shape)
             result.temperature_error = last(particles, "temperature_error", position.shape)
             result.body = last(particles, "body", position.shape)
@@ -98,10 +115,15 @@ def read_h5md(path):
 
 
 def last(particles, name, shape):
+    return at(particles, name, -1, shape)
+
+
+def at(particles, name, frame, shape):
+    """A column of one frame; None where there is none, or of other particles."""
     node = particles.get(f"{name}/value")
     if node is None or node.shape[0] == 0:
         return None
-    values = np.asarray(node[-1] if node.ndim > 1 else node)
+    values = np.asarray(node[min(frame, node.shape[0] - 1)] if node.ndim > 1 else node)
     return values if values.shape[0] == shape[1] else None
 
 
@@ -149,7 +171,8 @@ def read_csv(path):
     else:
         position = gather(("x", "y", "z"))
         frames = np.unique(np.linspace(0, len(times) - 1, 5).astype(int))
-        result.strobe = [(float(times[f]), position[f]) for f in frames]
+        warm = gather(("temperature",))[..., 0] if "temperature" in columns else None
+        result.strobe = [Frame(float(times[f]), position[f], None if warm is None else warm[f]) for f in frames]
         result.position = position[-1]
-        result.temperature = gather(("temperature",))[-1, :, 0] if "temperature" in columns else None
+        result.temperature = None if warm is None else warm[-1]
     return result

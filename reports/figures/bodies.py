@@ -21,8 +21,16 @@ def draw(case, trajectories, notes):
     most = max(t.bodies["position"].shape[1] for _, t in shown if "position" in t.bodies) if any("position" in t.bodies for _, t in shown) else 1
     if most > MOST_BODIES:
         notes.append(f"curves show the first {MOST_BODIES} of {most} bodies")
-    figure, axes = style.panels(len(wanted), len(shown), height=2.5)
-    for axis, (title, lines) in zip(axes, wanted):
+    truth = next((curve for curve, _ in shown if curve.engine.name == "exact"), None)
+    left = [residual(title, lines, truth) for title, lines in wanted]
+    columns = min(len(wanted), 2)
+    ordered = [panel for n in range(0, len(wanted), columns) for panel in (wanted[n:n + columns] + [None] * (columns - len(wanted[n:n + columns])) + (left[n:n + columns] + [None] * (columns - len(left[n:n + columns])) if any(left[n:n + columns]) else []))]
+    figure, axes = style.panels(len(ordered), len(shown), height=2.3, columns=columns)
+    for axis, panel in zip(axes, ordered):
+        if panel is None:
+            axis.set_visible(False)
+            continue
+        title, lines = panel
         for curve, time, values, nth in lines:
             look = style.look(curve)
             dashes = look["linestyle"] if nth == 0 else (0, (1 + nth, 1.5))
@@ -33,7 +41,15 @@ def draw(case, trajectories, notes):
         axis.set_ylabel(title)
     style.legend(figure, axes)
     return Drawing("bodies", "Bodies in time", "Position, rotation and energy of the bodies against time for " + ", ".join(c.label for c, _ in shown) + ".", figure,
-                   "Each engine at the case's own resolution. Turn from the start is the angle of the rotation that leads from the first attitude to the present one." + (" Solid: the first body; dashes: further ones." if most > 1 else ""))
+                   "Each engine at the case's own resolution; below a curve, what is left between engine and exact. Turn from the start is the angle of the rotation that leads from the first attitude to the present one." + (" Solid: the first body; dashes: further ones." if most > 1 else ""))
+
+
+def residual(title, lines, truth):
+    """What is left between each engine and the exact one, body by body, at the times that both wrote; None where there is no exact curve."""
+    exact = {nth: (time, values) for curve, time, values, nth in lines if curve is truth}
+    found = [(curve, time, values - exact[nth][1], nth) for curve, time, values, nth in lines
+             if curve is not truth and nth in exact and len(time) == len(exact[nth][0]) and np.allclose(time, exact[nth][0], rtol=0.0, atol=1e-9 * max(float(np.max(np.abs(time))), 1e-300))]
+    return (f"engine minus exact [{title.rsplit('[', 1)[1]}" if "[" in title else "engine minus exact", found) if truth is not None and found else None
 
 
 def offset(curve, shown):

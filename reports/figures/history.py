@@ -11,6 +11,7 @@ from . import style
 from .curve import Drawing
 
 MOST_LINES, MOST_RUNS = 6, 200
+MOVED = 0.02  # of the limit: where no gate has moved by more, a sentence says so
 FLOOR = 1e-4  # smaller shares stand at the lower edge
 
 
@@ -18,6 +19,9 @@ def draw(case, trajectories, notes):
     runs = [entry for entry in case.history if not entry.accepted][-MOST_RUNS:]
     if len(runs) < 2:
         return None  # one run is no history
+    if not any(moved([entry.used[key] for entry in runs if key in entry.used]) for key in worst_first(runs)):
+        notes.append(f"history: over {len(runs)} runs no gate's use of its limit has moved by more than {100 * MOVED:.0f} %, and no verdict has changed")
+        return None
     keys = worst_first(runs)
     if len(keys) > MOST_LINES:
         notes.append(f"the strip of runs shows the {MOST_LINES} of {len(keys)} gates that use most of their limits")
@@ -27,12 +31,12 @@ def draw(case, trajectories, notes):
     figure = Figure(figsize=(style.WIDTH, 2.5))
     FigureCanvasAgg(figure)
     axis = figure.add_axes((0.1, 0.2, 0.58, 0.72))
-    names = [engine for engine, _, _, _ in keys]
+    names = [engine_label(engine) for engine, _, _, _ in keys]
     for k, key in enumerate(keys):
         places = [(n, max(entry.used[key][0], FLOOR), entry.used[key][2]) for n, entry in enumerate(runs) if key in entry.used and is_number(entry.used[key][0])]
         engine, mode, metric, level = key
         label = " ".join(part for part in (engine, mode, metric, f"at {level:g}" if level is not None else "") if part)
-        hue = style.colour(engine.split(" ")[0], names)
+        hue = style.colour(engine_label(engine), names)
         axis.plot([p[0] for p in places], [p[1] for p in places], color=hue, marker=style.MARKERS[k % len(style.MARKERS)], markersize=3.5, linewidth=1, label=label, alpha=0.9)
         red = [p for p in places if p[2] != "pass"]
         axis.plot([p[0] for p in red], [p[1] for p in red], "x", color=style.RED, markersize=7, markeredgewidth=2)
@@ -49,6 +53,10 @@ def draw(case, trajectories, notes):
                    "Oldest left. Red line: the limit. Crosses: not green. Dashed: figures were accepted there (tripoint gate accept).")
 
 
+def engine_label(engine):
+    return engine.replace(" (", " · ").rstrip(")")
+
+
 def worst_first(runs):
     worst = {}
     for entry in runs:
@@ -56,6 +64,12 @@ def worst_first(runs):
             if is_number(used):
                 worst[key] = max(worst.get(key, 0.0), used)
     return sorted(worst, key=lambda key: (-worst[key], str(key)))
+
+
+def moved(found):
+    """Whether shares or verdicts of one gate differ between runs."""
+    shares = [used for used, _, _ in found if is_number(used)]
+    return len({verdict for _, _, verdict in found}) > 1 or bool(shares) and max(shares) - min(shares) > MOVED
 
 
 def mark_acceptances(axis, case, runs):

@@ -25,7 +25,7 @@ def draw(case, trajectories, notes):
     for axis, name in zip(axes, drawn):
         panel(case, axis, name, shown_runs)
     style.legend(figure, axes)
-    return Drawing("error-in-time", "Error in time", f"Error of {', '.join(drawn)} against time for each engine and mode.", figure, "Each engine at the case's own resolution; shaded: two standard uncertainties where the run states them.")
+    return Drawing("error-in-time", "Metrics in time", f"{', '.join(drawn)} against time for each engine and mode.", figure, "Each engine at the case's own resolution; shaded: two standard uncertainties where the run states them.")
 
 
 def numbers(run, name):

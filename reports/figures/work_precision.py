@@ -10,8 +10,9 @@ from .curve import Drawing, judged, label_metric, metrics
 
 def draw(case, trajectories, notes):
     names, rest = metrics(case, 2)
-    if not names or sum(len(curve.runs) for curve in judged(case)) < 2:
-        return None
+    several = len({curve.engine.label for curve in judged(case) if curve.runs}) > 1 or any(engine.orders for engine in case.engines)
+    if not names or not several or sum(len(curve.runs) for curve in judged(case)) < 2:
+        return None  # the two forms of one engine at one resolution are no trade of work for precision
     figure, axes = style.panels(len(names), len(judged(case)) + 1, height=3.1)
     for axis, metric in zip(axes, names):
         panel(case, axis, metric)
@@ -40,9 +41,10 @@ def panel(case, axis, metric):
             good += list(zip(x, y))
     front(axis, good)
     axis.margins(x=0.12, y=0.1)
-    style.logarithmic(axis)
-    low, high = axis.get_xlim()
-    axis.set_xlim(low, high * (high / low) ** 0.13)  # room for the last label
+    if good:  # else there is nothing to scale by
+        style.logarithmic(axis)
+        low, high = axis.get_xlim()
+        axis.set_xlim(low, high * (high / low) ** 0.13)  # room for the last label
     style.labels(axis, labels)
     failed(axis, bad, good)
     axis.set_xlabel("CPU seconds, all threads")

@@ -14,6 +14,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path[:0] = [str(HERE), str(ROOT / "reports")]
+import load  # noqa: E402
+import page  # noqa: E402
 import report  # noqa: E402
 from report_test import Reader  # noqa: E402
 
@@ -45,7 +47,9 @@ class Claims(unittest.TestCase):
             path.write_text(json.dumps({"format": 1, "cases": cases}))
             with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
                 self.assertEqual(report.main([str(path), "--jobs", "1"]), 0)
-            self.index, self.printed, self.table1, self.figures = (Path(folder, name).read_text(encoding="utf-8") for name in ("index.html", "printed-equations.html", "table-1.html", "paper-figures.html"))
+            self.index, self.files = Path(folder, "index.html").read_text(encoding="utf-8"), {str(path.relative_to(folder)) for path in Path(folder).rglob("*.html")}
+            results = load.load(path)
+            self.printed, self.table1, self.figures = (render(results) for render in (page.render_printed, page.render_table1, page.render_figures))
 
     def row(self, page, words):
         """The text of the table row that holds these words."""
@@ -164,14 +168,19 @@ class Both(Claims):
         self.write([case_of("fluid/hydrostatic", [engine_of(runs=[run_of("paper", {"factor": 1.0})])], tags=["feature-fluids", "paper"])])
         index = Reader(self.index)
         self.assertTrue({"printed-equations.html", "table-1.html", "paper-figures.html"} <= set(index.links))
-        for page in (self.printed, self.table1, self.figures):
-            read = Reader(page)
+        for text in (self.printed, self.table1, self.figures):
+            read = Reader(text)
             self.assertEqual(read.open, [])
-            self.assertIn("index.html#case-1", read.links)
+            self.assertIn("case/fluid-hydrostatic.html", read.links)
+            self.assertIn("case/fluid-hydrostatic.html", self.files)
             for link in read.links:
-                self.assertRegex(link, r"^index\.html(#case-\d+)?$")
-            self.assertIn("case-1", index.ids)
+                self.assertRegex(link, r"^(index\.html|case/[\w-]+\.html|figures/[\w-]+\.svg)$")
             self.assertFalse({"script", "link", "iframe"} & read.tags)
+
+    def test_a_strangers_one_case_has_no_page_of_ours_but_that_case(self):
+        self.write([case_of("mine/first", [engine_of("mine", runs=[run_of("", {"error": 0.1})], gates=[gate_of("error", "", 0.1)])])])
+        self.assertEqual(self.files, {"index.html", "signable.html", "case/mine-first.html"})
+        self.assertNotIn("Figure", Reader(self.index).text)
 
     def test_text_of_strangers_is_text_and_values_of_the_wrong_kind_do_not_stop_them(self):
         hostile = "<script>alert(1)</script>"

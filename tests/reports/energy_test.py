@@ -16,7 +16,7 @@ FALL = 9.81 * TIMES  # speed of a body of 1 kg that is let go
 
 
 def run(label, pulled=True, **energies):
-    return SimpleNamespace(label=label), Trajectory(times=TIMES, pulled=pulled, observables={name: (TIMES, values) for name, values in energies.items()})
+    return SimpleNamespace(label=label), Trajectory(times=TIMES, gravity=(0.0, 0.0, -9.81 if pulled else 0.0), observables={name: (TIMES, values) for name, values in energies.items()})
 
 
 def drawn(*runs):

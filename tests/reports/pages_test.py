@@ -16,6 +16,7 @@ import ablation  # noqa: E402
 import digit_cost  # noqa: E402
 import headlines  # noqa: E402
 import load  # noqa: E402
+import page  # noqa: E402
 import releases  # noqa: E402
 import report  # noqa: E402
 import scorecard  # noqa: E402
@@ -120,7 +121,8 @@ class Corrections(Pages):
 
     def test_without_its_file_the_page_says_how_to_make_it(self):
         self.write(case([ladder(2.0, 5.0)]))
-        self.assertIn("tripoint ablate", self.text("corrections.html"))
+        self.assertFalse((self.path / "corrections.html").exists())
+        self.assertIn("tripoint ablate", page.render_ablation(self.load(case([ladder(2.0, 5.0)]))))
 
 
 class SideBySide(Pages):
@@ -151,13 +153,13 @@ class History(Pages):
     def test_is_a_strip_from_two_runs_on_with_a_mark_where_figures_were_accepted(self):
         (self.path / "history.jsonl").write_text(self.line("2026-11-20", 0.5) + "\n")
         self.write(case([ladder(2.0, 5.0)]))
-        self.assertNotIn("History: share", self.text("index.html"))
+        self.assertNotIn("History: share", self.text("case/heat-one.html"))
         with open(self.path / "history.jsonl", "a") as file:
             file.write(self.line("2026-11-21", 0.9) + "\n" + json.dumps({"format": 1, "case": "heat/one", "date": "2026-11-21", "accepted": "why"}) + "\n" + self.line("2026-11-22", 1.4, "fail") + "\n")
         found = self.load(case([ladder(2.0, 5.0)])).cases[0].history
         self.assertEqual([(e.date[-2:], e.accepted) for e in found], [("20", ""), ("21", ""), ("21", "why"), ("22", "")])
         self.write(case([ladder(2.0, 5.0)]))
-        self.assertIn("History: share", self.text("index.html"))
+        self.assertIn("History: share", self.text("case/heat-one.html"))
 
     def test_torn_lines_are_counted_and_cost_no_report(self):
         (self.path / "history.jsonl").write_text(self.line("2026-11-20", 0.5) + "\n{\"format\": 1, \"ca\n[]\n")

@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What stands on the first screen: the verdict in words, what changed since the run before, the gates nearest to their limits, engines by subject, cost.
+
+Nothing is judged here: verdicts, shares of limits and seconds are those of results.json, of results.previous.json and of the history.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import load
+import summary
+from model import is_number
+
+NEAREST = 10
+MOVED = 0.05  # a change of a share of a limit below this is not listed: most of it is noise of the machine's seeds
+ORDER = ("worse", "better", "limit", "new")
+
+
+@dataclass
+class Change:
+    case: object   # None where the case is gone
+    where: str     # engine, metric, mode
+    before: str
+    after: str
+    kind: str      # worse, better, limit (another one is asked) or new
+    weight: float  # the largest first
+
+
+def count(number, noun):
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def verdict_words(results):
+    """One sentence of the verdict, and one of what is not plain green."""
+    gates = [gate for case in results.cases for engine in case.engines for gate in engine.gates]
+    held = sum(gate.verdict == "PASS" for gate in gates)
+    bad = summary.tally(gate.verdict for gate in gates if gate.verdict != "PASS")
+    if not gates:
+        first = "No gate: nothing here was judged."
+    elif not bad:
+        first = f"{'The one gate holds' if held == 1 else f'All {held} gates hold'}, in {count(len(results.cases), 'case')}."
+    else:
+        first = f"{held} of {count(len(gates), 'gate')} hold in {count(len(results.cases), 'case')}; " + ", ".join(f"{n} {word.lower()}" for word, n in bad.items()) + "."
+    words = summary.tally(word for case in results.cases for word in summary.headline(case) if word in (summary.DEFECT, summary.DIVERGENCE, summary.UNJUDGED))
+    return first, words
+
+
+def keyed(case):
+    """[(key, engine, gate)]: several gates may hold one metric, so the key ends with which of them it is."""
+    found, seen = [], {}
+    for engine in case.engines:
+        for gate in engine.gates:
+            key = (case.id, engine.label, gate.mode, gate.metric, gate.level)
+            seen[key] = seen.get(key, -1) + 1
+            found.append(((*key, seen[key]), engine, gate))
+    return found
+
+
+def baseline(results):
+    """({gate: (share, verdict)}, {case id: verdict}, date, whether it is another results.json): of the run before, else of the history."""
+    path = results.folder / "results.previous.json"
+    try:
+        before = load.load(path) if path.is_file() else None
+    except load.Unreadable:
+        before = None
+    used = {key: (gate.used, gate.verdict, gate.allowed) for case in before.cases for key, _, gate in keyed(case)} if before else {}
+    verdicts = {case.id: case.verdict for case in before.cases} if before else {}
+    date, now = str(before.raw.get("date") or "") if before else "", str(results.raw.get("date") or "")
+    for case in results.cases:
+        last = next((entry for entry in reversed(case.history) if not entry.accepted and (not now or entry.date < now)), None)
+        if case.id in verdicts or last is None:
+            continue
+        verdicts[case.id], date = last.verdict.upper(), max(date, last.date)
+        several = {key[:-1] for key, _, _ in keyed(case) if key[-1] > 0}
+        for (engine, mode, metric, level), (share, _, verdict) in last.used.items():
+            key = (case.id, engine.replace(" (", " · ").rstrip(")"), mode, metric, level)
+            used.update({(*key, 0): (share, verdict.upper(), None)} if key not in several else {})  # the history does not say which of several gates it means
+    return used, verdicts, date, before
+
+
+def changes(results):
+    """@return {"since", "list": [Change], "cases": {case number: "worse"|"better"|"new"}, "gone", "same"}; None where there is no run before"""
+    used, verdicts, date, before = baseline(results)
+    if not verdicts:
+        return None
+    found, marks = [], {}
+    for case in results.cases:
+        if case.id not in verdicts:
+            found.append(Change(case, "", "not run", case.verdict, "worse" if case.verdict != "PASS" else "new", 1.0 if case.verdict != "PASS" else 0.0))
+            marks[case.number] = "new"
+            continue
+        for key, engine, gate in keyed(case):
+            change = compare(case, engine, gate, used.get(key))
+            if change:
+                found.append(change)
+                marks[case.number] = min(change.kind, marks.get(case.number, change.kind), key=ORDER.index)
+        if verdicts[case.id] and case.verdict != verdicts[case.id] and case.number not in marks:
+            worse = summary.GRADES.index(case.verdict) < summary.GRADES.index(verdicts[case.id]) if {case.verdict, verdicts[case.id]} <= set(summary.GRADES) else True
+            marks[case.number] = "worse" if worse else "better"
+            found.append(Change(case, "verdict", verdicts[case.id], case.verdict, marks[case.number], 10.0))
+    found.sort(key=lambda change: (ORDER.index(change.kind), -change.weight))
+    gone = sorted(set(case.id for case in before.cases) - set(case.id for case in results.cases)) if before and before.raw.get("what") == results.raw.get("what") else []
+    return {"since": date, "list": found, "cases": marks, "gone": gone, "bits": bits(results, before), "cpu": (summary.counts(before)["cpu"] if before else None)}
+
+
+def compare(case, engine, gate, old):
+    where = " ".join(part for part in (engine.label, gate.metric.replace("_", " "), gate.mode) if part)
+    kind = "worse" if gate.verdict != "PASS" else "better"
+    if old is None:
+        return Change(case, where, "no gate", gate.verdict, kind, 5.0) if kind == "worse" else None
+    share, verdict, allowed = old
+    if verdict != gate.verdict:
+        return Change(case, where, verdict, gate.verdict, kind, 10.0)
+    if allowed not in (None, gate.allowed):
+        return Change(case, where, allowed, gate.allowed, "limit", 0.0)
+    if is_number(share) and is_number(gate.used) and abs(gate.used - share) > MOVED and max(share, gate.used) > 0.2:
+        return Change(case, where, f"{100 * share:.0f} %", f"{100 * gate.used:.0f} % of the limit", "worse" if gate.used > share else "better", abs(gate.used - share))
+    return None
+
+
+def bits(results, before):
+    """(runs with the same bits as before, runs that both have); None without a run before."""
+    def hashes(of):
+        return {(case.id, engine.label, run.folder): run.state_hash for case in of.cases for engine in case.engines for run in engine.runs if run.state_hash}
+    if before is None:
+        return None
+    now, then = hashes(results), hashes(before)
+    both = now.keys() & then.keys()
+    return sum(now[key] == then[key] for key in both), len(both)
+
+
+def nearest(results):
+    """[(share, case, engine, gate)]: the ten gates that use most of their limits, broken ones first."""
+    found = [(gate.used, case, engine, gate) for case in results.cases for engine in case.engines for gate in engine.gates if is_number(gate.used)]
+    return sorted(found, key=lambda entry: (entry[3].verdict == "PASS", -entry[0]))[:NEAREST]
+
+
+def worst_share(case):
+    shares = [gate.used for engine in case.engines for gate in engine.gates if is_number(gate.used)]
+    return max(shares, default=None)
+
+
+def subjects(results):
+    """(names of subjects, [(engine, {subject: (word, text)})], engines that ran nowhere): presets of one engine count together."""
+    names = list(dict.fromkeys(case.subject for case in results.cases))
+    rows, nowhere = {}, []
+    for name in dict.fromkeys(engine.name for case in results.cases for engine in case.engines):
+        here = [(case, [engine for engine in case.engines if engine.name == name]) for case in results.cases]
+        if all(engine.status == "missing" for _, engines in here for engine in engines):
+            nowhere.append(name)
+            continue
+        rows[name] = {subject: square([(case, engines) for case, engines in here if case.subject == subject and engines]) for subject in names}
+    return names, list(rows.items()), nowhere
+
+
+def square(entries):
+    """(word, what to write) of one engine in one subject; None where no case of it names the engine."""
+    words = [[word for engine in engines for _, word in summary.standings(case, engine)] for case, engines in entries]
+    words = [found for found in words if found]
+    expected = ("PASS", summary.DEFECT, summary.DIVERGENCE)
+    bad = [word for found in words for word in found if word not in expected and summary.tone(word) in ("fail", "open", "none")]
+    green = sum(any(word in expected for word in found) for found in words)
+    if bad:
+        return summary.worst(bad), f"{sum(any(word in bad for word in found) for found in words)} of {len(words)}"
+    if green:
+        return "PASS", str(green)
+    for word in (summary.UNJUDGED, "refused", "missing"):
+        if any(word in found for found in words):
+            return word, str(sum(word in found for found in words))
+    return None
+
+
+def cost(results):
+    """(CPU seconds of all runs, [(engine, s)], [(case, s)]), dearest first."""
+    engines, cases = {}, {}
+    for case in results.cases:
+        for engine in case.engines:
+            spent = sum(run.cost["cpu_s"] for run in engine.runs if is_number(run.cost.get("cpu_s")))
+            engines[engine.name] = engines.get(engine.name, 0.0) + spent
+            cases[case.number] = cases.get(case.number, 0.0) + spent
+
+    def dearest(of):
+        return sorted(((key, s) for key, s in of.items() if s > 0), key=lambda entry: -entry[1])
+    return sum(engines.values()), dearest(engines), {number: s for number, s in cases.items()}, [(results.cases[number], s) for number, s in dearest(cases)[:3]]
