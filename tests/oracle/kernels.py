@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Kernels of docs/model.md and their sums on the cubic lattice. Each is 0 beyond its support h."""
+import itertools
+
+import numpy as np
+
+
+def poly6(r, h):
+    """[Mueller, Charypar, Gross 2003], for (4)."""
+    return np.where(r < h, 315 / (64 * np.pi * h**9) * (h * h - r * r) ** 3, 0.0)
+
+
+def spiky_slope(r, h):
+    """W' of the spiky kernel, for (7)."""
+    return np.where(r < h, -45 / (np.pi * h**6) * (h - r) ** 2, 0.0)
+
+
+def viscosity_laplacian(r, h):
+    """For (8) and (21)."""
+    return np.where(r < h, 45 / (np.pi * h**6) * (h - r), 0.0)
+
+
+def wendland(r, h):
+    """[Wendland 1995], C2 in three dimensions."""
+    return np.where(r < h, 21 / (2 * np.pi * h**3) * (1 - r / h) ** 4 * (1 + 4 * r / h), 0.0)
+
+
+def wendland_slope(r, h):
+    """W'."""
+    return np.where(r < h, -210 / (np.pi * h**5) * r * (1 - r / h) ** 3, 0.0)
+
+
+def _elasticity_constant(h):
+    return np.pi / (8 * h**4 * (np.pi / 3 - 8 / np.pi + 16 / np.pi**2))
+
+
+def elasticity(r, h):
+    """(17)"""
+    return np.where(r < h, _elasticity_constant(h) * 2 * h / np.pi * (np.cos((r + h) * np.pi / (2 * h)) + 1), 0.0)
+
+
+def elasticity_slope(r, h):
+    """W' of (17)."""
+    return np.where(r < h, -_elasticity_constant(h) * np.sin((r + h) * np.pi / (2 * h)), 0.0)
+
+
+def lattice_numbers(ratio):
+    """S0 and M of chapter 8, and the part of S0 within one layer."""
+    reach = range(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1)
+    total = layer = moment = 0.0
+    for x, y, z in itertools.product(reach, reach, reach):
+        r = np.sqrt(float(x * x + y * y + z * z))
+        total += wendland(r, ratio)
+        layer += wendland(r, ratio) if z == 0 else 0.0
+        moment -= r * wendland_slope(r, ratio) / 3
+    return float(total), float(moment), float(layer)

@@ -1,0 +1,368 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The terms of docs/model.md as plain sums over all pairs, for a state that write-states has written.
+
+Nothing here is shared with the solver but the page. Each function names its section. `d[i, j]` is r_i - r_j of the nearest images; sums are over
+all j but i itself. A function returns the sum and the sum of the magnitudes of what it added, which round-off is measured by.
+"""
+import numpy as np
+
+from kernels import lattice_numbers, poly6, spiky_slope, viscosity_laplacian, wendland, wendland_slope
+
+LIQUID, DEFORMABLE, WALL = -1.0, -2.0, 0.0  # groups; 1 + body for free rigid bodies
+
+
+# --- a state ----------------------------------------------------------------------------------------------------------------
+
+
+class State:
+    """Columns by name, in order of id; distances of all pairs."""
+
+    def __init__(self, scene, state):
+        self.scene, self.raw = scene, state
+        self.dx = scene["spacing"]
+        self.h = scene["support_ratio"] * self.dx
+        self.S0, self.M, self.layer = lattice_numbers(scene["support_ratio"])
+        self.columns = {name: np.array(values) for name, values in state["particles"].items()}
+        self.n = len(self["id"])
+        self.m = self["mass"]
+        self.r = self.vector("position")
+        self.periodic = ["xyz".index(a) for a in scene["periodic"]]
+        self.d = self.nearest(self.r[:, None] - self.r[None, :])
+        self.r2 = np.einsum("ijk,ijk->ij", self.d, self.d)
+        np.fill_diagonal(self.r2, np.inf)  # a particle is no neighbour of itself
+        self.distance = np.sqrt(self.r2)
+        self.materials = scene["materials"]
+        self.body = self["body"]
+        self.group = self._groups()
+        self.own = np.zeros((self.n, self.n), dtype=bool)
+        for i, j, _ in state["own_pairs"]:
+            self.own[i, j] = True
+        self.bonds = [[] for _ in range(self.n)]
+        for i, j, *numbers in state["bonds"]:
+            self.bonds[i].append((j, np.array(numbers[:3]), np.array(numbers[3:6]), numbers[6]))
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+    def has(self, name):
+        return name in self.columns
+
+    def vector(self, name):
+        return np.stack([self[f"{name}.{a}"] for a in "xyz"], axis=1)
+
+    def symmetric(self, name):
+        c = {a: self[f"{name}.{a}"] for a in ("xx", "yy", "zz", "yz", "xz", "xy")}
+        rows = [[c["xx"], c["xy"], c["xz"]], [c["xy"], c["yy"], c["yz"]], [c["xz"], c["yz"], c["zz"]]]
+        return np.moveaxis(np.array(rows), 2, 0)
+
+    def box_widths(self, i):
+        """By how much particle i has been moved back into the box."""
+        back = np.zeros(3)
+        for a in self.periodic:
+            back[a] = self["image." + "xyz"[a]][i] * (self.scene["max"][a] - self.scene["min"][a])
+        return back
+
+    def nearest(self, d):
+        for a in self.periodic:
+            width = self.scene["max"][a] - self.scene["min"][a]
+            d[..., a] -= width * np.round(d[..., a] / width)
+        return d
+
+    def printed(self, term):
+        return self.scene["modes"][term] == "paper"
+
+    def material(self, key, default=None):
+        """A number of each particle's material."""
+        return np.array([default if self.materials[k].get(key) is None else self.materials[k][key] for k in self["material"]], dtype=float)
+
+    def moves_as_one(self, body):
+        return self.raw["bodies"]["body.phase"][body] == 2
+
+    def _groups(self):
+        """Who exerts nothing on whom: chapter 13, `group`."""
+        motion = self.raw["bodies"].get("body.motion", [])
+        of = [DEFORMABLE if not self.moves_as_one(b) else 1.0 + b if motion[b] == 0 else WALL for b in range(len(motion))]
+        return np.array([LIQUID if b < 0 else of[b] for b in self.body])
+
+    @property
+    def clamps(self):
+        """Reading 1: the clamp of (9) is a correction with a form of its own."""
+        return not self.printed("clamp")
+
+    @property
+    def acts(self):
+        """Pairs that exert pressure and viscous force: 8.3."""
+        one_body = (self.group[:, None] >= 0) & (self.group[:, None] == self.group[None, :])
+        return ~self.own & ~one_body
+
+    @property
+    def condition(self):
+        """Digits that a kernel loses near the edge of its support, where 1 - r/h cancels."""
+        return np.where(self.distance < self.h, 1 / np.maximum(1 - self.distance / self.h, 1e-300), 0.0)
+
+    @property
+    def slope_over_r(self):
+        return wendland_slope(self.distance, self.h) / self.distance
+
+    @property
+    def stiffness(self):
+        return max(m["stiffness"] or 0.0 for m in self.materials)
+
+    def rest_densities(self):
+        """rho_ref and the lightest rest density: 8.3. (No scene here has an inflow.)"""
+        density = {m["name"]: m["density"] for m in self.materials}
+        liquids = [density[b["material"]] for b in self.scene["bodies"] if b["phase"] == "liquid"]
+        all_of = [density[b["material"]] for b in self.scene["bodies"]]
+        return max(liquids or all_of), min(all_of)
+
+    def averages_walls(self):
+        """8.4: liquid alone touches the walls, and nothing freezes."""
+        free = any(b["phase"] != "liquid" and b["motion"] == "free" for b in self.scene["bodies"])
+        printed = any(self.printed(t) for t in ("walls", "density", "pressure"))
+        return not free and not printed and not self.has("liquid_fraction") and (self.group == WALL).any()
+
+
+def summed(s, pairs):
+    """Sums over j of vectors [i, j, k], and what their magnitudes sum to, each times its condition."""
+    return pairs.sum(axis=1), (s.condition * np.linalg.norm(pairs, axis=2)).sum(axis=1)
+
+
+# --- density and pressure ---------------------------------------------------------------------------------------------------
+
+
+def density_printed(s):
+    """(4), the particle itself included."""
+    total = (s.m[None, :] * poly6(s.distance, s.h)).sum(axis=1) + s.m * poly6(0.0, s.h)
+    return total, total
+
+
+def number_density(s):
+    """S0 delta of 8.2: the particle itself, its own pairs by their constant weight, all others."""
+    total = np.where(s.own, 0.0, wendland(s.distance, s.h)).sum(axis=1) + wendland(0.0, s.h)
+    if s.has("own_density"):
+        total = total + s["own_density"]
+    return total, total
+
+
+def own_density(s):
+    total = np.zeros(s.n)
+    for i, _, weight in s.raw["own_pairs"]:
+        total[i] += weight
+    return total, total
+
+
+def pressure(s):
+    """(9), or 8.3; a patch of a wall has twice the stiffness, 8.4."""
+    rho, rho0 = s["density"], s.material("density")
+    k = np.full(s.n, s.stiffness)
+    if s.averages_walls():
+        k = np.where(s.group == WALL, 2 * k, k)
+    reference, _ = s.rest_densities()
+    p = k * (rho - rho0) * (1.0 if s.printed("state") else reference / rho0)
+    return np.maximum(p, 0.0) if s.clamps else p, np.abs(k * rho)
+
+
+def wall_patches(s):
+    """A of 8.4 over the particles of faces, and which these are."""
+    frame = np.array([-1 if b >= 0 and s.raw["bodies"]["body.motion"][b] == 1 else b for b in s.body])
+    wall = s.group == WALL
+    together = wall[:, None] & wall[None, :] & (frame[:, None] == frame[None, :])
+    filled = np.where(together, wendland(s.distance, s.h), 0.0).sum(axis=1) + wendland(0.0, s.h)
+    full = s.S0 / s.dx**3
+    lacks_at_plane_face = 0.5 * (s.S0 - s.layer) / s.dx**3
+    face = np.flatnonzero(wall & (filled < full - 0.5 * lacks_at_plane_face))
+    near = (together & (s.distance < 1.75 * s.dx))[np.ix_(face, face)] | np.eye(len(face), dtype=bool)
+    return near / near.sum(axis=1, keepdims=True), face
+
+
+def density(s):
+    """rho of 8.2, and of walls the mean of 8.4."""
+    rho0 = s.material("density")
+    rho = s.m * s["number_density"] / s.S0
+    if s.averages_walls():
+        A, face = wall_patches(s)
+        at_face = A @ A @ (rho[face] / rho0[face])
+        rho = np.where(s.group == WALL, rho0, rho)
+        rho[face] = at_face * rho0[face]
+    return rho, rho
+
+
+def bulk_pressure(s, before):
+    """q of 8.4."""
+    dt = 2 * s.raw["half_step"]
+    reference, lightest = s.rest_densities()
+    c = np.sqrt(s.stiffness * reference / lightest)
+    rho0 = np.minimum(s.material("density"), 4 * lightest)
+    rate = (s["number_density"] / before["number_density"] - 1) / dt
+    zeta = s.scene["bulk_viscosity"]
+    q = np.where(s.group == LIQUID, zeta * rho0 * c * s.h * rate, 0.0)
+    return np.where(s["pressure"] > 0, np.maximum(q, -s["pressure"]), 0.0), zeta * rho0 * c * s.h / dt
+
+
+def pressure_share(s):
+    """V^2 (p + q)/M of 8.3, of a wall's face by the transpose of its mean."""
+    p = s["pressure"] + (s["bulk_pressure"] if s.has("bulk_pressure") else 0.0)
+    share = s["volume"] ** 2 * p / s.M
+    scale = np.abs(share)
+    if s.averages_walls():
+        A, face = wall_patches(s)
+        share[face] = A.T @ (A.T @ share[face])
+        scale[face] = A.T @ (A.T @ scale[face])
+    return share, scale
+
+
+def pressure_force(s):
+    """(7) as printed, or 8.3 with its core of pairs."""
+    away = s.d / s.distance[..., None]
+    if s.printed("pressure"):
+        V, p = s["volume"], s["pressure"]
+        size = -V[:, None] * V[None, :] * 0.5 * (p[:, None] + p[None, :]) * spiky_slope(s.distance, s.h)
+        return summed(s, np.where(s.acts, size, 0.0)[..., None] * away)
+    share = s["pressure_share"]
+    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, 0.9 * s.dx
+    size = -(share[:, None] + share[None, :]) * wendland_slope(s.distance, s.h)
+    core = np.where((s.distance < s.h) & (s.distance < reach), kappa * (reach - s.distance), 0.0)
+    total, _ = summed(s, np.where(s.acts, size + core, 0.0)[..., None] * away)
+    return total, (s.condition * np.where(s.acts, np.abs(size) + core, 0.0)).sum(axis=1)
+
+
+def compression_energy(s):
+    """U of 8.3 and half of each pair's core."""
+    rho0, k = s.material("density"), np.full(s.n, s.stiffness)
+    if s.averages_walls():
+        k = np.where(s.group == WALL, 2 * k, k)
+    ratio = s["density"] / rho0
+    U = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.log(ratio) + 1 / ratio - 1)
+    size = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.abs(np.log(ratio)) + 1e-3)
+    if s.clamps:
+        U = np.where(ratio > 1, U, 0.0)
+    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, 0.9 * s.dx
+    core = np.where(s.acts & (s.distance < reach), 0.25 * kappa * (reach - np.minimum(s.distance, reach)) ** 2, 0.0).sum()
+    return U.sum() + core, size.sum() + core
+
+
+# --- viscosity --------------------------------------------------------------------------------------------------------------
+
+
+def seen_velocity_at_start(s):
+    """v of what moves by itself, V + omega x arm of members of rigid bodies; of walls that liquid is near the mirrored one, 8.4."""
+    v = s.vector("velocity").copy()
+    for i in range(s.n):
+        if s.body[i] >= 0 and s.moves_as_one(s.body[i]):
+            b = {k: np.array(values[s.body[i]]) for k, values in s.raw["bodies"].items()}
+            v[i] = b["body.velocity"] + np.cross(b["body.angular_velocity"], s.r[i] + s.box_widths(i) - b["body.centre"])
+    return v
+
+
+def mirrored(s):
+    """2 v_w - mean v_f of 8.4, and of which walls; the sums it is made of."""
+    mu = s.material("viscosity", 0.0)
+    pairs = (s.group[:, None] == WALL) & (s.group[None, :] == LIQUID)
+    weight = np.where(pairs, -mu[None, :] * s.slope_over_r, 0.0)
+    v_f = s.vector("viscous_velocity")
+    total, moved = weight.sum(axis=1), weight @ np.where((s.group == LIQUID)[:, None], v_f, 0.0)
+    wet = np.flatnonzero(total > 0)
+    rough = s.condition * weight
+    return wet, 2 * s.vector("velocity")[wet] - moved[wet] / total[wet, None], total, moved, rough.sum(axis=1), rough @ np.linalg.norm(v_f, axis=1)
+
+
+def pair_viscosity(s):
+    """mu_ij of 8.5; (8) prints the arithmetic mean."""
+    contact = s.scene["contact_viscosity"]
+    solid = s.group != LIQUID
+    mu = np.where(solid, contact, s.material("viscosity", 0.0))
+    if s.printed("viscosity"):
+        return 0.5 * (mu[:, None] + mu[None, :])
+    slips = np.array([k < len(s.scene["bodies"]) and s.scene["bodies"][k]["slip"] == "free" for k in s["source"]]) & solid
+    with np.errstate(invalid="ignore", divide="ignore"):
+        harmonic = np.where(mu[:, None] + mu[None, :] > 0, 2 * mu[:, None] * mu[None, :] / (mu[:, None] + mu[None, :]), 0.0)
+    of_liquid = np.where(solid[:, None], np.where(slips[:, None], 0.0, mu[None, :]), np.where(slips[None, :], 0.0, mu[:, None]))
+    both, none = solid[:, None] & solid[None, :], ~solid[:, None] & ~solid[None, :]
+    return np.where(both, contact, np.where(none, harmonic, of_liquid))
+
+
+def viscous_coefficient(s):
+    """G_ij [kg/s]: of `central` that of the velocity along the line of centres."""
+    V, mu = s["volume"], pair_viscosity(s)
+    if s.printed("viscosity"):
+        G = V[:, None] * V[None, :] * mu * viscosity_laplacian(s.distance, s.h)
+    elif s.scene["viscosity_form"] == "central":
+        G = 10 / s.M * mu * V[:, None] * V[None, :] * -s.slope_over_r
+    else:
+        G = (V[:, None] ** 2 + V[None, :] ** 2) / s.M * mu * -s.slope_over_r
+    return np.where(s.acts, G, 0.0)
+
+
+def is_central(s):
+    return not s.printed("viscosity") and s.scene["viscosity_form"] == "central"
+
+
+def viscous_force(s):
+    """(8) as printed, or `central` or `laplacian` of 8.5."""
+    v = s.vector("viscous_velocity")
+    dv = v[None, :] - v[:, None]
+    speed = np.linalg.norm(v, axis=1)
+    G = viscous_coefficient(s)
+    scale = (s.condition * np.abs(G) * (speed[:, None] + speed[None, :])).sum(axis=1)
+    if is_central(s):
+        dv = (np.einsum("ijk,ijk->ij", dv, s.d) / s.r2)[..., None] * s.d
+    return summed(s, G[..., None] * dv)[0], scale
+
+
+def viscous_bound(s):
+    """8.10 [s], of all but walls."""
+    G, free = viscous_coefficient(s), s.group != WALL
+    if is_central(s):
+        tensor = np.einsum("ij,ijk,ijl->ikl", G / s.r2, s.d, s.d)
+        rate = np.linalg.eigvalsh(tensor)[:, 2]
+    else:
+        rate = G.sum(axis=1)
+    greatest = (rate / s.m)[free].max()
+    return (0.3 if is_central(s) else 0.5) / greatest
+
+
+def transport_forces(s):
+    """8.3, transport velocity: the background force, and that of the momentum that the shift carries."""
+    V, rho, v, w = s["volume"], s["density"], s.vector("viscous_velocity"), s.vector("shift")
+    gradient = s.slope_over_r[..., None] * s.d
+    both = V[:, None] ** 2 + V[None, :] ** 2
+    background = -s.stiffness * s.rest_densities()[0] / s.S0 * both[..., None] * gradient
+    carried = (rho * 1.0)[:, None] * v
+    along_i = np.einsum("ik,ijk->ij", w, gradient)
+    along_j = np.einsum("jk,ijk->ij", w, gradient)
+    stress = 0.5 / s.S0 * both[..., None] * (carried[:, None] * along_i[..., None] + carried[None, :] * along_j[..., None])
+    return summed(s, background), summed(s, stress)
+
+
+# --- heat -------------------------------------------------------------------------------------------------------------------
+
+
+def heat_printed(s):
+    """(21): dT_i/dt and the sum of its coefficients."""
+    c = s.material("conductivity") / (s.material("density") * s.material("heat_capacity"))
+    a = c[:, None] * s["volume"][None, :] * viscosity_laplacian(s.distance, s.h)
+    T = s["temperature"]
+    return (a * (T[None, :] - T[:, None])).sum(axis=1), (s.condition * a * (np.abs(T)[None, :] + np.abs(T)[:, None])).sum(axis=1), a.sum(axis=1)
+
+
+def heat_moment(s):
+    """M_i = 1/2 sum_j V_j K r r^T of 8.6."""
+    V = s.m / s.material("density")
+    return np.einsum("ij,ijk,ijl->ikl", V[None, :] * -s.slope_over_r, s.d, s.d)
+
+
+def pseudo_inverse(M, cut):
+    """Of a symmetric matrix; eigenvalues below `cut` times the largest count as zero. Also how many do not."""
+    values, vectors = np.linalg.eigh(M)
+    keep = (values >= cut * values[-1]) & (values[-1] > 0)
+    inverse = (vectors[:, keep] / values[keep]) @ vectors[:, keep].T
+    return inverse, int(keep.sum())
+
+
+def heat_corrected(s):
+    """dH_i/dt of 8.6, what its magnitudes sum to, and the sum of G_ij."""
+    V, k, T, A = s.m / s.material("density"), s["conductivity"], s["temperature"], s.symmetric("moment_inverse")
+    e = s.d / s.distance[..., None]
+    along = 0.5 * (np.einsum("ijk,ikl,ijl->ij", e, A, e) + np.einsum("ijk,jkl,ijl->ij", e, A, e))
+    G = V[:, None] * V[None, :] * 2 * k[:, None] * k[None, :] / (k[:, None] + k[None, :]) * along * -2 * s.slope_over_r
+    return (G * (T[None, :] - T[:, None])).sum(axis=1), (np.abs(G) * (np.abs(T)[None, :] + np.abs(T)[:, None])).sum(axis=1), G.sum(axis=1)
