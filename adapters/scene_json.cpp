@@ -267,7 +267,7 @@ json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
   json out{{"end_time", s.end_time}, {"gravity", to_json(s.gravity)}, {"spacing", s.spacing}, {"support_ratio", s.support_ratio}, {"mode", to_string(s.mode)},
            {"modes", modes}, {"time_step", maybe(s.time_step)}, {"seed", s.seed}, {"jitter", s.jitter}, {"min", maybe(s.min)}, {"max", maybe(s.max)},
            {"periodic", periodic}, {"output_interval", s.output_interval}, {"settle", s.settle}, {"merge_distance", s.merge_distance}, {"contact", s.contact ? "auto" : "none"},
-           {"on_failure", s.recovers ? "recover" : "stop"}, {"unguarded", s.unguarded}};
+           {"clamp", s.clamps()}, {"on_failure", s.recovers ? "recover" : "stop"}, {"unguarded", s.unguarded}};
   add_effect_values(s, "scene", out);
   out["materials"] = out["bodies"] = out["events"] = out["inflows"] = json::array();
   for (const Material& m : s.materials) out["materials"].push_back(to_json(m));

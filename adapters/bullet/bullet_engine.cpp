@@ -80,7 +80,7 @@ std::vector<Piece> BulletEngine::start_pieces(const Row& row, const JobBody& bod
 }
 
 Piece BulletEngine::particle_piece() const {
-  const double half = 0.5 * job_.resolution.spacing;
+  const double half = (0.5 - job_.scene.jitter) * job_.resolution.spacing;  // pieces of particles that jitter do not overlap
   return {preset_for(job_).collision == Collision::spheres ? Piece::Kind::sphere : Piece::Kind::box, {}, {}, {half, half, half}};
 }
 

@@ -181,6 +181,27 @@ double inner_radius(const JobBody& b) {
 
 bool is_convex(const Body& b) { return b.shape.kind == Shape::Kind::box || b.shape.kind == Shape::Kind::sphere || b.shape.kind == Shape::Kind::cylinder; }
 
+/// Distance of a place from a box; 0 inside [m].
+double distance(const Shape& box, const Vec3& x) {
+  Vec3 out;
+  for (std::size_t k = 0; k < 3; ++k) out[k] = std::max({0.0, box.min[k] - x[k], x[k] - box.max[k]});
+  return norm(out);
+}
+
+/// A body that flies into a fixed box, whichever way it turns: where its parabola is at the output times.
+std::string why_it_lands(const Job& job) {
+  for (std::size_t a = 0; a < job.bodies.size(); ++a)
+    for (std::size_t b = 0; b < job.bodies.size(); ++b) {
+      const JobBody& flying = job.bodies[a];
+      if (flying.motion != Motion::free || job.bodies[b].motion != Motion::fixed || !is_convex(job.scene.bodies[a]) || job.scene.bodies[b].shape.kind != Shape::Kind::box) continue;
+      for (const double t : job.times) {
+        const Vec3 centre = flying.properties.centre + t * flying.velocity + (0.5 * t * t) * job.scene.gravity;
+        if (distance(job.scene.bodies[b].shape, centre) < inner_radius(flying)) return fmt::format("{} meets {}, and fix rigid runs here without contact", flying.name, job.bodies[b].name);
+      }
+    }
+  return {};
+}
+
 /// Two convex bodies that fly into each other, whichever way they turn: of the same gravity, so that they come together along a line.
 std::string why_they_meet(const Job& job) {
   for (std::size_t a = 0; a < job.bodies.size(); ++a)
@@ -207,7 +228,8 @@ std::string why_no_rigid(const Job& job) {
   if (!job.scene.events.empty()) return "fix rigid keeps its bodies for the whole run: no merge, split or other events";
   if (!job.scene.inflows.empty()) return "no inflow into fix rigid";
   if (job.scene.periodic[0] || job.scene.periodic[1] || job.scene.periodic[2]) return "rigid bodies across periodic directions are not handed to fix rigid";
-  return why_they_meet(job);
+  const std::string lands = why_it_lands(job);
+  return lands.empty() ? why_they_meet(job) : lands;
 }
 
 std::unique_ptr<Model> make_rigid_flight(const Job& job, const InitialState& state) { return std::make_unique<RigidFlight>(job, state); }

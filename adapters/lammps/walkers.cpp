@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "adapters/lammps/heat_scene.hpp"
 #include "adapters/lammps/walker_start.hpp"
@@ -52,6 +53,8 @@ class Walkers final : public Model {
     if (!brownian_ && clock_.total() == 0) steps.count += lag_steps;
     clock_.run(library_, steps);
     time_ = time;
+    for (std::size_t i = 0; i < job_.gauges.size(); ++i)
+      if (const auto [D, error] = gauged(job_.gauges[i]); error > 0.0) gauges_ += fmt::format("{:.17g},{},{:.17g},{:.17g}\n", time_, i, D, error);
   }
 
   [[nodiscard]] Snapshot observe() const override;
@@ -62,12 +65,16 @@ class Walkers final : public Model {
     result.time_step_bound = brownian_ ? "none: exact at any step within the box" : "relaxation time, box";
     result.extra["walkers"] = choice_.walkers;
     result.extra["kelvin_a_walker"] = kelvin_a_walker();
-    const auto [msd, error] = diffusivity_by_displacement();
+    const auto [msd, error] = diffusivity_by_displacement({0, 1, 2});
     if (error > 0.0) result.extra["diffusivity"] = msd, result.extra["diffusivity_error"] = error;
     result.message = fmt::format("{:.0f} {} walkers {}; {}; cell means lie (k dx)^2/24 below the values at the centres", choice_.walkers,
                                  brownian_ ? "Brownian" : "Langevin", box_.held_axis >= 0 ? "beside the steady profile, with their signs" : fmt::format("above {} K", start_.base({})),
                                  axis_ >= 0 ? fmt::format("counted in whole layers along {}, as the start depends on it alone", "xyz"[axis_]) : "counted in single cells");
     if (!brownian_) result.message += fmt::format("; relaxation time {:.3g} s, its lag taken off", tau_);
+    if (gauges_.empty()) return;
+    std::ofstream file(job_.output + "/gauges.csv");
+    file << "time,gauge,value,standard_error\n" << gauges_;
+    if (!file.flush()) throw EngineError(job_.output + "/gauges.csv: cannot be written");
   }
 
  private:
@@ -142,12 +149,22 @@ class Walkers final : public Model {
   /// Whether the box begins with the mirrored half.
   [[nodiscard]] bool held_low_alone() const { return box_.held_low && !box_.held_high; }
 
-  /// Half the mean squared displacement a second, of all directions in which walkers go on for ever, and its standard error. [m2/s]
-  [[nodiscard]] std::pair<double, double> diffusivity_by_displacement() const {
+  /// The diffusivity that a gauge asks for, along its axis or, where it has none, along all; {} where walkers do not go on for ever there.
+  [[nodiscard]] std::pair<double, double> gauged(const JobGauge& gauge) const {
+    if (gauge.quantity != "diffusivity") return {};
+    const auto axis = gauge.where.find("axis");
+    if (axis == gauge.where.end()) return diffusivity_by_displacement({0, 1, 2});
+    const auto* word = std::get_if<std::string>(&axis->second);
+    if (!word || word->size() != 1 || (*word)[0] < 'x' || (*word)[0] > 'z') return {};
+    return diffusivity_by_displacement({(*word)[0] - 'x'});
+  }
+
+  /// Half the mean squared displacement a second, of those of the axes along which walkers go on for ever, and its standard error. [m2/s]
+  [[nodiscard]] std::pair<double, double> diffusivity_by_displacement(const std::vector<int>& axes) const {
     const double dx2 = job_.scene.spacing * job_.scene.spacing, time = time_ - job_.times.front();
     double sum = 0.0;
     int free = 0;
-    for (int k = 0; k < 3; ++k)
+    for (const int k : axes)
       if (wraps_[static_cast<std::size_t>(k)]) sum += library_.compute_value("way", k), ++free;
     if (free == 0 || !(time > 0.0)) return {};
     const double D = dx2 * sum / (2.0 * free * time);
@@ -185,6 +202,7 @@ class Walkers final : public Model {
   std::array<bool, 3> wraps_{};
   std::vector<Vec3> drawn_;  ///< where the walkers start
   std::vector<int> drawn_type_;
+  std::string gauges_;       ///< lines of gauges.csv so far
 };
 
 Walkers::Counts Walkers::counts() const {

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, file_of, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, pieces_of
-from rotation import IDENTITY, Quaternion, Vector, norm, quaternion, rotate, vector
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, pieces_of, why_it_grows
+from rotation import IDENTITY, Quaternion, Vector, quaternion, rotate, vector
 
 
 def matrix_of(q: Quaternion) -> list[list[float]]:
@@ -88,16 +88,6 @@ class DartWorld(World):
         return vector(self.world.getGravity())
 
 
-MOST_GROWTH = 10.0  # of the logarithm of the energy: at 25 the state is no longer finite
-
-
-def growth(job: Job, body: dict[str, Any], default_step: float) -> float:
-    """What explicit Euler adds to the logarithm of the energy of a free top: (rate of its nutation)^2 dt T [Hairer, Lubich & Wanner 2006, I.1]."""
-    low, middle, high = body["principal_inertia"]
-    rate = norm(vector(body["angular_velocity"])) * math.sqrt(max(0.0, (middle - low) * (high - middle) / (low * high)))
-    return rate * rate * (job.time_step or default_step) * (job.times[-1] - job.times[0])
-
-
 class Dart(RigidEngine):
     name, title = "dart", "DART"
     capabilities = ("rigid-free-flight", "gravity", "fixed", "contact")
@@ -112,10 +102,9 @@ class Dart(RigidEngine):
         return file_of("dartpy", lambda name: name.startswith("dartpy") and name.endswith(".so"))
 
     def refuse(self, job: Job) -> str:
-        exponent = max((growth(job, body, self.default_step) for body in job.bodies if body["motion"] == "free"), default=0.0)
-        if exponent > MOST_GROWTH:
-            return (f"DART takes the gyroscopic term from the start of a step, which at this spin, step and length multiplies the energy by about "
-                    f"e^{exponent:.0f}, until nothing is finite")
+        grows = why_it_grows(job, self.default_step)
+        if grows:
+            return "DART " + grows
         for body in job.bodies:
             if any(piece.kind == "plane" for piece in pieces_of(body["shape"], (0.0, 0.0, 0.0), IDENTITY) or ()):
                 return f"half spaces are not handed to DART, and {body['name']} has one"

@@ -8,8 +8,8 @@ from importlib.metadata import distribution, version
 from pathlib import Path
 from typing import Any
 
-from contract import Job, file_of, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
+from contract import Diverged, Job, file_of, serve
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, why_it_grows
 from rotation import Quaternion, Vector, add, product, quaternion, rotate, vector
 
 os.environ.setdefault("MUJOCO_GL", "disable")  # nothing is drawn here, so no window library is wanted
@@ -67,15 +67,21 @@ class MujocoWorld(World):
             spin = rotate((body.frame[0], -body.frame[1], -body.frame[2], -body.frame[3]), body.spin)
             self.data.qvel[6 * free:6 * free + 6] = [*body.velocity, *spin]
         self.touched = 0.0
+        self.time = 0.0  # MuJoCo's own starts again when it begins anew
 
     def step(self, dt: float, count: int) -> None:
         self.model.opt.timestep = dt
         if self.model.ngeom == 0:
             self.engine.mj_step(self.model, self.data, count)
-            return
-        for _ in range(count):
-            self.engine.mj_step(self.model, self.data)
-            self.touched += self.data.ncon
+        else:
+            for _ in range(count):
+                self.engine.mj_step(self.model, self.data)
+                self.touched += self.data.ncon
+        self.time += count * dt
+        warning = self.engine.mjtWarning
+        for kind in (warning.mjWARN_BADQPOS, warning.mjWARN_BADQVEL, warning.mjWARN_BADQACC):
+            if self.data.warning[int(kind)].number > 0:  # it has then begun anew from its reference state, at rest
+                raise Diverged("MuJoCo found its state not finite or huge, and began anew", 0, self.time)
 
     def state(self, number: int) -> State:
         free = self.rows[number]
@@ -123,6 +129,9 @@ class Mujoco(RigidEngine):
         for key in ("solref", "solimp"):
             if key in job.settings and not isinstance(job.settings[key], str):
                 return f'mujoco: the setting {key} is a text of numbers, for example "0.02 1"'
+        grows = why_it_grows(job, self.default_step) if job.preset == "Euler" else ""
+        if grows:
+            return "MuJoCo's Euler " + grows
         bounce = bounciness(job)
         if bounce > 0.0 and len(job.bodies) > 1 and "solref" not in job.settings:
             return f"MuJoCo has no coefficient of restitution, and {bounce:g} is asked for; the setting solref makes contacts springs with a damping"

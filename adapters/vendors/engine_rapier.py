@@ -30,7 +30,7 @@ class RapierWorld(World):
     def __init__(self, rapier: Any, job: Job, bodies: list[Body], dt: float) -> None:
         self.rapier = rapier
         self.world = rapier.PhysicsWorld(gravity=vector(job.scene["gravity"]))
-        self.world.set_num_threads(1)
+        # No set_num_threads: it would hand every step to a thread of its own, which on a busy machine waits for its turn each time.
         parameters = self.world.integration_parameters
         parameters.dt = dt
         parameters.friction_model = getattr(rapier.FrictionModel, job.preset)

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from contract import BODY_COLUMNS, Diverged, Engine, Job, Outcome, Row, write_trajectory
-from rotation import (IDENTITY, Quaternion, Vector, add, between, conjugate, normalised, product, quaternion, rotate_back, scaled, subtract,
-                      vector)
+from rotation import (IDENTITY, Quaternion, Vector, add, between, conjugate, norm, normalised, product, quaternion, rotate_back, scaled,
+                      subtract, vector)
 
 
 LARGEST = 1e30  # m, m/s or rad/s: what is beyond has diverged, though it still has a number
@@ -238,6 +238,25 @@ def _row(at: float, body: Body, state: State | None) -> Row:
         raise Diverged(f"the state of {body.name} is not finite, or beyond {LARGEST:g}", body.index, at)
     turned = product(normalised(state.orientation), conjugate(body.frame))
     return [at, body.index, *state.centre, *state.velocity, *turned, *state.spin]
+
+
+MOST_GROWTH = 10.0  # of the logarithm of the energy: at 25 the state is no longer finite
+
+
+def growth(job: Job, body: dict[str, Any], default_step: float) -> float:
+    """What explicit Euler adds to the logarithm of the energy of a free top: (rate of its nutation)^2 dt T [Hairer, Lubich & Wanner 2006, I.1]."""
+    low, middle, high = body["principal_inertia"]
+    rate = norm(vector(body["angular_velocity"])) * math.sqrt(max(0.0, (middle - low) * (high - middle) / (low * high)))
+    return rate * rate * (job.time_step or default_step) * (job.times[-1] - job.times[0])
+
+
+def why_it_grows(job: Job, default_step: float) -> str:
+    """Why an engine with explicit Euler's gyroscopic term cannot run the job's free tops to the end; empty = it can."""
+    exponent = max((growth(job, body, default_step) for body in job.bodies if body["motion"] == "free"), default=0.0)
+    if exponent <= MOST_GROWTH:
+        return ""
+    return (f"takes the gyroscopic term from the start of a step, which at this spin, step and length multiplies the energy by about "
+            f"e^{exponent:.0f}, until nothing is finite")
 
 
 def coulomb(job: Job) -> float:

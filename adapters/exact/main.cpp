@@ -1,6 +1,0 @@
-// SPDX-License-Identifier: BSD-3-Clause
-#include "adapters/exact/exact_engine.hpp"
-
-int main(int argc, char** argv) {
-  return tripoint::serve(argc, argv, [] { return std::unique_ptr<tripoint::Engine>(new tripoint::ExactEngine); });
-}
