@@ -94,6 +94,22 @@ void check_ownership(const std::vector<Active>& effects, bool periodic) {
   }
 }
 
+/// What each effect may ask for: what it owns and reads, the table of bodies, and the forces of all where it sums them.
+void set_declared(std::vector<Active>& effects) {
+  std::vector<FieldInfo> forces;
+  for (const Active& a : effects)
+    for (const Force& f : a.spec.forces) forces.insert(forces.end(), {f.x, f.y, f.z});
+  for (Active& a : effects) {
+    a.declared.who = a.name;
+    const auto add = [&](const std::vector<FieldInfo>& fields) {
+      for (const FieldInfo& f : fields) a.declared.keys.push_back(f.key);
+    };
+    add(a.spec.owns), add(a.spec.reads), add(a.spec.reads_if_there), add(body_table_fields());
+    if (a.spec.sums_forces) add(forces);
+    std::ranges::sort(a.declared.keys);
+  }
+}
+
 /// @throws InputError when two effects declare a force's columns or an account, or there are more forces than sums have room for
 void check_forces(const std::vector<Active>& effects) {
   std::vector<Account> seen;
@@ -140,10 +156,11 @@ std::vector<Active> active_effects(const Scene& scene) {
   std::vector<Active> list;
   for (const Registered& r : all_effects) {
     const auto call = std::ranges::find(calls, r.name, &CalledEffect::name);
-    if (call != calls.end()) list.push_back({std::string(r.name), call->why, r.spec(scene), r.make(scene)});
+    if (call != calls.end()) list.push_back({std::string(r.name), call->why, r.spec(scene), r.make(scene), {}});
   }
   check_ownership(list, scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
   check_forces(list);
+  set_declared(list);
   return list;
 }
 
@@ -174,7 +191,7 @@ Plan plan(const Scene& scene) {
 
 std::vector<DefectEntry> registered_defects() {
   std::vector<DefectEntry> list{
-      {"neighbours.seam", "pairs across the seam of a periodic box left out", "heat/cosine-mode"},
+      {"neighbours.seam", "pairs across a periodic boundary left out", "heat/cosine-mode"},
       {"neighbours.support", "pairs beyond 1 - size of the support radius left out", "heat/lattice-sum"},
       {"time.first_kick", "first half kick left out: the leapfrog starts first order", "rigid/ballistic"},
   };

@@ -14,6 +14,7 @@ struct Active {
   std::string name, why;
   EffectSpec spec;
   std::unique_ptr<Effect> effect;
+  DeclaredFields declared{};  ///< all that it may ask for
 };
 
 /// Effects that the scene calls for, in the order in which they run. @throws InputError naming one that is not in this build

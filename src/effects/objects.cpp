@@ -18,7 +18,7 @@ bool is_driven(const World& world, int body) {
   return body >= 0 && world.bodies[field::body_motion][static_cast<std::size_t>(body)] != static_cast<int>(Motion::free);
 }
 
-/// A member of a touched body, or a particle that froze.
+/// A member of a changed body, or a particle that froze.
 struct Node {
   std::uint32_t id;
   int body;    ///< before; -1: it froze
@@ -52,15 +52,15 @@ class Sets {
 
 class Grouping {
  public:
-  Grouping(World& world, const Touched& touched) : world_(world), rows_(touched.bodies) {
+  Grouping(World& world, const ChangedBodies& changed) : world_(world), rows_(changed.bodies) {
     sort_once(rows_);
-    collect(touched.frozen);
+    collect(changed.frozen);
   }
   void run(const BeforeRelisting& before) {
     unite();
     assign_rows();
     end_pairs(before);
-    tell();
+    record_change();
   }
 
  private:
@@ -68,11 +68,11 @@ class Grouping {
   void unite();
   void assign_rows();
   void end_pairs(const BeforeRelisting& before);
-  void tell();
+  void record_change();
   [[nodiscard]] bool same_body_or_new(const Node& a, const Node& b) const { return a.body == b.body || a.body < 0 || b.body < 0; }
   [[nodiscard]] std::map<std::pair<int, int>, std::uint32_t> blocks_that_never_melt() const;
   [[nodiscard]] int new_row(std::size_t component);
-  /// What holds the particle with this id: its component, or below -1 the untouched body that it is of; -1 for liquids.
+  /// What holds the particle with this id: its component, or below -1 the unchanged body that it is of; -1 for liquids.
   [[nodiscard]] int holder(std::uint32_t id) const;
 
   World& world_;
@@ -87,11 +87,11 @@ class Grouping {
 void Grouping::collect(const std::vector<std::uint32_t>& frozen) {
   const Particles& p = world_.particles;
   const auto body = p[field::body], source = p[field::source], phase = p[field::phase];
-  std::vector<char> is_touched(world_.bodies.size(), 0);
-  for (const std::size_t b : rows_) is_touched[b] = 1;
+  std::vector<char> is_changed(world_.bodies.size(), 0);
+  for (const std::size_t b : rows_) is_changed[b] = 1;
   std::vector<std::uint32_t> ids = frozen;
   for (std::size_t i = 0; i < body.size(); ++i)
-    if (body[i] >= 0 && is_touched[static_cast<std::size_t>(body[i])]) ids.push_back(static_cast<std::uint32_t>(p[field::id][i]));
+    if (body[i] >= 0 && is_changed[static_cast<std::size_t>(body[i])]) ids.push_back(static_cast<std::uint32_t>(p[field::id][i]));
   sort_once(ids);
   node_.assign(p.size(), none);
   for (const std::uint32_t id : ids) {
@@ -232,7 +232,7 @@ void Grouping::end_pairs(const BeforeRelisting& before) {
   }
 }
 
-void Grouping::tell() {
+void Grouping::record_change() {
   Change& change = world_.change;
   const auto body = world_.particles[field::body];
   std::vector<char> lives(world_.bodies.size(), 0);
@@ -257,7 +257,7 @@ void Grouping::tell() {
 
 }  // namespace
 
-void regroup(World& world, const Touched& touched, const BeforeRelisting& before) { Grouping(world, touched).run(before); }
+void regroup(World& world, const ChangedBodies& changed, const BeforeRelisting& before) { Grouping(world, changed).run(before); }
 
 std::size_t count_objects(const World& world) {
   const auto body = world.particles[field::body];

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "io/gauge_error.hpp"
 #include "io/trajectory.hpp"
 
 namespace tripoint {
@@ -171,6 +172,9 @@ void read_gauges_csv(const std::string& path, const std::vector<std::string>& na
     Snapshot& frame = frames[time];
     frame.time = time;
     if (!frame.gauges.emplace(name, row["value"]).second) throw InputError({path, number, 0}, "the gauge `" + name + "` has two values at this time");
+    if (!row.has("standard_error")) continue;
+    if (!(row["standard_error"] >= 0.0) || !std::isfinite(row["standard_error"])) throw InputError({path, number, 0}, "the standard error of the gauge `" + name + "` is no number from 0 on");
+    frame.gauges[gauge_error_key(name)] = row["standard_error"];
   }
   trajectory.frames.clear();
   for (auto& [time, frame] : frames) trajectory.frames.push_back(std::move(frame));

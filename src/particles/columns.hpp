@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <variant>
@@ -13,6 +16,20 @@
 #include "core/field.hpp"
 
 namespace tripoint {
+
+/// The fields that an effect has declared, in its `owns` and `reads`.
+struct DeclaredFields {
+  std::string who;                  ///< the effect
+  std::vector<std::uint64_t> keys;  ///< ascending
+  [[nodiscard]] bool has(std::uint64_t key) const { return std::ranges::binary_search(keys, key); }
+};
+
+/// An effect asked for a column that it has not declared: a fault of the program, so it says both by name.
+class UndeclaredField : public std::logic_error {
+ public:
+  UndeclaredField(std::string_view who, std::string_view field)
+      : std::logic_error("the effect " + std::string(who) + " asks for the field " + std::string(field) + ", which its `owns` and `reads` do not name") {}
+};
 
 /// Structure of arrays: one column a field, rows common to all. Columns are 64-byte aligned and padded by one vector.
 class Columns {
@@ -29,7 +46,11 @@ class Columns {
   }
   [[nodiscard]] std::vector<FieldInfo> fields() const;
 
-  /// @throws MissingField by name when no effect of this scene owns it
+  /// Only these columns are given out until it is called anew; null: all. It is looked at where a column is fetched, not where a value is, and in the
+  /// test build alone: what users get pays nothing for it.
+  void show_only(const DeclaredFields* declared) const noexcept { declared_ = declared; }
+
+  /// @throws MissingField by name when no effect of this scene owns it   @throws UndeclaredField where show_only() hides it
   template <class T>
   [[nodiscard]] std::span<T> operator[](const Field<T>& key) {
     return {values<T>(*this, key).data(), rows_};
@@ -73,9 +94,13 @@ class Columns {
   static auto& values(Self& self, const Field<T>& key) {
     auto* column = const_cast<std::conditional_t<std::is_const_v<Self>, const Column, Column>*>(self.find(key.key));
     if (!column) throw MissingField(key.name, key.per);
+#ifdef TRIPOINT_DEFECTS
+    if (self.declared_ && !self.declared_->has(key.key)) throw UndeclaredField(self.declared_->who, key.name);
+#endif
     return std::get<AlignedVector<T>>(column->values);
   }
 
+  mutable const DeclaredFields* declared_ = nullptr;
   std::size_t rows_ = 0;
   Per per_ = Per::particle;
   std::vector<Column> columns_;

@@ -15,8 +15,8 @@ namespace {
 
 const char* const axis_names[] = {"x", "y", "z"};
 
-/// Whether this build drops pairs across the seam of a periodic box (a defect of the self-test).
-bool drops_seam() {
+/// Whether this build drops pairs across a periodic boundary (a defect of the self-test).
+bool drops_periodic_pairs() {
   static const bool drops = defect_size("neighbours.seam") > 0.0;
   return drops;
 }
@@ -294,7 +294,7 @@ bool Neighbours::list_into(const Particles& particles, const Grid& grid, std::sp
         for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], x.at(i)[a]), high[a] = std::max(high[a], x.at(i)[a]);
       }
       grid.candidates(low, high, reach, box_, ranges);
-      if (drops_seam()) std::erase_if(ranges, [](const CandidateRange& r) { return r.image != Entry::box_itself; });
+      if (drops_periodic_pairs()) std::erase_if(ranges, [](const CandidateRange& r) { return r.image != Entry::box_itself; });
       std::size_t candidates = 0;
       for (const CandidateRange& r : ranges) candidates += r.to - r.from;
       if (entries.size() < candidates) entries.resize(candidates), near.resize(candidates);

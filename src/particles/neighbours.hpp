@@ -84,7 +84,7 @@ class RowEntries {
 
 /// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
 /// a sum over them has the same bits whatever the threads or the order of particles before. Periodic images count each;
-/// a particle may be its own neighbour through the seam.
+/// a particle may be its own neighbour through a periodic boundary.
 class Neighbours {
  public:
   /// @param support radius beyond which pairs do nothing [m]

@@ -129,7 +129,7 @@ class Checker {
       const auto path = e.name.empty() ? fmt::format("event.{}", n) : "event." + e.name;
       for (const auto& name : e.bodies) known_body(name, path + ".bodies", e.place, born);
       acts_on(e, path);
-      if (e.time > scene_.end_time) throw InputError(place(path + ".time", e.place), fmt::format("the event at {} s never comes: end_time is {} s", e.time, scene_.end_time));
+      if (e.time > scene_.end_time) throw InputError(place(path + ".time", e.place), fmt::format("the event at {} s never comes: end_time is {} s; remove it, or lengthen the run", e.time, scene_.end_time));
       for (const auto& [name, time] : absorbed)
         if (e.time > time && holds(e.bodies, name))
           throw InputError(place(path + ".bodies", e.place), fmt::format("body \"{}\" is absorbed by a merge at {} s and is no more at {} s: name the body that absorbs it", printable(name), time, e.time));

@@ -19,8 +19,8 @@ void each_effect_key(Owner& owner, std::string_view table, Visit visit) {
       const auto kept = [&](const auto& member) {
         using Member = std::decay_t<decltype(member)>;
         if constexpr (std::is_same_v<Member, std::monostate>) {
-          if constexpr (std::is_const_v<Owner>) visit(key.row, value_of(owner.values, key.row.name));
-          else visit(key.row, owner.values[std::string(key.row.name)]);
+          if constexpr (std::is_const_v<Owner>) visit(key.row, kept_number(owner.values, key.row));
+          else visit(key.row, owner.values.try_emplace(std::string(key.row.name), kept_number(owner.values, key.row)).first->second);
         } else if constexpr (requires { owner.*member; }) {
           visit(key.row, owner.*member);
         }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "scene/temperatures.hpp"
 
@@ -68,6 +69,18 @@ std::string who_freezes_elastic(const Scene& s, bool (*limited)(const Material&)
   return who;
 }
 
+std::string limit_called_for(const Scene& s, bool (*limited)(const Material&), std::string_view limit, std::string_view can) {
+  const std::string who = names_where(s, [&](const Body& b, const Material& m) { return b.phase == Phase::elastic && moves(s, b) && limited(m); });
+  if (!who.empty()) return because(who, fmt::format("elastic with {}: can {}", limit, can));
+  return because(who_freezes_elastic(s, limited), fmt::format("what freezes can {}", can));
+}
+
+std::string limit_left_out(const Scene& s, bool (*limited)(const Material&), std::string_view limit) {
+  if (!any_material(s, limited)) return fmt::format("no material has {}", limit);
+  const bool elastic = any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::elastic; });
+  return elastic ? "the bodies that have a limit are held in place, or not elastic" : "nothing is elastic";
+}
+
 std::vector<CalledEffect> called_effects(const Scene& s) {
   std::vector<CalledEffect> list;
   for (const EffectRule& rule : effect_rules())
@@ -80,6 +93,13 @@ std::vector<CalledEffect> idle_effects(const Scene& s) {
   for (const EffectRule& rule : effect_rules())
     if (rule.called_for && rule.left_out && rule.called_for(s).empty()) list.push_back({std::string(rule.name), rule.left_out(s)});
   return list;
+}
+
+double kept_number(const EffectValues& values, const Key& row) {
+  if (const auto at = values.find(row.name); at != values.end()) return at->second;
+  double fallback = 0.0;
+  std::from_chars(row.fallback.data(), row.fallback.data() + row.fallback.size(), fallback);
+  return fallback;
 }
 
 bool calls_for(const Scene& s, std::string_view effect) {

@@ -28,10 +28,13 @@ class Called {
 };
 
 /// A key of the case file that an effect brings: its row, and the member that keeps the value. Without a member it is a number of
-/// Scene::values or Material::values, by the key's name.
+/// Scene::values or Material::values, by the key's name; where no reader made them, it has the row's fallback.
 struct EffectKey {
   Key row;
   std::variant<std::monostate, double Scene::*, bool Scene::*, std::string Scene::*, double Material::*, bool Material::*, std::optional<double> Material::*> kept_in{};
+  /// Why a value in this scene changes nothing although the effect is on; "" = it acts. None: it acts wherever the effect is on.
+  std::string (*idle)(const Scene&) = nullptr;
+  bool ablated = false;  ///< of [scene], without a member: 0 leaves out a term that the paper does not have, which is a row of `tripoint ablate`
 };
 
 struct EffectRule {
@@ -49,6 +52,9 @@ struct EffectRule {
 
 /// Of every effect, in the order in which effects run.
 [[nodiscard]] std::span<const EffectRule> effect_rules();
+
+/// The number of a key without a member: as it is kept, else the row's fallback, 0 where it has none.
+[[nodiscard]] double kept_number(const EffectValues&, const Key&);
 
 /// Whether a scene calls for that one effect.
 [[nodiscard]] bool calls_for(const Scene&, std::string_view effect);
@@ -72,5 +78,9 @@ using BodyTest = bool (*)(const Scene&, const Body&, const Material&);
 [[nodiscard]] std::string who_changes_phase(const Scene&);
 /// Who is elastic once it has frozen, of a material that passes the test.
 [[nodiscard]] std::string who_freezes_elastic(const Scene&, bool (*limited)(const Material&));
+/// For a limit of what is elastic, as of yield or fracture: who has it or freezes with it, and what it `can` do then. `limit` names it with its article.
+[[nodiscard]] std::string limit_called_for(const Scene&, bool (*limited)(const Material&), std::string_view limit, std::string_view can);
+/// Why that limit never acts.
+[[nodiscard]] std::string limit_left_out(const Scene&, bool (*limited)(const Material&), std::string_view limit);
 
 }  // namespace tripoint

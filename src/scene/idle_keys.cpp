@@ -242,13 +242,19 @@ class IdleKeys {
     else if (s.hourglass != 1.0 && !(corrected(Term::hourglass) && corrected(Term::elastic))) idle("hourglass", "elasticity as printed has no energy against zero-energy modes");
     for (const EffectRule& rule : effect_rules())
       for (const EffectKey& key : rule.keys)
-        if (key.row.table == "scene" && value_of(s.values, key.row.name) != 0.0 && !calls(std::string(rule.name))) idle(key.row.name.data(), why_idle(std::string(rule.name)));
+        if (key.row.table == "scene" && kept_number(s.values, key.row) != 0.0) effect_key(rule, key);
     const bool breaks_up = calls("fracture") || std::ranges::any_of(s.events, [](const Event& e) { return e.kind == Event::Kind::merge || e.kind == Event::Kind::split; });
     if (!calls("phase") && !breaks_up && std::ranges::all_of(s.bodies, [](const Body& b) { return b.joined_to.empty(); })) idle("merge_distance", why_idle("phase"));
     for (std::size_t t = 0; t < term_count; ++t) {
       const Term term = static_cast<Term>(t);
       if (s.modes_given[t] && *s.modes_given[t] != s.mode && !acts(term)) idle(("modes." + std::string(to_string(term))).c_str(), "no effect of this scene has that term");
     }
+  }
+
+  void effect_key(const EffectRule& rule, const EffectKey& key) {
+    const auto name = std::string(key.row.name);
+    if (!calls(std::string(rule.name))) idle(name.c_str(), why_idle(std::string(rule.name)));
+    else if (key.idle && !any_mode([&](const Scene& run) { return key.idle(run).empty(); })) idle(name.c_str(), key.idle(scenes_.front()));
   }
 
   [[nodiscard]] bool acts(Term term) const {

@@ -50,6 +50,7 @@ constexpr auto common_keys = std::to_array<Key>({
     {"scene", "support_ratio", number, "", above_one, "=", "2.12 where every term is paper, else 2.6 (about 40 and 74 neighbours)", "", "support radius of the kernel divided by the spacing, h/dx"},
     {"scene", "mode", word, "", any, "\"corrected\"", "the best known form of each term", "corrected paper", "form of every term of the model"},
     {"scene", "modes", table, "", any, "=", "every term as `mode` says", "modes", "form of single terms of the model"},
+    {"scene", "clamp", flag, "", any, "=", "modes.clamp: true where it is corrected, since negative pressure would glue bodies together; the paper prints none", "", "no negative pressure"},
     {"scene", "time_step", number_or_auto, "s", positive, "\"auto\"", "the least bound of the effects that are on", "", "time step, or \"auto\""},
     {"scene", "seed", integer, "", not_negative, "1", "any number serves; kept so that runs repeat", "", "seed of jitter and walkers"},
     {"scene", "jitter", number, "", fraction, "0", "an undisturbed lattice", "", "random shift of each particle, uniform in +-jitter in each direction, in spacings"},

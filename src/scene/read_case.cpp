@@ -56,6 +56,15 @@ void read_modes(TableReader& in, Scene& s) {
   }
 }
 
+/// `clamp = true` is modes.clamp = "corrected", whatever the mode.
+void read_clamp(TableReader& in, Scene& s) {
+  const auto clamp = in.maybe_flag("clamp");
+  if (!clamp) return;
+  std::optional<Mode>& given = s.modes_given[static_cast<std::size_t>(Term::clamp)];
+  if (given) in.refuse("clamp", "scene.modes.clamp says the same: remove one of them");
+  given = *clamp ? Mode::corrected : Mode::paper;
+}
+
 void read_domain(TableReader& in, Scene& s) {
   s.min = in.maybe_vector("min"), s.max = in.maybe_vector("max");
   if (s.min.has_value() != s.max.has_value()) in.refuse(s.min ? "min" : "max", fmt::format("a domain has two corners: give scene.{} too", s.min ? "max" : "min"));
@@ -72,6 +81,7 @@ void read_scene(TableReader& in, Scene& s) {
   s.gravity = in.vector("gravity");
   s.mode = mode_from(in.text("mode"));
   read_modes(in, s);
+  read_clamp(in, s);
   s.time_step = in.maybe_number("time_step");
   if (s.time_step && *s.time_step > s.end_time) in.refuse("time_step", fmt::format("{} s is longer than end_time = {} s: shorten it", *s.time_step, s.end_time));
   if (s.time_step && s.end_time > most_steps * *s.time_step) in.refuse("time_step", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made; lengthen it", *s.time_step, s.end_time / *s.time_step, s.end_time, most_steps));
@@ -93,7 +103,8 @@ void resolve_modes(TableReader& in, Scene& s) {
     s.modes[t] = s.modes_given[t].value_or(s.mode);
     if (!s.modes_given[t]) in.ruled(fmt::format("modes.{}", to_string(static_cast<Term>(t))), fmt::format("\"{}\"", to_string(s.mode)), "as scene.mode");
   }
-  const bool paper = std::all_of(s.modes.begin(), s.modes.end(), [](Mode m) { return m == Mode::paper; });
+  if (!in.has("clamp")) in.ruled("clamp", s.clamps() ? "true" : "false", "as modes.clamp");
+  const bool paper = s.all_printed();
   if (const auto ratio = in.maybe_number("support_ratio")) {
     s.support_ratio = *ratio, s.support_ratio_given = true;
     if (s.support_ratio > 10.0) in.refuse("support_ratio", fmt::format("{} spacings reach some {:.0f} neighbours: at most 10", s.support_ratio, 4.19 * std::pow(s.support_ratio, 3)));

@@ -21,8 +21,8 @@ enum class Phase : int { liquid = 0, elastic = 1, rigid = 2 };
 enum class Motion { free, fixed, prescribed };
 enum class Mode { corrected, paper };
 /// The terms of the model that exist in a paper and a corrected form, `modes.TERM` of a case file.
-enum class Term { kernel, pressure, density, state, viscosity, walls, elastic, hourglass, heat, phase, rotation, time };
-inline constexpr std::size_t term_count = 12;
+enum class Term { kernel, pressure, density, state, clamp, viscosity, walls, elastic, hourglass, heat, phase, rotation, time };
+inline constexpr std::size_t term_count = 13;
 
 [[nodiscard]] std::string_view to_string(Phase);
 [[nodiscard]] std::string_view to_string(Motion);
@@ -154,7 +154,7 @@ struct Scene {
   std::array<bool, 3> periodic{};
   double output_interval = 0.0;  ///< [s]
   std::string viscosity_form = "central";
-  bool transport_velocity = false, clamp = true;
+  bool transport_velocity = false;
   bool settle = false;  ///< liquids are let down into equilibrium before time 0
   double merge_distance = 1.5;  ///< [spacings]
   bool merge_distance_given = false;
@@ -169,6 +169,10 @@ struct Scene {
   std::vector<Inflow> inflows;
 
   [[nodiscard]] Mode mode_of(Term t) const { return modes[static_cast<std::size_t>(t)]; }
+  /// Whether pressure (9) below zero counts as zero. The paper prints no clamp: it is a correction.
+  [[nodiscard]] bool clamps() const { return mode_of(Term::clamp) == Mode::corrected; }
+  /// Whether every term that has equations is as printed; the clamp has none.
+  [[nodiscard]] bool all_printed() const;
   /// @throws InputError when no material (body) of that name is there
   [[nodiscard]] const Material& material(std::string_view name) const;
   [[nodiscard]] const Body& body(std::string_view name) const;

@@ -5,6 +5,12 @@
 
 namespace tripoint {
 
+bool Scene::all_printed() const {
+  for (std::size_t t = 0; t < term_count; ++t)
+    if (static_cast<Term>(t) != Term::clamp && modes[t] != Mode::paper) return false;
+  return true;
+}
+
 double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? 2.12 : 1.5; }
 
 Scene scene_for(const Case& c, const RunChoice& choice) {
@@ -15,9 +21,8 @@ Scene scene_for(const Case& c, const RunChoice& choice) {
   if (choice.time_step) s.time_step = *choice.time_step;
   if (choice.jitter) s.jitter = *choice.jitter;
   if (choice.seed) s.seed = *choice.seed;
-  const bool paper = std::all_of(s.modes.begin(), s.modes.end(), [](Mode m) { return m == Mode::paper; });
   if (choice.support_ratio) s.support_ratio = *choice.support_ratio, s.support_ratio_given = true;
-  else if (!s.support_ratio_given) s.support_ratio = paper ? 2.12 : 2.6;
+  else if (!s.support_ratio_given) s.support_ratio = s.all_printed() ? 2.12 : 2.6;
   if (!s.merge_distance_given) s.merge_distance = default_merge_distance(s);
   if (const auto stiffness = default_stiffness(s)) {
     for (Material& m : s.materials) m.stiffness = stiffness->value;

@@ -22,7 +22,7 @@ Scene still_scene(Scene s) {
   s.modes.fill(Mode::corrected);
   if (!s.support_ratio_given) s.support_ratio = 2.6;
   s.time_step.reset();
-  s.transport_velocity = false, s.clamp = true, s.recovers = false;
+  s.transport_velocity = false, s.recovers = false;
   s.events.clear(), s.inflows.clear();
   for (Material& m : s.materials) m.viscosity = 0.0;
   for (Body& b : s.bodies) {

@@ -113,7 +113,10 @@ void Simulation::load(const InitialState& initial) {
   }
   add_scene_bodies(world_);
   solid::connect_solids(world_);
-  for (const Active& a : effects_) a.effect->load(world_, initial);
+  for (const Active& a : effects_) {
+    const DeclaredView view(world_, a);
+    a.effect->load(world_, initial);
+  }
 }
 
 void Simulation::plan_events() {
@@ -129,7 +132,10 @@ void Simulation::happen_until_now() {
   bool any = false;
   for (; next_moment_ < moments_.size() && moments_[next_moment_].time <= world_.time; ++next_moment_) {
     const Moment& m = moments_[next_moment_];
-    for (const Active& a : effects_) a.effect->happen(world_, {world_.scene.events[m.event], m.begins});
+    for (const Active& a : effects_) {
+      const DeclaredView view(world_, a);
+      a.effect->happen(world_, {world_.scene.events[m.event], m.begins});
+    }
     any = true;
   }
   if (!any) return;
@@ -212,7 +218,10 @@ void Simulation::step(double end) {
   world_.time = end;
   update_rates();
   bool again = false;
-  for (const Active& a : effects_) again = a.effect->correct(world_, dt_) || again;
+  for (const Active& a : effects_) {
+    const DeclaredView view(world_, a);
+    again = a.effect->correct(world_, dt_) || again;
+  }
   if (again) pass(PassName::heat);  // second stage of two-stage schemes
   clock_.ends(Stage::correct);
   run(&Effect::kick, 0.5 * dt_);
@@ -227,7 +236,10 @@ void Simulation::check() {
   constexpr long steps_between_ledgers = 128, steps_between_looks = 32;
   check_finite(world_);
   if (enclosure_.given || steps_ % steps_between_looks == 0) check_escape(world_, enclosure_);
-  for (const Active& a : effects_) a.effect->check(world_);
+  for (const Active& a : effects_) {
+    const DeclaredView view(world_, a);
+    a.effect->check(world_);
+  }
   if (steps_ % steps_between_ledgers == 0) check_energy(world_, ledger(), dt_, guards_);
 }
 
@@ -271,6 +283,7 @@ void Simulation::pass(PassName name) {
 TimeStepBound Simulation::next_bound() const {
   TimeStepBound least;
   for (const Active& a : effects_) {
+    const DeclaredView view(world_, a);
     const TimeStepBound b = a.effect->max_dt(world_);
     tighten(least, b.dt, b.name);
   }
@@ -293,7 +306,10 @@ Ledger Simulation::ledger() const {
   Ledger sum;
   const auto m = world_.particles[field::mass];
   for (std::size_t id = 0; id < m.size(); ++id) sum.mass += m[world_.particles.row(id)];
-  for (const Active& a : effects_) a.effect->add_to(world_, sum);
+  for (const Active& a : effects_) {
+    const DeclaredView view(world_, a);
+    a.effect->add_to(world_, sum);
+  }
   close_ledger(world_, sum);
   return sum;
 }

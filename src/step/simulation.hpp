@@ -8,6 +8,7 @@
 
 #include "core/checkpoint.hpp"
 #include "effects/all_effects.hpp"
+#include "effects/declared_view.hpp"
 #include "effects/world.hpp"
 #include "scene/initial_state.hpp"
 #include "step/guard.hpp"
@@ -88,7 +89,10 @@ class Simulation {
   void refuse_large_step() const;
   template <class... Args>
   void run(void (Effect::*stage)(World&, Args...), Args... args) {
-    for (const Active& a : effects_) (a.effect.get()->*stage)(world_, args...);
+    for (const Active& a : effects_) {
+      const DeclaredView view(world_, a);
+      (a.effect.get()->*stage)(world_, args...);
+    }
   }
 
   World world_;

@@ -23,17 +23,17 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"effects", {"core", "scene", "particles", "sph"}},
     {"effects/*", {"core", "scene", "particles", "sph", "effects"}},
     {"step", {"core", "scene", "particles", "sph", "effects", "effects/*"}},
-    {"bench", {"core", "scene", "particles", "sph", "effects", "step"}},
     {"adapters", {"core", "scene", "io"}},
     {"adapters/tripoint", {"core", "scene", "io", "particles", "sph", "effects", "step", "adapters"}},
-    {"adapters/exact", {"core", "scene", "io", "adapters", "validation/references"}},
     {"adapters/bullet", {"core", "scene", "io", "adapters"}},
     {"adapters/lammps", {"core", "scene", "io", "adapters"}},
     {"validation/references", {"core", "scene", "io", "adapters"}},
     {"validation/metrics", {"core", "scene", "io", "adapters", "validation/references"}},
     {"validation/harness", {"core", "scene", "io", "adapters", "validation/references", "validation/metrics"}},
+    {"validation/exact", {"core", "scene", "io", "adapters", "validation/references"}},
+    {"program/bench", {"core", "scene", "particles", "sph", "effects", "step"}},
 };
-constexpr std::string_view sees_all = "cli";
+constexpr std::string_view sees_all = "program/cli";
 /// The one list of the effects, and the one of their pair terms.
 constexpr std::array<std::string_view, 2> effect_lists{"src/effects/all_effects.", "src/effects/pair_passes_unit."};
 
@@ -53,7 +53,7 @@ constexpr std::array homes{
     Home{"toml++/", "scene"},
     Home{"openvdb/", "scene"},
     Home{"tiny_obj_loader", "scene"},
-    Home{"CLI/", "cli"},
+    Home{"CLI/", "program/cli"},
     Home{"mpi", ""},
 };
 /// Seconds to compile each: only in a .cpp.
@@ -91,7 +91,7 @@ std::vector<Include> includes_of(const Source& source) {
 /// The path from the project's root that a quoted include means; a bare name is a neighbour.
 std::string path_of(std::string_view target, std::string_view includer) {
   if (target.find('/') == std::string_view::npos) return std::string(includer.substr(0, includer.rfind('/') + 1)).append(target);
-  const bool outside_src = target.starts_with("adapters/") || target.starts_with("validation/") || target.starts_with("tests/") ||
+  const bool outside_src = target.starts_with("adapters/") || target.starts_with("validation/") || target.starts_with("program/") || target.starts_with("tests/") ||
                            target.starts_with("src/");
   return outside_src ? std::string(target) : std::string("src/").append(target);
 }
@@ -117,7 +117,7 @@ std::string room_of(std::string_view path) {
   if (parts.size() < 2) return "";
   parts.pop_back();  // the file's name
   const bool in_src = parts.front() == "src";
-  if (!in_src && parts.front() != "adapters" && parts.front() != "validation") return "";
+  if (!in_src && parts.front() != "adapters" && parts.front() != "validation" && parts.front() != "program") return "";
   if (in_src) parts.erase(parts.begin());
   if (parts.empty()) return "";
   const bool has_inner_rooms = !in_src || parts.front() == "effects";

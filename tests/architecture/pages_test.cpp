@@ -36,7 +36,7 @@ struct Named {
 };
 Named named() {
   Named all;
-  for (const auto* folder : {"src", "adapters", "validation", "tests"}) {
+  for (const auto* folder : {"src", "adapters", "validation", "program", "tests"}) {
     for (const auto& entry : fs::recursive_directory_iterator(root() / folder)) {
       all.files.insert(entry.path().filename().string());
       if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
@@ -108,7 +108,7 @@ TEST(ModelPage, SaysTheFiguresThatTheBaselinesHold) {
 }
 
 bool is_there(const std::string& word, const Named& all) {
-  static const std::regex identifier("[A-Za-z_]\\w*(::[A-Za-z_]\\w*)*"), file("\\w+\\.(cpp|hpp)"), path("(src|adapters|validation|tests|docs|cases|reports|tools)/.*"), id("[a-z]+(/[a-z]+)?/[a-z0-9-]+");
+  static const std::regex identifier("[A-Za-z_]\\w*(::[A-Za-z_]\\w*)*"), file("\\w+\\.(cpp|hpp)"), path("(src|adapters|validation|program|tests|docs|cases|reports|tools)/.*"), id("[a-z]+(/[a-z]+)?/[a-z0-9-]+");
   if (std::regex_match(word, path)) return fs::exists(root() / word);
   if (std::regex_match(word, id)) return fs::exists(root() / "cases" / (word + ".toml"));
   if (std::regex_match(word, file)) return all.files.contains(word);

@@ -27,7 +27,7 @@ struct Offence {
 /// The lines of a text without their ends; a last line without an end counts.
 [[nodiscard]] std::vector<std::string_view> lines_of(std::string_view text);
 
-/// The room a path of src, adapters or validation belongs to: "core", "effects", "effects/heat", "adapters",
+/// The room a path of src, adapters, validation or program belongs to: "core", "effects", "effects/heat", "adapters",
 /// "adapters/bullet", "validation/metrics"...; "" for any other path.
 [[nodiscard]] std::string room_of(std::string_view path);
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace tripoint::architecture {
 namespace {
 
@@ -16,7 +18,22 @@ TEST(Rooms, AreReadFromPaths) {
   EXPECT_EQ(room_of("adapters/job.hpp"), "adapters");
   EXPECT_EQ(room_of("adapters/bullet/world.cpp"), "adapters/bullet");
   EXPECT_EQ(room_of("validation/metrics/order.hpp"), "validation/metrics");
+  EXPECT_EQ(room_of("program/cli/main.cpp"), "program/cli");
   EXPECT_EQ(room_of("tests/core/vec3_test.cpp"), "");
+}
+
+/// 0 for a room of src, and one more for each folder that stands above: adapters, validation, program.
+std::size_t height_of(const std::string& room) {
+  const std::vector<std::string> above_src{"adapters", "validation", "program"};
+  const auto at = std::ranges::find(above_src, room.substr(0, room.find('/')));
+  return at == above_src.end() ? 0U : 1U + static_cast<std::size_t>(at - above_src.begin());
+}
+
+TEST(Rooms, OfAFolderIncludeNoneOfAFolderAbove) {
+  EXPECT_LT(height_of("effects/heat"), height_of("adapters/bullet"));
+  EXPECT_LT(height_of("validation/exact"), height_of("program/bench"));
+  for (const auto& [room, others] : map_of_rooms())
+    for (const std::string& other : others) EXPECT_LE(height_of(other), height_of(room)) << room << " may include " << other;
 }
 
 TEST(Includes, UpTheChainAreNamedWithTheirLine) {
@@ -31,9 +48,9 @@ TEST(Includes, DownTheChainAreAllowed) {
   EXPECT_TRUE(forbidden_includes(file("src/step/step.cpp",
                                       "#include \"step/step.hpp\"\n#include \"effects/plan.hpp\"\n#include \"core/vec3.hpp\"\n"))
                   .empty());
-  EXPECT_TRUE(forbidden_includes(file("adapters/exact/exact.cpp", "#include \"validation/references/reference.hpp\"\n")).empty());
+  EXPECT_TRUE(forbidden_includes(file("validation/exact/exact.cpp", "#include \"validation/references/reference.hpp\"\n")).empty());
   EXPECT_TRUE(
-      forbidden_includes(file("src/cli/validate.cpp", "#include \"validation/harness/suite.hpp\"\n#include \"step/step.hpp\"\n"))
+      forbidden_includes(file("program/cli/validate.cpp", "#include \"validation/harness/suite.hpp\"\n#include \"step/step.hpp\"\n"))
           .empty());
 }
 
@@ -72,7 +89,7 @@ TEST(Libraries, StayInTheirRooms) {
                                                                {"lammps/library.h", "adapters/lammps"},
                                                                {"hdf5.h", "src/io"},
                                                                {"toml++/toml.h", "src/scene"},
-                                                               {"CLI/CLI.hpp", "src/cli"}};
+                                                               {"CLI/CLI.hpp", "program/cli"}};
   for (const auto& [header, room] : homes) {
     const std::string line = "#include <" + header + ">\n";
     EXPECT_TRUE(strayed_libraries(file(room + "/a.cpp", line)).empty()) << header;

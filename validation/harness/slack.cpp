@@ -75,7 +75,7 @@ std::vector<Remark> slack_remarks(const Results& results) {
     for (const auto& e : c.engines)
       for (const auto& row : e.gates) {
         const auto slack = slack_of(c, row);
-        const double s = slack.value_or(0.0);  // one row that is no matter of slack settles the gate
+        const double s = slack.value_or(0.0);  // a row whose limit is not too wide settles the gate
         const auto [at, is_new] = tightest.try_emplace(key_of(c, row.gate), s, &row);
         if (!is_new && s < at->second.first) at->second = {s, &row};
       }

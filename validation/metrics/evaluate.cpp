@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "io/gauge_error.hpp"
 #include "scene/nearest.hpp"
 #include "scene/units.hpp"
 #include "validation/metrics/dominant_frequency.hpp"
@@ -213,17 +214,39 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
   return v;
 }
 
+/// Standard error that the engine states of its gauge; 0 where it states none.
+double stated_error(const Snapshot& frame, const std::string& metric) {
+  const auto at = frame.gauges.find(gauge_error_key(metric));
+  return at == frame.gauges.end() ? 0.0 : at->second;
+}
+
 /// The engine's own number in the place of one that is read from its particles.
 Quantity gauge_quantity(const std::string& metric, const std::string& quantity) {
   return {{quantity, "", ""}, [=](const FramePair& f) {
             const auto own = f.now.gauges.find(metric), first = f.first.gauges.find(metric);
             if (own == f.now.gauges.end() || first == f.first.gauges.end()) return problem("the engine shows no gauge of this metric at t = " + std::to_string(f.now.time) + " s");
-            return f.in.choice.norm == "drift" ? single(own->second - first->second) : against_truth(f, quantity.c_str(), own->second);
+            auto error = f.in.choice.norm == "drift" ? single(own->second - first->second) : against_truth(f, quantity.c_str(), own->second);
+            if (const auto sigma = stated_error(f.now, metric); sigma > 0.0 && error.problem.empty()) error.sigma.assign(error.error.size(), sigma);
+            return error;
           }};
+}
+
+/// A diffusivity is one number of a whole run: what the engine says of it at the end.
+MetricValue diffusivity_by_gauge(const MetricInput& in, const Snapshot& end) {
+  const auto truth = in.reference.number("diffusivity");
+  const auto own = end.gauges.find(in.choice.name);
+  if (!truth) return unformed("a diffusivity needs its true value: reference = {function = \"stated\", args = {diffusivity = ...}}");
+  if (own == end.gauges.end()) return unformed("the engine shows no gauge of this metric at the end");
+  MetricValue v;
+  v.value = in.choice.norm == "final" ? own->second - *truth : std::abs(own->second - *truth);
+  v.uncertainty.statistical = stated_error(end, in.choice.name);
+  v.note = std::to_string(own->second / *truth) + " of the true diffusivity, by the engine's own account";
+  return v;
 }
 
 MetricValue of_gauges(const MetricInput& in, const Frames& all, const Frames& chosen) {
   if (!can_be_gauged(in.choice.quantity)) return unformed("the engine answers by gauges and shows no particles, of which " + in.choice.quantity + " is made");
+  if (find_run_quantity(in.choice)) return diffusivity_by_gauge(in, *chosen.back());
   return of_frames(in, gauge_quantity(in.choice.name, in.choice.quantity), all, chosen);
 }
 
@@ -283,7 +306,7 @@ const std::vector<MetricWord>& metric_quantities() {
   return words;
 }
 
-bool can_be_gauged(const std::string& quantity) { return find_word(probe_quantities(), quantity) != probe_quantities().end(); }
+bool can_be_gauged(const std::string& quantity) { return quantity == "diffusivity" || find_word(probe_quantities(), quantity) != probe_quantities().end(); }
 
 const std::vector<MetricWord>& metric_norms() {
   static const std::vector<MetricWord> words{

@@ -14,7 +14,7 @@ namespace {
 
 using solid::ElasticForms;
 
-Seam seam_of(const PeriodicBox& box) {
+PeriodicWidths periodic_widths(const PeriodicBox& box) {
   constexpr double never = std::numeric_limits<double>::infinity();
   const auto half = [&](std::size_t a) { return box.periodic[a] ? 0.5 * box.width[a] : never; };
   const auto width = [&](std::size_t a) { return box.periodic[a] ? box.width[a] : 0.0; };
@@ -47,7 +47,7 @@ class Stresses {
     const Matrix3 T = ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + Matrix3(i.strained)) * S) + Matrix3(i.T)) * A;
     i.T = T;
     if (rank != 3) i.strained = full(total);
-    force_.set(row, T * all_.reference[id].gradient + all_.glass[id]);
+    force_.set(row, T * all_.reference[id].gradient + all_.hourglass_force[id]);
   }
 
  private:
@@ -70,7 +70,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
   const auto constants = forms.constants(world);
   const auto shape = solid::shape_inverses(std::as_const(p));
   const auto strain_of = solid::strains(p);
-  const Seam seam = seam_of(world.box);
+  const PeriodicWidths box = periodic_widths(world.box);
   const bool hourglass = forms.hourglass() != 0.0, at_once = !flows(world);
   const BondSums sum = bond_sums(world.box.any(), hourglass);
   Stresses stresses(world, forms, all);
@@ -87,7 +87,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
     ReferenceSums& reference = all.reference[id];
     if (changed) sum.reference(list, all.lists.shapes(), all.places.data(), reference);
     ListSums sums;
-    sum.list(list, all.lists.shapes(), all.places.data(), all.places[id], seam, sums);
+    sum.list(list, all.lists.shapes(), all.places.data(), all.places[id], box, sums);
     const int rank = rank_of[row];
     const double volume = all.places[id].volume;
     const Symmetric A = shape.at(row), P = forms.projector(A, rank);
@@ -97,13 +97,13 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
     Deformed& i = all.deformed[id];
     i = {};
     i.strained = G;
-    all.glass[id] = {};
+    all.hourglass_force[id] = {};
     if (hourglass) {
       const double stiff = 0.5 * forms.hourglass() * constants(row).young;
-      i.set_glass(rank == 3 ? stiff : 0.0, rank == 3 ? 0.0 : stiff, volume);
+      i.set_hourglass(rank == 3 ? stiff : 0.0, rank == 3 ? 0.0 : stiff, volume);
       if (rank == 3) {
         i.T = (stiff * volume) * (G * reference.moment + sums.swept);
-        all.glass[id] = (volume * stiff) * (G * reference.glass + sums.residual);
+        all.hourglass_force[id] = (volume * stiff) * (G * reference.hourglass + sums.residual);
       } else {
         i.T = flat_hourglass(world, all, id, stiff, strain, P, F);
       }
@@ -136,8 +136,8 @@ Vec3 force_of(const Deformations& all, std::uint32_t k, std::uint32_t l, const B
   const double volume = all.places[l].volume;
   Vec3 f = -volume * (Matrix3(d.T) * of_k.gradient);
   const double w = all.places[k].volume * volume * of_k.weight / dot(of_k.x, of_k.x);
-  if (d.full() != 0.0) f += (d.full() * w) * solid::hourglass_residual(identity3 + Matrix3(d.strained), -of_k.x, r_lk);
-  if (d.flat() != 0.0) f -= (d.flat() * w * solid::hourglass_residual_flat(symmetric_part(d.strained), -of_k.x, r_lk)) * r_lk;
+  if (d.solid_hourglass() != 0.0) f += (d.solid_hourglass() * w) * solid::hourglass_residual(identity3 + Matrix3(d.strained), -of_k.x, r_lk);
+  if (d.flat_hourglass() != 0.0) f -= (d.flat_hourglass() * w * solid::hourglass_residual_flat(symmetric_part(d.strained), -of_k.x, r_lk)) * r_lk;
   return f;
 }
 
@@ -161,7 +161,7 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
   Particles& p = world.particles;
   const auto id_of = p[field::id], regular = p[field::regular_bonds];
   const auto f = triple(p, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z);
-  const Seam seam = seam_of(world.box);
+  const PeriodicWidths box = periodic_widths(world.box);
   const BondSums sum = bond_sums(world.box.any(), forms.hourglass() != 0.0);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
@@ -173,8 +173,8 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
       continue;
     }
     PartnerForces of_partners;
-    sum.partners(list, all.lists.shapes(), all.places.data(), all.deformed.data(), all.places[id], seam, of_partners);
-    f.set(row, f.at(row) + all.places[id].volume * (Vec3(of_partners.stress) + of_partners.glass));
+    sum.partners(list, all.lists.shapes(), all.places.data(), all.deformed.data(), all.places[id], box, of_partners);
+    f.set(row, f.at(row) + all.places[id].volume * (Vec3(of_partners.stress) + of_partners.hourglass));
   }
 }
 
@@ -186,7 +186,7 @@ bool set_places(World& world, Deformations& all) {
   const auto volume = p[field::solid_volume];
   all.places.resize(p.size());
   all.deformed.resize(p.size());
-  all.glass.resize(p.size());
+  all.hourglass_force.resize(p.size());
   all.reference.resize(p.size());
   all.owns.resize(p.size());
   const solid::EnergyOwners owns(world);

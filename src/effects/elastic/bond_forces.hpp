@@ -12,7 +12,7 @@ struct Deformations {
   AlignedVector<Place> places;           ///< by id
   AlignedVector<Deformed> deformed;      ///< by id, of what has bonds or owns strain energy
   std::vector<ReferenceSums> reference;  ///< by id, the same
-  std::vector<Vec3> glass;               ///< by id: force of a particle's own hourglass energy on it, of a solid [N]
+  std::vector<Vec3> hourglass_force;     ///< by id: force of a particle's own hourglass energy on it, of a solid [N]
   double least_volume_ratio = 1.0;       ///< least det F of a solid
   std::vector<char> owns;                ///< by id, 1 where it owns strain energy
 };

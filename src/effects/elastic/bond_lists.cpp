@@ -9,13 +9,13 @@ namespace {
 
 std::size_t hash_of(const BondShape& s) {
   std::uint64_t h = 0;
-  for (const double v : {s.x.x, s.x.y, s.x.z, s.slope, s.glass}) h = (std::rotl(h, 23) ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
+  for (const double v : {s.x.x, s.x.y, s.x.z, s.slope, s.hourglass}) h = (std::rotl(h, 23) ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
   return h ^ (h >> 29);
 }
 
 }  // namespace
 
-void BondLists::forget() {
+void BondLists::clear() {
   shapes_.clear();
   table_.clear();
   followed_ = 0;
@@ -47,7 +47,7 @@ std::uint32_t BondLists::shape_of(const Bond& bond) {
 bool BondLists::follow(const Bonds& bonds) {
   if (bonds.changes() == followed_) return false;
   const bool mostly_left = shapes_.size() > 2 * bonds.pairs() + 1024;  // shapes that no bond has any more
-  if (bonds.changes() < followed_ || mostly_left) forget();
+  if (bonds.changes() < followed_ || mostly_left) clear();
   other_.resize(bonds.places()), shape_.resize(bonds.places()), seen_.resize(bonds.places());
   std::vector<std::uint32_t> ids;
   for (std::uint32_t id = 0; id < bonds.particles(); ++id)

@@ -10,9 +10,9 @@ namespace tripoint::elastic {
 
 /// What bonds of one reference vector share: a line of the cache. Bonds of a lattice have few of them.
 struct alignas(vector_bytes) BondShape {
-  Vec3 x;              ///< reference vector x_ij [m]
-  double slope = 0.0;  ///< grad W(x_ij) = slope x_ij [1/m5]
-  double glass = 0.0;  ///< W(x_ij)/|x_ij|^2 [1/m5]
+  Vec3 x;                  ///< reference vector x_ij [m]
+  double slope = 0.0;      ///< grad W(x_ij) = slope x_ij [1/m5]
+  double hourglass = 0.0;  ///< W(x_ij)/|x_ij|^2 [1/m5]
   bool operator==(const BondShape&) const noexcept = default;
 };
 
@@ -38,7 +38,7 @@ class BondLists {
  private:
   [[nodiscard]] std::uint32_t shape_of(const Bond&);
   void make_room();
-  void forget();
+  void clear();
 
   std::vector<std::uint32_t> other_, shape_, seen_;  ///< by place in the pool of World::bonds
   AlignedVector<BondShape> shapes_;

@@ -25,9 +25,9 @@ struct Quad {
 };
 #endif
 
-/// A column of a matrix, and a number that is stored beside it.
+/// A column of a matrix; a number that has nothing to do with it may be stored in the fourth lane.
 struct alignas(sizeof(Quad)) Column {
-  double x = 0.0, y = 0.0, z = 0.0, beside = 0.0;
+  double x = 0.0, y = 0.0, z = 0.0, fourth = 0.0;
   operator Vec3() const noexcept { return {x, y, z}; }
 };
 /// A matrix by columns.
@@ -50,15 +50,19 @@ struct alignas(sizeof(Quad)) Place {
 struct alignas(vector_bytes) Deformed {
   Columned strained;  ///< F - I; with the stress, that of a sheet or chain becomes its strain
   Columned T;         ///< H until the stress is known, then (v F S + H) A: force of i on j is -v_j T gradW(x_ij), and of the residual [N m]
-  [[nodiscard]] double full() const noexcept { return T.x.beside; }  ///< a E/2 where the hourglass energy is that of a solid [Pa]
-  [[nodiscard]] double flat() const noexcept { return T.y.beside; }  ///< the same where it is that of a sheet or chain [Pa]
-  [[nodiscard]] double glass() const noexcept { return strained.x.beside; }  ///< v_i full [J]
-  void set_glass(double full, double flat, double volume) noexcept { T.x.beside = full, T.y.beside = flat, strained.x.beside = volume * full; }
+  /// a E/2 where the hourglass energy is that of a solid, else 0 [Pa].
+  [[nodiscard]] double solid_hourglass() const noexcept { return T.x.fourth; }
+  /// a E/2 where it is that of a sheet or chain, else 0 [Pa].
+  [[nodiscard]] double flat_hourglass() const noexcept { return T.y.fourth; }
+  /// v_i solid_hourglass() [J].
+  [[nodiscard]] double hourglass_energy() const noexcept { return strained.x.fourth; }
+  /// @param solid,flat a E/2 of the one form that holds, 0 of the other [Pa]   @param volume v_i [m3]
+  void set_hourglass(double solid, double flat, double volume) noexcept { T.x.fourth = solid, T.y.fourth = flat, strained.x.fourth = volume * solid; }
 };
 static_assert(sizeof(Deformed) == 3 * vector_bytes);
 
 /// Half of the box and the box where a direction is periodic, infinity and 0 where it is not [m].
-struct Seam {
+struct PeriodicWidths {
   Column half, width;
 };
 
@@ -66,7 +70,7 @@ struct Seam {
 struct ReferenceSums {
   Matrix3 moment;  ///< sum w x x^T
   Vec3 gradient;   ///< sum v_j gradW
-  Vec3 glass;      ///< sum w x
+  Vec3 hourglass;  ///< sum w x
 };
 
 /// What it tells of the deformed one, with u = u_ji.
@@ -78,14 +82,14 @@ struct ListSums {
 
 /// What the energies of the partners of a particle do to it, for a volume of 1: force [N/m3].
 struct PartnerForces {
-  Column stress, glass;
+  Column stress, hourglass;
 };
 
 /// The loops of one scene.
 struct BondSums {
   void (*reference)(const BondLists::List&, const BondShape*, const Place*, ReferenceSums&);
-  void (*list)(const BondLists::List&, const BondShape*, const Place*, const Place&, const Seam&, ListSums&);
-  void (*partners)(const BondLists::List&, const BondShape*, const Place*, const Deformed*, const Place&, const Seam&, PartnerForces&);
+  void (*list)(const BondLists::List&, const BondShape*, const Place*, const Place&, const PeriodicWidths&, ListSums&);
+  void (*partners)(const BondLists::List&, const BondShape*, const Place*, const Deformed*, const Place&, const PeriodicWidths&, PartnerForces&);
 };
 /// Those that this machine runs fastest.
 [[nodiscard]] BondSums bond_sums(bool periodic, bool hourglass);
@@ -109,13 +113,13 @@ struct Quads {
 
 /// A difference of places as the nearest images have it: both lie in the box, or apart by less than a bond.
 template <bool periodic>
-[[gnu::always_inline]] inline void nearest(Quad& d, const Seam& seam) noexcept {
+[[gnu::always_inline]] inline void nearest(Quad& d, const PeriodicWidths& box) noexcept {
   if constexpr (periodic) {
     Column c;
     store(&c, d);
-    const auto shift = [](double along, double half, double box) { return along > half ? box : along < -half ? -box : 0.0; };
+    const auto shift = [](double along, double half, double width) { return along > half ? width : along < -half ? -width : 0.0; };
     Quad by;
-    const Column widths{shift(c.x, seam.half.x, seam.width.x), shift(c.y, seam.half.y, seam.width.y), shift(c.z, seam.half.z, seam.width.z)};
+    const Column widths{shift(c.x, box.half.x, box.width.x), shift(c.y, box.half.y, box.width.y), shift(c.z, box.half.z, box.width.z)};
     load(by, &widths);
     d -= by;
   }
@@ -128,7 +132,7 @@ template <bool hourglass, class ForUnit>
 void sum_reference(const BondLists::List& list, const BondShape* shapes, const Place* places, ReferenceSums& out) {
   using namespace detail;
   Quads moment;
-  Quad gradient{}, glass{};
+  Quad gradient{}, weighted{};
   for (std::size_t n = 0; n < list.count; ++n) {
     const BondShape& bond = shapes[list.shape[n]];
     const double volume = places[list.other[n]].volume;
@@ -136,21 +140,21 @@ void sum_reference(const BondLists::List& list, const BondShape* shapes, const P
     load(x, &bond);
     gradient += (volume * bond.slope) * x;
     if constexpr (hourglass) {
-      const Quad wx = (volume * bond.glass) * x;
+      const Quad wx = (volume * bond.hourglass) * x;
       moment.x += bond.x.x * wx, moment.y += bond.x.y * wx, moment.z += bond.x.z * wx;
-      glass += wx;
+      weighted += wx;
     }
   }
   Columned columns;
   store(columns, moment);
-  Column c, g;
-  store(&c, gradient), store(&g, glass);
-  out = {columns, c, g};
+  Column c, w;
+  store(&c, gradient), store(&w, weighted);
+  out = {columns, c, w};
 }
 
 /// @param at place of i   @param places by id
 template <bool periodic, bool hourglass, class ForUnit>
-void sum_list(const BondLists::List& list, const BondShape* shapes, const Place* places, const Place& at, const Seam& seam, ListSums& out) {
+void sum_list(const BondLists::List& list, const BondShape* shapes, const Place* places, const Place& at, const PeriodicWidths& box, ListSums& out) {
   using namespace detail;
   Quads displacement, swept;
   Quad i, residual{};
@@ -161,13 +165,13 @@ void sum_list(const BondLists::List& list, const BondShape* shapes, const Place*
     Quad x, u;
     load(x, &bond), load(u, &j);
     u -= i;
-    nearest<periodic>(u, seam);
+    nearest<periodic>(u, box);
     u += x;
     const Quad ux = bond.x.x * u, uy = bond.x.y * u, uz = bond.x.z * u;
     const double slope = j.volume * bond.slope;
     displacement.x += slope * ux, displacement.y += slope * uy, displacement.z += slope * uz;
     if constexpr (hourglass) {
-      const double w = j.volume * bond.glass;
+      const double w = j.volume * bond.hourglass;
       swept.x += w * ux, swept.y += w * uy, swept.z += w * uz;
       residual += w * u;
     }
@@ -178,9 +182,9 @@ void sum_list(const BondLists::List& list, const BondShape* shapes, const Place*
 /// sum_j -T_j gradW(x_ji), and sum_j -k_j v_j W(x_ji)/|x_ji|^2 ((F_j - I) x_ji + u_ij), k = a E/2: x_ji as j has it in its list.
 /// @param at place of i   @param places,deformed by id
 template <bool periodic, bool hourglass, class ForUnit>
-void sum_partners(const BondLists::List& list, const BondShape* shapes, const Place* places, const Deformed* deformed, const Place& at, const Seam& seam, PartnerForces& out) {
+void sum_partners(const BondLists::List& list, const BondShape* shapes, const Place* places, const Deformed* deformed, const Place& at, const PeriodicWidths& box, PartnerForces& out) {
   using namespace detail;
-  Quad i, stress{}, glass{};
+  Quad i, stress{}, of_hourglass{};
   load(i, &at);
   for (std::size_t n = 0; n < list.count; ++n) {
     const BondShape& bond = shapes[list.seen[n]];
@@ -195,12 +199,12 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
       load(G.x, &j.strained.x), load(G.y, &j.strained.y), load(G.z, &j.strained.z);
       load(u, &bond), load(r, &places[list.other[n]]);
       r = i - r;
-      nearest<periodic>(r, seam);
+      nearest<periodic>(r, box);
       u += r;
-      glass -= (j.glass() * bond.glass) * (x.x * G.x + x.y * G.y + x.z * G.z + u);
+      of_hourglass -= (j.hourglass_energy() * bond.hourglass) * (x.x * G.x + x.y * G.y + x.z * G.z + u);
     }
   }
-  store(&out.stress, stress), store(&out.glass, glass);
+  store(&out.stress, stress), store(&out.hourglass, of_hourglass);
 }
 
 template <bool periodic, bool hourglass, class ForUnit>

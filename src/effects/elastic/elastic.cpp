@@ -84,7 +84,8 @@ EffectSpec spec(const Scene& scene) {
                {field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, field::shape_inverse_xx, field::shape_inverse_yy, field::shape_inverse_zz,
                 field::shape_inverse_yz, field::shape_inverse_xz, field::shape_inverse_xy, field::shape_rank, field::solid_volume, field::solid_material, field::solid_stiffness, field::regular_bonds,
                 field::strain_xx, field::strain_yy, field::strain_zz, field::strain_yz, field::strain_xz, field::strain_xy},
-               {field::mass, field::body, field::material, field::position_x, field::position_y, field::position_z}};
+               fields::joined({fields::position(), {field::id, field::mass, field::body, field::material}})};
+  s.reads_if_there = fields::deformation_if_there();
   if (can_freeze(scene)) s.owns.emplace_back(field::bond_frequency);
   Force bonds{field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, {"elastic_work"}, Account{"wall_elastic_work"}};
   bonds.stored = StoredEnergy{{"elastic", "hourglass"}, {"start_deformation"}, account::deformation_released};

@@ -3,31 +3,23 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/defect.hpp"
+#include "effects/fluid/rule.hpp"
 #include "effects/ordered_sum.hpp"
 #include "scene/effect_rule.hpp"
 
 namespace tripoint::fluid {
-namespace {
 
-constexpr double bulk_viscosity = 0.2;  ///< zeta, over rho0 c h
-
-}  // namespace
-
-bool has_bulk_viscosity(const Scene& scene) {
-  const auto corrected = [&](Term term) { return scene.mode_of(term) == Mode::corrected; };
-  const bool liquid = !scene.inflows.empty() || std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid; });
-  const bool freezes = calls_for(scene, "phase");
-  return scene.clamp && liquid && !freezes && corrected(Term::density) && corrected(Term::pressure) && corrected(Term::state);
-}
+double bulk_viscosity(const Scene& scene) { return no_bulk_viscosity(scene).empty() ? kept_number(scene.values, key_row("scene", "bulk_viscosity")) : 0.0; }
 
 void set_bulk_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   static const double thinner = 1.0 - defect_size("fluid.bulk_viscosity"), told = 1.0 - defect_size("fluid.bulk_viscosity.entry");
   const double dt = 2.0 * world.lagged.half_step;  // the step was begun by a half kick
   const bool flows = dt > 0.0 && world.change.empty();  // what is born changes densities at once
-  const double viscosity = flows ? bulk_viscosity * thinner * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
+  const double viscosity = flows ? n.bulk_viscosity * thinner * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
   const auto delta = p[field::number_density], before = p[field::number_density_before], q = p[field::bulk_pressure];
   const auto rest = p[field::rest_density], pressure = p[field::pressure], V = p[field::volume], group = p[field::group];
   std::vector<std::array<double, 1>> blocks;
@@ -39,6 +31,12 @@ void set_bulk_pressure(World& world, const SceneNumbers& n) {
     before[i] = delta[i];
   });
   world.booked[taken_by_bulk_viscosity] += told * n.pressure_work * taken[0];
+}
+
+double bulk_viscous_step(const SceneNumbers& n) {
+  static const double longer = 1.0 + defect_size("fluid.bulk_viscosity.step");
+  const double zeta = 2.12 * n.bulk_viscosity;  // of mixed liquids, which damp that much faster than one alone (damped_density)
+  return longer * 0.81 * (std::sqrt(zeta * zeta + 0.885 * 0.885) - zeta);
 }
 
 }  // namespace tripoint::fluid

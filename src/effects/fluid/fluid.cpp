@@ -55,7 +55,7 @@ class Fluid : public Effect {
       : numbers_(numbers_of(scene)),
         kernels_(pair_kernels(scene)),
         transports_(uses_transport_velocity(scene)),
-        damps_(has_bulk_viscosity(scene)),
+        damps_(numbers_.bulk_viscosity > 0.0),
         mirrors_(mirrors_velocities(scene)),
         averages_(numbers_.averages_walls && can_have_walls(scene)) {}
   void load(World&, const InitialState&) override;
@@ -129,7 +129,7 @@ void Fluid::set_groups(World& world) {
   const Groups group_of(world);
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (group.size() > worth_threads)
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(i);
-  walls_.forget();
+  walls_.clear();
   world.lagged.viscous_age = 0;
 }
 
@@ -179,7 +179,7 @@ void Fluid::state(World& world) {
 }
 
 /// Sound C h/(c + |v|), C = 0.45 corrected, 0.35 with transport velocity (its background pressure adds half to the stiffness),
-/// 0.7 printed; viscosity (model 8.10). The numerical bulk viscosity needs no bound beside that of sound (bulk_viscosity.hpp).
+/// 0.7 printed; viscosity, and the numerical bulk viscosity, which binds above its default alone (model 8.10).
 TimeStepBound Fluid::max_dt(const World& world) const {
   const auto v = velocities(world.particles);
   double v2 = 0.0;
@@ -188,6 +188,7 @@ TimeStepBound Fluid::max_dt(const World& world) const {
   const double courant = world.scene.mode_of(Term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.35 : 0.45;
   TimeStepBound bound;
   tighten(bound, courant * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "sound");
+  if (damps_) tighten(bound, bulk_viscous_step(numbers_) * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "bulk viscosity");
   tighten(bound, world.lagged.viscous_step, "viscosity");
   return bound;
 }
@@ -215,12 +216,15 @@ EffectSpec spec(const Scene& scene) {
                {field::density, field::volume, field::pressure, field::rest_density, field::viscosity, field::solid, field::stick, field::group,
                 field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z,
                 field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z},
-               {field::mass, field::body, field::position_x, field::position_y, field::position_z, field::velocity_x, field::velocity_y, field::velocity_z}};
+               fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
+  s.reads_if_there = fields::image();
+  s.sums_forces = true;
+  const bool damps = bulk_viscosity(scene) > 0.0;
   const auto own = [&](std::initializer_list<FieldInfo> more) { s.owns.insert(s.owns.end(), more); };
   if (scene.mode_of(Term::density) == Mode::corrected) own({field::number_density});
   if (scene.mode_of(Term::pressure) == Mode::corrected) own({field::pressure_share});
   if (scene.mode_of(Term::density) == Mode::corrected && can_have_deformable_bodies(scene)) own({field::own_density});
-  if (has_bulk_viscosity(scene)) own({field::number_density_before, field::bulk_pressure});
+  if (damps) own({field::number_density_before, field::bulk_pressure});
   if (mirrors_velocities(scene)) own({field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z});
   if (uses_transport_velocity(scene))
     own({field::shift_x, field::shift_y, field::shift_z, field::background_x, field::background_y, field::background_z, field::transport_force_x,
@@ -228,7 +232,7 @@ EffectSpec spec(const Scene& scene) {
   s.forces = forces_of(scene);
   s.accounts = {compression_released};
   s.guards = {{field::density, "density", Written::density}};
-  if (has_bulk_viscosity(scene)) s.numerical = {taken_by_bulk_viscosity};
+  if (damps) s.numerical = {taken_by_bulk_viscosity};
   return s;
 }
 
@@ -245,6 +249,7 @@ std::vector<DefectEntry> defects() {
           {"walls.clamp", "walls are not clamped: they pull where liquid is thin", "fluid/still-water"},
           {"fluid.bulk_viscosity", "numerical bulk viscosity of liquids times 1 - size", "fluid/still-water"},
           {"fluid.bulk_viscosity.entry", "share of what the numerical bulk viscosity takes left untold", "fluid/breathing-column"},
+          {"fluid.bulk_viscosity.step", "greatest step that the numerical bulk viscosity allows times 1 + size", "fluid/breathing-column-thick"},
           {"fluid.phase_jump", "share of 0..1 of the compression that changes of phase let go left untold", "phase/melt-elastic"},
           {"fluid.state", "scaled pressure of (9) times 1 + size", "fluid/sound-wave"},
           {"fluid.paper.state", "pressure (9) as printed times 1 + size", "fluid/sound-wave"},

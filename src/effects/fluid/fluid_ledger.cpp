@@ -28,7 +28,7 @@ void add_fluid(const World& world, const SceneNumbers& n, const PairKernels& ker
   std::vector<std::array<double, 1>> blocks;
   const auto compression = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (core) sum[0] += core_energy(world, x, group, kernels.core, i);
-    sum[0] += compression_energy(state_of(n, group[i], rest[i], world.scene.clamp), m[i], rho[i]);
+    sum[0] += compression_energy(state_of(n, group[i], rest[i], world.scene.clamps()), m[i], rho[i]);
   });
   ledger.energy["compression"] += compression[0];
 }

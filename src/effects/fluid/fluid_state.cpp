@@ -54,7 +54,7 @@ void set_pressure(World& world, const SceneNumbers& n) {
   static const bool walls_pull = defect_size("walls.clamp") > 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < rho.size(); ++i) {
-    const EquationOfState e = state_of(n, group[i], rest[i], world.scene.clamp && !(walls_pull && group[i] == 0.0));
+    const EquationOfState e = state_of(n, group[i], rest[i], world.scene.clamps() && !(walls_pull && group[i] == 0.0));
     pressure[i] = paper ? paper_stiffer * pressure_paper(e, rho[i]) : stiffer * pressure_corrected(e, rho[i]);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "core/defect.hpp"
 #include "core/errors.hpp"
+#include "effects/fluid/bulk_viscosity.hpp"
 #include "scene/effect_rule.hpp"
 #include "sph/lattice.hpp"
 
@@ -41,6 +42,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.reference_density = reference_density(scene);
   const double lightest = least_density(scene);
   n.damped_density = 4.0 * lightest;
+  n.bulk_viscosity = bulk_viscosity(scene);
   const bool paper = scene.mode_of(Term::state) == Mode::paper;
   n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, -1.0, lightest, false));
   const LatticeMoments moments = wendland_moments(scene.support_ratio);

@@ -12,6 +12,7 @@ struct SceneNumbers {
   double reference_density = 0.0;  ///< largest rest density of the liquids, of the solids where there is none [kg/m3]
   double sound_speed = 0.0;        ///< [m/s]
   double damped_density = 0.0;     ///< rest density above which the numerical bulk viscosity of a liquid grows no more [kg/m3]
+  double bulk_viscosity = 0.0;     ///< zeta of the numerical bulk viscosity of liquids, 0 = none [1]
   double lattice_density = 1.0;    ///< S0 of the kernel at the scene's h/dx
   double overlap_density = 2.0;    ///< of a particle in the outermost layer of two bodies that overlap by one spacing, over its rest density
   double gradient_moment = 1.0;    ///< of the kernel at the scene's h/dx

@@ -51,7 +51,7 @@ double compression_jump(const World& world, const SceneNumbers& n, const PairKer
       jump += (changed[j] ? 0.5 : 1.0) * (acts_now - acted) * kernels.core.energy(r);
     }
     if (!numbers || before == after) continue;
-    const EquationOfState state = state_of(n, group[i], rest[i], world.scene.clamp);
+    const EquationOfState state = state_of(n, group[i], rest[i], world.scene.clamps());
     const auto energy = [&](double delta) { return compression_energy(state, m[i], m[i] * delta / n.lattice_density); };
     jump += energy(after) - energy(before);
   }

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "effects/fluid/rule.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scene/effect_rule.hpp"
 
 namespace tripoint::fluid {
 namespace {
+
+bool is_liquid(const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; }
 
 bool has_stiffness(const Material& m) { return m.stiffness.has_value(); }
 
@@ -27,7 +33,7 @@ std::string called_for(const Scene& s) {
 }
 
 std::string left_out(const Scene& s) {
-  if (any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::liquid; })) return "every liquid is held in place, and nothing can touch";
+  if (any_body(s, is_liquid)) return "every liquid is held in place, and nothing can touch";
   if (!s.contact) return "nothing is liquid, and the scene says contact = \"none\"";
   if (!any_material(s, has_stiffness)) return "nothing is liquid, no two bodies can meet before the end of the run, and no material has a stiffness";
   return "nothing is liquid, and no free body has another to touch";
@@ -40,14 +46,22 @@ std::vector<EffectKey> keys() {
   return {
       {{"scene", "viscosity_form", word, "", any, "\"central\"", "keeps angular momentum; right wherever a surface or body is free", "laplacian central", "corrected viscosity; laplacian for wall-bounded shear only"}, &Scene::viscosity_form},
       {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "", "move particles by the transport velocity"}, &Scene::transport_velocity},
-      {{"scene", "clamp", flag, "", any, "true", "negative pressure would glue bodies together", "", "no negative pressure"}, &Scene::clamp},
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "", "viscosity between solids that touch"}, &Scene::contact_viscosity},
+      {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "", "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, density, pressure and state are corrected, and nothing freezes"}, {}, no_bulk_viscosity, true},
       {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"}, &Material::viscosity},
   };
 }
 
 }  // namespace
 
-EffectRule rule() { return {"fluid", called_for, left_out, nullptr, {Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}, {Term::kernel}, keys()}; }
+std::string no_bulk_viscosity(const Scene& scene) {
+  if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
+  if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
+  for (const Term term : {Term::density, Term::pressure, Term::state})
+    if (scene.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", to_string(term));
+  return scene.clamps() ? "" : "the scene does not clamp";
+}
+
+EffectRule rule() { return {"fluid", called_for, left_out, nullptr, {Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls}, {Term::kernel}, keys()}; }
 
 }  // namespace tripoint::fluid

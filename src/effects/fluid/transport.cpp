@@ -14,7 +14,7 @@ namespace tripoint::fluid {
 bool uses_transport_velocity(const Scene& scene) {
   if (!scene.transport_velocity || scene.mode_of(Term::pressure) != Mode::corrected) return false;
   const bool free_bodies = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
-  if (free_bodies || scene.clamp)
+  if (free_bodies || scene.clamps())
     throw InputError("scene.transport_velocity is for liquid that fills its space, between walls at most: it needs clamp = false and no free body");
   return true;
 }

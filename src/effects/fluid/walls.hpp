@@ -22,7 +22,7 @@ class Walls {
   /// Sets the viscous velocity of the walls that liquid is near.
   void mirror_velocities(World&, const PairKernels&);
   /// Groups have changed: look again which particles are walls.
-  void forget() { known_ = known_faces_ = -1; }
+  void clear() { known_ = known_faces_ = -1; }
 
  private:
   void find(const World&);

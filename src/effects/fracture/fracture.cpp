@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "effects/fracture/bond_limit.hpp"
-#include "effects/fracture/calm.hpp"
+#include "effects/fracture/unbroken_proof.hpp"
 #include "effects/objects.hpp"
 #include "effects/solid_particles.hpp"
 
@@ -20,11 +20,11 @@ constexpr Account let_go_by_bonds{"fracture"};
 class Fracture : public Effect {
  public:
   explicit Fracture(const Scene& scene) : limits_(scene) {}
-  void load(World&, const InitialState&) override { calm_.forget(); }
+  void load(World&, const InitialState&) override { unbroken_.clear(); }
   void drift(World&, double dt) override { drifted_ = dt; }
   void change(World&) override;
-  void adopt(World&) override { calm_.forget(); }
-  void happen(World&, const Happening&) override { calm_.forget(); }
+  void adopt(World&) override { unbroken_.clear(); }
+  void happen(World&, const Happening&) override { unbroken_.clear(); }
   void add_to(const World& world, Ledger& ledger) const override { ledger.energy["fracture"] += world.booked[let_go_by_bonds]; }
 
  private:
@@ -32,7 +32,7 @@ class Fracture : public Effect {
 
   BondLimits limits_;
   double drifted_ = 0.0;          ///< since the last forces, within a step [s]
-  Calm calm_;
+  UnbrokenProof unbroken_;
   std::vector<char> has_broken_;  ///< memory that is used again, by id
 };
 
@@ -62,7 +62,7 @@ std::vector<Pair> Fracture::broken(const World& world) {
       least = std::min(least, limits_.room(e.r, b, e.a, e.b));
     }
   }
-  calm_.know(world, least);
+  unbroken_.set(world, least);
   std::vector<Pair> pairs;
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     if (!has_broken_[id]) continue;
@@ -77,21 +77,21 @@ std::vector<Pair> Fracture::broken(const World& world) {
 
 /// Puts all particles half a drift back, and where they were at its end. Of the kicks around a drift the first has the force of a bond
 /// and the second has not, so it broke half way: what it stored there is what it lets go, to second order in the step.
-class HalfWay {
+class HalfDriftBack {
  public:
-  HalfWay(World& world, double drifted) : world_(world) {
+  HalfDriftBack(World& world, double drifted) : world_(world) {
     const auto x = positions(world.particles), v = velocities(world.particles);
     for (std::size_t i = 0; i < world.particles.size(); ++i) {
       place_.push_back(x.at(i));
       x.set(i, x.at(i) - (0.5 * drifted) * v.at(i));
     }
   }
-  ~HalfWay() {
+  ~HalfDriftBack() {
     const auto x = positions(world_.particles);
     for (std::size_t i = 0; i < place_.size(); ++i) x.set(i, place_[i]);
   }
-  HalfWay(const HalfWay&) = delete;
-  HalfWay& operator=(const HalfWay&) = delete;
+  HalfDriftBack(const HalfDriftBack&) = delete;
+  HalfDriftBack& operator=(const HalfDriftBack&) = delete;
 
  private:
   World& world_;
@@ -162,10 +162,10 @@ std::vector<std::size_t> bodies_of(const World& world, const std::vector<Pair>& 
 
 void Fracture::change(World& world) {
   const double drifted = std::exchange(drifted_, 0.0);
-  if (calm_.holds(world)) return;
+  if (unbroken_.holds(world)) return;
   const std::vector<Pair> pairs = broken(world);
   if (pairs.empty()) return;
-  const HalfWay half_way(world, drifted);
+  const HalfDriftBack back(world, drifted);
   Release release(world);
   for (const auto& [i, j] : pairs) release.touch(i), release.touch(j);
   for (const auto& [i, j] : pairs) {
@@ -180,7 +180,9 @@ void Fracture::change(World& world) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  return {"fracture", scene.mode_of(Term::elastic), {}, {field::body, field::material, field::solid_volume, field::shape_rank, field::position_x, field::position_y, field::position_z}, {}, {let_go_by_bonds}};
+  EffectSpec s{"fracture", scene.mode_of(Term::elastic), {}, fields::joined({fields::position(), fields::velocity(), {field::mass}, fields::deformation(), fields::shapes(), fields::grouping()}), {}, {let_go_by_bonds}};
+  s.reads_if_there = fields::joined({fields::deformation_if_there(), fields::shapes_if_there()});
+  return s;
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fracture>(scene); }

@@ -30,12 +30,14 @@ bool books_bodies(const Scene& scene) {
          std::ranges::any_of(scene.events, [](const Event& e) { return e.kind == Event::Kind::heat; });
 }
 
+std::vector<FieldInfo> read_by_both() { return fields::joined({fields::position(), {field::id, field::mass, field::body, field::material, field::phase, field::source}}); }
+
 EffectSpec spec_of_form(const Scene& scene) {
   if (scene.mode_of(Term::heat) == Mode::paper) {
     return {"heat",
             Mode::paper,
             {field::temperature, field::temperature_rate, field::exchange, field::heat_capacity, field::diffusivity, field::held},
-            {field::mass, field::density, field::volume, field::position_x, field::position_y, field::position_z}};
+            fields::joined({read_by_both(), {field::density, field::volume}})};
   }
   return {"heat",
           Mode::corrected,
@@ -44,18 +46,19 @@ EffectSpec spec_of_form(const Scene& scene) {
            field::conductivity,      field::rest_volume,       field::held,
            field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz,
            field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy},
-          {field::mass, field::position_x, field::position_y, field::position_z}};
+          read_by_both()};
 }
 
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  if (equal_temperature(scene)) return {"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material}};
+  if (equal_temperature(scene)) return {"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material, field::phase}};
   EffectSpec s = spec_of_form(scene);
   s.guards = {{field::temperature, "temperature", Written::drift, "K, below absolute zero"}};
   if (s.mode == Mode::paper) s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});
   else s.guards.push_back({field::heat_rate, "heat_rate", Written::rates});
   if (books_bodies(scene)) s.owns.emplace_back(field::body_heat);
+  s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
   return s;
 }
 

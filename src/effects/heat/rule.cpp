@@ -32,6 +32,6 @@ std::vector<EffectKey> keys() {
 }  // namespace
 
 /// As printed it divides by sums of density.
-EffectRule rule() { return {"heat", called_for, left_out, nullptr, {Term::heat}, {Term::kernel, Term::pressure, Term::density, Term::state, Term::viscosity, Term::walls}, keys()}; }
+EffectRule rule() { return {"heat", called_for, left_out, nullptr, {Term::heat}, {Term::kernel, Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls}, keys()}; }
 
 }  // namespace tripoint::heat

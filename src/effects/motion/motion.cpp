@@ -113,10 +113,10 @@ void FreeMotion::add_to(const World& world, Ledger& ledger) const {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  return {"motion",
-          scene.mode_of(Term::time),
-          {},
-          {field::mass, field::body, field::position_x, field::position_y, field::position_z, field::velocity_x, field::velocity_y, field::velocity_z}};
+  EffectSpec s{"motion", scene.mode_of(Term::time), {}, fields::joined({fields::position(), fields::velocity(), {field::mass, field::body}})};
+  s.reads_if_there = fields::joined({fields::image(), fields::shift(), {field::driven}});
+  s.sums_forces = true;
+  return s;
 }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<FreeMotion>(); }

@@ -45,7 +45,7 @@ Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
 
 /// A member of a rigid body that gets its first deformable partner: the vectors to its mates, which are as they were but for the
 /// body's turn, become the present ones.
-void see_mates_as_they_are(World& world, const ElasticityKernel& kernel, std::uint32_t id) {
+void take_present_vectors(World& world, const ElasticityKernel& kernel, std::uint32_t id) {
   const std::size_t i = world.particles.row(id);
   for (Bond& bond : world.bonds.edit(id)) {
     Bond now = solid::bond_of(kernel, solid::separation(world, world.particles.row(bond.other), i));
@@ -68,7 +68,7 @@ void bond(World& world, const std::vector<Joint>& joints) {
       if (!joint.both) ids.insert(joint.j);
     for (const std::uint32_t id : ids) {
       if (owns(world.particles.row(id))) to_reference[id] = turn_into_present_frame(world, id);
-      else see_mates_as_they_are(world, kernel, id);
+      else take_present_vectors(world, kernel, id);
     }
   }
   for (const Joint& joint : joints) {

@@ -82,7 +82,9 @@ void PhaseChange::happen(World& world, const Happening& now) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{"phase", scene.mode_of(Term::phase), {field::liquid_fraction}, {field::mass, field::body, field::phase, field::material, field::temperature, field::heat_capacity, field::held}};
+  EffectSpec s{"phase", scene.mode_of(Term::phase), {field::liquid_fraction},
+               fields::joined({fields::position(), fields::velocity(), fields::grouping(), {field::mass, field::temperature, field::heat_capacity, field::held}})};
+  s.reads_if_there = fields::joined({fields::image(), {field::driven, field::enthalpy}, fields::deformation(), fields::shapes(), fields::deformation_if_there(), fields::shapes_if_there()});
   if (any_softens(scene)) s.owns.emplace_back(field::stiffness_share);
   return s;
 }

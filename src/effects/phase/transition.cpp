@@ -54,14 +54,14 @@ class Transition {
   void melt(std::uint32_t id);
   void freeze(const std::vector<std::uint32_t>& ids);
   void regroup_bodies(const std::vector<std::uint32_t>& frozen);
-  void tell(const Events&);
+  void record(const Events&);
 
  private:
   void touch_with_partners(std::uint32_t id, std::uint32_t event);
 
   World& world_;
   Account& account_;
-  Touched touched_;
+  ChangedBodies changed_;
   std::vector<int> body_before_;  ///< by id
 };
 
@@ -89,7 +89,7 @@ void Transition::melt(std::uint32_t id) {
   change.relisted.push_back(id);
   change.regrouped.push_back(id);
   const auto body = static_cast<std::size_t>(world_.particles[field::body][i]);
-  touched_.bodies.push_back(body);
+  changed_.bodies.push_back(body);
   change.bodies.push_back(body);
   world_.particles[field::body][i] = -1;
   world_.particles[field::phase][i] = static_cast<int>(Phase::liquid);
@@ -115,19 +115,19 @@ void Transition::freeze(const std::vector<std::uint32_t>& ids) {
       joints.push_back({id, partner.id, partner.r, both_freeze});
       volumes_follow_lists(world_) ? touch_with_partners(partner.id, id) : account_.touch(partner.id, id);
       world_.change.relisted.push_back(partner.id);
-      if (const int body = p[field::body][p.row(partner.id)]; body >= 0) touched_.bodies.push_back(static_cast<std::size_t>(body));
+      if (const int body = p[field::body][p.row(partner.id)]; body >= 0) changed_.bodies.push_back(static_cast<std::size_t>(body));
     }
   }
   bond(world_, joints);
 }
 
 void Transition::regroup_bodies(const std::vector<std::uint32_t>& frozen) {
-  touched_.frozen = frozen;
-  regroup(world_, touched_, [&](std::uint32_t id) { account_.touch(id); });
+  changed_.frozen = frozen;
+  regroup(world_, changed_, [&](std::uint32_t id) { account_.touch(id); });
   make_own_pairs(world_, frozen);
 }
 
-void Transition::tell(const Events& events) {
+void Transition::record(const Events& events) {
   Change& change = world_.change;
   change.melted.insert(change.melted.end(), events.melted.begin(), events.melted.end());
   change.frozen.insert(change.frozen.end(), events.frozen.begin(), events.frozen.end());
@@ -168,7 +168,7 @@ void carry_out(World& world, const Events& events, Account& account) {
   for (const std::uint32_t id : events.melted) transition.melt(id);
   transition.freeze(events.frozen);
   transition.regroup_bodies(events.frozen);
-  transition.tell(events);
+  transition.record(events);
 }
 
 void connect_rigid_bodies(World& world) {

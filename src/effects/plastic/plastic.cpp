@@ -78,12 +78,9 @@ void PlasticFlow::adopt(World& world) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  return {"plastic",
-          scene.mode_of(Term::elastic),
-          {field::plastic_strain_xx, field::plastic_strain_yy, field::plastic_strain_zz, field::plastic_strain_yz, field::plastic_strain_xz, field::plastic_strain_xy},
-          {field::body, field::material, field::solid_volume, field::shape_rank, field::shape_inverse_xx, field::strain_xx},
-          {},
-          {dissipation}};
+  EffectSpec s{"plastic", scene.mode_of(Term::elastic), fields::plastic_strain(), fields::joined({fields::strain(), fields::deformation(), {field::body, field::material}}), {}, {dissipation}};
+  s.reads_if_there = {field::stiffness_share};
+  return s;
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<PlasticFlow>(scene); }

@@ -125,7 +125,12 @@ void Prescribed::happen(World& world, const Happening& now) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  return {"prescribed", scene.mode_of(Term::time), {field::driven, field::grip_x, field::grip_y, field::grip_z}, {field::mass, field::body, field::source}};
+  EffectSpec s{"prescribed",
+               scene.mode_of(Term::time),
+               {field::driven, field::grip_x, field::grip_y, field::grip_z},
+               fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
+  s.reads_if_there = fields::image();
+  return s;
 }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<Prescribed>(); }

@@ -313,11 +313,13 @@ void RigidBodies::add_to(const World& world, Ledger& ledger) const {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  return {"rigid",
-          scene.mode_of(Term::rotation),
-          {field::reference_x, field::reference_y, field::reference_z},
-          {field::mass, field::body, field::position_x, field::position_y, field::position_z, field::velocity_x,
-           field::velocity_y, field::velocity_z}};
+  EffectSpec s{"rigid",
+               scene.mode_of(Term::rotation),
+               {field::reference_x, field::reference_y, field::reference_z},
+               fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body}})};
+  s.reads_if_there = fields::image();
+  s.sums_forces = true;
+  return s;
 }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<RigidBodies>(); }

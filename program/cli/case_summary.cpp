@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program/cli/case_summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "validation/harness/foreign_text.hpp"
+
+namespace tripoint {
+namespace {
+
+std::string line(const std::string& name, const std::string& text) { return text.empty() ? "" : one_line(fmt::format("  {:10} {}", name, text)) + "\n"; }
+
+std::string matter(const Scene& scene) {
+  std::vector<std::string> bodies;
+  for (const auto& b : scene.bodies) {
+    const std::string motion = b.motion == Motion::free ? "" : std::string(to_string(b.motion)) + " ";
+    bodies.push_back(fmt::format("{} ({}{} {})", b.name, motion, to_string(b.phase), b.material));
+  }
+  constexpr std::size_t shown = 4;
+  const std::size_t left = bodies.size() > shown ? bodies.size() - shown : 0;
+  bodies.resize(bodies.size() - left);
+  std::string text = fmt::format("{}{}", fmt::join(bodies, ", "), left > 0 ? fmt::format(" and {} more", left) : "");
+  if (!scene.inflows.empty()) text += fmt::format("; {} inflow{}", scene.inflows.size(), scene.inflows.size() == 1 ? "" : "s");
+  if (!scene.events.empty()) text += fmt::format("; {} event{}", scene.events.size(), scene.events.size() == 1 ? "" : "s");
+  return text;
+}
+
+std::string simulated(const Scene& scene, const bench::Trial& trial) {
+  const std::string particles = trial.particles > 0 ? fmt::format("{} particles, ", trial.particles) : "";
+  return fmt::format("{}{:g} m apart, from 0 to {:g} s", particles, scene.spacing, scene.end_time);
+}
+
+/// What a liquid under gravity does first.
+std::string start_of(const Scene& scene) {
+  if (scene.settle) return "liquids are let down into equilibrium before time 0 (settle = true)";
+  if (scene.gravity == Vec3{} || std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; })) return "";
+  return "liquids lie on a lattice, which sinks by a tenth of a spacing and breaks up; settle = true lets them down first, where solids hold them";
+}
+
+std::string effects_of(const Plan& plan) {
+  std::vector<std::string> names;
+  for (const auto& e : plan.effects) names.push_back(fmt::format("{} ({})", e.name, e.mode));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string truth(const ReferenceChoice& r) {
+  if (r.function.empty() && r.file.empty() && r.source.empty()) return "";
+  const std::string what = !r.function.empty() ? r.function : r.file;
+  return fmt::format("{}{}{}{}{}", r.kind, what.empty() ? "" : " ", what, r.source.empty() ? "" : ": ", r.source);
+}
+
+std::string measured_by(const Case& c) {
+  std::vector<std::string> names;
+  for (const auto& m : c.metrics) names.push_back(m.unit.empty() ? m.name : fmt::format("{} [{}]", m.name, m.unit));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string judged_by(const Case& c) {
+  if (c.gates.empty()) return "no gate: the case measures and judges nothing";
+  std::set<std::string> metrics;
+  for (const auto& g : c.gates) metrics.insert(g.metric);
+  return fmt::format("{} gate{} on {}{}", c.gates.size(), c.gates.size() == 1 ? "" : "s", fmt::join(metrics, ", "), c.expect == "pass" ? "" : "; expected: " + c.expect);
+}
+
+std::string engines_of(const Case& c) {
+  std::vector<std::string> names;
+  const bool listed = std::any_of(c.engines.begin(), c.engines.end(), [](const auto& e) { return e.name == "tripoint"; });
+  if (!listed) names.emplace_back("tripoint (required)");
+  for (const auto& e : c.engines) names.push_back(e.name + (e.required ? " (required)" : ""));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::string studies_of(const Case& c) {
+  std::vector<std::string> studies;
+  for (const auto& s : c.studies) studies.push_back(fmt::format("{} levels of {}{}{}", s.levels.size(), s.axis, s.engine.empty() ? "" : " on ", s.engine));
+  return fmt::format("{}", fmt::join(studies, ", "));
+}
+
+std::string cost(const bench::Trial& t) {
+  if (t.steps == 0) return t.failure.empty() ? "" : "not timed: " + t.failure;
+  return fmt::format("about {:.2g} s for the case's own run: {:.0f} steps of {:.2g} s", t.run_seconds(), t.run_steps, t.step_seconds);
+}
+
+}  // namespace
+
+std::string case_summary(const Case& c, const Scene& scene, const Plan& plan, const bench::Trial& trial) {
+  return one_line(fmt::format("{}: {}", c.id, c.title)) + "\n" + line("claims", c.claims) + line("simulates", simulated(scene, trial)) + line("bodies", matter(scene)) + line("starts", start_of(scene)) + line("effects", effects_of(plan)) +
+         line("truth", truth(c.reference)) + line("measures", measured_by(c)) + line("judged by", judged_by(c)) + line("engines", engines_of(c)) + line("refined", studies_of(c)) + line("costs", cost(trial)) + "\n";
+}
+
+}  // namespace tripoint

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+
+#include "program/bench/trial.hpp"
+#include "effects/plan.hpp"
+#include "scene/scene.hpp"
+
+namespace tripoint {
+
+/// A case on ten lines: what it claims, what is simulated, what is true, what is judged, which engines, and what it costs.
+[[nodiscard]] std::string case_summary(const Case&, const Scene&, const Plan&, const bench::Trial&);
+
+}  // namespace tripoint

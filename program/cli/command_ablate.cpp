@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "program/cli/commands.hpp"
+#include "program/cli/common.hpp"
+#include "core/durable_file.hpp"
+#include "core/errors.hpp"
+#include "scene/effect_rule.hpp"
+#include "validation/harness/foreign_text.hpp"
+#include "validation/harness/process.hpp"
+#include "validation/harness/report_files.hpp"
+#include "validation/harness/suite.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* description =
+    "Puts one term of the model after the other back to its printed form, all others corrected, and prints what each correction buys:\n"
+    "the metrics of each case with that one term as printed, beside those of the corrected model. A term that the paper does not have\n"
+    "is left out instead, and its row has the name of its key (bulk_viscosity). OUT/ablation.json holds it; in the folder of a report,\n"
+    "its page \"what each correction buys\" shows it.\n"
+    "  tripoint ablate                            the cases of the commit profile that run corrected\n"
+    "  tripoint ablate heat/cosine-mode solid/rotation --out report";
+
+struct Options {
+  CaseFilter filter;
+  std::string out = own_folder("ablate", "");
+  int jobs = 1;
+};
+
+/// Terms of two forms that act in a scene: those of the effects that it calls for, and the time scheme.
+std::vector<Term> terms_of(const Scene& scene) {
+  std::vector<Term> terms;
+  for (const EffectRule& rule : effect_rules())
+    if (calls_for(scene, rule.name)) terms.insert(terms.end(), rule.terms.begin(), rule.terms.end());
+  if (!terms.empty()) terms.push_back(Term::time);
+  std::sort(terms.begin(), terms.end());
+  terms.erase(std::unique(terms.begin(), terms.end()), terms.end());
+  return terms;
+}
+
+/// One thing that is put back to what the paper has, a row each.
+struct Piece {
+  std::string name;                 ///< of the term, or of the key
+  std::optional<Term> term{};       ///< as printed; none: the term of a key is left out
+  const EffectRule* rule = nullptr; ///< whose key it is
+  const EffectKey* key = nullptr;
+};
+
+std::vector<Piece> all_pieces() {
+  std::vector<Piece> pieces;
+  for (std::size_t t = 0; t < term_count; ++t) pieces.push_back({std::string(to_string(static_cast<Term>(t))), static_cast<Term>(t)});
+  for (const EffectRule& rule : effect_rules())
+    for (const EffectKey& key : rule.keys)
+      if (key.ablated) pieces.push_back({std::string(key.row.name), {}, &rule, &key});
+  return pieces;
+}
+
+/// Whether the piece can act in the scene. What acts nowhere after all has no row: its runs have the bits of the corrected ones.
+bool can_act(const Piece& piece, const Scene& scene) {
+  if (!piece.term) return kept_number(scene.values, piece.key->row) != 0.0 && calls_for(scene, piece.rule->name) && (!piece.key->idle || piece.key->idle(scene).empty());
+  const auto terms = terms_of(scene);
+  return std::find(terms.begin(), terms.end(), *piece.term) != terms.end();
+}
+
+/// The case at its own resolution, fully corrected.
+Case corrected(Case value) {
+  value.modes = {Mode::corrected};
+  value.scene.mode = Mode::corrected;
+  value.scene.modes_given = {};
+  value.studies.clear(), value.gates.clear(), value.inputs.clear();
+  return value;
+}
+
+Case without(const Piece& piece, Case value) {
+  if (piece.term) value.scene.modes_given[static_cast<std::size_t>(*piece.term)] = Mode::paper;
+  else value.scene.values[std::string(piece.key->row.name)] = 0.0;
+  return value;
+}
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const CaseResult& result) {
+  for (const auto& engine : result.engines)
+    for (const auto& run : engine.runs) {
+      Json metrics = Json::object();
+      for (const auto& [name, m] : run.metrics)
+        metrics[name] = {{"value", std::isfinite(m.value) ? Json(m.value) : Json()}, {"uncertainty", m.uncertainty.combined()}};
+      return {{"status", run.status}, {"reason", run.reason}, {"state_hash", run.state_hash}, {"cpu_s", run.cost.cpu_s}, {"metrics", metrics}};
+    }
+  return {{"status", "error"}, {"reason", "no run"}, {"state_hash", ""}, {"cpu_s", 0.0}, {"metrics", Json::object()}};
+}
+
+/// One round of runs, in a folder of its own.
+std::map<std::string, Json> round(const std::vector<Case>& chosen, const std::string& name, const Options& o) {
+  if (chosen.empty()) return {};
+  SuiteOptions options;
+  options.selection.engines = {"tripoint"};
+  options.out = (fs::path(o.out) / "ablation" / name).string();
+  options.jobs = o.jobs, options.say = [](const std::string& line) { say(line); };
+  options.wanted = [](const EnginePlan&, const RunPlan& run) { return run.base; };
+  std::map<std::string, Json> found;
+  for (const auto& c : run_suite(chosen, discover_engines({}), options).cases) found[c.id] = json_of(c);
+  return found;
+}
+
+std::string number_text(const Json& run, const std::string& metric) {
+  const auto& v = run["metrics"].contains(metric) ? run["metrics"][metric]["value"] : Json();
+  return v.is_number() ? fmt::format("{:.4g}", v.get<double>()) : run["status"].get<std::string>();
+}
+
+int ablate(const Options& o) {
+  catch_interrupts();
+  std::vector<Case> cases;
+  for (auto& c : select_cases(o.filter)) {
+    const bool runs_so = std::find(c.modes.begin(), c.modes.end(), Mode::corrected) != c.modes.end();
+    if (runs_so && c.expect != "diverges" && !terms_of(c.scene).empty()) cases.push_back(corrected(std::move(c)));
+  }
+  if (cases.empty()) throw InputError("ablate: no case runs corrected");
+  make_folder(o.out);
+  const auto base = round(cases, "corrected", o);
+  std::map<std::string, Json> terms;
+  for (const Piece& piece : all_pieces()) {
+    if (interrupted()) break;
+    std::vector<Case> chosen;
+    for (const auto& c : cases)
+      if (can_act(piece, c.scene)) chosen.push_back(without(piece, c));
+    for (auto& [id, run] : round(chosen, piece.name, o)) {
+      const bool acts = base.count(id) && run["state_hash"] != base.at(id)["state_hash"];
+      if (acts) terms[id][piece.name] = run;
+    }
+  }
+  Json document = Json::array();
+  for (const auto& c : cases) {
+    if (!base.count(c.id)) continue;
+    Json metrics = Json::array();
+    for (const auto& m : c.metrics) metrics.push_back({{"name", m.name}, {"unit", m.unit}, {"quantity", m.quantity}});
+    document.push_back({{"id", c.id}, {"title", c.title}, {"metrics", metrics}, {"corrected", base.at(c.id)}, {"printed", terms.count(c.id) ? terms[c.id] : Json::object()}});
+    print_line(c.id);
+    for (const auto& m : c.metrics) {
+      print(fmt::format("  {:24} corrected {:>12}", one_line(m.name), number_text(base.at(c.id), m.name)));
+      if (terms.count(c.id))
+        for (const auto& [term, run] : terms[c.id].items()) print(fmt::format("  {} {:>10}", term, number_text(run, m.name)));
+      print("\n");
+    }
+  }
+  write_durably((fs::path(o.out) / "ablation.json").string(), Json{{"format", 1}, {"tool", this_tool().commit}, {"cases", document}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  const auto results = fs::path(o.out) / "results.json";
+  const auto next = fs::exists(results) ? "tripoint report " + results.string() + " draws its page" : "with --out the folder of a report, tripoint report draws its page";
+  print(fmt::format("{}; {}\n", (fs::path(o.out) / "ablation.json").string(), next));
+  return interrupted() ? exit_interrupted : exit_pass;
+}
+
+}  // namespace
+
+void add_ablate(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("ablate", description);
+  auto o = std::make_shared<Options>();
+  command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
+  command->add_option("--profile", o->filter.profile, "only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release"}));
+  command->add_option("--tag", o->filter.tag, "only cases with this tag");
+  command->add_option("--out", o->out, "folder of ablation.json and the runs")->capture_default_str();
+  command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->callback([o, &exit_code] {
+    if (o->filter.what.empty() && o->filter.profile.empty() && o->filter.tag.empty()) o->filter.profile = "commit";
+    exit_code = guarded([&] { return ablate(*o); });
+  });
+}
+
+}  // namespace tripoint

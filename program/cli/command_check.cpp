@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "program/cli/commands.hpp"
+#include "program/cli/common.hpp"
+#include "effects/plan.hpp"
+#include "scene/idle_keys.hpp"
+#include "scene/read_case.hpp"
+#include "validation/harness/case_names.hpp"
+#include "validation/harness/suite.hpp"
+#include "validation/harness/trial.hpp"
+#include "validation/references/experiment.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr const char* description =
+    "Checks a case before anything runs: every key, unit and name; then the particles: bodies that overlap or stand too near,\n"
+    "that are too coarse or of wrong mass, a time step above a bound; events and keys that can change nothing; then metrics,\n"
+    "references and engines: what would be refused.\n"
+    "Ends 2 where it finds an error, 0 where it finds none or warnings.\n"
+    "  tripoint check my.toml\n"
+    "  tripoint check my.toml --set scene.spacing=0.01";
+
+int check(const std::string& file, const std::vector<std::string>& set) {
+  const CaseReading reading = read_case(file, set);
+  check_data_files(reading.value);
+  const Scene scene = scene_for(reading.value, {});
+  static_cast<void>(plan_of(reading));
+  const InitialState state = sample(scene);
+  auto findings = preflight(reading.value, scene, state);
+  for (auto& f : idle_keys(reading, scene, state)) findings.push_back(std::move(f));
+  for (auto& f : trial(reading.value)) findings.push_back(std::move(f));
+  long errors = 0;
+  for (const auto& f : library_values(reading)) say("note: " + with_place(f));
+  for (const auto& f : findings) {
+    errors += f.error ? 1 : 0;
+    say((f.error ? "error: " : "warning: ") + with_place(f));
+  }
+  print_line(fmt::format("{}: {} particles in {} {}, {} errors, {} warnings", file, state.size(), scene.bodies.size(), scene.bodies.size() == 1 ? "body" : "bodies", errors, static_cast<long>(findings.size()) - errors));
+  return errors > 0 ? 2 : 0;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("check", description);
+  auto file = std::make_shared<std::string>();
+  auto set = std::make_shared<std::vector<std::string>>();
+  command->add_option("CASE", *file, "path of a case file, or the id of a case that is shipped")->required();
+  command->add_option("--set", *set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")->take_all()->allow_extra_args(false);
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return check(shown_path(case_file(*file)), *set); }); });
+}
+
+}  // namespace tripoint

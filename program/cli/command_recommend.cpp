@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "program/cli/commands.hpp"
+#include "program/cli/common.hpp"
+#include "core/errors.hpp"
+#include "validation/harness/front.hpp"
+#include "validation/harness/judge.hpp"
+#include "validation/harness/process.hpp"
+#include "validation/harness/suite.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr const char* recommend_description =
+    "Measures what accuracy costs along the studies of a case, on every engine, and says which settings are cheapest for a wish; then makes that\n"
+    "run and says how well error and cost were predicted. Error is |value| + 2 u of the metric, in its own scaled unit.\n"
+    "  tripoint recommend heat/cosine-mode --error 1%\n"
+    "  tripoint recommend rigid/torque-free --error 1e-5 --engines tripoint\n"
+    "  tripoint recommend fluid/sound-wave --seconds 5 --from report/results.json   the front of runs that were made before\n"
+    "Exit: 0 the run met the wish, 1 it did not, 3 no settings within twice of what was measured promise it.";
+
+/// How much finer than the finest measured level a plan still names a level: an order that is read off two or three coarse levels
+/// may be off by 0.3, which over this factor makes the error wrong by 2.
+constexpr double farthest = 16.0;
+
+constexpr const char* plan_description =
+    "Says beforehand how fine the levels, how many walkers and how many CPU seconds a wished error takes, with the interval that the measured\n"
+    "levels leave. Only the two or three coarsest levels of each study are run; nothing is with --from. A level more than 16 times finer than\n"
+    "what was measured is not offered.\n"
+    "  tripoint plan heat/cosine-mode --within 1%\n"
+    "  tripoint plan heat/step-walkers --within 0.5% --metric uncertainty";
+
+struct Options {
+  std::string what, error, metric, engines, from, axis, out;
+  std::vector<double> levels;
+  double seconds = 0.0;
+  int jobs = 1, threads = 1;
+  bool json = false;
+};
+
+double wish_of(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const std::string rest = end;
+  if (end == text.c_str() || !(value > 0.0) || !std::isfinite(value) || (!rest.empty() && rest != "%")) throw InputError(text + ": write an error above 0, as 0.01 or 1%");
+  return rest.empty() ? value : 0.01 * value;
+}
+
+Case case_of(const Options& o) {
+  CaseFilter filter;
+  filter.what = {o.what};
+  auto cases = select_cases(filter);
+  if (cases.size() != 1) throw InputError(o.what + ": names more than one case");
+  auto value = std::move(cases.front());
+  value.gates.clear(), value.inputs.clear();
+  if (!o.levels.empty()) {
+    Study study;
+    study.axis = o.axis.empty() ? "spacing" : o.axis, study.levels = o.levels, study.metric = o.metric;
+    value.studies = {study};
+  }
+  if (!o.axis.empty()) std::erase_if(value.studies, [&](const Study& s) { return s.axis != o.axis; });
+  if (value.studies.empty()) throw InputError(o.what + ": has no study to read a front from: name --axis and --levels a,b,c, coarse to fine");
+  return value;
+}
+
+std::string metric_of(const Options& o, const Case& value) {
+  if (!o.metric.empty()) return o.metric;
+  for (const auto& s : value.studies)
+    if (!s.metric.empty()) return s.metric;
+  if (value.metrics.empty()) throw InputError(value.id + ": has no metric");
+  return value.metrics.front().name;
+}
+
+CaseResult measure(const Options& o, const Case& value, const std::function<bool(const RunPlan&)>& wanted) {
+  const auto words = sort_engine_words(split(o.engines));
+  SuiteOptions options;
+  options.selection.engines = words.names;
+  for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);
+  options.out = o.out, options.jobs = o.jobs, options.threads = o.threads, options.say = [](const std::string& line) { say(line); };
+  options.wanted = [&](const EnginePlan& engine, const RunPlan& run) { return engine.name != "exact" && wanted(run); };
+  const auto engines = discover_engines(words.paths);
+  for (const auto& name : options.selection.engines)
+    if (!find_engine(engines, name)) throw EngineError(no_such_engine(name, engines));
+  auto results = run_suite({value}, engines, options);
+  if (results.cases.empty()) throw EngineError("nothing was run");
+  return results.cases.front();
+}
+
+/// The runs of this case in a results.json.
+CaseResult read_case_of(const std::string& path, const std::string& id) {
+  for (auto& c : read_results(path).cases)
+    if (c.id == id) return c;
+  throw InputError(path + ": holds no case " + id);
+}
+
+bool is_coarse(const Case& value, const RunPlan& run, std::size_t count) {
+  return std::any_of(value.studies.begin(), value.studies.end(), [&](const Study& s) {
+    const auto at = run.levels.find(s.axis);
+    if (at == run.levels.end()) return false;
+    for (std::size_t k = 0; k < std::min(count, s.levels.size()); ++k)
+      if (same_level(s.levels[k], at->second)) return true;
+    return false;
+  });
+}
+
+std::string name_of(const Ladder& l) {
+  return fmt::format("{}{}{}", label_of(l.engine, l.preset), l.mode.empty() ? "" : " ", l.mode);
+}
+
+void print_ladders(const std::vector<Ladder>& ladders, const std::string& metric) {
+  print(fmt::format("measured front of {}\n  {:28} {:14} {:>12} {:>12} {:>10} {:>12}\n", metric, "engine", "axis", "level", "error", "CPU s", "pairs"));
+  for (const auto& l : ladders)
+    for (const auto& p : l.points) print_line(fmt::format("  {:28} {:14} {:12.5g} {:12.4g} {:10.3g} {:12.4g}", name_of(l), l.axis, p.level, p.error, p.cpu_s, p.pairs));
+}
+
+double factor_between(double a, double b) { return a > 0.0 && b > 0.0 ? std::max(a / b, b / a) : std::numeric_limits<double>::infinity(); }
+
+/// The recommended run itself.
+LadderPoint make_recommended(const Options& o, Case value, const Recommendation& r, const std::string& metric) {
+  Study only;
+  only.axis = r.ladder->axis, only.levels = {r.level}, only.engine = r.ladder->engine, only.mode = r.ladder->mode;
+  for (const auto& s : value.studies)
+    if (s.axis == only.axis && (s.engine.empty() || s.engine == only.engine) && (s.mode.empty() || s.mode == only.mode)) only.jitter = s.jitter, only.seeds = s.seeds;
+  value.studies = {only};
+  if (!only.mode.empty()) value.modes = {mode_from(only.mode)};
+  auto chosen = o;
+  chosen.engines = only.engine, chosen.out = o.out + "/recommended";
+  const auto result = measure(chosen, value, [&](const RunPlan& run) { const auto at = run.levels.find(only.axis); return at != run.levels.end() && same_level(at->second, only.levels[0]); });
+  for (const auto& engine : result.engines)
+    for (const auto& run : engine.runs) {
+      const auto v = measured(run, metric);
+      if (run.status != "ok") throw EngineError(fmt::format("the recommended run is {}: {}", run.status, run.reason));
+      if (engine.preset == r.ladder->preset && v) return {r.level, 0.0, std::abs(v->value) + 2.0 * v->uncertainty.combined(), run.cost.cpu_s, run.cost.pairs};
+    }
+  throw EngineError("the recommended run gave no value of " + metric);
+}
+
+int recommend(Options o) {
+  catch_interrupts();
+  if (o.error.empty() == !(o.seconds > 0.0)) throw InputError("recommend: give --error X or --seconds Y, one of them");
+  const auto value = case_of(o);
+  if (o.out.empty()) o.out = own_folder("recommend", value.id);
+  make_folder(o.out);
+  const auto metric = metric_of(o, value);
+  const auto result = o.from.empty() ? measure(o, value, [](const RunPlan& run) { return !run.levels.empty() || run.base; }) : read_case_of(o.from, value.id);
+  const auto ladders = ladders_of(result, metric);
+  if (!o.json) print_ladders(ladders, metric);
+  const double wish = o.error.empty() ? 0.0 : wish_of(o.error);
+  const auto r = o.error.empty() ? best_within(value.scene, ladders, o.seconds) : cheapest_for_error(value.scene, ladders, wish);
+  if (!r) {
+    print(o.json ? std::string("{\"found\": false}\n") : std::string("no settings within twice of what was measured promise it\n"));
+    return exit_inconclusive;
+  }
+  if (!o.json) print(fmt::format("recommended: {}, {} = {:.6g}\n  predicted error {:.4g} (within a factor {:.2f}), {:.3g} CPU s (within {:.2f})\n", name_of(*r->ladder), r->ladder->axis, r->level, r->error.value, r->error.factor, r->cpu_s.value, r->cpu_s.factor));
+  const auto made = make_recommended(o, value, *r, metric);
+  const bool met = o.error.empty() ? made.cpu_s <= o.seconds : made.error <= wish;
+  const double error_factor = factor_between(r->error.value, made.error), cpu_factor = factor_between(r->cpu_s.value, made.cpu_s);
+  if (o.json)
+    print(nlohmann::ordered_json{{"found", true}, {"case", value.id}, {"metric", metric}, {"engine", r->ladder->engine}, {"preset", r->ladder->preset}, {"mode", r->ladder->mode}, {"axis", r->ladder->axis},
+                                 {"level", r->level}, {"predicted", {{"error", r->error.value}, {"cpu_s", r->cpu_s.value}}}, {"measured", {{"error", made.error}, {"cpu_s", made.cpu_s}}}, {"met", met}}.dump(2) + "\n");
+  else
+    print(fmt::format("the run: error {:.4g} (predicted to a factor {:.2f}), {:.3g} CPU s (to {:.2f}): {}\n", made.error, error_factor, made.cpu_s, cpu_factor, met ? "meets the wish" : "DOES NOT meet the wish"));
+  return met ? exit_pass : exit_fail;
+}
+
+int plan_for(Options o) {
+  catch_interrupts();
+  const auto value = case_of(o);
+  const auto metric = metric_of(o, value);
+  const double wish = wish_of(o.error);
+  if (o.out.empty()) o.out = own_folder("plan", value.id);
+  make_folder(o.out);
+  const auto result = o.from.empty() ? measure(o, value, [&](const RunPlan& run) { return is_coarse(value, run, 3); }) : read_case_of(o.from, value.id);
+  const auto ladders = ladders_of(result, metric);
+  print_ladders(ladders, metric);
+  print(fmt::format("to bring {} within {:.3g}:\n  {:28} {:14} {:>12} {:>24} {:>24}\n", metric, wish, "engine", "axis", "level", "CPU s (from..to)", "error (from..to)"));
+  bool any = false;
+  for (const auto& l : ladders) {
+    const auto& fine = l.points.back();
+    const double slope = std::log(l.points[l.points.size() - 2].error / fine.error) / std::log(l.points[l.points.size() - 2].step / fine.step);
+    double step = 0.0;
+    for (const auto& p : l.points)
+      if (p.error <= wish && step == 0.0) step = p.step;
+    if (step == 0.0 && slope > 0.05) step = fine.step * std::pow(wish / fine.error, 1.0 / slope);
+    if (step == 0.0) {
+      print_line(fmt::format("  {:28} {:14} {:>12}  its error falls with no power of the level (slope {:.2f}): no level brings it there", name_of(l), l.axis, "-", slope));
+      continue;
+    }
+    const bool upward = l.axis == "walkers" || l.axis == "iterations" || l.axis == "support_ratio";
+    if (fine.step > farthest * step) {
+      print_line(fmt::format("  {:28} {:14} {:>12}  out of reach: its error falls as the level to the {:.2g}, which would take {:.2g}, {:.2g} times beyond what was measured", name_of(l), l.axis, "-", slope,
+                        upward ? 1.0 / step : step, fine.step / step));
+      continue;
+    }
+    any = true;
+    const auto e = predicted_error(l, step), c = predicted_cpu(l, step);
+    print_line(fmt::format("  {:28} {:14} {:12.5g} {:>24} {:>24}", name_of(l), l.axis, upward ? 1.0 / step : step, fmt::format("{:.3g} ({:.3g}..{:.3g})", c.value, c.value / c.factor, c.value * c.factor),
+                      fmt::format("{:.3g} ({:.3g}..{:.3g})", e.value, e.value / e.factor, e.value * e.factor)));
+  }
+  return any ? exit_pass : exit_inconclusive;
+}
+
+void add_common(CLI::App& command, Options& o, const std::string& name) {
+  command.add_option("CASE", o.what, "a case file or id")->required();
+  command.add_option("--metric", o.metric, "which metric (default: that of the case's first study)");
+  command.add_option("--engines", o.engines, "only these engines, A,B");
+  command.add_option("--axis", o.axis, "only this axis")->check(CLI::IsMember({"spacing", "time_step", "support_ratio", "walkers", "iterations"}));
+  command.add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")->delimiter(',')->allow_extra_args(false);
+  command.add_option("--from", o.from, "take the front from this results.json; run nothing for it");
+  command.add_option("--out", o.out, "folder of the runs (default: report-" + name + "/CASE)");
+  command.add_option("--jobs", o.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+}
+
+}  // namespace
+
+void add_recommend(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("recommend", recommend_description);
+  auto o = std::make_shared<Options>();
+  add_common(*command, *o, "recommend");
+  command->add_option("--error", o->error, "the error that is wished, in the metric's unit or as a percentage");
+  command->add_option("--seconds", o->seconds, "the CPU seconds that may be spent");
+  command->add_flag("--json", o->json, "print one JSON document");
+  command->callback([o, &exit_code] { exit_code = guarded([&] { return recommend(*o); }); });
+}
+
+void add_plan(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("plan", plan_description);
+  auto o = std::make_shared<Options>();
+  add_common(*command, *o, "plan");
+  command->add_option("--within", o->error, "the error that is wished, in the metric's unit or as a percentage")->required();
+  command->callback([o, &exit_code] { exit_code = guarded([&] { return plan_for(*o); }); });
+}
+
+}  // namespace tripoint

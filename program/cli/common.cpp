@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "program/cli/common.hpp"
+
+#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+#include "core/errors.hpp"
+#include "scene/nearest.hpp"
+#include "validation/harness/foreign_text.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace tripoint {
+namespace {
+std::string& remembered() {
+  static std::string line;
+  return line;
+}
+
+constexpr const char *green = "32", *red = "31", *yellow = "33";
+
+/// Verdicts as they begin a line of the result.
+constexpr std::array<std::pair<std::string_view, const char*>, 11> colours{{{"PASS", green}, {"FAIL", red}, {"FAILS", red}, {"BAD INPUT", red}, {"INCONCLUSIVE", yellow}, {"MISSING", red}, {"SELF-TEST FAILED", red},
+                                                                           {"COST REGRESSION", yellow}, {"DIVERGED", red}, {"INTERRUPTED", yellow}, {"ok", green}}};
+
+bool wants_colour() {
+  const char *no = std::getenv("NO_COLOR"), *term = std::getenv("TERM");
+  return ::isatty(1) == 1 && !(no && *no) && term && std::string_view(term) != "dumb";
+}
+
+/// The verdict that begins the line, or follows the word "verdict", in its colour.
+std::string painted(const std::string& line) {
+  const std::size_t from = line.starts_with("verdict ") ? 8 : 0;
+  for (const auto& [word, colour] : colours) {
+    const bool whole = line.compare(from, word.size(), word) == 0 && (line.size() == from + word.size() || line[from + word.size()] == ' ');
+    if (whole) return fmt::format("{}\033[1;{}m{}\033[0m{}", line.substr(0, from), colour, word, line.substr(from + word.size()));
+  }
+  return line;
+}
+
+std::string all_painted(const std::string& text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto end = std::min(text.find('\n', at), text.size());
+    out += painted(text.substr(at, end - at));
+    if (end < text.size()) out += '\n';
+    at = end + 1;
+  }
+  return out;
+}
+}  // namespace
+
+int guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const InputError& e) {
+    say(std::string("tripoint: ") + e.what());
+    return exit_bad_input;
+  } catch (const Diverged& e) {
+    say(std::string("tripoint: diverged: ") + e.what());
+    return exit_diverged;
+  } catch (const std::filesystem::filesystem_error& e) {
+    say(fmt::format("tripoint: {}: {}", e.path1().string(), e.code().message()));
+    return exit_missing;
+  } catch (const std::exception& e) {
+    say(std::string("tripoint: ") + e.what());
+    return exit_missing;
+  }
+}
+
+void say(const std::string& line) {
+  std::string text;
+  for (const auto& part : split(line, '\n')) text += (text.empty() ? "" : "  ") + one_line(part) + "\n";
+  text = without_commands(text.empty() ? "\n" : text);
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
+
+void print_commands(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
+}
+
+void print(const std::string& plain) {
+  static const bool coloured = wants_colour();
+  const std::string text = without_commands(coloured ? all_painted(plain) : plain);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
+}
+
+void hold_standard_streams() {
+  constexpr std::array<const char*, 3> instead{"/dev/null", "/dev/full", "/dev/null"};
+  for (int stream = 0; stream < 3; ++stream)
+    if (::fcntl(stream, F_GETFD) == -1 && ::open(instead[static_cast<std::size_t>(stream)], O_RDWR) != stream) std::abort();
+}
+
+bool output_arrived() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  say("tripoint: what it printed could not be written (standard output is closed, or the disk is full)");
+  return false;
+}
+
+void print_line(const std::string& line) { print(one_line(line) + "\n"); }
+
+std::vector<std::string> split(const std::string& list, char separator) {
+  std::vector<std::string> parts;
+  std::istringstream stream(list);
+  for (std::string part; std::getline(stream, part, separator);)
+    if (!part.empty()) parts.push_back(part);
+  return parts;
+}
+
+EngineWords sort_engine_words(const std::vector<std::string>& words) {
+  EngineWords sorted;
+  for (const auto& word : words)
+    (word.find('/') != std::string::npos || std::filesystem::exists(word) ? sorted.paths : sorted.names).push_back(word);
+  return sorted;
+}
+
+std::string no_such_engine(const std::string& name, const std::vector<EngineEntry>& engines) {
+  std::vector<std::string> names;
+  for (const auto& e : engines) names.push_back(e.name);
+  const auto near = nearest(name, names);
+  return fmt::format("no engine is named {} ({})", printable(name), near.empty() ? "tripoint engines lists them" : "did you mean `" + near + "`?");
+}
+
+std::string own_folder(const std::string& command, const std::string& case_id) { return "report-" + command + (case_id.empty() ? "" : "/" + case_id); }
+
+std::string results_file(const std::string& path) { return std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "results.json").string() : path; }
+
+void make_folder(const std::string& out) {
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  if (!error && !std::filesystem::is_directory(out)) error = std::make_error_code(std::errc::not_a_directory);
+  if (error) throw InputError(fmt::format("--out {}: the folder cannot be made: {}. Name another with --out", printable(out, 200), error.message()));
+  if (::access(out.c_str(), W_OK | X_OK) != 0) throw InputError(fmt::format("--out {}: the folder cannot be written to. Name another with --out", printable(out, 200)));
+}
+
+void remember_command_line(int argc, char** argv) {
+  remembered() = "tripoint";
+  for (int i = 1; i < argc; ++i) remembered() += std::string(" ") + argv[i];
+}
+
+const std::string& command_line() { return remembered(); }
+
+Plan plan_of(const CaseReading& reading) {
+  try {
+    return plan(scene_for(reading.value, {}));
+  } catch (const InputError& e) {
+    if (!e.place().file.empty()) throw;
+    throw InputError({reading.value.file, 0, 0}, e.what());
+  }
+}
+
+}  // namespace tripoint

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <sstream>
+
+#include "program/cli/commands.hpp"
+#include "program/cli/common.hpp"
+#include "program/cli/gate_judge.hpp"
+#include "scene/read_case.hpp"
+#include "step/settle.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace {
+
+constexpr const char* description =
+    "tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.\n\n"
+    "First steps:\n"
+    "  tripoint list                         the cases and what each one proves\n"
+    "  tripoint explain rigid/ballistic      what a case simulates, and why each default is what it is\n"
+    "  tripoint validate rigid/ballistic     run it on every engine, judge it, write report/index.html\n"
+    "  tripoint new my-case.toml             start a case of your own\n";
+
+constexpr const char* footer =
+    "tripoint COMMAND --help says more, with examples.\n"
+    "Exit codes: 0 pass, 1 an accuracy, order or invariant gate fails, 2 bad input, 3 inconclusive, 4 a required engine, reference\n"
+    "or metric is missing or not comparable, 5 the gate's self-test fails, 6 cost regression, 7 diverged, 130 Ctrl-C.";
+
+/// Lists commands by the first sentence of their descriptions: the rest is in each one's own help.
+class FirstSentences : public CLI::Formatter {
+ public:
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::string text = command->get_description();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text = text.substr(0, std::min({text.find(". "), text.find(": "), text.find("; ")}));
+    std::ostringstream out;
+    CLI::detail::format_help(out, command->get_name(), text, 14);
+    return out.str();
+  }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace tripoint;
+  hold_standard_streams();
+  remember_command_line(argc, argv);
+  set_settler(settled);
+  CLI::App app{description, "tripoint"};
+  app.footer(footer);
+  app.formatter(std::make_shared<FirstSentences>());
+  app.set_version_flag("--version", TRIPOINT_VERSION);
+  app.require_subcommand(1);
+  int exit_code = exit_pass;
+  for (const auto add : {add_run, add_validate, add_merge, add_compare, add_report, add_converge, add_recommend, add_plan, add_ablate, add_gate, add_summary, add_check, add_explain, add_list, add_new,
+                         add_schema, add_engines, add_engine, add_releases, add_bench})
+    add(app, exit_code);
+  if (const auto wrong = mistyped_word(app, argc, argv); !wrong.empty()) {
+    say("tripoint: " + wrong);
+    return exit_bad_input;
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? exit_pass : exit_bad_input;  // CLI11's own codes, 106 and others, mean nothing here
+  }
+  return output_arrived() || exit_code != exit_pass ? exit_code : exit_bad_input;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <limits>
+#include <vector>
+
+#include "effects/world.hpp"
+
+namespace tripoint::fracture {
+
+/// The proof that no bond can have broken since all were looked at: the least room that any had then, and how far particles have moved
+/// since, other than together. It changes no result, so that no checkpoint keeps it.
+class UnbrokenProof {
+ public:
+  /// Nothing is known: bonds, bodies or particles are others than before.
+  void clear() noexcept { place_.clear(); }
+  /// @param room least room of all bonds, as the particles are now [m]
+  void set(const World&, double room);
+  /// Whether every bond still holds.
+  [[nodiscard]] bool holds(const World&) const;
+
+ private:
+  double room_ = 0.0;
+  std::vector<Vec3> place_;  ///< by id, when all were looked at
+};
+
+}  // namespace tripoint::fracture

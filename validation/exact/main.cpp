@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/exact/exact_engine.hpp"
+
+int main(int argc, char** argv) {
+  return tripoint::serve(argc, argv, [] { return std::unique_ptr<tripoint::Engine>(new tripoint::ExactEngine); });
+}
