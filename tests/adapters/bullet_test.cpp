@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bullet's own error is part of every row that it fills: these tests state it, and that the adapter adds none.
+#include <BulletDynamics/ConstraintSolver/btContactSolverInfo.h>
 #include <gtest/gtest.h>
 
 #include "adapters/bullet/bullet_engine.hpp"
+#include "adapters/bullet/presets.hpp"
 #include "adapters/scenes.hpp"
 #include "validation/references/torque_free.hpp"
 
@@ -226,6 +228,25 @@ TEST(Bullet, HoldsWhatItWasGiven) {
   EXPECT_NEAR(held.bodies.at(0).mass, 1.0, 1e-12);
   EXPECT_LT(norm(held.bodies[0].principal_inertia - p.job.bodies[0].properties.principal_inertia), 1e-15);
   EXPECT_EQ(held.bodies[0].linear_damping, 0.0);
+}
+
+TEST(Bullet, HasTheLibrarysNumbersUnlessAPresetSaysOtherwise) {
+  const btContactSolverInfo library;
+  const bullet::Preset ours;
+  constexpr double single = 1e-7;  // the library writes some of them in single precision
+  EXPECT_EQ(ours.iterations, library.m_numIterations);
+  EXPECT_NEAR(ours.erp2, library.m_erp2, single);
+  EXPECT_NEAR(ours.split_threshold, library.m_splitImpulsePenetrationThreshold, single);
+  EXPECT_NEAR(ours.restitution_threshold, library.m_restitutionVelocityThreshold, single);
+  EXPECT_NEAR(ours.restitution, library.m_restitution, single);
+}
+
+TEST(Bullet, TakesTheIterationsOfTheJobBeforeThoseOfItsPreset) {
+  Job job;
+  job.preset = "resting";
+  EXPECT_EQ(bullet::preset_for(job).iterations, 200);
+  job.resolution.iterations = 30;
+  EXPECT_EQ(bullet::preset_for(job).iterations, 30);
 }
 
 TEST(Bullet, SaysWhyItRefuses) {

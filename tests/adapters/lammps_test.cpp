@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "adapters/wheel.hpp"
+#include "io/gauge_error.hpp"
 #include "validation/references/torque_free.hpp"
 
 namespace tripoint {
@@ -219,6 +220,7 @@ void expect_sine_between_plates(const std::string& engine, const std::string& co
   mirrored.phase = 0.0;
   Prepared high = between_plates(mirrored, std::nullopt, 300.0, 40.0);
   for (auto* p : {&both, &low, &high}) p->job.settings["conduction"] = conduction;
+  both.job.gauges = {{"of x", "diffusivity", "", {{"axis", std::string("x")}}}, {"free", "diffusivity", "", {}}, {"other", "temperature_at", "", {}}};
   const Outcome a = test::run(engine, both), b = test::run(engine, low), c = test::run(engine, high);
   for (const auto* out : {&a, &b, &c}) ASSERT_EQ(out->exit_code, 0) << out->result.message;
   EXPECT_NEAR(amplitude(a, both, pi / length) / (10.0 * std::exp(-D * std::pow(pi / length, 2) * 10.0)), 1.0, 0.025);
@@ -229,6 +231,13 @@ void expect_sine_between_plates(const std::string& engine, const std::string& co
   const double measured = a.result.extra.at("diffusivity"), error = a.result.extra.at("diffusivity_error");
   EXPECT_LT(error, 0.0025 * D);
   EXPECT_NEAR(measured, D, 4.0 * error);
+  const auto& gauges = a.trajectory.frames.back().gauges;
+  EXPECT_EQ(gauges.at("free"), measured);
+  EXPECT_EQ(gauges.at(gauge_error_key("free")), error);
+  EXPECT_NEAR(gauges.at("of x"), D, 4.0 * gauges.at(gauge_error_key("of x"))) << "between two held faces walkers go on for ever";
+  EXPECT_NEAR(gauges.at(gauge_error_key("of x")), std::sqrt(3.0) * error, 0.05 * error);
+  EXPECT_EQ(gauges.count("other"), 0U);
+  EXPECT_EQ(gauges.size(), 4U);
 }
 
 TEST(LammpsWalkers, LangevinFindsASineBetweenHeldEnds) { expect_sine_between_plates(debian, "langevin"); }

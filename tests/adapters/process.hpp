@@ -94,6 +94,9 @@ inline Outcome run(const std::string& engine, const Prepared& p, const std::stri
   out.log = text_of(folder.at("log.lammps"));
   if (std::filesystem::exists(folder.at("trajectory.h5"))) out.trajectory = read_trajectory(folder.at("trajectory.h5"));
   if (std::filesystem::exists(folder.at("trajectory.csv"))) out.trajectory = read_trajectory_csv(folder.at("trajectory.csv"), p.initial, p.job.bodies.size());
+  std::vector<std::string> gauges;
+  for (const JobGauge& gauge : p.job.gauges) gauges.push_back(gauge.metric);
+  if (std::filesystem::exists(folder.at("gauges.csv"))) read_gauges_csv(folder.at("gauges.csv"), gauges, out.trajectory);
   if (out.exit_code == 0 && std::filesystem::exists(folder.at("trajectory.h5")))
     for (const Snapshot& frame : out.trajectory.frames) expect_sums(frame, p.initial), expect_bodies(frame, p.initial);
   return out;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "bench/limit.hpp"
+#include "program/bench/limit.hpp"
 
 namespace tripoint::bench {
 namespace {

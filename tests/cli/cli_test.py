@@ -11,6 +11,9 @@ import time
 import unittest
 from pathlib import Path
 
+import h5py
+import numpy as np
+
 TRIPOINT, FAKE = sys.argv[1], sys.argv[2]
 VERBS = "run validate merge compare report converge recommend plan ablate gate check explain list new schema engines engine".split()
 FLIGHT = Path(FAKE).with_name("flight.toml").read_text().replace("[reference]", "[engines.fake]\nrequired = true\n[reference]").replace("limit = 1e-10", 'engine = "fake"\nlimit = 1e-10')
@@ -45,6 +48,19 @@ class Cli(unittest.TestCase):
 
     def results(self):
         return json.loads((self.path / "out" / "results.json").read_text())
+
+    def test_frames_say_the_sums_of_their_particles(self):
+        for engine in ("tripoint", "exact", "bullet"):
+            with self.subTest(engine):
+                done = call("run", "rigid/ballistic", "--engine", engine, "--out", self.path / engine, "--quiet")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with h5py.File(self.path / engine / "trajectory.h5") as file:
+                    mass, place, velocity = (file[f"particles/all/{name}/value"][()] for name in ("mass", "position", "velocity"))
+                    mass = np.broadcast_to(mass, place.shape[:2])[..., None]
+                    for name, sums in (("mass", mass.sum((1, 2))), ("momentum", (mass * velocity).sum(1)), ("angular_momentum", np.cross(place, mass * velocity).sum(1))):
+                        stated = file[f"observables/{name}/value"][()]
+                        self.assertGreater(np.abs(sums).max(), 0.0, name)
+                        np.testing.assert_allclose(stated, sums, rtol=0, atol=1e-9 * np.abs(sums).max(), err_msg=name)
 
     def test_every_help_teaches_with_an_example(self):
         for verb in VERBS:

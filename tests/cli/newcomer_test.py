@@ -116,6 +116,21 @@ class Newcomer(unittest.TestCase):
                 self.assertIn("--out file/below", done.stderr.splitlines()[-1])
                 self.assertNotIn("filesystem error", done.stderr)
 
+    # What the paper does not have
+    def test_ablate_leaves_the_numerical_bulk_viscosity_out_where_the_scene_has_one(self):
+        rows = {}
+        for name, zeta in (("with", "0.2"), ("without", "0")):
+            text = (SOURCE / "cases/fluid/breathing-column.toml").read_text()
+            (self.path / "column.toml").write_text(text.replace("[scene]", f"[scene]\nbulk_viscosity = {zeta}").replace('"0.16 s"', '"8 ms"'))
+            done = self.call("ablate", "column.toml", "--out", name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            rows[name] = json.loads((self.path / name / "ablation.json").read_text())["cases"][0]
+        taken = rows["with"]["corrected"]["metrics"]["taken"]["value"]
+        self.assertGreater(taken, 1e-3)
+        left_out = rows["with"]["printed"]["bulk_viscosity"]
+        self.assertEqual(left_out["state_hash"], rows["without"]["corrected"]["state_hash"])
+        self.assertNotIn("bulk_viscosity", rows["without"]["printed"])
+
     # Ctrl-C
     def test_ctrl_c_ends_with_the_report_of_the_cases_that_are_complete(self):
         self.cases("a", "b", "c")

@@ -23,7 +23,7 @@ from pathlib import Path
 
 TRIPOINT, SOURCE = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 COPIED = ("baselines", "cases", "examples")  # a line must not change the checkout
-LINKED = ("adapters", "cmake", "docs", "reports", "src", "tests", "tools", "validation", "CMakeLists.txt", "CMakePresets.json", "Makefile")
+LINKED = ("adapters", "cmake", "docs", "program", "reports", "src", "tests", "tools", "validation", "CMakeLists.txt", "CMakePresets.json", "Makefile")
 PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md")), SOURCE / "examples" / "gated-engine" / "README.md"]
 HELD_ELSEWHERE = ("add-an-effect.md",)  # its blocks are the files of an effect that the program does not have: test-effects-added holds them
 PROGRAMS = ("tripoint", "build/bin/tripoint", "make", "cmake", "ctest", "ninja", "sed", "git", "echo", ".ci/run")

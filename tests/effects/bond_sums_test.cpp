@@ -37,16 +37,16 @@ struct Star {
       for (Column* c : {&d.strained.x, &d.strained.y, &d.strained.z, &d.T.x, &d.T.y, &d.T.z}) column(*c);
   }
   [[nodiscard]] std::vector<Vec3> results(const BondSums& sum) const {
-    const Seam seam{{0.5, 0.6, 0.7, 1.0}, {1.0, 1.2, 1.4, 0.0}};
+    const PeriodicWidths box{{0.5, 0.6, 0.7, 1.0}, {1.0, 1.2, 1.4, 0.0}};
     ReferenceSums r;
     ListSums s;
     PartnerForces f;
     sum.reference(lists.of(bonds, 0), lists.shapes(), places.data(), r);
-    sum.list(lists.of(bonds, 0), lists.shapes(), places.data(), places[0], seam, s);
-    sum.partners(lists.of(bonds, 0), lists.shapes(), places.data(), deformed.data(), places[0], seam, f);
+    sum.list(lists.of(bonds, 0), lists.shapes(), places.data(), places[0], box, s);
+    sum.partners(lists.of(bonds, 0), lists.shapes(), places.data(), deformed.data(), places[0], box, f);
     const Matrix3& m = r.moment;
     return {s.displacement.x, s.displacement.y, s.displacement.z, s.swept.x, s.swept.y, s.swept.z, {m.xx, m.xy, m.xz}, {m.yx, m.yy, m.yz}, {m.zx, m.zy, m.zz},
-            r.gradient,       r.glass,          s.residual,       f.stress,  f.glass};
+            r.gradient,       r.hourglass,      s.residual,       f.stress,  f.hourglass};
   }
 };
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "effects/fluid_lab.hpp"
-#include "effects/fracture/calm.hpp"
+#include "effects/fracture/unbroken_proof.hpp"
 #include "effects/plan.hpp"
 #include "scene/temperatures.hpp"
 
@@ -112,8 +112,8 @@ TEST(OnlyWhatIsCalledFor, EveryEffectIsEitherOnOrLeftOutForAReason) {
   }
 }
 
-/// Particles of a chain that shake more and more, looked at again only where `Calm` asks for it.
-TEST(Calm, NeverHoldsWhereABondIsBeyondItsLimitAndMostlyHoldsWhereNoneIs) {
+/// Particles of a chain that shake more and more, looked at again only where `UnbrokenProof` asks for it.
+TEST(UnbrokenProof, NeverHoldsWhereABondIsBeyondItsLimitAndMostlyHoldsWhereNoneIs) {
   World world;
   world.scene.spacing = 1.0;
   constexpr std::size_t n = 50;
@@ -128,19 +128,19 @@ TEST(Calm, NeverHoldsWhereABondIsBeyondItsLimitAndMostlyHoldsWhereNoneIs) {
   };
   std::mt19937_64 random(1);
   std::normal_distribution<double> kick(0.0, 0.004);
-  fracture::Calm calm;
-  EXPECT_FALSE(calm.holds(world));
+  fracture::UnbrokenProof unbroken;
+  EXPECT_FALSE(unbroken.holds(world));
   int held = 0, looked = 0, steps = 0;
   for (; least_room() > 0.0 && steps < 100'000; ++steps) {
-    if (calm.holds(world)) ++held;
-    else ++looked, calm.know(world, least_room());
+    if (unbroken.holds(world)) ++held;
+    else ++looked, unbroken.set(world, least_room());
     for (std::size_t i = 0; i < n; ++i) x.set(i, x.at(i) + Vec3{0.3, 0.0, 0.0} + Vec3{kick(random), kick(random), kick(random)});
   }
   EXPECT_LT(steps, 100'000) << "a bond must have broken";
-  EXPECT_FALSE(calm.holds(world));
+  EXPECT_FALSE(unbroken.holds(world));
   EXPECT_GT(held, looked) << "that all fly together is no reason to look";
-  calm.forget();
-  EXPECT_FALSE(calm.holds(world));
+  unbroken.clear();
+  EXPECT_FALSE(unbroken.holds(world));
 }
 
 }  // namespace

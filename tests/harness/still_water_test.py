@@ -55,8 +55,8 @@ class StillWater(unittest.TestCase):
         with tempfile.TemporaryDirectory() as root:
             folder = Path(root) / "laid-as-a-lattice"
             folder.mkdir()
-            for viscosity, rms in ((0.0, 0.03), (1.0, 0.01)):
-                cell = still_water.Cell(5, 1.0, viscosity, "no")
+            for viscosity, rms, slip in ((0.0, 0.03, "free"), (1.0, 0.01, "no")):
+                cell = still_water.Cell(5, 1.0, viscosity, slip)
                 row = {"name": cell.name, "status": "ok", "time": 20.0, "windows": [[rms, 0.1], [rms, 0.2], None], "greatest_wall_work": 0.0, "steps": 1e-4, "steps_most": 1e-4}
                 (folder / f"{cell.name}.json").write_text(json.dumps(row))
             said = io.StringIO()
@@ -64,8 +64,9 @@ class StillWater(unittest.TestCase):
                 still_water.page(types.SimpleNamespace(out=[str(folder)]))
         text = said.getvalue()
         self.assertIn("## Laid as a lattice", text)
-        self.assertIn("2 of 72 cells were run, 0 of them for 60 s", text)
-        self.assertIn("5 to 20 s: 1 of 2 cells stay below 0.02", text)
+        self.assertIn("3 of 72 cells were run, 0 of them for 60 s", text)
+        self.assertIn("| 5 | 1 : 1 | 0 | no, the same run | 20 | 0.0300", text)
+        self.assertIn("5 to 20 s: 1 of 3 cells stay below 0.02", text)
         self.assertIn("| 5 | 1 : 1 | 1 | no | 20 | 0.0100 / 0.100 | 0.0100 / 0.200 | - | 0 | 1.0e-4 |", text)
 
     def test_keeps_of_each_cell_the_longest_run(self):

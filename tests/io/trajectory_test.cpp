@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/errors.hpp"
+#include "io/gauge_error.hpp"
 #include "io/trajectory.hpp"
 
 namespace tripoint {
@@ -239,6 +240,16 @@ TEST_F(Io, GaugesMakeFramesOfTheirOwnAndJoinThoseThatAreThere) {
   EXPECT_FALSE(beside.frames[1].gauges_only());
   for (const Trajectory* t : {&alone, &beside}) EXPECT_EQ(t->frames[1].gauges, (std::map<std::string, double>{{"tip", 2.5}, {"middle", 310.0}}));
   EXPECT_NE(state_hash(beside.frames[1]), state_hash(frame_at(0.5, 4, 1)));
+}
+
+TEST_F(Io, AGaugeMayStateItsStandardError) {
+  std::ofstream(path("gauges.csv")) << "time,gauge,value,standard_error\n0.5,0,2.5,0.125\n";
+  Trajectory t;
+  read_gauges_csv(path("gauges.csv"), {"tip"}, t);
+  ASSERT_EQ(t.frames.size(), 1U);
+  EXPECT_EQ(t.frames[0].gauges.at(gauge_error_key("tip")), 0.125);
+  std::ofstream(path("gauges.csv")) << "time,gauge,value,standard_error\n0.5,0,2.5,-0.125\n";
+  EXPECT_THROW(read_gauges_csv(path("gauges.csv"), {"tip"}, t), InputError);
 }
 
 TEST_F(Io, AGaugeThatTheJobDoesNotHaveOrThatIsNotFiniteIsRefusedWithItsLine) {

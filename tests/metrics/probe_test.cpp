@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/gauge_error.hpp"
 #include "metrics/frames.hpp"
 #include "validation/metrics/dominant_frequency.hpp"
 
@@ -203,6 +204,25 @@ TEST(Gauge, TheEnginesOwnNumberGoesBeforeItsParticles) {
   for (auto& frame : f.run.frames) frame.gauges[choice.name] = read + 5.0 + frame.time;
   EXPECT_NEAR(f.stated(choice, at(0.2, 0.2, 0.2, read)), 6.0, 1e-9);
   EXPECT_NEAR(f.stated(metric("temperature_at", "drift"), at(0.2, 0.2, 0.2, 0.0)), 1.0, 1e-9);
+}
+
+TEST(Gauge, OfADiffusivityIsTheEnginesOwnAtTheEndWithItsStandardError) {
+  Still f(test::blocks());
+  const auto choice = metric("diffusivity", "final", "left");
+  f.run.frames.back().gauges[choice.name] = 1.02e-6;
+  EXPECT_NEAR(f.of(choice, "stated", {{"diffusivity", 1e-6}}).value, 0.02e-6, 1e-18);
+  EXPECT_EQ(f.of(choice, "stated", {{"diffusivity", 1e-6}}).uncertainty.statistical, 0.0);
+  f.run.frames.back().gauges[gauge_error_key(choice.name)] = 1e-9;
+  EXPECT_EQ(f.of(choice, "stated", {{"diffusivity", 1e-6}}).uncertainty.statistical, 1e-9);
+  EXPECT_NE(f.of(choice, "stated", {}).note.find("needs its true value"), std::string::npos);
+}
+
+TEST(Gauge, ItsStandardErrorIsAnUncertaintyOfTheValue) {
+  Still f = linear_fields();
+  const auto choice = metric("temperature_at", "final");
+  for (auto& frame : f.run.frames) frame.gauges[choice.name] = 300.0, frame.gauges[gauge_error_key(choice.name)] = 0.5;
+  const double largest = std::sqrt(2.0 * std::log(2.0));  // what the largest of two samples is off in the mean: the norm takes at least two
+  EXPECT_NEAR(f.of(choice, "stated", at(0.2, 0.2, 0.2, 300.0)).uncertainty.statistical, 0.5 * largest, 1e-12);
 }
 
 TEST(Gauge, AnEngineWithoutParticlesIsJudgedByItsGaugesAlone) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "adapters/exact/exact_engine.hpp"
+#include "validation/exact/exact_engine.hpp"
 
 #include <gtest/gtest.h>
 

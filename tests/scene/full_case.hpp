@@ -36,6 +36,7 @@ transport_velocity = false
 clamp = false
 merge_distance = 1.6
 hourglass = 0.5
+bulk_viscosity = 0.1
 contact_viscosity = 0.1
 on_failure = "recover"
 unguarded = ["escape", "ledger"]

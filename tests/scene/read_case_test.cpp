@@ -62,6 +62,21 @@ TEST(ReadCase, ReadsEveryKeyOfTheContract) {
   EXPECT_EQ(c.harmless, (std::vector<std::string>{"order"}));
 }
 
+TEST(ReadCase, PressureIsClampedWhereItsTermIsCorrectedAndWhereverTheCaseSaysSo) {
+  const auto clamps = [](const std::string& scene) { return read_text(six_lines, {scene}).value.scene.clamps(); };
+  EXPECT_TRUE(clamps("scene.mode=\"corrected\""));
+  EXPECT_FALSE(clamps("scene.mode=\"paper\"")) << "the paper prints none";
+  EXPECT_FALSE(clamps("scene.clamp=false"));
+  const Scene printed = read_text(six_lines, {"scene.mode=\"paper\"", "scene.clamp=true"}).value.scene;
+  EXPECT_TRUE(printed.clamps());
+  EXPECT_EQ(printed.support_ratio, 2.12) << "a clamp has no kernel";
+  RunChoice paper;
+  paper.mode = Mode::paper;
+  EXPECT_TRUE(scene_for(read_text(six_lines, {"scene.clamp=true"}).value, paper).clamps());
+  EXPECT_FALSE(scene_for(read_text(six_lines).value, paper).clamps());
+  EXPECT_THROW((void)read_text(six_lines, {"scene.clamp=true", "scene.modes.clamp=paper"}), InputError);
+}
+
 TEST(ReadCase, NamesFileLineColumnAndTheNearestKey) {
   expect_refused("[scene]\nend_tme = 1.0\n", {"case.toml:2:1: unknown key `end_tme`", "did you mean `end_time`"});
   expect_refused("[scene]\nend_time = 1.0\ngravty = [0,0,0]\n", {"case.toml:3:1", "`gravity`"});

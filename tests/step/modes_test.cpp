@@ -115,6 +115,8 @@ TEST(Modes, EachTermChangesTheRunOrIsRefused) {
       EXPECT_NE(bits_with(key + "=\"paper\""), corrected) << key << " is read and changes nothing";
     } catch (const InputError& refusal) {
       EXPECT_EQ(static_cast<Term>(t), Term::kernel) << refusal.what();
+    } catch (const Diverged& stopped) {
+      EXPECT_EQ(static_cast<Term>(t), Term::clamp) << stopped.what();  // pressure that pulls tears the scene: a guard stops it
     }
   }
 }

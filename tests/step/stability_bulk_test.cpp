@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "effects/fluid_lab.hpp"
@@ -52,7 +53,7 @@ double frontier(const Lab& lab) {
 TEST(BulkViscosity, HasTheFrontierOfAWaveThatItDampsByFrequencySquared) {
   const Lab lab = pressed_sea(1.0, Place::layers);
   Lab elastic = lab;
-  elastic.scene.clamp = false;
+  elastic.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;
   const double w = 2.0 / oscillation_limit(elastic, false), damped = w * w * 0.2 * lab.scene.support_ratio;  // zeta h/c, c = 1
   EXPECT_NEAR(frontier(lab) * (w * w) / (std::sqrt(damped * damped + 4.0 * w * w) - damped), 1.0, 0.05);
 }
@@ -66,6 +67,43 @@ TEST(BulkViscosity, IsStableAtTheStepOfSoundWhateverLiquidsMix) {
       EXPECT_LT(own_step(lab) / frontier(lab), 0.82) << (place == Place::mixed ? "mixed" : "layers") << ", ratio " << ratio;
     }
   }
+}
+
+void ask_for(Lab& lab, double zeta) { lab.scene.values["bulk_viscosity"] = zeta; }
+
+/// Above its default the viscosity has the bound, not sound.
+TEST(BulkViscosity, IsStableAtItsOwnStepWhateverTheSceneAsks) {
+  for (const double zeta : {0.0, 0.2, 0.3, 1.0, 5.0}) {
+    for (const double ratio : {1.0, 10.0}) {
+      Lab lab = pressed_sea(ratio, Place::mixed);
+      ask_for(lab, zeta);
+      EXPECT_EQ(Simulation(lab.scene, lab.initial).bound().name, zeta > 0.2 ? "bulk viscosity" : "sound") << zeta;
+      EXPECT_LT(own_step(lab) / frontier(lab), 0.82) << "zeta " << zeta << ", ratio " << ratio;
+    }
+  }
+}
+
+/// What it takes of a pressed sea in some steps, over the kinetic energy there; nothing where the ledger has no such entry.
+std::optional<double> taken(std::optional<double> zeta) {
+  Lab lab = pressed_sea(1.0, Place::layers);
+  if (zeta) ask_for(lab, *zeta);
+  disturb(lab, 1e-3);
+  Simulation s(lab.scene, lab.initial);
+  const double before = kinetic(s);
+  s.advance_to(20.0 * own_step(lab));
+  const auto ledger = s.ledger();
+  const auto entry = ledger.energy.find("bulk_viscous");
+  if (entry == ledger.energy.end()) return {};
+  return entry->second / before;
+}
+
+TEST(BulkViscosity, TakesWhatTheSceneAsksAndIsNotThereAtZero) {
+  EXPECT_EQ(taken(0.0), std::nullopt);
+  EXPECT_EQ(taken(std::nullopt), taken(0.2));  // a scene that no reader made has the key's fallback
+  const double some = taken(0.05).value(), twice = taken(0.1).value();
+  EXPECT_GT(some, 1e-3);
+  EXPECT_GT(twice, 1.2 * some);
+  EXPECT_LT(twice, 2.0 * some);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using lab::Lab;
 
 Lab quiet() {
   Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
-  lab.scene.clamp = false;  // a contact that also pulls is a spring: its frontier is 2/omega
+  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;  // a contact that also pulls is a spring: its frontier is 2/omega
   return lab;
 }
 

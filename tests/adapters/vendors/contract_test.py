@@ -54,6 +54,11 @@ class Calls(unittest.TestCase):
         self.assertEqual((end.code, end.result["status"]), (4, "refused"))
         self.assertIn("elastic", end.result["message"])
 
+    def test_mujoco_that_begins_anew_is_diverged(self):
+        end = mujoco([body()], gravity=[0.0, 0.0, -1e8], times=(0.0, 1.0, 900.0))
+        self.assertEqual((end.code, end.result["status"]), (7, "diverged"))
+        self.assertIn("began anew", end.result["message"])
+
     def test_a_state_that_is_not_finite_is_diverged(self):
         end = mujoco([body()], gravity=[0.0, 0.0, -1e308], times=(0.0, 1.0, 900.0))
         self.assertEqual((end.code, end.result["status"], end.result["divergence"]["body"]), (7, "diverged", 0))
@@ -103,6 +108,13 @@ class Refusals(unittest.TestCase):
         command = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_rapier.py")]
         for spin, word in ((70.0, ""), (90.0, "pi/4")):
             self.assertIn(word, check(command, job([body(angular_velocity=[0.0, 0.0, spin])], preset="SIMPLIFIED"))["reason"])
+
+    def test_explicit_euler_refuses_tops_whose_energy_it_multiplies_beyond_bounds(self):
+        top = body(angular_velocity=[1.0, 2.0, 3.0], principal_inertia=[0.0417, 0.095, 0.1117])
+        for file, preset, word in (("engine_dart.py", "default", "multiplies the energy"), ("engine_mujoco.py", "Euler", "multiplies the energy"), ("engine_mujoco.py", "RK4", "")):
+            command = ["/usr/bin/python3", "-B", str(ADAPTERS / file)]
+            self.assertEqual(check(command, job([top], preset=preset, times=[0.0, 1.0], time_step=0.01))["reason"], "")
+            self.assertIn(word, check(command, job([top], preset=preset, times=[0.0, 1000.0], time_step=0.01))["reason"])
 
     def test_dart_refuses_half_spaces(self):
         command = ["/usr/bin/python3", "-B", str(ADAPTERS / "engine_dart.py")]

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "adapters/scene_json.hpp"
+#include "effects/declared_view.hpp"
 #include "effects/plan.hpp"
 #include "scene/expression.hpp"
 #include "scene/read_case.hpp"
@@ -83,6 +84,25 @@ TEST(AddedEffect, PassesItsValueOnToEveryEngine) {
   std::vector<JobBody> bodies(sent.bodies.size());
   scene_from_json(scene_to_json(sent, bodies), received, bodies);
   EXPECT_EQ(value_of(received.materials.at(0).values, "drag"), 2.0);
+}
+
+TEST(AddedEffect, IsRefusedAColumnThatItHasNotDeclared) {
+  const Scene scene = scene_for(slowed_ball(), {});
+  const Simulation s(scene, sample(scene));
+  const std::vector<Active> effects = active_effects(scene);
+  const Active& drag = *std::ranges::find(effects, "drag", &Active::name);
+  const Particles& p = s.world().particles;
+  {
+    const DeclaredView view(s.world(), drag);
+    EXPECT_EQ(p[field::velocity_x].size(), p.size());
+    try {
+      static_cast<void>(p[field::position_x]);
+      ADD_FAILURE() << "a place was given out";
+    } catch (const UndeclaredField& e) {
+      EXPECT_STREQ(e.what(), "the effect drag asks for the field position.x, which its `owns` and `reads` do not name");
+    }
+  }
+  EXPECT_EQ(p[field::position_x].size(), p.size());  // those who are no effect see all
 }
 
 TEST(AddedEffect, SlowsTheBallAsItsCaseSays) {

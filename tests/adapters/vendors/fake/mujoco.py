@@ -28,8 +28,13 @@ class MjModel:
         return model
 
 
+class mjtWarning:
+    mjWARN_BADQPOS, mjWARN_BADQVEL, mjWARN_BADQACC = 4, 5, 6
+
+
 class MjData:
     def __init__(self, model):
+        self.warning = [SimpleNamespace(number=0) for _ in range(8)]
         self.qpos = list(model.start)
         self.qvel = [0.0] * (6 * (len(model.body_mass) - 1))
         self.ncon = 0
@@ -53,3 +58,6 @@ def mj_step(model, data, nstep=1):
                 data.qvel[v + axis] += dt * model.opt.gravity[axis]
                 data.qpos[x + axis] += dt * data.qvel[v + axis]
             data.qpos[x + 3:x + 7] = _turn(data.qpos[x + 3:x + 7], data.qvel[v + 3:v + 6], dt)
+        if max(map(abs, data.qvel)) > 1e10:  # MuJoCo, too, goes back to its reference state, at rest, and counts it
+            data.qpos, data.qvel = list(model.start), [0.0] * len(data.qvel)
+            data.warning[mjtWarning.mjWARN_BADQVEL].number += 1

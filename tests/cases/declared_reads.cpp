@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Whether the effects of cases ask for no column that they have not declared: each case in all its modes, until its end or until a sum of particles
+/// and steps. The solver is that of the test build, which refuses other columns.
+///   declared-reads [--work PARTICLE_STEPS] CASE.toml...
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "scene/read_case.hpp"
+#include "step/settle.hpp"
+#include "step/simulation.hpp"
+
+using namespace tripoint;
+
+namespace {
+
+/// Steps that were made. @throws UndeclaredField
+long run(const Case& read, Mode mode, double work) {
+  RunChoice choice;
+  choice.mode = mode;
+  const Scene scene = scene_for(read, choice);
+  const InitialState initial = sample(scene);
+  long steps = static_cast<long>(work / static_cast<double>(std::max<std::size_t>(1, initial.size()))) + 1, made = 0;
+  try {
+    Simulation s(scene, initial, {.force_time_step = true});
+    s.advance_to(scene.end_time, [&] { return ++made < steps; });
+    static_cast<void>(s.ledger());
+  } catch (const Diverged&) {  // a case that is meant to
+  } catch (const InputError&) {  // a scene that the solver does not take
+  }
+  return made;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tripoint::set_settler(tripoint::settled);
+  double work = 3e5;
+  int runs = 0, wrong = 0;
+  for (int i = 1; i < argc; ++i) {
+    if (std::string_view(argv[i]) == "--work" && i + 1 < argc) {
+      work = std::atof(argv[++i]);
+      continue;
+    }
+    try {
+      const Case read = read_case(argv[i]).value;
+      for (const Mode mode : read.modes) fmt::print("{} {}: {} steps\n", read.id, to_string(mode), run(read, mode, work)), ++runs;
+    } catch (const std::exception& e) {
+      fmt::print("{}: {}\n", argv[i], e.what());
+      ++wrong;
+    }
+  }
+  fmt::print("{} runs, {} wrong\n", runs, wrong);
+  return wrong == 0 && runs > 0 ? 0 : 1;
+}
