@@ -18,6 +18,7 @@ import re
 import subprocess
 import sys
 import time
+import tomllib
 
 ROOMS = ("src/effects", "adapters")
 FOLDERS = ("rigid", "fluid", "motion", "prescribed", "density", "elastic", "plastic", "fracture", "heat", "phase")
@@ -103,8 +104,8 @@ class Cases:
         text = (self.tree / case["file"]).read_text()
         engines = {"tripoint"} | set(re.findall(r"^\[engines\.([\w-]+)", text, re.M))
         baseline = self.tree / "baselines" / (case["id"] + ".toml")
-        accepted = baseline.read_text() if baseline.exists() else ""
-        counted = {what: sum(float(x) for x in re.findall(rf"^{what} = ([\d.e+]+)", accepted, re.M)) for what in ("pairs", "steps")}
+        runs = tomllib.loads(baseline.read_text()).get("cost", []) if baseline.exists() else []
+        counted = {what: sum(run[what] for run in runs) for what in ("pairs", "steps")}
         return {"effects": {e["name"] for e in shown["effects"]}, "engines": engines, "cost": counted["pairs"] + 1e4 * counted["steps"]}
 
     def touched(self, file, engine):

@@ -62,6 +62,9 @@ furnish_root() {
   local node
   for node in "null 3" "zero 5" "full 7" "random 8" "urandom 9"; do mknod -m 666 "$root/dev/${node% *}" c 1 "${node#* }"; done
   ln -s /proc/self/fd "$root/dev/fd"
+  mkdir -m 755 "$root/dev/pts"
+  mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"  # a terminal, as a user has
+  ln -s pts/ptmx "$root/dev/ptmx"
   mkdir -m 1777 "$root/dev/shm"
   mount -t tmpfs -o mode=1777 tmpfs "$root/dev/shm"
 }

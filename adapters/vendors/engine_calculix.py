@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import HEAT_COLUMNS, PARTICLE_COLUMNS, Diverged, Engine, Job, Outcome, Row, serve, write_gauges, write_trajectory
-from lattice import Mesh, across, mesh_of, nodes_in_box, refuse_boxes, temperature_at, velocity_at
+from lattice import Mesh, across, mesh_of, nodes_in_box, refuse_boxes, refuse_work, temperature_at, velocity_at
 from rigid import steps_in
 from rotation import norm, vector
 
@@ -39,6 +39,9 @@ def materials_of(job: Job) -> list[dict]:
     return [named[body["material"]] for body in job.bodies]
 
 
+MOST_QUADRATIC = 250_000  # elements times steps of the elements of 20 nodes
+
+
 def linked(job: Job, one: dict, other: dict) -> bool:
     return other["name"] in one["joined_to"] or one["name"] in other["joined_to"]
 
@@ -50,6 +53,14 @@ def near(job: Job, one: dict, other: dict) -> bool:
     return all(a["min"][k] < b["max"][k] + reach and b["min"][k] < a["max"][k] + reach for k in range(3))
 
 
+def heat_step(job: Job) -> float:
+    """[s]: half of dx^2 over the greatest diffusivity of what is not held."""
+    every = list(zip(job.bodies, materials_of(job)))
+    live = [m for body, m in every if not body["temperature_held"]] or [m for _, m in every]
+    diffusivity = max(of_solid(m, "conductivity") / (m["density"] * of_solid(m, "heat_capacity")) for m in live)
+    return 0.5 * float(job.scene["spacing"]) ** 2 / diffusivity
+
+
 def refuse_heat(job: Job) -> str:
     for body, material in zip(job.bodies, materials_of(job)):
         if body["temperature"] is None:
@@ -59,7 +70,9 @@ def refuse_heat(job: Job) -> str:
             return f"CalculiX is handed conduction at rest, and {body['name']} may move"
         if material["t_melt"] is not None:
             return f"{body['name']} may melt, and the elements here have no latent heat"
-    return ""
+    if "20" not in job.preset:
+        return ""
+    return refuse_work(job, float(job.settings.get("time_step", heat_step(job))), MOST_QUADRATIC, job.preset, "C3D8")
 
 
 def refuse_solids(job: Job) -> str:
@@ -104,9 +117,7 @@ class Deck:
                 E, nu = float(m["young_modulus"]), float(m["poisson_ratio"] or 0.0)
                 return math.sqrt(E * (1.0 - nu) / (m["density"] * (1.0 + nu) * (1.0 - 2.0 * nu)))
             return 2.0 * dx / max(wave(self.materials[k]) for k in wanted)
-        live = [k for k in wanted if not self.job.bodies[k]["temperature_held"]] or list(wanted)
-        diffusivity = max(of_solid(self.materials[k], "conductivity") / (self.materials[k]["density"] * of_solid(self.materials[k], "heat_capacity")) for k in live)
-        return 0.5 * dx * dx / diffusivity
+        return heat_step(self.job)
 
     def gauge(self, asked: dict[str, Any]) -> tuple[dict[int, float], str, float] | None:
         """Weights of the nodes, what is summed (NT, U1, V2 ...) and what is added; None for a gauge that has no answer here."""

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import HEAT_COLUMNS, PARTICLE_COLUMNS, Engine, Job, Outcome, Row, serve, write_trajectory
+from lattice import refuse_work
 from rigid import steps_in
 from scikit_fem_mesh import Lattice
 from scikit_fem_solid import Solid
@@ -108,13 +109,7 @@ def refuse_size(job: Job) -> str:
     """Why a run of quadratic elements would take longer than a run may; "" if it would not."""
     if job.preset != "ElementHex2":
         return ""
-    density = {m["name"]: m["density"] for m in job.scene["materials"]}
-    elements = sum(body["mass"] / (density[body["material"]] * job.scene["spacing"] ** 3) for body in job.bodies)
-    steps = (job.times[-1] - job.times[0]) / heat_step(job)
-    if elements * steps <= MOST_QUADRATIC:
-        return ""
-    return (f"{round(elements)} elements for {math.ceil(steps)} steps are more than ElementHex2 finishes within a run's time; "
-            "a longer time_step makes them fewer, and ElementHex1 needs a tenth")
+    return refuse_work(job, heat_step(job), MOST_QUADRATIC, "ElementHex2", "ElementHex1")
 
 
 class Bar:

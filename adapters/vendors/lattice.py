@@ -81,6 +81,17 @@ def refuse_boxes(job: Job, engine: str) -> str:
     return ""
 
 
+def refuse_work(job: Job, step: float, most: float, quadratic: str, linear: str) -> str:
+    """Why a run of quadratic elements takes more than `most` elements times steps of `step` [s]; "" if it does not."""
+    density = {m["name"]: m["density"] for m in job.scene["materials"]}
+    elements = sum(body["mass"] / (density[body["material"]] * job.scene["spacing"] ** 3) for body in job.bodies)
+    steps = (job.times[-1] - job.times[0]) / step
+    if elements * steps <= most:
+        return ""
+    return (f"{round(elements)} elements for {math.ceil(steps)} steps are more than {quadratic} finishes within a run's time; "
+            f"a longer time_step makes them fewer, and {linear} needs a tenth")
+
+
 def mesh_of(job: Job, wanted: set[int], quadratic: bool) -> Mesh:
     """@param wanted numbers of the bodies that get elements. The boxes have been looked at by `refuse_boxes`."""
     dx = float(job.scene["spacing"])

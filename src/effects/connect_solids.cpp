@@ -6,6 +6,7 @@
 #include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "effects/solid_particles.hpp"
+#include "scene/effect_rule.hpp"
 
 namespace tripoint::solid {
 namespace {
@@ -56,7 +57,7 @@ Candidates candidates_of(const World& world, const Joins& joined) {
 
 /// Bonds are told apart by the nearest image, so one must be shorter than half the box, also when stretched by 15 %.
 void refuse_narrow_box(const World& world) {
-  const double least = 2.0 * 1.15 * bond_ratio * world.scene.spacing;
+  const double least = 2.0 * 1.15 * bond_reach(world.scene) * world.scene.spacing;
   for (std::size_t a = 0; a < 3; ++a) {
     if (!world.box.periodic[a] || world.box.width[a] >= least) continue;
     throw InputError(std::string("the periodic direction ") + "xyz"[a] + " is " + std::to_string(world.box.width[a]) + " m wide, and bonds of elastic bodies need " +
@@ -93,7 +94,7 @@ void set_twins(Bonds& bonds, std::span<const std::uint32_t> ids) {
 
 }  // namespace
 
-ElasticityKernel bond_kernel(const Scene& scene) { return ElasticityKernel(bond_ratio * scene.spacing); }
+ElasticityKernel bond_kernel(const Scene& scene) { return ElasticityKernel(bond_reach(scene) * scene.spacing); }
 
 Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
   const double r = norm(x);
@@ -121,7 +122,7 @@ void connect_solids(World& world) {
   refuse_narrow_box(world);
   const bool meets = world.particles.has(field::force_x.name);  // without pressure own pairs have nothing to be kept from
   const bool paper = world.scene.mode_of(Term::density) == Mode::paper;
-  const double reach = bond_ratio * world.scene.spacing, search = meets && !paper ? std::max(reach, world.support()) : reach;
+  const double reach = bond_reach(world.scene) * world.scene.spacing, search = meets && !paper ? std::max(reach, world.support()) : reach;
   Neighbours near(search, 0.0, world.box, world.threads);
   near.update(found.places, 0.0);
   const std::vector<char> at_joint = joints_of(world, joined, found, near, reach);

@@ -12,8 +12,6 @@
 /// deformed. Particles are named by id.
 namespace tripoint::solid {
 
-inline constexpr double bond_ratio = 2.12;  ///< reach of the first bonds, and support of the kernel (17), in spacings
-
 /// A bond with this reference vector x_ij and its kernel (17); who it is with is set by connect().
 [[nodiscard]] Bond bond_of(const ElasticityKernel&, const Vec3& x_ij);
 [[nodiscard]] ElasticityKernel bond_kernel(const Scene&);

@@ -35,7 +35,7 @@ struct Snapshot {
   double total_mass = 0.0;
   Vec3 momentum, angular_momentum;        ///< about the origin
   std::map<std::string, double> energy;   ///< TERM of the ledger -> [J]
-  std::map<std::string, double> counts;   ///< of what happened so far [1]: recoveries
+  std::map<std::string, double> counts;   ///< [1]: recoveries so far; objects that bonds hold together
   std::map<std::string, double> heat_given;  ///< name of a body -> heat given to it so far by what holds its temperature [J]
   std::map<std::string, double> gauges;      ///< name of a gauge of the job -> what the engine itself reads there [SI]
   /// Whether the engine shows no particles at all: a solver of fields that answers by its gauges.

@@ -102,6 +102,8 @@ double kept_number(const EffectValues& values, const Key& row) {
   return fallback;
 }
 
+double bond_reach(const Scene& s) { return kept_number(s.values, key_row("scene", "bond_reach")); }
+
 bool calls_for(const Scene& s, std::string_view effect) {
   const auto rule = std::ranges::find(effect_rules(), effect, &EffectRule::name);
   return rule != effect_rules().end() && rule->called_for && !rule->called_for(s).empty();

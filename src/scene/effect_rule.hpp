@@ -56,6 +56,9 @@ struct EffectRule {
 /// The number of a key without a member: as it is kept, else the row's fallback, 0 where it has none.
 [[nodiscard]] double kept_number(const EffectValues&, const Key&);
 
+/// Reach of the first bonds of elastic bodies, and support of the kernel (17) [spacings]: scene.bond_reach.
+[[nodiscard]] double bond_reach(const Scene&);
+
 /// Whether a scene calls for that one effect.
 [[nodiscard]] bool calls_for(const Scene&, std::string_view effect);
 /// What a scene calls for, and what that in turn needs.

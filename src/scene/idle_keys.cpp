@@ -160,7 +160,7 @@ class IdleKeys {
     for (const auto& other : b.joined_to) joint(b, other);
   }
 
-  /// Bonds reach 2.12 spacings; between two rigid bodies there is none.
+  /// Between two rigid bodies there is no bond.
   void joint(const Body& b, const std::string& name) {
     const auto other = std::ranges::find(scene_.bodies, name, &Body::name);
     if (other == scene_.bodies.end()) return;
@@ -168,7 +168,8 @@ class IdleKeys {
     if (b.phase != Phase::elastic && other->phase != Phase::elastic && !calls("phase"))
       return error(place, fmt::format("bodies \"{}\" and \"{}\": bonds join elastic bodies to others, and neither is elastic: merge rigid bodies by an event at 0 s, or by a union of their shapes", b.name, name));
     const auto first = static_cast<std::size_t>(&b - scene_.bodies.data()), second = static_cast<std::size_t>(other - scene_.bodies.begin());
-    if (gap(first, second) > 2.12 * scene_.spacing) error(place, fmt::format("bodies \"{}\" and \"{}\" are {:.3g} m apart, and bonds reach 2.12 spacings = {:.3g} m: nothing joins them; move them together", b.name, name, gap(first, second), 2.12 * scene_.spacing));
+    const double reach = bond_reach(scene_) * scene_.spacing;
+    if (gap(first, second) > reach) error(place, fmt::format("bodies \"{}\" and \"{}\" are {:.3g} m apart, and bonds reach {:.3g} spacings = {:.3g} m: nothing joins them; move them together", b.name, name, gap(first, second), bond_reach(scene_), reach));
   }
 
   /// Distance between the boxes around the particles of two bodies, across periodic sides too [m]: never more than that of their particles.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "scene/read_case.hpp"
+#include "scene/effect_rule.hpp"
 
 namespace tripoint {
 
@@ -11,7 +11,7 @@ bool Scene::all_printed() const {
   return true;
 }
 
-double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? 2.12 : 1.5; }
+double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? bond_reach(s) : 1.5; }
 
 Scene scene_for(const Case& c, const RunChoice& choice) {
   Scene s = c.scene;

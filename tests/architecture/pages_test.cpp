@@ -8,6 +8,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -70,20 +71,17 @@ std::vector<Figure> figures_of(const std::string& page) {
 
 /// Values of a metric of our solver in the baseline of a case; at one level, where one is said.
 std::vector<double> accepted(const Figure& f) {
-  const std::string text = text_of(root() / "baselines" / (f.id + ".toml"));
+  std::istringstream text(text_of(root() / "baselines" / (f.id + ".toml")));
   std::vector<double> values;
-  for (auto from = text.find("[[gate]]"); from != std::string::npos;) {
-    const auto next = text.find("[[", from + 2);
-    const std::string gate = text.substr(from, next == std::string::npos ? next : next - from);
-    const auto is = [&](const std::string& key, const std::string& word) { return gate.find("\n" + key + " = \"" + word + "\"\n") != std::string::npos; };
+  for (std::string gate; std::getline(text, gate);) {  // one row a gate
+    const auto is = [&](const std::string& key, const std::string& word) { return gate.find(" " + key + " = \"" + word + "\"") != std::string::npos; };
     const auto number = [&](const std::string& key) {
-      const auto at = gate.find("\n" + key + " = ");
+      const auto at = gate.find(" " + key + " = ");
       return at == std::string::npos ? std::nan("") : std::strtod(gate.c_str() + at + key.size() + 4, nullptr);
     };
     const bool level = f.level.empty() || std::abs(number("level") / std::stod(f.level) - 1.0) < 1e-9;
     if (is("metric", f.metric) && is("engine", "tripoint") && is("mode", f.mode) && level && !std::ranges::count(values, number("value")))
       values.push_back(number("value"));  // two gates may judge one value
-    from = text.find("[[gate]]", from + 2);
   }
   return values;
 }

@@ -73,6 +73,20 @@ TEST(ElasticForce, WithoutHourglassIsTheGradientToo) {
   EXPECT_LT(worst_gradient_error(body), 1e-7);
 }
 
+TEST(ElasticForce, ReachesAsFarAsTheSceneSays) {
+  for (const auto& [reach, within] : {std::pair{1.2, 6U}, {1.6, 18U}, {2.12, 32U}, {2.5, 80U}}) {  // vectors of the cubic lattice that are shorter
+    lab::Lab lab = block({7, 7, 7}, Mode::corrected, 0.0);
+    lab.scene.values["bond_reach"] = reach;
+    const Simulation simulation(lab.scene, lab.initial, {.threads = 1});
+    EXPECT_EQ(simulation.world().bonds.of(171).size(), within) << reach;  // the middle one
+    lab::Lab small = block({4, 4, 4});
+    small.scene.values["bond_reach"] = reach;
+    lab::Deformable body(small);
+    body.place(bent);
+    EXPECT_LT(worst_gradient_error(body), 1e-7) << reach;
+  }
+}
+
 TEST(ElasticForce, KeepsMomentumAndAngularMomentumToRoundOff) {
   for (const std::array<int, 3>& count : {std::array{5, 4, 4}, std::array{5, 5, 1}, std::array{7, 1, 1}}) {
     lab::Deformable body(block(count));

@@ -183,6 +183,53 @@ TEST(Baselines, WhatIsAcceptedIsReadBackAsItWas) {
   EXPECT_TRUE(baseline_remarks(kept.r).empty());
 }
 
+TEST(Baselines, ThatWereWrittenAsTablesAreReadAsRows) {
+  TestFolder folder;
+  write_text(folder / "tables.toml", R"(format = 1
+case = "test/one"
+case_hash = "aa"
+seed = 1
+
+[[accepted]]
+date = "2026-11-21"
+commit = "abc"
+reason = "a test"
+
+[[gate]]
+metric = "position"
+engine = "tripoint"
+mode = "corrected"
+level = 0.5
+allows = "band -0.1 to 0.3"
+room = 0.2
+value = 0.05
+uncertainty = 0.01
+band = [-0.1, 0.3]
+measures = "bb"
+first_room = 0.15
+first_value = 0.04
+loosened = 0.2876820724517809
+
+[[cost]]
+run = "tripoint/corrected"
+pairs = 1000.0
+steps = 10.0
+)");
+  const auto old = read_baseline(folder / "tables.toml");
+  const auto rows = baseline_text(old);
+  EXPECT_NE(rows.find(R"({ metric = "position", engine = "tripoint", mode = "corrected", level = 0.5, band = [-0.1, 0.3], value = 0.05, uncertainty = 0.01, first_room = 0.15, first_value = 0.04, loosened = 0.2876820724517809, measures = "bb" })"),
+            std::string::npos)
+      << rows;
+  write_text(folder / "rows.toml", rows);
+  const auto now = read_baseline(folder / "rows.toml");
+  EXPECT_EQ(baseline_text(now), rows);
+  ASSERT_EQ(now.gates.size(), 1U);
+  EXPECT_EQ(now.gates[0].allows, "band -0.1 to 0.3");
+  EXPECT_DOUBLE_EQ(now.gates[0].room, 0.2);
+  EXPECT_EQ(now.cost.at(0).pairs, 1000.0);
+  EXPECT_EQ(now.accepted.at(0).reason, "a test");
+}
+
 TEST(Baselines, ALooserLimitIsRedUntilItIsAccepted) {
   Kept kept;
   (void)kept.accept_all();

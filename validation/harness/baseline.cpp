@@ -10,6 +10,7 @@
 #include "adapters/job.hpp"
 #include "core/errors.hpp"
 #include "scene/toml_node.hpp"
+#include "validation/harness/apply_gate.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -72,10 +73,28 @@ std::vector<T> tables(const TomlNode& from, std::string_view key, Read read) {
   return list;
 }
 
+/// The edges that were accepted, as the gate of a case.
+Gate edges_of(const AcceptedGate& accepted) {
+  Gate gate;
+  gate.limit = accepted.limit, gate.at_least = accepted.at_least, gate.band = accepted.band;
+  return gate;
+}
+
+/// What a row leaves out follows from the rest of it: the words and the room from the edges, the first baseline's figures from today's.
 AcceptedGate read_gate(const TomlNode& from) {
-  return {text(from, "metric"), text(from, "engine"), text(from, "preset"), text(from, "mode"), text(from, "allows"), maybe_number(from, "level"), number(from, "room"),
-          number(from, "value"), number(from, "uncertainty"), text(from, "class"), number(from, "first_room"), number(from, "first_value"), number(from, "loosened"),
-          maybe_number(from, "limit"), maybe_number(from, "at_least"), maybe_number(from, "drift"), maybe_band(from), text(from, "measures")};
+  AcceptedGate g;
+  g.metric = text(from, "metric"), g.engine = text(from, "engine"), g.preset = text(from, "preset"), g.mode = text(from, "mode");
+  g.level = maybe_number(from, "level");
+  g.limit = maybe_number(from, "limit"), g.at_least = maybe_number(from, "at_least"), g.drift = maybe_number(from, "drift");
+  g.band = maybe_band(from);
+  g.value = number(from, "value"), g.uncertainty = number(from, "uncertainty");
+  g.measures = text(from, "measures"), g.fit_class = text(from, "class");
+  g.allows = from.find("allows") ? text(from, "allows") : describe(edges_of(g));
+  g.room = maybe_number(from, "room").value_or(room_of(edges_of(g)));
+  g.first_room = maybe_number(from, "first_room").value_or(g.room);
+  g.first_value = maybe_number(from, "first_value").value_or(g.value);
+  g.loosened = number(from, "loosened");
+  return g;
 }
 
 }  // namespace
@@ -148,31 +167,78 @@ Baseline read_baseline(const std::string& file) {
   return b;
 }
 
+namespace {
+
+/// An inline table of TOML: one row of a list, whose empty parts are left out.
+class Row {
+ public:
+  void say(std::string_view key, const std::string& words) {
+    if (!words.empty()) add(key, quoted(words));
+  }
+  void say(std::string_view key, std::optional<double> value) {
+    if (value) add(key, number(*value));
+  }
+  void say_unless(double known, std::string_view key, double value) {
+    if (value != known) add(key, number(value));
+  }
+  void add(std::string_view key, const std::string& value) { text_ += fmt::format("{}{} = {}", text_.empty() ? "" : ", ", key, value); }
+  [[nodiscard]] std::string text() const { return "  { " + text_ + " },\n"; }
+
+ private:
+  std::string text_;
+};
+
+std::string row_of(const AcceptedGate& g) {
+  Row row;
+  row.say("metric", g.metric), row.say("engine", g.engine);
+  if (g.preset != "default") row.say("preset", g.preset);
+  row.say("mode", g.mode);
+  row.say("level", g.level), row.say("limit", g.limit), row.say("at_least", g.at_least);
+  if (g.band) row.add("band", fmt::format("[{}, {}]", number((*g.band)[0]), number((*g.band)[1])));
+  row.say("drift", g.drift);
+  if (g.allows != describe(edges_of(g))) row.say("allows", g.allows);
+  row.say_unless(room_of(edges_of(g)), "room", g.room);
+  row.say("value", g.value);
+  row.say_unless(0.0, "uncertainty", g.uncertainty);
+  row.say("class", g.fit_class);
+  row.say_unless(g.room, "first_room", g.first_room), row.say_unless(g.value, "first_value", g.first_value);
+  row.say_unless(0.0, "loosened", g.loosened);
+  row.say("measures", g.measures);
+  return row.text();
+}
+
+std::string row_of(const Acceptance& a) {
+  Row row;
+  row.say("date", a.date), row.say("commit", a.commit), row.say("reason", a.reason);
+  return row.text();
+}
+
+std::string row_of(const AcceptedCost& c) {
+  Row row;
+  row.say("run", c.run);
+  row.say("pairs", c.pairs), row.say("steps", c.steps);
+  row.say_unless(0.0, "instructions", c.instructions);
+  row.say("counted_on", c.counted_on);
+  return row.text();
+}
+
+template <class T>
+std::string list_of(std::string_view key, const std::vector<T>& items) {
+  if (items.empty()) return {};
+  std::string out = fmt::format("\n{} = [\n", key);
+  for (const auto& item : items) out += row_of(item);
+  return out + "]\n";
+}
+
+}  // namespace
+
 std::string baseline_text(const Baseline& b) {
   std::string out = "# Accepted figures. `tripoint gate accept --reason TEXT` writes this file; nothing else does.\nformat = 1\n";
   out += fmt::format("case = {}\ncase_hash = {}\nseed = {}\n", quoted(b.id), quoted(b.case_hash), b.seed);
   if (!b.scene.empty())
     out += fmt::format("scene = {}\nreference = {}\nprofiles = {}\nrequired = {}\n", quoted(b.scene), quoted(b.reference), quoted(b.profiles), quoted(b.required));
   if (b.removed > 0) out += fmt::format("removed = {}\n", b.removed);
-  for (const auto& a : b.accepted) out += fmt::format("\n[[accepted]]\ndate = {}\ncommit = {}\nreason = {}\n", quoted(a.date), quoted(a.commit), quoted(a.reason));
-  for (const auto& g : b.gates) {
-    out += fmt::format("\n[[gate]]\nmetric = {}\nengine = {}\n", quoted(g.metric), quoted(g.engine));
-    if (!g.preset.empty() && g.preset != "default") out += fmt::format("preset = {}\n", quoted(g.preset));
-    if (!g.mode.empty()) out += fmt::format("mode = {}\n", quoted(g.mode));
-    if (g.level) out += fmt::format("level = {}\n", number(*g.level));
-    out += fmt::format("allows = {}\nroom = {}\nvalue = {}\nuncertainty = {}\n", quoted(g.allows), number(g.room), number(g.value), number(g.uncertainty));
-    if (g.limit) out += fmt::format("limit = {}\n", number(*g.limit));
-    if (g.at_least) out += fmt::format("at_least = {}\n", number(*g.at_least));
-    if (g.band) out += fmt::format("band = [{}, {}]\n", number((*g.band)[0]), number((*g.band)[1]));
-    if (g.drift) out += fmt::format("drift = {}\n", number(*g.drift));
-    if (!g.measures.empty()) out += fmt::format("measures = {}\n", quoted(g.measures));
-    if (!g.fit_class.empty()) out += fmt::format("class = {}\n", quoted(g.fit_class));
-    out += fmt::format("first_room = {}\nfirst_value = {}\nloosened = {}\n", number(g.first_room), number(g.first_value), number(g.loosened));
-  }
-  for (const auto& c : b.cost) {
-    out += fmt::format("\n[[cost]]\nrun = {}\npairs = {}\nsteps = {}\n", quoted(c.run), number(c.pairs), number(c.steps));
-    if (c.instructions > 0.0) out += fmt::format("instructions = {}\ncounted_on = {}\n", number(c.instructions), quoted(c.counted_on));
-  }
+  out += list_of("accepted", b.accepted) + list_of("gate", b.gates) + list_of("cost", b.cost);
   const auto after = out.find("seed = ");
   return out.substr(0, after) + fmt::format("seal = {}\n", quoted(text_hash(out))) + out.substr(after);
 }

@@ -13,6 +13,7 @@
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
+#include "validation/harness/verdict.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -66,8 +67,24 @@ void set_aside_report(const std::string& folder) {
   for (const char* made : {"junit.xml", "summary.md", "index.html", "scorecard.json", "scorecard.md", "scorecard.html"}) fs::remove(out / made, none);
 }
 
+namespace {
+
+/// The first cases that are not green, once more at the end: a long suite has scrolled them away.
+std::string again(const Results& results) {
+  constexpr int most = 10;
+  std::string text;
+  int count = 0;
+  for (const auto& c : results.cases)
+    if (c.exit_code != exit_pass && ++count <= most) text += case_line(c) + "\n";
+  if (count > most) text += fmt::format("and {} more cases that are not green: summary.md\n", count - most);
+  return text.empty() ? text : "not green:\n" + text;
+}
+
+}  // namespace
+
 std::string notes_text(const Results& results) {
   std::string text;
+  if (results.cases.size() > 1) text += again(results);
   for (const auto& p : results.problems) text += "problem: " + one_line(p) + "\n";
   std::map<std::string, int> missing, unjudged;
   for (const auto& c : results.cases) {

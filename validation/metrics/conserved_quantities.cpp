@@ -138,6 +138,12 @@ FrameError energy_ratio(const FramePair& f) {
   return single(kinetic(f.in, f.now) / kinetic(f.in, f.first) - *ratio);
 }
 
+FrameError bonded_objects(const FramePair& f) {
+  const auto count = f.now.counts.find("objects");
+  if (count == f.now.counts.end()) return problem("the run counts no objects: nothing in its scene melts, freezes or breaks, or its engine has no bonds");
+  return against_truth(f, "bonded_objects", count->second);
+}
+
 FrameError recoveries(const FramePair& f) {
   const auto count = f.now.counts.find("recoveries");
   if (count == f.now.counts.end()) return problem("the run counts no recoveries: its scene says on_failure = \"recover\" where it may");
@@ -154,6 +160,7 @@ const std::vector<Quantity>& conserved_quantities() {
        [](const FramePair& f) { return vector_change(f, angular_momentum, "angular momentum"); }},
       {{"energy", "J", "difference of kinetic and potential energy, from the particles"}, energy_change},
       {{"energy_ratio", "1", "kinetic energy over that of the first frame, minus the reference's energy_ratio"}, energy_ratio},
+      {{"bonded_objects", "1", "solid objects that bonds hold together, as the engine counts them, minus the stated value; what only touches is two"}, bonded_objects},
       {{"recoveries", "1", "how often a guard sent the run back to a good state, minus the stated value"}, recoveries},
       {{"ledger.TERM", "J", "difference of a ledger term: kinetic, potential, thermal from the particles, others as the engine keeps them; residual is the change of their sum"},
        ledger}};

@@ -8,6 +8,7 @@
 #include "effects/elastic/bond_forces.hpp"
 #include "effects/ordered_sum.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/effect_rule.hpp"
 
 namespace tripoint::elastic {
 namespace {
@@ -53,7 +54,7 @@ TimeStepBound Elastic::max_dt(const World& world) const {
     const Material& m = world.scene.material(b.material);
     if (b.phase == Phase::rigid || !m.young_modulus || !m.poisson_ratio) continue;
     const solid::ElasticConstants c = solid::elastic_constants(*m.young_modulus, *m.poisson_ratio);
-    tighten(bound, share * solid::bond_ratio * world.scene.spacing / std::sqrt((c.lambda + 2.0 * c.mu) / m.density), "elastic wave");
+    tighten(bound, share * bond_reach(world.scene) * world.scene.spacing / std::sqrt((c.lambda + 2.0 * c.mu) / m.density), "elastic wave");
   }
   if (!world.particles.has(field::bond_frequency.name)) return bound;
   const double greatest = std::ranges::max(world.particles[field::bond_frequency]);

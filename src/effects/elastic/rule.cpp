@@ -20,6 +20,7 @@ std::vector<EffectKey> keys() {
   using enum Range;
   return {
       {{"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "", "coefficient of the energy against zero-energy modes"}, &Scene::hourglass},
+      {{"scene", "bond_reach", number, "", above_one, "2.12", "the paper's support, about 40 neighbours", "", "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
       {{"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"}, &Material::young_modulus},
       {{"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"}, &Material::poisson_ratio},
   };

@@ -9,6 +9,7 @@
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/thermal_particles.hpp"
 #include "effects/ordered_sum.hpp"
+#include "scene/effect_rule.hpp"
 
 namespace tripoint::heat {
 namespace {
@@ -40,7 +41,9 @@ void PaperHeat::set_material(World& world, std::size_t row) const {
   static const double density = 1.0 + defect_size("heat.paper.density");
   static const double faster = 1.0 + defect_size("heat.paper.diffusivity");
   const Material& m = world.material_of(row);
-  world.particles[field::diffusivity][row] = faster * *m.conductivity / (m.density * density * *m.heat_capacity);  // the paper's c [m2/s]
+  const double own = *m.conductivity / (m.density * density * *m.heat_capacity);
+  const double one = kept_number(world.scene.values, key_row("scene", "heat_constant"));  // 0 = none is given
+  world.particles[field::diffusivity][row] = faster * (one > 0.0 ? one : own);  // the paper's c [m2/s]
 }
 
 /// What flowed in brings its heat.

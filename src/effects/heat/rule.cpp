@@ -19,11 +19,14 @@ std::string left_out(const Scene& s) {
   return "no body with a temperature has a conductivity and a heat_capacity";
 }
 
+std::string no_constant(const Scene& s) { return s.mode_of(Term::heat) == Mode::paper ? "" : "heat is corrected, and conducts by what the materials say"; }
+
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
+      {{"scene", "heat_constant", number, "m2/s", not_negative, "0", "each material has its own, conductivity/(density heat_capacity)", "", "the one constant c of (21), of all matter; only where modes.heat is paper; 0: each material has its own"}, {}, no_constant},
       {{"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "", "thermal conductivity"}, &Material::conductivity},
       {{"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"}, &Material::heat_capacity},
   };

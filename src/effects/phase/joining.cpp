@@ -8,6 +8,7 @@
 
 #include "core/defect.hpp"
 #include "effects/solid_particles.hpp"
+#include "scene/effect_rule.hpp"
 
 namespace tripoint::phase {
 namespace {
@@ -85,7 +86,7 @@ void make_own_pairs(World& world, const std::vector<std::uint32_t>& frozen) {
   if (!p.has(field::own_density.name) && !(has_deformable(world) && p.has(field::force_x.name))) return;
   const solid::ElasticParticles is_elastic(world);
   const auto body = p[field::body];
-  const double reach = std::max(world.support(), solid::bond_ratio * world.scene.spacing);
+  const double reach = std::max(world.support(), bond_reach(world.scene) * world.scene.spacing);
   for (const std::uint32_t id : frozen) {
     const std::size_t i = p.row(id);
     std::set<int> object{body[i]};
