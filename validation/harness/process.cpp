@@ -93,27 +93,30 @@ class BoundedLog {
   std::string tail_;
 };
 
-/// Finds the lines `progress X` in a stream that arrives in pieces.
+/// Finds the lines `progress X` and `status REST` in a stream that arrives in pieces.
 class ProgressLines {
  public:
-  explicit ProgressLines(const std::function<void(double)>& report) : report_(report) {}
+  ProgressLines(const std::function<void(double)>& report, const std::function<void(const std::string&)>& status) : report_(report), status_(status) {}
   void add(const char* data, std::size_t size) {
-    if (!report_) return;
+    if (!report_ && !status_) return;
     for (std::size_t i = 0; i < size; ++i) {
       if (data[i] == '\n') end_line();
-      else if (line_.size() < 80) line_ += data[i];
+      else if (line_.size() < longest) line_ += data[i];
     }
   }
 
  private:
   void end_line() {
-    if (line_.rfind("progress ", 0) == 0) {
+    if (status_ && line_.rfind("status ", 0) == 0) status_(line_.substr(7));
+    if (report_ && line_.rfind("progress ", 0) == 0) {
       const double done = std::strtod(line_.c_str() + 9, nullptr);
       if (std::isfinite(done)) report_(std::clamp(done, 0.0, 1.0));
     }
     line_.clear();
   }
+  static constexpr std::size_t longest = 407;
   const std::function<void(double)>& report_;
+  const std::function<void(const std::string&)>& status_;
   std::string line_;
 };
 
@@ -211,7 +214,7 @@ void adopt_orphans() {
 /// Follows the child's streams until it ends, is out of time, or we are stopped.
 void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& log, ProcessEnd& end) {
   const auto start = Clock::now();
-  ProgressLines progress(spec.progress);
+  ProgressLines progress(spec.progress, spec.status);
   const auto take_output = [&](const char* p, std::size_t n) { end.output.append(p, std::min(n, kept_output - std::min(kept_output, end.output.size()))); };
   const auto take_log = [&](const char* p, std::size_t n) { log.add(p, n), progress.add(p, n); };
   const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));

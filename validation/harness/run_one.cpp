@@ -47,7 +47,7 @@ std::string last_words(const std::string& log) {
   std::istringstream lines(log);
   std::string last, line;
   while (std::getline(lines, line))
-    if (!line.empty() && line.rfind("progress ", 0) != 0) last = line;
+    if (!line.empty() && line.rfind("progress ", 0) != 0 && line.rfind("status ", 0) != 0) last = line;
   return last.empty() ? "" : "; its last words: " + last.substr(0, 300);
 }
 
@@ -233,7 +233,7 @@ Outcome run_one(const RunRequest& request) {
   spec.log = (fs::path(request.folder) / "log.txt").string();
   std::error_code none;
   fs::remove(spec.log, none);  // --check may have left a link there, to a file of somebody else
-  spec.progress = request.progress;
+  spec.progress = request.progress, spec.status = request.status;
   const auto end = run_process(spec);
   auto outcome = read_back(request, end);
   if (particles_were_changed(request))
