@@ -8,7 +8,7 @@ OUT ?= report
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-print-directory
 
-.PHONY: help setup build test validate test-fresh test-image bench bench-peers gallery docs clean
+.PHONY: help setup build test validate test-fresh test-image test-package bench bench-peers gallery docs wheel clean
 
 help:  ## this text
 	@echo 'tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.'
@@ -45,6 +45,12 @@ test-fresh:  ## make validate, then make test, in a bare Debian 12 root (needs r
 test-image:  ## the Dockerfile's instructions in bare roots by chroot, and a gate in the image (needs root and mmdebstrap)
 	@tools/image_root.py
 
+test-package:  ## the Debian package of build/ in a bare root by apt, and a gate there (needs root and mmdebstrap)
+	@tools/test-package.sh
+
+wheel: build  ## a Python wheel with the program inside: build/wheel/
+	@tools/wheel.sh
+
 bench: build  ## time standard work on this machine, beside the machine's own limit
 	@build/bin/tripoint bench
 
@@ -58,10 +64,11 @@ gallery: setup build  ## run the paper's figures, draw them as films and ray-tra
 	@build/bin/tripoint validate paper --profile commit --engines tripoint --out $(OUT)/gallery --jobs $(JOBS) --no-report --no-history || test -f $(OUT)/gallery/results.json
 	@/usr/bin/python3 reports/gallery.py $(OUT)/gallery/results.json build/bin/tripoint
 
-docs: build  ## write what pages hold of the program: docs/case-file.md, the comments in docs/ci.md
+docs: build  ## write what pages hold of the program, then the guide: build/docs/index.html
 	@build/bin/tripoint schema --page >build/case-file.md
 	@mv build/case-file.md docs/case-file.md
 	@/usr/bin/python3 -B tests/cli/pull_requests.py build/bin/tripoint --write docs/ci.md
+	@tools/docs.sh
 
 clean:  ## remove build/ and every report; .venv, .venv-peers and .venv-engines stay
 	rm -rf build releases report report-ablate report-compare report-converge report-plan report-recommend

@@ -5,10 +5,13 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "adapters/checkpoints.hpp"
@@ -83,6 +86,43 @@ int print_check(const Engine& engine, const std::string& path) {
   if (reason.empty() && job.resume.empty()) reason = engine.trial(job);
   fmt::print("{}\n", json{{"can", reason.empty()}, {"reason", reason}}.dump());
   return ok;
+}
+
+Domain domain_of(const Scene& scene) {
+  Domain domain;
+  if (scene.min) domain.min = *scene.min;
+  if (scene.max) domain.max = *scene.max;
+  domain.periodic = scene.periodic;
+  return domain;
+}
+
+/// Sums of the ledger at the frames so far: what the run's status says of it.
+class LedgerChange {
+ public:
+  void add(const std::map<std::string, double>& energy) {
+    if (start_.empty()) start_ = energy;
+    double sum = 0.0, sizes = 0.0;
+    for (const auto& [term, joule] : energy) {
+      const auto at = start_.find(term);
+      const double change = joule - (at == start_.end() ? 0.0 : at->second);
+      sum += change, sizes += std::abs(change);
+    }
+    residual_ = sum, exchanged_ = std::max(exchanged_, 0.5 * sizes);
+  }
+  [[nodiscard]] bool has_any() const { return !start_.empty(); }
+  [[nodiscard]] double residual() const { return residual_; }    ///< change of the sum of all terms, at the last frame [J]
+  [[nodiscard]] double exchanged() const { return exchanged_; }  ///< greatest half sum of the sizes of all changes [J]
+
+ private:
+  std::map<std::string, double> start_;
+  double residual_ = 0.0, exchanged_ = 0.0;
+};
+
+/// [s] of wall time between two status lines, as the caller asks for them; none without TRIPOINT_STATUS.
+double status_interval() {
+  const char* asked = std::getenv("TRIPOINT_STATUS");
+  const double seconds = asked ? std::strtod(asked, nullptr) : 0.0;
+  return seconds > 0.0 ? seconds : std::numeric_limits<double>::infinity();
 }
 
 /// A run that was asked to stop has left a checkpoint.
@@ -165,7 +205,7 @@ class Run {
   void step_to_the_end() {
     // Frames of a run that goes on are written beside the file that still holds them, which then is replaced at once.
     const std::string path = job_.output + "/trajectory.h5", begun = job_.resume.empty() ? path : path + ".part";
-    TrajectoryWriter writer(begun);
+    TrajectoryWriter writer(begun, domain_of(job_.scene));
     for (const Snapshot& frame : earlier_) show(writer, frame);
     earlier_.clear();
     if (begun != path) std::filesystem::rename(begun, path);
@@ -177,6 +217,7 @@ class Run {
       result_.stepping_wall += wall_seconds() - wall;
       last_ = engine_.observe();
       show(writer, last_);
+      tell_status(time);
       fmt::print(stderr, "frame {} t {:.9g} s\nprogress {:.4f}\n", writer.frames() - 1, time, (time - job_.times.front()) / std::max(job_.times.back() - job_.times.front(), 1e-300));
     }
     account();
@@ -190,6 +231,7 @@ class Run {
     shown_.push_back(frame.time);
     ++progress_.frames;
     progress_.hash.add(frame);
+    ledger_.add(frame.energy);
     result_.time_reached = frame.time;
   }
 
@@ -197,6 +239,7 @@ class Run {
   void advance_to(double time) {
     if (!restartable_) return engine_.advance_to(time);
     restartable_->advance_to(time, [&](double now, long step) {
+      tell_status(now);
       const bool due = checkpoints_->due(now);
       if (!due && !stop_wanted) return true;
       Checkpoint kept;
@@ -206,6 +249,20 @@ class Run {
       if (stop_wanted) throw Interrupted{path, now};
       return true;
     });
+  }
+
+  /// Where the run is: `status {...}` on stderr, at most once in the interval.
+  void tell_status(double now) {
+    if (wall_seconds() < next_status_) return;
+    Result sofar;
+    engine_.account(sofar);
+    if (sofar.steps == 0) return;  // nothing sets a step yet
+    next_status_ = wall_seconds() + status_interval_;
+    json line{{"time", now}, {"end", job_.times.back()}, {"step", sofar.steps}};
+    if (const auto dt = sofar.extra.find("time_step"); dt != sofar.extra.end()) line["time_step"] = dt->second;
+    if (!sofar.time_step_bound.empty()) line["bound"] = sofar.time_step_bound;
+    if (ledger_.has_any()) line["ledger_residual"] = ledger_.residual(), line["ledger_exchanged"] = ledger_.exchanged();
+    fmt::print(stderr, "status {}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
   }
 
   void tell_failure(const Diverged& e) {
@@ -240,6 +297,8 @@ class Run {
   Progress progress_;
   std::string result_path_;
   Result result_;
+  LedgerChange ledger_;
+  double status_interval_ = status_interval(), next_status_ = wall_seconds() + (std::isfinite(status_interval_) ? 0.0 : status_interval_);
 };
 
 int usage(const char* program) {

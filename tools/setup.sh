@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing and nothing else: Debian 12's packages by apt, engines' wheels from PyPI into .venv.
-#   tools/setup.sh [build|validate|test|peers]     build is what compiles, test adds the test tools, peers what `make bench-peers` compares with; a second run only rechecks
+#   tools/setup.sh [build|validate|test|peers|readers]     build is what compiles, test adds the test tools, peers what `make bench-peers` compares with,
+#   readers what reads our exported files in a test; a second run only rechecks
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -9,7 +10,7 @@ core=(make g++ cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev lib
   nlohmann-json3-dev libboost-dev libtinyobjloader-dev libopenvdb-dev libpng-dev libbullet-dev liblammps-dev)  # build and run
 report=(python3-matplotlib python3-h5py python3-jinja2)                                            # for /usr/bin/python3
 wheel=(python3-venv ca-certificates)                                                               # makes .venv
-tests=(libgtest-dev libgmock-dev git python3-yaml weasyprint valgrind)                             # `make test` only
+tests=(libgtest-dev libgmock-dev git bubblewrap python3-yaml weasyprint valgrind)                             # `make test` only
 peers=(libglvnd0)                                                                                   # `make bench-peers` only
 
 say() { printf 'setup: %s\n' "$*" >&2; }
@@ -72,6 +73,20 @@ install_wheels() {
   fi
 }
 
+# What reads our exported files in tests, into .venv-readers: it is large, and the test says that it is skipped where it is not there.
+install_readers() {
+  local pins=tools/requirements-readers.txt stamp=.venv-readers/readers.sha256 want
+  want=$(sha256sum <"$pins")
+  [[ -f $stamp && $(<"$stamp") == "$want" ]] && return 0
+  say "foreign readers' wheels into .venv-readers: 237 MB to fetch, 1.1 GB on the disk"
+  if { [[ -x .venv-readers/bin/pip ]] || /usr/bin/python3 -m venv .venv-readers; } >&2 &&
+    timeout 900 .venv-readers/bin/pip install --quiet --require-hashes --only-binary :all: --retries 1 --timeout 15 --requirement "$pins" >&2; then
+    printf '%s\n' "$want" >"$stamp"
+  else
+    say "no foreign readers: PyPI or python3-venv failed; the test of exported files is skipped"
+  fi
+}
+
 # SPlisHSPlasH into .venv-peers: no engine, so apart from those.
 install_peers() {
   local pins=tools/requirements-peers.txt stamp=.venv-peers/peers.sha256 want
@@ -91,7 +106,8 @@ case ${1:-validate} in
   validate) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" ;;
   test) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${tests[@]}" ;;
   peers) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${peers[@]}" ;;
-  *) say "usage: tools/setup.sh [build|validate|test|peers]"; exit 2 ;;
+  readers) install_packages "${wheel[@]}" && install_readers && exit ;;
+  *) say "usage: tools/setup.sh [build|validate|test|peers|readers]"; exit 2 ;;
 esac
 install_wheels
 [[ ${1:-validate} != peers ]] || install_peers

@@ -12,6 +12,7 @@
 
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "program/cli/run_progress.hpp"
 #include "core/errors.hpp"
 #include "scene/idle_keys.hpp"
 #include "scene/units.hpp"
@@ -34,6 +35,7 @@ constexpr const char* description =
     "  tripoint run heat/cosine-mode --set scene.spacing='1 mm' --threads 2 --out coarse\n"
     "  tripoint run rigid/ballistic --engine bullet --until 0.5\n"
     "  tripoint run heat/cosine-mode --checkpoint-interval '10 s'; tripoint run heat/cosine-mode --resume runs/heat/cosine-mode/tripoint\n"
+    "  tripoint run paper/fig-08-rigid --progress json --json --until 0.1   progress as JSON lines on stderr, the result on stdout\n"
     "DIR then holds job.json, particles.h5, trajectory.h5 (H5MD; trajectory.xdmf opens it in ParaView), result.json and log.txt.\n"
     "Ctrl-C leaves a checkpoint there too. A run that goes on from one has the same bits as one that was never cut, on any number of threads.\n"
     "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged, 130 Ctrl-C.";
@@ -43,6 +45,7 @@ struct RunOptions {
   std::vector<std::string> set;
   int threads = 1;
   double wall_limit = 1e9;
+  std::string progress = "auto";
   bool quiet = false, json = false;
 };
 
@@ -186,9 +189,12 @@ int run(RunOptions o) {
   fs::remove(request.particles);
   write_particles(request.particles, initial);
   if (!o.quiet) say(fmt::format("{} on {} {}: {} particles to t = {:g} s", value.id, plan.name, plan.entry->version, initial.size(), scene.end_time));
-  if (!o.quiet && isatty(2)) request.progress = [](double done) { std::fprintf(stderr, "\r%3.0f %%", 100.0 * done); };
+  RunProgress progress(progress_form(o.progress, o.quiet, isatty(2) == 1));
+  request.progress = [&](double done) { progress.at(done); };
+  request.status = [&](const std::string& status) { progress.at(status); };
+  if (const auto seconds = progress.interval(); !seconds.empty()) request.environment["TRIPOINT_STATUS"] = seconds;
   const auto outcome = run_one(request);
-  if (request.progress) std::fprintf(stderr, "\r      \r");
+  progress.end();
   std::map<std::string, MetricValue> metrics;
   if (outcome.trajectory) metrics = evaluate_all(value, job, initial, *outcome.trajectory);
   if (o.json) print_json(o, outcome, metrics);
@@ -210,7 +216,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--until", o->until, "end at this time instead: seconds, or a number with a unit");
   command->add_option("--resume", o->resume, "go on from this checkpoint, or from the last in this folder; writes there unless --out says otherwise")->type_name("CHECKPOINT");
   command->add_option("--checkpoint-interval", o->checkpoint_interval, "simulated time between checkpoints: seconds, or a number with a unit; the last two are kept");
-  command->add_flag("--quiet", o->quiet, "no progress on stderr");
+  command->add_option("--progress", o->progress, "on stderr: auto (one line on a terminal), lines, json (one object a line) or none")->check(CLI::IsMember({"auto", "lines", "json", "none"}))->capture_default_str();
+  command->add_flag("--quiet", o->quiet, "no progress and no notes on stderr");
   command->add_flag("--json", o->json, "print one JSON document");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return run(*o); }); });
 }

@@ -148,12 +148,36 @@ Handle make_group(hid_t parent, const std::string& path) {
   return {H5Gcreate2(parent, path.c_str(), properties.get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose, path};
 }
 
-void write_text_attribute(hid_t object, const std::string& name, const std::string& text) {
+namespace {
+
+/// Of variable length in UTF-8: Python's readers take a string of fixed length for bytes.
+void write_texts(hid_t object, const std::string& name, const Handle& space, const char* const* texts) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, name);
-  check(H5Tset_size(type.get(), text.size() + 1), name);
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  check(H5Tset_size(type.get(), H5T_VARIABLE), name);
+  check(H5Tset_cset(type.get(), H5T_CSET_UTF8), name);
   const Handle attribute(H5Acreate2(object, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
-  check(H5Awrite(attribute.get(), type.get(), text.c_str()), name);
+  check(H5Awrite(attribute.get(), type.get(), static_cast<const void*>(texts)), name);
+}
+
+}  // namespace
+
+void write_text_attribute(hid_t object, const std::string& name, const std::string& text) {
+  const char* const one = text.c_str();
+  write_texts(object, name, Handle(H5Screate(H5S_SCALAR), H5Sclose, name), &one);
+}
+
+void write_text_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts) {
+  std::vector<const char*> all;
+  for (const std::string& text : texts) all.push_back(text.c_str());
+  const hsize_t count = all.size();
+  write_texts(object, name, Handle(H5Screate_simple(1, &count, nullptr), H5Sclose, name), all.data());
+}
+
+void write_whole_attribute(hid_t object, const std::string& name, const std::vector<int>& values) {
+  const hsize_t count = values.size();
+  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose, name);
+  const Handle attribute(H5Acreate2(object, name.c_str(), H5T_NATIVE_INT, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  check(H5Awrite(attribute.get(), H5T_NATIVE_INT, values.data()), name);
 }
 
 bool has(hid_t file, const std::string& path) {

@@ -57,6 +57,8 @@ class Column {
 /// Opens or makes a group below `parent`, intermediate groups too.
 [[nodiscard]] Handle make_group(hid_t parent, const std::string& path);
 void write_text_attribute(hid_t object, const std::string& name, const std::string& text);
+void write_text_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
+void write_whole_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
 
 /// Values of a dataset with its shape, as double or int. @throws InputError: missing, linked to another file, of another type or absurdly large
 struct Block {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -40,6 +42,14 @@ struct Snapshot {
   [[nodiscard]] bool gauges_only() const { return position.empty() && temperature.empty() && !gauges.empty(); }
 };
 
+/// The scene's domain, as far as it has one; a bound that is not finite is none.
+struct Domain {
+  Vec3 min{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};  ///< [m]
+  Vec3 max{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};     ///< [m]
+  std::array<bool, 3> periodic{};
+  [[nodiscard]] bool is_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
+};
+
 /// A whole trajectory in memory: frames in order of time. Frames may have unequal row counts only by inflow (later ones longer).
 struct Trajectory {
   std::vector<Snapshot> frames;
@@ -48,8 +58,8 @@ struct Trajectory {
 /// Appends frames to trajectory.h5; every frame is flushed before append() returns, and then announced as written by `frames()`.
 class TrajectoryWriter {
  public:
-  /// @param body_rows greatest number of bodies the run may have (rows that do not exist yet are NaN)
-  explicit TrajectoryWriter(const std::string& path);
+  /// @param domain what /particles/all/box says: its boundary, and its edges where a direction is periodic
+  explicit TrajectoryWriter(const std::string& path, const Domain& domain = {});
   ~TrajectoryWriter();
   TrajectoryWriter(const TrajectoryWriter&) = delete;
   TrajectoryWriter& operator=(const TrajectoryWriter&) = delete;

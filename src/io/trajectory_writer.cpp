@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -13,25 +15,39 @@ namespace {
 constexpr std::size_t scalar = std::numeric_limits<std::size_t>::max();  // a dataset of frames only
 
 void write_h5md_group(hid_t file) {
-  const h5::Handle group = h5::make_group(file, "h5md");
-  const hsize_t two = 2;
-  const int version[2] = {1, 1};
-  const h5::Handle space(H5Screate_simple(1, &two, nullptr), H5Sclose, "h5md");
-  const h5::Handle attribute(H5Acreate2(group.get(), "version", H5T_NATIVE_INT, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "h5md");
-  h5::check(H5Awrite(attribute.get(), H5T_NATIVE_INT, version), "h5md");
+  h5::write_whole_attribute(h5::make_group(file, "h5md").get(), "version", {1, 1});
   h5::write_text_attribute(h5::make_group(file, "h5md/author").get(), "name", "tripoint");
   const h5::Handle creator = h5::make_group(file, "h5md/creator");
   h5::write_text_attribute(creator.get(), "name", "tripoint");
   h5::write_text_attribute(creator.get(), "version", "1");
+  const h5::Handle units = h5::make_group(file, "h5md/modules/units");
+  h5::write_whole_attribute(units.get(), "version", {1, 0});
+  h5::write_text_attribute(units.get(), "system", "SI");
 }
 
-void write_box(hid_t file) {
+void write_box(hid_t file, const Domain& domain) {
   const h5::Handle box = h5::make_group(file, "particles/all/box");
   const int dimension = 3;
   const h5::Handle one(H5Screate(H5S_SCALAR), H5Sclose, "box");
   const h5::Handle attribute(H5Acreate2(box.get(), "dimension", H5T_NATIVE_INT, one.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "box");
   h5::check(H5Awrite(attribute.get(), H5T_NATIVE_INT, &dimension), "box");
-  h5::write_text_attribute(box.get(), "boundary", "none none none");
+  std::vector<std::string> boundary;
+  for (const bool periodic : domain.periodic) boundary.emplace_back(periodic ? "periodic" : "none");
+  h5::write_text_attribute(box.get(), "boundary", boundary);
+}
+
+/// Lengths of the domain's edges [m]; along a direction without bounds, those of all that is alive.
+Vec3 edges_of(const Domain& domain, const std::vector<Vec3>& places) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Vec3 low{far, far, far}, high{-far, -far, -far};
+  for (const Vec3& r : places) {
+    if (!std::isfinite(r.x + r.y + r.z)) continue;
+    low = {std::min(low.x, r.x), std::min(low.y, r.y), std::min(low.z, r.z)};
+    high = {std::max(high.x, r.x), std::max(high.y, r.y), std::max(high.z, r.z)};
+  }
+  const Vec3 own = domain.max - domain.min, around = high - low;
+  const auto edge = [](double bounded, double occupied) { return std::isfinite(bounded) ? bounded : std::max(occupied, 0.0); };
+  return {edge(own.x, around.x), edge(own.y, around.y), edge(own.z, around.z)};
 }
 
 std::size_t expect(std::size_t rows, std::size_t n, const char* name) {
@@ -43,9 +59,9 @@ std::size_t expect(std::size_t rows, std::size_t n, const char* name) {
 
 /// One H5MD file being written: elements of shape value/step/time that share one step and one time dataset.
 struct TrajectoryWriter::Impl {
-  explicit Impl(const std::string& name) : path(name), file(h5::create_file(name)) {
+  Impl(const std::string& name, const Domain& domain_of_scene) : path(name), file(h5::create_file(name)), domain(domain_of_scene) {
     write_h5md_group(file.get());
-    write_box(file.get());
+    write_box(file.get(), domain);
   }
 
   void put(const std::string& element, h5::Type type, std::size_t rows, std::size_t width, const std::string& unit, const void* data) {
@@ -75,6 +91,7 @@ struct TrajectoryWriter::Impl {
 
   std::string path;
   h5::Handle file;
+  Domain domain;
   std::map<std::string, h5::Column> columns;
   std::optional<h5::Column> step, time;
   long frames = 0;
@@ -100,6 +117,9 @@ void TrajectoryWriter::Impl::put_particles(const Snapshot& s) {
   whole("phase", s.phase);
   whole("body", s.body);
   whole("material", s.material);
+  if (!domain.is_periodic()) return;
+  const Vec3 edges = edges_of(domain, s.position);
+  put("particles/all/box/edges", h5::Type::float64, 3, 0, "m", &edges);
 }
 
 void TrajectoryWriter::Impl::put_bodies(const Snapshot& s) {
@@ -131,7 +151,7 @@ void TrajectoryWriter::Impl::put_observables(const Snapshot& s) {
   for (const auto& [what, count] : s.counts) put("observables/count_" + what, h5::Type::float64, scalar, 0, "1", &count);
 }
 
-TrajectoryWriter::TrajectoryWriter(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
+TrajectoryWriter::TrajectoryWriter(const std::string& path, const Domain& domain) : impl_(std::make_unique<Impl>(path, domain)) {}
 TrajectoryWriter::~TrajectoryWriter() = default;
 
 void TrajectoryWriter::append(const Snapshot& s) {

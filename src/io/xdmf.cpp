@@ -31,9 +31,15 @@ void write_xdmf(const std::string& folder, const std::vector<double>& times, con
     out << fmt::format("<Grid><Time Value=\"{:.17g}\"/><Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n", times[f], n);
     out << "<Geometry GeometryType=\"XYZ\">" << item(f, frames, n, 3, "position", false) << "</Geometry>\n";
     attribute(out, "velocity", item(f, frames, n, 3, "velocity", false), true);
-    if (!s.temperature.empty()) attribute(out, "temperature", item(f, frames, n, 1, "temperature", false), false);
-    if (!s.body.empty()) attribute(out, "body", item(f, frames, n, 1, "body", true), false);
-    if (!s.phase.empty()) attribute(out, "phase", item(f, frames, n, 1, "phase", true), false);
+    const auto real = [&](const char* name, const std::vector<double>& column) {
+      if (!column.empty()) attribute(out, name, item(f, frames, n, 1, name, false), false);
+    };
+    const auto whole = [&](const char* name, const std::vector<int>& column) {
+      if (!column.empty()) attribute(out, name, item(f, frames, n, 1, name, true), false);
+    };
+    real("mass", s.mass), real("temperature", s.temperature), real("temperature_error", s.temperature_error);
+    real("density", s.density), real("pressure", s.pressure), real("liquid_fraction", s.liquid_fraction);
+    whole("id", s.id), whole("phase", s.phase), whole("body", s.body), whole("material", s.material);
     out << "</Grid>\n";
   }
   out << "</Grid></Domain></Xdmf>\n";

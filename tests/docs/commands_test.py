@@ -6,7 +6,7 @@ in it in their order, each line by the shell. A line must end 0, or as its comme
 commands, options, cases and targets that exist, are:
   - lines whose comment says on the page that they take minutes or download ("# 12 minutes"), and those with SUBJECT, NAME or FILE in them
   - builds and installs by make, cmake and ctest; `tripoint ...` in running text and in every --help
-Case files are checked by `tripoint check`, parts of them by the TOML reader; every other block must be listed here by its first line.
+A block whose first line is "# file: NAME" is written as that file where the lines before it were typed, and a fence "python" is run as a script. Case files are checked by `tripoint check`, parts of them by the TOML reader; every other block must be listed here by its first line.
 """
 import os
 import re
@@ -26,18 +26,20 @@ COPIED = ("baselines", "cases", "examples")  # a line must not change the checko
 LINKED = ("adapters", "cmake", "docs", "program", "reports", "src", "tests", "tools", "validation", "CMakeLists.txt", "CMakePresets.json", "Makefile")
 PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md")), SOURCE / "examples" / "gated-engine" / "README.md"]
 HELD_ELSEWHERE = ("add-an-effect.md",)  # its blocks are the files of an effect that the program does not have: test-effects-added holds them
-PROGRAMS = ("tripoint", "build/bin/tripoint", "make", "cmake", "ctest", "ninja", "sed", "git", "echo", ".ci/run")
-TYPED = ("tripoint", "build/bin/tripoint", "sed", "git", "echo")
+PROGRAMS = ("tripoint", "build/bin/tripoint", "make", "cmake", "ctest", "ninja", "sed", "git", "echo", "python3", "pip", ".ci/run")
+TYPED = ("tripoint", "build/bin/tripoint", "sed", "git", "echo", "python3")
+FILE = "# file: "  # then the name under which the block is written
 LISTINGS = ("case file -> runs ->", "report/index.html ")  # blocks that are no commands: a diagram, the files of a report
-PICTURES = ("math", "mermaid", "markdown")  # fences with these words are drawn, or hold a text that another test makes
+PYTHON = ("python",)  # fences of this word are run as a script, in the folder in which the lines before them were typed
+PICTURES = ("math", "mermaid", "markdown", "cmake", "{toctree}")  # fences with these words are drawn, or hold a text that another test makes
 SPARED = re.compile(r"\b(\d+|an?|a few) (minutes?|hours?)\b|\bdownload")  # what the page itself says of a line that is not typed
 PLACEHOLDER = re.compile(r"\b[A-Z]{4,}\b|[a-z]/n\b|\.\.\.")  # CASE, RESULTS.json, i/n: stands for what the reader fills in
 AUTHOR = {f"GIT_{who}_{what}": f"nobody{'' if what == 'NAME' else '@localhost'}" for who in ("AUTHOR", "COMMITTER") for what in ("NAME", "EMAIL")}
 STAND_IN = "rigid/ballistic"  # instead of the whole suite in report/
 
 
-def blocks(page):
-    """(line number, lines) of each block that is indented by four spaces or fenced; none of a page that another test holds."""
+def blocks(page, words=None):
+    """(line number, lines) of each block that is indented by four spaces or fenced; none of a page that another test holds. With words: of such fences alone."""
     if page.name in HELD_ELSEWHERE:
         return []
     found, block, fence, blank = [], None, False, True
@@ -46,7 +48,9 @@ def blocks(page):
             fence, block = not fence, None
             if fence:
                 block = (number + 1, [])
-                found += [] if line[3:].strip() in PICTURES else [block]
+                word = line[3:].strip()
+                wanted = word in words if words else word not in (*PICTURES, *PYTHON)
+                found += [block] if wanted else []
             continue
         if fence:
             block[1].append(line)
@@ -54,7 +58,7 @@ def blocks(page):
         inside = line.startswith("    ") and (blank or block is not None)
         if inside and block is None:
             block = (number, [])
-            found.append(block)
+            found += [] if words else [block]
         if inside or (block is not None and not line.strip()):
             block[1].append(line[4:])
         elif line.strip():
@@ -69,6 +73,10 @@ def commands(lines):
         command, _, comment = line.partition("  #")
         if command.strip():
             yield command.strip(), comment.strip()
+
+
+def is_file(lines):
+    return lines[0].startswith(FILE)
 
 
 def program(command):
@@ -169,6 +177,14 @@ class Commands(unittest.TestCase):
         self.spent.append((time.monotonic() - began, f"{where}: {command}"))
         self.assertEqual(done.returncode, expected, f"{where}: {command}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
 
+    def run_script(self, lines, folder, where):
+        """Where it imports our package, from the checkout's `python` folder and with this build's program."""
+        environment = dict(os.environ, PYTHONPATH=str(SOURCE / "python"), TRIPOINT_PROGRAM=str(TRIPOINT), PYTHONDONTWRITEBYTECODE="1", MPLBACKEND="Agg")
+        began = time.monotonic()
+        done = subprocess.run(["/usr/bin/python3", "-c", "\n".join(lines)], cwd=folder, env=environment, capture_output=True, text=True, timeout=240, check=False)
+        self.spent.append((time.monotonic() - began, f"{where}: a script"))
+        self.assertEqual(done.returncode, 0, f"{where}: the script ends with\n{done.stdout[-1000:]}{done.stderr[-2000:]}")
+
     def test_every_line_of_every_page_does_what_it_says(self):
         for page in PAGES:
             name = str(page.relative_to(SOURCE))
@@ -176,7 +192,15 @@ class Commands(unittest.TestCase):
             if page.parent.name == "gated-engine":  # another project, which begins with an empty folder: empty_repository_test.py counts and times it
                 folder = self.root / "project"
                 folder.mkdir()
-            for number, lines in blocks(page):
+            scripts = [block for block in blocks(page, PYTHON) if not is_file(block[1])]
+            for number, lines in sorted(blocks(page) + blocks(page, PYTHON)):
+                if is_file(lines):
+                    (folder / lines[0].removeprefix(FILE)).write_text("\n".join(lines) + "\n")
+                    continue
+                if (number, lines) in scripts:
+                    with self.subTest(f"{name}:{number}"):
+                        self.run_script(lines, folder, f"{name}:{number}")
+                    continue
                 if not is_commands(lines):
                     continue
                 for command, comment in commands(lines):
@@ -203,7 +227,7 @@ class Commands(unittest.TestCase):
     def test_case_files_are_taken_and_parts_of_them_are_toml(self):
         for page in PAGES:
             for number, lines in blocks(page):
-                if is_commands(lines) or not is_case(lines):
+                if is_commands(lines) or not is_case(lines) or is_file(lines):  # the lines below a file use it
                     continue
                 with self.subTest(f"{page.relative_to(SOURCE)}:{number}"):
                     document = tomllib.loads("\n".join(lines))
@@ -216,7 +240,7 @@ class Commands(unittest.TestCase):
     def test_no_block_is_of_a_kind_that_nothing_looks_at(self):
         for page in PAGES:
             for number, lines in blocks(page):
-                if not is_commands(lines) and not is_case(lines):
+                if not is_commands(lines) and not is_case(lines) and not is_file(lines):
                     self.assertTrue(lines[0].startswith(LISTINGS), f"{page.relative_to(SOURCE)}:{number} is no command, no case file and no known listing: {lines[0]}")
 
     def test_commands_in_running_text_exist(self):

@@ -58,7 +58,7 @@ std::optional<double> callgrind_instructions(const ProcessSpec& run) {
   const auto valgrind = on_path("valgrind");
   if (valgrind.empty()) return {};
   spec.argv.insert(spec.argv.begin(), {valgrind, "--tool=callgrind", "--trace-children=yes", "--callgrind-out-file=/dev/null"});
-  spec.progress = {};
+  spec.progress = {}, spec.status = {};
   const auto end = run_process(spec);
   if (end.how != ProcessEnd::How::exited || end.code != 0) return {};
   return collected_instructions(end.log_tail);

@@ -23,6 +23,7 @@
 #include <optional>
 
 #include "validation/harness/instructions.hpp"
+#include "validation/harness/strays.hpp"
 
 extern char** environ;
 
@@ -92,27 +93,30 @@ class BoundedLog {
   std::string tail_;
 };
 
-/// Finds the lines `progress X` in a stream that arrives in pieces.
+/// Finds the lines `progress X` and `status REST` in a stream that arrives in pieces.
 class ProgressLines {
  public:
-  explicit ProgressLines(const std::function<void(double)>& report) : report_(report) {}
+  ProgressLines(const std::function<void(double)>& report, const std::function<void(const std::string&)>& status) : report_(report), status_(status) {}
   void add(const char* data, std::size_t size) {
-    if (!report_) return;
+    if (!report_ && !status_) return;
     for (std::size_t i = 0; i < size; ++i) {
       if (data[i] == '\n') end_line();
-      else if (line_.size() < 80) line_ += data[i];
+      else if (line_.size() < longest) line_ += data[i];
     }
   }
 
  private:
   void end_line() {
-    if (line_.rfind("progress ", 0) == 0) {
+    if (status_ && line_.rfind("status ", 0) == 0) status_(line_.substr(7));
+    if (report_ && line_.rfind("progress ", 0) == 0) {
       const double done = std::strtod(line_.c_str() + 9, nullptr);
       if (std::isfinite(done)) report_(std::clamp(done, 0.0, 1.0));
     }
     line_.clear();
   }
+  static constexpr std::size_t longest = 407;
   const std::function<void(double)>& report_;
+  const std::function<void(const std::string&)>& status_;
   std::string line_;
 };
 
@@ -133,8 +137,8 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
   return p;
 }
 
-/// Starts the program in a process group of its own. @return 0 or the error number
-int spawn(const ProcessSpec& spec, int out, int err, pid_t& pid) {
+/// Starts the program in a process group of its own, with this mark in its environment. @return 0 or the error number
+int spawn(const ProcessSpec& spec, const std::string& mark, int out, int err, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
@@ -152,7 +156,9 @@ int spawn(const ProcessSpec& spec, int out, int err, pid_t& pid) {
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   auto argv = spec.argv;
-  auto environment = environment_with(spec.environment);
+  auto added = spec.environment;
+  added[stray_mark] = mark;
+  auto environment = environment_with(added);
   const std::lock_guard lock(no_spawn_mutex());
   const int error = posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
@@ -208,7 +214,7 @@ void adopt_orphans() {
 /// Follows the child's streams until it ends, is out of time, or we are stopped.
 void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& log, ProcessEnd& end) {
   const auto start = Clock::now();
-  ProgressLines progress(spec.progress);
+  ProgressLines progress(spec.progress, spec.status);
   const auto take_output = [&](const char* p, std::size_t n) { end.output.append(p, std::min(n, kept_output - std::min(kept_output, end.output.size()))); };
   const auto take_log = [&](const char* p, std::size_t n) { log.add(p, n), progress.add(p, n); };
   const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
@@ -264,7 +270,8 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   for (const int end_of_child : {out[1], err[1]}) ::fcntl(end_of_child, F_SETFL, 0);  // the child writes blocking
   pid_t pid = -1;
   const InstructionCounter counter;
-  if (const int error = spawn(spec, out[1], err[1], pid); error != 0) {
+  const std::string mark = new_stray_mark();
+  if (const int error = spawn(spec, mark, out[1], err[1], pid); error != 0) {
     end.log_tail = std::strerror(error);
     return end;
   }
@@ -273,6 +280,7 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   err_write.reset();
   BoundedLog log(spec.log);
   follow(spec, pid, out[0], err[0], log, end);
+  end_strays(mark);
   end.log_tail = log.close();
   end.instructions = counter.read();
   return end;

@@ -17,6 +17,7 @@ struct ProcessSpec {
   double wall_limit = 600.0;                       ///< [s]; then the whole group is killed
   std::string log;                                 ///< file that keeps stderr: its first MiB and its last lines; empty = none
   std::function<void(double)> progress;            ///< called with 0..1 for each line `progress X` of stderr
+  std::function<void(const std::string&)> status;  ///< called with the rest of each line `status REST` of stderr, of 400 bytes at most
   bool outlives_interrupt = false;                 ///< Ctrl-C does not end it: it shows what was complete by then
 };
 

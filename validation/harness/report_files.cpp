@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -20,11 +21,20 @@ namespace {
 
 constexpr double report_limit = 900.0;  // [s]
 
+}  // namespace
+
+std::string python_program() {
+  const char* named = std::getenv("TRIPOINT_PYTHON");
+  return named && *named ? named : "/usr/bin/python3";
+}
+
+namespace {
+
 std::string make_page(const fs::path& results, bool pdf) {
   const fs::path program = fs::path(share_folder()) / "reports" / "report.py";
   if (!fs::exists(program)) return "the report program " + program.string() + " is missing";
   ProcessSpec spec;
-  spec.argv = {"/usr/bin/python3", program.string(), results.string()};
+  spec.argv = {python_program(), program.string(), results.string()};
   if (pdf) spec.argv.push_back("--pdf");
   spec.wall_limit = report_limit;
   spec.outlives_interrupt = true;

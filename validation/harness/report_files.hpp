@@ -8,6 +8,9 @@
 /// What lies beside results.json; it exists without Python, but for the page.
 namespace tripoint {
 
+/// The Python that draws and exports: that of the variable TRIPOINT_PYTHON, else Debian's.
+[[nodiscard]] std::string python_program();
+
 /// JUnit XML: a suite a case, a test a gate (and one for each engine that did not run); inconclusive is a failure of a type of its own.
 [[nodiscard]] std::string junit_text(const Results&);
 

@@ -14,6 +14,7 @@
 #include "io/trajectory.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/instructions.hpp"
+#include "validation/harness/sandbox.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -47,7 +48,7 @@ std::string last_words(const std::string& log) {
   std::istringstream lines(log);
   std::string last, line;
   while (std::getline(lines, line))
-    if (!line.empty() && line.rfind("progress ", 0) != 0) last = line;
+    if (!line.empty() && line.rfind("progress ", 0) != 0 && line.rfind("status ", 0) != 0) last = line;
   return last.empty() ? "" : "; its last words: " + last.substr(0, 300);
 }
 
@@ -97,7 +98,7 @@ ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
   spec.environment = request.environment;
   spec.environment["OMP_NUM_THREADS"] = std::to_string(request.job->threads);
   spec.wall_limit = limit;
-  return spec;
+  return sandboxed(spec, {request.particles});
 }
 
 void take_cost(Outcome& outcome, const ProcessEnd& end) {
@@ -233,7 +234,7 @@ Outcome run_one(const RunRequest& request) {
   spec.log = (fs::path(request.folder) / "log.txt").string();
   std::error_code none;
   fs::remove(spec.log, none);  // --check may have left a link there, to a file of somebody else
-  spec.progress = request.progress;
+  spec.progress = request.progress, spec.status = request.status;
   const auto end = run_process(spec);
   auto outcome = read_back(request, end);
   if (particles_were_changed(request))

@@ -22,6 +22,7 @@ struct RunRequest {
   double wall_limit = 600.0;  ///< [s]
   std::map<std::string, std::string> environment;
   std::function<void(double)> progress;
+  std::function<void(const std::string&)> status;  ///< of engines that tell more than how far they are (process.hpp)
   double count_below = 0.0;   ///< [CPU s] instructions of a shorter run are counted by callgrind where the processor counts none; 0 = never
   bool keep_finished = false;  ///< takes the outcome of an earlier run in the folder, if it was of this very job and engine
 };

@@ -11,6 +11,7 @@
 #include "scene/read_case.hpp"
 #include "validation/harness/json_number.hpp"
 #include "validation/harness/process.hpp"
+#include "validation/harness/report_files.hpp"
 #include "validation/harness/scorecard.hpp"
 
 namespace tripoint {
@@ -174,7 +175,7 @@ std::string write_scorecard(const Scorecard& card, const std::string& folder) {
   write_durably((out / "scorecard.json").string(), scorecard_json(card));
   write_durably((out / "scorecard.md").string(), scorecard_markdown(card));
   ProcessSpec spec;
-  spec.argv = {"/usr/bin/python3", (fs::path(share_folder()) / "reports" / "scorecard.py").string(), (out / "scorecard.json").string()};
+  spec.argv = {python_program(), (fs::path(share_folder()) / "reports" / "scorecard.py").string(), (out / "scorecard.json").string()};
   spec.wall_limit = page_limit, spec.outlives_interrupt = true, spec.log = (out / "scorecard.log").string();
   const auto end = run_process(spec);
   if (end.how == ProcessEnd::How::exited && end.code == 0 && fs::exists(out / "scorecard.html")) return {};
