@@ -28,7 +28,7 @@ cpack --config build/CPackConfig.cmake -B "$work/packed" >&2
 package=$(ls "$work"/packed/*.deb)
 say "$(basename "$package"): $(stat -c %s "$package") bytes; needs $(dpkg-deb -f "$package" Depends)"
 
-options=(--quiet --variant=minbase)
+options=(--quiet --variant=minbase --dpkgopt=force-unsafe-io)
 while IFS= read -r line; do options+=("--aptopt=$line"); done < <(apt-config dump | grep -E '^Acquire::(https?|Retries|Check-)' || true)
 begin=$SECONDS
 # apt itself resolves the package's dependencies in the bare root
