@@ -15,6 +15,7 @@
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
+#include "validation/harness/sandbox.hpp"
 #include "validation/harness/scorecard.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/timing.hpp"
@@ -31,7 +32,7 @@ struct ValidateOptions {
   int timing = 0;
   std::vector<std::string> engine;
   std::uint64_t seed = 0;
-  bool seed_given = false, json = false, page = true, last_failed = false;
+  bool seed_given = false, json = false, page = true, last_failed = false, sandbox = false;
 };
 
 constexpr const char* description =
@@ -122,6 +123,7 @@ int validate(ValidateOptions o) {
   if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
   o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";
   if (o.seed_given) o.suite.selection.seed = o.seed;
+  if (o.sandbox) sandbox_strangers();
   auto cases = cases_of(o);
   const auto words = sort_engine_words(o.engine);
   o.suite.selection.engines = split(o.engines);
@@ -172,6 +174,7 @@ void add_validate(CLI::App& app, int& exit_code) {
   command->add_flag("--last-failed", o->last_failed, "only the cases that are not green in OUT/results.json");
   command->add_option("--engines", o->engines, "only these engines, A,B");
   command->add_option("--engine", o->engine, "an engine that joins every case: the path of an executable, or a name; may be repeated")->take_all()->allow_extra_args(false);
+  command->add_flag("--sandbox", o->sandbox, "run engines that do not belong to this program by bubblewrap: no network, your files out of sight, writing in the run's own folder alone");
   command->add_option("--out", o->suite.out, "folder of the report and the runs")->capture_default_str();
   command->add_option("--jobs", o->suite.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option("--threads", o->suite.threads, "threads of each engine process")->check(CLI::Range(1, 1024))->capture_default_str();

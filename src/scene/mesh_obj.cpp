@@ -15,6 +15,8 @@
 namespace tripoint {
 namespace {
 
+constexpr std::size_t most_corners = 1000;  // of one face: the library's time to cut it goes by the square
+
 bool is_number(const std::string& word) {
   double value = 0.0;
   const char* last = word.data() + word.size();
@@ -47,6 +49,8 @@ void check_lines(const std::string& bytes, const std::string& file) {
     for (std::string word; words >> word;) rest.push_back(word);
     const bool corner = kind == "v";
     const bool good = std::all_of(rest.begin(), rest.end(), corner ? is_number : is_corner);
+    if (!corner && good && rest.size() > most_corners)
+      throw InputError({file, n, 0}, fmt::format("a face of {} corners; at most {}: cut it into triangles", rest.size(), most_corners));
     if (rest.size() < 3 || !good)
       throw InputError({file, n, 0}, fmt::format("\"{}\" is no {}", printable(line), corner ? "corner: write v and three finite numbers" : "face: write f and three or more numbers of corners, as 7, 7/2 or 7/2/3"));
   }

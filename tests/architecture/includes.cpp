@@ -17,6 +17,8 @@ namespace {
 const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"core", {}},
     {"scene", {"core"}},
+    {"surface", {"core", "scene"}},
+    {"render", {"core", "surface"}},
     {"io", {"core", "scene"}},
     {"particles", {"core", "scene"}},
     {"sph", {"core", "particles"}},
@@ -37,7 +39,7 @@ constexpr std::string_view sees_all = "program/cli";
 /// The one list of the effects, and the one of their pair terms.
 constexpr std::array<std::string_view, 2> effect_lists{"src/effects/all_effects.", "src/effects/pair_passes_unit."};
 
-/// A library's headers begin so, and belong to this room only ("" = nowhere).
+/// A library's headers begin so, and belong to this room only, or to those of several rows ("" = nowhere).
 struct Home {
   std::string_view header, room;
 };
@@ -52,6 +54,8 @@ constexpr std::array homes{
     Home{"H5", "io"},
     Home{"toml++/", "scene"},
     Home{"openvdb/", "scene"},
+    Home{"openvdb/", "surface"},
+    Home{"png.h", "render"},
     Home{"tiny_obj_loader", "scene"},
     Home{"CLI/", "program/cli"},
     Home{"mpi", ""},
@@ -152,11 +156,15 @@ std::vector<Offence> strayed_libraries(const Source& source) {
       found.push_back({source.path, include.line, std::string(include.text), std::move(why)});
     };
     const auto is_of = [&](std::string_view prefix) { return include.target.starts_with(prefix); };
+    std::string rooms;
+    bool nowhere = false, at_home = include.quoted;
     for (const auto& home : homes) {
-      if (is_of(home.header) && !include.quoted && room != home.room)
-        offend(home.room.empty() ? std::string("used nowhere: one process an engine, and no MPI")
-                                 : fmt::format("belongs to {} only", home.room));
+      if (!is_of(home.header)) continue;
+      nowhere = nowhere || home.room.empty(), at_home = at_home || room == home.room;
+      rooms += (rooms.empty() ? "" : " and ") + std::string(home.room);
     }
+    if (nowhere && !at_home) offend("used nowhere: one process an engine, and no MPI");
+    else if (!rooms.empty() && !at_home) offend(fmt::format("belongs to {} only", rooms));
     if (is_header && std::ranges::any_of(dear, is_of)) offend("seconds to compile: include it in a .cpp only");
   }
   return found;

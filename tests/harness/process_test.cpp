@@ -3,7 +3,9 @@
 #include <signal.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "harness/fakes.hpp"
@@ -42,6 +44,18 @@ TEST(Process, TheWholeGroupDiesAtTheLimit) {
   std::ifstream(file) >> grandchild;
   ASSERT_GT(grandchild, 0);
   EXPECT_NE(::kill(grandchild, 0), 0) << "the grandchild outlived its group";
+}
+
+TEST(Process, ADaemonInASessionOfItsOwnEndsWithItsRun) {
+  const TestFolder folder;
+  const auto file = folder / "pid";
+  const auto end = run_process(shell("setsid sh -c 'setsid sleep 300 & echo $! > " + file + "' ; exit 0"));
+  EXPECT_EQ(end.how, ProcessEnd::How::exited);
+  pid_t daemon = 0;
+  std::ifstream(file) >> daemon;
+  ASSERT_GT(daemon, 0);
+  std::ifstream left(std::filesystem::path("/proc") / std::to_string(daemon) / "cmdline");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(left), {}), "") << "it outlived its run";
 }
 
 TEST(Process, TheGroupsCpuTimeCountsGrandchildrenThatNobodyWaitedFor) {

@@ -122,6 +122,13 @@ TEST(Mesh, WithACornerThatIsNoNumberIsRefusedByItsLine) {
   EXPECT_EQ(refused(folder, "textured.obj", cube_obj("vt 0 0\nvn 0 0 1\nf 1/1 3/1 4/1 2/1\nf 5//1 6//1 8//1 7//1\nf 1/1/1 2/1/1 6/1/1 5/1/1\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")), "");
 }
 
+TEST(Mesh, WithAFaceOfVeryManyCornersIsRefused) {
+  const Folder folder;
+  std::string face = "f";
+  for (int n = 0; n < 1001; ++n) face += " 1";
+  EXPECT_NE(refused(folder, "round.obj", cube_obj(face + "\n")).find("round.obj:9: a face of 1001 corners"), std::string::npos) << refused(folder, "round.obj", cube_obj(face + "\n"));
+}
+
 TEST(Mesh, AsStlWithACornerThatIsNoNumberIsRefusedByItsPlace) {
   const Folder folder;
   const auto cube = read_mesh(folder.write("cube.obj", cube_obj()), 1.0);

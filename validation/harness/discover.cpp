@@ -15,6 +15,7 @@
 #include "core/errors.hpp"
 #include "core/nesting.hpp"
 #include "validation/harness/process.hpp"
+#include "validation/harness/sandbox.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -154,7 +155,7 @@ EngineEntry ask_engine(const std::string& executable) {
   ProcessSpec spec;
   spec.argv = {executable, "--info"};
   spec.wall_limit = info_limit;
-  const auto end = run_process(spec);
+  const auto end = run_process(sandboxed(spec));
   if (end.how != ProcessEnd::How::exited || end.code != 0) return unavailable(entry, "--info " + describe(end));
   const auto info = nests_too_deep(end.output) ? Json() : Json::parse(end.output, nullptr, false);
   if (!info.is_object() || text(info, "contract") != "1" || text(info, "name").empty())

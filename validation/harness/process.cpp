@@ -23,6 +23,7 @@
 #include <optional>
 
 #include "validation/harness/instructions.hpp"
+#include "validation/harness/strays.hpp"
 
 extern char** environ;
 
@@ -136,8 +137,8 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
   return p;
 }
 
-/// Starts the program in a process group of its own. @return 0 or the error number
-int spawn(const ProcessSpec& spec, int out, int err, pid_t& pid) {
+/// Starts the program in a process group of its own, with this mark in its environment. @return 0 or the error number
+int spawn(const ProcessSpec& spec, const std::string& mark, int out, int err, pid_t& pid) {
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
   posix_spawn_file_actions_init(&actions);
@@ -155,7 +156,9 @@ int spawn(const ProcessSpec& spec, int out, int err, pid_t& pid) {
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   auto argv = spec.argv;
-  auto environment = environment_with(spec.environment);
+  auto added = spec.environment;
+  added[stray_mark] = mark;
+  auto environment = environment_with(added);
   const std::lock_guard lock(no_spawn_mutex());
   const int error = posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
@@ -267,7 +270,8 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   for (const int end_of_child : {out[1], err[1]}) ::fcntl(end_of_child, F_SETFL, 0);  // the child writes blocking
   pid_t pid = -1;
   const InstructionCounter counter;
-  if (const int error = spawn(spec, out[1], err[1], pid); error != 0) {
+  const std::string mark = new_stray_mark();
+  if (const int error = spawn(spec, mark, out[1], err[1], pid); error != 0) {
     end.log_tail = std::strerror(error);
     return end;
   }
@@ -276,6 +280,7 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   err_write.reset();
   BoundedLog log(spec.log);
   follow(spec, pid, out[0], err[0], log, end);
+  end_strays(mark);
   end.log_tail = log.close();
   end.instructions = counter.read();
   return end;

@@ -14,6 +14,7 @@
 #include "io/trajectory.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/instructions.hpp"
+#include "validation/harness/sandbox.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -97,7 +98,7 @@ ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
   spec.environment = request.environment;
   spec.environment["OMP_NUM_THREADS"] = std::to_string(request.job->threads);
   spec.wall_limit = limit;
-  return spec;
+  return sandboxed(spec, {request.particles});
 }
 
 void take_cost(Outcome& outcome, const ProcessEnd& end) {

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A stranger's engine under --sandbox: it answers as it does outside, and reaches neither the network, nor the user's files, nor a token, nor another run."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+TRIPOINT = sys.argv[1]
+
+# What a hostile engine tries as it runs; each line of tried.txt is a deed that worked.
+DEEDS = '''
+import os, socket, subprocess
+def tried(what, deed):
+    try:
+        deed()
+    except OSError:
+        return
+    with open("tried.txt", "a") as file:
+        file.write(what + "\\n")
+def write(path):
+    with open(path, "w") as file:
+        file.write("x")
+def connect():
+    socket.create_connection(("127.0.0.1", PORT), timeout=2.0).close()
+def token():
+    os.environ["SOME_TOKEN"] if "SOME_TOKEN" in os.environ else os.stat("/no/such/file")
+if sys.argv[1] == "--run":
+    tried("write outside", lambda: write("OUTSIDE/written"))
+    tried("read outside", lambda: open("OUTSIDE/secret").close())
+    tried("network", connect)
+    tried("token", token)
+    tried("password file", lambda: open("/etc/passwd").close())
+    tried("other runs", lambda: os.stat("../../../ballistic/exact"))
+    tried("another process", lambda: os.stat("/proc/PARENT"))
+    subprocess.Popen(["/bin/sleep", "300"], start_new_session=True)
+'''
+
+
+def namespaces_are_allowed():
+    words = ["/usr/bin/bwrap", "--unshare-all", "--unshare-user", "--ro-bind", "/usr", "/usr", "--symlink", "usr/lib", "/lib", "--symlink", "usr/lib64", "/lib64", "/usr/bin/true"]
+    return os.path.exists(words[0]) and subprocess.run(words, capture_output=True, check=False).returncode == 0
+
+
+class Sandbox(unittest.TestCase):
+    def setUp(self):
+        self.place = tempfile.TemporaryDirectory()
+        self.folder = Path(self.place.name).resolve()
+        (self.folder / "secret").write_text("mine")
+        subprocess.run([TRIPOINT, "engine", "new", "mine", "--lang", "python"], cwd=self.folder, check=True, capture_output=True)
+        self.engine = next((self.folder / "mine").glob("engine-*"))
+
+    def tearDown(self):
+        self.place.cleanup()
+
+    def validate(self, *words):
+        done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine,exact", "--out", self.folder / "out", "--no-report", "--no-history", *words],
+                              cwd=self.folder, capture_output=True, text=True, check=False, env={**os.environ, "SOME_TOKEN": "secret"})
+        return done, json.loads((self.folder / "out/results.json").read_text()) if (self.folder / "out/results.json").exists() else None
+
+    def errors(self, results):
+        runs = [run for engine in results["cases"][0]["engines"] if engine["name"] == "mine" for run in engine["runs"]]
+        self.assertTrue(runs and all(run["status"] == "ok" for run in runs), runs)
+        return [run["metrics"] for run in runs]
+
+    def make_hostile(self):
+        import socket
+        self.door = socket.socket()
+        self.door.bind(("127.0.0.1", 0))
+        self.door.listen(8)
+        self.addCleanup(self.door.close)
+        deeds = DEEDS.replace("PORT", str(self.door.getsockname()[1])).replace("OUTSIDE", str(self.folder)).replace("PARENT", str(os.getpid()))
+        lines = self.engine.read_text().split("\n")
+        at = next(n for n, line in enumerate(lines) if line.startswith("import sys") or line.startswith("import "))
+        self.engine.write_text("\n".join(lines[:at] + ["import sys"] + deeds.split("\n") + lines[at:]))
+
+    def deeds(self):
+        return sorted(set("\n".join(file.read_text() for file in (self.folder / "out").rglob("tried.txt")).split("\n")) - {""})
+
+    def test_an_honest_engine_answers_as_it_does_outside(self):
+        outside = self.errors(self.validate()[1])
+        inside = self.errors(self.validate("--sandbox")[1])
+        self.assertEqual(inside, outside)
+
+    def test_a_hostile_one_reaches_nothing(self):
+        self.make_hostile()
+        self.errors(self.validate()[1])
+        self.assertEqual(len(self.deeds()), 7, self.deeds())  # the deeds are real: without a sandbox each of them works
+        self.assertTrue((self.folder / "written").exists())
+        (self.folder / "written").unlink()
+        subprocess.run(["rm", "-r", self.folder / "out"], check=True)
+        self.errors(self.validate("--sandbox")[1])
+        self.assertEqual(self.deeds(), ["write outside"])  # to a /tmp of its own, which is gone with it
+        self.assertFalse((self.folder / "written").exists())
+
+    def test_where_no_namespace_can_be_made_nothing_is_run(self):
+        if os.geteuid() != 0:
+            self.skipTest("only root can hide a program")
+        words = ["unshare", "--mount", "sh", "-c", f"mount --bind /bin/false /usr/bin/bwrap && exec {TRIPOINT} validate rigid/ballistic --engine {self.engine} --sandbox --out {self.folder}/none"]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("--sandbox: this machine lets bubblewrap make no namespaces", done.stderr)
+        self.assertFalse((self.folder / "none/results.json").exists())
+
+
+if __name__ == "__main__":
+    if not namespaces_are_allowed():
+        print("skipped: no bubblewrap here, or it may make no namespaces")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "validation/harness/process.hpp"
+
+/// Engines that somebody else wrote, run by bubblewrap in namespaces of their own: no network, no other process, and of the files only the
+/// system's programs, the engine's own folder and its run.
+namespace tripoint {
+
+/// From now on `sandboxed` acts. Asked once, before the first engine is.
+/// @throws EngineError where bubblewrap is not installed, or this machine lets it make no namespaces: nothing is run unguarded then
+void sandbox_strangers();
+
+/// The child as it is to be started: unchanged where no sandbox is wanted, and where the engine belongs to this program.
+/// @param readable files or folders that it may read besides
+/// @pre spec.folder, where it has one, is all that it may write
+[[nodiscard]] ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable = {});
+
+}  // namespace tripoint

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+
+/// Processes that a child left in sessions of their own, where a signal to its group does not reach them.
+namespace tripoint {
+
+/// The environment variable that marks a child and, by inheritance, all that it starts.
+inline constexpr const char* stray_mark = "TRIPOINT_RUN";
+
+/// A mark that no other child of any tripoint on this machine has.
+[[nodiscard]] std::string new_stray_mark();
+
+/// Kills every process that carries this mark in its environment, and those that it starts meanwhile. One that takes the mark away is not found.
+void end_strays(const std::string& mark);
+
+}  // namespace tripoint
