@@ -28,7 +28,7 @@ cpack --config build/CPackConfig.cmake -B "$work/packed" >&2
 package=$(ls "$work"/packed/*.deb)
 say "$(basename "$package"): $(stat -c %s "$package") bytes; needs $(dpkg-deb -f "$package" Depends)"
 
-options=(--quiet --variant=minbase)
+options=(--quiet --variant=minbase --dpkgopt=force-unsafe-io)
 while IFS= read -r line; do options+=("--aptopt=$line"); done < <(apt-config dump | grep -E '^Acquire::(https?|Retries|Check-)' || true)
 begin=$SECONDS
 # apt itself resolves the package's dependencies in the bare root
@@ -46,8 +46,8 @@ words=("$@")
 ((${#words[@]})) || words=(rigid/ballistic)
 begin=$SECONDS
 code=0
-chroot "$root" /usr/bin/env -i HOME=/srv PATH=/usr/bin:/bin LANG=C.UTF-8 sh -c 'cd /srv && exec "$@"' - tripoint validate "${words[@]}" --out /srv/report || code=$?
+chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/bin:/bin LANG=C.UTF-8 sh -c 'cd /root && exec "$@"' - tripoint validate "${words[@]}" --out report || code=$?
 say "tripoint validate ${words[*]}: exit $code after $((SECONDS - begin)) s"
-[[ -f $root/srv/report/index.html ]] || { say "no page was drawn"; exit 1; }
+[[ -f $root/root/report/index.html ]] || { say "no page was drawn"; exit 1; }
 chroot "$root" dpkg --verify tripoint || { say "files of the package were changed"; exit 1; }
 exit $code
