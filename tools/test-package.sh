@@ -28,7 +28,7 @@ cpack --config build/CPackConfig.cmake -B "$work/packed" >&2
 package=$(ls "$work"/packed/*.deb)
 say "$(basename "$package"): $(stat -c %s "$package") bytes; needs $(dpkg-deb -f "$package" Depends)"
 
-options=(--quiet --variant=minbase)
+options=(--quiet --variant=minbase --dpkgopt=force-unsafe-io)
 while IFS= read -r line; do options+=("--aptopt=$line"); done < <(apt-config dump | grep -E '^Acquire::(https?|Retries|Check-)' || true)
 begin=$SECONDS
 # apt itself resolves the package's dependencies in the bare root
@@ -46,7 +46,7 @@ words=("$@")
 ((${#words[@]})) || words=(rigid/ballistic)
 begin=$SECONDS
 code=0
-chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/bin:/bin LANG=C.UTF-8 sh -c 'cd /root && exec "$@"' - tripoint validate "${words[@]}" --out /root/report || code=$?
+chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/bin:/bin LANG=C.UTF-8 sh -c 'cd /root && exec "$@"' - tripoint validate "${words[@]}" --out report || code=$?
 say "tripoint validate ${words[*]}: exit $code after $((SECONDS - begin)) s"
 [[ -f $root/root/report/index.html ]] || { say "no page was drawn"; exit 1; }
 chroot "$root" dpkg --verify tripoint || { say "files of the package were changed"; exit 1; }

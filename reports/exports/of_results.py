@@ -121,7 +121,7 @@ def write_pdf(results, out):
     from figures import OF_A_CASE, OF_TRAJECTORIES, curves, read_all, style
     made = []
     (out / "figures").mkdir(exist_ok=True)
-    with matplotlib.rc_context({"pdf.fonttype": 42, "font.size": 7, "axes.titlesize": 7.5, "axes.labelsize": 7, "legend.fontsize": 6.5, "xtick.labelsize": 6.5, "ytick.labelsize": 6.5, "lines.linewidth": 1.0, "lines.markersize": 3.2}):
+    with matplotlib.rc_context({"pdf.fonttype": 42}):
         for case in results.cases:
             found, _ = read_all(results.folder, [(curve, curve.shown) for curve in curves(case)])
             for module in OF_A_CASE:
@@ -129,9 +129,31 @@ def write_pdf(results, out):
                 if drawing is None:
                     continue
                 figure = drawing.figure
-                width = 84 / 25.4 if figure.get_figwidth() <= style.HALF else 170 / 25.4
-                figure.set_size_inches(width, figure.get_figheight() * width / figure.get_figwidth())
+                shrink(figure, (84 if figure.get_figwidth() <= style.HALF else 170) / 25.4)
                 made.append(out / "figures" / f"{case.slug}-{drawing.name}.pdf")
                 with whole(made[-1], "wb") as file:
                     figure.savefig(file, format="pdf", metadata={"CreationDate": None, "Creator": "tripoint", "Title": f"{case.id}: {drawing.title}"})
     return made
+
+
+SMALLEST = 5.5  # points: a label that is smaller cannot be read in print
+
+
+def shrink(figure, width):
+    """The figure as it is on the page, scaled to this width in inches: text and lines with it."""
+    from matplotlib.lines import Line2D
+    from matplotlib.text import Text
+    scale = width / figure.get_figwidth()
+    for axis in figure.axes:
+        for side in (axis.xaxis, axis.yaxis):
+            sizes = [label.get_fontsize() for label in side.get_ticklabels()]
+            if sizes:
+                side.set_tick_params(labelsize=max(SMALLEST, sizes[0] * scale), width=0.8 * scale, length=3.5 * scale)
+    ticks = {label for axis in figure.axes for side in (axis.xaxis, axis.yaxis) for label in side.get_ticklabels(which="both")}
+    for words in figure.findobj(Text):
+        if words not in ticks:
+            words.set_fontsize(max(SMALLEST, words.get_fontsize() * scale))
+    for line in figure.findobj(Line2D):
+        line.set_linewidth(line.get_linewidth() * scale)
+        line.set_markersize(line.get_markersize() * scale)
+    figure.set_size_inches(width, figure.get_figheight() * scale)

@@ -156,13 +156,24 @@ class Trajectory(unittest.TestCase):
         self.assertLessEqual({0, 2}, seen)
 
     def test_terms_of_the_ledger_are_those_of_the_program(self):
-        told = {names(row[0])[0] for row in rows(PAGE, "Observables") if not row[0].startswith("`/")}
+        told = words("TERM", "holds")
         code = "".join(file.read_text() for file in (SOURCE / "src" / "effects").rglob("*.cpp"))
         known = set(re.findall(r'energy\["(\w+)"\]', code)) | set(re.findall(r'\.entry = "(\w+)"', code))
         self.assertEqual(told, known)
         written = {path.rpartition("energy_")[2] for _, path, _ in self.elements() if "/energy_" in path}
         self.assertLessEqual(written, told)
         self.assertGreater(len(written), 8)
+
+
+    def test_counts_are_those_of_the_program(self):
+        code = "".join(file.read_text() for file in (SOURCE / "adapters").rglob("*.cpp"))
+        self.assertEqual(words("WHAT", "counts"), set(re.findall(r'counts\["(\w+)"\]', code)))
+
+
+def words(*head):
+    """First cells of the table of observables with this head."""
+    text = PAGE.split(f"| {' | '.join(head)} |\n", 1)[1].split("\n\n", 1)[0]
+    return {names(line)[0] for line in text.splitlines() if line.startswith("| `")}
 
 
 class ResultsPage(unittest.TestCase):

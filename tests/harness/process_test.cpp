@@ -79,6 +79,14 @@ TEST(Process, ProgressLinesAreReported) {
   EXPECT_EQ(seen, (std::vector<double>{0.25, 1.0}));
 }
 
+TEST(Process, StatusLinesAreReportedWithoutTheirWord) {
+  auto spec = shell("echo 'status {\"time\": 1}' >&2; echo statuses >&2; { printf 'status '; head -c 5000 /dev/zero | tr '\\0' x; echo; echo status 2; } >&2");
+  std::vector<std::string> seen;
+  spec.status = [&](const std::string& status) { seen.push_back(status); };
+  (void)run_process(spec);
+  EXPECT_EQ(seen, (std::vector<std::string>{"{\"time\": 1}", std::string(400, 'x'), "2"}));
+}
+
 TEST(Process, NoOpenFileOfOursIsInherited) {
   const TestFolder folder;
   std::ofstream open(folder / "open");

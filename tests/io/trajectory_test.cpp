@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "core/errors.hpp"
 #include "io/gauge_error.hpp"
@@ -39,6 +40,20 @@ Snapshot frame_at(double time, int particles, int bodies) {
   s.energy["kinetic"] = 1.0 + time;
   s.heat_given["hot plate"] = 7.0 * time;
   return s;
+}
+
+TEST_F(Io, FramesOfAPeriodicDomainAreReadBackAsOthersAre) {
+  Domain domain;
+  domain.min = {0.0, -1.0, -std::numeric_limits<double>::infinity()}, domain.max = {3.0, 1.0, std::numeric_limits<double>::infinity()}, domain.periodic = {true, false, false};
+  for (const auto& [name, of] : {std::pair{"open.h5", Domain{}}, std::pair{"periodic.h5", domain}}) {
+    TrajectoryWriter writer(path(name), of);
+    writer.append(frame_at(0.0, 5, 1)), writer.append(frame_at(1.0, 5, 1));
+    writer.close();
+  }
+  const Trajectory open = read_trajectory(path("open.h5")), periodic = read_trajectory(path("periodic.h5"));
+  ASSERT_EQ(open.frames.size(), 2U);
+  ASSERT_EQ(periodic.frames.size(), 2U);
+  for (std::size_t f = 0; f < 2; ++f) EXPECT_EQ(state_hash(open.frames[f]), state_hash(periodic.frames[f]));
 }
 
 TEST_F(Io, ACsvWithTwoRowsForOneBodyOrParticleAtATimeIsRefused) {
