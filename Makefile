@@ -59,10 +59,10 @@ bench-peers: setup build  ## time SPlisHSPlasH and LAMMPS on the same particles,
 	@/usr/bin/python3 tools/peers/bench_peers.py --threads $(JOBS) --out $(OUT)
 	@/usr/bin/python3 reports/speed.py $(OUT)/speed.json
 
-gallery: setup build  ## run the paper's figures, draw them as films; leaves $(OUT)/gallery/index.html
+gallery: setup build  ## run the paper's figures, draw them as films and ray-traced; leaves $(OUT)/gallery/index.html
 	@rm -f $(OUT)/gallery/results.json
 	@build/bin/tripoint validate paper --profile commit --engines tripoint --out $(OUT)/gallery --jobs $(JOBS) --no-report --no-history || test -f $(OUT)/gallery/results.json
-	@/usr/bin/python3 reports/gallery.py $(OUT)/gallery/results.json
+	@/usr/bin/python3 reports/gallery.py $(OUT)/gallery/results.json build/bin/tripoint
 
 docs: build  ## write what pages hold of the program, then the guide: build/docs/index.html
 	@build/bin/tripoint schema --page >build/case-file.md

@@ -147,7 +147,7 @@ def render_figures(results, out=None):
 
 
 def render_gallery(results, films):
-    """@param films: case, file name, why there is none, end [s], tone of the verdict   @return HTML of the paper's figures in motion"""
+    """@param films: case, names of film and sheet, why one is missing, end [s], tone of the verdict   @return HTML of the paper's figures in motion"""
     return fill("gallery.html.j2", results, films=films, notes=[])
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from contract import Job, serve
-from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb
+from rigid import SHARED_SETTINGS, Body, Held, Piece, RigidEngine, State, World, bounciness, coulomb, why_it_grows
 from rotation import IDENTITY, Quaternion, Vector, add, product, quaternion, rotate, vector
 
 APPROXIMATIONS = ("tamsi", "sap", "similar", "lagged")  # discrete_contact_approximation, in Drake's words
@@ -124,6 +124,9 @@ class Drake(RigidEngine):
         word = job.settings.get("discrete_contact_approximation", "lagged")
         if word not in APPROXIMATIONS:
             return f"drake: discrete_contact_approximation is one of {', '.join(APPROXIMATIONS)}"
+        grows = why_it_grows(job, self.default_step) if job.preset in ("discrete", "semi_explicit_euler") else ""
+        if grows:
+            return f"Drake's {job.preset} " + grows
         bounce = bounciness(job)
         if bounce > 0.0:
             return f"Drake's contact has no coefficient of restitution, and {bounce:g} is asked for"

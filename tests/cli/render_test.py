@@ -13,7 +13,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-TRIPOINT = sys.argv[1]
+TRIPOINT = Path(sys.argv[1]).resolve()
 SMALL = ("--size", "80x60", "--threads", "2")
 
 

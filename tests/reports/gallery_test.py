@@ -36,10 +36,17 @@ class Gallery(unittest.TestCase):
             file["particles/all/position/value"], file["particles/all/position/time"] = position, np.linspace(0, 2, frames)
             file["particles/all/phase/value"], file["particles/all/material/value"] = np.full(30, 2), np.zeros(30, int)
 
-    def draw(self, *cases):
+    def program(self, script):
+        """Stands in for tripoint: called as `render FOLDER --out DIR --size ...`"""
+        path = self.path / "program"
+        path.write_text("#!/bin/sh\n" + script)
+        path.chmod(0o755)
+        return str(path)
+
+    def draw(self, *cases, program=None):
         (self.path / "results.json").write_text(json.dumps({"format": 1, "tool": {}, "command": "", "profile": "", "verdict": "PASS", "exit_code": 0, "cases": list(cases)}))
         with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()) as self.said:
-            return gallery.main([str(self.path / "results.json")])
+            return gallery.main([str(self.path / "results.json"), *([program] if program else [])])
 
     def test_each_case_of_the_paper_has_its_film_on_the_page(self):
         self.film("09", 7)
@@ -56,6 +63,21 @@ class Gallery(unittest.TestCase):
         self.assertEqual(self.draw(case("09"), case("10")), 1)
         self.assertIn("runs/10", self.said.getvalue())
         self.assertIn("paper-09.gif", (self.path / "index.html").read_text())
+
+    def test_with_the_program_each_case_has_its_surfaces_too(self):
+        self.film("09", 3)
+        program = self.program('[ "$1 $3" = "render --out" ] && [ -f "$2/trajectory.h5" ] && echo drawn > "$4/sheet.png"\n')
+        self.assertEqual(self.draw(case("09"), program=program), 0)
+        self.assertEqual((self.path / "paper-09.png").read_text(), "drawn\n")
+        self.assertIn('src="paper-09.png"', (self.path / "index.html").read_text())
+
+    def test_surfaces_that_fail_are_named_and_are_no_success(self):
+        self.film("09", 3)
+        self.assertEqual(self.draw(case("09"), program=self.program("echo 'tripoint: no light' >&2; exit 2\n")), 1)
+        self.assertIn("no light", self.said.getvalue())
+        page = (self.path / "index.html").read_text()
+        self.assertIn("no light", page)
+        self.assertIn("paper-09.gif", page)
 
     def test_nothing_to_draw_ends_2_and_says_what_to_type(self):
         self.assertEqual(self.draw(case("x", tags=["heat"])), 2)
