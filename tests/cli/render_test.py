@@ -58,7 +58,7 @@ class Render(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory(prefix="tripoint render ü ")
         cls.path = Path(cls.folder.name)
-        for case, until in (("paper/fig-08-elastic", 0.04), ("heat/step-insulated", None)):
+        for case, until in (("paper/fig-08-elastic", 0.04), ("heat/step-insulated", None), ("paper/fig-12", 0.04)):
             done = call("run", case, "--quiet", *(("--until", until) if until else ()), cwd=cls.path)
             assert done.returncode == 0, done.stderr
         cls.run_folder = cls.path / "runs/paper/fig-08-elastic/tripoint"
@@ -101,6 +101,14 @@ class Render(unittest.TestCase):
         done = self.draw("--frames", "0:1", "--particles", env=dict(os.environ, PATH=f"{tools}"))
         self.assertIn("film.mp4", done.stdout, done.stderr)
         self.assertGreater((self.path / "out/film.mp4").stat().st_size, 0)
+
+    def test_walls_that_hide_the_rest_are_cut_away(self):
+        blue = {}
+        for walls in ("cut", "show", "hide"):
+            picture = pixels(self.draw("--frame", 0, "--colour", "phase", "--walls", walls, "--azimuth", 35, "--elevation", 10, run="paper/fig-12").stdout.split("  t =")[0])
+            blue[walls] = int(((picture[..., 2] > picture[..., 0] + 60) & (picture.max(2) > 60)).sum())
+        self.assertGreater(blue["cut"], 3 * blue["show"] + 100)  # the tank hides most of the cream
+        self.assertGreater(blue["hide"], blue["cut"])  # and takes room in the picture
 
     def test_threads_change_no_bit(self):
         files = []

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of docs/surface.md: measure [ball|torus|slab|times]
+// The tables of docs/surface.md: surface-measure [ball|torus|slab|times]; the plot of (25) in docs/gallery.md: surface-measure factor
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -49,5 +49,7 @@ int main(int argc, char** argv) {
     if (what == "torus" || what == "all") ladder(shapes::torus(2.0, 1.0), {4, 8, 16}, detector);
     if (what == "slab" || what == "all") ladder(shapes::slab(4.0, 1.0), {4, 8, 16}, detector);
   }
+  if (what == "factor")
+    for (int n = 0; n <= 240; ++n) std::printf("%g %.6f\n", 0.01 * n, detector_factor(0.01 * n));
   if (what == "times" || what == "all") times(20), times(34), times(60);
 }
