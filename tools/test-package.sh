@@ -17,7 +17,7 @@ root=$work/root
 leave() {
   local code=$?
   trap - EXIT INT TERM
-  umount --recursive --lazy "$root/proc" 2>/dev/null || true
+  umount --recursive --lazy "$root/proc" "$root/sys" "$root/dev/shm" 2>/dev/null || true
   if [[ ${KEEP:-} == 1 ]]; then say "the root stays: $root"; else rm -rf --one-file-system "$work"; fi
   exit $code
 }
@@ -41,6 +41,8 @@ fi
 mmdebstrap "${options[@]}" bookworm "$root" "${sources[@]}" >&2
 say "installed into a bare root after $((SECONDS - begin)) s: $(du -sm "$root" | cut -f1) MB"
 mount -t proc proc "$root/proc"
+mount -t sysfs -o ro sysfs "$root/sys"  # without it OpenMPI, under LAMMPS, writes complaints among an engine's answers
+mkdir -p "$root/dev/shm" && mount -t tmpfs -o mode=1777 tmpfs "$root/dev/shm"
 [[ -e $root/dev/null && -c $root/dev/null ]] || mknod -m 666 "$root/dev/null" c 1 3
 words=("$@")
 ((${#words[@]})) || words=(rigid/ballistic)
