@@ -160,6 +160,16 @@ def red_test(tests, file, options):
     return ""
 
 
+def red_oracle(file, options):
+    """What the sums from the page of the model say of a term of ours."""
+    if not file.startswith("src/effects"):
+        return ""
+    if not build(["tests/write-states"], options):
+        return "write-states does not compile"
+    done = run(["/usr/bin/python3", "-B", "tests/oracle/oracle.py", "build/tests/write-states"], options.tree, 900)
+    return "" if done is not None and done.returncode == 0 else "the oracle"
+
+
 def judge(mutant, cases, options):
     """What turned red first, or nothing: some quick cases, then the unit tests, then all other cases."""
     _, tests, engine = targets_of(mutant["file"])
@@ -175,7 +185,7 @@ def judge(mutant, cases, options):
         return ""
 
     first = options.first if mutant["file"].startswith("src/effects") else 0  # an adapter's cases are slower than its tests
-    mutant["killed_by"] = red_case(touched[:first]) or red_test(tests, mutant["file"], options) or red_case(touched[first:])
+    mutant["killed_by"] = red_case(touched[:first]) or red_test(tests, mutant["file"], options) or red_oracle(mutant["file"], options) or red_case(touched[first:])
 
 
 def main():
