@@ -15,6 +15,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "effects/plan.hpp"
+#include "scene/case_document.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
@@ -32,15 +33,17 @@ constexpr const char* description =
     "that it does without and the proof, the bytes of its particles by effect, and the seconds of its first steps.\n"
     "  tripoint explain rigid/ballistic\n"
     "  tripoint explain fluid/hydrostatic --trial 20 --threads 2\n"
-    "  tripoint explain my.toml --set scene.spacing=\"2 mm\" --json | jq .effects";
+    "  tripoint explain my.toml --set scene.spacing=\"2 mm\" --json | jq .effects\n"
+    "  tripoint explain contact/tower-100 --resolved      the whole of a case that extends another";
 
-std::string origin(const Decision& d) {
+std::string origin(const Decision& d, const std::string& file) {
   if (!d.given) return "default: " + d.reason;
-  return d.place.line > 0 ? fmt::format("given, line {}", d.place.line) : "given, " + d.place.file;
+  if (d.place.line <= 0) return "given, " + d.place.file;
+  return d.place.file == file ? fmt::format("given, line {}", d.place.line) : fmt::format("given, {}:{}", d.place.file, d.place.line);
 }
 
 /// Keys that are not set are only counted: they would hide the others.
-void print_decisions(const std::vector<Decision>& decisions) {
+void print_decisions(const std::vector<Decision>& decisions, const std::string& file) {
   std::size_t width = 0, unset = 0;
   for (const auto& d : decisions) width = std::max(width, std::min<std::size_t>(d.key.size(), 44));
   for (const auto& d : decisions) {
@@ -48,7 +51,7 @@ void print_decisions(const std::vector<Decision>& decisions) {
       ++unset;
       continue;
     }
-    print_line(fmt::format("{:{}}  {:24}  # {}", d.key, width, d.value, origin(d)));
+    print_line(fmt::format("{:{}}  {:24}  # {}", d.key, width, d.value, origin(d, file)));
   }
   print(fmt::format("\n{} keys are not set (with --json: each with what that means).\n", unset));
 }
@@ -113,13 +116,17 @@ json as_json(const CaseReading& reading, const Plan& plan) {
 struct Options {
   std::string file;
   std::vector<std::string> set;
-  bool as_document = false;
+  bool as_document = false, as_case = false;
   std::optional<long> trial;  ///< steps; empty: a few for people, none for programs
   int threads = 1;
 };
 
 int explain(const Options& options) {
   const CaseReading reading = read_case(shown_path(case_file(options.file)), options.set);
+  if (options.as_case) {
+    print(resolved_case(reading, options.set));
+    return 0;
+  }
   const Plan planned = plan_of(reading);
   const Scene scene = scene_for(reading.value, {});
   const auto trial = [&](long steps) { return bench::try_scene(scene, steps, options.threads, options.trial ? SIZE_MAX : most_tried); };
@@ -132,7 +139,7 @@ int explain(const Options& options) {
   const long steps = options.trial.value_or(usual_trial);
   const auto timed = steps > 0 ? trial(steps) : bench::Trial{};
   print(case_summary(reading.value, scene, planned, timed));
-  print_decisions(reading.decisions);
+  print_decisions(reading.decisions, reading.value.file);
   print_plan(planned);
   if (steps > 0) print_trial(timed, options.threads);
   return 0;
@@ -146,6 +153,7 @@ void add_explain(CLI::App& app, int& exit_code) {
   command->add_option("CASE", options->file, "path of a case file, or the id of a case that is shipped")->required();
   command->add_option("--set", options->set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")->take_all()->allow_extra_args(false);
   command->add_flag("--json", options->as_document, "print one JSON document");
+  command->add_flag("--resolved", options->as_case, "print the whole case as a case file: what it extends merged in, every gate in a table of its own");
   command->add_option("--trial", options->trial, fmt::format("steps to time, 0 for none (default: {}; none with --json)", usual_trial))->check(CLI::NonNegativeNumber);
   command->add_option("--threads", options->threads, "threads of the steps that are timed")->check(CLI::PositiveNumber);
   command->callback([=, &exit_code] { exit_code = guarded([&] { return explain(*options); }); });

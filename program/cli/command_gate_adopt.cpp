@@ -12,6 +12,8 @@
 #include "program/cli/gate_adopt.hpp"
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
+#include "scene/case_document.hpp"
+#include "scene/read_case.hpp"
 #include "validation/harness/adopt.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/baseline.hpp"
@@ -52,6 +54,17 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// The case's own text; where it has a short form, the whole case below its first comment: what is adopted stands on its own, and its
+/// gates are tables that can be dropped one by one.
+std::string source_text(const std::string& file) {
+  const std::string text = text_of(file);
+  if (!has_short_forms(read_toml(file))) return text;
+  std::istringstream in(text);
+  std::string comment;
+  for (std::string line; std::getline(in, line) && line.starts_with("#");) comment += line + "\n";
+  return comment + resolved_case(read_case(file));
+}
+
 fs::path file_of(const GateAdoptOptions& o, const std::string& id) { return fs::path(o.out) / (id + ".toml"); }
 
 std::vector<Case> cases_of(const GateAdoptOptions& o) {
@@ -80,7 +93,7 @@ std::vector<std::string> write_cases(const GateAdoptOptions& o, const std::vecto
   for (const auto& c : measured) {
     if (!c.judged()) continue;
     const auto file = file_of(o, c.id);
-    const auto text = adopted_text(text_of(c.source), c, engine);
+    const auto text = adopted_text(source_text(c.source), c, engine);
     fs::create_directories(file.parent_path());
     write_durably(file.string(), text);
     files.push_back(file.string());

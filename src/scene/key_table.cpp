@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 
+#include "scene/case_document.hpp"
 #include "scene/effect_rule.hpp"
 
 namespace tripoint {
@@ -19,6 +20,8 @@ constexpr std::string_view orders = "asymptotic preasymptotic plateau roundoff o
 constexpr auto common_keys = std::to_array<Key>({
     // format
     {"", "format", integer, "", positive, "1", "the first version", "", "version of the case file"},
+    {"", "extends", text, "", any, "", "the case stands on its own", "", "case whose keys hold where this file says nothing: a file of this folder, \"other.toml\", or a case's name"},
+    {"", "remove", texts, "", any, "", "all of it holds", "", "what of the extended case does not hold: \"scene.jitter\", \"engines.lammps\", \"metric.overlap\" (and the gates on it), \"study\""},
     {"", "case", table, "", any, "=", "id from the file's place", "case", "what is shown, and how it is judged"},
     {"", "scene", table, "", any, "!", "", "scene", "what is simulated"},
     {"", "material", tables, "", any, "=", "materials of the library serve by name", "material", "matter"},
@@ -28,6 +31,7 @@ constexpr auto common_keys = std::to_array<Key>({
     {"", "engines", table, "", any, "=", "every engine that can", "engines", "engines of this case, one table for each: [engines.NAME]"},
     {"", "reference", table, "", any, "=", "only the invariants are known", "reference", "the truth, where it is known"},
     {"", "metric", tables, "", any, "=", "nothing is measured", "metric", "numbers computed from each run"},
+    {"", "invariants", table, "", any, "", "nothing but the metrics", "invariants", "quantities that every run must keep: a metric and its gate on one line"},
     {"", "study", tables, "", any, "=", "one run an engine", "study", "convergence studies"},
     {"", "gate", tables, "", any, "=", "nothing is judged", "gate", "limits"},
     {"", "input", tables, "", any, "=", "every number counts as exact", "input", "uncertain numbers"},
@@ -164,6 +168,9 @@ constexpr auto common_keys = std::to_array<Key>({
     {"metric", "scale", number, "", positive, "1", "in the quantity's own unit", "", "number that the error is divided by"},
     {"metric", "unit", text, "", any, "\"\"", "the quantity's own", "", "unit of the scaled value, as the report prints it"},
     {"metric", "reference", table, "", any, "=", "the case's", "reference", "reference of this metric alone"},
+    {"metric", "gates", tables, "", any, "", "gates stand in [[gate]]", "gates", "gates of this metric, each without the key metric"},
+    {"metric", "limits", settings, "", any, "", "no limit by level", "", "one gate for each level of the study, for all engines: { LEVEL = LIMIT, ... }"},
+    {"metric", "reason", text, "", any, "", "gates bring their own", "", "reason of `limits`"},
     // [[study]]
     {"study", "axis", word, "", any, "!", "", axes, "axis that is refined"},
     {"study", "levels", numbers, "", any, "!", "", "", "values in the axis's own unit, coarse to fine"},
@@ -185,6 +192,7 @@ constexpr auto common_keys = std::to_array<Key>({
     {"gate", "at_least", number, "", any, "", "none", "", "least value"},
     {"gate", "band", numbers, "", any, "", "none", "", "least and greatest value"},
     {"gate", "level", number, "", any, "", "every run", "", "level of the study's axis that the gate judges"},
+    {"gate", "limits", settings, "", any, "", "none", "", "instead of level and limit, one gate for each: { LEVEL = LIMIT, ... }"},
     {"gate", "drift", number, "", positive, "", "a tenth, and it warns only", "", "share by which the value may move from its accepted baseline; beyond it the gate is red"},
     {"gate", "reason", text, "", any, "!", "", "", "reason of the limit; \"known defect NAME: ...\" of a named engine's band excuses it from the acceptance limit on the metric, which it must then exceed"},
     {"gate", "by", text, "", any, "\"\"", "unsigned", "", "name of who set the limit"},
@@ -226,6 +234,9 @@ constexpr auto tables_of_case = std::to_array<TableInfo>({
     {"engines", "[engines.NAME]", "Each engine and preset is one row of the results. [engines.all] is no engine: its settings go to every engine, of which an engine's own go before: `friction` (Coulomb's coefficient) and `restitution` of every pair of bodies."},
     {"reference", "[reference]", "The truth that metrics are compared with."},
     {"metric", "[[metric]]", "A number computed from each run."},
+    {"gates", "[[metric]] gates = [{...}]", "A gate within its metric: what [[gate]] has, less `metric`, which only says NAME.order or NAME.statistical."},
+    {"invariants", "[invariants]", "Quantities that a run must keep, each by its name: `ledger = 1e-9`, or a table."},
+    {"invariant", "[invariants.NAME]", "A quantity that a run must keep: keys of its metric, and those of its gate or `gates`. quantity and norm are the name's."},
     {"study", "[[study]]", "Runs at several levels of one axis: a convergence study."},
     {"gate", "[[gate]]", "A limit that decides between pass and fail."},
     {"input", "[[input]]", "An uncertain number. The case's own run is repeated with the number at both ends; half the difference of a metric is its input uncertainty."},
@@ -234,8 +245,31 @@ constexpr auto tables_of_case = std::to_array<TableInfo>({
 });
 
 constexpr std::array type_texts{"number", "integer", "true or false", "text", "word", "[x, y, z]", "array of numbers", "array of texts", "number or \"auto\"",
-                                "text or array of texts", "array of words", "table", "array of tables", "table of free keys", "shape", "number or table", "[x, y, z] or table"};
+                                "text or array of texts", "array of words", "table", "array of tables", "table of free keys", "shape", "number or table", "[x, y, z] or table", "limit, or table"};
 constexpr std::array range_texts{"", "greater than 0", "0 or greater", "from 0 to 1", "greater than -1 and less than 0.5", "greater than 1"};
+
+/// A gate within its metric has the keys of a gate, an invariant those of a metric and of a gate.
+void add_short_forms(std::vector<Key>& list) {
+  std::vector<Key> more;
+  for (Key key : list) {
+    if (key.table != "gate") continue;
+    key.table = "gates";
+    if (key.name == "metric") key.fallback = "=", key.note = "the metric that holds it";
+    more.push_back(key);
+  }
+  for (const Invariant& one : invariants()) more.push_back({"invariants", one.name, invariant, "", any, "", "it is not measured", "", one.meaning});
+  more.push_back({"invariant", "value", number, "", any, "=", "0; required by body_count", "", "what the quantity is compared with; only of overlap, body_count and toggles"});
+  for (Key key : list) {
+    const bool of_metric = key.table == "metric" && key.name != "quantity" && key.name != "limits", of_gate = key.table == "gate" && key.name != "metric";
+    if (!of_gate && (!of_metric || key.name == "reason")) continue;
+    key.table = "invariant";
+    if (key.name == "name") key.fallback = "=", key.note = "the invariant's";
+    if (key.name == "norm") key.fallback = "=", key.note = "the invariant's";
+    if (key.name == "reason") key.fallback = "=", key.note = "round-off, of mass, momentum, angular_momentum and ledger; required by the others";
+    more.push_back(key);
+  }
+  list.insert(list.end(), more.begin(), more.end());
+}
 
 /// Those that every scene reads; in each table behind them those that effects bring.
 std::vector<Key> all_keys() {
@@ -246,6 +280,7 @@ std::vector<Key> all_keys() {
       list.insert(last.base(), key.row);
     }
   }
+  add_short_forms(list);
   return list;
 }
 

@@ -15,6 +15,7 @@ enum class ValueType {
   table, tables,   ///< a sub-table of its own rows; an array of such
   settings,        ///< a table of free keys
   shape, temperature, velocity,
+  invariant,       ///< a limit, or a table of its metric and its gate
 };
 
 enum class Range { any, positive, not_negative, fraction, poisson, above_one };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "scene/case_document.hpp"
 #include "scene/effect_keys.hpp"
 #include "scene/geometry.hpp"
 #include "scene/nearest.hpp"
@@ -185,14 +186,32 @@ void sort_by_table(std::vector<Decision>& decisions) {
   std::stable_sort(decisions.begin(), decisions.end(), [&](const Decision& a, const Decision& b) { return rank(a) < rank(b); });
 }
 
+/// The case as one document, with the replacements of --set.
+TomlNode whole_document(const std::string& path, const std::vector<std::string>& set) {
+  TomlNode document = read_case_document(path);
+  for (const auto& s : set) apply_override(document, s);
+  if (!set.empty()) check_written_out(document);
+  return document;
+}
+
 }  // namespace
+
+std::string resolved_case(const CaseReading& reading, const std::vector<std::string>& set) {
+  TomlNode document = whole_document(reading.value.file, set), head, id;
+  if (auto* given = document.find("case")) head = std::move(*given);
+  std::erase_if(document.members, [](const auto& m) { return m.first == "case"; });
+  std::erase_if(head.members, [](const auto& m) { return m.first == "id"; });
+  id.kind = TomlNode::Kind::text, id.text = reading.value.id;
+  head.members.insert(head.members.begin(), {"id", std::move(id)});
+  document.members.insert(document.members.begin(), {"case", std::move(head)});
+  return document_text(document);
+}
 
 CaseReading read_case(const std::string& path, const std::vector<std::string>& set) {
   Reading reading;
   std::error_code error;
   reading.folder = std::filesystem::absolute(path, error).parent_path().string();
-  TomlNode document = read_toml(path);
-  for (const auto& s : set) apply_override(document, s);
+  const TomlNode document = whole_document(path, set);
 
   CaseReading out;
   Case& c = out.value;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include "scene/case_document.hpp"
 #include "scene/key_table.hpp"
 #include "scene/read_case.hpp"
 #include "scene/units.hpp"
@@ -40,6 +41,63 @@ std::string table_page(const TableInfo& t) {
   return out + "\n";
 }
 
+constexpr std::string_view short_forms = R"(## A case that says less
+
+**`extends`.** A variant of a case names it at its top and says only what differs:
+
+```toml
+extends = "tower-10.toml"
+remove = ["metric.top", "study"]
+
+[case]
+title = "A tower of four"
+
+[scene]
+end_time = "2 s"
+```
+
+- The name is that of a file in the same folder (`"tower-10.toml"`), a path that ends below the folder `cases` around the file (`"../heat/cosine-mode.toml"`), or the name of a case there or of a shipped one (`"heat/cosine-mode"`). No other file is read. The other case may extend a third; at most 8 files are in such a chain, and none is in it twice.
+- Tables are merged key by key: `[scene]`, `[case]`, `[reference]`, `[engines.NAME]`, `[invariants]`. A table that gives `kind` or `function` anew (a shape, a velocity, a reference) replaces the whole of the old one. `[case]` is merged all the same, and `id` is not handed on.
+- Tables of an array are merged key by key with the one that has the same name: `[[material]]`, `[[body]]`, `[[metric]]`, `[[defect]]` and `[[harmless]]` by `name`; `[[input]]` by `key`; `[[gate]]` by `metric`, `engine`, `mode`, `preset` and `level`; `[[study]]` by `axis`, `engine`, `mode` and `metric`. One that meets none comes after those of the other case. Bodies keep the other case's order.
+- `[[event]]`, `[[inflow]]` and every other array have no name to go by: the file's own replace all of the other case's.
+- A gate that gives `limit`, `at_least` or `band` replaces the bound of the gate that it meets, of whatever kind that was.
+- `remove` takes keys and tables out of the other case first: `"scene.jitter"`, `"engines.lammps"`, `"body.lid"`, `"body.lid.velocity"`, `"metric.overlap"` and the gates on it, `"gate.overlap"` (all gates on that metric), or all of a kind: `"study"`, `"gate"`.
+- Data and meshes that the other case names are found beside that case. Errors and gates name the file and the line where the key stands.
+
+**Gates within their metric.** `gates` of a `[[metric]]` holds its gates, one a line, without the key `metric`; `limits` is one limit a level of a study. The last gate below judges the metric's order.
+
+```toml
+[[metric]]
+name = "front"
+quantity = "front_ratio"
+limits = { 1e-3 = 0.05, 5e-4 = 0.025 }
+reason = "first order in the spacing"
+gates = [
+  { engine = "tripoint", mode = "paper", band = [0.2, 0.4], reason = "predicted defect: 0.3 measured" },
+  { metric = "front.order", engine = "tripoint", at_least = 0.9, reason = "first order" },
+]
+```
+
+**Invariants.** `[invariants]` names what each run must keep; each line is a metric and its gate. A plain number is the limit of every engine.
+
+```toml
+[invariants]
+ledger = 1e-11
+momentum = { scale = 12.5, unit = "of that of the fall", engine = "tripoint", limit = 1e-13 }
+body_count = { value = 2, limit = 0, reason = "nothing breaks" }
+```
+
+`tripoint explain CASE --resolved` prints the whole case, with nothing extended and every gate in a table of its own. `--set` names keys as they are there.
+
+)";
+
+/// What the names of [invariants] stand for.
+std::string invariants_page() {
+  std::string out = "| name | quantity | norm | meaning |\n|---|---|---|---|\n";
+  for (const Invariant& one : invariants()) out += fmt::format("| `{}` | `{}` | `{}` | {} |\n", one.name, one.quantity, one.norm, cell(one.meaning));
+  return out + "\n";
+}
+
 }  // namespace
 
 std::string case_reference_page() {
@@ -48,8 +106,10 @@ std::string case_reference_page() {
       "column and the nearest known key.\n\nUnits known by name: {} (with the prefixes n u m c d h k M G where that is usual), combined as `kg/m3`, `W/m/K`, `J/(kg K)`, `m s^-2`.\n\n"
       "On the command line `--set a.b=VALUE` replaces any key: `scene.spacing=0.01`, `body.NAME.velocity=[1,0,0]`, `material.NAME.density=900`, `study.1.levels=[0.1,0.05]`; tables without a name count from 1.\n\n",
       known_units());
+  out += short_forms;
   for (const auto& t : table_infos()) {
     out += table_page(t);
+    if (t.name == "invariants") out += invariants_page();
     if (t.name == "scene") {
       out += "`modes.TERM` sets one term: `modes.heat = \"paper\"`. TERM: ";
       for (std::size_t i = 0; i < term_count; ++i) out += fmt::format("{}`{}`", i ? " " : "", to_string(static_cast<Term>(i)));

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "scene/key_table.hpp"
@@ -70,6 +71,7 @@ json value_schema(const Key& k) {
     case ValueType::shape: return kinds_of("shape");
     case ValueType::temperature: return kind_or("temperature", number_schema(k));
     case ValueType::velocity: return kind_or("velocity", vector_schema(k));
+    case ValueType::invariant: return {{"anyOf", {{{"type", "number"}}, reference_to("invariant")}}};
   }
   return {};
 }
@@ -84,16 +86,44 @@ json key_schema(const Key& k) {
   return s;
 }
 
+/// Keys that a table of a case that extends nothing must have.
+json required_keys(std::string_view name) {
+  json list = json::array();
+  for (const auto* k : keys_of(name)) {
+    // a material of the library brings its own density
+    if (k->required() && !(name == "material" && k->name == "density")) list.push_back(k->name);
+  }
+  return list;
+}
+
+bool can_be_partial(const Key& k) { return (k.type == ValueType::table || k.type == ValueType::tables) && !k.words.empty(); }
+
+/// Tables of a case that extends another may leave to that one what they need.
+json rule_of_whole_cases() {
+  json needs{{"required", required_keys("")}, {"properties", json::object()}};
+  for (const auto* k : keys_of("")) {
+    const json list = can_be_partial(*k) ? required_keys(k->words) : json::array();
+    if (list.empty() || k->words == "engines") continue;
+    const json rule{{"required", list}};
+    needs["properties"][std::string(k->name)] = k->type == ValueType::tables ? json{{"items", rule}} : rule;
+  }
+  return needs;
+}
+
+bool is_always_whole(std::string_view name) {
+  const auto top = keys_of("");
+  const bool of_the_top = std::any_of(top.begin(), top.end(), [&](const Key* k) { return can_be_partial(*k) && k->words == name; });
+  return !name.empty() && !of_the_top && name != "gates" && name != "invariant";
+}
+
 json table_schema(std::string_view name) {
   json s{{"type", "object"}, {"additionalProperties", false}, {"properties", json::object()}};
   json required = json::array();
   const auto dot = name.find('.');
   if (dot != std::string_view::npos) s["properties"]["kind"] = {{"const", name.substr(dot + 1)}}, required.push_back("kind");
-  for (const auto* k : keys_of(name)) {
-    s["properties"][std::string(k->name)] = key_schema(*k);
-    // a material of the library brings its own density
-    if (k->required() && !(name == "material" && k->name == "density")) required.push_back(k->name);
-  }
+  for (const auto* k : keys_of(name)) s["properties"][std::string(k->name)] = key_schema(*k);
+  if (is_always_whole(name))
+    for (const auto& key : required_keys(name)) required.push_back(key);
   if (!required.empty()) s["required"] = required;
   return s;
 }
@@ -104,6 +134,8 @@ std::string case_schema() {
   json s = table_schema("");
   json out{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "tripoint case file, format 1"}, {"description", "Numbers are SI, or texts with a unit."}};
   out.update(s);
+  out["if"] = {{"not", {{"required", {"extends"}}}}};
+  out["then"] = rule_of_whole_cases();
   for (const auto& t : table_infos())
     if (!t.name.empty()) out["$defs"][std::string(t.name)] = table_schema(t.name), out["$defs"][std::string(t.name)]["description"] = t.meaning;
   json modes{{"type", "object"}, {"additionalProperties", false}, {"properties", json::object()}};
