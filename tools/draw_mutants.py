@@ -101,8 +101,7 @@ class Cases:
 
     def about(self, case):
         shown = json.loads(run(["build/bin/tripoint", "explain", case["id"], "--json"], self.tree, 60).stdout)
-        text = (self.tree / case["file"]).read_text()
-        engines = {"tripoint"} | set(re.findall(r"^\[engines\.([\w-]+)", text, re.M))
+        engines = {"tripoint"} | {d["key"].split(".")[1] for d in shown["decisions"] if d["key"].startswith("engines.")}
         baseline = self.tree / "baselines" / (case["id"] + ".toml")
         runs = tomllib.loads(baseline.read_text()).get("cost", []) if baseline.exists() else []
         counted = {what: sum(run[what] for run in runs) for what in ("pairs", "steps")}
