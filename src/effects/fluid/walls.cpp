@@ -15,10 +15,11 @@ namespace {
 
 constexpr double wall_group = 0.0;
 
-/// What a wall particle moves with: all that is fixed moves as one, each driven body by itself.
-int frame_of(const World& world, std::size_t row) {
-  const int body = world.particles[field::body][row];
-  return world.bodies[field::body_motion][static_cast<std::size_t>(body)] == static_cast<int>(Motion::fixed) ? -1 : body;
+/// What each body moves with: all that is fixed moves as one, each driven body by itself.
+std::vector<int> frames_of(const World& world) {
+  std::vector<int> frames(world.bodies.size());
+  for (std::size_t b = 0; b < frames.size(); ++b) frames[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? -1 : static_cast<int>(b);
+  return frames;
 }
 
 /// mean[k] over the patch of k of what was put to its members.
@@ -57,22 +58,34 @@ void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKern
   known_faces_ = world.neighbours->rebuilds();
   const Particles& p = world.particles;
   const auto group = p[field::group];
+  const auto body = p[field::body];
   const auto x = positions(p);
+  const std::vector<int> frames = frames_of(world);
+  const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
   const double patch = 1.75 * world.scene.spacing, full = n.lattice_density / std::pow(world.scene.spacing, 3);
   const auto each_of_wall = [&](std::size_t i, auto visit) {
     for (const Entry e : world.neighbours->of(i)) {
       const std::size_t j = e.row();
-      if (j != i && group[j] == wall_group && frame_of(world, i) == frame_of(world, j)) visit(j, norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())));
+      if (j != i && group[j] == wall_group && frame_of(i) == frame_of(j)) visit(j, norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())));
     }
   };
   face_.clear(), hidden_.clear();
   constexpr std::uint32_t none = ~std::uint32_t{0};
+  const auto id = p[field::id];
+  if (at_face_.empty()) {
+    at_face_.resize(p.size());
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (group[i] != wall_group) continue;
+      double wall = kernels.wendland.value(0.0);
+      each_of_wall(i, [&](std::size_t, double r) { wall += kernels.wendland.value(r); });
+      at_face_[static_cast<std::size_t>(id[i])] = wall < (1.0 - n.least_exposure) * full ? 1 : 0;
+    }
+  }
   std::vector<std::uint32_t> place(p.size(), none);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (group[i] != wall_group) continue;
-    double wall = kernels.wendland.value(0.0);
-    each_of_wall(i, [&](std::size_t, double r) { wall += kernels.wendland.value(r); });
-    const bool at_face = wall < (1.0 - n.least_exposure) * full;
+    const bool at_face = at_face_[static_cast<std::size_t>(id[i])] != 0;
     if (at_face) place[i] = static_cast<std::uint32_t>(face_.size());
     (at_face ? face_ : hidden_).push_back(static_cast<std::uint32_t>(i));
   }
