@@ -9,31 +9,40 @@ namespace {
 
 enum Work : std::uint8_t { none = 0, density = 1, rates = 2, density_is_still = 4 };
 
-/// Whether a row never moves: a member of a fixed rigid body.
-class IsFixed {
- public:
-  explicit IsFixed(const World& world) : body_(world.particles[field::body]) {
-    for (std::size_t b = 0; b < world.bodies.size(); ++b)
-      fixed_.push_back(is_rigid(world, b) && world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
-  }
-  [[nodiscard]] bool operator()(std::size_t row) const { return body_[row] >= 0 && fixed_[static_cast<std::size_t>(body_[row])] != 0; }
-
- private:
-  std::span<const int> body_;
-  std::vector<char> fixed_;  ///< of each body
-};
+/// Of each row whether it never moves: a member of a fixed rigid body.
+std::vector<char> fixed_rows(const World& world) {
+  std::vector<char> of_body;
+  for (std::size_t b = 0; b < world.bodies.size(); ++b)
+    of_body.push_back(is_rigid(world, b) && world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
+  const auto body = world.particles[field::body];
+  std::vector<char> fixed(body.size());
+  for (std::size_t i = 0; i < body.size(); ++i) fixed[i] = body[i] >= 0 ? of_body[static_cast<std::size_t>(body[i])] : char{0};
+  return fixed;
+}
 
 /// What is to be done for a cluster. Two act on each other unless they are an own pair, or members of one group of 0 and above.
-Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const IsFixed& is_fixed, bool leaves_own) {
+Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed, bool leaves_own) {
   bool any_acts = false, any_apart = false, any_moves = false;
   const std::uint32_t first = c.first[cluster], past = c.first[cluster + 1];
-  for (std::uint32_t i = first; i < past; ++i) any_moves = any_moves || !is_fixed(i);
+  const unsigned all = ~0u;
+  double asked = group[first];
+  unsigned of_another = 0;  // bits of the members whose group is not the one that was asked for
+  const auto look = [&](double g) {
+    asked = g, of_another = 0;
+    for (std::uint32_t i = first; i < past; ++i) of_another |= static_cast<unsigned>(group[i] != g) << (i - first);
+  };
+  look(asked);
+  const auto others = [&](double g) {
+    if (g != asked) look(g);
+    return of_another;
+  };
+  for (std::uint32_t i = first; i < past; ++i) any_moves = any_moves || fixed[i] == 0;
   for (std::size_t e = c.start[cluster]; e < c.start[cluster + 1]; ++e) {
     const std::size_t j = Entry{c.entries[e]}.row();
-    any_moves = any_moves || !is_fixed(j);
+    any_moves = any_moves || fixed[j] == 0;
     const unsigned apart = c.near[e] & (c.own.empty() ? ~0u : ~static_cast<unsigned>(c.own[e]));
     any_apart = any_apart || apart != 0;
-    for (std::uint32_t i = first; i < past && !any_acts; ++i) any_acts = (apart >> (i - first) & 1u) != 0 && (group[j] < 0.0 || group[i] != group[j]);
+    any_acts = any_acts || (apart & (group[j] < 0.0 ? all : others(group[j]))) != 0;
     if (any_acts && any_moves) break;
   }
   const Work in_density = !any_moves ? density_is_still : any_acts || any_apart || !leaves_own ? density : none;
@@ -45,10 +54,10 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
 void BusyClusters::find(const World& world, bool leaves_own) {
   const Clusters& c = world.neighbours->clusters();
   const auto group = world.particles[field::group];
-  const IsFixed is_fixed(world);
+  const std::vector<char> fixed = fixed_rows(world);
   std::vector<Work> work(c.size());
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t k = 0; k < c.size(); ++k) work[k] = work_of(c, k, group, is_fixed, leaves_own);
+  for (std::size_t k = 0; k < c.size(); ++k) work[k] = work_of(c, k, group, fixed, leaves_own);
   in_density_.clear(), in_rates_.clear(), still_.clear();
   for (std::uint32_t k = 0; k < c.size(); ++k) {
     if ((work[k] & density) != 0) in_density_.push_back(k);
@@ -58,7 +67,7 @@ void BusyClusters::find(const World& world, bool leaves_own) {
   }
   fixed_.clear();
   for (std::uint32_t i = 0; i < group.size(); ++i)
-    if (is_fixed(i)) fixed_.push_back(i);
+    if (fixed[i] != 0) fixed_.push_back(i);
   known_ = true;
 }
 

@@ -13,7 +13,7 @@
 namespace tripoint::fluid {
 namespace {
 
-constexpr double wall_group = 0.0;
+constexpr double wall_group = 0.0, liquid_group = -1.0;
 
 /// What each body moves with: all that is fixed moves as one, each driven body by itself.
 std::vector<int> frames_of(const World& world) {
@@ -49,8 +49,15 @@ void Walls::find(const World& world) {
   known_ = world.neighbours->rebuilds();
   wet_walls_.clear();
   const auto group = world.particles[field::group];
-  for (std::size_t i = 0; i < group.size(); ++i)
-    if (group[i] == wall_group && std::ranges::any_of(world.neighbours->of(i), [&](Entry e) { return group[e.row()] == -1.0; })) wet_walls_.push_back(static_cast<std::uint32_t>(i));
+  const Clusters& c = world.neighbours->clusters();
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    unsigned walls = 0, wet = 0;  // bits of members
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) walls |= static_cast<unsigned>(group[i] == wall_group) << (i - c.first[k]);
+    for (std::size_t e = c.start[k]; e < c.start[k + 1] && (walls & ~wet) != 0; ++e)
+      if (group[Entry{c.entries[e]}.row()] == liquid_group) wet |= c.near[e];
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+      if ((walls & wet) >> (i - c.first[k]) & 1u) wet_walls_.push_back(i);
+  }
 }
 
 void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
@@ -63,12 +70,6 @@ void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKern
   const std::vector<int> frames = frames_of(world);
   const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
   const double patch = 1.75 * world.scene.spacing, full = n.lattice_density / std::pow(world.scene.spacing, 3);
-  const auto each_of_wall = [&](std::size_t i, auto visit) {
-    for (const Entry e : world.neighbours->of(i)) {
-      const std::size_t j = e.row();
-      if (j != i && group[j] == wall_group && frame_of(i) == frame_of(j)) visit(j, norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())));
-    }
-  };
   face_.clear(), hidden_.clear();
   constexpr std::uint32_t none = ~std::uint32_t{0};
   const auto id = p[field::id];
@@ -78,7 +79,10 @@ void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKern
     for (std::size_t i = 0; i < p.size(); ++i) {
       if (group[i] != wall_group) continue;
       double wall = kernels.wendland.value(0.0);
-      each_of_wall(i, [&](std::size_t, double r) { wall += kernels.wendland.value(r); });
+      for (const Entry e : world.neighbours->of(i)) {
+        const std::size_t j = e.row();
+        if (j != i && group[j] == wall_group && frame_of(i) == frame_of(j)) wall += kernels.wendland.value(norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())));
+      }
       at_face_[static_cast<std::size_t>(id[i])] = wall < (1.0 - n.least_exposure) * full ? 1 : 0;
     }
   }
@@ -92,9 +96,11 @@ void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKern
   start_.assign(1, 0), patch_.clear();
   for (const std::uint32_t i : face_) {
     patch_.push_back(place[i]);
-    each_of_wall(i, [&](std::size_t j, double r) {
-      if (r < patch && place[j] != none) patch_.push_back(place[j]);
-    });
+    for (const Entry e : world.neighbours->of(i)) {
+      const std::size_t j = e.row();
+      if (place[j] == none || j == i || frame_of(i) != frame_of(j)) continue;
+      if (norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())) < patch) patch_.push_back(place[j]);
+    }
     start_.push_back(patch_.size());
   }
   first_.resize(face_.size()), second_.resize(face_.size());
