@@ -187,11 +187,14 @@ TEST_F(Extends, ReadsNoFileThatIsNoCaseBesideIt) {
   fs::create_directories(folder_.path() + "/other");
   static_cast<void>(folder_.write("other/far.toml", base_text));
   static_cast<void>(folder_.write("token.toml", "token = \"geheim\"\n"));
+  static_cast<void>(folder_.write("login.toml", "[scene]\nend_time = 1.0\n[geheim]\ntoken = \"geheim\"\n"));
+  static_cast<void>(folder_.write("good.toml", base_text));
   static_cast<void>(folder_.write("text.toml", "geheim\n"));
   static_cast<void>(folder_.write("plain.txt", base_text));
   fs::create_symlink(folder_.path() + "/other/far.toml", folder_.path() + "/link.toml");
   fs::create_symlink("/etc/passwd", folder_.path() + "/users.toml");
-  for (const std::string name : {"/etc/passwd", "../../../../../etc/passwd", "other/far.toml", "link.toml", "users.toml", "token.toml", "text.toml", "plain.txt", "plain", "cases", "cases/a/deep.toml", "absent.toml", "", "."}) {
+  for (const std::string name : {"/etc/passwd", "../../../../../etc/passwd", "other/far.toml", "link.toml", "users.toml", "token.toml", "login.toml", "text.toml", "plain.txt", "plain", "cases", "cases/a/deep.toml", "absent.toml", "", "."}) {
+    ASSERT_NO_THROW(static_cast<void>(read("extends = \"good.toml\"\n")));
     const auto what = refusal("extends = \"" + name + "\"\n");
     EXPECT_FALSE(what.empty()) << name;
     std::string here;
@@ -204,6 +207,7 @@ TEST_F(Extends, ReadsNoFileThatIsNoCaseBesideIt) {
     EXPECT_EQ(here.find("geheim"), std::string::npos) << here;
     EXPECT_EQ(here.find("root:"), std::string::npos) << here;
   }
+  EXPECT_THROW(static_cast<void>(read("extends = \"" + folder_.path() + "/good.toml\"\n")), InputError) << "a path of the machine";
 }
 
 TEST_F(Extends, FindsCasesBelowTheFolderOfCasesByPathAndByName) {
