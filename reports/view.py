@@ -42,7 +42,7 @@ class Shown:
     name: str
     times: list
     position: object             # (frames, particles, 3) [m]; NaN where a particle is not alive
-    wall: object                 # (particles,) whether it belongs to a fixed body
+    wall: object                 # (particles,) whether it belongs to a body that is fixed or driven
     fields: dict                 # name -> (frames, particles); classes are integers
     labels: dict                 # class -> names of its numbers
     spacing: float               # [m]
@@ -120,9 +120,9 @@ def thinned(frames, particles, fields, room):
 
 
 def walls_of(run, body, place):
-    """Rows of fixed bodies in the first frame; none where the job does not say it, or where all is wall."""
+    """Rows of bodies that are fixed or driven, in the first frame; none where the job does not say it, or where all is wall."""
     import numpy as np
-    fixed = [entry.get("index") for entry in run.scene().get("bodies") or [] if entry.get("motion") == "fixed" and isinstance(entry.get("index"), int) and entry.get("index") >= 0]
+    fixed = [entry.get("index") for entry in run.scene().get("bodies") or [] if entry.get("motion") in ("fixed", "prescribed") and isinstance(entry.get("index"), int) and entry.get("index") >= 0]
     wall = np.isin(body[0], fixed) & np.isfinite(place[0]).all(axis=1) if body is not None and fixed else np.zeros(place.shape[1], bool)
     return wall if not wall.all() else np.zeros(len(wall), bool)
 

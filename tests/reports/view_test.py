@@ -24,7 +24,7 @@ FRAMES, TANK, REST = 5, 16, 8
 IN_3D = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")  # WebGL without a graphics card
 
 
-def make_run(folder, frames=FRAMES, times=None, fall=0.0, job=True, many=1):
+def make_run(folder, frames=FRAMES, times=None, fall=0.0, job=True, many=1, motion="fixed"):
     """A tank that rests, and eight particles above it that fall, warm up and freeze; the last flows in at the end."""
     folder.mkdir(parents=True)
     rows = TANK + REST * many
@@ -54,7 +54,7 @@ def make_run(folder, frames=FRAMES, times=None, fall=0.0, job=True, many=1):
             node.create_dataset("step", data=np.arange(frames))
         file.create_group("particles/bodies/position").create_dataset("value", data=np.zeros((frames, 1, 3)))
     if job:
-        scene = {"gravity": [0.0, 0.0, -9.81], "mode": "corrected", "spacing": 1.0, "bodies": [{"name": "tank <b>", "index": 0, "motion": "fixed"}, {"name": "wax", "index": -1, "motion": "free"}], "materials": [{"name": "wax"}, {"name": "glass"}]}
+        scene = {"gravity": [0.0, 0.0, -9.81], "mode": "corrected", "spacing": 1.0, "bodies": [{"name": "tank <b>", "index": 0, "motion": motion}, {"name": "wax", "index": -1, "motion": "free"}], "materials": [{"name": "wax"}, {"name": "glass"}]}
         (folder / "job.json").write_text(json.dumps({"case": "a/b", "resolution": {"spacing": 1.0}, "scene": scene}))
     return folder
 
@@ -131,11 +131,13 @@ class Data(Folder):
         self.assertEqual(warm[0, -1], held.told["nothing"])
         self.assertEqual(warm[:, 0].tolist(), [0] * FRAMES)
 
-    def test_walls_are_those_of_fixed_bodies_and_up_is_against_gravity(self):
+    def test_walls_are_bodies_that_are_fixed_or_driven_and_up_is_against_gravity(self):
         held = self.page(make_run(self.path / "run"))
         run, = held.told["runs"]
         self.assertEqual(held.column(run, run["wall"], TANK + REST, "u1").tolist(), [1] * TANK + [0] * REST)
         self.assertEqual(run["up"], [0.0, 0.0, 1.0])
+        for motion, walls in (("prescribed", TANK), ("free", 0)):
+            self.assertEqual(self.page(make_run(self.path / motion, motion=motion)).told["runs"][0]["walls"], walls)
         bare, = self.page(make_run(self.path / "bare", job=False)).told["runs"]
         self.assertEqual(bare["walls"], 0)
         self.assertGreater(bare["spacing"], 0.1)
