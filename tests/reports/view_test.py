@@ -19,7 +19,7 @@ sys.path[:0] = [str(HERE), str(VIEW.parent)]
 import view  # noqa: E402
 from browser import Browser  # noqa: E402
 
-PROGRAM = sys.argv[1] if len(sys.argv) > 1 else None
+PROGRAM = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else None
 FRAMES, TANK, REST = 5, 16, 8
 IN_3D = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")  # WebGL without a graphics card
 
@@ -60,7 +60,7 @@ def make_run(folder, frames=FRAMES, times=None, fall=0.0, job=True, many=1, moti
 
 
 def call(*words, cwd=None):
-    command = [PROGRAM, "view"] if PROGRAM else [sys.executable, "-B", str(VIEW)]
+    command = [str(PROGRAM), "view"] if PROGRAM else [sys.executable, "-B", str(VIEW)]
     return subprocess.run([*command, *map(str, words)], capture_output=True, text=True, timeout=120, cwd=cwd)
 
 
