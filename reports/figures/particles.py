@@ -211,9 +211,12 @@ class Sheet:
                 return "coloured by temperature on one scale"
         names = [KINDS[k] for k in sorted(kinds)]
         height = 0.18 if warm is None else 0.58
-        for n, (name, hue) in enumerate(names):
-            self.axis.plot([3.2 + 1.9 * n - (0.8 if len(names) > 3 else 0.0)], [height], "o", color=hue, markersize=5)
-            self.axis.annotate(name, (3.3 + 1.9 * n - (0.8 if len(names) > 3 else 0.0), height), va="center", fontsize=8)
+        widths = [0.35 + 0.062 * len(name) if len(names) > 3 else 1.9 for name, _ in names]
+        at = min(3.2, style.WIDTH - 0.1 - sum(widths))
+        for (name, hue), wide in zip(names, widths):
+            self.axis.plot([at], [height], "o", color=hue, markersize=5)
+            self.axis.annotate(name, (at + 0.1, height), va="center", fontsize=8)
+            at += wide
         if warm is not None:
             return "coloured by temperature on one scale, and below it by phase"
         return "coloured by phase" if kinds else "coloured by body"

@@ -34,6 +34,9 @@ def draw(case, trajectories, notes):
     for axis in axes:
         axis.set_xlabel(f"{'xyz'[along]} [m]")
     axes[0].set_ylabel("temperature [K]")
+    low, high = axes[0].get_ylim()
+    if high - low < 1e-6 * max(abs(low), abs(high)):  # nothing but round-off along this axis: its digits do not fit beside it
+        axes[0].set_ylim(0.5 * (low + high) - 1.0, 0.5 * (low + high) + 1.0)
     if len(axes) > 1:
         axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
         axes[1].set_ylabel("engine minus exact [K]")

@@ -20,7 +20,7 @@ def draw(case, trajectories, notes):
     style.legend(figure, axes)
     meant = list(dict.fromkeys(words.rpartition(" ")[0] for written, _ in drawn for words in written))
     what = f" Labels: {', '.join(f'{word} = {SHORT[word]}' for word in meant)}." if meant else ""
-    lineless = " Points without a line: their cost does not follow what was refined." if any(loose for _, loose in drawn) else ""
+    lineless = " Points without a line: several runs of one level, or seconds that do not follow what was refined." if any(loose for _, loose in drawn) else ""
     return Drawing("work-precision", "Work and precision", f"Log-log plot of {', '.join(names)} against CPU seconds for each engine and mode, with the Pareto front.", figure,
                    "Lower left is better; the engine exact, which evaluates the reference, is left out." + what + lineless + " Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: runs that failed or gave no number." + (f" In the table of runs alone: {', '.join(rest)}." if rest else ""))
 
