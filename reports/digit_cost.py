@@ -68,6 +68,11 @@ def read(results):
     return sorted(found, key=lambda ladder: (ladder.slope is None, -(ladder.slope or 0.0)))
 
 
+def without_study(results):
+    """Cases of which nothing was refined, so that nothing says what one more digit of theirs costs."""
+    return [case for case in results.cases if not rows(case.raw.get("studies"))]
+
+
 def same(a, b):
     return (a.case.id, a.engine.label, a.mode, a.axis, a.metric) == (b.case.id, b.engine.label, b.mode, b.axis, b.metric)
 

@@ -13,7 +13,11 @@ from model import is_number
 
 NEAREST = 10
 MOVED = 0.05  # a change of a share of a limit below this is not listed: most of it is noise of the machine's seeds
-ORDER = ("worse", "better", "limit", "new")
+STEP = 0.01   # a relative change of a knob below this is none: a solver's own step follows the last digits of the run
+ORDER = ("worse", "better", "apart", "limit", "new")
+WORDS = {"apart": "not comparable"}
+KNOBS = {"time_step": ("step", 1e3, " ms"), "spacing": ("spacing", 1e3, " mm"), "support_ratio": ("support ratio", 1, ""), "walkers": ("number of walkers", 1, ""),
+         "iterations": ("number of iterations", 1, ""), "jitter": ("jitter", 1, ""), "seed": ("seed", 1, "")}
 
 
 @dataclass
@@ -22,8 +26,12 @@ class Change:
     where: str     # engine, metric, mode
     before: str
     after: str
-    kind: str      # worse, better, limit (another one is asked) or new
+    kind: str      # worse, better, apart (made at another step or setting), limit (another one is asked) or new
     weight: float  # the largest first
+
+    @property
+    def word(self):
+        return WORDS.get(self.kind, self.kind)
 
 
 def count(number, noun):
@@ -63,7 +71,7 @@ def baseline(results):
         before = load.load(path) if path.is_file() else None
     except load.Unreadable:
         before = None
-    used = {key: (gate.used, gate.verdict, gate.allowed) for case in before.cases for key, _, gate in keyed(case)} if before else {}
+    used = {key: (gate.used, gate.verdict, gate.allowed, knobs_of(engine, gate)) for case in before.cases for key, engine, gate in keyed(case)} if before else {}
     verdicts = {case.id: case.verdict for case in before.cases} if before else {}
     date, now = str(before.raw.get("date") or "") if before else "", str(results.raw.get("date") or "")
     for case in results.cases:
@@ -74,12 +82,12 @@ def baseline(results):
         several = {key[:-1] for key, _, _ in keyed(case) if key[-1] > 0}
         for (engine, mode, metric, level), (share, _, verdict) in last.used.items():
             key = (case.id, engine.replace(" (", " · ").rstrip(")"), mode, metric, level)
-            used.update({(*key, 0): (share, verdict.upper(), None)} if key not in several else {})  # the history does not say which of several gates it means
+            used.update({(*key, 0): (share, verdict.upper(), None, {})} if key not in several else {})  # the history does not say which of several gates it means
     return used, verdicts, date, before
 
 
 def changes(results):
-    """@return {"since", "list": [Change], "cases": {case number: "worse"|"better"|"new"}, "gone", "same"}; None where there is no run before"""
+    """@return {"since", "list": [Change], "worse", "apart": whether one is so, "cases": {case number: one of ORDER}, "gone", "same"}; None where there is no run before"""
     used, verdicts, date, before = baseline(results)
     if not verdicts:
         return None
@@ -100,7 +108,7 @@ def changes(results):
             found.append(Change(case, "verdict", verdicts[case.id], case.verdict, marks[case.number], 10.0))
     found.sort(key=lambda change: (ORDER.index(change.kind), -change.weight))
     gone = sorted(set(case.id for case in before.cases) - set(case.id for case in results.cases)) if before and before.raw.get("what") == results.raw.get("what") else []
-    return {"since": date, "list": found, "cases": marks, "gone": gone, "bits": bits(results, before), "cpu": (summary.counts(before)["cpu"] if before else None)}
+    return {"since": date, "list": found, "worse": any(change.kind == "worse" for change in found), "apart": any(change.kind == "apart" for change in found), "cases": marks, "gone": gone, "bits": bits(results, before), "cpu": (summary.counts(before)["cpu"] if before else None)}
 
 
 def compare(case, engine, gate, old):
@@ -108,25 +116,45 @@ def compare(case, engine, gate, old):
     kind = "worse" if gate.verdict != "PASS" else "better"
     if old is None:
         return Change(case, where, "no gate", gate.verdict, kind, 5.0) if kind == "worse" else None
-    share, verdict, allowed = old
+    share, verdict, allowed, knobs = old
     if verdict != gate.verdict:
         return Change(case, where, verdict, gate.verdict, kind, 10.0)
     if allowed not in (None, gate.allowed):
         return Change(case, where, allowed, gate.allowed, "limit", 0.0)
     if is_number(share) and is_number(gate.used) and abs(gate.used - share) > MOVED and max(share, gate.used) > 0.2:
-        return Change(case, where, f"{100 * share:.0f} %", f"{100 * gate.used:.0f} % of the limit", "worse" if gate.used > share else "better", abs(gate.used - share))
+        changed = settings_changed(knobs, knobs_of(engine, gate))
+        return Change(case, f"{where}: {changed}" if changed else where, f"{100 * share:.0f} %", f"{100 * gate.used:.0f} % of the limit", "apart" if changed else "worse" if gate.used > share else "better", abs(gate.used - share))
     return None
 
 
+def knobs_of(engine, gate):
+    """What the run was made with that a gate judged; {} where no run is that of the gate."""
+    of_mode = [run for run in engine.runs if gate.mode in ("", run.mode)]
+    run = next((run for run in of_mode if (run.base if gate.level is None else gate.level in run.levels.values())), None)
+    return {name: run.knob(name) for name in KNOBS} if run is not None else {}
+
+
+def settings_changed(before, after):
+    """"its step changed, 0.742 to 0.437 ms"; empty where both were made with the same, or nobody knows."""
+    found = []
+    for name, (word, scale, unit) in KNOBS.items():
+        old, new = before.get(name), after.get(name)
+        if is_number(old) and is_number(new) and abs(new - old) > STEP * max(abs(old), abs(new)):
+            found.append(f"its {word} changed, {scale * old:.4g} to {scale * new:.4g}{unit}")
+    return ", ".join(found)
+
+
 def bits(results, before):
-    """(runs with the same bits as before, runs that both have); None without a run before."""
+    """(runs with the same bits as before, runs that both have, [(case, run's folder)] of the others); None without a run before."""
     def hashes(of):
         return {(case.id, engine.label, run.folder): run.state_hash for case in of.cases for engine in case.engines for run in engine.runs if run.state_hash}
     if before is None:
         return None
     now, then = hashes(results), hashes(before)
-    both = now.keys() & then.keys()
-    return sum(now[key] == then[key] for key in both), len(both)
+    cases = {case.id: case for case in results.cases}
+    both = [key for key in now if key in then]
+    others = [(cases[key[0]], key[2].removeprefix("runs/")) for key in both if now[key] != then[key]]
+    return len(both) - len(others), len(both), others
 
 
 def nearest(results):

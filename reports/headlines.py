@@ -40,14 +40,23 @@ def case_of(results, case_id):
     return next((case for case in results.cases if case.id == case_id), None)
 
 
-def runs_of(case):
-    """(engine, run) of each engine and preset at the case's own resolution; ours in its corrected form only."""
+PRINTED = " as printed"  # our own solver by the paper's equations
+
+
+def runs_of(case, printed=False):
+    """(engine, run) of each engine and preset at the case's own resolution; of ours the corrected form, or the printed one alone."""
     found = []
     for engine in case.engines:
-        run = next((run for run in engine.runs if run.base and run.status == "ok" and run.mode != "paper"), None)
+        run = next((run for run in engine.runs if run.base and run.status == "ok" and (run.mode == "paper") == printed), None)
         if run is not None:
             found.append((engine, run))
     return found
+
+
+def step_of(run):
+    """The run's time step as text, in milliseconds."""
+    step = run.knob("time_step")
+    return f"{1e3 * step:.4g} ms" if is_number(step) else "—"
 
 
 def value(run, metric):
@@ -84,15 +93,16 @@ def by_engine(labels):
 
 
 def trajectories_of(results, case):
-    """[(engine, run, trajectory)], `exact` first; what cannot be read is left out."""
+    """[(label, trajectory)], `exact` first and printed forms last; what cannot be read is left out."""
     from trajectories import NoTrajectory, read
     found = []
-    for engine, run in runs_of(case):
-        try:
-            found.append((engine, run, read(results.folder, run)))
-        except NoTrajectory:
-            continue
-    return sorted(found, key=lambda entry: entry[0].name != "exact")
+    for printed in (False, True):
+        for engine, run in runs_of(case, printed):
+            try:
+                found.append((engine.label + (PRINTED if printed else ""), read(results.folder, run)))
+            except NoTrajectory:
+                continue
+    return sorted(found, key=lambda entry: entry[0] != "exact")
 
 
 # --- does your engine spin a free body right? ---------------------------------------------------------------------------
@@ -136,22 +146,30 @@ def spin(results, out):
     case = case_of(results, SPIN)
     if case is None:
         return None
-    lines = []
-    for engine, run in runs_of(case):
+    strangers, printed = spins_of(case), spins_of(case, printed=True)
+    if not strangers:
+        return None
+    right = [label for angle, label, _, _ in strangers if angle < 0.01]
+    steps = sorted({step for _, _, _, step in strangers + printed})
+    end = f"after 10 s of tumbling at {'a step' if len(steps) == 1 else 'steps'} of {join(steps)}, {of_all(len(right), len(strangers))} point within 0.01 rad of the truth"
+    far = f"; {strangers[-1][1]} is {strangers[-1][0]:.4g} rad off" if strangers[-1][0] >= 0.01 else ""
+    own = "".join(f"; {label} is {angle:.4g} rad off" for angle, label, _, _ in printed)
+    answer = f"{'Yes for ' + join(list(by_engine(right))) if right else 'No'}: {end}{far}{own}."
+    picture = curves_picture(results, out, case, "spin", "Height of the long axis's tip over ten seconds", "z of the body's long axis [1]", tip, "orientation", "Dots are the frames that were written; between them, cubics by attitude and angular velocity.")
+    return Page("spin.html", "Does your engine spin a free body right?", answer, picture, ["engine", "time step", "angle error [rad]", "[degrees]", "energy error", "order"],
+                [Line(label, cells, "pass" if angle < 0.01 else "fail" if angle > 0.1 else "open") for angle, label, cells, _ in sorted(strangers + printed)], cases=[case],
+                notes=[f'"{PRINTED.strip()}": our own solver by the equations as the paper prints them, the mode paper of the case.'] if printed else [])
+
+
+def spins_of(case, printed=False):
+    """[(angle error, label, cells of the table, step)], the best first."""
+    found = []
+    for engine, run in runs_of(case, printed):
         angle = value(run, "angle")
         if engine.name != "exact" and angle is not None:
-            order = next((o for o in engine.orders if o.metric == "angle" and o.mode != "paper"), None)
-            lines.append((abs(angle), engine.label, [f"{abs(angle):.2g}", f"{math.degrees(abs(angle)):.2g}", signed_energy(run), f"{order.value:.1f}" if order and is_number(order.value) else "—"]))
-    if not lines:
-        return None
-    lines.sort()
-    right = [label for angle, label, _ in lines if angle < 0.01]
-    end = f"after 10 s of tumbling at the case's step, {of_all(len(right), len(lines))} point within 0.01 rad of the truth"
-    far = f"; {lines[-1][1]} is {lines[-1][0]:.2g} rad off" if lines[-1][0] >= 0.01 else ""
-    answer = f"{'Yes for ' + join(list(by_engine(right))) if right else 'No'}: {end}{far}."
-    picture = curves_picture(results, out, case, "spin", "Height of the long axis's tip over ten seconds", "z of the body's long axis [1]", tip, "orientation", "Dots are the frames that were written; between them, cubics by attitude and angular velocity.")
-    return Page("spin.html", "Does your engine spin a free body right?", answer, picture, ["engine", "angle error [rad]", "[degrees]", "energy error", "order"],
-                [Line(label, cells, "pass" if angle < 0.01 else "fail" if angle > 0.1 else "open") for angle, label, cells in lines], cases=[case])
+            order = next((o for o in engine.orders if o.metric == "angle" and (o.mode == "paper") == printed), None)
+            found.append((abs(angle), engine.label + (PRINTED if printed else ""), [step_of(run), f"{abs(angle):.4g}", f"{math.degrees(abs(angle)):.3g}", signed_energy(run), f"{order.value:.1f}" if order and is_number(order.value) else "—"], step_of(run)))
+    return sorted(found)
 
 
 def signed_energy(run):
@@ -243,22 +261,23 @@ def hues(labels):
 def curves_picture(results, out, case, name, title, axis_label, curve, needs, how=""):
     """Every engine's own curve over the exact one, which is wide and grey. @param curve trajectory -> (times, values, rates or None)"""
     from figures import style
-    shown = [entry for entry in trajectories_of(results, case) if needs in entry[2].bodies]
+    shown = [entry for entry in trajectories_of(results, case) if needs in entry[1].bodies]
     if not shown:
         return None
-    labels = [engine.label for engine, _, _ in shown if engine.name != "exact"][:STRANGERS]
+    printed = [label for label, _ in shown if label.endswith(PRINTED)]
+    labels = [label for label, _ in shown if label != "exact" and label not in printed][:STRANGERS - len(printed)] + printed
     looks = hues(labels)
 
     def draw(width):
         figure, axis = canvas(width, 4.2)
-        for engine, _, trajectory in shown:
+        for label, trajectory in shown:
             times, values, rates = curve(trajectory)
-            if engine.name == "exact":
+            if label == "exact":
                 axis.plot(*smooth(times, values, rates), color=style.GREY, linewidth=5, alpha=0.55, label="exact", zorder=1)
-            elif engine.label in looks:
-                axis.plot(*smooth(times, values, rates), linewidth=1.3, label=engine.label, zorder=2, **looks[engine.label])
+            elif label in looks:
+                axis.plot(*smooth(times, values, rates), linewidth=1.3, label=label, zorder=2, **looks[label])
                 if rates is not None:
-                    axis.plot(times, values, linestyle="none", marker="o", markersize=2.2, color=looks[engine.label]["color"], zorder=3)
+                    axis.plot(times, values, linestyle="none", marker="o", markersize=2.2, color=looks[label]["color"], zorder=3)
         axis.set_xlabel("time [s]")
         axis.set_ylabel(axis_label)
         frame(figure, axis, len(labels) + 1)

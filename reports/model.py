@@ -11,6 +11,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 
+COUNTED = ("body_count", "bonded_objects", "object_count", "phase_count", "event_count")  # quantities that count; their metric is the distance to the number that the case states
+
+
 def number(value, finite=True):
     """A float; NaN for what was not finite; None for what is not a number at all."""
     if value is None:

@@ -20,7 +20,7 @@ import stability
 import stability_peers
 import summary
 import table1
-from model import is_number, number
+from model import COUNTED, is_number, number
 
 TEMPLATES = Path(__file__).resolve().parent / "templates"
 VENDOR = Path(__file__).resolve().parent / "vendor"  # Tabulator as npm has it; tests/reports holds its hash
@@ -69,6 +69,19 @@ def judged(gate):
     return summary.DEFECT if gate.verdict == "PASS" and gate.reason.startswith(summary.PREDICTED) else gate.verdict
 
 
+def of_one_value(gates):
+    """[[gate]]: gates that judge the same value stand together, in the order in which values come first."""
+    found = {}
+    for gate in gates:
+        found.setdefault((gate.metric, gate.mode, gate.level), []).append(gate)
+    return list(found.values())
+
+
+def worded(value, metric):
+    """A metric's value; 0 of a count or of a difference of counts is said in a word, so that nobody takes it for nothing."""
+    return "0, equal" if value == 0 and metric and metric.get("quantity") in COUNTED else show(value)
+
+
 def script_hash(script):
     """What the page's policy lets run: this text and no other."""
     return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
@@ -106,8 +119,8 @@ def truth(row, case, side):
 def environment():
     import jinja2
     made = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    made.filters.update(show=show, size=size, percent=percent, tone=summary.tone, page=page_of, terms=terms, measure=measure, truth=truth, judged=judged, hash=script_hash,
-                        headline=summary.headline, standings=summary.standings, ran=summary.ran, share=front.worst_share)
+    made.filters.update(show=show, size=size, percent=percent, tone=summary.tone, page=page_of, terms=terms, measure=measure, truth=truth, judged=judged, hash=script_hash, of_one_value=of_one_value, worded=worded,
+                        turn=lambda kind: front.WORDS.get(kind, kind), headline=summary.headline, standings=summary.standings, ran=summary.ran, share=front.worst_share)
     return made
 
 
@@ -158,7 +171,7 @@ def render_digit_cost(results, out):
         picture = digit_cost.draw(ladders, out)
     except Exception as error:  # no library, or odd data: the table stands without its figure
         picture, notes = None, [f"the figure could not be drawn: {error}"]
-    return fill("digit_cost.html.j2", results, ladders=ladders, picture=picture, notes=notes)
+    return fill("digit_cost.html.j2", results, ladders=ladders, bare=digit_cost.without_study(results), picture=picture, notes=notes)
 
 
 def render_ablation(results):
@@ -185,7 +198,7 @@ def render_signable(results):
 def render_case(results, case, pictures, notes):
     """@param pictures, notes: what figures.draw_case gave   @return HTML of one case"""
     before, after = (results.cases[n] if 0 <= n < len(results.cases) else None for n in (case.number - 1, case.number + 1))
-    return fill("case.html.j2", results, case=case, drawings=pictures, told=notes, before=before, after=after, up="../")
+    return fill("case.html.j2", results, case=case, declared={metric.get("name"): metric for metric in case.metrics}, drawings=pictures, told=notes, before=before, after=after, up="../")
 
 
 def render(results, missing_libraries, headlines=(), beside=()):

@@ -101,7 +101,8 @@ std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& 
     const bool of_level = !g.level || std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *g.level); });
     const bool ours = (g.engine.empty() || g.engine == plan.name) && (g.mode.empty() || g.mode == run.mode) && (g.preset.empty() || g.preset == plan.preset);
     if (g.metric != metric || !ours || !of_level) continue;
-    if (g.limit) text += fmt::format("  limit {:.4g} ({:.3g} % of it)", *g.limit, 100.0 * (std::abs(m.value) + 2.0 * m.uncertainty.combined()) / *g.limit);
+    if (g.limit && *g.limit > 0.0) text += fmt::format("  limit {:.4g} ({:.3g} % of it)", *g.limit, 100.0 * (std::abs(m.value) + 2.0 * m.uncertainty.combined()) / *g.limit);
+    else if (g.limit) text += fmt::format("  limit {:.4g}", *g.limit);  // a share of nothing is no number
     if (g.at_least) text += fmt::format("  at least {:.4g}", *g.at_least);
     if (g.band) text += fmt::format("  band {:.4g} to {:.4g}", (*g.band)[0], (*g.band)[1]);
   }

@@ -29,5 +29,6 @@ void add_releases(CLI::App& app, int& exit_code);
 void add_bench(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
+void add_view(CLI::App& app, int& exit_code);
 
 }  // namespace tripoint

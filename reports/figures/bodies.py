@@ -23,6 +23,7 @@ def draw(case, trajectories, notes):
         notes.append(f"curves show the first {MOST_BODIES} of {most} bodies")
     truth = next((curve for curve, _ in shown if curve.engine.name == "exact"), None)
     left = [residual(title, lines, truth) for title, lines in wanted]
+    order = who_leads(wanted[0][0], left[0]) if wanted[0][0].endswith("of the centre [m]") else ""
     columns = min(len(wanted), 2)
     ordered = [panel for n in range(0, len(wanted), columns) for panel in (wanted[n:n + columns] + [None] * (columns - len(wanted[n:n + columns])) + (left[n:n + columns] + [None] * (columns - len(left[n:n + columns])) if any(left[n:n + columns]) else []))]
     figure, axes = style.panels(len(ordered), len(shown), height=2.3, columns=columns)
@@ -41,7 +42,20 @@ def draw(case, trajectories, notes):
         axis.set_ylabel(title)
     style.legend(figure, axes)
     return Drawing("bodies", "Bodies in time", "Position, rotation and energy of the bodies against time for " + ", ".join(c.label for c, _ in shown) + ".", figure,
-                   "Each engine at the case's own resolution; below a curve, what is left between engine and exact. Turn from the start is the angle of the rotation that leads from the first attitude to the present one." + (" Solid: the first body; dashes: further ones." if most > 1 else ""))
+                   "Each engine at the case's own resolution; below a curve, what is left between engine and exact. Turn from the start is the angle of the rotation that leads from the first attitude to the present one." + (" Solid: the first body; dashes: further ones." if most > 1 else "") + order)
+
+
+def who_leads(title, left):
+    """A sentence: by how much each engine's first body lags or leads the exact one at the end, in the direction of the panel's axis."""
+    ends = {curve.label: values[-1] for curve, _, values, nth in left[1] if nth == 0 and len(values) and np.isfinite(values[-1])} if left else {}
+    if not ends:
+        return ""
+    biggest = max(map(abs, ends.values()))
+    none = 1e-3 * biggest
+    parts = [f"{label} {'lags' if value < 0 else 'leads'} by {abs(value):.4g} m" for label, value in sorted(ends.items(), key=lambda entry: entry[1]) if abs(value) > none]
+    level = [label for label, value in ends.items() if abs(value) <= none]
+    rest = f"; within {float(f'{max(abs(ends[label]) for label in level):.1g}') or 0:g} m of exact: {', '.join(level)}" if level and parts else ""
+    return f" At the end, in {title[0]} against exact: {', '.join(parts)}{rest}. To lag is to have less of {title[0]} than exact, to lead more." if parts else ""
 
 
 def residual(title, lines, truth):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from model import Case, Engine, is_number
+from model import COUNTED, Case, Engine, is_number
 
 
 @dataclass
@@ -43,9 +43,9 @@ class Drawing:
 
 def label_metric(axis, case, metric):
     """Name at the axis; a unit of several words stands over the panel."""
-    unit = case.units.get(metric) or ""
-    axis.set_ylabel(f"{metric} [{unit}]" if unit and len(unit) < 8 else metric)
-    if len(unit) >= 8:
+    unit = case.units.get(metric) or ("0: equal" if any(row.get("name") == metric and row.get("quantity") in COUNTED for row in case.metrics) else "")
+    axis.set_ylabel(f"{metric} [{unit}]" if unit and len(unit) < 9 else metric)
+    if len(unit) >= 9:
         axis.set_title(unit, loc="right", fontsize=8)
 
 

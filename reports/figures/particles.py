@@ -43,17 +43,19 @@ def draw(case, trajectories, notes):
     ratio = (high - low)[0] / (high - low)[1]
     times = 1 if flight or ratio > 6 else 3 if ratio > 2.5 else 5
     columns = min(len(shown), 4 if ratio < 1.2 else 2) if times == 1 and ratio < 6 else times
-    sheet = Sheet(-(-len(shown) // columns) if flight else len(shown), columns, low, high, 0.62 if warm else 0.42)
+    strips = [(curve, t, rest, by_phase) for (curve, t), rest in zip(shown, resting) for by_phase in ((False, True) if warm and changes_phase(t) else (False,))]
+    both = len(strips) > len(shown)
+    sheet = Sheet(-(-len(shown) // columns) if flight else len(strips), columns, low, high, (0.88 if both else 0.62) if warm else 0.42)
     kinds, outside = set(), 0
-    for line, ((curve, t), rest) in enumerate(zip(shown, resting)):
+    for line, (curve, t, rest, by_phase) in enumerate(strips):
         chosen = t.strobe if flight else [t.strobe[k] for k in np.unique(np.linspace(0, len(t.strobe) - 1, times).round().astype(int))] if times > 1 else t.strobe[-1:]
         for k, frame in enumerate(chosen):
             place = line if flight else line * columns + k
             pale = 1.0 if not flight or k == len(chosen) - 1 else 0.12 + 0.35 * k / len(chosen)
-            kinds |= panel(sheet, place, curve, t, frame, rest, view, warm, flat, pale)
+            kinds |= panel(sheet, place, curve, t, frame, rest, view, warm, flat, pale, by_phase)
             if line == 0 and not flight:
                 sheet.write(place, 0.0, 1.0, f"t = {style.power(frame.time) if frame.time else 0} s", (0, 3), "bottom", style.SOFT)
-        sheet.write(line if flight else line * columns, 0.0, 1.0, curve.label, (3, -3), "top", style.look(curve)["color"], "bold")
+        sheet.write(line if flight else line * columns, 0.0, 1.0, curve.label + (", phase" if by_phase else ""), (3, -3), "top", style.look(curve)["color"], "bold")
         outside = max(outside, beyond(view(chosen[-1].position), low, high))
     how = sheet.legend(warm, kinds)
     end = first.strobe[-1].time
@@ -79,6 +81,12 @@ def warmth(shown):
     if not values.size or np.ptp(values) <= 1e-9 * max(1.0, abs(values).max()):
         return None
     return float(values.min()), float(values.max())
+
+
+def changes_phase(trajectory):
+    """Whether a particle has another phase in one frame than in another: then the picture of temperatures alone does not show what the case is about."""
+    phases = [frame.phase for frame in trajectory.strobe if frame.phase is not None]
+    return any((after[there] != before[there]).any() for before, after in zip(phases, phases[1:]) if len(before) == len(after) for there in [(before >= 0) & (after >= 0)])
 
 
 def still(trajectory):
@@ -199,11 +207,18 @@ class Sheet:
             self.axis.set_ylim(0, self.total)
             for share in (0.0, 0.5, 1.0):
                 self.axis.annotate(f"{warm[0] + share * (warm[1] - warm[0]):.4g}{' K' if share == 1 else ''}", (3.2 + 2.8 * share, 0.13), ha="center", fontsize=8)
-            return "coloured by temperature on one scale"
+            if not kinds:
+                return "coloured by temperature on one scale"
         names = [KINDS[k] for k in sorted(kinds)]
-        for n, (name, hue) in enumerate(names):
-            self.axis.plot([3.2 + 1.9 * n - (0.8 if len(names) > 3 else 0.0)], [0.18], "o", color=hue, markersize=5)
-            self.axis.annotate(name, (3.3 + 1.9 * n - (0.8 if len(names) > 3 else 0.0), 0.18), va="center", fontsize=8)
+        height = 0.18 if warm is None else 0.58
+        widths = [0.35 + 0.062 * len(name) if len(names) > 3 else 1.9 for name, _ in names]
+        at = min(3.2, style.WIDTH - 0.1 - sum(widths))
+        for (name, hue), wide in zip(names, widths):
+            self.axis.plot([at], [height], "o", color=hue, markersize=5)
+            self.axis.annotate(name, (at + 0.1, height), va="center", fontsize=8)
+            at += wide
+        if warm is not None:
+            return "coloured by temperature on one scale, and below it by phase"
         return "coloured by phase" if kinds else "coloured by body"
 
 
@@ -215,8 +230,8 @@ def round_below(length):
     return next(n * ten for n in (5, 2, 1) if n * ten <= length * (1 + 1e-9))
 
 
-def panel(sheet, place, curve, trajectory, frame, rest, view, warm, flat, pale):
-    """Draws one time of one engine. @return kinds that it shows"""
+def panel(sheet, place, curve, trajectory, frame, rest, view, warm, flat, pale, by_phase):
+    """Draws one time of one engine. @param by_phase coloured by phase, whatever the temperatures   @return kinds that it shows"""
     seen = view(frame.position)
     here = np.isfinite(seen).all(axis=1) & (seen[:, :2] > sheet.low).all(axis=1) & (seen[:, :2] < sheet.high).all(axis=1)
     if not flat and rest.any() and (here & ~rest).any():
@@ -226,7 +241,7 @@ def panel(sheet, place, curve, trajectory, frame, rest, view, warm, flat, pale):
     front = in_front(seen[chosen], rest[chosen] if flat else np.zeros(len(chosen), bool), max(0.55 * (curve.shown.knob("spacing") or 0.0), (sheet.high - sheet.low).max() / CELLS))
     chosen = chosen[front]
     chosen = chosen[np.argsort(-seen[chosen, 2], kind="stable")]
-    colours, kinds = hues(trajectory, frame, rest, chosen, seen[chosen, 2], warm)
+    colours, kinds = hues(trajectory, frame, rest, chosen, seen[chosen, 2], warm, by_phase)
     sheet.draw(place, seen[chosen], marker_area(sheet, curve, len(chosen)), pale, colours)
     lost = int((~np.isfinite(frame.position).all(axis=1)).sum())
     if lost and frame is trajectory.strobe[-1] and np.isfinite(trajectory.strobe[0].position).all():
@@ -263,14 +278,14 @@ def kinds_of(trajectory, frame, rest):
     return kind
 
 
-def hues(trajectory, frame, rest, chosen, depth, warm):
+def hues(trajectory, frame, rest, chosen, depth, warm, by_phase):
     """(colours for scatter, indices of KINDS that are shown): by temperature, by phase, or by body where all are solids of one phase."""
-    if warm is not None and frame.temperature is not None:
+    if warm is not None and frame.temperature is not None and not by_phase:
         return {"c": frame.temperature[chosen], "cmap": style.TEMPERATURE, "vmin": warm[0], "vmax": warm[1]}, set()
     span = np.ptp(depth) if len(depth) else 0.0
     shade = 0.7 + 0.3 * (depth.max() - depth) / span if span > 0 else np.ones(len(depth))
     kind = kinds_of(trajectory, frame, rest)
-    if kind is not None and (kind < 3).any():
+    if kind is not None and (by_phase or (kind < 3).any()):
         table = np.array([matplotlib.colors.to_rgb(hue) for _, hue in KINDS])
         return {"c": table[kind[chosen]] * shade[:, None]}, set(kind[chosen].tolist())
     bodies = trajectory.body[chosen].astype(int) if trajectory.body is not None else np.zeros(len(chosen), int)

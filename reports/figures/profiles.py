@@ -17,14 +17,15 @@ def draw(case, trajectories, notes):
     along = int(np.argmax(np.ptp(first[np.isfinite(first).all(axis=1)], axis=0)))
     exact = next(((curve, t) for curve, t in shown if curve.engine.name == "exact"), None)
     figure, axes = style.panels(2 if exact and len(shown) > 1 else 1, len(shown))
-    truth = binned(exact[1], along) if exact else None
+    truth, scattered = binned(exact[1], along) if exact else None, False
     for curve, trajectory in shown:
         x, value, error = binned(trajectory, along)
         look = style.look(curve)
         if curve.engine.name == "exact":
             axes[0].plot(x, value, color=style.INK, linewidth=2.2, alpha=0.75, label=curve.label, zorder=1)
             continue
-        lines = {"label": curve.label, "color": look["color"], "linestyle": look["linestyle"], "linewidth": 1.0, "marker": look["marker"], "markersize": 3, "markevery": max(1, len(x) // 40)}
+        scattered |= wavers(value)
+        lines = {"label": curve.label, "color": look["color"], "linestyle": "none" if wavers(value) else look["linestyle"], "linewidth": 1.0, "marker": look["marker"], "markersize": 3, "markevery": 1 if wavers(value) else max(1, len(x) // 40), "markerfacecolor": "none" if look["linestyle"] == "--" else look["color"]}
         axes[0].errorbar(x, value, yerr=bars(error), elinewidth=0.7, errorevery=max(1, len(x) // 40), **lines)
         if truth is not None and not same_places(x, truth[0]):
             notes.append(f"{curve.label}: its particles are not those of the exact run, so no difference of profiles is drawn")
@@ -33,12 +34,22 @@ def draw(case, trajectories, notes):
     for axis in axes:
         axis.set_xlabel(f"{'xyz'[along]} [m]")
     axes[0].set_ylabel("temperature [K]")
+    low, high = axes[0].get_ylim()
+    if high - low < 1e-6 * max(abs(low), abs(high)):  # nothing but round-off along this axis: its digits do not fit beside it
+        axes[0].set_ylim(0.5 * (low + high) - 1.0, 0.5 * (low + high) + 1.0)
     if len(axes) > 1:
         axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
         axes[1].set_ylabel("engine minus exact [K]")
     style.legend(figure, axes)
     return Drawing("profile", "Temperature profile", f"Temperature along {'xyz'[along]} for {', '.join(c.label for c, _ in shown)}" + (", and difference from the exact profile." if exact else "."), figure,
-                   "Mean over the particles at each place along the axis at the final time, at the case's own resolution. Bars: two standard errors where the engine states them.")
+                   "Mean over the particles at each place along the axis at the final time, at the case's own resolution. Bars: two standard errors where the engine states them." + (" Points without a line: temperature is no function of this place alone." if scattered else ""))
+
+
+def wavers(values):
+    """Whether a line through the points would go up and down with almost every one of them: what lies beside one another is then of different bodies."""
+    steps = np.diff(values)
+    steps = steps[np.abs(steps) > 0.02 * np.ptp(values)]
+    return len(steps) > 3 and np.count_nonzero(steps[1:] * steps[:-1] < 0) >= 0.3 * len(steps)
 
 
 def same_places(a, b):

@@ -67,7 +67,7 @@ def panels(count, labels, height=2.9, columns=None):
     axes = [figure.add_subplot(lines, columns, k + 1) for k in range(count)]
     for axis in axes:
         axis.locator_params(nbins=6)
-        axis.ticklabel_format(axis="y", scilimits=(-3, 5))
+        axis.ticklabel_format(axis="y", scilimits=(-3, 4))
     figure.subplots_adjust(left=0.72 / width, right=1 - 0.15 / width, bottom=0.5 / total, top=1 - above / total, wspace=0.24 if columns < 3 else 0.4, hspace=0.36)
     return figure, axes
 

@@ -7,6 +7,8 @@ from model import is_number
 from . import style
 from .curve import Drawing, judged, label_metric, metrics
 
+KNOBS = (("walkers", "N"), ("spacing", "dx"), ("time_step", "dt"), ("iterations", "it"), ("support_ratio", "h/dx"))
+SHORT = {"N": "walkers", "dx": "spacing [m]", "dt": "time step [s]", "it": "iterations", "h/dx": "support ratio"}
 
 def draw(case, trajectories, notes):
     names, rest = metrics(case, 2)
@@ -14,27 +16,32 @@ def draw(case, trajectories, notes):
     if not names or not several or sum(len(curve.runs) for curve in judged(case)) < 2:
         return None  # the two forms of one engine at one resolution are no trade of work for precision
     figure, axes = style.panels(len(names), len(judged(case)) + 1, height=3.1)
-    for axis, metric in zip(axes, names):
-        panel(case, axis, metric)
+    drawn = [panel(case, axis, metric) for axis, metric in zip(axes, names)]
     style.legend(figure, axes)
+    meant = list(dict.fromkeys(words.rpartition(" ")[0] for written, _ in drawn for words in written))
+    what = f" Labels: {', '.join(f'{word} = {SHORT[word]}' for word in meant)}." if meant else ""
+    lineless = " Points without a line: several runs of one level, or seconds that do not follow what was refined." if any(loose for _, loose in drawn) else ""
     return Drawing("work-precision", "Work and precision", f"Log-log plot of {', '.join(names)} against CPU seconds for each engine and mode, with the Pareto front.", figure,
-                   "Lower left is better; the engine exact, which evaluates the reference, is left out. Labels: what was refined. Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: runs that failed or gave no number." + (f" In the table of runs alone: {', '.join(rest)}." if rest else ""))
+                   "Lower left is better; the engine exact, which evaluates the reference, is left out." + what + lineless + " Wide grey line: Pareto front, where no other run is both faster and more accurate. Crosses at the edge: runs that failed or gave no number." + (f" In the table of runs alone: {', '.join(rest)}." if rest else ""))
 
 
 def panel(case, axis, metric):
-    good, bad, labels = [], [], []
+    """@return the labels that were written, and whether points of a curve stand without a line"""
+    good, bad, labels, loose = [], [], [], False
     for curve in judged(case):
         look, own = style.look(curve), []
         for run in curve.runs:
             m, cost = run.metrics.get(metric), run.cost.get("cpu_s")
             sound = run.status == "ok" and m and is_number(m.value) and is_number(cost) and cost > 0
             if sound and m.value != 0:
-                own.append((cost, abs(m.value), m.u or 0.0, label(curve, run)))
+                own.append((cost, abs(m.value), m.u or 0.0, *label(curve, run)))
             elif (m or run.status != "ok") and run.status not in ("refused", "missing"):
                 bad.append((cost, "0" if sound else run.status if run.status != "ok" else "no number", look["color"]))
         if own:
+            if len(own) > 1 and not is_ladder(own):
+                look["linestyle"], loose = "none", True
             own.sort()
-            x, y, u, words = zip(*own)
+            x, y, u, words, _ = zip(*own)
             axis.errorbar(x, y, yerr=[[min(2 * s, 0.95 * e) for e, s in zip(y, u)], [2 * s for s in u]], capsize=2, elinewidth=0.8, label=curve.label, **look)
             for k in sorted({0, len(own) - 1}):
                 labels.append((words[k], (x[k], y[k]), look["color"]))
@@ -49,15 +56,25 @@ def panel(case, axis, metric):
     failed(axis, bad, good)
     axis.set_xlabel("CPU seconds, all threads")
     label_metric(axis, case, metric)
+    return [words for words, _, _ in labels if words], loose
 
 
 def label(curve, run):
-    """The knob in which this curve's runs differ, and its value."""
-    for name, short in (("walkers", "N"), ("spacing", "dx"), ("time_step", "dt"), ("iterations", "it"), ("support_ratio", "h/dx")):
+    """The knob in which this curve's runs differ, with its value, as text; and the value. ("", None) where they differ in none."""
+    for name, short in KNOBS:
         values = {r.knob(name) for r in curve.runs}
         if len(values) > 1 and is_number(run.knob(name)):
-            return f"{short} {style.power(run.knob(name))}"
-    return ""
+            return f"{short} {style.power(run.knob(name))}", run.knob(name)
+    return "", None
+
+
+def is_ladder(own):
+    """Whether runs, by what was refined in them, cost more and more or less and less: a line through them then goes one way."""
+    levels = [level for *_, level in own]
+    if None in levels or len(set(levels)) < len(levels):
+        return False
+    costs = [entry[0] for entry in sorted(own, key=lambda entry: entry[-1])]
+    return costs == sorted(costs) or costs == sorted(costs, reverse=True)
 
 
 def front(axis, good):

@@ -14,10 +14,11 @@ PATIENCE = 120  # s
 class Browser:
     """One page of one Chromium. @raises OSError where it does not start"""
 
-    def __init__(self):
+    def __init__(self, *more):
+        """@param more: words of its command line, as those that let it draw in three dimensions without a graphics card"""
         self.home = tempfile.TemporaryDirectory(prefix="chromium-", ignore_cleanup_errors=True)
         (read, self.to), (self.out, write) = os.pipe(), os.pipe()
-        command = [shutil.which("chromium"), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--remote-debugging-pipe", f"--user-data-dir={self.home.name}", "--no-first-run", "--disable-extensions", "about:blank"]
+        command = [shutil.which("chromium"), "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--remote-debugging-pipe", f"--user-data-dir={self.home.name}", "--no-first-run", "--disable-extensions", *more, "about:blank"]
 
         def give():
             os.dup2(read, 30), os.dup2(write, 31)

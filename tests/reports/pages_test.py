@@ -97,6 +97,53 @@ class DigitCost(Pages):
     def test_what_has_no_study_is_not_on_the_page(self):
         self.assertEqual(digit_cost.read(self.load(case([ladder(2.0, 5.0)]))), [])
 
+    def test_cases_without_a_study_are_named(self):
+        self.write(case([ladder(2.0, 5.0)], studies=[study()]), case([ladder(2.0, 5.0)], "phase/bare"))
+        text = self.text("digit-cost.html")
+        self.assertIn("Cases without a study: 1", text)
+        self.assertIn("phase/bare", text[text.index("Cases without a study"):])
+        self.assertNotIn("heat/one", text[text.index("Cases without a study"):])
+
+
+def gated(value, step=1e-3, verdict="pass", state="a", limit=1.0):
+    gate = {"metric": "error", "mode": "corrected", "value": value, "limit": limit, "verdict": verdict, "reason": "r"}
+    run = {"knobs": {"mode": "corrected", "time_step": step}, "base": True, "status": "ok", "metrics": {"error": {"value": value}}, "cost": {}, "state_hash": state, "folder": "runs/heat/one/tripoint"}
+    return case([{"name": "tripoint", "status": "ok", "runs": [run], "gates": [gate]}])
+
+
+class SinceTheLastRun(Pages):
+    def front(self, before, now):
+        self.load(before)
+        (self.path / "results.json").rename(self.path / "results.previous.json")
+        self.write(now)
+        text = self.text("index.html")
+        return text[text.index("Since the last run"):text.index("Engines by subject")]
+
+    def test_says_that_nothing_got_worse_only_where_nothing_did(self):
+        self.assertIn("Nothing got worse.", self.front(gated(0.5), gated(0.5)))
+        self.assertIn("Nothing got worse.", self.front(gated(0.5), gated(0.3)))
+        self.assertNotIn("Nothing got worse", self.front(gated(0.5), gated(0.9)))
+        self.assertNotIn("Nothing got worse", self.front(gated(0.9), gated(1.1, verdict="fail")))
+
+    def test_a_figure_made_at_another_step_is_not_called_better_or_worse(self):
+        text = self.front(gated(0.7, 0.742e-3), gated(0.35, 0.437e-3))
+        self.assertIn("not comparable heat/one tripoint error corrected: its step changed, 0.742 to 0.437 ms: 70 % → 35 % of the limit", text)
+        self.assertIn("Nothing got worse, of what can be compared.", text)
+        self.assertNotIn("better", text)
+        self.assertIn("better heat/one", self.front(gated(0.7, 0.742e-3), gated(0.35, 0.741e-3)))
+
+    def test_a_gate_that_falls_is_worse_at_any_step(self):
+        self.assertIn("worse heat/one", self.front(gated(0.7, 1e-3), gated(1.2, 2e-3, "fail")))
+
+    def test_runs_that_ended_in_other_bits_are_named(self):
+        text = self.front(gated(0.5), gated(0.5, state="b"))
+        self.assertIn("0 of 1 runs ended in the same bits as before. The other 1 heat/one/tripoint", text)
+        self.assertNotIn("The other", self.front(gated(0.5), gated(0.5)))
+
+    def test_the_nearest_gates_say_whether_they_hold(self):
+        self.assertIn("100 % holds", self.front(gated(1.0), gated(1.0)))
+        self.assertIn("120 % fails", self.front(gated(1.2, verdict="fail"), gated(1.2, verdict="fail")))
+
 
 class Corrections(Pages):
     def ablate(self, printed, corrected=0.01):
@@ -273,6 +320,68 @@ class Headlines(Pages):
             self.assertIn("angle: observed order", svg)
             self.assertIn("energy: error", svg)
             self.assertNotIn("energy: observed order", svg)
+
+
+class Spin(Pages):
+    def test_the_printed_form_of_our_own_solver_and_the_step_are_shown(self):
+        def run(mode, angle):
+            return {"knobs": {"mode": mode, "time_step": 0.01}, "base": True, "status": "ok", "metrics": {"angle": {"value": angle}, "energy": {"value": 0.1}}, "cost": {}}
+        engines = [{"name": "tripoint", "status": "ok", "runs": [run("corrected", 3.6e-5), run("paper", 1.9007)], "gates": []},
+                   {"name": "bullet", "status": "ok", "runs": [run(None, 0.60346)], "gates": []}]
+        (page,), notes = headlines.pages(self.load(case(engines, "rigid/torque-free")), self.path)
+        self.assertEqual(notes, [])
+        self.assertIn("at a step of 10 ms, 1 of 2 engines and presets point within 0.01 rad of the truth; bullet is 0.6035 rad off; tripoint as printed is 1.901 rad off.", page.answer)
+        self.assertEqual([(line.label, line.cells[:2]) for line in page.lines], [("tripoint", ["10 ms", "3.6e-05"]), ("bullet", ["10 ms", "0.6035"]), ("tripoint as printed", ["10 ms", "1.901"])])
+
+
+class CasePages(Pages):
+    def test_limits_of_one_value_stand_under_one_name(self):
+        gates = [{"metric": "error", "mode": "corrected", "value": 0.25, "limit": limit, "verdict": "pass", "reason": reason} for limit, reason in ((0.5, "own"), (2.0, "acceptance"))]
+        self.write(case([{"name": "tripoint", "status": "ok", "runs": [], "gates": gates}]))
+        html = (self.path / "case" / "heat-one.html").read_text()
+        self.assertEqual(html.count("<td rowspan=\"2\">error"), 1)
+        for words in ("own", "acceptance"):
+            self.assertIn(words, self.text("case/heat-one.html"))
+
+    def test_a_count_that_is_right_is_said_to_be_equal(self):
+        gates = [{"metric": "error", "mode": "corrected", "value": 0.0, "limit": 0.5, "verdict": "pass", "reason": "r"}]
+        engine = {"name": "tripoint", "status": "ok", "runs": [], "gates": gates}
+        self.write(case([engine], metrics=[{"name": "error", "quantity": "body_count"}]))
+        self.assertIn("corrected 0, equal", self.text("case/heat-one.html"))
+        self.write(case([engine], metrics=[{"name": "error", "quantity": "position"}]))
+        self.assertNotIn("equal", self.text("case/heat-one.html"))
+
+
+class Figures(unittest.TestCase):
+    def test_a_line_is_drawn_where_there_is_a_function_and_points_where_there_is_none(self):
+        import numpy as np
+        from figures import profiles, work_precision
+        x = np.linspace(0, 1, 40)
+        self.assertFalse(profiles.wavers(np.sin(6 * x)))
+        self.assertFalse(profiles.wavers(300 + 0 * x))
+        self.assertTrue(profiles.wavers(np.where(np.arange(40) % 2, 390.0, 412.0)))
+        self.assertTrue(work_precision.is_ladder([(1.0, 0.1, 0, "", 0.02), (2.0, 0.05, 0, "", 0.01)]))
+        self.assertFalse(work_precision.is_ladder([(2.0, 0.1, 0, "", 0.02), (1.0, 0.05, 0, "", 0.01), (3.0, 0.02, 0, "", 0.005)]))
+        self.assertFalse(work_precision.is_ladder([(2.0, 0.1, 0, "", None), (1.0, 0.05, 0, "", None)]))
+
+    def test_who_lags_and_who_leads_is_said_with_its_size(self):
+        import numpy as np
+        from types import SimpleNamespace
+        from figures import bodies
+        lines = [(SimpleNamespace(label=label), np.array([0.0, 1.0]), np.array([0.0, end]), 0) for label, end in (("bullet", -0.04905), ("paper", 0.04905), ("own", 1e-15))]
+        said = bodies.who_leads("z of the centre [m]", ("engine minus exact [m]", lines))
+        self.assertIn("in z against exact: bullet lags by 0.04905 m, paper leads by 0.04905 m; within 1e-15 m of exact: own.", said)
+        self.assertEqual(bodies.who_leads("z of the centre [m]", None), "")
+
+    def test_phases_are_drawn_beside_temperatures_where_they_change(self):
+        import numpy as np
+        from trajectories import Frame, Trajectory
+        from figures import particles
+        def run(*phases):
+            return Trajectory(times=np.arange(len(phases)), strobe=[Frame(t, np.zeros((2, 3)), phase=np.array(p)) for t, p in enumerate(phases)])
+        self.assertTrue(particles.changes_phase(run([0, 2], [2, 2])))
+        self.assertFalse(particles.changes_phase(run([0, 2], [0, 2])))
+        self.assertFalse(particles.changes_phase(run([0, -1], [0, 2])))  # flowed in, did not change
 
 
 class Scorecards(unittest.TestCase):

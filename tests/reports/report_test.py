@@ -22,7 +22,8 @@ import make_example  # noqa: E402
 import report  # noqa: E402
 
 VENDOR = {"tabulator.min.css": "8a7431ff86fa6aa02943b70470df77fa7094e7eac9f2420b6780c6970c7345eb",
-          "tabulator.min.js": "e952272c3b2afa4ebb60cef5db8cbe9cbaabaa52b50c3cd3d22993ca5215a6ff"}
+          "tabulator.min.js": "e952272c3b2afa4ebb60cef5db8cbe9cbaabaa52b50c3cd3d22993ca5215a6ff",
+          "three.module.min.js": "08fd7545d13d2c7fb65ab691530a802dafefd638596501854f267d0fb13c39e7"}
 
 # Runs the report with the named libraries made impossible to import, as on a machine without them.
 BLOCKED = """
@@ -125,8 +126,8 @@ class Page(unittest.TestCase):
             allowed = {"sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in scripts}
             self.assertEqual(set(re.findall(r"'(sha256-[^']+)'", policy)), allowed)
 
-    def test_the_table_library_is_the_one_that_was_looked_at(self):
-        """npm's tabulator-tables 6.3.1, dist/js/tabulator.min.js and dist/css/tabulator_simple.min.css."""
+    def test_the_libraries_are_those_that_were_looked_at(self):
+        """npm's tabulator-tables 6.3.1, dist/js/tabulator.min.js and dist/css/tabulator_simple.min.css; three 0.170.0, build/three.module.min.js."""
         vendor = REPORT.parent / "vendor"
         self.assertEqual({path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in vendor.iterdir()}, VENDOR)
 
