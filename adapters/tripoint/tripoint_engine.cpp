@@ -37,6 +37,7 @@ std::optional<std::array<std::size_t, 3>> axis_order_of(const std::string& prese
 SimulationOptions options_of(const Job& job) {
   SimulationOptions options;
   options.threads = job.threads;
+  options.gives_way = true;
   options.force_time_step = setting(job, "force_time_step", false);
   options.axis_order = axis_order_of(job.preset);
   options.skin = setting(job, "skin", options.skin);

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <thread>
 
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
@@ -117,8 +118,17 @@ void show_scorecard(const Results& results, const std::vector<Case>& cases, cons
   if (!o.json) print(scorecard_text(card, results.asked));
 }
 
+/// Jobs share the cores: threads beyond them would wait for each other, and change no result.
+void fit_threads(SuiteOptions& suite) {
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency())), each = std::max(1, cores / suite.jobs);
+  if (suite.jobs == 1 || suite.threads <= each) return;
+  say(fmt::format("tripoint: {} jobs of {} threads do not fit on {} cores: each job takes {}", suite.jobs, suite.threads, cores, each));
+  suite.threads = each;
+}
+
 int validate(ValidateOptions o) {
   catch_interrupts();
+  fit_threads(o.suite);
   if (!o.shard.empty()) std::tie(o.filter.shard, o.filter.shards) = read_shard(o.shard);
   if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
   o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";

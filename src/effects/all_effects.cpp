@@ -5,6 +5,7 @@
 #include <array>
 
 #include "effects/body_table.hpp"
+#include "effects/busy_clusters.hpp"
 #include "effects/fluid/material_numbers.hpp"
 #include "effects/pair_passes.hpp"
 #include "effects/run_pass.hpp"
@@ -224,9 +225,12 @@ struct Passes::Impl {
   int lanes;
   PassFunction density, rates, heat;
   PairKernels kernels;
+  bool meets_all;   ///< a term works on every pair, whatever meets there
+  bool leaves_own;  ///< the density leaves own pairs out
+  BusyClusters busy{};
 };
 
-Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes) {
+Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes, bool sums_all) {
   const int heat = equal_temperature(scene) ? 0 : form_of(scene, effects, "heat", Term::heat), pressure = form_of(scene, effects, "fluid", Term::pressure);
   const bool summed = form_of(scene, effects, "density", Term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
   const int density = summed ? 1 : form_of(scene, effects, "fluid", Term::density);
@@ -235,7 +239,8 @@ Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes
   if (lanes == 0) lanes = density + flow + heat > 0 ? best_lanes() : 1;
   const PairPasses passes = pair_passes(lanes);
   impl_ = std::make_unique<Impl>(Impl{lanes, passes.density({density, moments}), passes.rates({flow, heat}),
-                                      passes.rates({0, heat}), pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene)});
+                                      passes.rates({0, heat}), pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene),
+                                      sums_all || heat + moments > 0 || summed || pressure == 0, density == 2});
 }
 Passes::~Passes() = default;
 Passes::Passes(Passes&&) noexcept = default;
@@ -245,10 +250,15 @@ int Passes::lanes() const { return impl_->lanes; }
 
 bool Passes::needed() const { return impl_->density.run != nullptr || impl_->rates.run != nullptr; }
 
+void Passes::forget_clusters() { impl_->busy.forget(); }
+
 void Passes::run(PassName name, World& world) const {
   if (!needed()) return;
-  const PassFunction& pass = name == PassName::density ? impl_->density : name == PassName::rates ? impl_->rates : impl_->heat;
-  run_pass(pass, world.particles, *world.neighbours, impl_->kernels, world.threads);
+  Impl& i = *impl_;
+  if (!i.meets_all && name == PassName::density) return i.busy.sum_density(i.density, world, i.kernels, i.leaves_own);
+  if (!i.meets_all && name == PassName::rates) return i.busy.sum_rates(i.rates, world, i.kernels);
+  const PassFunction& pass = name == PassName::density ? i.density : name == PassName::rates ? i.rates : i.heat;
+  run_pass(pass, world.particles, *world.neighbours, i.kernels, world.threads);
 }
 
 }  // namespace tripoint

@@ -29,13 +29,16 @@ void declare(World&, const std::vector<Active>&);
 class Passes {
  public:
   /// @param lanes particles of a cluster, 0 = what is fastest here: measured only where a pair is worked on at all
-  Passes(const Scene&, const std::vector<Active>&, int lanes);
+  /// @param sums_all whether clusters in which nothing meets are summed over too
+  Passes(const Scene&, const std::vector<Active>&, int lanes, bool sums_all = false);
   ~Passes();
   Passes(Passes&&) noexcept;
   Passes& operator=(Passes&&) noexcept;
   [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
   [[nodiscard]] int lanes() const;    ///< particles of a cluster that the neighbours must have
   void run(PassName, World&) const;
+  /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work is found anew.
+  void forget_clusters();
 
  private:
   struct Impl;

@@ -34,6 +34,14 @@ void run_pass(const PassFunction& function, Particles& particles, Neighbours& ne
   function.run(task);
 }
 
+void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads, const std::vector<std::uint32_t>& clusters) {
+  if (!function.run || clusters.empty()) return;
+  PassTask task = task_of(particles, neighbours, kernels, threads);
+  const std::vector<double*> columns = columns_of(function, particles);
+  task.columns = columns.data(), task.chosen = clusters.data(), task.count = clusters.size();
+  function.run(task);
+}
+
 void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads,
               const std::vector<std::uint32_t>& rows) {
   if (!function.run || rows.empty()) return;

@@ -15,4 +15,7 @@ void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairK
 /// For these rows only. @param rows each once, ascending
 void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads, const std::vector<std::uint32_t>& rows);
 
+/// For these clusters only; what a finding pass found of the others stays. @param clusters each once, ascending
+void run_pass_over(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads, const std::vector<std::uint32_t>& clusters);
+
 }  // namespace tripoint

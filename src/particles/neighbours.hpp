@@ -102,6 +102,9 @@ class Neighbours {
   /// @param rebuilds as counted until then
   void rebuild_from(Particles&, std::span<const Vec3> build_positions, double time, long rebuilds = 1);
 
+  /// Threads from now on. They change neither lists nor their order.
+  void use_threads(int threads) { threads_ = threads; }
+
   /// Marks the entries of own pairs; to be called after a rebuild and after a change of these lists.
   void mark_own(const Particles&, const OwnPairs&);
   /// Whether that was done since the last rebuild.

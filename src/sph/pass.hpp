@@ -74,6 +74,8 @@ struct PassFunction {
   void (*run)(const PassTask&) = nullptr;            ///< null where all slots are off
   std::span<const Field<double>* const> fields{};  ///< whose columns it wants
   bool finds = false;                                ///< whether it writes PassTask::within; else it reads it
+  std::size_t reads = 0;                             ///< fields that are read; it adds to those after them
+  [[nodiscard]] std::span<const Field<double>* const> adds() const { return fields.subspan(reads); }
 };
 
 namespace detail {
@@ -237,7 +239,7 @@ template <int L, class ForUnit, bool finds, class... Terms>
 struct Pick<L, ForUnit, finds, Together<Terms...>> {
   static PassFunction get(const int*) {
     if constexpr (sizeof...(Terms) == 0) return {};
-    else return {&fused<L, ForUnit, finds, Terms...>, FieldsOf<Terms...>::list, finds};
+    else return {&fused<L, ForUnit, finds, Terms...>, FieldsOf<Terms...>::list, finds, FieldsOf<Terms...>::reads};
   }
 };
 template <int L, class ForUnit, bool finds, class... Terms, class... Forms, class... Slots>

@@ -59,7 +59,7 @@ std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& 
 }  // namespace
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options)
-    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, options.lanes) {
+    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, options.lanes, options.sums_all) {
   set_up(scene, initial);
   if (scene.recovers) start_ = initial;
   update_rates();
@@ -74,7 +74,7 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
 }
 
 Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options, const Checkpoint& checkpoint)
-    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, options.lanes) {
+    : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, options.lanes, options.sums_all) {
   set_up(scene, initial);
   if (scene.recovers) start_ = initial, recovery_.restore(checkpoint);
   restore(checkpoint);
@@ -140,21 +140,36 @@ void Simulation::happen_until_now() {
   }
   if (!any) return;
   world_.moved = true;
+  passes_.forget_clusters();
   update_rates();
   check_finite(world_);
 }
 
 bool Simulation::advance_to(double time, const std::function<bool()>& go_on) {
   while (world_.time < time) {
+    const auto begin = std::chrono::steady_clock::now();
     try {
       move_on(time);
     } catch (const Diverged& failure) {
       if (!world_.scene.recovers) throw;
       go_back(failure);
     }
+    if (options_.gives_way && options_.threads > 1) choose_threads(begin);
     if (go_on && !go_on()) return world_.time >= time;
   }
   return true;
+}
+
+void Simulation::use_threads(int threads) {
+  world_.threads = threads;
+  if (world_.neighbours) world_.neighbours->use_threads(threads);
+}
+
+void Simulation::choose_threads(std::chrono::steady_clock::time_point begin) {
+  const long pushed = times_pushed_aside();
+  threads_.took(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), pushed - pushed_aside_);
+  pushed_aside_ = pushed;
+  if (threads_.now() != world_.threads) use_threads(threads_.now());
 }
 
 void Simulation::move_on(double time) {
@@ -249,7 +264,10 @@ void Simulation::update_rates() {
   clock_.ends(Stage::change);
   if (world_.neighbours) {
     world_.neighbours->update(world_.particles, world_.time);
-    if (!world_.neighbours->marked() || !world_.change.empty()) world_.neighbours->mark_own(world_.particles, world_.own);
+    if (!world_.neighbours->marked() || !world_.change.empty()) {
+      world_.neighbours->mark_own(world_.particles, world_.own);
+      passes_.forget_clusters();
+    }
   }
   clock_.ends(Stage::search);
   if (world_.moved) pass(PassName::density);  // (4), moments: of places only

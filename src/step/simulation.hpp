@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -14,14 +15,17 @@
 #include "step/guard.hpp"
 #include "step/recovery.hpp"
 #include "step/stage_clock.hpp"
+#include "step/thread_choice.hpp"
 
 namespace tripoint {
 
 struct SimulationOptions {
   int threads = 1;
+  bool gives_way = false;                                  ///< takes one thread while other work fills the machine; it changes no bit
   bool force_time_step = false;                            ///< run with the scene's time step though it is above a bound
   double skin = 0.1;                                       ///< of the neighbour lists, in support radii; static scenes need none
   int lanes = 0;  ///< particles that a pair pass works on at once, 1, 4 or 8; 0 = what is fastest here. It changes no bit
+  bool sums_all = false;  ///< pair passes sum also where nothing meets; it changes no bit
   std::optional<std::array<std::size_t, 3>> axis_order{};  ///< rotation by NO_SQUISH in this order instead of the better default
   StageSeconds* stage_seconds = nullptr;                   ///< where to add what each stage takes; it must outlive the simulation
 };
@@ -46,6 +50,8 @@ class Simulation {
   /// How often a guard sent the run back, and why the last time.
   [[nodiscard]] const Recovery& recovery() const noexcept { return recovery_; }
 
+  /// Threads of the steps that follow. They change no bit.
+  void use_threads(int);
   [[nodiscard]] const World& world() const noexcept { return world_; }
   [[nodiscard]] Ledger ledger() const;
   [[nodiscard]] long steps() const noexcept { return steps_; }
@@ -72,6 +78,7 @@ class Simulation {
   void restore(const Checkpoint&);
   [[nodiscard]] Checkpoint state() const;
   void move_on(double time);
+  void choose_threads(std::chrono::steady_clock::time_point begin);
   void check();
   void keep_good_state();
   void go_back(const Diverged&);
@@ -98,6 +105,8 @@ class Simulation {
   World world_;
   SimulationOptions options_;
   StageClock clock_{options_.stage_seconds};
+  ThreadChoice threads_{options_.threads};
+  long pushed_aside_ = 0;  ///< as counted after the last step
   std::vector<Active> effects_;
   Passes passes_;
   std::vector<Moment> moments_;  ///< in order of time

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Whether cases have the same bits on any number of threads and at every vector width: a few steps of each, all columns, bonds, bookings
-/// and the order of rows compared with those of one thread that works a particle at a time.
+/// and the order of rows compared with those of one thread that works a particle at a time, and on every pair.
 ///   same-bits [--steps MOST] CASE.toml...
 #include <fmt/format.h>
 
@@ -22,6 +22,8 @@ namespace {
 
 struct Way {
   int threads, lanes;
+  bool sums_all = false;  ///< also where nothing meets
+  bool changes = false;   ///< another number of threads after every step
 };
 
 /// Every number of threads that the project promises, and every width that this machine has, each at least once.
@@ -29,6 +31,7 @@ std::vector<Way> ways() {
   std::vector<Way> list{{2, 1}, {7, 1}};
   if (machine_has_avx2()) list.push_back({1, 4}), list.push_back({3, 4});
   if (machine_has_avx512()) list.push_back({1, 8}), list.push_back({7, 8});
+  list.push_back({.threads = 2, .lanes = 0, .changes = true});
   return list;
 }
 
@@ -56,8 +59,11 @@ struct State {
 State state_after(const Scene& scene, const InitialState& initial, const Way& way, long steps) {
   State state;
   try {
-    Simulation s(scene, initial, {.threads = way.threads, .force_time_step = true, .lanes = way.lanes});
-    s.advance_to(scene.end_time, [&] { return --steps > 0; });
+    Simulation s(scene, initial, {.threads = way.threads, .force_time_step = true, .lanes = way.lanes, .sums_all = way.sums_all});
+    s.advance_to(scene.end_time, [&] {
+      if (way.changes) s.use_threads(1 + static_cast<int>(s.steps() % 3));
+      return --steps > 0;
+    });
     state.kept = s.checkpoint(), state.pairs = s.pairs(), state.steps = s.steps();
   } catch (const Diverged& e) {
     state.failure = e.what();
@@ -76,7 +82,7 @@ bool agrees(const std::string& file, Mode mode, long most) {
   const long steps = std::clamp(afford, 2L, most);
   State oracle;
   try {
-    oracle = state_after(scene, initial, {1, 1}, steps);
+    oracle = state_after(scene, initial, {.threads = 1, .lanes = 1, .sums_all = true}, steps);
   } catch (const InputError& e) {  // a scene that the solver does not take
     fmt::print("{} {}: left out, {}\n", reading.value.id, to_string(mode), e.what());
     return true;

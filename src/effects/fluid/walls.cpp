@@ -13,12 +13,13 @@
 namespace tripoint::fluid {
 namespace {
 
-constexpr double wall_group = 0.0;
+constexpr double wall_group = 0.0, liquid_group = -1.0;
 
-/// What a wall particle moves with: all that is fixed moves as one, each driven body by itself.
-int frame_of(const World& world, std::size_t row) {
-  const int body = world.particles[field::body][row];
-  return world.bodies[field::body_motion][static_cast<std::size_t>(body)] == static_cast<int>(Motion::fixed) ? -1 : body;
+/// What each body moves with: all that is fixed moves as one, each driven body by itself.
+std::vector<int> frames_of(const World& world) {
+  std::vector<int> frames(world.bodies.size());
+  for (std::size_t b = 0; b < frames.size(); ++b) frames[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? -1 : static_cast<int>(b);
+  return frames;
 }
 
 /// mean[k] over the patch of k of what was put to its members.
@@ -48,8 +49,15 @@ void Walls::find(const World& world) {
   known_ = world.neighbours->rebuilds();
   wet_walls_.clear();
   const auto group = world.particles[field::group];
-  for (std::size_t i = 0; i < group.size(); ++i)
-    if (group[i] == wall_group && std::ranges::any_of(world.neighbours->of(i), [&](Entry e) { return group[e.row()] == -1.0; })) wet_walls_.push_back(static_cast<std::uint32_t>(i));
+  const Clusters& c = world.neighbours->clusters();
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    unsigned walls = 0, wet = 0;  // bits of members
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) walls |= static_cast<unsigned>(group[i] == wall_group) << (i - c.first[k]);
+    for (std::size_t e = c.start[k]; e < c.start[k + 1] && (walls & ~wet) != 0; ++e)
+      if (group[Entry{c.entries[e]}.row()] == liquid_group) wet |= c.near[e];
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+      if ((walls & wet) >> (i - c.first[k]) & 1u) wet_walls_.push_back(i);
+  }
 }
 
 void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
@@ -57,31 +65,42 @@ void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKern
   known_faces_ = world.neighbours->rebuilds();
   const Particles& p = world.particles;
   const auto group = p[field::group];
+  const auto body = p[field::body];
   const auto x = positions(p);
+  const std::vector<int> frames = frames_of(world);
+  const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
   const double patch = 1.75 * world.scene.spacing, full = n.lattice_density / std::pow(world.scene.spacing, 3);
-  const auto each_of_wall = [&](std::size_t i, auto visit) {
-    for (const Entry e : world.neighbours->of(i)) {
-      const std::size_t j = e.row();
-      if (j != i && group[j] == wall_group && frame_of(world, i) == frame_of(world, j)) visit(j, norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())));
-    }
-  };
   face_.clear(), hidden_.clear();
   constexpr std::uint32_t none = ~std::uint32_t{0};
+  const auto id = p[field::id];
+  if (at_face_.empty()) {
+    at_face_.resize(p.size());
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (group[i] != wall_group) continue;
+      double wall = kernels.wendland.value(0.0);
+      for (const Entry e : world.neighbours->of(i)) {
+        const std::size_t j = e.row();
+        if (j != i && group[j] == wall_group && frame_of(i) == frame_of(j)) wall += kernels.wendland.value(norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())));
+      }
+      at_face_[static_cast<std::size_t>(id[i])] = wall < (1.0 - n.least_exposure) * full ? 1 : 0;
+    }
+  }
   std::vector<std::uint32_t> place(p.size(), none);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (group[i] != wall_group) continue;
-    double wall = kernels.wendland.value(0.0);
-    each_of_wall(i, [&](std::size_t, double r) { wall += kernels.wendland.value(r); });
-    const bool at_face = wall < (1.0 - n.least_exposure) * full;
+    const bool at_face = at_face_[static_cast<std::size_t>(id[i])] != 0;
     if (at_face) place[i] = static_cast<std::uint32_t>(face_.size());
     (at_face ? face_ : hidden_).push_back(static_cast<std::uint32_t>(i));
   }
   start_.assign(1, 0), patch_.clear();
   for (const std::uint32_t i : face_) {
     patch_.push_back(place[i]);
-    each_of_wall(i, [&](std::size_t j, double r) {
-      if (r < patch && place[j] != none) patch_.push_back(place[j]);
-    });
+    for (const Entry e : world.neighbours->of(i)) {
+      const std::size_t j = e.row();
+      if (place[j] == none || j == i || frame_of(i) != frame_of(j)) continue;
+      if (norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())) < patch) patch_.push_back(place[j]);
+    }
     start_.push_back(patch_.size());
   }
   first_.resize(face_.size()), second_.resize(face_.size());

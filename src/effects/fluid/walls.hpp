@@ -22,7 +22,10 @@ class Walls {
   /// Sets the viscous velocity of the walls that liquid is near.
   void mirror_velocities(World&, const PairKernels&);
   /// Groups have changed: look again which particles are walls.
-  void clear() { known_ = known_faces_ = -1; }
+  void clear() {
+    known_ = known_faces_ = -1;
+    at_face_.clear();
+  }
 
  private:
   void find(const World&);
@@ -33,6 +36,7 @@ class Walls {
   std::vector<std::uint32_t> face_;       ///< rows of those that are
   std::vector<std::size_t> start_;        ///< first entry of each patch, and one past the last
   std::vector<std::uint32_t> patch_;      ///< places in face_, the particle itself first
+  std::vector<char> at_face_;             ///< by id, whether it is a wall's and at its face: what moves as one keeps its faces
   std::vector<double> first_, second_;    ///< of the face: memory that is used again
   long known_ = -1, known_faces_ = -1;    ///< the rebuild that the rows are of
 };
