@@ -7,6 +7,7 @@
 
 #include "core/defect.hpp"
 #include "effects/world.hpp"
+#include "scene/phase_values.hpp"
 
 /// Melting and freezing of one particle, the state (H, f) of model 8.9: H = m (c_p T + L f), 0 <= f <= 1.
 namespace tripoint {
@@ -27,14 +28,14 @@ struct Fusion {
 }
 
 /// Of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides, at t_melt.
-/// An elastic solid is soft between t_solid and t_melt; a rigid one is rigid up to t_melt.
+/// An elastic solid is soft between t_solid and t_melt, and so is a rigid one that softens (`turns_elastic`); else it is rigid up to t_melt.
 [[nodiscard]] inline Fusion fusion_of(const Scene& scene, const Material& m) {
   if (!m.t_melt || !m.heat_capacity) return {};
   static const double scale = 1.0 - defect_size("phase.latent");
   static const bool no_loop = defect_size("phase.hysteresis") > 0.0;
   if (scene.mode_of(Term::phase) == Mode::paper) {
     static const double later = defect_size("phase.paper.melting");
-    const bool band = m.solid == "elastic" && m.t_solid.value_or(*m.t_melt) < *m.t_melt;
+    const bool band = has_printed_stage(scene, m) && (m.solid == "elastic" || turns_elastic(scene, m));
     return {*m.t_melt + later, band ? *m.t_solid + later : *m.t_melt + later, 0.0, band};
   }
   static const double earlier = defect_size("phase.freezing");

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/defect.hpp"
+#include "scene/phase_values.hpp"
 
 namespace tripoint::solid {
 namespace {
@@ -115,8 +116,8 @@ Symmetric strain_of(const Particles& p, std::size_t row) {
 }
 
 bool softens(const Scene& scene, const Material& m) {
-  if (!m.t_melt || m.solid != "elastic") return false;
-  return m.softens || (scene.mode_of(Term::phase) == Mode::paper && m.t_solid.value_or(*m.t_melt) < *m.t_melt);
+  if (turns_elastic(scene, m)) return true;
+  return m.t_melt && m.solid == "elastic" && (m.softens || has_printed_stage(scene, m));
 }
 
 ElasticForms::ElasticForms(const Scene& scene)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "scene/phase_values.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint {
@@ -16,7 +17,7 @@ bool changes_phase(const Scene& s, const Body& b, const Material& m) {
   if (!has_heat(b, m) || !m.t_melt || b.temperature_held) return false;
   const TemperatureRange range = temperatures_of(s);
   if (b.phase == Phase::liquid) return range.least < *m.t_solid;
-  const bool band = s.mode_of(Term::phase) == Mode::paper && b.phase == Phase::elastic;  // soft from t_solid on (Fig. 5)
+  const bool band = (s.mode_of(Term::phase) == Mode::paper && b.phase == Phase::elastic) || turns_elastic(s, m);  // soft from t_solid on (Fig. 5)
   return range.greatest > (band ? *m.t_solid : *m.t_melt);
 }
 
@@ -25,7 +26,7 @@ bool freezes(const Scene& s, const Inflow& f) {
   return f.temperature && m.t_melt && m.conductivity && m.heat_capacity && temperatures_of(s).least < *m.t_solid;
 }
 
-bool is_elastic_when_frozen(const Material& m) { return m.solid == "elastic" && m.young_modulus; }
+bool is_elastic_when_frozen(const Scene& s, const Material& m) { return (m.solid == "elastic" && m.young_modulus) || turns_elastic(s, m); }
 
 template <class Test>
 std::string names_where(const Scene& s, Test test) {
@@ -63,8 +64,8 @@ std::string who_changes_phase(const Scene& s) {
 }
 
 std::string who_freezes_elastic(const Scene& s, bool (*limited)(const Material&)) {
-  std::string who = names_where(s, [&](const Body& b, const Material& m) { return changes_phase(s, b, m) && is_elastic_when_frozen(m) && limited(m); });
-  const auto pours = [&](const Inflow& f) { return freezes(s, f) && is_elastic_when_frozen(s.material(f.material)) && limited(s.material(f.material)); };
+  std::string who = names_where(s, [&](const Body& b, const Material& m) { return changes_phase(s, b, m) && is_elastic_when_frozen(s, m) && limited(m); });
+  const auto pours = [&](const Inflow& f) { return freezes(s, f) && is_elastic_when_frozen(s, s.material(f.material)) && limited(s.material(f.material)); };
   if (who.empty() && std::ranges::any_of(s.inflows, pours)) who = "an inflow";
   return who;
 }

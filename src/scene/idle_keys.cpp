@@ -217,13 +217,21 @@ class IdleKeys {
     limit("elastic_limit", "plastic"), limit("fracture_stretch", "fracture"), limit("fracture_distance", "fracture");
     for (const EffectRule& rule : effect_rules())
       for (const EffectKey& key : rule.keys)
-        if (key.row.table == "material" && value_of(m.values, key.row.name) != 0.0) limit(key.row.name, std::string(rule.name));
+        if (key.row.table == "material" && value_of(m.values, key.row.name) != 0.0) effect_limit(m, rule, key);
     if (!calls("fracture")) return;
     const bool printed = any_mode([](const Scene& s) { return s.mode_of(Term::elastic) == Mode::paper; });
     if (m.fracture_distance && !m.fracture_stretch && !printed)
       error(given(path + "fracture_distance"), fmt::format("fracture_distance is the limit of the printed form, and this case runs the corrected one, in which \"{}\" never breaks: give fracture_stretch", m.name));
     if (m.fracture_stretch && !m.fracture_distance && !corrected(Term::elastic))
       error(given(path + "fracture_stretch"), fmt::format("fracture_stretch is the limit of the corrected form, and this case runs the printed one, in which \"{}\" never breaks: give fracture_distance", m.name));
+  }
+
+  void effect_limit(const Material& m, const EffectRule& rule, const EffectKey& key) {
+    const auto place = given(fmt::format("material.{}.{}", m.name, key.row.name));
+    if (place.file.empty()) return;
+    const bool on = calls(std::string(rule.name));
+    if (on && (!key.idle || any_mode([&](const Scene& run) { return key.idle(run).empty(); }))) return;
+    warn(place, fmt::format("{} of material \"{}\" never acts: {}", key.row.name, m.name, on ? key.idle(scenes_.front()) : why_idle(std::string(rule.name))));
   }
 
   void idle(const char* key, const std::string& why) {

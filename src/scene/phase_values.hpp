@@ -7,6 +7,15 @@ namespace tripoint {
 
 [[nodiscard]] inline bool has_two_phases(const Material& m) { return m.solid_conductivity || m.solid_heat_capacity; }
 
+/// Whether a material has the middle stage of Fig. 5, printed alone: t_solid < t_melt.
+[[nodiscard]] inline bool has_printed_stage(const Scene& scene, const Material& m) {
+  return scene.mode_of(Term::phase) == Mode::paper && m.t_melt && m.t_solid.value_or(*m.t_melt) < *m.t_melt;
+}
+/// Whether a rigid solid of this material is elastic in that stage: where it softens, and has a modulus that can fall. Else it stays rigid up to t_melt.
+[[nodiscard]] inline bool turns_elastic(const Scene& scene, const Material& m) {
+  return m.softens && m.solid == "rigid" && m.young_modulus && m.poisson_ratio && has_printed_stage(scene, m);
+}
+
 /// Of a phase [W/m/K]. @pre the material conducts
 [[nodiscard]] inline double conductivity_of(const Material& m, Phase phase) {
   return phase == Phase::liquid ? *m.conductivity : m.solid_conductivity.value_or(*m.conductivity);

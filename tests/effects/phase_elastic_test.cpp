@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "effects/objects.hpp"
 #include "effects/phase/joining.hpp"
 #include "effects/phase_lab.hpp"
 #include "effects/solid_particles.hpp"
@@ -218,6 +219,48 @@ TEST(Softening, TakesStiffnessWithTheLiquidFractionAndClosesTheLedger) {
     EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(before), 1.0, 1e-12);
     EXPECT_NE(world.booked[account::deformation_released], 0.0);
   }
+}
+
+/// Two rigid particles 0.1 m apart that spin by 2 rad/s, of a material of 1e5 Pa that is elastic between 320 and 360 K, at these temperatures.
+Simulation spinning_pair(double first, double second, bool softens = true) {
+  lab::Lab lab = lab::melting_lab(0.1, {.t_melt = 360.0, .t_solid = 320.0, .conductivity = 1e-12});
+  lab.scene.modes[static_cast<std::size_t>(Term::phase)] = Mode::paper;
+  lab.scene.merge_distance = 2.12;
+  Material& m = lab.scene.materials[0];
+  m.young_modulus = 1e5, m.poisson_ratio = 0.3, m.softens = softens;
+  const auto temperature = [=](const Vec3& r) { return r.x < 0.05 ? first : second; };
+  lab.add_points({.name = "pair", .phase = Phase::rigid, .angular_velocity = {0.0, 0.0, 2.0}, .temperature = temperature}, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}}, 1.0);
+  TemperatureField& field = *lab.scene.bodies[0].temperature;
+  field.kind = TemperatureField::Kind::step, field.behind = first, field.ahead = second;
+  lab.scene.time_step = 1e-6;
+  return lab.run(1e-6);
+}
+
+std::vector<int> kinds(const Simulation& s) { return lab::integers_by_id(s, field::phase); }
+
+TEST(PrintedStage, ARigidMaterialThatSoftensIsElasticBetweenItsTwoTemperatures) {
+  constexpr int liquid = 0, elastic = 1, rigid = 2;
+  EXPECT_EQ(kinds(spinning_pair(319.0, 319.0)), (std::vector{rigid, rigid}));
+  EXPECT_EQ(kinds(spinning_pair(330.0, 319.0)), (std::vector{elastic, rigid}));
+  EXPECT_EQ(kinds(spinning_pair(330.0, 350.0)), (std::vector{elastic, elastic}));
+  EXPECT_EQ(kinds(spinning_pair(361.0, 350.0)), (std::vector{liquid, elastic}));
+  EXPECT_EQ(kinds(spinning_pair(330.0, 350.0, false)), (std::vector{rigid, rigid}));  // what does not soften is rigid up to t_melt
+}
+
+TEST(PrintedStage, WhatTurnsKeepsItsBondsItsMotionAndItsShareOfTheModulus) {
+  const Simulation s = spinning_pair(330.0, 350.0);  // a quarter and three quarters of the way
+  EXPECT_EQ(lab::living_bodies(s), 1u);
+  EXPECT_EQ(count_objects(s.world()), 1u);
+  const auto share = lab::by_id(s, field::stiffness_share);
+  EXPECT_NEAR(share[0], 0.75, 1e-12);
+  EXPECT_NEAR(share[1], 0.25, 1e-12);
+  for (const std::uint32_t id : {0U, 1U}) {
+    ASSERT_EQ(s.world().bonds.of(id).size(), 1u);
+    EXPECT_NEAR(norm(s.world().bonds.of(id)[0].x), 0.1, 1e-9);
+  }
+  const auto v = lab::speeds(s);  // omega x r: 2 rad/s at 0.05 m
+  EXPECT_NEAR(v[0].y, -0.1, 1e-6);
+  EXPECT_NEAR(v[1].y, 0.1, 1e-6);
 }
 
 TEST(Phase, OfDeformableSolidsGoesOnFromACheckpointBitForBit) {

@@ -99,6 +99,34 @@ TEST(PrintedNumbers, HeatFlowsByTheConstantOfTheMaterialAndByTheOneOfTheScene) {
   }
 }
 
+/// A liquid particle of 3 Pa s at the origin, which moves by 4 m/s across, and a held solid one of solid_viscosity 12 Pa s beside it, at this temperature.
+double drag_at_solid(double temperature, double contact_viscosity) {
+  lab::Lab lab = printed({});
+  lab.scene.contact_viscosity = contact_viscosity;
+  lab.add_material(2.0, 10.0, 1.0);
+  Material& solid = lab.scene.materials[1];
+  solid.viscosity = 6.0, solid.stiffness = k, solid.solid = "elastic", solid.young_modulus = 1.0, solid.poisson_ratio = 0.3;
+  solid.t_solid = 320.0, solid.t_melt = 360.0;
+  if (contact_viscosity == 0.0) solid.values["solid_viscosity"] = 12.0;
+  const auto at = [=](const Vec3&) { return temperature; };
+  lab.add_points({.name = "drop", .phase = Phase::liquid, .temperature = at}, {{0.0, 0.0, 0.0}}, mass);
+  lab.add_points({.name = "wall", .material = 1, .phase = Phase::elastic, .motion = Motion::fixed, .temperature = at}, {{1.0, 0.0, 0.0}}, mass);
+  for (Body& body : lab.scene.bodies) body.temperature->value = temperature;
+  lab.initial.velocity[0] = {0.0, 4.0, 0.0};
+  lab.scene.materials[0].conductivity = 1e-12, solid.conductivity = 1e-12;
+  lab.scene.time_step = 1e-9;
+  return -viscous(lab.run(1e-9), 0).y;
+}
+
+TEST(PrintedNumbers, ASolidsOwnViscosityActsAndGoesLinearlyToThatOfTheLiquid) {
+  // V = 2/0.55691 = 3.5912 m3; V^2 (mu_i + mu_j)/2 4 m/s 45/(64 pi) = 34.6385 N at a mean of 3 Pa s, so 11.5462 N for each Pa s of it.
+  constexpr double per_mean = 11.54617;
+  EXPECT_NEAR(drag_at_solid(300.0, 0.0), 7.5 * per_mean, 1e-3);   // (3 + 12)/2
+  EXPECT_NEAR(drag_at_solid(330.0, 0.0), 6.75 * per_mean, 1e-3);  // a quarter of the way from 12 to 6 is 10.5: (3 + 10.5)/2
+  EXPECT_NEAR(drag_at_solid(340.0, 0.0), 6.0 * per_mean, 1e-3);   // half way: (3 + 9)/2
+  EXPECT_NEAR(drag_at_solid(340.0, 5.0), 4.0 * per_mean, 1e-3);   // without the key: the scene's contact viscosity, at any temperature
+}
+
 TEST(PrintedNumbers, AForceTurnsABodyOfFourByItsLever) {
   lab::Lab lab = printed({});
   lab.add_points({.name = "frame", .phase = Phase::rigid, .angular_velocity = {0.0, 0.0, 0.5}}, {{1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}}, mass);

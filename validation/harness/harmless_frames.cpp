@@ -16,10 +16,15 @@ void scale(std::optional<double>& value, double by) {
   if (value) *value *= by;
 }
 
+void scale(EffectValues& values, std::string_view key, double by) {
+  if (const auto at = values.find(key); at != values.end()) at->second *= by;
+}
+
 void measure_in(const Units& u, Material& m) {
   const double pressure = u.mass / (u.length * u.time * u.time), speed = u.length / u.time;
   m.density *= u.mass / (u.length * u.length * u.length);
   m.viscosity *= pressure * u.time;
+  scale(m.values, "solid_viscosity", pressure * u.time);
   scale(m.stiffness, speed * speed), scale(m.young_modulus, pressure);
   for (auto* k : {&m.conductivity, &m.solid_conductivity}) scale(*k, u.mass * u.length / (u.time * u.time * u.time));
   for (auto* c : {&m.heat_capacity, &m.solid_heat_capacity, &m.latent_heat}) scale(*c, speed * speed);
@@ -78,6 +83,7 @@ void measure_in(const Units& u, ChangedScene& changed) {
   if (s.min) *s.min *= u.length;
   if (s.max) *s.max *= u.length;
   s.contact_viscosity *= u.mass / (u.length * u.time);
+  scale(s.values, "heat_constant", u.length * u.length / u.time);
   for (auto& m : s.materials) measure_in(u, m);
   for (auto& b : s.bodies) measure_in(u, b);
   for (auto& e : s.events) e.time *= u.time, scale(e.until, u.time);

@@ -8,7 +8,7 @@
 #include "effects/elastic/bond_forces.hpp"
 #include "effects/ordered_sum.hpp"
 #include "scene/effect_rule.hpp"
-#include "scene/effect_rule.hpp"
+#include "scene/phase_values.hpp"
 
 namespace tripoint::elastic {
 namespace {
@@ -52,7 +52,7 @@ TimeStepBound Elastic::max_dt(const World& world) const {
   const double a = forms_.hourglass(), share = a > 0.0 ? courant_with_hourglass / std::sqrt(std::max(1.0, a)) : courant;
   for (const Body& b : world.scene.bodies) {
     const Material& m = world.scene.material(b.material);
-    if (b.phase == Phase::rigid || !m.young_modulus || !m.poisson_ratio) continue;
+    if ((b.phase == Phase::rigid && !turns_elastic(world.scene, m)) || !m.young_modulus || !m.poisson_ratio) continue;
     const solid::ElasticConstants c = solid::elastic_constants(*m.young_modulus, *m.poisson_ratio);
     tighten(bound, share * bond_reach(world.scene) * world.scene.spacing / std::sqrt((c.lambda + 2.0 * c.mu) / m.density), "elastic wave");
   }

@@ -11,6 +11,7 @@
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
 #include "effects/fluid/phase_jump.hpp"
+#include "effects/fluid/solid_viscosity.hpp"
 #include "effects/fluid/transport.hpp"
 #include "effects/fluid/viscous_bound.hpp"
 #include "effects/fluid/walls.hpp"
@@ -57,7 +58,8 @@ class Fluid : public Effect {
         transports_(uses_transport_velocity(scene)),
         damps_(numbers_.bulk_viscosity > 0.0),
         mirrors_(mirrors_velocities(scene)),
-        averages_(numbers_.averages_walls && can_have_walls(scene)) {}
+        averages_(numbers_.averages_walls && can_have_walls(scene)),
+        solid_viscosity_(scene) {}
   void load(World&, const InitialState&) override;
   void kick(World&, double dt) override;
   void drift(World&, double dt) override;
@@ -76,6 +78,7 @@ class Fluid : public Effect {
   void set_material(World&, std::size_t row) const;
   void set_own_density(World&, std::size_t row) const;
   void set_groups(World&);
+  void follow_temperature(World&) const;
 
   SceneNumbers numbers_;
   PairKernels kernels_;
@@ -85,6 +88,7 @@ class Fluid : public Effect {
   bool mirrors_;    ///< viscous pairs see walls by the mirrored velocity
   bool averages_;   ///< walls press by the mean density of a patch of their face
   Walls walls_;
+  SolidViscosity solid_viscosity_;
 };
 
 void Fluid::load(World& world, const InitialState&) {
@@ -102,9 +106,20 @@ void Fluid::set_material(World& world, std::size_t row) const {
   const bool liquid = p[field::body][row] < 0;
   p[field::rest_density][row] = world.material_of(row).density;
   p[field::solid][row] = liquid ? 0.0 : 1.0;
-  static const double rougher = 1.0 + defect_size("fluid.viscosity.contact");
-  p[field::viscosity][row] = liquid ? world.material_of(row).viscosity : rougher * world.scene.contact_viscosity;
+  p[field::viscosity][row] = liquid ? world.material_of(row).viscosity : solid_viscosity_(world, row);
   p[field::stick][row] = slips ? 0.0 : 1.0;
+}
+
+/// mu of solids between t_solid and t_melt. The bound of the step is looked at anew where one has changed.
+void Fluid::follow_temperature(World& world) const {
+  const auto body = world.particles[field::body];
+  const auto mu = world.particles[field::viscosity];
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (body[i] < 0) continue;
+    const double now = solid_viscosity_(world, i);
+    if (now != mu[i]) world.lagged.viscous_age = 0;
+    mu[i] = now;
+  }
 }
 
 /// What the own pairs of a particle add to its number density, once and for all (model 8.2).
@@ -168,6 +183,7 @@ void Fluid::state(World& world) {
     set_density(world, numbers_);
     if (averages_) walls_.average_density(world, numbers_, kernels_);
   }
+  if (solid_viscosity_.follows_temperature()) follow_temperature(world);
   set_pressure(world, numbers_);
   if (damps_ && world.moved) set_bulk_pressure(world, numbers_);
   predict_velocities(world);
@@ -217,7 +233,7 @@ EffectSpec spec(const Scene& scene) {
                 field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z,
                 field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z},
                fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
-  s.reads_if_there = fields::image();
+  s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
   s.sums_forces = true;
   const bool damps = bulk_viscosity(scene) > 0.0;
   const auto own = [&](std::initializer_list<FieldInfo> more) { s.owns.insert(s.owns.end(), more); };
@@ -258,6 +274,8 @@ std::vector<DefectEntry> defects() {
           {"walls.velocity", "part of the mirrored velocity of walls left out", "fluid/poiseuille"},
           {"fluid.viscosity.central", "part of the central viscous force along the velocity, not the line of centres", "fluid/liquid-ball"},
           {"fluid.viscosity.contact", "viscosity of solids that touch times 1 + size", "coupling/sliding-slab"},
+          {"fluid.paper.solid_viscosity", "viscosity of a solid in (8) times 1 + size", "phase/stage-viscosity"},
+          {"fluid.paper.stage_viscosity", "share of 0..1 of the change of a solid's viscosity between t_solid and t_melt left out", "phase/stage-viscosity"},
           {"fluid.viscosity.lag", "viscous forces see the velocity of `size` steps before", "fluid/viscous-order"},
           {"fluid.viscosity.mean", "share of the arithmetic mean in the viscosity between two liquids", "fluid/two-viscosities"},
           {"fluid.transport.background", "background pressure of the transport velocity times 1 - size", "fluid/taylor-green"},

@@ -39,6 +39,8 @@ std::string left_out(const Scene& s) {
   return "nothing is liquid, and no free body has another to touch";
 }
 
+std::string solid_viscosity_idle(const Scene& scene) { return scene.mode_of(Term::viscosity) == Mode::paper ? "" : "viscosity is corrected: a liquid takes its own beside a solid, and solids scene.contact_viscosity"; }
+
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
   using enum ValueType;
@@ -48,6 +50,7 @@ std::vector<EffectKey> keys() {
       {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "", "move particles by the transport velocity"}, &Scene::transport_velocity},
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "", "viscosity between solids that touch"}, &Scene::contact_viscosity},
       {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "", "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, density, pressure and state are corrected, and nothing freezes"}, {}, no_bulk_viscosity, true},
+      {{"material", "solid_viscosity", number, "Pa s", not_negative, "0", "a solid has scene.contact_viscosity", "", "dynamic viscosity of the solid in (8), only where modes.viscosity is paper; between t_solid and t_melt, where modes.phase is paper, linear from it to viscosity (Fig. 5)"}, {}, solid_viscosity_idle},
       {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"}, &Material::viscosity},
   };
 }

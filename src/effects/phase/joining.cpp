@@ -44,8 +44,10 @@ Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
   return determinant(F) > 0.1 ? inverse(F) : identity3;  // what is crushed or turned inside out has no inverse worth having
 }
 
-/// A member of a rigid body that gets its first deformable partner: the vectors to its mates, which are as they were but for the
-/// body's turn, become the present ones.
+bool has_deformable(const World& world) { return world.particles.has(field::shape_rank.name); }
+
+}  // namespace
+
 void take_present_vectors(World& world, const ElasticityKernel& kernel, std::uint32_t id) {
   const std::size_t i = world.particles.row(id);
   for (Bond& bond : world.bonds.edit(id)) {
@@ -54,10 +56,6 @@ void take_present_vectors(World& world, const ElasticityKernel& kernel, std::uin
     bond = now;
   }
 }
-
-bool has_deformable(const World& world) { return world.particles.has(field::shape_rank.name); }
-
-}  // namespace
 
 void bond(World& world, const std::vector<Joint>& joints) {
   const ElasticityKernel kernel = solid::bond_kernel(world.scene);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "effects/world.hpp"
+#include "sph/kernels.hpp"
 
 /// Bonds and own pairs of what freezes (model 8.9).
 namespace tripoint::phase {
@@ -18,6 +19,10 @@ struct Joint {
 /// Makes the bonds. What freezes takes the present vectors. A deformable solid j that was there before first turns its list into
 /// the present frame, and takes the new vector in its reference, F_j^-1 r_ji: nothing of j jumps.
 void bond(World&, const std::vector<Joint>&);
+
+/// Of a list without strain energy, as that of a member of a rigid body without a deformable partner: the vectors to its mates, which are as they
+/// were but for the body's turn, become the present ones.
+void take_present_vectors(World&, const ElasticityKernel&, std::uint32_t id);
 
 /// What froze and is deformable meets the near members of its body through their bonds alone from now on.
 void make_own_pairs(World&, const std::vector<std::uint32_t>& frozen);

@@ -96,6 +96,7 @@ std::vector<DefectEntry> defects() {
           {"phase.hysteresis", "freezing at t_melt: no hysteresis", "phase/hysteresis"},
           {"phase.freezing", "freezing size kelvin below t_solid", "phase/hysteresis"},
           {"phase.paper.melting", "the printed form melts and freezes size kelvin later", "phase/hysteresis"},
+          {"phase.paper.stage", "printed rigid matter turns elastic at the liquid fraction `size`, not at 0", "phase/rigid-stage"},
           {"phase.merging", "what freezes joins nothing", "phase/freeze-merge"},
           {"phase.own_pairs", "frozen solids press on themselves as on others", "phase/press-and-freeze"},
           {"phase.frame", "new bonds of a turned or strained solid are written in the present frame", "phase/freeze-turned"},

@@ -26,7 +26,7 @@ std::vector<EffectKey> keys() {
       {{"material", "t_melt", number, "K", positive, "", "does not melt", "", "above it the matter is liquid"}, &Material::t_melt},
       {{"material", "t_solid", number, "K", positive, "=", "t_melt: no soft band and no hysteresis", "", "below it the matter is solid; at most t_melt"}, &Material::t_solid},
       {{"material", "latent_heat", number, "J/kg", not_negative, "=", "melts at once where t_melt is given", "", "heat of fusion"}, &Material::latent_heat},
-      {{"material", "softens", flag, "", any, "false", "full stiffness up to melting", "", "stiffness falls with the liquid fraction"}, &Material::softens},
+      {{"material", "softens", flag, "", any, "false", "full stiffness up to melting", "", "stiffness falls with the liquid fraction; with solid = \"rigid\", a young_modulus and modes.phase = \"paper\": elastic between t_solid and t_melt, as Fig. 5 prints it"}, &Material::softens},
   };
 }
 

@@ -2,6 +2,7 @@
 #include "effects/phase/transition.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include "core/defect.hpp"
@@ -45,6 +46,13 @@ std::vector<Partner> partners_of(const World& world, std::uint32_t id) {
 /// Whether what a list loses or gains changes the volume of its particle, and with it the energies of all that list it.
 bool volumes_follow_lists(const World& world) { return world.scene.mode_of(Term::elastic) == Mode::paper; }
 
+/// What a solid particle is at this liquid fraction, of a material that may turn.
+Phase solid_phase(const Scene& scene, const Material& m, double f) {
+  static const double later = defect_size("phase.paper.stage");
+  if (m.solid != "rigid") return Phase::elastic;
+  return turns_elastic(scene, m) && f > later ? Phase::elastic : Phase::rigid;
+}
+
 class Transition {
  public:
   Transition(World& world, Account& account) : world_(world), account_(account) {
@@ -52,12 +60,14 @@ class Transition {
     for (std::size_t id = 0; id < body.size(); ++id) body_before_.push_back(body[world.particles.row(id)]);
   }
   void melt(std::uint32_t id);
+  void turn(const std::vector<std::uint32_t>& ids);
   void freeze(const std::vector<std::uint32_t>& ids);
   void regroup_bodies(const std::vector<std::uint32_t>& frozen);
   void record(const Events&);
 
  private:
   void touch_with_partners(std::uint32_t id, std::uint32_t event);
+  void end_pairs_of_rigid(const std::vector<std::uint32_t>& ids);
 
   World& world_;
   Account& account_;
@@ -95,13 +105,57 @@ void Transition::melt(std::uint32_t id) {
   world_.particles[field::phase][i] = static_cast<int>(Phase::liquid);
 }
 
+/// Bonds stay, so that what turns elastic is joined to its mates and to nothing that it touches. What was rigid is not strained, and what becomes
+/// rigid lets its strain go: both have the present vectors. At a joint the list of a rigid member is strained with its partners, and goes on so.
+void Transition::turn(const std::vector<std::uint32_t>& ids) {
+  if (ids.empty()) return;
+  Particles& p = world_.particles;
+  const ElasticityKernel kernel = solid::bond_kernel(world_.scene);
+  const solid::EnergyOwners owns(world_);
+  const auto f = p[field::liquid_fraction];
+  std::vector<std::uint32_t> unstrained;
+  for (const std::uint32_t id : ids) {
+    const std::size_t i = p.row(id);
+    touch_with_partners(id, id);
+    p[field::phase][i] = static_cast<int>(solid_phase(world_.scene, world_.material_of(i), f[i]));
+    if (p[field::phase][i] == static_cast<int>(Phase::rigid) || !owns(i)) unstrained.push_back(id);
+    for (const Bond& bond : std::as_const(world_.bonds).of(id)) {
+      if (!owns(p.row(bond.other))) unstrained.push_back(bond.other);
+      world_.change.relisted.push_back(bond.other);
+    }
+    if (p.has(field::plastic_strain_xx.name)) solid::set_plastic_strain(p, i, {});
+    changed_.bodies.push_back(static_cast<std::size_t>(p[field::body][i]));
+    world_.change.bodies.push_back(static_cast<std::size_t>(p[field::body][i]));
+    world_.change.relisted.push_back(id);
+    world_.change.regrouped.push_back(id);
+    p[field::body][i] = -1;
+  }
+  sort_once(unstrained);
+  for (const std::uint32_t id : unstrained) take_present_vectors(world_, kernel, id);
+  end_pairs_of_rigid(ids);
+}
+
+/// Members of one rigid body exert nothing on each other as it is.
+void Transition::end_pairs_of_rigid(const std::vector<std::uint32_t>& ids) {
+  const auto phase = world_.particles[field::phase];
+  const auto is_rigid = [&](std::uint32_t id) { return phase[world_.particles.row(id)] == static_cast<int>(Phase::rigid); };
+  for (const std::uint32_t id : ids) {
+    if (!is_rigid(id)) continue;
+    const auto own = std::as_const(world_.own).of(id);
+    for (const OwnPair& pair : std::vector<OwnPair>(own.begin(), own.end())) {
+      if (!is_rigid(pair.other)) continue;
+      end_own(world_.own, id, pair.other);
+      world_.change.relisted.push_back(pair.other);
+    }
+  }
+}
+
 /// All become solid at first, so that two that freeze at once are partners.
 void Transition::freeze(const std::vector<std::uint32_t>& ids) {
   Particles& p = world_.particles;
   for (const std::uint32_t id : ids) {
     const std::size_t i = p.row(id);
-    const Phase phase = world_.material_of(i).solid == "rigid" ? Phase::rigid : Phase::elastic;
-    p[field::phase][i] = static_cast<int>(phase);
+    p[field::phase][i] = static_cast<int>(solid_phase(world_.scene, world_.material_of(i), p[field::liquid_fraction][i]));
     if (p.has(field::plastic_strain_xx.name)) solid::set_plastic_strain(p, i, {});
     world_.change.relisted.push_back(id);
     world_.change.regrouped.push_back(id);
@@ -121,7 +175,7 @@ void Transition::freeze(const std::vector<std::uint32_t>& ids) {
   bond(world_, joints);
 }
 
-void Transition::regroup_bodies(const std::vector<std::uint32_t>& frozen) {
+void Transition::regroup_bodies(const std::vector<std::uint32_t>& frozen) {  // and turned
   changed_.frozen = frozen;
   regroup(world_, changed_, [&](std::uint32_t id) { account_.touch(id); });
   make_own_pairs(world_, frozen);
@@ -131,11 +185,39 @@ void Transition::record(const Events& events) {
   Change& change = world_.change;
   change.melted.insert(change.melted.end(), events.melted.begin(), events.melted.end());
   change.frozen.insert(change.frozen.end(), events.frozen.begin(), events.frozen.end());
+  change.frozen.insert(change.frozen.end(), events.turned.begin(), events.turned.end());
   sort_once(change.regrouped);
   sort_once(change.relisted);
   sort_once(change.bodies);
   for (const std::uint32_t id : change.regrouped) change.came_from[id] = body_before_[id];
 }
+
+/// Tells of rows whether they are solid and of the wrong kind for their temperature, as printed (Fig. 5).
+class Turns {
+ public:
+  explicit Turns(const World& world) : world_(world) {
+    for (const Material& m : world.scene.materials) may_.push_back(turns_elastic(world.scene, m));
+    any_ = std::ranges::find(may_, 1) != may_.end();
+  }
+  [[nodiscard]] bool operator()(std::size_t row) const {
+    const Particles& p = world_.particles;
+    if (!any_ || !may_[static_cast<std::size_t>(p[field::material][row])] || p[field::body][row] < 0) return false;
+    const double f = p[field::liquid_fraction][row];
+    if (f >= 1.0 || is_given_to_driven(row)) return false;
+    return p[field::phase][row] != static_cast<int>(solid_phase(world_.scene, world_.material_of(row), f));
+  }
+
+ private:
+  [[nodiscard]] bool is_given_to_driven(std::size_t row) const {
+    const auto body = static_cast<std::size_t>(world_.particles[field::body][row]);
+    const bool driven = world_.bodies[field::body_motion][body] != static_cast<int>(Motion::free);
+    return driven && world_.bodies[field::body_source][body] == world_.particles[field::source][row];
+  }
+
+  const World& world_;
+  std::vector<char> may_;  ///< of each material
+  bool any_ = false;
+};
 
 }  // namespace
 
@@ -147,9 +229,11 @@ Events events_of(const World& world) {
   const bool guided = p.has(field::driven.name);
   const auto driven = guided ? p[field::driven] : std::span<const int>{};
   const std::vector<Fusion> fusions = fusions_of(world.scene);
+  const Turns turns(world);
   Events events;
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
+    if (turns(i)) events.turned.push_back(id);
     if (!changes_phase(fusions[static_cast<std::size_t>(material[i])], body[i] >= 0, f[i])) continue;
     if (body[i] < 0 && guided && driven[i] != 0) continue;  // while the scene moves it, it flows
     (body[i] >= 0 ? events.melted : events.frozen).push_back(id);
@@ -166,8 +250,11 @@ bool may_join(const World& world, std::size_t row) {
 void carry_out(World& world, const Events& events, Account& account) {
   Transition transition(world, account);
   for (const std::uint32_t id : events.melted) transition.melt(id);
+  transition.turn(events.turned);
   transition.freeze(events.frozen);
-  transition.regroup_bodies(events.frozen);
+  std::vector<std::uint32_t> of_no_body;
+  std::ranges::merge(events.frozen, events.turned, std::back_inserter(of_no_body));
+  transition.regroup_bodies(of_no_body);
   transition.record(events);
 }
 

@@ -24,7 +24,7 @@ class Adoption {
  private:
   void remember();
   void list_members();
-  void release_melted();
+  void release();
   void measure_anew(std::size_t body);
   void hand_over_undelivered();
   /// Velocity of a particle just before the change [m/s].
@@ -76,11 +76,14 @@ Vec3 Adoption::velocity_of(std::size_t row, int parent) const {
   return stands ? at->second.motion.velocity : at->second.motion.velocity_at(world_.unwrapped(row));
 }
 
-void Adoption::release_melted() {
+/// What melted from a rigid body, or turned elastic, goes on as the body moved it.
+void Adoption::release() {
   const auto v = velocities(world_.particles);
-  for (const std::uint32_t id : world_.change.melted) {
-    const std::size_t i = world_.particles.row(id);
-    v.set(i, velocity_of(i, parent_of(i, -1)));
+  for (const auto* list : {&world_.change.melted, &world_.change.frozen}) {
+    for (const std::uint32_t id : *list) {
+      const std::size_t i = world_.particles.row(id);
+      v.set(i, velocity_of(i, parent_of(i, -1)));
+    }
   }
 }
 
@@ -130,7 +133,7 @@ void Adoption::hand_over_undelivered() {
 void Adoption::run() {
   remember();
   list_members();
-  release_melted();
+  release();
   for (const auto& [b, rows] : rows_) measure_anew(b);
   static const bool kept_back = defect_size("rigid.adopt.undelivered") > 0.0;
   if (!kept_back) hand_over_undelivered();

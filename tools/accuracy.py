@@ -1,0 +1,274 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Accuracy over particles and steps: what the studies of cases/accuracy found, as kept numbers, pictures and a page.
+
+    tools/accuracy.py keep RESULTS.json [RESULTS.json ...] --to docs/accuracy   keeps of each case of cases/accuracy its levels, orders and costs
+    tools/accuracy.py draw docs/accuracy/*.json --to docs/accuracy             draws one picture a case
+    tools/accuracy.py page docs/accuracy/*.json > docs/accuracy.md             writes the page
+
+Every number of page and pictures comes from results.json. Orders and extrapolated values are the harness's fits; nothing is fitted here.
+"""
+import argparse
+import json
+import math
+import sys
+import textwrap
+from pathlib import Path
+
+AXES = {"spacing": "more particles", "time_step": "shorter steps"}
+UNFIT = ("oscillating", "noise-limited", "too-few", "roundoff", "diverging")  # classes that show no order
+HUES, NAMES = {"corrected": "#0072b2", "paper": "#d55e00"}, {"corrected": "corrected", "paper": "as printed"}
+ORDER_OF_PAGE = ("melting", "contact", "elastic", "fig-09", "fig-10", "fig-12", "fig-13")
+
+INTRODUCTION = """# Accuracy over particles and steps
+
+The paper leaves open "how the accuracy of the method relates to the number of particles discretizing a certain amount of volume as well as to the time step". This page answers it for
+three kinds of physics that have an exact solution, and for the paper's figures 9, 10, 12 and 13, which have none. `tools/accuracy.py` writes it from the results of
+
+    tripoint validate accuracy --profile nightly --out accuracy-report
+
+Each picture has a row a measured number. Left: with more particles, the step following the scene's own bound. Right: with shorter steps at one number of particles. A point
+is the mean of the runs of a level, its bar the least and the greatest of them: the figures' scenes run two or three times a level, from starts that differ by a thousandth of a spacing. A dashed
+line is the extrapolated value, where the fit finds one.
+
+**How to read the orders.** An order is the p of E + C h^p, fitted over the levels by the harness ([harness.md](harness.md)), with its 95 % interval. "No order" is written
+where the fit has none (its class is named), where its interval holds 0, where a number that has no truth to be compared with has no limit in the fit, and where the runs of one level scatter by as
+much as the two finest levels differ: a finer level then says nothing of a limit. CPU seconds are of one run,
+on the machine that the numbers were kept on; compare them within this page.
+
+**The answer in words.** Particles decide, and the step hardly does: within its bound the step's error is of second order and lies below the error that the spacing leaves. In scenes that have an exact
+answer more particles come nearer to it, with an order between one and two. The printed elasticity comes to a limit too, but to a wrong one: its bar swings 2 M times as fast as the true one, M the
+lattice's gradient moment ([model.md](model.md), (12)), whatever the number of particles. The paper's figures are thick enough in particles to show *what* happens at each level. How much melts, how much
+freezes and where it comes to lie changes from level to level by a few parts in a hundred, and for most of these numbers no order is seen: particles melt and freeze one by one, and liquid
+that runs does not run twice alike.
+"""
+
+
+def spread(level):
+    return max(level["values"]) - min(level["values"])
+
+
+def mean(level):
+    return sum(level["values"]) / len(level["values"])
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and math.isfinite(value)
+
+
+# --- keep ---------------------------------------------------------------------------------------------------------------
+
+
+def levels_of(runs, axis, metric, mode):
+    """Levels of one study, coarse to fine; a level whose run failed says so."""
+    found = {}
+    for run in runs:
+        at = run["levels"].get(axis)
+        if at is None or run["knobs"]["mode"] != mode:
+            continue
+        level = found.setdefault(at, {"at": at, "values": [], "cpu_s": [], "steps": [], "particles": 0, "failed": ""})
+        value = run["metrics"].get(metric, {}).get("value")
+        if run["status"] != "ok" or not is_number(value):
+            level["failed"] = run["status"] if run["status"] != "ok" else "no number"
+            continue
+        level["values"].append(value)
+        level["cpu_s"].append(run["cost"]["cpu_s"])
+        level["steps"].append(run["knobs"]["time_step"])
+        level["particles"] = int(run["cost"]["particles"])
+    for level in found.values():
+        for key in ("cpu_s", "steps"):
+            level[key] = sum(level[key]) / len(level[key]) if level[key] else None
+    return [found[at] for at in sorted(found, reverse=True)]
+
+
+def study_of(engine, axis, metric, mode):
+    order = next((o for o in engine["order"] if (o["axis"], o["metric"], o["mode"]) == (axis, metric, mode)), None)
+    fit = {key: order.get(key) for key in ("value", "low", "high", "class", "floor", "coefficient")} if order else None
+    levels = levels_of(engine["runs"], axis, metric, mode)
+    fitted = order["step"] if order else []  # the case's own run may be no level of the study
+    return {"axis": axis, "metric": metric, "mode": mode, "fit": fit, "levels": [level for level in levels if level["failed"] or any(math.isclose(level["at"], step) for step in fitted)]}
+
+
+def kept(case, metrics):
+    engine = next(e for e in case["engines"] if e["name"] == "tripoint")
+    pairs = dict.fromkeys((o["axis"], o["metric"], o["mode"]) for o in engine["order"])
+    return {"case": case["id"], "title": case["title"], "kind": case["reference"]["kind"], "metrics": metrics,
+            "studies": [study_of(engine, *pair) for pair in pairs if pair[0] in AXES]}
+
+
+def units_of(path):
+    import tomllib
+
+    with open(path, "rb") as file:
+        return {m["name"]: m.get("unit", "") for m in tomllib.load(file)["metric"]}
+
+
+def keep(args):
+    for path in args.results:
+        for case in json.loads(Path(path).read_text(encoding="utf-8"))["cases"]:
+            if not case["id"].startswith("accuracy/"):
+                continue
+            root = Path(__file__).resolve().parent.parent
+            value = kept(case, units_of(root / "cases" / f"{case['id']}.toml"))
+            to = Path(args.to) / f"{case['id'].split('/')[1]}.json"
+            to.write_text(json.dumps(value, indent=1) + "\n", encoding="utf-8")
+
+
+# --- what the page says of a study --------------------------------------------------------------------------------------
+
+
+def verdict(study, kind):
+    """(words, order, extrapolated value): "no order" and why, or the order with its interval. What is no error of a truth tends to a limit, which the fit has to find."""
+    good = [level for level in study["levels"] if level["values"] and not level["failed"]]
+    failed = [level for level in study["levels"] if level["failed"]]
+    if failed and not good:
+        return f"no order: every level {failed[0]['failed']}", None, None
+    fit = study["fit"]
+    if len(good) < 4:
+        return "no order: fewer than four levels have a number", None, None
+    if all(math.isclose(mean(a), mean(good[0]), rel_tol=1e-9) for a in good):
+        return "the same at every level", None, None
+    scatter, step = max(spread(good[-1]), spread(good[-2])), abs(mean(good[-1]) - mean(good[-2]))
+    if scatter > 0.0 and scatter >= step:
+        return f"no order: runs of one level scatter by {short(scatter)}, the two finest levels differ by {short(step if step > 1e-12 else 0.0)}", None, None
+    if not fit or fit["class"] in UNFIT or not is_number(fit["value"]):
+        return f"no order: {fit['class'] if fit else 'not fitted'}", None, None
+    if not fit["low"] > 0.0:
+        return f"no order: {fit['value']:.2f} in {fit['low']:.2f} to {fit['high']:.2f}", None, None
+    floor = fit["floor"] if fit["floor"] else None
+    if floor is None and kind != "analytic":
+        return "no order: the fit finds no limit", None, None
+    return f"{fit['value']:.2f} ({fit['low']:.2f} to {fit['high']:.2f}), {fit['class']}", fit["value"], floor
+
+
+def short(value):
+    return f"{value:.3g}"
+
+
+def cell(level):
+    if level["failed"]:
+        return level["failed"]
+    if len(level["values"]) == 1:
+        return short(level["values"][0])
+    return f"{short(mean(level))} ({short(min(level['values']))} to {short(max(level['values']))})"
+
+
+def table(value, axis, metric):
+    studies = [s for s in value["studies"] if (s["axis"], s["metric"]) == (axis, metric)]
+    head = "spacing [mm]" if axis == "spacing" else "step [ms]"
+    lines = [f"| {head} | particles | " + " | ".join(f"{NAMES[s['mode']]} | CPU s" for s in studies) + " |", "|---|---|" + "---|---|" * len(studies)]
+    for n, level in enumerate(studies[0]["levels"]):
+        of_mode = [s["levels"][n] for s in studies]
+        particles = max(l["particles"] for l in of_mode)
+        cells = " | ".join(f"{cell(l)} | {short(l['cpu_s']) if l['cpu_s'] is not None else '-'}" for l in of_mode)
+        lines.append(f"| {1e3 * level['at']:.4g} | {particles} | {cells} |")
+    for name, pick in (("order", 0), ("extrapolated", 2)):
+        cells = []
+        for s in studies:
+            said = verdict(s, value["kind"])[pick]
+            cells.append(f"{said if pick == 0 else short(said) if said is not None else '-'} | ")
+        lines.append(f"| {name} | | " + " | ".join(c.rstrip() for c in cells) + " |")
+    return lines
+
+
+def case_text(value):
+    name = value["case"].split("/")[1]
+    lines = [f"## {value['title']}", "", f"Case `{value['case']}`.", "", f"![{value['title']}: each measured number with more particles, and with shorter steps](accuracy/{name}.png)", ""]
+    for metric, unit in value["metrics"].items():
+        for axis, words in AXES.items():
+            if any((s["axis"], s["metric"]) == (axis, metric) for s in value["studies"]):
+                lines += [f"**{metric}**, {unit}: {words}.", "", *table(value, axis, metric), ""]
+    return lines
+
+
+def summary(values):
+    lines = ["| case | number | with | corrected | as printed |", "|---|---|---|---|---|"]
+    for value in values:
+        for metric in value["metrics"]:
+            for axis, words in AXES.items():
+                of = {s["mode"]: s for s in value["studies"] if (s["axis"], s["metric"]) == (axis, metric)}
+                if of:
+                    lines.append(f"| `{value['case']}` | {metric} | {words} | " + " | ".join(verdict(of[m], value["kind"])[0] if m in of else "-" for m in NAMES) + " |")
+    return lines
+
+
+def in_order(paths):
+    values = [json.loads(Path(p).read_text(encoding="utf-8")) for p in paths]
+    return sorted(values, key=lambda v: ORDER_OF_PAGE.index(v["case"].split("/")[1]))
+
+
+def page(args):
+    values = in_order(args.kept)
+    lines = [INTRODUCTION, "## Orders found", "", *summary(values), ""]
+    for value in values:
+        lines += case_text(value)
+    sys.stdout.write("\n".join(lines).rstrip() + "\n")
+
+
+# --- pictures -----------------------------------------------------------------------------------------------------------
+
+
+def curve(axis, value, study, above):
+    """@returns what the title says of it, and the places of its levels."""
+    good = [level for level in study["levels"] if level["values"] and not level["failed"]]
+    name, hue = NAMES[study["mode"]], HUES[study["mode"]]
+    words, order, floor = verdict(study, value["kind"])
+    size = abs if value["kind"] == "analytic" else float  # an error is drawn by its size
+    x = [level["particles"] if study["axis"] == "spacing" else level["at"] for level in good]
+    y = [size(mean(level)) for level in good]
+    bars = [[max(0.0, m - min(map(size, l["values"]))) for m, l in zip(y, good)], [max(0.0, max(map(size, l["values"])) - m) for m, l in zip(y, good)]]
+    dashes, marker = ("-", "o") if study["mode"] == "corrected" else ("--", "s")
+    axis.errorbar(x, y, yerr=bars, capsize=3, elinewidth=0.9, label=name, color=hue, linestyle=dashes, marker=marker)
+    if floor is not None:
+        axis.axhline(size(floor), color=hue, linewidth=0.8, linestyle=(0, (2, 3)))
+    for place, level in zip(zip(x, y), good):
+        axis.annotate(f"{level['cpu_s']:.2g} s", place, textcoords="offset points", xytext=(0, 7 if above else -13), fontsize=6.5, ha="center", color=hue)
+    return f"{name}: order {words}" if order is not None else f"{name}: {words.split(':')[0]}", x
+
+
+def panel(style, axis, value, metric, knob):
+    studies = [s for s in value["studies"] if (s["axis"], s["metric"]) == (knob, metric) and any(level["values"] for level in s["levels"])]
+    height = {s["mode"]: max(abs(mean(level)) for level in s["levels"] if level["values"]) for s in studies}
+    drawn = [curve(axis, value, s, height[s["mode"]] == max(height.values())) for s in studies]
+    places = sorted({x for _, at in drawn for x in at})
+    axis.margins(x=0.14, y=0.25)
+    style.logarithmic(axis, "xy" if value["kind"] == "analytic" else "x")
+    axis.set_xticks(places, [style.power(x) for x in places])
+    if knob == "time_step":
+        axis.invert_xaxis()
+    axis.set_xlabel("particles in all" if knob == "spacing" else "time step [s], shorter to the right")
+    axis.set_ylabel(metric)
+    axis.set_title("\n".join([*textwrap.wrap(f"{metric}, {value['metrics'][metric]}", 66), *(words for words, _ in drawn)]), fontsize=7.5)
+
+
+def draw(args):
+    sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "reports"))
+    from figures import style
+
+    for value in in_order(args.kept):
+        pairs = list(dict.fromkeys((s["metric"], s["axis"]) for s in value["studies"]))
+        pairs.sort(key=lambda pair: (list(value["metrics"]).index(pair[0]), list(AXES).index(pair[1])))
+        figure, axes = style.panels(len(pairs), 2, height=3.0, columns=2)
+        for axis, pair in zip(axes, pairs):
+            panel(style, axis, value, *pair)
+        style.legend(figure, axes)
+        total = figure.get_figheight()
+        figure.subplots_adjust(left=0.08, right=0.98, bottom=0.55 / total, top=1 - 0.95 / total, wspace=0.24, hspace=0.62)
+        figure.savefig(Path(args.to) / f"{value['case'].split('/')[1]}.png", dpi=110, metadata={"Software": None})
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True)
+    for name, action, what in (("keep", keep, "results"), ("draw", draw, "kept"), ("page", page, "kept")):
+        command = commands.add_parser(name)
+        command.add_argument(what, nargs="+")
+        if name != "page":
+            command.add_argument("--to", required=True)
+        command.set_defaults(action=action)
+    args = parser.parse_args()
+    args.action(args)
+
+
+if __name__ == "__main__":
+    main()
