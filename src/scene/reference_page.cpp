@@ -63,6 +63,7 @@ end_time = "2 s"
 - A gate that gives `limit`, `at_least` or `band` replaces the bound of the gate that it meets, of whatever kind that was.
 - `remove` takes keys and tables out of the other case first: `"scene.jitter"`, `"engines.lammps"`, `"body.lid"`, `"body.lid.velocity"`, `"metric.overlap"` and the gates on it, `"gate.overlap"` (all gates on that metric), or all of a kind: `"study"`, `"gate"`.
 - Data and meshes that the other case names are found beside that case. Errors and gates name the file and the line where the key stands.
+- What is added to the other case later, a gate too, holds in its variants: run them as well.
 
 **Gates within their metric.** `gates` of a `[[metric]]` holds its gates, one a line, without the key `metric`; `limits` is one limit a level of a study. The last gate below judges the metric's order.
 
