@@ -8,7 +8,7 @@ OUT ?= report
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-print-directory
 
-.PHONY: help setup build test validate test-fresh test-image test-package bench bench-peers gallery docs wheel clean
+.PHONY: help setup build test validate test-fresh test-image test-package bench bench-peers gallery docs wheel sbom clean
 
 help:  ## this text
 	@echo 'tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.'
@@ -50,6 +50,9 @@ test-package:  ## the Debian package of build/ in a bare root by apt, and a gate
 
 wheel: build  ## a Python wheel with the program inside: build/wheel/
 	@tools/wheel.sh
+
+sbom: build  ## what a build holds, loads and fetches, as SPDX 2.3: build/tripoint.spdx.json
+	@tools/sbom.py
 
 bench: build  ## time standard work on this machine, beside the machine's own limit
 	@build/bin/tripoint bench
