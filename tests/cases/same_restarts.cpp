@@ -52,7 +52,9 @@ struct Counts {
 /// Steps to the next output, to the one after it and so on, as a run does, until go_on says no.
 void go(Simulation& s, const Scene& scene, const std::function<bool()>& go_on) {
   const double every = scene.output_interval > 0.0 ? scene.output_interval : scene.end_time;
-  for (double k = std::floor(s.world().time / every * (1.0 + 1e-12)) + 1.0;; k += 1.0) {
+  double k = std::max(0.0, std::floor(s.world().time / every) - 1.0);
+  while (k * every <= s.world().time) k += 1.0;  // the very next one, however near: an event may lie a rounding error before it
+  for (;; k += 1.0) {
     const double next = std::min(k * every, scene.end_time);
     bool goes = true;
     s.advance_to(next, [&] { return goes = go_on(); });
