@@ -25,7 +25,7 @@ INTRODUCTION = """# Accuracy over particles and steps
 The paper leaves open "how the accuracy of the method relates to the number of particles discretizing a certain amount of volume as well as to the time step". This page answers it for
 three kinds of physics that have an exact solution, and for the paper's figures 9, 10, 12 and 13, which have none. `tools/accuracy.py` writes it from the results of
 
-    tripoint validate accuracy --profile nightly --out accuracy-report
+    tripoint validate accuracy --profile nightly --out accuracy-report   # 10 minutes
 
 Each picture has a row a measured number. Left: with more particles, the step following the scene's own bound. Right: with shorter steps at one number of particles. A point
 is the mean of the runs of a level, its bar the least and the greatest of them: the figures' scenes run two or three times a level, from starts that differ by a thousandth of a spacing. A dashed
