@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The page "what one more digit costs": along every ladder of levels, CPU seconds and pairs for a tenth of the error.
 
-Error is |value| + 2 u of a run, as a limit sees it. The slope is that between the two finest levels in log-log: the coarser ones
-are dear by the start of the program, not by their work. Nothing is said outside what was measured.
+Error is |value| + 2 u of a run, as a limit sees it. The slope is that between two levels in log-log: the finest and the
+nearest one that is at least 1.5 times as coarse. Coarser ones are dear by the start of the program, not by their work; between closer ones
+the scatter of the error is as large as its fall. Nothing is said outside what was measured.
 """
 from __future__ import annotations
 
@@ -12,6 +13,8 @@ from dataclasses import dataclass, field
 from model import is_number, number, rows, table, text
 
 EXACT = "exact"
+APART = 1.5  # least ratio of the two levels between which a slope is taken, where the ladder has such a pair
+GAIN = 0.8   # of the error left after a step of two in the level: where more is left, finer levels buy no accuracy
 
 
 @dataclass
@@ -43,6 +46,15 @@ class Ladder:
     @property
     def factor_theory(self):
         return 10.0 ** self.theory if self.theory is not None else None
+
+
+def plain(factor):
+    """Three digits of a factor, and no power of ten up to a thousand million: a slope through two levels holds no more."""
+    return f"{float(f'{factor:.3g}'):,.0f}" if 100.0 <= factor < 1e9 else f"{factor:.3g}"
+
+
+def times(factor):
+    return f"{plain(factor)} ×"
 
 
 def floor_of(case):
@@ -108,18 +120,30 @@ def settle(ladder, points, formal):
     orders = [order for order in ladder.engine.orders if (order.metric, order.axis, order.mode) == (ladder.metric, ladder.axis, ladder.mode)]
     if len(points) < 2:
         ladder.why = "fewer than two levels gave an error above 0"
-    elif points[-1][1] > 0.8 * points[-2][1] or any(order.fit_class == "plateau" for order in orders):
+        return
+    ladder.theory = theory(ladder.axis, points, formal)
+    coarse, fine = apart(points)
+    left = GAIN ** min(1.0, math.log2(ratio(coarse, fine)))
+    if fine[1] > left * coarse[1] or any(order.fit_class == "plateau" for order in orders):
         ladder.why = "finer levels buy no accuracy here" + (": the error has a floor" if orders and orders[0].fit_class == "plateau" else "")
-    elif points[-1][2] < 1.2 * points[-2][2]:
+    elif fine[2] < 1.2 * coarse[2]:
         ladder.why = "cost is that of starting the program: too short to say"
-    elif floor_of(ladder.case) and points[-1][2] <= floor_of(ladder.case) * points[-2][2]:
-        ladder.why = f"not resolved: the two finest levels cost the same within the noise floor, a factor {floor_of(ladder.case):.3g}"
+    elif floor_of(ladder.case) and fine[2] <= floor_of(ladder.case) * coarse[2]:
+        ladder.why = f"not resolved: the two levels cost the same within the noise floor, a factor {floor_of(ladder.case):.3g}"
     else:
-        coarse, fine = points[-2:]
         ladder.slope = slope(coarse, fine, 2)
         if coarse[3] > 0 and fine[3] > 0:
             ladder.pairs = slope(coarse, fine, 3)
-    ladder.theory = theory(ladder.axis, points, formal)
+
+
+def ratio(a, b):
+    """Of two levels, at least 1, whichever way the axis is refined."""
+    return max(a[0] / b[0], b[0] / a[0])
+
+
+def apart(points):
+    """@return (coarse, fine): the finest level and the nearest that is APART from it, or the coarsest of a ladder so short that none is"""
+    return next((point for point in reversed(points[:-1]) if ratio(point, points[-1]) > APART * (1.0 - 1e-9)), points[0]), points[-1]
 
 
 def slope(coarse, fine, cost):
@@ -160,7 +184,7 @@ def draw(ladders, out):
             axis.plot([ladder.factor_theory] * 2, [k - 0.42, k + 0.42], color=style.INK, linewidth=1.6)
         mark = ladder.factor_theory or 0.0
         beside = mark if ladder.factor <= mark < 3.0 * ladder.factor else ladder.factor  # not under the black line
-        axis.annotate(f"{ladder.factor:.3g}", (beside, k), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8, color=style.INK)
+        axis.annotate(plain(ladder.factor), (beside, k), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8, color=style.INK)
     axis.set_yticks(range(len(shown)), [f"{ladder.case.id} · {ladder.label} · {ladder.axis.replace('_', ' ')}" for ladder in shown], fontsize=8)
     axis.set_xscale("log")
     axis.set_xlim(1.0, 3.0 * max(max(ladder.factor, ladder.factor_theory or 1.0) for ladder in shown))

@@ -108,7 +108,7 @@ def changes(results):
             found.append(Change(case, "verdict", verdicts[case.id], case.verdict, marks[case.number], 10.0))
     found.sort(key=lambda change: (ORDER.index(change.kind), -change.weight))
     gone = sorted(set(case.id for case in before.cases) - set(case.id for case in results.cases)) if before and before.raw.get("what") == results.raw.get("what") else []
-    return {"since": date, "list": found, "worse": any(change.kind == "worse" for change in found), "apart": any(change.kind == "apart" for change in found), "cases": marks, "gone": gone, "bits": bits(results, before), "cpu": (summary.counts(before)["cpu"] if before else None)}
+    return {"since": date, "list": found, "worse": any(change.kind == "worse" for change in found), "apart": any(change.kind == "apart" for change in found), "cases": marks, "gone": gone, "bits": bits(results, before), "cpu": seconds(results, before)}
 
 
 def compare(case, engine, gate, old):
@@ -142,6 +142,18 @@ def settings_changed(before, after):
         if is_number(old) and is_number(new) and abs(new - old) > STEP * max(abs(old), abs(new)):
             found.append(f"its {word} changed, {scale * old:.4g} to {scale * new:.4g}{unit}")
     return ", ".join(found)
+
+
+def seconds(results, before):
+    """(CPU seconds now, CPU seconds before) of the runs that both have: a new case is no slower program; None without such runs."""
+    if before is None:
+        return None
+
+    def spent(of):
+        return {(case.id, run.folder): run.cost["cpu_s"] for case in of.cases for engine in case.engines for run in engine.runs if run.folder and is_number(run.cost.get("cpu_s"))}
+    now, then = spent(results), spent(before)
+    both = now.keys() & then.keys()
+    return (sum(now[key] for key in both), sum(then[key] for key in both)) if both else None
 
 
 def bits(results, before):

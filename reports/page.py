@@ -119,7 +119,7 @@ def truth(row, case, side):
 def environment():
     import jinja2
     made = jinja2.Environment(loader=jinja2.FileSystemLoader(TEMPLATES), autoescape=True, trim_blocks=True, lstrip_blocks=True)
-    made.filters.update(show=show, size=size, percent=percent, tone=summary.tone, page=page_of, terms=terms, measure=measure, truth=truth, judged=judged, hash=script_hash, of_one_value=of_one_value, worded=worded,
+    made.filters.update(show=show, times=digit_cost.times, size=size, percent=percent, tone=summary.tone, page=page_of, terms=terms, measure=measure, truth=truth, judged=judged, hash=script_hash, of_one_value=of_one_value, worded=worded,
                         turn=lambda kind: front.WORDS.get(kind, kind), headline=summary.headline, standings=summary.standings, ran=summary.ran, share=front.worst_share)
     return made
 

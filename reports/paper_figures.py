@@ -6,6 +6,7 @@ A case belongs to it by its tag `paper`. The paper says of its figures: 0.5 s a 
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 
 import table1
@@ -37,7 +38,12 @@ class Row:
 def read(results):
     """@return rows, the scenes with the most particles first"""
     found = [row(case, engine, run) for case in results.cases if TAG in table1.tags(case) for engine in case.engines if engine.name == ENGINE for run in engine.runs if run.base]
-    return sorted(found, key=lambda r: (-(r.particles or 0) // 10000, r.case.title, r.mode))
+    return sorted(found, key=lambda r: (-(r.particles or 0) // 10000, natural(r.case.title), r.mode))
+
+
+def natural(title):
+    """The title, with its numbers as numbers: figure 8 stands before figure 10."""
+    return [(0, int(part), "") if part.isdigit() else (1, 0, part) for part in re.split(r"([0-9]+)", title)]
 
 
 def pictures(results, out):

@@ -9,6 +9,7 @@ from .curve import Drawing
 
 MOST_BODIES = 4
 STORED = ("potential", "compression", "elastic", "hourglass")  # energies that motion is exchanged with and comes back from
+TURN, ENERGY = "turn from the start [deg]", "energy change / kinetic"  # of panels
 
 
 def draw(case, trajectories, notes):
@@ -41,8 +42,20 @@ def draw(case, trajectories, notes):
         axis.set_xlabel("time [s]")
         axis.set_ylabel(title)
     style.legend(figure, axes)
-    return Drawing("bodies", "Bodies in time", "Position, rotation and energy of the bodies against time for " + ", ".join(c.label for c, _ in shown) + ".", figure,
-                   "Each engine at the case's own resolution; below a curve, what is left between engine and exact. Turn from the start is the angle of the rotation that leads from the first attitude to the present one." + (" Solid: the first body; dashes: further ones." if most > 1 else "") + order)
+    title, what = ("Bodies in time", "Position, rotation and energy of the bodies") if len(wanted) > 1 or wanted[0][0] != ENERGY else ("Energy in time", "Energy")
+    return Drawing("bodies", title, f"{what} against time for " + ", ".join(c.label for c, _ in shown) + ".", figure, caption(wanted, any(left)) + order)
+
+
+def caption(wanted, residuals):
+    """Sentences on what is drawn, and on nothing else."""
+    said = "Each engine at the case's own resolution" + ("; below a curve, what is left between engine and exact." if residuals else ".")
+    if any(title == TURN for title, _ in wanted):
+        said += " Turn from the start is the angle of the rotation that leads from the first attitude to the present one."
+    if any(title == ENERGY for title, _ in wanted):
+        said += " Energy change: of the kinetic and the stored energy since the start, as a part of the run's greatest kinetic energy."
+    if any(nth > 0 for _, lines in wanted for *_, nth in lines):
+        said += " Solid: the first body; dashes: further ones."
+    return said
 
 
 def who_leads(title, left):
@@ -110,7 +123,7 @@ def turn_panel(shown):
             angle = 2 * np.arctan2(np.linalg.norm(q[:, b, 1:], axis=1), np.abs(q[:, b, 0]))
             if np.isfinite(angle).any() and np.nanmax(angle) > 1e-9:
                 lines.append((curve, t.body_times, np.degrees(angle), b))
-    return ("turn from the start [deg]", lines) if lines else None
+    return (TURN, lines) if lines else None
 
 
 def energy_panel(trajectories, notes):
@@ -128,7 +141,7 @@ def energy_panel(trajectories, notes):
         scale = np.nanmax(np.abs(kinetic)) if np.isfinite(kinetic).any() else 0.0
         if scale > 0:
             lines.append((curve, times, (total - total[0]) / scale, 0))
-    return ("energy change / kinetic", lines) if lines else None
+    return (ENERGY, lines) if lines else None
 
 
 def takes_part(trajectory, name):

@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import math
 import re
 import shutil
 import sys
@@ -17,6 +18,7 @@ import digit_cost  # noqa: E402
 import headlines  # noqa: E402
 import load  # noqa: E402
 import page  # noqa: E402
+import paper_figures  # noqa: E402
 import releases  # noqa: E402
 import report  # noqa: E402
 import scorecard  # noqa: E402
@@ -77,6 +79,17 @@ class DigitCost(Pages):
         found = digit_cost.read(self.load(case([engine], studies=[study()])))
         self.assertIsNone(found[0].factor)
         self.assertIn("no accuracy", found[0].why)
+
+    def test_levels_close_together_are_judged_by_how_close_they_are(self):
+        engine = ladder(2.0, 5.0)
+        for run, spacing, error in zip(engine["runs"], (5e-4, 3e-4, 2.5e-4), (2.3e-3, 1.5e-3, 1.35e-3)):  # order 0.7, the last two a sixth apart
+            run["levels"]["spacing"] = run["knobs"]["spacing"] = spacing
+            run["metrics"]["error"]["value"] = error
+            run["cost"] = {"cpu_s": spacing ** -4.0, "pairs": spacing ** -4.0}
+        found = digit_cost.read(self.load(case([engine], studies=[study()])))
+        self.assertAlmostEqual(math.log10(found[0].factor), 4.0 * math.log(2.0) / math.log(2.3 / 1.35), places=9)  # between 5e-4 and 2.5e-4
+        self.write(case([engine], studies=[study()]))
+        self.assertIn(f"{float(f'{found[0].factor:.3g}'):,.0f} ×", self.text("digit-cost.html"))
 
     def test_a_level_that_failed_is_shown(self):
         self.write(case([ladder(2.0, 5.0, finest={"status": "diverged", "reason": "particle 7", "metrics": {}})], studies=[study()]))
@@ -140,9 +153,25 @@ class SinceTheLastRun(Pages):
         self.assertIn("0 of 1 runs ended in the same bits as before. The other 1 heat/one/tripoint", text)
         self.assertNotIn("The other", self.front(gated(0.5), gated(0.5)))
 
+    def test_a_new_case_is_no_slower_program(self):
+        old, now, new = gated(0.5), gated(0.5), {**gated(0.5), "id": "heat/two"}
+        for one, seconds in ((old, 2.0), (now, 3.0), (new, 40.0)):
+            one["engines"][0]["runs"][0]["cost"] = {"cpu_s": seconds}
+        self.load(old)
+        (self.path / "results.json").rename(self.path / "results.previous.json")
+        self.write(now, new)
+        self.assertIn("43 CPU s (runs that both have: 3, before 2)", self.text("index.html"))
+
     def test_the_nearest_gates_say_whether_they_hold(self):
         self.assertIn("100 % holds", self.front(gated(1.0), gated(1.0)))
         self.assertIn("120 % fails", self.front(gated(1.2, verdict="fail"), gated(1.2, verdict="fail")))
+
+
+class PaperFigures(Pages):
+    def test_figure_8_stands_before_figure_10(self):
+        titles = ["Figure 10: cold", "Figure 8: rigid", "Figure 11", "Table 1", "Figure 1: merge"]
+        cases = [{**case([ladder(2.0, 5.0)], f"paper/{n}"), "title": title, "tags": ["paper"]} for n, title in enumerate(titles)]
+        self.assertEqual([row.case.title for row in paper_figures.read(self.load(*cases))], ["Figure 1: merge", "Figure 8: rigid", "Figure 10: cold", "Figure 11", "Table 1"])
 
 
 class Corrections(Pages):
@@ -372,6 +401,13 @@ class Figures(unittest.TestCase):
         said = bodies.who_leads("z of the centre [m]", ("engine minus exact [m]", lines))
         self.assertIn("in z against exact: bullet lags by 0.04905 m, paper leads by 0.04905 m; within 1e-15 m of exact: own.", said)
         self.assertEqual(bodies.who_leads("z of the centre [m]", None), "")
+
+    def test_a_caption_speaks_of_the_panels_that_are_there(self):
+        from figures import bodies
+        liquid, solid = [(bodies.ENERGY, [("tripoint", [], [], 0)])], [(bodies.TURN, [("tripoint", [], [], 0), ("tripoint", [], [], 1)])]
+        self.assertEqual(bodies.caption(liquid, False), "Each engine at the case's own resolution. Energy change: of the kinetic and the stored energy since the start, as a part of the run's greatest kinetic energy.")
+        for words in ("what is left between engine and exact", "Turn from the start", "dashes: further ones"):
+            self.assertIn(words, bodies.caption(solid, True))
 
     def test_phases_are_drawn_beside_temperatures_where_they_change(self):
         import numpy as np
