@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <thread>
+#include <vector>
 
 #include "harness/fakes.hpp"
 #include "validation/harness/process.hpp"
@@ -33,6 +34,19 @@ TEST(Process, AProgramThatIsNotThereIsNotStarted) {
   ProcessSpec spec;
   spec.argv = {"/no/such/program"};
   EXPECT_EQ(run_process(spec).how, ProcessEnd::How::not_started);
+}
+
+TEST(Process, MemoryIsTheChildsAndNotThatOfWhoStartedIt) {
+  constexpr std::size_t much = 300u << 20;
+  std::vector<char> ours(much, 'x');  // every page is touched
+  EXPECT_EQ(ours[much / 2], 'x');
+  const auto small = run_process(shell("sleep 0.1"));
+  EXPECT_GT(small.peak_bytes, 2e5);
+  EXPECT_LT(small.peak_bytes, 5e7);
+  ours = {};
+  const auto large = run_process(shell("exec /usr/bin/python3 -c 'x = bytearray(b\"1\") * 60000000'"));
+  EXPECT_GT(large.peak_bytes, 6e7);
+  EXPECT_LT(large.peak_bytes, 2e8);
 }
 
 TEST(Process, TheWholeGroupDiesAtTheLimit) {

@@ -19,8 +19,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "validation/harness/instructions.hpp"
 #include "validation/harness/strays.hpp"
@@ -178,11 +181,26 @@ void bound_resources(pid_t pid) {
 #endif
 }
 
+/// Greatest memory of a process so far [bytes], as it says itself while it lives; 0 when it has ended.
+double peak_of(pid_t pid) {
+  std::ifstream status(fmt::format("/proc/{}/status", pid));
+  constexpr std::string_view key = "VmHWM:";
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(key)) return 1024.0 * std::atof(line.c_str() + key.size());
+  return 0.0;
+}
+
+/// What the system counts as a child's memory begins with the peak of us who started it: it is the child's own only where it is more.
 void add_cost(ProcessEnd& end, const rusage& use) {
   const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
   end.cpu_s += seconds(use.ru_utime) + seconds(use.ru_stime);
-  end.peak_bytes = std::max(end.peak_bytes, 1024.0 * static_cast<double>(use.ru_maxrss));
+  rusage ours{};
+  getrusage(RUSAGE_SELF, &ours);
+  if (use.ru_maxrss > ours.ru_maxrss) end.peak_bytes = std::max(end.peak_bytes, 1024.0 * static_cast<double>(use.ru_maxrss));
 }
+
+/// Until we look at a child again [ms]: a fifth of the time that it has run, so that its memory is seen late in a short run too.
+double until_next_look(double ran, double left) { return std::min({100.0, std::max(2.0, 200.0 * ran), 1e3 * left + 1.0}); }
 
 /// Reads what is there without waiting. @return false at the end of the stream
 template <class Take>
@@ -231,7 +249,8 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
       end.how = ProcessEnd::How::timed_out;
       break;
     }
-    ::poll(wait.data(), wait.size(), static_cast<int>(std::min(100.0, 1e3 * left + 1.0)));
+    end.peak_bytes = std::max(end.peak_bytes, peak_of(pid));
+    ::poll(wait.data(), wait.size(), static_cast<int>(until_next_look(seconds_since(start), left)));
     if (wait[0].revents && !drain(out, take_output)) wait[0].fd = -1;
     if (wait[1].revents && !drain(err, take_log)) wait[1].fd = -1;
     int status = 0;
