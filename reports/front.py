@@ -169,9 +169,14 @@ def bits(results, before):
     return len(both) - len(others), len(both), others
 
 
+def is_whole(gate):
+    """Whether it asks for all of something, up to a rounding, and has all: such a gate uses its limit to the last thousandth and is in no danger."""
+    return gate.at_least is not None and 0.99 <= gate.at_least <= 1.0 and is_number(gate.value) and abs(gate.value - 1.0) < 1e-9
+
+
 def nearest(results):
     """[(share, case, engine, gate)]: the ten gates that use most of their limits, broken ones first."""
-    found = [(gate.used, case, engine, gate) for case in results.cases for engine in case.engines for gate in engine.gates if is_number(gate.used)]
+    found = [(gate.used, case, engine, gate) for case in results.cases for engine in case.engines for gate in engine.gates if is_number(gate.used) and not is_whole(gate)]
     return sorted(found, key=lambda entry: (entry[3].verdict == "PASS", -entry[0]))[:NEAREST]
 
 

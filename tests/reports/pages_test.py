@@ -15,6 +15,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "reports")]
 import ablation  # noqa: E402
 import digit_cost  # noqa: E402
+import front  # noqa: E402
 import headlines  # noqa: E402
 import load  # noqa: E402
 import page  # noqa: E402
@@ -165,6 +166,11 @@ class SinceTheLastRun(Pages):
     def test_the_nearest_gates_say_whether_they_hold(self):
         self.assertIn("100 % holds", self.front(gated(1.0), gated(1.0)))
         self.assertIn("120 % fails", self.front(gated(1.2, verdict="fail"), gated(1.2, verdict="fail")))
+
+    def test_a_gate_that_asks_for_all_and_has_all_is_not_near_its_limit(self):
+        gates = [{"metric": name, "mode": "corrected", "value": value, "at_least": 0.999, "verdict": "pass", "reason": "r"} for name, value in (("melted", 1.0), ("share", 0.9991))]
+        near = front.nearest(self.load(case([ladder(2.0, 5.0, gates=gates)])))
+        self.assertEqual([gate.metric for _, _, _, gate in near], ["share"])
 
 
 class PaperFigures(Pages):
