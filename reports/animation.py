@@ -31,13 +31,19 @@ def films(results, rows):
     return [film(results, text(row.get("case")), text(row.get("title"))) for row in rows]
 
 
+def run_to_draw(case):
+    """The last good run of our own solver: corrected, or printed where the case has no other form; None where there is none."""
+    runs = [run for engine in case.engines if engine.name == "tripoint" for run in engine.runs if run.status == "ok"]
+    return next((run for mode in ("corrected", "paper") for run in reversed(runs) if run.mode == mode), None)
+
+
 def film(results, case_id, title):
     case = next((case for case in results.cases if case.id == case_id), None)
-    runs = [run for engine in case.engines if engine.name == "tripoint" for run in engine.runs if run.mode == "corrected" and run.status == "ok"] if case else []
-    if not runs:
+    run = run_to_draw(case) if case else None
+    if not run:
         return Film(title, f"{case_id} is not among these results, or did not end well")
     try:
-        times, position, phase, material = read(results.folder, runs[-1])
+        times, position, phase, material = read(results.folder, run)
         return Film(title, "", base64.b64encode(painted(*seen(position, phase, material))).decode(), float(times[-1]))
     except Exception as error:  # a torn or foreign file, or a library that is not there: the page says it and goes on
         return Film(title, f"{case_id}: {error}")

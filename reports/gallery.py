@@ -40,7 +40,7 @@ def pictures(results, program=None):
 
 def surfaces(results, case, program):
     """@return name of the sheet of six frames with their surfaces, and why there is none"""
-    run = next(run for engine in case.engines if engine.name == "tripoint" for run in reversed(engine.runs) if run.mode == "corrected" and run.status == "ok")
+    run = animation.run_to_draw(case)
     name = case.id.replace("/", "-") + ".png"
     with tempfile.TemporaryDirectory() as folder:
         done = subprocess.run([program, "render", trajectories.folder_of(results.folder, run), "--out", folder, "--size", SIZE], capture_output=True, text=True, check=False)

@@ -16,8 +16,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "reports"))
 import gallery  # noqa: E402
 
 
-def case(name, tags=("paper",)):
-    run = {"knobs": {"mode": "corrected"}, "status": "ok", "base": True, "folder": f"runs/{name}", "metrics": {}}
+def case(name, tags=("paper",), mode="corrected"):
+    run = {"knobs": {"mode": mode}, "status": "ok", "base": True, "folder": f"runs/{name}", "metrics": {}}
     return {"id": f"paper/{name}", "title": f"Figure {name}", "claims": "it falls <here>", "verdict": "PASS", "tags": list(tags), "engines": [{"name": "tripoint", "status": "ok", "runs": [run]}]}
 
 
@@ -57,6 +57,12 @@ class Gallery(unittest.TestCase):
         self.assertNotIn("unrelated", page)
         self.assertIn("it falls &lt;here&gt;", page)
         self.assertEqual(Image.open(self.path / "paper-09.gif").n_frames, 7)
+
+    def test_a_case_of_the_printed_form_alone_is_drawn_too(self):
+        self.film("11", 3)
+        program = self.program('echo drawn > "$4/sheet.png"\n')
+        self.assertEqual(self.draw(case("11", mode="paper"), program=program), 0)
+        self.assertIn("paper-11.png", (self.path / "index.html").read_text())
 
     def test_a_case_without_a_trajectory_is_named_and_is_no_success(self):
         self.film("09", 3)
