@@ -12,6 +12,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
+#include <string>
+#include <thread>
 #include <vector>
 
 namespace tripoint {
@@ -19,20 +22,45 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Processes whose environment holds this entry. Those of other users cannot be read, and are none of ours.
-std::vector<pid_t> marked(const std::string& entry) {
-  std::vector<pid_t> found;
+/// What a look over all processes found.
+struct Look {
+  std::vector<pid_t> marked;
+  bool unsure = false;  // one of ours is just becoming another program: for that moment nobody can read its environment
+};
+
+std::string all_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Whether a process whose environment we read as empty is a child of ours, alive, and not one that was given none: fields 3, 4, 50, 51 of proc(5).
+bool is_becoming_another(const fs::path& process) {
+  const std::string line = all_of(process / "stat");
+  const auto name_end = line.rfind(')');
+  if (name_end == std::string::npos) return false;
+  std::istringstream fields(line.substr(name_end + 1));
+  const std::vector<std::string> field{std::istream_iterator<std::string>(fields), {}};
+  constexpr std::size_t state = 0, parent = 1, environment_start = 47, environment_end = 48;
+  if (field.size() <= environment_end) return false;
+  const bool alive = field[state] != "Z" && field[state] != "X";
+  const bool was_given_none = field[environment_end] != "0" && field[environment_start] == field[environment_end];
+  return alive && field[parent] == std::to_string(::getpid()) && !was_given_none;
+}
+
+/// Finds processes whose environment holds this entry. Those of other users cannot be read, and are none of ours.
+Look look_for(const std::string& entry) {
+  Look look;
   std::error_code none;
   for (fs::directory_iterator at("/proc", none), end; !none && at != end; at.increment(none)) {
     const std::string name = at->path().filename().string();
     pid_t pid = 0;
     const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
     if (error != std::errc() || stop != name.data() + name.size() || pid == ::getpid()) continue;
-    std::ifstream in(at->path() / "environ", std::ios::binary);
-    const std::string environment{std::istreambuf_iterator<char>(in), {}};
-    if (environment.find(entry) != std::string::npos) found.push_back(pid);
+    const std::string environment = all_of(at->path() / "environ");
+    if (environment.find(entry) != std::string::npos) look.marked.push_back(pid);
+    else if (environment.empty() && is_becoming_another(at->path())) look.unsure = true;
   }
-  return found;
+  return look;
 }
 
 }  // namespace
@@ -45,12 +73,19 @@ std::string new_stray_mark() {
 
 void end_strays(const std::string& mark) {
   constexpr int rounds = 50;  // what forks faster than it is killed is slower after each round
+  constexpr auto patience = std::chrono::seconds(2);  // to become another program takes milliseconds, on a busy machine too
+  const auto start = std::chrono::steady_clock::now();
   const std::string entry = fmt::format("{}={}", stray_mark, mark);
-  for (int n = 0; n < rounds; ++n) {
-    const auto strays = marked(entry);
-    if (strays.empty()) return;
+  for (int n = 0; n < rounds;) {
+    const auto [strays, unsure] = look_for(entry);
+    if (strays.empty()) {
+      if (!unsure || std::chrono::steady_clock::now() - start > patience) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      continue;
+    }
     for (const pid_t pid : strays) ::kill(pid, SIGKILL);
     for (const pid_t pid : strays) ::waitpid(pid, nullptr, WNOHANG);  // orphans come to us; one that stays dead has no environment
+    ++n;
   }
 }
 
