@@ -27,7 +27,7 @@ class InstallError(Exception):
 class File:
     """One package of a registry, pinned."""
 
-    name: str  # as its registry writes it: numpy==2.4.6, libode8=2:0.16.2-1, jolt-physics@1.1.0
+    name: str  # as its registry writes it: numpy==2.4.6, libode8=2:0.16.2-1, jolt-physics@1.1.0; of crates the file that pins them all
     sha256: str
     size: int  # [bytes]
 
@@ -38,7 +38,7 @@ class Release:
     title: str
     version: str
     licence: str
-    registry: str  # PyPI | Debian | npm
+    registry: str  # PyPI | Debian | npm | crates.io
     adapter: Path
     files: tuple[File, ...]
     disk: int  # what an installed environment took [MB]

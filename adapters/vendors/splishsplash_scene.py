@@ -124,9 +124,11 @@ def refuse_scene(job: Job) -> str:
         return f"contact between bodies is not handed to SPlisHSPlasH, and {free[0]} and {free[1]} may touch"
     if free and norm(add(vector(scene["gravity"]), (0.0, 0.0, EARTH))) > 1e-9:
         return f"rigid bodies of SPlisHSPlasH fall by 9.81 m/s2 along its -y, whatever gravity its liquid has, and {free[0]} is free"
+    if reason := refuse_periodic(job):
+        return reason
     if friction_is_mixed(job) and liquid["viscosity"] > 0.0 and "viscosityBoundary" not in job.settings:
         return "SPlisHSPlasH has one viscosityBoundary for all walls, and here some slip and some do not; the setting viscosityBoundary chooses"
-    return refuse_periodic(job)
+    return ""
 
 
 def write_particles(path: Path, places: Any) -> None:

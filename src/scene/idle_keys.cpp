@@ -286,7 +286,7 @@ class IdleKeys {
     for (const Gate& g : case_.gates) can_fail(g);
     for (std::size_t n = 0; n < case_.studies.size(); ++n) {
       const Study& s = case_.studies[n];
-      const bool random = s.jitter > 0.0 || scene_.jitter > 0.0 || std::ranges::any_of(case_.engines, [](const EngineChoice& e) { return e.name == "lammps" || !e.settings.empty(); });
+      const bool random = s.jitter > 0.0 || scene_.jitter > 0.0 || std::ranges::any_of(case_.engines, [](const EngineChoice& e) { return e.name == "lammps" || e.settings.size() > e.settings.count("refuses"); });
       if (s.seeds > 1 && !random) warn(s.place, fmt::format("the study makes {} runs a level that differ by the seed alone, and nothing is random without jitter: give it a jitter, or remove seeds", s.seeds));
     }
   }

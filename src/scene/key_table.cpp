@@ -150,6 +150,7 @@ constexpr auto common_keys = std::to_array<Key>({
     // [engines.NAME]
     {"engines", "required", flag, "", any, "false", "its absence is a row of the report and no failure (tripoint: true)", "", "true: the case fails where the engine is missing"},
     {"engines", "preset", text_or_texts, "", any, "[]", "the engine's default", "", "presets of the engine, one row of the results each"},
+    {"engines", "refuses", text, "", any, "", "it may take the case or refuse it", "", "words of the refusal that is expected of the engine: it fails the case when it takes it, or refuses it for another reason"},
     {"engines", "settings", settings, "", any, "{}", "the preset's own", "", "settings of the engine, by its own keys"},
     // [reference]
     {"reference", "kind", word, "", any, "\"analytic\"", "an exact solution", references, "kind of truth"},

@@ -25,6 +25,11 @@ EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading&
   const bool says = in.has("required");
   e.required = in.flag("required") || (name == "tripoint" && !says);  // ours is required where a case says nothing else
   e.presets = in.texts("preset"), e.settings = in.settings("settings");
+  if (const auto refuses = in.maybe_text("refuses")) {
+    if (refuses->empty()) in.refuse("refuses", "write words of the engine's own reason");
+    if (e.required) in.refuse("refuses", "an engine that the case requires cannot be expected to refuse it: write required = false");
+    e.settings["refuses"] = *refuses;  // stays with the harness, as wall_limit does
+  }
   if (const auto limit = e.settings.find("wall_limit"); limit != e.settings.end()) {
     const auto* seconds = std::get_if<double>(&limit->second);
     if (!seconds || !(*seconds > 0.0)) in.refuse("settings", "wall_limit must be a number of seconds above 0: a run that takes longer is stopped");

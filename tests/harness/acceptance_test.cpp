@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "judged.hpp"
+#include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/known_defect.hpp"
 #include "validation/harness/remarks.hpp"
 #include "validation/harness/scorecard.hpp"
@@ -183,6 +184,46 @@ TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
   judge(r);
   EXPECT_EQ(r.exit_code, exit_missing);
   EXPECT_EQ(r.verdict, "MISSING");
+}
+
+/// `green()` beside a second engine of whom the case says that it refuses, "no heat" being part of its reason.
+Results expected_to_refuse(const std::string& status, const std::string& reason) {
+  auto r = with(0.05);
+  auto& stone = r.cases[0].engines[1];
+  stone.refuses = "no heat", stone.runs[0].status = status, stone.runs[0].reason = reason;
+  return r;
+}
+
+TEST(ExpectedRefusal, HoldsWhereTheEngineRefusesForThatReason) {
+  const auto r = expected_to_refuse("refused", "it knows no heat");
+  EXPECT_EQ(exit_of(r), exit_pass);
+  EXPECT_EQ(of(card_of(r), "stone").verdict, "refused");
+  EXPECT_EQ(of(card_of(r), "stone").reason, "as expected: it knows no heat");
+  EXPECT_NE(scorecard_text(card_of(r), {"stone"}).find("refused, as expected: it knows no heat"), std::string::npos);
+}
+
+TEST(ExpectedRefusal, OfWhoTakesTheCaseIsRedThoughEveryLimitHolds) {
+  auto r = expected_to_refuse("ok", "");
+  judge(r);
+  EXPECT_EQ(r.exit_code, exit_fail);
+  EXPECT_NE(r.cases[0].problems.at(0).find("take the declaration away"), std::string::npos);
+  EXPECT_EQ(of(card_of(r), "stone").verdict, "fail");
+}
+
+TEST(ExpectedRefusal, ForAnotherReasonIsRed) {
+  EXPECT_EQ(exit_of(expected_to_refuse("refused", "it knows no liquid")), exit_fail);
+  EXPECT_EQ(of(card_of(expected_to_refuse("refused", "it knows no liquid")), "stone").verdict, "fail");
+}
+
+TEST(ExpectedRefusal, OfWhoIsNotHereIsNoFailure) {
+  auto r = expected_to_refuse("missing", "");
+  r.cases[0].engines[1].status = "missing", r.cases[0].engines[1].runs.clear();
+  EXPECT_EQ(exit_of(r), exit_pass);
+}
+
+TEST(ExpectedRefusal, IsASettingThatIsKeptBack) {
+  EXPECT_EQ(declared_refusal({{"refuses", std::string("no heat")}, {"friction", 0.3}}), "no heat");
+  EXPECT_EQ(declared_refusal({{"friction", 0.3}}), "");
 }
 
 TEST(Scorecard, LeavesOutWhoIsNotHereUnlessAskedFor) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/references/experiment.hpp"
@@ -56,7 +57,7 @@ Knobs knobs_of(const CaseRun& run, const Result& result) {
 
 EngineRow row_of(const EnginePlan& plan) {
   EngineRow row;
-  row.name = plan.name, row.preset = plan.preset, row.required = plan.required;
+  row.name = plan.name, row.preset = plan.preset, row.required = plan.required, row.refuses = declared_refusal(plan.settings);
   if (plan.entry) row.version = plan.entry->version, row.library_path = plan.entry->library_path, row.library_hash = plan.entry->library_hash;
   if (!plan.entry) row.status = "missing", row.reason = fmt::format("there is no engine-{} beside the program or in TRIPOINT_ENGINE_PATH", plan.name);
   else if (!plan.entry->available) row.status = "missing", row.reason = plan.entry->reason;

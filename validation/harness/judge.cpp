@@ -7,6 +7,7 @@
 #include <set>
 
 #include "validation/harness/apply_gate.hpp"
+#include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/known_defect.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -39,6 +40,7 @@ void settle_status(const CaseResult& result, EngineRow& engine, Findings& findin
     engine.status = bad == engine.runs.end() ? "ok" : bad->status == "ok" ? "error" : bad->status;
     engine.reason = bad == engine.runs.end() ? "" : bad->reason.empty() ? bad->status : bad->reason;
   }
+  if (const auto broken = broken_refusal(engine); !broken.empty()) findings.add(exit_fail, label_of(engine.name, engine.preset) + " " + broken);
   if (engine.required && engine.status != "ok" && engine.status != "diverged")
     findings.add(exit_missing, fmt::format("{} is required and is {}: {}", label_of(engine.name, engine.preset), engine.status, engine.reason));
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/plan_runs.hpp"
 #include "validation/metrics/metric.hpp"
 
@@ -73,7 +74,7 @@ Job make_job(const Case& value, const EnginePlan& engine, const RunPlan& run, co
   job.resolution = {scene.spacing, scene.support_ratio, scene.time_step, run.walkers, run.iterations};
   job.preset = engine.preset;
   job.settings = engine.settings;
-  job.settings.erase("wall_limit");  // the harness's own: an engine need not know it
+  for (const char* own : {"wall_limit", refuses_setting}) job.settings.erase(own);  // the harness's own: an engine need not know them
   if (run.walkers) job.settings["walkers"] = *run.walkers;
   if (run.iterations) job.settings["iterations"] = *run.iterations;
   job.reference = value.reference;

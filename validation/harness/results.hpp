@@ -80,6 +80,7 @@ struct EngineRow {
   std::string name, version, preset = "default";
   std::string library_path, library_hash;  ///< of the engine's own library, as it told; empty = it told none
   bool required = false;
+  std::string refuses;  ///< words of the refusal that the case declares; empty = it declares none
   std::string status = "ok", reason;
   std::vector<RunRow> runs;
   std::vector<OrderRow> order;

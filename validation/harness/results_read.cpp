@@ -127,7 +127,7 @@ EngineRow engine_row(const Json& from) {
   EngineRow e;
   e.name = text(from, "name"), e.version = text(from, "version"), e.preset = text(from, "preset");
   e.library_path = text(member(from, "library"), "path"), e.library_hash = text(member(from, "library"), "hash");
-  e.required = flag(from, "required", false);
+  e.required = flag(from, "required", false), e.refuses = text(from, "refuses");
   e.status = text(from, "status"), e.reason = text(from, "reason");
   if (e.status.empty()) e.status = "error", e.reason = "the results give no status";
   e.runs = rows<RunRow>(from, "runs", run_row);

@@ -108,6 +108,7 @@ Json json(const EngineRow& e) {
     if (std::isfinite(o.order.value) && std::isfinite(o.order.low) && std::isfinite(o.order.high)) order.push_back(json(o));
   for (const auto& g : e.gates) gates.push_back(json(g));
   Json out{{"name", e.name}, {"version", e.version}, {"preset", e.preset}, {"required", e.required}, {"status", e.status}, {"reason", e.reason}, {"judged", !is_unjudged(e)}};
+  if (!e.refuses.empty()) out["refuses"] = e.refuses;
   if (!e.library_path.empty()) out["library"] = {{"path", e.library_path}, {"hash", e.library_hash}};
   out["runs"] = runs, out["order"] = order, out["gates"] = gates;
   return out;

@@ -8,6 +8,7 @@
 
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/judge.hpp"
+#include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/known_defect.hpp"
 #include "validation/harness/releases.hpp"
 #include "validation/harness/slack.hpp"
@@ -82,6 +83,8 @@ std::string why(const GateRow& g) { return g.metric + ": " + (g.why.empty() ? g.
 
 void settle(const EngineRow& e, ScoreRow& row) {
   const auto set = [&](const std::string& verdict, const std::string& reason) { row.verdict = verdict, row.reason = reason; };
+  if (const auto broken = broken_refusal(e); !broken.empty()) return set("fail", broken);
+  if (refuses_as_expected(e)) return set("refused", "as expected: " + e.reason);
   if (e.status == "missing" || e.status == "refused") return set(e.status, e.reason);
   if (e.status == "killed" || e.status == "timeout" || e.status == "error") return set("crashed", e.status + ": " + e.reason);
   const GateRow* known = nullptr;

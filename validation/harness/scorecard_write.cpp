@@ -66,7 +66,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> refusals(const Eng
   std::vector<std::pair<std::string, std::vector<std::string>>> list;
   for (const auto& r : s.rows) {
     if (ran(r)) continue;
-    const auto words = r.verdict + ": " + r.reason;
+    const auto words = r.verdict + (r.reason.starts_with("as expected: ") ? ", " : ": ") + r.reason;
     const auto at = std::find_if(list.begin(), list.end(), [&](const auto& l) { return l.first == words; });
     if (at == list.end()) list.push_back({words, {r.case_id}});
     else at->second.push_back(r.case_id);

@@ -13,6 +13,7 @@
 
 #include "core/errors.hpp"
 #include "scene/nearest.hpp"
+#include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/run_one.hpp"
 
 namespace tripoint {
@@ -150,7 +151,10 @@ void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, 
   request.engine = engine.entry, request.job = &job, request.initial = &from.state;
   request.folder = folder.string(), request.particles = from.file;
   const Outcome answer = ask(request);
-  if (answer.status == "ok") return;
+  EngineRow row;
+  row.refuses = declared_refusal(engine.settings), row.status = answer.status, row.reason = answer.reason;
+  if (const auto broken = broken_refusal(row); !broken.empty()) return findings.push_back({true, fmt::format("engine {} {}", label_of(engine.name, engine.preset), broken), {value.file, 0, 0}});
+  if (answer.status == "ok" || refuses_as_expected(row)) return;
   const std::string what = fmt::format("engine {}{}{}: {}: {}", engine.name, engine.preset == "default" ? "" : " " + engine.preset, run.base ? "" : ", run " + run.label, answer.status, answer.reason);
   if (std::none_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.what == what; })) findings.push_back({engine.required, what, {value.file, 0, 0}});
 }
