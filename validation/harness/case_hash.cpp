@@ -28,7 +28,7 @@ std::string line_of(const Decision& d, const fs::path& folder) {
 bool is_of_the_scene(const std::string& key) {
   static constexpr std::array<std::string_view, 7> rooms{"scene.", "material.", "body.", "event.", "inflow.", "study.", "input."};
   if (key == "case.modes" || key == "case.expect") return true;
-  if (key.starts_with("engines.")) return !key.ends_with(".required");
+  if (key.starts_with("engines.")) return !key.ends_with(".required") && !key.ends_with(".refuses");  // how it is judged, not what is asked
   return !key.ends_with(".source") && std::any_of(rooms.begin(), rooms.end(), [&](auto room) { return key.starts_with(room); });
 }
 
