@@ -23,8 +23,8 @@ def installed(engine):
     return path.resolve() if os.access(path, os.X_OK) else None
 
 
-def own_gates(name, case, preset, bent, changed_settings=""):
-    """@return {metric: worst verdict} of the gates on an installed engine and preset that is bent under its own name"""
+def own_gates(name, case, bent, changed_settings=""):
+    """@return {preset: {metric: worst verdict}} of the gates on an installed engine that is bent under its own name"""
     with tempfile.TemporaryDirectory() as out:
         home = Path(out) / "engines" / name
         home.mkdir(parents=True)
@@ -33,9 +33,9 @@ def own_gates(name, case, preset, bent, changed_settings=""):
         command = [PROGRAM, "validate", case, "--engines", name, "--no-report", "--out", out + "/report"]
         end = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=600, check=False)
         results = json.loads((Path(out) / "report/results.json").read_text(encoding="utf-8"))
-        (engine,) = [e for e in results["cases"][0]["engines"] if e["name"] == name and e["preset"] == preset]
-        assert engine["status"] == "ok", (case, engine["reason"], end.stderr)
-        return worst(engine["gates"])
+        engines = [e for e in results["cases"][0]["engines"] if e["name"] == name]
+        assert engines and all(e["status"] == "ok" for e in engines), (case, [e["reason"] for e in engines], end.stderr)
+        return {e["preset"]: worst(e["gates"]) for e in engines}
 
 
 def worst(rows):
@@ -76,16 +76,19 @@ class Changes(unittest.TestCase):
                 self.assertEqual(seen.get(change["seen_by"]), "fail", seen)
 
     def test_each_of_an_installed_engine_is_seen_by_a_gate_of_its_own(self):
+        sound = {}
         for change in (c for c in CHANGES if "engine" in c):
             name, case, preset = change["engine"], change["case"], change["preset"]
             if not installed(name):
                 print(f"{name} is not installed: {case} is left out")
                 continue
             with self.subTest(case=case, change="none"):
-                self.assertEqual(own_gates(name, case, preset, "").get(change["seen_by"]), "pass")
+                if (name, case) not in sound:
+                    sound[name, case] = own_gates(name, case, "")
+                self.assertEqual(sound[name, case][preset].get(change["seen_by"]), "pass")
             with self.subTest(**change):
                 bent = "" if "set" in change else f"{change['what']}={change['by']}"
-                seen = own_gates(name, case, preset, bent, json.dumps(change["set"]) if "set" in change else "")
+                seen = own_gates(name, case, bent, json.dumps(change["set"]) if "set" in change else "")[preset]
                 self.assertEqual(seen.get(change["seen_by"]), "fail", seen)
 
     def test_every_case_of_contact_has_one(self):
