@@ -55,6 +55,11 @@ constexpr const char* work_description =
     "60 s without a sign. Exit: 0 every job that was wanted has a result, whatever it says; 4 (--no-wait alone) others hold some;\n"
     "2 a job is not the run that the suite was made of, because a case, an engine or the program has changed.";
 
+constexpr const char* suite_status_description =
+    "The same as tripoint status.\n"
+    "  tripoint suite status DIR\n"
+    "  tripoint suite status DIR --json";
+
 constexpr const char* status_description =
     "Says where a suite stands: jobs that are done, running, waiting, lost, failed, doubled, and the time that is left.\n"
     "  tripoint status DIR\n"
@@ -228,8 +233,8 @@ void add_work(CLI::App& suite, int& exit_code) {
   command->callback([=, &exit_code] { exit_code = guarded([&] { return run_worker(*dir, *shard, *o); }); });
 }
 
-void add_status_to(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("status", status_description);
+void add_status_to(CLI::App& app, const char* words, int& exit_code) {
+  auto* command = app.add_subcommand("status", words);
   auto dir = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   command->add_option("DIR", *dir, "folder of the suite")->required();
@@ -274,9 +279,10 @@ void add_emit(CLI::App& suite, int& exit_code) {
 void add_suite(CLI::App& app, int& exit_code) {
   auto* suite = app.add_subcommand("suite", description);
   suite->require_subcommand(1);
-  for (const auto add : {add_make, add_work, add_status_to, add_join, add_retry, add_emit}) add(*suite, exit_code);
+  for (const auto add : {add_make, add_work, add_join, add_retry, add_emit}) add(*suite, exit_code);
+  add_status_to(*suite, suite_status_description, exit_code);
 }
 
-void add_status(CLI::App& app, int& exit_code) { add_status_to(app, exit_code); }
+void add_status(CLI::App& app, int& exit_code) { add_status_to(app, status_description, exit_code); }
 
 }  // namespace tripoint

@@ -73,7 +73,7 @@ class Schedulers(unittest.TestCase):
                     continue
                 return job["id"]
             time.sleep(0.02)
-        self.fail("no worker was seen at a job")
+        self.fail(f"no worker was seen at a job: {status}")
 
     def check(self, name, killed, seconds, best):
         status = self.status(name)
@@ -88,6 +88,7 @@ class Schedulers(unittest.TestCase):
         script = self.suite("by-parallel", "parallel")
         start = time.monotonic()
         process = subprocess.Popen(["bash", str(script)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=self.path, env=dict(os.environ, JOBS="2"))
+        self.addCleanup(process.kill)
         killed = self.kill_one("by-parallel")
         text = process.communicate(timeout=600)[0]
         self.assertEqual(process.returncode, 0, text)
@@ -99,6 +100,7 @@ class Schedulers(unittest.TestCase):
         command = [SNAKEMAKE, "--snakefile", str(script), "--cores", "2", "--nolock"]
         start = time.monotonic()
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, cwd=self.path)
+        self.addCleanup(process.kill)
         killed = self.kill_one("by-snakemake")
         text = process.communicate(timeout=600)[0]
         self.assertNotEqual(process.returncode, 0, "a killed shard is an error of the workflow")

@@ -162,6 +162,7 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         fake = self.engine()
         whole = self.undisturbed(fake)
         self.make(fake)
+        self.done("suite", "work", "suite", "--shard", "1/2")
         self.hold()
         worker = self.start("suite", "work", "suite")
         self.held()
@@ -177,6 +178,7 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         self.assertEqual(refused.returncode, 2)
         self.assertIn(running[0]["id"], refused.stderr)
         before = {file.name: file.stat().st_mtime_ns for file in (self.suite / "done").iterdir()}
+        self.assertGreater(len(before), 5)
         again = self.done("suite", "work", "suite")
         self.assertIn(f"lost: {running[0]['case']} fake base ({running[0]['id']})", again.stderr)
         for name, stamp in before.items():

@@ -24,11 +24,9 @@ void check_all_ended(const Queue& queue, const Standing& standing) {
   constexpr std::size_t most = 10;
   std::size_t open = 0;
   std::string names;
-  for (std::size_t n = 0; n < queue.jobs.size(); ++n) {
-    const auto stand = standing.jobs[n].stand;
-    if (stand == Stand::done || stand == Stand::failed) continue;
-    if (++open <= most) names += fmt::format("\n  {}  {}  {}", word_of(stand), queue.jobs[n].id, name_of(queue.jobs[n]));
-  }
+  for (const auto stand : {Stand::lost, Stand::running, Stand::waiting})  // what needs somebody's hand first
+    for (std::size_t n = 0; n < queue.jobs.size(); ++n)
+      if (standing.jobs[n].stand == stand && ++open <= most) names += fmt::format("\n  {}  {}  {}", word_of(stand), queue.jobs[n].id, name_of(queue.jobs[n]));
   if (open > 0) throw InputError(fmt::format("{} of {} jobs have no result yet: tripoint suite work makes them{}{}", open, queue.jobs.size(), names, open > most ? "\n  ..." : ""));
 }
 
