@@ -15,6 +15,7 @@
 
 #include "core/errors.hpp"
 #include "scene/nearest.hpp"
+#include "step/settle.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -64,6 +65,9 @@ int guarded(const std::function<int()>& command) {
   } catch (const InputError& e) {
     say(std::string("tripoint: ") + e.what());
     return exit_bad_input;
+  } catch (const SettlingStopped& e) {
+    say(std::string("tripoint: ") + e.what());
+    return exit_interrupted;
   } catch (const Diverged& e) {
     say(std::string("tripoint: diverged: ") + e.what());
     return exit_diverged;

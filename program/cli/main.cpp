@@ -8,6 +8,7 @@
 #include "program/cli/gate_judge.hpp"
 #include "scene/read_case.hpp"
 #include "step/settle.hpp"
+#include "validation/harness/process.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace {
@@ -45,6 +46,7 @@ int main(int argc, char** argv) {
   hold_standard_streams();
   remember_command_line(argc, argv);
   set_settler(settled);
+  stop_settling_when(interrupted);
   CLI::App app{description, "tripoint"};
   app.footer(footer);
   app.formatter(std::make_shared<FirstSentences>());

@@ -76,6 +76,11 @@ class Run:
         """Files for other programs. @return their paths"""
         return [Path(name) for name in json.loads(call(["export", self.folder, "--json", *words_of({"to": list(formats), "out": out, "frames": frames})]))["files"]]
 
+    def view(self, out=None, limit=None):
+        """A page with the particles in three dimensions, for any browser. @param limit its greatest size [MB]   @return its path"""
+        call(["view", self.folder, *words_of({"out": out, "limit": limit})])
+        return Path(out) if out else Path(self.folder, "view.html")
+
     def plot(self, name="kinetic", axis=None):
         """A term of the energy, or any other observable, in time. @return matplotlib's axes"""
         import matplotlib.pyplot as plt

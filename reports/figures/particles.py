@@ -22,6 +22,8 @@ THIN = 0.12  # of the longest extent: below it the scene is seen along that axis
 LONG = 0.35  # second extent of the first: below it a bar is seen from the side
 FAR = 2.5    # extent of a flight over that of what flies: above it all times stand in one picture
 MANY = 200   # particles from which on the picture need not hold all
+SEEN = 60    # squares of the outline of what is solid: with fewer, cutting open shows nothing
+HIDDEN = 0.4 # share of the solids' outline that is seen: below it the scene is cut open
 STRAY = 2    # in a hundred that may lie outside on each side
 TURN, TILT = np.radians(-55.0), np.radians(24.0)
 KINDS = (("liquid", style.BLUE), ("liquid of another material", style.SKY), ("elastic", "#2bb58c"), ("rigid", "#e8803a"), ("at rest", style.GREY))
@@ -46,13 +48,14 @@ def draw(case, trajectories, notes):
     strips = [(curve, t, rest, by_phase) for (curve, t), rest in zip(shown, resting) for by_phase in ((False, True) if warm and changes_phase(t) else (False,))]
     both = len(strips) > len(shown)
     sheet = Sheet(-(-len(shown) // columns) if flight else len(strips), columns, low, high, (0.88 if both else 0.62) if warm else 0.42)
+    cut = -np.inf if flat else cut_through(first, resting[0], view, cell_of(shown[0][0], low, high))
     kinds, outside = set(), 0
     for line, (curve, t, rest, by_phase) in enumerate(strips):
         chosen = t.strobe if flight else [t.strobe[k] for k in np.unique(np.linspace(0, len(t.strobe) - 1, times).round().astype(int))] if times > 1 else t.strobe[-1:]
         for k, frame in enumerate(chosen):
             place = line if flight else line * columns + k
             pale = 1.0 if not flight or k == len(chosen) - 1 else 0.12 + 0.35 * k / len(chosen)
-            kinds |= panel(sheet, place, curve, t, frame, rest, view, warm, flat, pale, by_phase)
+            kinds |= panel(sheet, place, curve, t, frame, rest, view, cut, warm, flat, pale, by_phase)
             if line == 0 and not flight:
                 sheet.write(place, 0.0, 1.0, f"t = {style.power(frame.time) if frame.time else 0} s", (0, 3), "bottom", style.SOFT)
         sheet.write(line if flight else line * columns, 0.0, 1.0, curve.label + (", phase" if by_phase else ""), (3, -3), "top", style.look(curve)["color"], "bold")
@@ -62,6 +65,7 @@ def draw(case, trajectories, notes):
     most = max(int(np.isfinite(t.position).all(axis=1).sum()) for _, t in shown)
     parts = [f"At the case's own resolution, {f'from 0 to {end:.4g} s in one picture, earlier times paler, ' if flight else '' if times > 1 else f'at t = {end:.4g} s, '}{how}{'; gravity points down' if first.pulled else ''}.",
              f"Up to {most} particles; of those behind one another the foremost is drawn" + (", and of what never moves not the part in front." if not flat and any(rest.any() for rest in resting) else ".")]
+    parts += ["Cut open through the middle of the solids, which liquid hides."] if np.isfinite(cut) else []
     parts += [f"{outside} particle{'s lie' if outside > 1 else ' lies'} outside of the picture."] if outside else []
     return Drawing("particles", "Particles in time", f"Particles from the start to {end:.4g} s for {', '.join(c.label for c, _ in shown)}, {how}.", sheet.figure, " ".join(parts))
 
@@ -230,15 +234,35 @@ def round_below(length):
     return next(n * ten for n in (5, 2, 1) if n * ten <= length * (1 + 1e-9))
 
 
-def panel(sheet, place, curve, trajectory, frame, rest, view, warm, flat, pale, by_phase):
-    """Draws one time of one engine. @param by_phase coloured by phase, whatever the temperatures   @return kinds that it shows"""
+def cell_of(curve, low, high):
+    """Side of a square of the screen that shows one particle [m]."""
+    return max(0.55 * (curve.shown.knob("spacing") or 0.0), (high - low).max() / CELLS)
+
+
+def cut_through(trajectory, rest, view, cell):
+    """Depth of the plane through the middle of what is solid and free, where liquid hides it at the first time that has both; else -inf: no cut."""
+    for frame in trajectory.strobe:
+        solid = (frame.phase > 0) & ~rest if frame.phase is not None else np.zeros(len(rest), bool)
+        if not solid.any() or not (frame.phase == 0).any():
+            continue
+        seen = view(frame.position)
+        there = np.flatnonzero(np.isfinite(seen).all(axis=1) & ~rest)
+        among_all = solid[there[in_front(seen[there], np.zeros(len(there), bool), cell)]].sum()
+        alone = np.flatnonzero(solid & np.isfinite(seen).all(axis=1))
+        outline = len(in_front(seen[alone], np.zeros(len(alone), bool), cell))
+        return seen[alone, 2].mean() if outline >= SEEN and among_all < HIDDEN * outline else -np.inf
+    return -np.inf
+
+
+def panel(sheet, place, curve, trajectory, frame, rest, view, cut, warm, flat, pale, by_phase):
+    """Draws one time of one engine. @param cut depth before which nothing is drawn   @param by_phase coloured by phase, whatever the temperatures   @return kinds that it shows"""
     seen = view(frame.position)
-    here = np.isfinite(seen).all(axis=1) & (seen[:, :2] > sheet.low).all(axis=1) & (seen[:, :2] < sheet.high).all(axis=1)
+    here = np.isfinite(seen).all(axis=1) & (seen[:, :2] > sheet.low).all(axis=1) & (seen[:, :2] < sheet.high).all(axis=1) & (seen[:, 2] >= cut)
     if not flat and rest.any() and (here & ~rest).any():
         depth, floor = seen[here & ~rest, 2].mean(), seen[here & ~rest, 1].min()
         here &= ~(rest & (seen[:, 2] < depth) & (seen[:, 1] > floor))
     chosen = np.flatnonzero(here)
-    front = in_front(seen[chosen], rest[chosen] if flat else np.zeros(len(chosen), bool), max(0.55 * (curve.shown.knob("spacing") or 0.0), (sheet.high - sheet.low).max() / CELLS))
+    front = in_front(seen[chosen], rest[chosen] if flat else np.zeros(len(chosen), bool), cell_of(curve, sheet.low, sheet.high))
     chosen = chosen[front]
     chosen = chosen[np.argsort(-seen[chosen, 2], kind="stable")]
     colours, kinds = hues(trajectory, frame, rest, chosen, seen[chosen, 2], warm, by_phase)

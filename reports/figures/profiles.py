@@ -8,6 +8,8 @@ from . import style
 from .curve import Drawing
 from .particles import warmth
 
+NOTHING = 1e-6  # share of the span of temperatures
+
 
 def draw(case, trajectories, notes):
     shown = [(curve, t) for curve, t in trajectories if t.position is not None and t.temperature is not None]
@@ -15,6 +17,8 @@ def draw(case, trajectories, notes):
         return None
     first = shown[0][1].position
     along = int(np.argmax(np.ptp(first[np.isfinite(first).all(axis=1)], axis=0)))
+    if flat(shown, along):
+        return None
     exact = next(((curve, t) for curve, t in shown if curve.engine.name == "exact"), None)
     figure, axes = style.panels(2 if exact and len(shown) > 1 else 1, len(shown))
     truth, scattered = binned(exact[1], along) if exact else None, False
@@ -34,15 +38,18 @@ def draw(case, trajectories, notes):
     for axis in axes:
         axis.set_xlabel(f"{'xyz'[along]} [m]")
     axes[0].set_ylabel("temperature [K]")
-    low, high = axes[0].get_ylim()
-    if high - low < 1e-6 * max(abs(low), abs(high)):  # nothing but round-off along this axis: its digits do not fit beside it
-        axes[0].set_ylim(0.5 * (low + high) - 1.0, 0.5 * (low + high) + 1.0)
     if len(axes) > 1:
         axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
         axes[1].set_ylabel("engine minus exact [K]")
     style.legend(figure, axes)
     return Drawing("profile", "Temperature profile", f"Temperature along {'xyz'[along]} for {', '.join(c.label for c, _ in shown)}" + (", and difference from the exact profile." if exact else "."), figure,
                    "Mean over the particles at each place along the axis at the final time, at the case's own resolution. Bars: two standard errors where the engine states them." + (" Points without a line: temperature is no function of this place alone." if scattered else ""))
+
+
+def flat(shown, along):
+    """Whether the means along the axis hold next to nothing of what the temperatures differ by: then the picture shows round-off."""
+    whole = max(np.ptp(t.temperature[np.isfinite(t.temperature)]) for _, t in shown)
+    return max(np.ptp(binned(t, along)[1]) for _, t in shown) < NOTHING * whole
 
 
 def wavers(values):

@@ -11,6 +11,10 @@
 namespace tripoint {
 namespace {
 
+bool (*stop_wanted)() noexcept = nullptr;
+
+bool is_stopped() noexcept { return stop_wanted && stop_wanted(); }
+
 constexpr double rest = 2e-3;        ///< of sqrt(g H), rms: a tenth of what counts as still water
 constexpr double shaken = 0.05;      ///< spacings, to either side
 constexpr long most_steps = 20'000;  ///< tanks 5 to 10 across take 4,000 to 10,000
@@ -75,14 +79,17 @@ double swing(const Scene& scene, InitialState& at, long& steps) {
     const double now = mean_square_speed(simulation.world(), at);
     const bool falls = now < peak;
     peak = std::max(peak, now);
-    return !falls && ++steps < most_steps;
+    return !falls && ++steps < most_steps && !is_stopped();
   });
+  if (is_stopped()) throw SettlingStopped();
   for (std::size_t id = 0; id < at.size(); ++id)
     if (at.body[id] < 0) at.position[id] = simulation.world().particles.position(simulation.world().particles.row(static_cast<std::uint32_t>(id)));
   return std::sqrt(peak);
 }
 
 }  // namespace
+
+void stop_settling_when(bool (*wanted)() noexcept) noexcept { stop_wanted = wanted; }
 
 InitialState settled(const Scene& scene, InitialState initial, Settling* how) {
   if (scene.gravity == Vec3{}) throw InputError("settle = true needs something that pulls: give scene.gravity, or leave settle out");

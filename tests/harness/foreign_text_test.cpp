@@ -104,7 +104,7 @@ TEST(ForeignText, TheSummaryHoldsNoTagAndNoRowOfOthers) {
   EXPECT_EQ(text.find('\x1b'), text.npos) << text;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    EXPECT_TRUE(line.empty() || line[0] == '#' || line[0] == '|' || line.starts_with("- ") || line.starts_with("1 cases")) << line;
+    EXPECT_TRUE(line.empty() || line[0] == '#' || line[0] == '|' || line.starts_with("- ") || line.starts_with("1 case, ")) << line;
     const auto bars = std::count(line.begin(), line.end(), '|');
     EXPECT_EQ(bars, line.starts_with("|") ? 5 : 0) << line;
   }

@@ -72,6 +72,10 @@ class Package(unittest.TestCase):
         results = tripoint.validate(case, engines=["tripoint"], out=self.path / "strict")
         self.assertEqual((results.verdict, results.exit_code), ("FAIL", 1))
 
+    def test_view_writes_a_page(self):
+        page = self.run_.view(out=self.path / "look.html")
+        self.assertIn("<html", page.read_text(encoding="utf-8")[:200])
+
     def test_plots(self):
         axis = self.run_.plot("thermal")
         self.assertEqual(axis.get_ylabel(), "thermal [J]")

@@ -425,6 +425,29 @@ class Figures(unittest.TestCase):
         self.assertFalse(particles.changes_phase(run([0, 2], [0, 2])))
         self.assertFalse(particles.changes_phase(run([0, -1], [0, 2])))  # flowed in, did not change
 
+    def test_solids_that_liquid_hides_are_cut_open_and_those_in_sight_are_not(self):
+        import numpy as np
+        from trajectories import Frame, Trajectory
+        from figures import particles
+        grid = np.stack(np.meshgrid(*[np.arange(12.0)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
+        ball = (np.linalg.norm(grid - 5.5, axis=1) < 5.2)
+        lying = grid[:, 2] > 5
+        view = lambda p: p[:, [0, 2, 1]]
+        for solid, plane in ((ball, 5.5), (lying, -np.inf)):
+            phase = np.where(solid, 2, 0)
+            run = Trajectory(times=np.arange(2), strobe=[Frame(0.0, grid, phase=phase), Frame(1.0, grid + 0.01, phase=phase)])
+            self.assertAlmostEqual(particles.cut_through(run, np.zeros(len(grid), bool), view, 1.0), plane)
+
+    def test_a_profile_of_round_off_is_not_drawn(self):
+        import numpy as np
+        from trajectories import Trajectory
+        from figures import profiles
+        place = np.stack(np.meshgrid(np.arange(8.0), np.arange(4.0), [0.0], indexing="ij"), axis=-1).reshape(-1, 3)
+        across = Trajectory(times=np.arange(1), position=place, temperature=300 + np.where(place[:, 1] % 2, 5.0, -5.0))
+        along = Trajectory(times=np.arange(1), position=place, temperature=300 + place[:, 0])
+        self.assertTrue(profiles.flat([(None, across)], 0))
+        self.assertFalse(profiles.flat([(None, along)], 0))
+
 
 class Scorecards(unittest.TestCase):
     CARD = {"verdict": "MISSING", "exit_code": 4, "command": "tripoint validate", "engines": [

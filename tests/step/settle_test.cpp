@@ -75,6 +75,15 @@ TEST(Settle, GivesTheSameParticlesInBothModes) {
   EXPECT_EQ(settled(lab.scene, lab.initial).position, corrected.position);
 }
 
+TEST(Settle, EndsAtOnceWhenSomeoneWantsIt) {
+  const lab::Lab lab = pond();
+  stop_settling_when([]() noexcept { return true; });
+  EXPECT_THROW((void)settled(lab.scene, lab.initial), SettlingStopped);
+  stop_settling_when([]() noexcept { return false; });
+  EXPECT_NO_THROW((void)settled(lab.scene, lab.initial));
+  stop_settling_when(nullptr);
+}
+
 TEST(Settle, RefusesWhatItCannotHoldStill) {
   lab::Lab lab = pond();
   lab.add({.name = "cork", .corner = {0.0, 0.0, 10.0 * dx}});
