@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
@@ -103,10 +104,20 @@ Opened open(const std::string& typed) {
   return o;
 }
 
-std::vector<EngineEntry> engines_there(const Opened& o) {
+void go_to_its_folder(const Opened& o) {
   std::error_code none;
   fs::current_path(o.queue.folder, none);  // not there on a machine with other folders: then paths must not matter
-  return discover_engines(sort_engine_words(o.queue.engine_words).paths);
+}
+
+/// The engines of these jobs and no other: to ask each engine takes longer than many a job.
+std::vector<EngineEntry> engines_of(const Queue& queue, const std::vector<std::size_t>& rows) {
+  std::set<std::string> names;
+  for (const auto row : rows) names.insert(queue.jobs[row].engine);
+  std::vector<EngineEntry> engines;
+  for (const auto& path : sort_engine_words(queue.engine_words).paths) engines.push_back(ask_engine(path));
+  for (const auto& e : engines) names.erase(e.name);
+  for (auto& e : discover_engines_named({names.begin(), names.end()})) engines.push_back(std::move(e));
+  return engines;
 }
 
 int make(MakeOptions o) {
@@ -133,7 +144,8 @@ int run_worker(const std::string& typed, const std::string& shard, WorkOptions o
   o.rows = balanced_shards(jobs, part.n)[static_cast<std::size_t>(part.i - 1)];
   o.say = [](const std::string& line) { say(line); };
   const auto start = std::chrono::steady_clock::now();
-  const auto done = work(opened.dir, opened.queue, engines_there(opened), o);
+  go_to_its_folder(opened);
+  const auto done = work(opened.dir, opened.queue, engines_of(opened.queue, o.rows), o);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   print_line(fmt::format("{}: {} of {} jobs made here in {:.1f} s, {} of them failed, {} taken over; {} are not finished", typed, done.made, o.rows.size(), seconds, done.failed, done.taken_over, done.held_by_others));
   if (interrupted()) return exit_interrupted;
@@ -155,7 +167,8 @@ int merge(const std::string& typed, const std::string& out, bool page, bool json
   std::function<void(const CaseResult&)> on_case;
   if (!json) on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
   const auto start = fs::current_path();
-  auto results = join(opened.dir, opened.queue, engines_there(opened), folder, on_case);
+  go_to_its_folder(opened);
+  auto results = join(opened.dir, opened.queue, discover_engines(sort_engine_words(opened.queue.engine_words).paths), folder, on_case);
   fs::current_path(start);
   results.command = command_line(), results.date = date_now(), results.history = "history.jsonl";
   judge(results);

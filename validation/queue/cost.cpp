@@ -19,6 +19,11 @@ Rates rates_of(const std::string& engine) {
   return {0.0, 2e-6, 0.1};  // engines of rigid bodies: their steps are nearly free beside the frames
 }
 
+/// Whether particles push each other: liquids and what is elastic. Else they stand, conduct heat or move as whole bodies, at a tenth of the cost.
+bool has_forces(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.phase != Phase::rigid && b.motion == Motion::free; });
+}
+
 /// Fastest sound of the materials that the scene holds [m/s]; 0 where none has one.
 double fastest_sound(const Scene& scene) {
   double fastest = 0.0;
@@ -51,8 +56,8 @@ std::map<std::string, double> measured_costs(const Results& results) {
 
 double predicted_cost(const Job& job, const std::string& engine, std::size_t particles) {
   const auto rates = rates_of(engine);
-  const double n = static_cast<double>(particles);
-  return rates.least + n * (rates.step * steps_of(job) + rates.frame * static_cast<double>(job.times.size()));
+  const double n = static_cast<double>(particles), a_step = has_forces(job.scene) ? rates.step : 0.1 * rates.step;
+  return rates.least + n * (a_step * steps_of(job) + rates.frame * static_cast<double>(job.times.size()));
 }
 
 }  // namespace tripoint

@@ -63,13 +63,19 @@ Queue read_queue(const std::string& dir) {
   }
 }
 
+Case case_of(const Queue& queue, const std::string& id) {
+  const auto at = std::find_if(queue.cases.begin(), queue.cases.end(), [&](const QueuedCase& c) { return c.id == id; });
+  if (at == queue.cases.end()) throw InputError(id + ": is no case of the suite");
+  CaseFilter file;
+  file.what = {at->file};
+  auto cases = select_cases(file);
+  if (cases.size() != 1 || cases.front().id != id) throw InputError(fmt::format("{}: is no longer the case {}: make the suite again, what is done is kept", at->file, id));
+  return std::move(cases.front());
+}
+
 std::vector<Case> cases_of(const Queue& queue) {
-  CaseFilter files;
-  for (const auto& c : queue.cases) files.what.push_back(c.file);
-  auto cases = select_cases(files);
-  for (const auto& c : queue.cases)
-    if (std::none_of(cases.begin(), cases.end(), [&](const Case& value) { return value.id == c.id; }))
-      throw InputError(fmt::format("{}: is no longer the case {}: make the suite again, what is done is kept", c.file, c.id));
+  std::vector<Case> cases;
+  for (const auto& c : queue.cases) cases.push_back(case_of(queue, c.id));
   return cases;
 }
 

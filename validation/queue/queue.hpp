@@ -64,6 +64,7 @@ inline constexpr const char *todo = "todo", *running = "running", *done = "done"
 
 /// The cases of the suite as they are now, and what every run of it is made with; `out` is left to the caller. @throws InputError for a case that is wrong or gone
 [[nodiscard]] std::vector<Case> cases_of(const Queue&);
+[[nodiscard]] Case case_of(const Queue&, const std::string& id);
 [[nodiscard]] SuiteOptions options_of(const Queue&);
 
 /// A file that appears whole or not at all, without waiting for the disk: what is lost with the machine's power is made again. @throws EngineError

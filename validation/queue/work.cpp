@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -138,15 +139,14 @@ class Crew {
     note_end(worker, job, first);
   }
 
-  /// The one run of a job, sampled and ready. Cases are read and planned once a process; one thread at a time samples.
+  /// The one run of a job, sampled and ready. A case is read and planned once a process; one thread at a time samples.
   CaseRuns prepared(const QueuedJob& job, const SuiteOptions& options) {
     const std::lock_guard lock(planning_);
-    if (cases_.empty()) cases_ = cases_of(queue_);
     auto& plan = plans_[job.case_id];
-    if (!plan)
-      for (const auto& value : cases_)
-        if (value.id == job.case_id) plan = std::make_unique<CaseRuns>(plan_case(value, engines_, options));
-    if (!plan) throw InputError(job.case_id + ": is no case of the suite");
+    if (!plan) {
+      cases_.push_back(case_of(queue_, job.case_id));
+      plan = std::make_unique<CaseRuns>(plan_case(cases_.back(), engines_, options));
+    }
     auto all = *plan;
     add_runs(all, options);
     if (all.runs.size() != 1 || run_id(all, all.runs.front(), options) != job.id)
@@ -186,7 +186,7 @@ class Crew {
   const std::vector<EngineEntry>& engines_;
   const WorkOptions& options_;
   std::mutex mutex_, planning_;
-  std::vector<Case> cases_;
+  std::deque<Case> cases_;  ///< that plans point to: a deque leaves them where they are
   std::map<std::string, std::unique_ptr<CaseRuns>> plans_;
   std::exception_ptr failure_;
   std::atomic<bool> stops_{false}, says_it_waits_{false};
