@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing and nothing else: Debian 12's packages by apt, engines' wheels from PyPI into .venv.
-#   tools/setup.sh [build|validate|test|peers|readers]     build is what compiles, test adds the test tools, peers what `make bench-peers` compares with,
-#   readers what reads our exported files in a test; a second run only rechecks
+#   tools/setup.sh [build|validate|test|peers|readers|fuzz]     build is what compiles, test adds the test tools, peers what `make bench-peers` compares with,
+#   readers what reads our exported files in a test, fuzz the compiler with a fuzzer; a second run only rechecks
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,6 +12,8 @@ report=(python3-matplotlib python3-h5py python3-jinja2)                         
 wheel=(python3-venv ca-certificates)                                                               # makes .venv
 tests=(libgtest-dev libgmock-dev git bubblewrap python3-yaml weasyprint valgrind)                             # `make test` only
 peers=(libglvnd0)                                                                                   # `make bench-peers` only
+
+fuzzer=(clang-16 libclang-rt-16-dev libomp-16-dev)                                                  # `make fuzz` only
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
@@ -106,8 +108,9 @@ case ${1:-validate} in
   validate) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" ;;
   test) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${tests[@]}" ;;
   peers) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${peers[@]}" ;;
+  fuzz) install_packages "${core[@]}" "${fuzzer[@]}" && exit ;;
   readers) install_packages "${wheel[@]}" && install_readers && exit ;;
-  *) say "usage: tools/setup.sh [build|validate|test|peers|readers]"; exit 2 ;;
+  *) say "usage: tools/setup.sh [build|validate|test|peers|readers|fuzz]"; exit 2 ;;
 esac
 install_wheels
 [[ ${1:-validate} != peers ]] || install_peers
