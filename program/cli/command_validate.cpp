@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -49,20 +48,6 @@ constexpr const char* description =
     "  tripoint validate --resume                            what an earlier call that was cut left to do\n"
     "  tripoint validate --profile nightly --shard 1/4       a quarter of the suite; tripoint merge joins the four\n"
     "The verdict is the last line; OUT/index.html shows it, OUT/results.json holds it.";
-
-std::pair<int, int> read_shard(const std::string& text) {
-  int i = 0, n = 0;
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%d/%d%c", &i, &n, &rest) != 2 || i < 1 || n < 1 || i > n) throw InputError("--shard " + text + ": write i/n with 1 <= i <= n, for example 2/4");
-  return {i, n};
-}
-
-std::string now() {
-  const std::time_t t = std::time(nullptr);
-  char text[32];
-  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&t));
-  return text;
-}
 
 /// Ids of the cases that were not green in the results that OUT holds. @throws InputError where there are none
 std::vector<std::string> failed_last_time(const std::string& out) {
@@ -129,23 +114,17 @@ void fit_threads(SuiteOptions& suite) {
 int validate(ValidateOptions o) {
   catch_interrupts();
   fit_threads(o.suite);
-  if (!o.shard.empty()) std::tie(o.filter.shard, o.filter.shards) = read_shard(o.shard);
+  if (!o.shard.empty()) {
+    const auto part = read_shard(o.shard);
+    o.filter.shard = part.i, o.filter.shards = part.n;
+  }
   if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
   o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";
   if (o.seed_given) o.suite.selection.seed = o.seed;
   if (o.sandbox) sandbox_strangers();
   auto cases = cases_of(o);
-  const auto words = sort_engine_words(o.engine);
-  o.suite.selection.engines = split(o.engines);
-  for (const auto& name : words.names) o.suite.selection.extra.push_back(name);
-  const auto engines = discover_engines(words.paths);
-  for (const auto& path : words.paths) o.suite.selection.extra.push_back(ask_engine(path).name);
-  for (const auto* list : {&o.suite.selection.engines, &o.suite.selection.extra}) o.suite.selection.asked.insert(o.suite.selection.asked.end(), list->begin(), list->end());
-  std::sort(o.suite.selection.asked.begin(), o.suite.selection.asked.end());
-  o.suite.selection.asked.erase(std::unique(o.suite.selection.asked.begin(), o.suite.selection.asked.end()), o.suite.selection.asked.end());
+  const auto engines = engines_asked_for(o.engines, o.engine, o.suite.selection);
   if (o.profile == "acceptance") add_all_presets(cases, engines, o.suite.selection.asked);
-  for (const auto& name : o.suite.selection.asked)
-    if (!find_engine(engines, name)) say("tripoint: " + no_such_engine(name, engines));
   make_folder(o.suite.out);
   say(fmt::format("{} case{}, {} engines, into {}", cases.size(), cases.size() == 1 ? "" : "s", engines.size(), o.suite.out));
   o.suite.say = [](const std::string& line) { say(line); };
@@ -155,7 +134,7 @@ int validate(ValidateOptions o) {
     for (auto& c : results.cases)
       for (const auto& value : cases)
         if (value.id == c.id && !interrupted()) time_case(value, engines, o.timing, o.suite, c);
-  results.command = command_line(), results.profile = o.filter.profile, results.date = now(), results.shard = o.shard;
+  results.command = command_line(), results.profile = o.filter.profile, results.date = date_now(), results.shard = o.shard;
   results.what = o.filter.what, results.tag = o.filter.tag;
   results.filter_known = !o.last_failed && o.filter.substring.empty();  // else it is a part, and nobody can say of what
   judge(results);  // a shard is asked less than a whole suite

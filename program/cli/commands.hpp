@@ -11,6 +11,8 @@ namespace tripoint {
 void add_run(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
+void add_suite(CLI::App& app, int& exit_code);
+void add_status(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_converge(CLI::App& app, int& exit_code);

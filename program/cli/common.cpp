@@ -5,9 +5,11 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <sstream>
 
@@ -151,6 +153,36 @@ void remember_command_line(int argc, char** argv) {
 }
 
 const std::string& command_line() { return remembered(); }
+
+Shard read_shard(const std::string& text) {
+  Shard shard{0, 0};
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%d/%d%c", &shard.i, &shard.n, &rest) != 2 || shard.i < 1 || shard.n < 1 || shard.i > shard.n)
+    throw InputError("--shard " + text + ": write i/n with 1 <= i <= n, for example 2/4");
+  return shard;
+}
+
+std::string date_now() {
+  const std::time_t t = std::time(nullptr);
+  std::array<char, 32> text{};
+  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", std::gmtime(&t));
+  return text.data();
+}
+
+std::vector<EngineEntry> engines_asked_for(const std::string& only, const std::vector<std::string>& joining, Selection& selection) {
+  const auto words = sort_engine_words(joining);
+  selection.engines = split(only);
+  for (const auto& name : words.names) selection.extra.push_back(name);
+  auto engines = discover_engines(words.paths);
+  for (const auto& path : words.paths) selection.extra.push_back(ask_engine(path).name);
+  auto& asked = selection.asked;
+  for (const auto* list : {&selection.engines, &selection.extra}) asked.insert(asked.end(), list->begin(), list->end());
+  std::sort(asked.begin(), asked.end());
+  asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+  for (const auto& name : asked)
+    if (!find_engine(engines, name)) say("tripoint: " + no_such_engine(name, engines));
+  return engines;
+}
 
 Plan plan_of(const CaseReading& reading) {
   try {

@@ -7,6 +7,7 @@
 #include "effects/plan.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/discover.hpp"
+#include "validation/harness/plan_runs.hpp"
 
 /// What the commands share: how errors become exit codes, and how lists and progress look.
 namespace CLI {
@@ -43,6 +44,10 @@ struct EngineWords {
 };
 [[nodiscard]] EngineWords sort_engine_words(const std::vector<std::string>& words);
 
+/// Finds the engines and fills the selection from --engines (`only`) and --engine (`joining`); says which of those asked for are not there.
+/// @throws EngineError when a path of `joining` is no executable file
+[[nodiscard]] std::vector<EngineEntry> engines_asked_for(const std::string& only, const std::vector<std::string>& joining, Selection&);
+
 /// "no engine is named x (did you mean `y`?)"
 [[nodiscard]] std::string no_such_engine(const std::string& name, const std::vector<EngineEntry>& engines);
 
@@ -62,6 +67,15 @@ void make_folder(const std::string& out);
 void hold_standard_streams();
 /// Whether all that was printed has arrived; says so where it has not (a full disk, a closed pipe).
 [[nodiscard]] bool output_arrived();
+
+struct Shard {
+  int i, n;  ///< the i-th of n, from 1
+};
+/// "i/n". @throws InputError
+[[nodiscard]] Shard read_shard(const std::string& text);
+
+/// Now, in UTC: "2026-01-31T12:00:00Z".
+[[nodiscard]] std::string date_now();
 
 /// The command line as it was typed, for the report.
 void remember_command_line(int argc, char** argv);

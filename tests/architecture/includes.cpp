@@ -32,6 +32,7 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"validation/references", {"core", "scene", "io", "adapters"}},
     {"validation/metrics", {"core", "scene", "io", "adapters", "validation/references"}},
     {"validation/harness", {"core", "scene", "io", "adapters", "validation/references", "validation/metrics"}},
+    {"validation/queue", {"core", "scene", "io", "adapters", "validation/references", "validation/metrics", "validation/harness"}},
     {"validation/exact", {"core", "scene", "io", "adapters", "validation/references"}},
     {"program/bench", {"core", "scene", "particles", "sph", "effects", "step"}},
 };

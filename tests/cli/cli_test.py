@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 
 TRIPOINT, FAKE = sys.argv[1], sys.argv[2]
-VERBS = "run validate merge compare report render view converge recommend plan ablate gate check explain list new schema engines engine".split()
+VERBS = "run validate merge suite status compare report render view converge recommend plan ablate gate check explain list new schema engines engine".split()
 FLIGHT = Path(FAKE).with_name("flight.toml").read_text().replace("[reference]", "[engines.fake]\nrequired = true\n[reference]").replace("limit = 1e-10", 'engine = "fake"\nlimit = 1e-10')
 
 

@@ -96,12 +96,23 @@ std::shared_ptr<const Trajectory> taken_back(const CaseRun& run, const HarmlessC
 
 }  // namespace
 
-CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, const SuiteOptions& options) {
+CaseRuns plan_case(const Case& value, const std::vector<EngineEntry>& found, const SuiteOptions& options) {
   check_data_files(value);
   CaseRuns all;
   all.value = &value;
   all.hashes = case_hashes(value.file);
   all.engines = plan_runs(value, found, options.selection);
+  return all;
+}
+
+CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, const SuiteOptions& options) {
+  auto all = plan_case(value, found, options);
+  add_runs(all, options);
+  return all;
+}
+
+void add_runs(CaseRuns& all, const SuiteOptions& options) {
+  const Case& value = *all.value;
   const fs::path folder = fs::path(options.out) / "runs" / value.id;
   Sampler sampler(folder / "particles");
   for (std::size_t e = 0; e < all.engines.size(); ++e) {
@@ -120,10 +131,11 @@ CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, 
       all.runs.push_back(std::move(run));
     }
   }
-  return all;
 }
 
-void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
+namespace {
+
+RunRequest request_of(const CaseRuns& all, const CaseRun& run, const SuiteOptions& options) {
   const auto& engine = all.engines[run.engine];
   RunRequest request;
   request.engine = engine.entry, request.job = &run.job, request.initial = run.initial.get();
@@ -132,15 +144,51 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   request.particles_hash = run.changed ? run.changed->particles_hash : run.particles_hash;
   request.wall_limit = wall_limit(engine, options), request.environment = options.environment;
   request.keep_finished = options.resume, request.count_below = options.count_below;
-  auto outcome = run_one(request);
+  return request;
+}
+
+/// What the harness itself knows of a run, before any engine has spoken.
+void describe_run(CaseRun& run, const Result& result, const SuiteOptions& options) {
+  auto& row = run.row;
+  row.knobs = knobs_of(run, result);
+  row.levels = run.plan.levels, row.base = run.plan.base, row.group = run.plan.group, row.input = run.plan.input;
+  row.folder = fs::relative(run.folder, options.out).string();
+}
+
+/// A run that somebody else has made. Its frames are read where engines are compared by them.
+void take_row(const CaseRuns& all, CaseRun& run, RunRow row, const SuiteOptions& options) {
+  run.row = std::move(row), run.kept = true;
+  if (!run.plan.base || run.row.status != "ok") return;
+  ProcessEnd end;
+  end.how = ProcessEnd::How::exited;
+  const auto outcome = read_back(request_of(all, run, options), end);
+  if (outcome.status != "ok") run.row.status = "error", run.row.reason = "its frames are not as it left them: " + outcome.reason;
+  run.trajectory = outcome.trajectory;
+}
+
+}  // namespace
+
+std::string run_id(const CaseRuns& all, const CaseRun& run, const SuiteOptions& options) {
+  const auto& engine = all.engines[run.engine];
+  std::string text = hash_of(request_of(all, run, options));
+  for (const auto& part : {all.value->id, engine.name, engine.preset, run.plan.label}) text += '\0' + part;
+  return text_hash(text);
+}
+
+void give_up(CaseRun& run, const std::string& status, const std::string& reason, const SuiteOptions& options) {
+  describe_run(run, {}, options);
+  run.row.status = status, run.row.reason = reason;
+}
+
+void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
+  if (options.made) return take_row(all, run, options.made(all, run), options);
+  auto outcome = run_one(request_of(all, run, options));
   if (run.changed && outcome.trajectory) outcome.trajectory = taken_back(run, *options.change, *outcome.trajectory);
   run.kept = outcome.kept;
+  describe_run(run, outcome.result, options);
   auto& row = run.row;
-  row.knobs = knobs_of(run, outcome.result);
-  row.levels = run.plan.levels, row.base = run.plan.base, row.group = run.plan.group, row.input = run.plan.input;
   row.status = outcome.status, row.reason = outcome.reason, row.comparable = outcome.comparable, row.cost = outcome.cost;
   row.state_hash = outcome.result.state_hash, row.time_step_bound = outcome.result.time_step_bound;
-  row.folder = fs::relative(run.folder, options.out).string();
   if (outcome.trajectory) row.metrics = evaluate_all(*all.value, run.job, *run.initial, *outcome.trajectory);
   if (run.plan.base) run.trajectory = outcome.trajectory;
 }

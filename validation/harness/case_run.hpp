@@ -39,8 +39,20 @@ struct CaseRuns {
   std::vector<CaseRun> runs;
 };
 
+/// Engines of a case and their runs; none is sampled yet.
+[[nodiscard]] CaseRuns plan_case(const Case&, const std::vector<EngineEntry>&, const SuiteOptions&);
+
+/// Samples the runs that are wanted and adds them, ready to be made. @throws InputError when a scene cannot be sampled
+void add_runs(CaseRuns&, const SuiteOptions&);
+
 /// Plans a case, samples each of its scenes once and writes the particles. @throws InputError when a scene cannot be sampled
 [[nodiscard]] CaseRuns prepare_case(const Case&, const std::vector<EngineEntry>&, const SuiteOptions&);
+
+/// What tells a run of a case from any other run of any case: its place in the report and all that makes it. 16 hex digits.
+[[nodiscard]] std::string run_id(const CaseRuns&, const CaseRun&, const SuiteOptions&);
+
+/// A row for a run that could not be made: its knobs, with a status and a reason.
+void give_up(CaseRun&, const std::string& status, const std::string& reason, const SuiteOptions&);
 
 /// Makes one run and fills its row; its metrics are evaluated here.
 void make_run(const CaseRuns&, CaseRun&, const SuiteOptions&);

@@ -147,6 +147,9 @@ struct Results {
 [[nodiscard]] std::string results_text(const Results&);
 /// @throws InputError naming the file and what is missing or of the wrong kind
 [[nodiscard]] Results read_results(const std::string& path);
+/// One run as results.json holds it, and back again. @throws InputError naming the place and what is wrong
+[[nodiscard]] std::string run_row_text(const RunRow&);
+[[nodiscard]] RunRow read_run_row(const std::string& text, const std::string& place);
 /// This build, this machine.
 [[nodiscard]] Tool this_tool();
 

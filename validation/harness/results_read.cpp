@@ -204,6 +204,12 @@ Tool tool(const Json& from) {
 
 }  // namespace
 
+RunRow read_run_row(const std::string& text_of_row, const std::string& place_of_row) {
+  const auto document = nests_too_deep(text_of_row) ? Json() : Json::parse(text_of_row, nullptr, false);
+  if (!document.is_object()) throw InputError(place_of_row + ": holds no run of a results.json");
+  return run_row(document);
+}
+
 Results read_results(const std::string& path) {
   const std::string text_of_file = text_of_regular_file(path, largest_file);
   if (nests_too_deep(text_of_file)) throw InputError(fmt::format("{}: nests deeper than {} levels, which no results file does", path, most_levels));

@@ -174,6 +174,8 @@ Json json(const CaseResult& c) {
 
 }  // namespace
 
+std::string run_row_text(const RunRow& row) { return json(row).dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
 std::string results_text(const Results& r) {
   Json cases = Json::array();
   for (const auto& c : r.cases) cases.push_back(json(c));

@@ -220,8 +220,10 @@ Outcome ask(const RunRequest& request) {
   return {};
 }
 
+std::string hash_of(const RunRequest& request) { return run_hash(request, job_text(job_in_folder(request))); }
+
 Outcome run_one(const RunRequest& request) {
-  const std::string hash = run_hash(request, job_text(job_in_folder(request)));
+  const std::string hash = hash_of(request);
   if (request.keep_finished) {
     if (auto kept = finished_run(request, hash)) return std::move(*kept);
   }

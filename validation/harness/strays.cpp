@@ -29,9 +29,12 @@ struct Look {
   bool unsure = false;  // one of ours is just becoming another program: for that moment nobody can read its environment
 };
 
+/// What can be read of a file. Reading fails in the middle where the process ends just then, and a bare iterator would throw at it.
 std::string all_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
 }
 
 /// Whether a process whose environment we read as empty is a child of ours, alive, and not one that was given none: fields 3, 4, 50, 51 of proc(5).

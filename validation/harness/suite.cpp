@@ -28,7 +28,7 @@ class Suite {
     for (int i = 0; i < std::max(1, options_.jobs); ++i) workers.emplace_back([this] { work(); });
     std::exception_ptr failure;
     try {
-      for (std::size_t c = 0; c < cases_.size() && !interrupted(); ++c) prepare(c);
+      for (std::size_t c = 0; c < cases_.size() && !interrupted() && !given_up_; ++c) prepare(c);
     } catch (...) {
       if (!interrupted()) failure = std::current_exception();  // what is stopped half-way is no failure: the complete cases are reported
       given_up_ = true;
@@ -40,6 +40,7 @@ class Suite {
     changed_.notify_all();
     for (auto& w : workers) w.join();
     if (failure) std::rethrow_exception(failure);
+    if (failure_) std::rethrow_exception(failure_);
     std::vector<CaseResult> results;
     for (auto& s : slots_)
       if (s.result) results.push_back(std::move(*s.result));
@@ -78,14 +79,24 @@ class Suite {
       queue_.pop_front();
       lock.unlock();
       if (given_up_ || interrupted()) continue;
-      auto& slot = slots_[next.slot];
-      make_run(*slot.runs, slot.runs->runs[next.run], options_);
-      say_run(*slot.runs, slot.runs->runs[next.run]);
-      lock.lock();
-      const bool last = --slot.left == 0;
-      lock.unlock();
-      if (last && !interrupted()) finish(next.slot);
+      try {
+        make(next);
+      } catch (...) {
+        lock.lock();
+        if (!failure_) failure_ = std::current_exception();
+        given_up_ = true;
+      }
     }
+  }
+
+  void make(const Work& next) {
+    auto& slot = slots_[next.slot];
+    make_run(*slot.runs, slot.runs->runs[next.run], options_);
+    say_run(*slot.runs, slot.runs->runs[next.run]);
+    std::unique_lock lock(mutex_);
+    const bool last = --slot.left == 0;
+    lock.unlock();
+    if (last && !interrupted()) finish(next.slot);
   }
 
   void finish(std::size_t c) {
@@ -117,6 +128,7 @@ class Suite {
   std::vector<Slot> slots_;
   std::size_t queued_ = 0, done_ = 0, announced_ = 0;
   bool all_queued_ = false;
+  std::exception_ptr failure_;  ///< of a worker, the first
   std::atomic<bool> given_up_{false};
 };
 

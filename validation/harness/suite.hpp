@@ -31,6 +31,9 @@ struct CaseFilter {
 /// Reads the cases, in order of their ids. @throws InputError for a file that is wrong, an id used twice; NothingSelected for a filter that nothing matches
 [[nodiscard]] std::vector<Case> select_cases(const CaseFilter&);
 
+struct CaseRuns;
+struct CaseRun;
+
 struct SuiteOptions {
   Selection selection;
   std::string out = "report";  ///< runs go below out/runs
@@ -43,6 +46,8 @@ struct SuiteOptions {
   const HarmlessChange* change = nullptr;          ///< every scene is run changed, and its frames are taken back before they are judged
   /// Which runs of the plan are made; empty = all.
   std::function<bool(const EnginePlan&, const RunPlan&)> wanted;
+  /// Row of a run that was made elsewhere, in the place of making it; its folder lies below `out` already. Empty = runs are made here.
+  std::function<RunRow(const CaseRuns&, const CaseRun&)> made;
   std::function<void(const std::string&)> say;           ///< progress, one line a call, from any thread
   std::function<void(const CaseResult&)> on_case;        ///< each case as soon as it and those before it are judged
 };

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <string>
+
+#include "adapters/job.hpp"
+#include "validation/harness/results.hpp"
+
+/// What a run will cost, before it is made: good enough to share work out, never shown as a measurement.
+namespace tripoint {
+
+/// CPU seconds that earlier runs cost, by their folder ("runs/CASE/ENGINE/LABEL").
+[[nodiscard]] std::map<std::string, double> measured_costs(const Results&);
+
+/// CPU seconds of one run by particles times steps, with a cost a particle and step for each kind of engine. [CPU s]
+/// The step where the scene gives none is 0.2 h/c, c the fastest sound of its materials: the order of every bound of the solver.
+[[nodiscard]] double predicted_cost(const Job&, const std::string& engine, std::size_t particles);
+
+}  // namespace tripoint

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+
+#include "validation/harness/results.hpp"
+#include "validation/queue/queue.hpp"
+
+/// A run that has ended is published by one rename of its folder: it is there with all its files, or not at all.
+namespace tripoint {
+
+/// Id in the row.json of the published run; empty where there is none.
+[[nodiscard]] std::string published_id(const std::string& dir, const QueuedJob&);
+
+/// Row of the published run. @throws InputError where it is absent, unreadable or of another job
+[[nodiscard]] RunRow published_row(const std::string& dir, const QueuedJob&);
+
+/// Moves a run's folder to its place, with its row in it.
+/// @return false where the job has a result already: the folder stays where it is
+/// @throws EngineError where the system does not let it
+[[nodiscard]] bool publish(const std::string& dir, const QueuedJob&, const RunRow&, const std::string& folder, const std::string& worker);
+
+/// Takes the row away, so that the run counts as not made.
+void withdraw(const std::string& dir, const QueuedJob&);
+
+/// Whether two results of one job agree in all but what they cost.
+[[nodiscard]] bool same_outcome(RunRow, RunRow);
+
+}  // namespace tripoint
