@@ -8,7 +8,7 @@ OUT ?= report
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-print-directory
 
-.PHONY: help setup build test validate test-fresh test-image test-package bench bench-peers gallery docs wheel sbom clean
+.PHONY: help setup build test validate test-fresh test-image test-package bench bench-peers gallery docs wheel sbom fuzz clean
 
 help:  ## this text
 	@echo 'tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.'
@@ -53,6 +53,10 @@ wheel: build  ## a Python wheel with the program inside: build/wheel/
 
 sbom: build  ## what a build holds, loads and fetches, as SPDX 2.3: build/tripoint.spdx.json
 	@tools/sbom.py
+
+fuzz:  ## build the fuzz targets with clang and run each for a minute (docs/fuzz.md; SECONDS=600 for longer)
+	@tools/setup.sh fuzz
+	@tools/fuzz.sh $(or $(SECONDS),60)
 
 bench: build  ## time standard work on this machine, beside the machine's own limit
 	@build/bin/tripoint bench

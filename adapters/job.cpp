@@ -11,6 +11,7 @@
 #include "adapters/scene_json.hpp"
 #include "core/durable_file.hpp"
 #include "core/nesting.hpp"
+#include "core/whole_number.hpp"
 #include "io/foreign_file.hpp"
 
 namespace tripoint {
@@ -51,7 +52,7 @@ std::string below(const std::string& folder, const std::string& path) {
 }
 
 Divergence divergence_from(const JsonObject& o) {
-  return {static_cast<long>(o.number_or("particle", -1)), static_cast<long>(o.number_or("body", -1)), o.text_or("field", ""), o.text_or("stage", ""), o.number_or("time", 0.0), o.text_or("guard", ""), o.text_or("file", ""), o.text_or("checkpoint", "")};
+  return {whole_number<long>(o.number_or("particle", -1)), whole_number<long>(o.number_or("body", -1)), o.text_or("field", ""), o.text_or("stage", ""), o.number_or("time", 0.0), o.text_or("guard", ""), o.text_or("file", ""), o.text_or("checkpoint", "")};
 }
 
 Readback readback_from(const JsonObject& o) {
@@ -91,8 +92,8 @@ Job read_job(const std::string& path) {
   job.settings = o.settings("settings");
   if (o.has("reference")) job.reference = reference_from(o.object("reference"));
   job.seed = static_cast<std::uint64_t>(o.integer("seed"));
-  job.threads = static_cast<int>(o.number_or("threads", 1));
-  job.ranks = static_cast<int>(o.number_or("ranks", 1));
+  job.threads = whole_number<int>(o.number_or("threads", 1));
+  job.ranks = whole_number<int>(o.number_or("ranks", 1));
   if (o.has("gauges"))
     for (const JsonObject& g : o.objects("gauges")) job.gauges.push_back({g.text("metric"), g.text("quantity"), g.text_or("body", ""), g.settings("where")});
   job.times = o.numbers("times");
@@ -140,7 +141,7 @@ Result read_result(const std::string& path) {
   r.status = o.text("status");
   r.message = o.text_or("message", "");
   r.time_reached = o.number_or("time_reached", 0.0);
-  r.steps = static_cast<long>(o.number_or("steps", 0.0));
+  r.steps = whole_number<long>(o.number_or("steps", 0.0));
   if (o.has("counters")) r.pairs = o.object("counters").number_or("pairs", 0.0), r.iterations = o.object("counters").number_or("iterations", 0.0);
   if (o.has("seconds")) {
     const JsonObject s = o.object("seconds");

@@ -140,7 +140,8 @@ Trajectory read_trajectory_csv(const std::string& path, const InitialState& init
     row.line(text, number);
     const double time = row["time"];
     if (!std::isfinite(time)) throw InputError({path, number, 0}, "the time is not finite");
-    Snapshot& frame = frames.try_emplace(time, empty_frame(time, initial, bodies)).first->second;
+    if (!frames.contains(time)) frames.emplace(time, empty_frame(time, initial, bodies));
+    Snapshot& frame = frames.at(time);
     row.has("body") ? put_body(row, initial, start, frame) : put_particle(row, initial, frame);
   }
   Trajectory trajectory;

@@ -23,9 +23,23 @@ struct TomlNode {
   SourcePlace place;                                        ///< of the value
   SourcePlace key_place;                                    ///< of its key, where it has one
 
+  // Defaulted below: clang asks what a pair of a node can do, and a node must be whole by then.
+  TomlNode() noexcept;
+  TomlNode(const TomlNode&);
+  TomlNode(TomlNode&&) noexcept;
+  TomlNode& operator=(const TomlNode&);
+  TomlNode& operator=(TomlNode&&) noexcept;
+  ~TomlNode();
+
   [[nodiscard]] const TomlNode* find(std::string_view key) const;
   [[nodiscard]] TomlNode* find(std::string_view key);
 };
+inline TomlNode::TomlNode() noexcept = default;
+inline TomlNode::TomlNode(const TomlNode&) = default;
+inline TomlNode::TomlNode(TomlNode&&) noexcept = default;
+inline TomlNode& TomlNode::operator=(const TomlNode&) = default;
+inline TomlNode& TomlNode::operator=(TomlNode&&) noexcept = default;
+inline TomlNode::~TomlNode() = default;
 
 /// "a table", "an array", "a number" ...
 [[nodiscard]] std::string_view kind_name(TomlNode::Kind);

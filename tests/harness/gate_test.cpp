@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/errors.hpp"
 #include "fakes.hpp"
 #include "judged.hpp"
 #include "validation/harness/baseline.hpp"
+#include "validation/harness/baseline_propose.hpp"
+#include "validation/harness/gate_verdict.hpp"
+#include "validation/harness/recheck.hpp"
 #include "validation/harness/remarks.hpp"
 #include "validation/harness/slack.hpp"
 
@@ -95,11 +99,58 @@ TEST(Slack, LimitsOfRoundOffAndCountsHaveNoneToGive) {
   EXPECT_TRUE(slack_remarks(r).empty());
 }
 
+TEST(Slack, OrdersAndClassesHaveNoRoomToTighten) {
+  GateRow row;
+  row.metric = "error.order", row.verdict = "pass", row.value = 2.0, row.gate.at_least = 0.1;
+  EXPECT_FALSE(slack_of({}, row).has_value());
+  row.metric = "error";
+  EXPECT_TRUE(slack_of({}, row).has_value());
+  row.expect = "asymptotic";
+  EXPECT_FALSE(slack_of({}, row).has_value());
+}
+
 TEST(Slack, ABandIsAskedOnBothSides) {
   auto r = green();
   auto& gate = r.cases[0].gates[0];
   gate.limit.reset(), gate.band = {0.01, 0.06};
   EXPECT_EQ(slack_of(r.cases[0], judged(r).cases[0].engines[0].gates[0]).value(), 5.0);  // 0.05 / 0.01
+}
+
+TEST(GateVerdict, AddsWhatTheResultsDoNotSayOfThemselves) {
+  const TestFolder folder;
+  auto r = green();
+  r.cases[0].file = folder / "cases/test/one.toml";  // a file that is not there: what it asks cannot be seen
+  r.filter_known = true;
+  const auto verdict = gate_verdict(judged(r));
+  EXPECT_EQ(verdict.code, exit_missing);
+  EXPECT_NE(verdict.word, "PASS");
+  EXPECT_FALSE(verdict.remarks.empty());
+}
+
+TEST(GateVerdict, SaysWhereTheResultsAreOfAnotherCommit) {
+  const TestFolder folder;
+  const auto says = [&](const std::string& commit) {
+    auto r = green();
+    r.cases[0].file = folder / "cases/test/one.toml";
+    r.tool.commit = commit;
+    const auto remarks = gate_verdict(judged(r)).remarks;
+    return std::any_of(remarks.begin(), remarks.end(), [](const Remark& remark) { return remark.text.find("were made by commit") != std::string::npos; });
+  };
+  EXPECT_TRUE(says("another"));
+  EXPECT_FALSE(says(this_tool().commit));
+}
+
+TEST(Recheck, ACaseThatTheResultsLeaveOutIsAnError) {
+  const TestFolder folder;
+  write_text(folder / "cases/test/flight.toml", flight_case());
+  auto r = green();
+  r.cases.clear(), r.planned.clear();
+  r.filter_known = true, r.what = {folder / "cases"};
+  const auto remarks = recheck_remarks(r);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_TRUE(remarks[0].error);
+  EXPECT_EQ(remarks[0].code, exit_missing);
+  EXPECT_NE(remarks[0].text.find("is not in them"), std::string::npos) << remarks[0].text;
 }
 
 /// A suite in a folder of its own, which keeps baselines.
@@ -254,6 +305,41 @@ TEST(Baselines, TheSumOfAllLooseningsIsKeptAndTighteningTakesNothingOff) {
   EXPECT_EQ(b.gates[0].first_room, 0.1);
   EXPECT_EQ(b.accepted.size(), 4u);
   EXPECT_NE(said.find("in all by a factor 6"), std::string::npos) << said;
+}
+
+TEST(Baselines, GatesAtLevelsFindTheirOwn) {
+  Kept kept;
+  auto& runs = engine(kept.r).runs;
+  runs.push_back(runs[0]);
+  runs[1].group = "fine", runs[1].levels = {{"spacing", 0.05}};
+  runs[0].levels = {{"spacing", 0.1}};
+  auto& gates = kept.r.cases[0].gates;
+  gates.push_back(gates[0]);
+  gates[0].level = 0.1, gates[1].level = 0.05;
+  judge(kept.r);
+  (void)kept.accept_all();
+  EXPECT_TRUE(baseline_remarks(kept.r).empty());
+  gates[1].limit = 0.2;  // the finer one alone is loosened
+  judge(kept.r);
+  const auto remarks = baseline_remarks(kept.r);
+  ASSERT_EQ(std::count_if(remarks.begin(), remarks.end(), [](const Remark& remark) { return remark.error; }), 1);
+}
+
+TEST(Baselines, AreAcceptedByIdsThatTheResultsHold) {
+  Kept kept;
+  const Acceptance words{"2026-11-21", "abc", "a test"};
+  EXPECT_THROW((void)accept(kept.r, {"test/other"}, words), InputError);
+  EXPECT_NO_THROW((void)accept(kept.r, {"test/one"}, words));
+}
+
+TEST(Baselines, AProposalCountsTheLimitsThatWereLoosened) {
+  Kept kept;
+  (void)kept.accept_all();
+  const Acceptance words{"2026-11-21", "abc", "a test"};
+  EXPECT_EQ(proposals(kept.r, {}, words).at(0).limits_loosened, 0);
+  kept.r.cases[0].gates[0].limit = 0.2;
+  judge(kept.r);
+  EXPECT_EQ(proposals(kept.r, {}, words).at(0).limits_loosened, 1);
 }
 
 TEST(Baselines, CreepIsSeenAgainstTheFirstValueToo) {

@@ -72,6 +72,18 @@ TEST(Process, ADaemonInASessionOfItsOwnEndsWithItsRun) {
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(left), {}), "") << "it outlived its run";
 }
 
+TEST(Process, WhatAHarnessInsideARunStartedEndsWithThatRun) {
+  const TestFolder folder;
+  const auto file = folder / "pid";
+  const auto end = run_process(shell("TRIPOINT_RUN=$TRIPOINT_RUN/7.7/0 setsid sleep 300 & echo $! > " + file));  // marked as such a harness marks its engines
+  EXPECT_EQ(end.how, ProcessEnd::How::exited);
+  pid_t engine = 0;
+  std::ifstream(file) >> engine;
+  ASSERT_GT(engine, 0);
+  std::ifstream left(std::filesystem::path("/proc") / std::to_string(engine) / "cmdline");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(left), {}), "") << "it outlived the run";
+}
+
 TEST(Process, TheGroupsCpuTimeCountsGrandchildrenThatNobodyWaitedFor) {
   const auto end = run_process(shell("(i=0; while [ $i -lt 300000 ]; do i=$((i+1)); done; sleep 60) & sleep 1; exit 0"));
   EXPECT_EQ(end.how, ProcessEnd::How::exited);

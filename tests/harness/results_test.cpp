@@ -97,6 +97,40 @@ TEST(Judge, AnUncertaintyThatReachesTheLimitIsInconclusiveAndNotGreen) {
   EXPECT_EQ(exit_of(r), exit_inconclusive);
 }
 
+TEST(Judge, AnEngineThatNobodyRequiresMayNotRefuseOneSeedOfARun) {
+  auto r = green();
+  auto other = engine(r);
+  other.name = "other", other.required = false;
+  other.runs[0].metrics["error"] = value(7.0);  // far above the limit
+  other.runs.push_back(run_with({}));
+  other.runs[1].status = "refused";
+  r.cases[0].engines.push_back(other);
+  EXPECT_EQ(exit_of(r), exit_missing);  // the failing seed is not hidden by the one that was refused
+  r.cases[0].engines[1].runs[0].status = "refused";
+  EXPECT_EQ(exit_of(r), exit_pass);  // a run may be refused as a whole
+}
+
+TEST(Judge, AnEngineThatWasAskedForAndThatNoGateNamesIsToldHowManyCasesItRan) {
+  auto r = green();
+  r.cases[0].gates[0].engine = "tripoint";
+  r.cases[0].engines.push_back(engine(r));
+  r.cases[0].engines[1].name = "other", r.cases[0].engines[1].required = false;
+  r.asked = {"other"};
+  judge(r);
+  EXPECT_EQ(r.exit_code, exit_missing);
+  ASSERT_EQ(r.problems.size(), 1u);
+  EXPECT_NE(r.problems[0].find("other was asked for, ran 1 case, and is not judged"), std::string::npos) << r.problems[0];
+}
+
+TEST(Judge, AStatusThatNobodyKnowsIsNoRefusal) {
+  for (const char* status : {"", "fine", "OK", "killed"}) {
+    auto r = green();
+    r.cases[0].engines.push_back(engine(r));
+    r.cases[0].engines[1].name = "other", r.cases[0].engines[1].required = false, r.cases[0].engines[1].runs[0].status = status;
+    EXPECT_EQ(exit_of(r), exit_missing) << status;
+  }
+}
+
 TEST(Judge, ADivergenceThatTheCaseDeclaresPassesAndItsAbsenceFails) {
   auto r = green();
   r.cases[0].expect = "diverges";

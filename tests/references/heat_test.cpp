@@ -216,6 +216,13 @@ TEST(StepInsulated, TurnsWithTheNormalOfTheStep) {
   s.job.scene.bodies[0].temperature = field;
   const auto reference = make_reference(test::function("step_insulated"), s.job, s.initial);
   EXPECT_EQ(reference->at(0.0).temperature, s.initial.temperature);
+  const auto slower = make_reference(test::function("step_insulated", {{"diffusivity", 0.25 * D}}), s.job, s.initial);
+  const auto early = reference->at(1.0).temperature, late = slower->at(4.0).temperature;  // the ends are not felt yet: the error function
+  for (std::size_t i = 0; i < s.initial.size(); ++i) {
+    const double expected = 350.0 - 50.0 * std::erf((s.initial.position[i].x - 0.05) / (2.0 * std::sqrt(D * 1.0)));
+    EXPECT_NEAR(early[i], expected, 1e-6);
+    EXPECT_NEAR(late[i], early[i], 1e-9);  // of D t alone
+  }
   const auto end = reference->at(10.0).temperature;
   EXPECT_GT(end.front(), 399.9);
   double sum = 0.0;

@@ -254,6 +254,20 @@ TEST(ElasticCollision, KeepsMomentumAndEnergyOfUnequalBodies) {
   EXPECT_LT(after[0].velocity.x, after[1].velocity.x);
 }
 
+TEST(ElasticCollision, CarriesTheParticlesOfEachBodyWithIt) {
+  const auto s = test::cubes();
+  const auto hit = make_reference(test::function("elastic_collision"), s.job, s.initial);
+  for (const double time : {0.0, 0.1, 0.5}) {  // before the touch and after it
+    const auto frame = hit->at(time);
+    ASSERT_EQ(frame.position.size(), s.initial.size());
+    for (std::size_t i = 0; i < frame.position.size(); ++i) {
+      const auto b = static_cast<std::size_t>(s.initial.source[i]);
+      const Vec3 way = frame.bodies[b].position - s.job.bodies[b].properties.centre;
+      EXPECT_LT(norm(frame.position[i] - s.initial.position[i] - way), 1e-12);
+    }
+  }
+}
+
 TEST(Bouncing, IsTheFallStepByStepWithTheHitsTurnedRound) {
   auto s = test::cubes();
   s.job.scene.gravity = {-9.81, 0, 0};

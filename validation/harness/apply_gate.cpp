@@ -76,6 +76,11 @@ void judge_value(GateRow& row, const MetricValue& metric) {
   else row.why = fmt::format("{:.4g} with standard uncertainty {:.2g}, {}", row.value, row.uncertainty, describe(row.gate));
 }
 
+/// An engine may refuse a run, but not one seed of it: what the other seeds gave would be judged by nobody.
+bool any_ok(const Group& group) {
+  return std::any_of(group.runs.begin(), group.runs.end(), [](const auto* run) { return run->status == "ok"; });
+}
+
 /// @return false when the group gives no row: its run failed, and the engine's row says so
 bool judge_group(const CaseResult& result, const Gate& gate, const Group& group, EngineRow& engine) {
   auto row = new_row(gate, group.mode);
@@ -83,7 +88,7 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
   std::vector<MetricValue> values;
   for (const auto* run : group.runs) {
     if (run->status != "ok" || !run->comparable) {
-      if (!engine.required && run->comparable && run->status != "diverged" && !crashed(*run)) return false;
+      if (!engine.required && !any_ok(group) && run->comparable && run->status != "diverged" && !crashed(*run)) return false;
       row.verdict = to_string(run->status == "diverged" ? Verdict::diverged : Verdict::missing);
       row.why = run->reason.empty() ? run->status : run->reason;
       engine.gates.push_back(row);

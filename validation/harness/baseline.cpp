@@ -9,6 +9,7 @@
 
 #include "adapters/job.hpp"
 #include "core/errors.hpp"
+#include "core/whole_number.hpp"
 #include "scene/toml_node.hpp"
 #include "validation/harness/apply_gate.hpp"
 
@@ -155,7 +156,7 @@ Baseline read_baseline(const std::string& file) {
   const auto top = read_toml(file);
   if (number(top, "format") != 1.0) throw InputError(file + ": has not format = 1");
   Baseline b;
-  b.id = text(top, "case"), b.case_hash = text(top, "case_hash"), b.seed = static_cast<std::uint64_t>(std::max(0.0, number(top, "seed")));
+  b.id = text(top, "case"), b.case_hash = text(top, "case_hash"), b.seed = whole_number<std::uint64_t>(number(top, "seed"));
   b.accepted = tables<Acceptance>(top, "accepted", [](const TomlNode& n) { return Acceptance{text(n, "date"), text(n, "commit"), text(n, "reason")}; });
   b.gates = tables<AcceptedGate>(top, "gate", read_gate);
   b.cost = tables<AcceptedCost>(top, "cost", [](const TomlNode& n) { return AcceptedCost{text(n, "run"), number(n, "pairs"), number(n, "steps"), number(n, "instructions"), text(n, "counted_on")}; });
@@ -163,7 +164,7 @@ Baseline read_baseline(const std::string& file) {
   b.profiles = texts(top, "profiles"), b.required = texts(top, "required");
   const auto seal = text(top, "seal");  // older versions wrote neither hashes nor seal
   b.sealed = seal.empty() ? b.scene.empty() : seal == text_hash(unsealed(text_of_file(file)));
-  b.removed = static_cast<int>(number(top, "removed"));
+  b.removed = whole_number<int>(number(top, "removed"));
   return b;
 }
 

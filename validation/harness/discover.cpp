@@ -13,8 +13,8 @@
 #include <sstream>
 
 #include "core/errors.hpp"
-#include "core/nesting.hpp"
 #include "validation/harness/process.hpp"
+#include "validation/harness/replies.hpp"
 #include "validation/harness/sandbox.hpp"
 
 namespace tripoint {
@@ -23,20 +23,6 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr double info_limit = 10.0;  // [s], by the contract
-
-std::string text(const Json& from, const char* key) {
-  const auto at = from.find(key);
-  if (at == from.end() || at->is_null()) return {};
-  return at->is_string() ? at->get<std::string>() : at->dump();
-}
-
-std::vector<std::string> words(const Json& from, const char* key) {
-  std::vector<std::string> list;
-  if (const auto at = from.find(key); at != from.end() && at->is_array())
-    for (const auto& word : *at)
-      if (word.is_string()) list.push_back(word.get<std::string>());
-  return list;
-}
 
 std::string name_of_file(const std::string& executable) {
   const std::string file = fs::path(executable).filename().string();
@@ -49,38 +35,9 @@ EngineEntry unavailable(EngineEntry entry, const std::string& reason) {
   return entry;
 }
 
-void read_info(const Json& info, EngineEntry& entry) {
-  entry.name = text(info, "name");
-  entry.version = text(info, "version");
-  entry.build = text(info, "build");
-  if (const auto library = info.find("library"); library != info.end() && library->is_object()) {
-    entry.library_path = text(*library, "path");
-    entry.library_hash = text(*library, "hash");
-  }
-  entry.capabilities = words(info, "capabilities");
-  if (const auto presets = words(info, "presets"); !presets.empty()) entry.presets = presets;
-  if (const auto settings = info.find("settings"); settings != info.end() && settings->is_object())
-    for (const auto& [key, value] : settings->items()) entry.settings[key] = text(*settings, key.c_str());
-  if (const auto said = info.find("preset_words"); said != info.end() && said->is_object())
-    for (const auto& [preset, value] : said->items()) entry.settings["preset " + preset] = text(*said, preset.c_str());
-  if (const auto d = info.find("deterministic"); d != info.end() && d->is_boolean()) entry.deterministic = d->get<bool>();
-  if (const auto defects = info.find("defects"); defects != info.end() && defects->is_array())
-    for (const auto& d : *defects) entry.defects.push_back({text(d, "name"), text(d, "what"), text(d, "case")});
-  if (const auto a = info.find("available"); a != info.end() && a->is_boolean() && !a->get<bool>()) {
-    entry.available = false;
-    entry.reason = text(info, "reason").empty() ? "says of itself that it is not available" : text(info, "reason");
-  }
-}
-
 bool is_program(const fs::path& path) {
   std::error_code none;
   return fs::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;
-}
-
-/// A name is a word of the report and a folder of its own: nothing that leads elsewhere, or looks like the name of another engine.
-bool is_plain(const std::string& name) {
-  const auto good = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.'; };
-  return !name.empty() && name.size() <= 64 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
 }
 
 /// Also one that is no program: an engine that was put there and cannot be started is a row that says so.
@@ -157,15 +114,7 @@ EngineEntry ask_engine(const std::string& executable) {
   spec.wall_limit = info_limit;
   const auto end = run_process(sandboxed(spec));
   if (end.how != ProcessEnd::How::exited || end.code != 0) return unavailable(entry, "--info " + describe(end));
-  const auto info = nests_too_deep(end.output) ? Json() : Json::parse(end.output, nullptr, false);
-  if (!info.is_object() || text(info, "contract") != "1" || text(info, "name").empty())
-    return unavailable(entry, "--info did not print one JSON object of contract 1 with a name");
-  read_info(info, entry);
-  for (const auto& preset : entry.presets)
-    if (!is_plain(preset)) return unavailable(entry, "one of its presets has a name that is not 1 to 64 letters, digits, '-', '_' or '.'");
-  if (is_plain(entry.name)) return entry;
-  entry.name = name_of_file(executable);
-  return unavailable(entry, "its name is not 1 to 64 letters, digits, '-', '_' or '.'");
+  return with_info(entry, end.output);
 }
 
 std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) { return ask_all(candidates(extra)); }

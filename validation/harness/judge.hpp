@@ -35,7 +35,7 @@ void judge(CaseResult&, bool engines_were_chosen);
 /// Mean of runs that differ by seed only: the statistical uncertainty is the larger of the stated one and the scatter, over sqrt(n).
 [[nodiscard]] MetricValue pooled(const std::vector<MetricValue>&);
 
-/// Whether a run ended otherwise than it should: killed, timeout or error. An engine that is missing or refuses says so; this one does not.
+/// Whether a run ended otherwise than it should: killed, timeout, error, or a status that nobody knows. An engine that is missing or refuses says so; this one does not.
 [[nodiscard]] bool crashed(const RunRow&);
 
 /// Whether the case declares that this form of the model diverges.

@@ -40,7 +40,7 @@ bool is_part(const std::string& shard) { return !shard.empty() && !shard.ends_wi
 
 }  // namespace
 
-bool crashed(const RunRow& run) { return run.status == "killed" || run.status == "timeout" || run.status == "error"; }
+bool crashed(const RunRow& run) { return run.status != "ok" && run.status != "refused" && run.status != "missing" && run.status != "diverged"; }
 
 bool is_unjudged(const EngineRow& engine) { return engine.name != "exact" && engine.status == "ok" && engine.gates.empty(); }
 

@@ -27,6 +27,7 @@
 
 #include "validation/harness/instructions.hpp"
 #include "validation/harness/strays.hpp"
+#include "validation/harness/watch.hpp"
 
 extern char** environ;
 
@@ -278,6 +279,7 @@ std::mutex& no_spawn_mutex() {
 
 ProcessEnd run_process(const ProcessSpec& spec) {
   adopt_orphans();
+  watch_for_our_end(our_stray_mark());
   ProcessEnd end;
   int out[2], err[2];
   if (::pipe2(out, O_CLOEXEC | O_NONBLOCK) != 0) return end.log_tail = std::strerror(errno), end;

@@ -32,7 +32,7 @@ struct ProcessEnd {
   double peak_bytes = 0.0;   ///< greatest resident size of one process of the group
 };
 
-/// Runs a program to its end, its limit or our Ctrl-C, whichever is first; nothing of its group survives. Never throws for what the program does.
+/// Runs a program to its end, its limit or our Ctrl-C, whichever is first; nothing of its group survives, nor does it where we are killed. Never throws for what the program does.
 [[nodiscard]] ProcessEnd run_process(const ProcessSpec&);
 
 /// Held while a program is started, and by whoever uses HDF5: its files are not close-on-exec, a child would inherit them for a

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/nesting.hpp"
+#include "core/whole_number.hpp"
 #include "io/foreign_file.hpp"
 #include "validation/harness/results.hpp"
 
@@ -68,7 +69,7 @@ std::vector<T> rows(const Json& from, const char* key, Read read) {
   return list;
 }
 
-SourcePlace place(const Json& from) { return {text(from, "file"), static_cast<int>(number_or(from, "line", 0.0)), 0}; }
+SourcePlace place(const Json& from) { return {text(from, "file"), whole_number<int>(number_or(from, "line", 0.0)), 0}; }
 
 MetricValue metric_value(const Json& from) {
   MetricValue m;
@@ -88,8 +89,8 @@ Knobs knobs(const Json& from) {
   Knobs k;
   k.spacing = number_or(from, "spacing", 0.0), k.time_step = number_or(from, "time_step", 0.0), k.support_ratio = number_or(from, "support_ratio", 0.0);
   k.walkers = optional_number(from, "walkers"), k.iterations = optional_number(from, "iterations");
-  k.mode = text(from, "mode"), k.threads = static_cast<int>(number_or(from, "threads", 1.0));
-  k.seed = static_cast<std::uint64_t>(std::max(0.0, number_or(from, "seed", 1.0))), k.jitter = number_or(from, "jitter", 0.0);
+  k.mode = text(from, "mode"), k.threads = whole_number<int>(number_or(from, "threads", 1.0));
+  k.seed = whole_number<std::uint64_t>(number_or(from, "seed", 1.0)), k.jitter = number_or(from, "jitter", 0.0);
   return k;
 }
 
@@ -165,7 +166,7 @@ MetricChoice metric_choice(const Json& from) {
 Study study(const Json& from) {
   Study s;
   s.axis = text(from, "axis"), s.levels = numbers(from, "levels"), s.jitter = number_or(from, "jitter", 0.0);
-  s.seeds = static_cast<int>(number_or(from, "seeds", 1.0)), s.engine = text(from, "engine"), s.mode = text(from, "mode");
+  s.seeds = whole_number<int>(number_or(from, "seeds", 1.0)), s.engine = text(from, "engine"), s.mode = text(from, "mode");
   s.expect = text(from, "expect"), s.order = optional_number(from, "order"), s.metric = text(from, "metric"), s.place = place(from);
   return s;
 }
@@ -186,7 +187,7 @@ CaseResult case_result(const Json& from) {
   c.studies = rows<Study>(from, "studies", study);
   c.gates = rows<Gate>(from, "gates", gate);
   c.engines = rows<EngineRow>(from, "engines", engine_row);
-  if (const auto& timing = member(from, "timing"); timing.is_object()) c.timing_rounds = static_cast<int>(number_or(timing, "rounds", 0.0)), c.timing_floor = number(timing, "noise_floor");
+  if (const auto& timing = member(from, "timing"); timing.is_object()) c.timing_rounds = whole_number<int>(number_or(timing, "rounds", 0.0)), c.timing_floor = number(timing, "noise_floor");
   if (const auto& hashes = member(from, "hashes"); hashes.is_object()) {
     c.hashes = CaseHashes{text(hashes, "scene"), text(hashes, "reference"), {}, {}, {}};
     for (const auto& [name, hash] : member(hashes, "metrics").items()) c.hashes->metrics[name] = hash.is_string() ? hash.get<std::string>() : "";
@@ -198,7 +199,7 @@ CaseResult case_result(const Json& from) {
 }
 
 Tool tool(const Json& from) {
-  return {text(from, "version"), text(from, "commit"), text(from, "compiler"), text(from, "flags"), text(from, "cpu"), static_cast<int>(number_or(from, "cores", 0.0))};
+  return {text(from, "version"), text(from, "commit"), text(from, "compiler"), text(from, "flags"), text(from, "cpu"), whole_number<int>(number_or(from, "cores", 0.0))};
 }
 
 }  // namespace
@@ -219,8 +220,8 @@ Results read_results(const std::string& path) {
   Results r;
   r.tool = tool(member(document, "tool"));
   r.command = text(document, "command"), r.profile = text(document, "profile"), r.date = text(document, "date"), r.shard = text(document, "shard"), r.history = text(document, "history");
-  r.seed = static_cast<std::uint64_t>(std::max(0.0, number_or(document, "seed", 1.0)));
-  r.verdict = text(document, "verdict"), r.exit_code = static_cast<int>(number_or(document, "exit_code", 4.0));
+  r.seed = whole_number<std::uint64_t>(number_or(document, "seed", 1.0));
+  r.verdict = text(document, "verdict"), r.exit_code = whole_number<int>(number_or(document, "exit_code", 4.0));
   r.interrupted = member(document, "interrupted") == Json(true);
   r.planned = strings(document, "planned"), r.only_engines = strings(document, "only_engines");
   r.filter_known = flag(document, "whole", false), r.what = strings(document, "what"), r.tag = text(document, "tag"), r.seed_given = flag(document, "seed_given", false);

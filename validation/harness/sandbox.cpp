@@ -17,14 +17,6 @@ namespace fs = std::filesystem;
 constexpr const char* bubblewrap = "/usr/bin/bwrap";
 std::atomic<bool> wanted{false};
 
-/// Whether the program's own engines lie where this one does.
-bool is_ours(const std::string& executable) {
-  std::error_code none;
-  const fs::path own = fs::weakly_canonical(fs::path(program_folder()).parent_path() / "libexec", none);
-  const fs::path relative = fs::weakly_canonical(executable, none).lexically_relative(own);
-  return !none && !relative.empty() && *relative.begin() != "..";
-}
-
 /// Namespaces of its own for all that Linux has; no right of root; ends with us. Only the system's programs and libraries are there.
 std::vector<std::string> bare() {
   std::vector<std::string> words{bubblewrap, "--unshare-all", "--unshare-user", "--die-with-parent", "--new-session", "--cap-drop", "ALL", "--clearenv",
@@ -35,6 +27,13 @@ std::vector<std::string> bare() {
 }
 
 }  // namespace
+
+bool belongs_to_us(const std::string& executable) {
+  std::error_code none;
+  const fs::path own = fs::weakly_canonical(fs::path(program_folder()).parent_path() / "libexec", none);
+  const fs::path relative = fs::weakly_canonical(executable, none).lexically_relative(own);
+  return !none && !relative.empty() && *relative.begin() != "..";
+}
 
 void sandbox_strangers() {
   ProcessSpec trial;
@@ -49,7 +48,7 @@ void sandbox_strangers() {
 }
 
 ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable) {
-  if (!wanted || is_ours(spec.argv.front())) return spec;
+  if (!wanted || belongs_to_us(spec.argv.front())) return spec;
   std::vector<std::string> words = bare();
   const auto bind = [&](const char* how, const std::string& path) {
     const std::string place = fs::absolute(path).lexically_normal().string();

@@ -9,6 +9,9 @@
 /// system's programs, the engine's own folder and its run.
 namespace tripoint {
 
+/// Whether an engine is one of this program's own: it lies where they do.
+[[nodiscard]] bool belongs_to_us(const std::string& executable);
+
 /// From now on `sandboxed` acts. Asked once, before the first engine is.
 /// @throws EngineError where bubblewrap is not installed, or this machine lets it make no namespaces: nothing is run unguarded then
 void sandbox_strangers();

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <charconv>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -50,6 +51,15 @@ bool is_becoming_another(const fs::path& process) {
   return alive && field[parent] == std::to_string(::getpid()) && !was_given_none;
 }
 
+/// Whether this environment has the entry, as it is or with parts after it.
+bool carries(const std::string& environment, const std::string& entry) {
+  for (auto at = environment.find(entry); at != std::string::npos; at = environment.find(entry, at + 1)) {
+    const std::size_t end = at + entry.size();
+    if (end == environment.size() || environment[end] == '\0' || environment[end] == mark_end) return true;
+  }
+  return false;
+}
+
 /// Finds processes whose environment holds this entry. Those of other users cannot be read, and are none of ours.
 Look look_for(const std::string& entry) {
   Look look;
@@ -60,7 +70,7 @@ Look look_for(const std::string& entry) {
     const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
     if (error != std::errc() || stop != name.data() + name.size() || pid == ::getpid()) continue;
     const std::string environment = all_of(at->path() / "environ");
-    if (environment.find(entry) != std::string::npos) look.marked.push_back(pid);
+    if (carries(environment, entry)) look.marked.push_back(pid);
     else if (environment.empty() && is_becoming_another(at->path())) look.unsure = true;
   }
   return look;
@@ -68,10 +78,18 @@ Look look_for(const std::string& entry) {
 
 }  // namespace
 
+const std::string& our_stray_mark() {
+  static const std::string mark = [] {
+    const char* carried = std::getenv(stray_mark);
+    const std::string before = carried ? std::string(carried) + mark_end : "";
+    return fmt::format("{}{}.{}", before, ::getpid(), std::chrono::steady_clock::now().time_since_epoch().count());
+  }();
+  return mark;
+}
+
 std::string new_stray_mark() {
   static std::atomic<unsigned> next{0};
-  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-  return fmt::format("{}.{}.{}", ::getpid(), now, next++);
+  return fmt::format("{}{}{}", our_stray_mark(), mark_end, next++);
 }
 
 void end_strays(const std::string& mark) {

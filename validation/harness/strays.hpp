@@ -8,10 +8,16 @@ namespace tripoint {
 /// The environment variable that marks a child and, by inheritance, all that it starts.
 inline constexpr const char* stray_mark = "TRIPOINT_RUN";
 
+/// Ends each part of a mark but the last: a mark made of another one is `OTHER/PART`.
+inline constexpr char mark_end = '/';
+
+/// The mark that all of ours are made of; itself made of the mark that this process carries, where one of us started it.
+[[nodiscard]] const std::string& our_stray_mark();
+
 /// A mark that no other child of any tripoint on this machine has.
 [[nodiscard]] std::string new_stray_mark();
 
-/// Kills every process that carries this mark in its environment, and those that it starts meanwhile. One that takes the mark away is not found.
+/// Kills every process that carries this mark, or one made of it, in its environment, and those that it starts meanwhile. One that takes the mark away is not found.
 void end_strays(const std::string& mark);
 
 }  // namespace tripoint

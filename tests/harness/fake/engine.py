@@ -114,6 +114,9 @@ def leave(folder):
         trajectory.symlink_to("/dev/zero")
     if WRONG == "leaves a trajectory of 10 GB":
         os.truncate(trajectory, 10 << 30)
+    if WRONG == "leaves a trajectory that kills its reader":
+        trajectory.unlink()
+        shutil.copy(Path(__file__).with_name("kills-hdf5.h5"), folder / "trajectory.h5")
     if WRONG == "leaves a deep result":
         answer.write_text(answer.read_text()[:-1] + ', "extra": ' + '{"a":' * 400000 + "1" + "}" * 400000 + "}")
     if WRONG == "names a column twice":

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// results.json of somebody else, as `tripoint gate` takes it: read, judged, remarked on, written.
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "fuzz/input.hpp"
+#include "validation/harness/judge.hpp"
+#include "validation/harness/remarks.hpp"
+#include "validation/harness/slack.hpp"
+
+using namespace tripoint;
+
+namespace {
+
+bool has_number_for_each_pass(const CaseResult& c) {
+  for (const auto& engine : c.engines)
+    for (const auto& row : engine.gates)
+      if (row.verdict == "pass" && row.expect.empty() && !std::isfinite(row.value) && row.fit_class != "roundoff") return false;
+  return true;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const fuzz::Folder folder;
+  try {
+    Results results = read_results(folder.write("results.json", fuzz::text_of(data, size)));
+    judge(results);
+    fuzz::expect((results.verdict == "PASS") <= (results.exit_code == 0), "PASS ends with 0");
+    for (const auto& c : results.cases) fuzz::expect(has_number_for_each_pass(c), "no gate passes a number that is not there");
+    static_cast<void>(annotations_text(verdict_remarks(results)));
+    static_cast<void>(slack_remarks(results));
+    static_cast<void>(results_text(results));
+  } catch (const InputError&) {
+  }
+  return 0;
+}

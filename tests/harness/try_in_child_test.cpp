@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "validation/harness/try_in_child.hpp"
+
+namespace tripoint {
+namespace {
+
+/// What is thrown here where this is tried; empty = nothing.
+std::string words_of(const std::function<void()>& deed, double limit = 20.0) {
+  try {
+    try_in_child(deed, "a file", limit);
+    return {};
+  } catch (const EngineError& e) {
+    return e.what();
+  }
+}
+
+TEST(TryInChild, WhatEndsWellOrWithAnExceptionIsLeftToUs) {
+  int done = 0;
+  EXPECT_EQ(words_of([&] { ++done; }), "");
+  EXPECT_EQ(words_of([] { throw std::runtime_error("refused"); }), "");
+  EXPECT_EQ(done, 0);  // it was a copy that did it
+}
+
+TEST(TryInChild, WhatKillsTheCopyIsAnErrorOfTheFile) {
+  EXPECT_NE(words_of([] { ::raise(SIGSEGV); }).find("a file kills the library that reads it (signal 11"), std::string::npos);
+}
+
+TEST(TryInChild, WhatHangsIsStoppedAtTheLimit) {
+  EXPECT_EQ(words_of([] { for (;;) ::pause(); }, 0.2), "a file could not be read within 0.2 s");
+}
+
+TEST(TryInChild, WhatTakesMoreThanTheMachineHasIsRefused) {
+#if defined(__SANITIZE_ADDRESS__)
+  GTEST_SKIP() << "address space is not bounded under the sanitizer";
+#endif
+  const auto much = [] {
+    std::vector<char> all(std::size_t{1} << 46);
+    if (all[5] != 0) ::raise(SIGSEGV);
+  };
+  EXPECT_EQ(words_of(much), "a file takes more memory than this machine has");
+}
+
+}  // namespace
+}  // namespace tripoint
