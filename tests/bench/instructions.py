@@ -3,7 +3,7 @@
 
     instructions.py gate COUNT_STEPS        counts every scene of instructions.toml, compares with the stored counts; exit 1 outside the band
     instructions.py store COUNT_STEPS       counts and stores
-    instructions.py effects FULL NAME=FILTERED...   counts the scene NAME with the full list of effects and with the list NAME alone; exit 1 above 1 %
+    instructions.py effects FULL NAME=FILTERED...   counts the scene NAME with the full list of effects and with the list NAME alone, the allocator's work left out; exit 1 above 1 %
     instructions.py table COUNT_STEPS       what each effect adds to a particle-step, in instructions and bytes
 
 Exit 77 (skipped) where valgrind is missing or the compiler is not the one that the counts were stored with.
@@ -23,6 +23,7 @@ CASES = HERE.parent.parent / "cases"
 SKIPPED = 77
 SAID = re.compile(r"(\d+) particles, (.*), (\d+) bytes")
 COUNTED = re.compile(r"Collected : (\d+)")
+ALLOCATED = re.compile(r"^\s*([\d,]+) .*\bmalloc\.c:", re.MULTILINE)
 
 
 class Count:
@@ -33,10 +34,12 @@ class Count:
             words = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={folder}/out", "--toggle-collect=counted_steps", program, str(CASES / (scene["case"] + ".toml")),
                      scene.get("mode", "corrected"), str(scene.get("warm", 2)), str(scene["steps"]), *scene.get("set", [])]
             done = subprocess.run(words, capture_output=True, text=True, check=False, timeout=1800, env=os.environ | {"OMP_NUM_THREADS": "1"})
+            by_function = subprocess.run(["callgrind_annotate", "--threshold=100", f"{folder}/out"], capture_output=True, text=True, check=False)
         said, counted = SAID.search(done.stdout), max(map(int, COUNTED.findall(done.stderr)), default=0)  # of a helper that a library forks too
         if done.returncode or not said or counted == 0:
             sys.exit(f"{scene['name']}: {done.stderr[-600:]}")
         self.instructions, self.particles, self.compiler, self.bytes = counted, int(said[1]), said[2], int(said[3])
+        self.allocator = sum(int(seen.replace(",", "")) for seen in ALLOCATED.findall(by_function.stdout))
         self.per_particle_step = self.instructions / (self.particles * scene["steps"])
 
 
@@ -81,9 +84,11 @@ def effects(full, filtered):
         name, program = pair.split("=", 1)
         scene = by_name[name]
         all_effects, alone = Count(full, scene), Count(program, scene)
-        more = all_effects.instructions / alone.instructions - 1.0
+        # The allocator searches more or less by where earlier blocks happen to lie, which moves with the length of a path: up to 3 % of a small scene.
+        all_effects, alone = (count.instructions - count.allocator for count in (all_effects, alone))
+        more = all_effects / alone - 1.0
         failed |= more > 0.01
-        print(f"{'ok  ' if more <= 0.01 else 'FAIL'} {name:10} {all_effects.instructions} with every effect in the program, {alone.instructions} with {name} alone: {100 * more:+.4f} %", flush=True)
+        print(f"{'ok  ' if more <= 0.01 else 'FAIL'} {name:10} {all_effects} with every effect in the program, {alone} with {name} alone: {100 * more:+.4f} %", flush=True)
     return 1 if failed else 0
 
 

@@ -2,6 +2,7 @@
 """A suite as a folder of jobs: suite_test.py TRIPOINT FAKE_ENGINE [unittest arguments].
 
 What is compared with an undisturbed `tripoint validate` is the whole results.json but times, memory, dates and the command line."""
+import contextlib
 import json
 import os
 import resource
@@ -246,7 +247,8 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
             engine = self.held()
             worker.kill()
             worker.communicate()
-            os.kill(engine, signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):  # what watches the worker is mostly the first to end it
+                os.kill(engine, signal.SIGKILL)
             (self.path / "hold" / "pid").unlink()
             (self.path / "hold" / "taken").rmdir()
             (self.path / "hold").rmdir()
