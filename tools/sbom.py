@@ -5,7 +5,7 @@
     tools/sbom.py [BUILD] [--out FILE]      default: build, BUILD/tripoint.spdx.json
 
 Five kinds of packages: tripoint itself; what is in the repository and not ours (reports/vendor); what the built programs load, and what they are compiled
-with, as the Debian packages that are installed here, with their versions; and what set-up or `tripoint engine install` fetches, with the pinned hash of every file. Two calls on one
+with, as the Debian packages that are installed here, with their versions; and what set-up or `tripoint engine install` fetches, with the pinned hash of every file or crate. Two calls on one
 build write the same bytes.
 """
 import argparse
@@ -15,6 +15,7 @@ import os
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -97,6 +98,13 @@ def built_with():
             yield package("deb", name, version)
 
 
+def crates(lock):
+    """What cargo fetches for one program; the program itself is ours, and has no checksum."""
+    for crate in tomllib.loads(lock.read_text(encoding="utf-8"))["package"]:
+        if "checksum" in crate:
+            yield package("cargo", crate["name"], crate["version"], checksums=checksum(crate["checksum"]))
+
+
 def fetched():
     """What is fetched by pin and hash: wheels of the requirement files, and the files of engines that can be installed."""
     for pins in sorted((ROOT / "tools").glob("requirements-*.txt")):
@@ -106,7 +114,11 @@ def fetched():
             if found:
                 hashes = re.findall(r"--hash=sha256:([0-9a-f]{64})", found.group(3))
                 yield package("pypi", found.group(1).lower(), found.group(2), checksums=[c for h in hashes for c in checksum(h)])
-    for spelled, file in json.loads((ROOT / "adapters" / "vendors" / "catalogue.json").read_text(encoding="utf-8"))["files"].items():
+    vendors = ROOT / "adapters" / "vendors"
+    for spelled, file in json.loads((vendors / "catalogue.json").read_text(encoding="utf-8"))["files"].items():
+        if spelled.endswith("/Cargo.lock"):
+            yield from crates(vendors / spelled)
+            continue
         name, at, version = spelled.partition("==") if "==" in spelled else spelled.rpartition("@") if "@" in spelled else spelled.partition("=")
         kind = {"==": "pypi", "@": "npm", "=": "deb"}[at]
         yield package(kind, name.lower(), version, checksums=checksum(file["sha256"]))
