@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
+#include "effects/fluid/equation_of_state.hpp"
 #include "effects/fluid_lab.hpp"
 
 namespace tripoint {
@@ -10,14 +12,15 @@ namespace {
 
 /// A column that is compressed by its own weight from the start, and disturbed a little: its pressure averaged over the last
 /// half of `time`, rms of p - rho g (1 - z) over rho g H.
-double hydrostatic_error(int depth, double time) {
+double hydrostatic_error(int depth, double time, double disturbed = 0.05, double surface_weight = 0.5) {
   constexpr double g = 10.0, stiffness = 100.0 * g;
   lab::Lab lab = lab::column(depth, 4, 100.0, stiffness, g);
   for (std::size_t i = 0; i < lab.initial.position.size(); ++i) {
     double& z = lab.initial.position[i].z;
     if (lab.initial.body[i] < 0) z -= g / stiffness * (z - 0.5 * z * z);
   }
-  lab::jitter(lab, 0.05);
+  lab::jitter(lab, disturbed);
+  lab.scene.values["surface_weight"] = surface_weight;
   Simulation s(lab.scene, lab.initial);
   constexpr int samples = 50;
   std::vector<double> mean(lab.initial.size());
@@ -38,6 +41,67 @@ TEST(Hydrostatics, PressureIsThatOfTheWeightAboveWithinTenPercentAtTenDeep) { EX
 
 TEST(Hydrostatics, PressureErrorFallsWithTheSpacingAtFirstOrder) {
   EXPECT_LT(hydrostatic_error(20, 2.0), 0.04);
+}
+
+/// Without it the layers alternate by half a layer's weight, 0.05 rho g H at 10 deep. What is left is the fall of the surface, g H/(2 k) = 0.005 H, of which the truth knows nothing.
+TEST(Hydrostatics, OnALatticeHasNoPatternOfLayersWhereTheTopmostBearsHalfOfItsWeight) {
+  EXPECT_LT(hydrostatic_error(10, 2.0, 0.0), 0.01);
+  EXPECT_GT(hydrostatic_error(10, 2.0, 0.0, 0.0), 0.04);
+}
+
+/// dU/d(delta) = work p V^2, with V at most the rest volume: the force of model 8.3 is the gradient of U.
+TEST(FreeSurface, HasTheEnergyWhoseSlopeIsItsPressure) {
+  const EquationOfState e{100.0, 1200.0, 1300.0, true, 1.03, 70.0, 0.79};
+  const double mass = 1.5, rest_volume = mass / e.rest_density;
+  for (double s = 0.405; s < 1.2; s += 0.01) {
+    const double step = 1e-6, volume = std::min(rest_volume, rest_volume / s);
+    const double slope = (compression_energy(e, mass, (s + step) * e.rest_density) - compression_energy(e, mass, (s - step) * e.rest_density)) / (2.0 * step / rest_volume);
+    const double expected = e.work * pressure_corrected(e, s * e.rest_density) * volume * volume;
+    EXPECT_NEAR(slope, expected, 1e-5 * e.work * e.surface * rest_volume * rest_volume + 1e-7 * expected) << s;  // a corner of p is rounded by 5e-6
+  }
+  EXPECT_EQ(compression_energy(e, mass, e.rest_density), 0.0);
+}
+
+TEST(FreeSurface, BearsHalfALayersWeightAndDropsAndTheInsideNothing) {
+  const EquationOfState e{100.0, 1000.0, 1000.0, true, 1.0, 70.0, 0.79};
+  EXPECT_DOUBLE_EQ(pressure_corrected(e, 790.0), 70.0);
+  EXPECT_DOUBLE_EQ(pressure_corrected(e, 840.0), 70.0);
+  EXPECT_NEAR(pressure_corrected(e, 790.0 + 0.375 * 210.0), 35.0, 1e-9);
+  for (const double drop : {50.0, 300.0, 580.0, 900.0, 1000.0}) EXPECT_NEAR(pressure_corrected(e, drop), 0.0, 1e-9) << drop;
+  EXPECT_DOUBLE_EQ(pressure_corrected(e, 1001.0), 100.0);
+}
+
+TEST(FreeSurface, IsPressedByTheGradientOfTheEnergyThatTheLedgerHolds) {
+  lab::Lab lab = lab::column(5, 6, 1.0, 1000.0, 10.0);
+  lab::jitter(lab, 0.15);
+  const auto compression = [](const lab::Lab& of) { return Simulation(of.scene, of.initial).ledger().energy.at("compression"); };
+  const Simulation s(lab.scene, lab.initial);
+  const Particles& p = s.world().particles;
+  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  int looked_at = 0;
+  for (std::size_t id = 0; id < lab.initial.size(); id += 3) {
+    if (lab.initial.body[id] >= 0 || lab.initial.position[id].z < 1.0 - lab.scene.spacing) continue;
+    ++looked_at;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double step = 1e-5 * lab.scene.spacing;
+      lab::Lab ahead = lab, behind = lab;
+      ahead.initial.position[id][axis] += step, behind.initial.position[id][axis] -= step;
+      EXPECT_NEAR(F.at(p.row(id))[axis], -(compression(ahead) - compression(behind)) / (2.0 * step), 1e-4 * norm(F.at(p.row(id)))) << "particle " << id << ", axis " << axis;  // round-off of energies over a step of 1e-5
+    }
+  }
+  EXPECT_GT(looked_at, 5);
+}
+
+TEST(FreeSurface, IsNoneWhereGravityDrivesAFlowAlongAPeriodicDirection) {
+  lab::Lab lab = lab::column(5, 6, 1.0, 1000.0, 10.0);
+  const auto pressed = [&] {
+    const Simulation s(lab.scene, lab.initial);
+    const auto p = lab::by_id(s, field::pressure);
+    return *std::max_element(p.begin(), p.end());
+  };
+  EXPECT_NEAR(pressed(), 0.5 * 1000.0 * 10.0 * lab.scene.spacing, 1e-9);  // on the lattice of the start nothing else is pressed
+  lab.scene.gravity = {10.0, 0.0, 0.0};
+  EXPECT_LT(pressed(), 1e-6);
 }
 
 /// Standing sound wave u = u0 sin(k x) along a periodic box: the frequency from the first zero of its amplitude.

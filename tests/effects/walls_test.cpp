@@ -64,6 +64,25 @@ TEST(Walls, HaveTheMeanDensityOfTheirFaceAndTheRestDensityBehindIt) {
   EXPECT_LT(most - least, 0.5 * (most_own - least_own)) << "the mean of 9 particles whose scatter is independent would have a third";
 }
 
+/// Jitter moves the layers behind a face, which press on nothing, nearer to it and farther from it. Fixed walls of a jittered scene read their lattice.
+TEST(Walls, OfAJitteredSceneDoNotLookAtWhereTheJitterPutTheLayersBehindTheirFace) {
+  const auto face = [](double scene_jitter, double moved) {
+    lab::Lab lab = lab::column(4, 6, 1.0, 1000.0, 10.0);
+    lab.scene.jitter = scene_jitter;
+    for (Vec3& r : lab.initial.position)
+      if (r.z < -lab.scene.spacing) r.z += moved * lab.scene.spacing;
+    const Simulation s(lab.scene, lab.initial);
+    const auto rho = lab::by_id(s, field::density);
+    for (std::size_t id = 0; id < rho.size(); ++id)
+      if (const double z = lab.initial.position[id].z; z < 0.0 && z > -lab.scene.spacing) return rho[id] / 1000.0;
+    return 0.0;
+  };
+  EXPECT_NEAR(face(0.1, 0.1), 1.0, 1e-12);
+  EXPECT_NEAR(face(0.1, -0.1), 1.0, 1e-12);
+  EXPECT_GT(face(0.0, 0.1), 1.03);  // whoever lays a wall denser than the lattice has it denser
+  EXPECT_EQ(face(0.1, 0.0), face(0.0, 0.0));
+}
+
 /// Of viscous forces on liquid at random velocities beside a wall at rest.
 double viscous_power(const char* form, unsigned seed) {
   lab::Lab lab = pressed_column(form);

@@ -121,6 +121,13 @@ class State:
         printed = any(self.printed(t) for t in ("walls", "density", "pressure"))
         return not free and not printed and not self.has("liquid_fraction") and (self.group == WALL).any()
 
+    def surface(self):
+        """p_s and b of 8.3: where clamp, density, pressure and state are corrected, and nothing freezes."""
+        corrected = self.clamps and not any(self.printed(t) for t in ("density", "pressure", "state"))
+        on = corrected and not self.has("liquid_fraction")
+        weight = self.scene["surface_weight"] * np.linalg.norm(np.delete(self.scene["gravity"], self.periodic)) * self.dx
+        return np.where(self.group == LIQUID, weight * self.material("density"), 0.0) * on, 0.5 * (1 + self.layer / self.S0)
+
 
 def summed(s, pairs):
     """Sums over j of vectors [i, j, k], and what their magnitudes sum to, each times its condition."""
@@ -159,7 +166,20 @@ def pressure(s):
         k = np.where(s.group == WALL, 2 * k, k)
     reference, _ = s.rest_densities()
     p = k * (rho - rho0) * (1.0 if s.printed("state") else reference / rho0)
-    return np.maximum(p, 0.0) if s.clamps else p, np.abs(k * rho)
+    if s.clamps:
+        p_s, b = s.surface()
+        p = np.where(p < 0, p_s * np.clip(2 - 4 * np.abs(rho / rho0 - b) / (1 - b), 0, 1), p)
+    return p, np.abs(k * rho)
+
+
+def jitter_of_walls(s):
+    """What jitter adds to the part of a fixed wall particle's density that is wall, over the rest density: 8.4."""
+    if not 0 < s.scene["jitter"] < 0.25:
+        return np.zeros(s.n)
+    fixed = np.array([b >= 0 and s.raw["bodies"]["body.motion"][b] == 1 for b in s.body]) & (s.group == WALL)
+    of_one_lattice = fixed[:, None] & fixed[None, :] & (s["source"][:, None] == s["source"][None, :]) & (s.distance < s.h)
+    laid = wendland(np.linalg.norm(np.round(s.d / s.dx), axis=2) * s.dx, s.h)
+    return np.where(of_one_lattice, wendland(s.distance, s.h) - laid, 0.0).sum(axis=1) * s.dx**3 / s.S0
 
 
 def wall_patches(s):
@@ -181,7 +201,7 @@ def density(s):
     rho = s.m * s["number_density"] / s.S0
     if s.averages_walls():
         A, face = wall_patches(s)
-        at_face = A @ A @ (rho[face] / rho0[face])
+        at_face = A @ A @ (rho / rho0 - jitter_of_walls(s))[face]
         rho = np.where(s.group == WALL, rho0, rho)
         rho[face] = at_face * rho0[face]
     return rho, rho
@@ -196,13 +216,15 @@ def bulk_pressure(s, before):
     rate = (s["number_density"] / before["number_density"] - 1) / dt
     zeta = s.scene["bulk_viscosity"]
     q = np.where(s.group == LIQUID, zeta * rho0 * c * s.h * rate, 0.0)
-    return np.where(s["pressure"] > 0, np.maximum(q, -s["pressure"]), 0.0), zeta * rho0 * c * s.h / dt
+    return np.where((s["pressure"] > 0) & (s["density"] > s.material("density")), np.maximum(q, -s["pressure"]), 0.0), zeta * rho0 * c * s.h / dt
 
 
 def pressure_share(s):
     """V^2 (p + q)/M of 8.3, of a wall's face by the transpose of its mean."""
     p = s["pressure"] + (s["bulk_pressure"] if s.has("bulk_pressure") else 0.0)
-    share = s["volume"] ** 2 * p / s.M
+    p_s, _ = s.surface()
+    volume = np.where(p_s > 0, np.minimum(s["volume"], s.m / s.material("density")), s["volume"])
+    share = volume**2 * p / s.M
     scale = np.abs(share)
     if s.averages_walls():
         A, face = wall_patches(s)
@@ -235,7 +257,12 @@ def compression_energy(s):
     U = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.log(ratio) + 1 / ratio - 1)
     size = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.abs(np.log(ratio)) + 1e-3)
     if s.clamps:
-        U = np.where(ratio > 1, U, 0.0)
+        p_s, b = s.surface()
+        slope = (1 - b) / 4  # U is minus the area under a trapezium of that slope, from here to the rest density
+        x = np.clip(ratio - b, -2 * slope, 2 * slope)
+        to_middle = np.sign(x) * (np.abs(x) - np.maximum(0, np.abs(x) - slope) ** 2 / (2 * slope))
+        of_surface = 1.5 * slope - to_middle
+        U = np.where(ratio > 1, U, -s.S0 / s.M * s.m / rho0 * p_s * of_surface)
     kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, 0.9 * s.dx
     core = np.where(s.acts & (s.distance < reach), 0.25 * kappa * (reach - np.minimum(s.distance, reach)) ** 2, 0.0).sum()
     return U.sum() + core, size.sum() + core

@@ -95,6 +95,26 @@ TEST(Hydrostatic, IsTheIntegralOfTheWeightAbove) {
   EXPECT_NEAR(make_reference(test::function("hydrostatic", {{"factor", 2.0}}), s.job, s.initial)->at(0.0).pressure[0], 2 * p[0], 1e-9);
 }
 
+TEST(Hydrostatic, OfACompressedLayerHasAllItsWeightAtTheFloorAndTheDensityOfItsPressure) {
+  auto s = test::pool(350.0);
+  for (Material& m : s.job.scene.materials) m.stiffness = 40.0;  // 8 g H
+  const auto truth = make_reference(test::function("hydrostatic", {{"compressed", true}}), s.job, s.initial);
+  const auto pressure = [&](double height) {
+    Snapshot now;
+    now.position = s.initial.position;
+    now.position[0].z = height;
+    return truth->beside(now).pressure[0];
+  };
+  EXPECT_NEAR(pressure(0.0), 1000.0 * 9.81 * 0.5, 1e-9);
+  for (const double z : {0.05, 0.2, 0.4}) {
+    const double h = 1e-4, slope = (pressure(z + h) - pressure(z - h)) / (2.0 * h);
+    EXPECT_NEAR(slope, -9.81 * (1000.0 + pressure(z) / 40.0), 1e-3) << z;  // h^2 g^3/c^4 rho g/6 = 1e-6, and round-off over h
+  }
+  EXPECT_EQ(pressure(0.48), 0.0) << "the surface has fallen by about g H^2/(2 c^2) = 0.03";
+  const auto two = test::layers(5.0);
+  EXPECT_THROW((void)make_reference(test::function("hydrostatic", {{"compressed", true}}), two.job, two.initial), InputError);
+}
+
 TEST(Archimedes, IsTheBalanceOfPressureAndWeight) {
   const auto s = test::pool(350.0);
   const auto afloat = make_reference(test::function("archimedes"), s.job, s.initial);

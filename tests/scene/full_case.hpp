@@ -37,6 +37,7 @@ clamp = false
 merge_distance = 1.6
 hourglass = 0.5
 bulk_viscosity = 0.1
+surface_weight = 0.4
 contact_viscosity = 0.1
 on_failure = "recover"
 unguarded = ["escape", "ledger"]

@@ -12,12 +12,14 @@ struct LiquidLayer {
   double low, high, density;
 };
 
-/// Layers of liquid at rest: the pressure is the weight above. Numbers: bottom_pressure, interface_pressure [Pa], interface [m] (height of
+/// Layers of liquid at rest: the pressure is the weight above. A single one may be compressed by it, p = c^2 (rho - rho0): then dp/dz = -rho g gives
+/// p = c^2 rho0 (exp(g (z_s - z)/c^2) - 1), and its surface has fallen to z_s = low + c^2/g ln(1 + g H/c^2), where it has the mass of before. Numbers: bottom_pressure, interface_pressure [Pa], interface [m] (height of
 /// the highest interface along the axis), axis.
 class Hydrostatic : public LiquidReference {
  public:
-  Hydrostatic(const ReferenceInput& in, std::size_t axis, std::vector<LiquidLayer> layers, double factor)
-      : LiquidReference(in.job, in.initial), axis_(axis), up_(in.job.scene.gravity[axis] > 0.0 ? -1.0 : 1.0), gravity_(norm(in.job.scene.gravity)), factor_(factor), layers_(std::move(layers)) {}
+  /// @param sound speed of sound of a single layer that its weight compresses [m/s], 0 = incompressible
+  Hydrostatic(const ReferenceInput& in, std::size_t axis, std::vector<LiquidLayer> layers, double factor, double sound)
+      : LiquidReference(in.job, in.initial), axis_(axis), up_(in.job.scene.gravity[axis] > 0.0 ? -1.0 : 1.0), gravity_(norm(in.job.scene.gravity)), factor_(factor), sound2_(sound * sound), layers_(std::move(layers)) {}
 
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "axis") return static_cast<double>(axis_);
@@ -40,6 +42,11 @@ class Hydrostatic : public LiquidReference {
  private:
   /// Pressure at a height [Pa]: zero above the surface; below the floor it goes on rising.
   [[nodiscard]] double weight_above(double height) const {
+    if (sound2_ > 0.0) {
+      const auto& [low, high, density] = layers_.front();
+      const double surface = low + sound2_ / gravity_ * std::log1p(gravity_ * (high - low) / sound2_);
+      return factor_ * sound2_ * density * std::expm1(gravity_ * std::max(0.0, surface - height) / sound2_);
+    }
     double p = 0.0;
     for (std::size_t n = 0; n < layers_.size(); ++n) {
       const double low = n == 0 ? std::min(height, layers_[n].low) : layers_[n].low;
@@ -48,7 +55,7 @@ class Hydrostatic : public LiquidReference {
     return factor_ * p;
   }
   std::size_t axis_;
-  double up_, gravity_, factor_;
+  double up_, gravity_, factor_, sound2_;
   std::vector<LiquidLayer> layers_;
 };
 
@@ -69,14 +76,19 @@ std::unique_ptr<Reference> make_hydrostatic(const ReferenceInput& in) {
   if (norm(in.job.scene.gravity) == 0.0) throw InputError("hydrostatic: the scene has no gravity");
   if (liquid_bodies(in.job).empty()) throw InputError("hydrostatic: the scene has no liquid");
   const auto axis = axis_of(in.job.scene.gravity, "hydrostatic: gravity");
-  return std::make_unique<Hydrostatic>(in, axis, stacked_layers(in, axis), in.args.number("factor").value_or(1.0));
+  const auto layers = stacked_layers(in, axis);
+  const bool compressed = in.args.flag("compressed").value_or(false);
+  if (compressed && layers.size() > 1) throw InputError("hydrostatic: compressed is for one layer of liquid");
+  const double sound = compressed ? state_sound_speed(in.job, liquid_bodies(in.job).front()) : 0.0;
+  return std::make_unique<Hydrostatic>(in, axis, layers, in.args.number("factor").value_or(1.0), sound);
 }
 
 }  // namespace
 
 ReferenceEntry hydrostatic_entry() {
   return {{"hydrostatic", "analytic", "Archimedes, Pascal: the pressure is the weight of the liquid above", "liquid at rest, in layers stacked along gravity",
-           {{"factor", "1", "of the whole pressure: what an equation that tends to 1/factor of the pressure gradient has to read; default 1"}}},
+           {{"factor", "1", "of the whole pressure: what an equation that tends to 1/factor of the pressure gradient has to read; default 1"},
+            {"compressed", "true or false", "the one layer is compressed by its weight, at the speed of sound of the scene: its surface has fallen; default false"}}},
           make_hydrostatic};
 }
 

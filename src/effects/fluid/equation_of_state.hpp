@@ -14,6 +14,8 @@ struct EquationOfState {
   double reference_density;  ///< rho_ref, the largest rest density of the scene's liquids [kg/m3]
   bool clamp;                ///< no negative pressure: free surfaces and contacts do not pull
   double work = 1.0;         ///< energy a p dV: what makes p the force on an area, on the kernel's lattice (decision 6)
+  double surface = 0.0;      ///< pressure of the topmost layer of a liquid [Pa], 0 = none
+  double half_full = 0.5;    ///< density of that layer over the rest density, on the lattice
 };
 
 /// (9) as printed: p = k (rho - rho0) [Pa].
@@ -22,19 +24,39 @@ struct EquationOfState {
   return e.clamp ? std::max(p, 0.0) : p;
 }
 
-/// (9) scaled so that all liquids are equally hard to compress (model 8.3): p = k (rho - rho0) rho_ref/rho0 [Pa].
+/// What a particle of less than its rest density bears at a free surface (model 8.3) [Pa]: p_s times 2 - 4 |s - b|/(1 - b), s = rho/rho0, not below 0
+/// and not above 1. It is p_s about the topmost layer of a lattice, where s = b, and 0 in the liquid, in a film of one layer and in drops.
+[[nodiscard]] inline double surface_pressure(const EquationOfState& e, double density) noexcept {
+  assert(e.half_full < 1.0);
+  return e.surface * std::clamp(2.0 - 4.0 * std::abs(density / e.rest_density - e.half_full) / (1.0 - e.half_full), 0.0, 1.0);
+}
+
+/// Integral of surface_pressure() over s from here to the rest density [Pa].
+[[nodiscard]] inline double surface_pressure_above(const EquationOfState& e, double density) noexcept {
+  const double quarter = 0.25 * (1.0 - e.half_full), from_middle = density / e.rest_density - e.half_full;
+  const double away = std::min(std::abs(from_middle), 2.0 * quarter), on_slope = std::max(0.0, away - quarter);
+  const double from_here = away - 0.5 * on_slope * on_slope / quarter;  // to the middle
+  return e.surface * (1.5 * quarter - std::copysign(from_here, from_middle));
+}
+
+/// (9) scaled so that all liquids are equally hard to compress (model 8.3): p = k (rho - rho0) rho_ref/rho0 [Pa]. Clamped, it is that of a free
+/// surface where this is negative.
 [[nodiscard]] inline double pressure_corrected(const EquationOfState& e, double density) noexcept {
   const double p = e.stiffness * (density - e.rest_density) * (e.reference_density / e.rest_density);
-  return e.clamp ? std::max(p, 0.0) : p;
+  if (!e.clamp || e.surface == 0.0) return e.clamp ? std::max(p, 0.0) : p;
+  return p < 0.0 ? surface_pressure(e, density) : p;
 }
 
 /// Energy of compression of one particle [J], U with dU/d(delta) = work p V^2, V = 1/delta, delta = rho/m:
-/// U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)); its gradient is the force of model 8.3.
+/// U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)); its gradient is the force of model 8.3. At a free surface V is V0, and U is what the
+/// surface pressure has given since the rest density: -work V0 integral from s to 1 of p, with s = rho/rho0.
 /// @param mass [kg]   @param density rho = m delta [kg/m3]
 [[nodiscard]] inline double compression_energy(const EquationOfState& e, double mass, double density) noexcept {
   assert(mass > 0.0 && density > 0.0);
-  if (e.clamp && density <= e.rest_density) return 0.0;
   const double s = density / e.rest_density;
+  if (e.clamp && density <= e.rest_density) {
+    return e.surface == 0.0 ? 0.0 : -e.work * mass / e.rest_density * surface_pressure_above(e, density);
+  }
   return e.work * e.stiffness * e.reference_density / e.rest_density * mass * (std::log(s) + 1.0 / s - 1.0);
 }
 

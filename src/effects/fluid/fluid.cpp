@@ -261,6 +261,8 @@ std::vector<DefectEntry> defects() {
           {"fluid.paper.pressure", "pressure force (7) times 1 + size", "fluid/hydrostatic"},
           {"fluid.core", "reach of the core of pairs times 1 + size", "fluid/hydrostatic"},
           {"walls.pressure", "pressure of walls on liquids times 1 - size", "fluid/still-water"},
+          {"fluid.surface", "part of its weight that the topmost layer of a liquid bears times 1 - size", "fluid/hydrostatic-ladder"},
+          {"walls.jitter", "share of what the jitter of walls does to their own number density left in", "fluid/hydrostatic"},
           {"walls.stiffness", "stiffness of walls times 1 - size", "fluid/hydrostatic-ladder"},
           {"walls.clamp", "walls are not clamped: they pull where liquid is thin", "fluid/still-water"},
           {"fluid.bulk_viscosity", "numerical bulk viscosity of liquids times 1 - size", "fluid/still-water"},

@@ -61,10 +61,16 @@ void set_pressure(World& world, const SceneNumbers& n) {
 
 void set_pressure_shares(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
-  const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure];
+  const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure], m = p[field::mass], rest = p[field::rest_density];
+  const auto group = p[field::group];
   const auto q = p.has(field::bulk_pressure) ? p[field::bulk_pressure] : std::span<double>{};
+  // At a free surface a particle has few neighbours, and is not thinned: it presses on its rest volume.
+  const auto pressed = [&](std::size_t i) { return n.surface_head > 0.0 && group[i] == -1.0 ? std::min(V[i], m[i] / rest[i]) : V[i]; };
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-  for (std::size_t i = 0; i < share.size(); ++i) share[i] = V[i] * V[i] * (q.empty() ? pressure[i] : pressure[i] + q[i]) / n.gradient_moment;
+  for (std::size_t i = 0; i < share.size(); ++i) {
+    const double volume = pressed(i);
+    share[i] = volume * volume * (q.empty() ? pressure[i] : pressure[i] + q[i]) / n.gradient_moment;
+  }
 }
 
 void predict_velocities(World& world) {

@@ -7,6 +7,7 @@
 #include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "effects/fluid/bulk_viscosity.hpp"
+#include "effects/fluid/rule.hpp"
 #include "scene/effect_rule.hpp"
 #include "sph/lattice.hpp"
 
@@ -33,6 +34,9 @@ double least_density(const Scene& scene) {
   return least;
 }
 
+/// What of its own weight the topmost layer of a liquid bears as pressure: scene.surface_weight, 0 where liquids of this scene can bear none.
+double surface_weight(const Scene& scene) { return no_surface_weight(scene).empty() ? kept_number(scene.values, key_row("scene", "surface_weight")) : 0.0; }
+
 }  // namespace
 
 SceneNumbers numbers_of(const Scene& scene) {
@@ -49,6 +53,9 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.lattice_density = moments.density;
   n.overlap_density = 1.0 + moments.layer / moments.density;
   n.gradient_moment = moments.gradient;
+  n.half_full = 0.5 * (1.0 + moments.layer / moments.density);
+  static const double lighter = 1.0 - defect_size("fluid.surface");
+  n.surface_head = lighter * surface_weight(scene) * norm(pressing_gravity(scene)) * scene.spacing;
   n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);  // half of what a plane face has
   if (scene.mode_of(Term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;

@@ -10,4 +10,10 @@ namespace tripoint::fluid {
 /// freezes, which changes densities at once; density, pressure and state are corrected; and the scene clamps, so that a free surface or a contact can be.
 [[nodiscard]] std::string no_bulk_viscosity(const Scene&);
 
+/// Gravity without its parts along periodic directions, which drive a flow there and press on nothing [m/s2].
+[[nodiscard]] Vec3 pressing_gravity(const Scene&);
+/// Why the topmost layer of a liquid can bear no part of its own weight, whatever scene.surface_weight says; "" where it can: as for the numerical bulk
+/// viscosity, and there is a weight.
+[[nodiscard]] std::string no_surface_weight(const Scene&);
+
 }  // namespace tripoint::fluid

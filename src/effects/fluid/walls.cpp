@@ -14,13 +14,16 @@ namespace tripoint::fluid {
 namespace {
 
 constexpr double wall_group = 0.0, liquid_group = -1.0;
+constexpr int fixed_frame = -1;
 
 /// What each body moves with: all that is fixed moves as one, each driven body by itself.
 std::vector<int> frames_of(const World& world) {
   std::vector<int> frames(world.bodies.size());
-  for (std::size_t b = 0; b < frames.size(); ++b) frames[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? -1 : static_cast<int>(b);
+  for (std::size_t b = 0; b < frames.size(); ++b) frames[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? fixed_frame : static_cast<int>(b);
   return frames;
 }
+
+Vec3 rounded(const Vec3& a) { return {std::round(a.x), std::round(a.y), std::round(a.z)}; }
 
 /// mean[k] over the patch of k of what was put to its members.
 void take_mean(const std::vector<std::size_t>& start, const std::vector<std::uint32_t>& patch, const std::vector<double>& of, std::vector<double>& mean, int threads) {
@@ -60,6 +63,35 @@ void Walls::find(const World& world) {
   }
 }
 
+void Walls::know_walls(const World& world, const SceneNumbers& n, const PairKernels& kernels, const std::vector<int>& frames) {
+  const Particles& p = world.particles;
+  const auto group = p[field::group];
+  const auto body = p[field::body], source = p[field::source];
+  const auto id = p[field::id];
+  const auto x = positions(p);
+  const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
+  const double dx = world.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
+  const bool jittered = world.scene.jitter > 0.0 && world.scene.jitter < 0.25;  // two of one lattice then stand nearer to their places than to others
+  static const double put_back = 1.0 - defect_size("walls.jitter");
+  at_face_.resize(p.size());
+  if (jittered) excess_.assign(p.size(), 0.0);
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (group[i] != wall_group) continue;
+    double wall = kernels.wendland.value(0.0), laid = wall;
+    for (const Entry e : world.neighbours->of(i)) {
+      const std::size_t j = e.row();
+      if (j == i || group[j] != wall_group || frame_of(i) != frame_of(j)) continue;
+      const Vec3 away = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image());
+      const double as_it_is = kernels.wendland.value(norm(away));
+      wall += as_it_is;
+      if (as_it_is > 0.0) laid += source[i] == source[j] ? kernels.wendland.value(dx * norm(rounded(away / dx))) : as_it_is;
+    }
+    at_face_[static_cast<std::size_t>(id[i])] = wall < (1.0 - n.least_exposure) * full ? 1 : 0;
+    if (jittered && frame_of(i) == fixed_frame) excess_[static_cast<std::size_t>(id[i])] = put_back * (wall - laid) / full;
+  }
+}
+
 void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
   if (known_faces_ == world.neighbours->rebuilds()) return;
   known_faces_ = world.neighbours->rebuilds();
@@ -69,23 +101,11 @@ void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKern
   const auto x = positions(p);
   const std::vector<int> frames = frames_of(world);
   const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
-  const double patch = 1.75 * world.scene.spacing, full = n.lattice_density / std::pow(world.scene.spacing, 3);
+  const double patch = 1.75 * world.scene.spacing;
   face_.clear(), hidden_.clear();
   constexpr std::uint32_t none = ~std::uint32_t{0};
   const auto id = p[field::id];
-  if (at_face_.empty()) {
-    at_face_.resize(p.size());
-#pragma omp parallel for schedule(static) num_threads(world.threads)
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      if (group[i] != wall_group) continue;
-      double wall = kernels.wendland.value(0.0);
-      for (const Entry e : world.neighbours->of(i)) {
-        const std::size_t j = e.row();
-        if (j != i && group[j] == wall_group && frame_of(i) == frame_of(j)) wall += kernels.wendland.value(norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())));
-      }
-      at_face_[static_cast<std::size_t>(id[i])] = wall < (1.0 - n.least_exposure) * full ? 1 : 0;
-    }
-  }
+  if (at_face_.empty()) know_walls(world, n, kernels, frames);
   std::vector<std::uint32_t> place(p.size(), none);
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (group[i] != wall_group) continue;
@@ -111,7 +131,8 @@ void Walls::average_density(World& world, const SceneNumbers& n, const PairKerne
   Particles& p = world.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], m = p[field::mass], V = p[field::volume];
   for (const std::uint32_t i : hidden_) rho[i] = rest[i], V[i] = m[i] / rest[i];
-  for (std::size_t k = 0; k < face_.size(); ++k) first_[k] = rho[face_[k]] / rest[face_[k]];
+  const auto id = p[field::id];
+  for (std::size_t k = 0; k < face_.size(); ++k) first_[k] = rho[face_[k]] / rest[face_[k]] - (excess_.empty() ? 0.0 : excess_[static_cast<std::size_t>(id[face_[k]])]);
   take_mean(start_, patch_, first_, second_, world.threads);
   take_mean(start_, patch_, second_, first_, world.threads);
   for (std::size_t k = 0; k < face_.size(); ++k) {

@@ -14,7 +14,8 @@ namespace tripoint::fluid {
 class Walls {
  public:
   /// Puts the mean density of its patch to each particle at the face of a wall, and the rest density to those behind: A A rho, A the mean
-  /// over the particles of the face within 1.75 spacings that move as one with it.
+  /// over the particles of the face within 1.75 spacings that move as one with it. Where the scene jitters fixed walls, the part of rho that is wall
+  /// is first put back to that of the wall's lattice.
   void average_density(World&, const SceneNumbers&, const PairKernels&);
   /// Hands the pressure shares of the patches to their particles, by the transpose of average_density(): the force is the gradient of the energy
   /// of compression at the mean density.
@@ -24,12 +25,13 @@ class Walls {
   /// Groups have changed: look again which particles are walls.
   void clear() {
     known_ = known_faces_ = -1;
-    at_face_.clear();
+    at_face_.clear(), excess_.clear();
   }
 
  private:
   void find(const World&);
   void find_faces(const World&, const SceneNumbers&, const PairKernels&);
+  void know_walls(const World&, const SceneNumbers&, const PairKernels&, const std::vector<int>& frames);
 
   std::vector<std::uint32_t> wet_walls_;  ///< rows of walls with liquid in their lists
   std::vector<std::uint32_t> hidden_;     ///< rows of walls that are not at a face
@@ -37,6 +39,7 @@ class Walls {
   std::vector<std::size_t> start_;        ///< first entry of each patch, and one past the last
   std::vector<std::uint32_t> patch_;      ///< places in face_, the particle itself first
   std::vector<char> at_face_;             ///< by id, whether it is a wall's and at its face: what moves as one keeps its faces
+  std::vector<double> excess_;            ///< by id, what jitter adds to the density of a wall particle over its rest density; empty where nothing is jittered
   std::vector<double> first_, second_;    ///< of the face: memory that is used again
   long known_ = -1, known_faces_ = -1;    ///< the rebuild that the rows are of
 };
