@@ -168,7 +168,7 @@ def pressure(s):
     p = k * (rho - rho0) * (1.0 if s.printed("state") else reference / rho0)
     if s.clamps:
         p_s, b = s.surface()
-        p = np.where(p < 0, p_s * np.clip(2 - 4 * np.abs(rho / rho0 - b) / (1 - b), 0, 1), p)
+        p = np.where(p < 0, p_s * np.maximum(0, 1 - np.abs(rho / rho0 - b) / (1 - b)), p)
     return p, np.abs(k * rho)
 
 
@@ -258,10 +258,8 @@ def compression_energy(s):
     size = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.abs(np.log(ratio)) + 1e-3)
     if s.clamps:
         p_s, b = s.surface()
-        slope = (1 - b) / 4  # U is minus the area under a trapezium of that slope, from here to the rest density
-        x = np.clip(ratio - b, -2 * slope, 2 * slope)
-        to_middle = np.sign(x) * (np.abs(x) - np.maximum(0, np.abs(x) - slope) ** 2 / (2 * slope))
-        of_surface = 1.5 * slope - to_middle
+        foot = np.maximum(0, np.where(ratio > b, 1 - ratio, ratio - 2 * b + 1))  # U is minus the area under a triangle, from here to the rest density
+        of_surface = np.where(ratio > b, foot**2, 2 * (1 - b) ** 2 - foot**2) / (2 * (1 - b))
         U = np.where(ratio > 1, U, -s.S0 / s.M * s.m / rho0 * p_s * of_surface)
     kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, 0.9 * s.dx
     core = np.where(s.acts & (s.distance < reach), 0.25 * kappa * (reach - np.minimum(s.distance, reach)) ** 2, 0.0).sum()

@@ -24,19 +24,19 @@ struct EquationOfState {
   return e.clamp ? std::max(p, 0.0) : p;
 }
 
-/// What a particle of less than its rest density bears at a free surface (model 8.3) [Pa]: p_s times 2 - 4 |s - b|/(1 - b), s = rho/rho0, not below 0
-/// and not above 1. It is p_s about the topmost layer of a lattice, where s = b, and 0 in the liquid, in a film of one layer and in drops.
+/// What a particle of less than its rest density bears at a free surface (model 8.3) [Pa]: p_s (1 - |s - b|/(1 - b)), s = rho/rho0, not below 0. It
+/// is p_s in the topmost layer of a lattice, where s = b, and 0 in the liquid, in a film of one layer and in drops.
 [[nodiscard]] inline double surface_pressure(const EquationOfState& e, double density) noexcept {
   assert(e.half_full < 1.0);
-  return e.surface * std::clamp(2.0 - 4.0 * std::abs(density / e.rest_density - e.half_full) / (1.0 - e.half_full), 0.0, 1.0);
+  return e.surface * std::max(0.0, 1.0 - std::abs(density / e.rest_density - e.half_full) / (1.0 - e.half_full));
 }
 
 /// Integral of surface_pressure() over s from here to the rest density [Pa].
 [[nodiscard]] inline double surface_pressure_above(const EquationOfState& e, double density) noexcept {
-  const double quarter = 0.25 * (1.0 - e.half_full), from_middle = density / e.rest_density - e.half_full;
-  const double away = std::min(std::abs(from_middle), 2.0 * quarter), on_slope = std::max(0.0, away - quarter);
-  const double from_here = away - 0.5 * on_slope * on_slope / quarter;  // to the middle
-  return e.surface * (1.5 * quarter - std::copysign(from_here, from_middle));
+  const double s = density / e.rest_density, width = 1.0 - e.half_full;
+  const double above = s > e.half_full ? 1.0 - s : std::max(0.0, s - e.half_full + width);  // of the two slopes' feet
+  const double triangle = 0.5 * above * above / width;
+  return e.surface * (s > e.half_full ? triangle : width - triangle);
 }
 
 /// (9) scaled so that all liquids are equally hard to compress (model 8.3): p = k (rho - rho0) rho_ref/rho0 [Pa]. Clamped, it is that of a free
