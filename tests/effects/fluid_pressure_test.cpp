@@ -103,6 +103,14 @@ TEST(FreeSurface, IsNoneWhereGravityDrivesAFlowAlongAPeriodicDirection) {
   EXPECT_LT(pressed(), 1e-6);
 }
 
+TEST(FreeSurface, IsNoneWhereABodyIsFree) {
+  lab::Lab lab = lab::column(5, 6, 1.0, 1000.0, 10.0);
+  lab.add({.name = "float", .corner = {0.0, 0.0, 1.5}, .count = {2, 2, 2}, .phase = Phase::rigid});
+  const Simulation s(lab.scene, lab.initial);
+  const auto p = lab::by_id(s, field::pressure);
+  EXPECT_LT(*std::max_element(p.begin(), p.end()), 1e-6);
+}
+
 /// Standing sound wave u = u0 sin(k x) along a periodic box: the frequency from the first zero of its amplitude.
 double sound_speed_squared(int n, Mode mode) {
   constexpr double stiffness = 100.0;

@@ -124,7 +124,8 @@ class State:
     def surface(self):
         """p_s and b of 8.3: where clamp, density, pressure and state are corrected, and nothing freezes."""
         corrected = self.clamps and not any(self.printed(t) for t in ("density", "pressure", "state"))
-        on = corrected and not self.has("liquid_fraction")
+        free = any(b["phase"] != "liquid" and b["motion"] == "free" for b in self.scene["bodies"])
+        on = corrected and not free and not self.has("liquid_fraction")
         weight = self.scene["surface_weight"] * np.linalg.norm(np.delete(self.scene["gravity"], self.periodic)) * self.dx
         return np.where(self.group == LIQUID, weight * self.material("density"), 0.0) * on, 0.5 * (1 + self.layer / self.S0)
 

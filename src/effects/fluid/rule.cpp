@@ -50,7 +50,7 @@ std::vector<EffectKey> keys() {
       {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "", "move particles by the transport velocity"}, &Scene::transport_velocity},
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "", "viscosity between solids that touch"}, &Scene::contact_viscosity},
       {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "", "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, density, pressure and state are corrected, and nothing freezes"}, {}, no_bulk_viscosity, true},
-      {{"scene", "surface_weight", number, "", not_negative, "0.5", "half of its own weight lies above the middle of a layer", "", "what of its own weight the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene clamps, density, pressure and state are corrected, and nothing freezes"}, {}, no_surface_weight, true},
+      {{"scene", "surface_weight", number, "", not_negative, "0.5", "half of its own weight lies above the middle of a layer", "", "what of its own weight the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene clamps, density, pressure and state are corrected, nothing freezes, and no body is free"}, {}, no_surface_weight, true},
       {{"material", "solid_viscosity", number, "Pa s", not_negative, "0", "a solid has scene.contact_viscosity", "", "dynamic viscosity of the solid in (8), only where modes.viscosity is paper; between t_solid and t_melt, where modes.phase is paper, linear from it to viscosity (Fig. 5)"}, {}, solid_viscosity_idle},
       {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"}, &Material::viscosity},
   };
@@ -74,6 +74,7 @@ Vec3 pressing_gravity(const Scene& scene) {
 }
 
 std::string no_surface_weight(const Scene& scene) {
+  if (any_body(scene, [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; })) return "a free body that floats would be lifted by it";
   if (pressing_gravity(scene) == Vec3{}) return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
   return no_bulk_viscosity(scene);
 }

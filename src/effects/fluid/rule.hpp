@@ -13,7 +13,7 @@ namespace tripoint::fluid {
 /// Gravity without its parts along periodic directions, which drive a flow there and press on nothing [m/s2].
 [[nodiscard]] Vec3 pressing_gravity(const Scene&);
 /// Why the topmost layer of a liquid can bear no part of its own weight, whatever scene.surface_weight says; "" where it can: as for the numerical bulk
-/// viscosity, and there is a weight.
+/// viscosity, there is a weight, and no free body, which at a surface weighs what it likes.
 [[nodiscard]] std::string no_surface_weight(const Scene&);
 
 }  // namespace tripoint::fluid
