@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/busy_clusters.hpp"
 
+#include <algorithm>
+
 #include "effects/body_table.hpp"
 #include "effects/run_pass.hpp"
 
@@ -21,9 +23,16 @@ std::vector<char> fixed_rows(const World& world) {
 }
 
 /// What is to be done for a cluster. Two act on each other unless they are an own pair, or members of one group of 0 and above.
-Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed, bool leaves_own) {
-  bool any_acts = false, any_apart = false, any_moves = false;
+/// @param acting of each entry of the cluster a bit, set where it acts on a member; zero until now
+Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed, bool leaves_own, std::uint64_t* acting) {
   const std::uint32_t first = c.first[cluster], past = c.first[cluster + 1];
+  const std::size_t start = c.start[cluster], end = c.start[cluster + 1];
+  const bool all_liquid = std::all_of(group.begin() + first, group.begin() + past, [](double g) { return g < 0.0; });
+  if (all_liquid && c.own.empty()) {  // everything acts on them
+    std::fill(acting, acting + (end - start + within_bits - 1) / within_bits, ~std::uint64_t{0});
+    return static_cast<Work>(density | rates);
+  }
+  bool any_acts = false, any_apart = false, any_moves = false;
   const unsigned all = ~0u;
   double asked = group[first];
   unsigned of_another = 0;  // bits of the members whose group is not the one that was asked for
@@ -37,13 +46,14 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
     return of_another;
   };
   for (std::uint32_t i = first; i < past; ++i) any_moves = any_moves || fixed[i] == 0;
-  for (std::size_t e = c.start[cluster]; e < c.start[cluster + 1]; ++e) {
+  for (std::size_t e = start; e < end; ++e) {
     const std::size_t j = Entry{c.entries[e]}.row();
     any_moves = any_moves || fixed[j] == 0;
     const unsigned apart = c.near[e] & (c.own.empty() ? ~0u : ~static_cast<unsigned>(c.own[e]));
+    const bool acts = (apart & (group[j] < 0.0 ? all : others(group[j]))) != 0;
     any_apart = any_apart || apart != 0;
-    any_acts = any_acts || (apart & (group[j] < 0.0 ? all : others(group[j]))) != 0;
-    if (any_acts && any_moves) break;
+    any_acts = any_acts || acts;
+    acting[(e - start) / within_bits] |= std::uint64_t{acts} << ((e - start) % within_bits);
   }
   const Work in_density = !any_moves ? density_is_still : any_acts || any_apart || !leaves_own ? density : none;
   return static_cast<Work>(in_density | (any_acts ? rates : none));
@@ -51,17 +61,19 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
 
 }  // namespace
 
-void BusyClusters::find(const World& world, bool leaves_own) {
-  const Clusters& c = world.neighbours->clusters();
+void BusyClusters::find(World& world, bool leaves_own) {
+  Clusters& c = world.neighbours->clusters();
   const auto group = world.particles[field::group];
   const std::vector<char> fixed = fixed_rows(world);
   std::vector<Work> work(c.size());
+  c.acting.assign(c.size() > 0 ? within_start(c.start.back(), c.size()) : 0, 0);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t k = 0; k < c.size(); ++k) work[k] = work_of(c, k, group, fixed, leaves_own);
-  in_density_.clear(), in_rates_.clear(), still_.clear();
+  for (std::size_t k = 0; k < c.size(); ++k) work[k] = work_of(c, k, group, fixed, leaves_own, c.acting.data() + within_start(c.start[k], k));
+  in_density_ = {}, in_rates_ = {};
+  still_.clear();
   for (std::uint32_t k = 0; k < c.size(); ++k) {
-    if ((work[k] & density) != 0) in_density_.push_back(k);
-    if ((work[k] & rates) != 0) in_rates_.push_back(k);
+    if ((work[k] & density) != 0) in_density_.clusters.push_back(k);
+    if ((work[k] & rates) != 0) in_rates_.clusters.push_back(k);
     if ((work[k] & density_is_still) == 0) continue;
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) still_.push_back(i);
   }

@@ -252,7 +252,7 @@ void Neighbours::form_clusters(const Grid& grid) {
 void Neighbours::list(const Particles& particles, const Grid& grid) {
   Clusters& c = clusters_;
   c.start.assign(c.size() + 1, 0);
-  c.own.clear(), c.within.clear();
+  c.own.clear(), c.within.clear(), c.acting.clear();
   listed_.resize(static_cast<std::size_t>(threads_));
   std::vector<std::size_t> rooms;
   do {

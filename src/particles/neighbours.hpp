@@ -34,6 +34,8 @@ struct Clusters {
   /// Of each entry a bit: whether it is within the support of a member now, not only near to it. Each cluster begins a word, at
   /// within_start(). As found by the last pass that finds them: of the present places, as densities are. Empty where none has.
   std::vector<std::uint64_t> within;
+  /// Of each entry a bit, as in `within`: whether it acts on a member at all. Found anew with each list; empty where all may.
+  std::vector<std::uint64_t> acting;
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
   /// The cluster that a row is a member of.
   [[nodiscard]] std::uint32_t of(std::size_t row) const { return static_cast<std::uint32_t>(std::ranges::upper_bound(first, row) - first.begin() - 1); }

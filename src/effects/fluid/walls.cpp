@@ -33,11 +33,14 @@ void take_mean(const std::vector<std::size_t>& start, const std::vector<std::uin
 }
 
 /// The transpose: member k is given its part of the mean of each patch that it is in. Who is in my patch has me in its own.
-void give_parts(const std::vector<std::size_t>& start, const std::vector<std::uint32_t>& patch, const std::vector<double>& of, std::vector<double>& part, int threads) {
+void give_parts(const std::vector<std::size_t>& start, const std::vector<std::uint32_t>& patch, const std::vector<double>& of, std::vector<double>& part, std::vector<double>& shares, int threads) {
+  shares.resize(of.size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t k = 0; k < of.size(); ++k) shares[k] = of[k] / static_cast<double>(start[k + 1] - start[k]);  // what each member of its patch is given
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::size_t k = 0; k < part.size(); ++k) {
     double sum = 0.0;
-    for (std::size_t e = start[k]; e < start[k + 1]; ++e) sum += of[patch[e]] / static_cast<double>(start[patch[e] + 1] - start[patch[e]]);
+    for (std::size_t e = start[k]; e < start[k + 1]; ++e) sum += shares[patch[e]];
     part[k] = sum;
   }
 }
@@ -58,6 +61,7 @@ void Walls::find(const World& world) {
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
       if ((walls & wet) >> (i - c.first[k]) & 1u) wet_walls_.push_back(i);
   }
+  wet_ = clusters_of(c, wet_walls_);
 }
 
 void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
@@ -125,8 +129,8 @@ void Walls::hand_down_shares(World& world) {
   const auto share = world.particles[field::pressure_share];
   static const double weaker = 1.0 - defect_size("walls.pressure");
   for (std::size_t k = 0; k < face_.size(); ++k) first_[k] = weaker * share[face_[k]];
-  give_parts(start_, patch_, first_, second_, world.threads);
-  give_parts(start_, patch_, second_, first_, world.threads);
+  give_parts(start_, patch_, first_, second_, parts_, world.threads);
+  give_parts(start_, patch_, second_, first_, parts_, world.threads);
   for (std::size_t k = 0; k < face_.size(); ++k) share[face_[k]] = first_[k];
 }
 
@@ -135,7 +139,7 @@ void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
   if (wet_walls_.empty()) return;
   Particles& p = world.particles;
   for (const Field<double>* f : WallExtrapolation::adds::list) fill(p[*f], 0.0, world.threads);
-  run_pass(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads, wet_walls_);
+  run_pass_over(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads, wet_);
 
   const auto weight = p[field::wall_weight];
   const auto moved = triple(p, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "effects/fluid/material_numbers.hpp"
+#include "effects/run_pass.hpp"
 #include "effects/world.hpp"
 
 namespace tripoint::fluid {
@@ -32,12 +33,13 @@ class Walls {
   void find_faces(const World&, const SceneNumbers&, const PairKernels&);
 
   std::vector<std::uint32_t> wet_walls_;  ///< rows of walls with liquid in their lists
+  ChosenClusters wet_;                    ///< their clusters
   std::vector<std::uint32_t> hidden_;     ///< rows of walls that are not at a face
   std::vector<std::uint32_t> face_;       ///< rows of those that are
   std::vector<std::size_t> start_;        ///< first entry of each patch, and one past the last
   std::vector<std::uint32_t> patch_;      ///< places in face_, the particle itself first
   std::vector<char> at_face_;             ///< by id, whether it is a wall's and at its face: what moves as one keeps its faces
-  std::vector<double> first_, second_;    ///< of the face: memory that is used again
+  std::vector<double> first_, second_, parts_;  ///< of the face: memory that is used again
   long known_ = -1, known_faces_ = -1;    ///< the rebuild that the rows are of
 };
 
