@@ -2,6 +2,7 @@
 #include "effects/busy_clusters.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 #include "effects/body_table.hpp"
 #include "effects/run_pass.hpp"
@@ -17,8 +18,8 @@ std::vector<char> fixed_rows(const World& world) {
   for (std::size_t b = 0; b < world.bodies.size(); ++b)
     of_body.push_back(is_rigid(world, b) && world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
   const auto body = world.particles[field::body];
-  std::vector<char> fixed(body.size());
-  for (std::size_t i = 0; i < body.size(); ++i) fixed[i] = body[i] >= 0 ? of_body[static_cast<std::size_t>(body[i])] : char{0};
+  std::vector<char> fixed(world.particles.awake());
+  for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = body[i] >= 0 ? of_body[static_cast<std::size_t>(body[i])] : char{0};
   return fixed;
 }
 
@@ -77,20 +78,59 @@ void BusyClusters::find(World& world, bool leaves_own) {
     if ((work[k] & density_is_still) == 0) continue;
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) still_.push_back(i);
   }
-  fixed_.clear();
-  for (std::uint32_t i = 0; i < group.size(); ++i)
-    if (fixed[i] != 0) fixed_.push_back(i);
   known_ = true;
 }
 
-void BusyClusters::keep(const PassFunction& pass, const Particles& p) {
-  density_.clear(), place_.clear();
-  const auto x = positions(p);
-  for (const std::uint32_t i : fixed_) place_.push_back(x.at(i));
+/// What the density of fixed particles is where they meet nothing else, for when their lists are no longer made.
+void BusyClusters::learn_still(const PassFunction& pass, World& world, const PairKernels& kernels) {
+  Neighbours& n = *world.neighbours;
+  Particles& p = world.particles;
+  const Clusters& c = n.clusters();
+  std::vector<char> is_still(p.size(), 0);
+  for (const std::uint32_t one : n.still_ids()) is_still[p.row(one)] = 1;
+  std::vector<std::uint64_t> among(within_start(c.start.back(), c.size()), 0);
+  for (std::size_t k = 0; k < c.size(); ++k)
+    for (std::size_t e = c.start[k], from = within_start(c.start[k], k) * within_bits; e < c.start[k + 1]; ++e, ++from)
+      among[from / within_bits] |= std::uint64_t{is_still[Entry{c.entries[e]}.row()] != 0} << from % within_bits;
+  density_among_still_.clear();
+  std::vector<std::vector<double>> before;
+  for (const Field<double>* f : pass.adds()) before.emplace_back(p[*f].begin(), p[*f].end());
+  run_pass_among(pass, p, n, kernels, world.threads, among);
+  auto old = before.begin();
   for (const Field<double>* f : pass.adds()) {
     const auto column = p[*f];
+    for (const std::uint32_t one : n.still_ids()) density_among_still_.push_back(column[p.row(one)]);
+    std::ranges::copy(*old++, column.begin());
+  }
+  still_known_ = n.whole_lists();
+}
+
+/// Sums over all lists there are; who has none gets what it has among what is fixed.
+void BusyClusters::sum_listed(const PassFunction& pass, World& world, const PairKernels& kernels) const {
+  Neighbours& n = *world.neighbours;
+  Particles& p = world.particles;
+  const Clusters& c = n.clusters();
+  if (c.unlisted.empty()) return run_pass(pass, p, n, kernels, world.threads);
+  assert(still_known_ == n.whole_lists());
+  n.make_room_within();
+  run_pass_over(pass, p, n, kernels, world.threads, {c.listed, {}});
+  const auto id = p[field::id];
+  std::size_t from = 0;
+  for (const Field<double>* f : pass.adds()) {
+    const auto column = p[*f];
+    for (const std::uint32_t k : c.unlisted)
+      for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) column[i] = density_among_still_[from + n.still_place(static_cast<std::size_t>(id[i]))];
+    from += n.still_ids().size();
+  }
+}
+
+void BusyClusters::keep(const PassFunction& pass, const World& world) {
+  density_.clear();
+  for (const Field<double>* f : pass.adds()) {
+    const auto column = world.particles[*f];
     for (const std::uint32_t i : still_) density_.push_back(column[i]);
   }
+  placed_ = world.placed;
 }
 
 void BusyClusters::put_back(const PassFunction& pass, Particles& p) const {
@@ -101,25 +141,19 @@ void BusyClusters::put_back(const PassFunction& pass, Particles& p) const {
   }
 }
 
-/// What is fixed is put to its place by its body's pose, so that its first step can move it by a rounding error.
-bool BusyClusters::stays(const Particles& p) const {
-  const auto x = positions(p);
-  for (std::size_t n = 0; n < fixed_.size(); ++n)
-    if (x.at(fixed_[n]) != place_[n]) return false;
-  return true;
-}
-
-/// The first over new lists sums all, also because the passes that follow ask which pairs are within the support.
+/// The first over new lists sums all, also because the passes that follow ask which pairs are within the support. So does the one after what is
+/// fixed was put to its place by its body's pose, which can move it by a rounding error.
 void BusyClusters::sum_density(const PassFunction& pass, World& world, const PairKernels& kernels, bool leaves_own) {
   Particles& p = world.particles;
-  if (known_ && stays(p)) {
+  if (known_ && placed_ == world.placed) {
     put_back(pass, p);
     run_pass_over(pass, p, *world.neighbours, kernels, world.threads, in_density_);
     return;
   }
-  run_pass(pass, p, *world.neighbours, kernels, world.threads);
+  if (world.neighbours->may_rest_next() && still_known_ != world.neighbours->whole_lists()) learn_still(pass, world, kernels);
+  sum_listed(pass, world, kernels);
   if (!known_) find(world, leaves_own);
-  keep(pass, p);
+  keep(pass, world);
 }
 
 void BusyClusters::sum_rates(const PassFunction& pass, World& world, const PairKernels& kernels) const {

@@ -23,16 +23,18 @@ class BusyClusters {
 
  private:
   void find(World&, bool leaves_own);
-  void keep(const PassFunction&, const Particles&);
+  void learn_still(const PassFunction&, World&, const PairKernels&);
+  void sum_listed(const PassFunction&, World&, const PairKernels&) const;
+  void keep(const PassFunction&, const World&);
   void put_back(const PassFunction&, Particles&) const;
-  [[nodiscard]] bool stays(const Particles&) const;
 
   bool known_ = false;
   ChosenClusters in_density_, in_rates_;
   std::vector<std::uint32_t> still_;                  ///< rows of the clusters whose density is kept
   std::vector<double> density_;                       ///< of each of them, one column after the other
-  std::vector<std::uint32_t> fixed_;                  ///< rows that never move
-  std::vector<Vec3> place_;                           ///< of each of them, as the density was kept [m]
+  bool placed_ = false;                               ///< World::placed as the density was kept
+  long still_known_ = -1;                             ///< Neighbours::whole_lists() that the next are of
+  std::vector<double> density_among_still_;           ///< of Neighbours::still_ids() among themselves, one column after the other
 };
 
 }  // namespace tripoint

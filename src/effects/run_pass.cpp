@@ -34,6 +34,13 @@ void run_pass(const PassFunction& function, Particles& particles, Neighbours& ne
   function.run(task);
 }
 
+void run_pass_among(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads, const std::vector<std::uint64_t>& entries) {
+  PassTask task = task_of(particles, neighbours, kernels, threads);
+  const std::vector<double*> columns = columns_of(function, particles);
+  task.columns = columns.data(), task.within = nullptr, task.only = entries.data();
+  function.run(task);
+}
+
 void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads, const ChosenClusters& chosen) {
   if (!function.run || chosen.clusters.empty()) return;
   PassTask task = task_of(particles, neighbours, kernels, threads);

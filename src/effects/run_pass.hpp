@@ -13,6 +13,9 @@ namespace tripoint {
 /// @param function made for clusters as wide as those of the neighbours   @throws MissingField that a term names and nobody owns
 void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads);
 
+/// For these entries only, and without finding which are within the support. @param entries of each a bit, as in Clusters::within
+void run_pass_among(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads, const std::vector<std::uint64_t>& entries);
+
 /// Some of the clusters of a list, ascending.
 struct ChosenClusters {
   std::vector<std::uint32_t> clusters;

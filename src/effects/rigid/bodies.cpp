@@ -125,8 +125,10 @@ void place_members(World& world) {
   const auto orientation = world.bodies[field::body_orientation];
   const auto alive = world.bodies[field::body_alive];
   const RigidMembers is_member(world);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  const std::size_t rows = world.placed ? p.awake() : p.size();  // the first time moves members of fixed bodies too, by a rounding error
+  world.placed = true;
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (rows > worth_threads)
+  for (std::size_t i = 0; i < rows; ++i) {
     if (!is_member(i)) continue;
     const auto b = static_cast<std::size_t>(body[i]);
     if (!alive[b]) continue;
@@ -135,7 +137,7 @@ void place_members(World& world) {
   }
   if (!world.box.any()) return;
   const auto image = images(p);
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  for (std::size_t i = 0; i < rows; ++i) {
     if (!is_member(i)) continue;
     Vec3 r = x.at(i);
     const Vec3 n = image.at(i);
@@ -154,8 +156,8 @@ void give_velocities(World& world) {
   const auto velocity = world.bodies[field::body_velocity], omega = world.bodies[field::body_angular_velocity];
   const auto orientation = world.bodies[field::body_orientation];
   const RigidMembers is_member(world);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-  for (std::size_t i = 0; i < p.size(); ++i) {
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+  for (std::size_t i = 0; i < p.awake(); ++i) {
     if (!is_member(i)) continue;
     const auto b = static_cast<std::size_t>(body[i]);
     v.set(i, velocity[b] + cross(omega[b], rotate(orientation[b], reference.at(i))));
