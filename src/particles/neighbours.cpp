@@ -321,6 +321,7 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
   const std::size_t n = particles.size();
   const auto x = positions(particles);
   const auto body = particles[field::body], id = particles[field::id];
+  still_.place.resize(n, ~std::uint32_t{0});  // what has flowed in moves
   std::vector<std::uint32_t> rows;
   std::vector<char> moving(still_.first.size() - 1, 0);
   const auto wake = [&](std::size_t from, std::size_t to) {
