@@ -8,7 +8,7 @@ OUT ?= report
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-print-directory
 
-.PHONY: help setup build test validate test-fresh test-image test-package bench bench-peers gallery docs wheel sbom fuzz clean
+.PHONY: help setup build test validate test-fresh test-image test-package faults bench bench-peers gallery docs wheel sbom fuzz clean
 
 help:  ## this text
 	@echo 'tripoint: one scene in our SPH solver, in Bullet, in LAMMPS and in exact solutions, compared and judged.'
@@ -57,6 +57,10 @@ sbom: build  ## what a build holds, loads and fetches, as SPDX 2.3: build/tripoi
 fuzz:  ## build the fuzz targets with clang and run each for a minute (docs/fuzz.md; SECONDS=600 for longer)
 	@tools/setup.sh fuzz
 	@tools/fuzz.sh $(or $(SECONDS),60)
+
+faults: build  ## let every call that changes a file fail, in every kind (docs/promises.md; half an hour)
+	@/usr/bin/python3 -B tests/faults/faults.py build --jobs $(JOBS)
+	@/usr/bin/python3 -B tests/faults/faults.py build --what suite --jobs $(JOBS)
 
 bench: build  ## time standard work on this machine, beside the machine's own limit
 	@build/bin/tripoint bench

@@ -236,7 +236,8 @@ def floats(results, out):
     worst = {label: max(map(abs, found.values())) for label, found in errors.items()}
     ordered = sorted(errors, key=worst.get)
     good = [label for label in ordered if worst[label] <= FLOATS_WITHIN]
-    answer = (f"Yes for {join(good)}: blocks of {join([f'{density:g}' for _, density in cases])} of the density of water float within {max(worst[label] for label in good):.2g} spacings of Archimedes' draught."
+    others = [f"{label} is {worst[label]:.2g} off" for label in ordered if label not in good]
+    answer = (f"Yes for {join(good)}: blocks of {join([f'{density:g}' for _, density in cases])} of the density of water float within {max(worst[label] for label in good):.2g} spacings of Archimedes' draught{'; ' + join(others) if others else ''}."
               if good else f"No: the best, {ordered[0]}, is {worst[ordered[0]]:.2g} spacings off Archimedes' draught.")
     lines = [Line(label, ["—" if density not in errors[label] else f"{errors[label][density]:+.2f}" for _, density in cases], "pass" if worst[label] <= FLOATS_WITHIN else "fail") for label in ordered]
     return Page("float.html", "Does it float?", answer, draught_picture(out, depths, cases), ["engine"] + [f"density {density:g}" for _, density in cases], lines,

@@ -160,7 +160,7 @@ def render_figures(results, out=None):
 
 
 def render_gallery(results, films):
-    """@param films: case, names of film and sheet, why one is missing, end [s], tone of the verdict   @return HTML of the paper's figures in motion"""
+    """@param films: case, names of film and sheet, why one is missing, colours of the sheet, end [s], tone of the verdict, what the paper says   @return HTML of the paper's figures in motion"""
     return fill("gallery.html.j2", results, films=films, notes=[])
 
 

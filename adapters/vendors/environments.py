@@ -41,11 +41,18 @@ class Release:
     registry: str  # PyPI | Debian | npm | crates.io
     adapter: Path
     files: tuple[File, ...]
+    first: str  # subject of the suite that it is tried on first
     disk: int  # what an installed environment took [MB]
 
     @property
     def folder(self) -> Path:
         return home() / f"{self.engine}-{self.version}"
+
+    @property
+    def registries(self) -> str:
+        """All that files come from: its own first."""
+        debian = any("==" not in file.name and "=" in file.name for file in self.files)
+        return f"{self.registry} and Debian" if debian and self.registry != "Debian" else self.registry
 
     @property
     def executable(self) -> Path:
@@ -77,4 +84,4 @@ def release(words: str) -> Release:
         raise InstallError(f"{name}@{version}: no such version is pinned; there are {', '.join(engine['versions'])}")
     files = tuple(File(pin, known["files"][pin]["sha256"], known["files"][pin]["bytes"]) for pin in pins)
     adapter = ADAPTERS / engine["adapter"]
-    return Release(name, engine["title"], version, engine["licence"], engine["from"], adapter, files, engine["disk_mb"])
+    return Release(name, engine["title"], version, engine["licence"], engine["from"], adapter, files, engine.get("first", "rigid"), engine["disk_mb"])

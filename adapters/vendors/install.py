@@ -16,7 +16,7 @@ from packages import INSTALLERS, PYTHON, say
 
 def describe(wanted: Release) -> str:
     fetch = sum(file.size for file in wanted.files) / 1e6
-    return (f"{wanted.title} {wanted.version}, licence {wanted.licence}: {fetch:.1f} MB to fetch from {wanted.registry}, "
+    return (f"{wanted.title} {wanted.version}, licence {wanted.licence}: {fetch:.1f} MB to fetch from {wanted.registries}, "
             f"about {wanted.disk} MB on the disk, in {wanted.folder}")
 
 
@@ -100,7 +100,7 @@ def main(words: list[str]) -> int:
         say(f"{error.filename or home()}: {error.strerror}; another folder is taken from the variable TRIPOINT_ENGINES")
         return 4
     print(f"{wanted.executable}")
-    say(f"next: tripoint validate rigid --engines {wanted.engine}")
+    say(f"next: tripoint validate {wanted.first} --engines {wanted.engine}")
     return 0
 
 

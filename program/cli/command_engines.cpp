@@ -95,9 +95,19 @@ int install(const std::string& words, bool yes) {
   throw EngineError(fmt::format("{} {}: {}", argv.front(), program, std::strerror(errno)));
 }
 
-int check(const std::string& path) {
+/// A path, or the name of an engine that `tripoint engines` lists.
+std::string executable_of(const std::string& word) {
+  if (word.find('/') != std::string::npos || std::filesystem::exists(word)) return word;
+  const auto found = discover_engines_named({word});
+  const EngineEntry* engine = find_engine(found, word);
+  if (!engine) throw InputError(word + ": is neither a file nor an engine that is known here: tripoint engines");
+  if (!engine->available) throw InputError(word + ": " + engine->reason);
+  return engine->executable;
+}
+
+int check(const std::string& word) {
   bool good = true;
-  for (const auto& c : check_engine(path)) {
+  for (const auto& c : check_engine(executable_of(word))) {
     print_line(fmt::format("{}  {}{}", c.passed ? "ok   " : "FAILS", c.what, c.found.empty() ? "" : ": " + c.found));
     good = good && c.passed;
   }
@@ -121,8 +131,8 @@ void add_engine(CLI::App& app, int& exit_code) {
   made->add_option("NAME", *name, "small letters, digits and dashes")->required();
   made->add_option("--lang", *language, "language of the template")->check(CLI::IsMember({"python", "cpp"}))->capture_default_str();
   made->callback([=, &exit_code] { exit_code = guarded([&] { return make_new(*name, *language); }); });
-  auto* checked = command->add_subcommand("check", "Tests an engine against the contract: answers, jobs good and broken, results, times, ids, repeatability.\n  tripoint engine check build/libexec/tripoint/engine-bullet\nExit 0 when every check holds, 1 otherwise.");
-  checked->add_option("PATH", *path, "the engine's executable")->required();
+  auto* checked = command->add_subcommand("check", "Tests an engine against the contract: answers, jobs good and broken, results, times, ids, repeatability.\n  tripoint engine check bullet\n  tripoint engine check my-engine/engine-my-engine\nExit 0 when every check holds, 1 otherwise.");
+  checked->add_option("PATH|NAME", *path, "the engine's executable, or the name of one that is known")->required();
   checked->callback([=, &exit_code] { exit_code = guarded([&] { return check(*path); }); });
   auto yes = std::make_shared<bool>(false);
   auto* installed = command->add_subcommand("install", install_description);

@@ -170,6 +170,12 @@ void check_words(const RenderOptions& o) {
   if (!o.mesh.empty() && ending != ".ply" && ending != ".obj") throw InputError(fmt::format("--mesh {}: a mesh is a .ply file (with temperature, phase and body) or a .obj file", o.mesh));
 }
 
+std::string legend_of(const Showing& s) {
+  if (s.colouring == Colouring::temperature) return fmt::format("colours: {:.6g} K dark to {:.6g} K light", s.cold, s.hot);
+  if (s.colouring == Colouring::phase) return "colours: liquid blue, another liquid light blue, elastic green, rigid orange";
+  return "colours: each solid body has its own, liquid is blue";
+}
+
 int render(const RenderOptions& o) {
   check_words(o);
   catch_interrupts();
@@ -178,7 +184,7 @@ int render(const RenderOptions& o) {
   const Showing s = showing_of(o, run, frames);
   const fs::path out = o.out.empty() ? fs::path(run.folder) / "pictures" : fs::path(o.out);
   make_folder(out.string());
-  if (s.colouring == Colouring::temperature) say(fmt::format("colours: {:.6g} K dark to {:.6g} K light", s.cold, s.hot));
+  say(legend_of(s));
   std::vector<Picture> small;
   for (const std::size_t n : frames) {
     const Snapshot& f = run.trajectory.frames[n];

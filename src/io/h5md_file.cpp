@@ -120,7 +120,7 @@ Column::Column(hid_t group, const std::string& name, Type type, std::size_t rows
   if (rank_ == 1) rows_ = 0;
   const hsize_t dims[3] = {0, rows_, width_};
   const hsize_t limits[3] = {H5S_UNLIMITED, H5S_UNLIMITED, width_};
-  const hsize_t chunk[3] = {rank_ == 1 ? hsize_t{64} : hsize_t{1}, std::max<hsize_t>(rows_, 1), width_};
+  const hsize_t chunk[3] = {1, std::max<hsize_t>(rows_, 1), width_};  // one frame: a frame half written then spoils no other
   const Handle space(H5Screate_simple(rank_, dims, limits), H5Sclose, name);
   const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
   check(H5Pset_chunk(properties.get(), rank_, chunk), name);
@@ -187,6 +187,10 @@ bool has(hid_t file, const std::string& path) {
   }
 }
 
+std::vector<std::size_t> shape(hid_t file, const std::string& path, const std::string& name_of_file) {
+  return shape_of(open_own_dataset(file, path, name_of_file).get(), name_of_file + ": " + path);
+}
+
 Block read_real(hid_t file, const std::string& path, const std::string& name_of_file) {
   const std::string what = name_of_file + ": " + path;
   const Handle dataset = open_own_dataset(file, path, name_of_file);
@@ -243,6 +247,8 @@ namespace {
 /// Without HDF5's lock on the file: a process just started holds a copy of every open file, and the lock with it, until
 /// it runs its own program, so that a file closed here would for a moment be refused to the next who opens it.
 Handle unlocked_access(const std::string& path) {
+  static const herr_t no_clean_up_at_exit = H5dont_atexit();  // it ends by a signal where a file could not be written; handles close their files
+  static_cast<void>(no_clean_up_at_exit);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
   H5Pset_file_locking(access.get(), false, true);

@@ -67,6 +67,8 @@ struct Block {
   std::vector<int> whole;
 };
 [[nodiscard]] bool has(hid_t file, const std::string& path);
+/// Extents of a dataset. @throws InputError where it is none of this file
+[[nodiscard]] std::vector<std::size_t> shape(hid_t file, const std::string& path, const std::string& name_of_file);
 /// @throws InputError also when not even the first frame is whole
 [[nodiscard]] Block read_real(hid_t file, const std::string& path, const std::string& name_of_file);
 [[nodiscard]] Block read_whole(hid_t file, const std::string& path, const std::string& name_of_file);

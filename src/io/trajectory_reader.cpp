@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "core/errors.hpp"
 #include "io/h5md_file.hpp"
@@ -16,7 +18,9 @@ class Reader {
     time_ = h5::read_real(file_.get(), "/particles/all/position/time", path).real;
     step_ = h5::read_whole(file_.get(), "/particles/all/position/step", path).whole;
     frames_ = std::min(time_.size(), step_.size());
+    while (frames_ > 0 && std::isnan(time_[frames_ - 1])) --frames_;  // the writer was killed before it wrote the time, its last act
     whole_ = frames_;
+    for (const char* group : {"particles/all", "particles/bodies"}) look_over(group);
   }
 
   /// Frames that every block read so far holds whole.
@@ -36,6 +40,7 @@ class Reader {
     if (given != unit) throw InputError(path_ + ": " + value + " is in \"" + given + "\", expected \"" + unit + "\"");
     expect(block, width, value);
     block.real.resize(total(block), not_a_number);
+    widen(element, block, block.real, not_a_number);
     expect_own_times(element);
     return block;
   }
@@ -44,6 +49,7 @@ class Reader {
     h5::Block block = h5::read_whole(file_.get(), value, path_);
     expect(block, 1, value);
     block.whole.resize(total(block), -1);
+    widen(element, block, block.whole, -1);
     expect_own_times(element);
     return block;
   }
@@ -57,6 +63,29 @@ class Reader {
     whole_ = std::min(whole_, block.shape[0]);
     block.shape[0] = std::max(block.shape[0], frames_);
     if (block.shape[2] != width) throw InputError(path_ + ": " + what + " has " + std::to_string(block.shape[2]) + " components, expected " + std::to_string(width));
+  }
+
+  /// How wide a group's columns are, and whether one of them holds more frames than there are times.
+  void look_over(const std::string& group) {
+    for (const std::string& name : h5::members(file_.get(), "/" + group)) {
+      const std::string value = "/" + group + "/" + name + "/value";
+      if (!h5::has(file_.get(), value)) continue;
+      const std::vector<std::size_t> shape = h5::shape(file_.get(), value, path_);
+      is_torn_ = is_torn_ || shape[0] > frames_;
+      if (name != "box" && shape.size() > 1) rows_[group] = std::max(rows_[group], shape[1]);
+    }
+  }
+
+  /// Where a writer was killed while it made the columns wider for what is born in its last frame, those that it had not come to are still narrow.
+  template <class T>
+  void widen(const std::string& element, h5::Block& block, std::vector<T>& values, T nothing) {
+    const std::size_t rows = rows_[element.substr(0, element.rfind('/'))], row = block.shape[2];
+    if (!is_torn_ || block.shape[1] >= rows) return;
+    std::vector<T> wide(block.shape[0] * rows * row, nothing);
+    for (std::size_t f = 0; f < block.shape[0]; ++f)
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(f * block.shape[1] * row), block.shape[1] * row, wide.begin() + static_cast<std::ptrdiff_t>(f * rows * row));
+    values = std::move(wide);
+    block.shape[1] = rows;
   }
 
   /// H5MD gives each element times of its own: what is not of the times of the positions is not of these frames.
@@ -73,6 +102,8 @@ class Reader {
   std::vector<double> time_;
   std::vector<int> step_;
   std::size_t frames_ = 0, whole_ = 0;
+  bool is_torn_ = false;                      ///< a column holds more frames than there are times
+  std::map<std::string, std::size_t> rows_;  ///< of each group's widest column
 };
 
 using Frames = std::vector<Snapshot>;

@@ -198,6 +198,12 @@ class Cli(unittest.TestCase):
         self.assertEqual(call("engine", "new", "my-engine", cwd=self.path).returncode, 2)
         self.assertEqual(call("engine", "new", "../x", cwd=self.path).returncode, 2)
 
+    def test_an_engine_that_is_known_is_checked_by_its_name(self):
+        self.assertEqual(call("engine", "check", "exact").returncode, 0)
+        done = call("engine", "check", "nobody")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("tripoint engines", done.stderr)
+
     def test_engines_that_break_the_contract_fail_the_compliance_test(self):
         for fault in ("broken info", "leaves no result", "stops early", "millimetres", "not a number", "holds another mass", "frozen", "says ok and exits 3", "torn result"):
             with self.subTest(fault):

@@ -4,6 +4,7 @@ import io
 import json
 import sys
 import tempfile
+import types
 import unittest
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
@@ -76,6 +77,20 @@ class Gallery(unittest.TestCase):
         self.assertEqual(self.draw(case("09"), program=program), 0)
         self.assertEqual((self.path / "paper-09.png").read_text(), "drawn\n")
         self.assertIn('src="paper-09.png"', (self.path / "index.html").read_text())
+
+    def test_a_figure_says_what_the_paper_says_and_what_its_sheets_colours_mean(self):
+        self.film("fig-10-cold", 3)
+        program = self.program('echo drawn > "$4/sheet.png"\necho "tripoint: colours: each body its own" >&2\n')
+        self.assertEqual(self.draw(case("fig-10-cold"), program=program), 0)
+        page = (self.path / "index.html").read_text()
+        self.assertIn("Sheet: each body its own.", page)
+        self.assertIn("stay distinct", page)
+
+    def test_every_figure_of_the_suite_has_what_the_paper_says_of_it(self):
+        cases = Path(__file__).resolve().parents[2] / "cases/paper"
+        figures = [types.SimpleNamespace(id=f"paper/{file.stem}") for file in cases.glob("fig-*.toml")]
+        self.assertGreater(len(figures), 12)
+        self.assertEqual([figure.id for figure in figures if not gallery.said_by_the_paper(figure)], [])
 
     def test_surfaces_that_fail_are_named_and_are_no_success(self):
         self.film("09", 3)

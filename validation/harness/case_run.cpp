@@ -95,6 +95,8 @@ std::shared_ptr<const Trajectory> taken_back(const CaseRun& run, const HarmlessC
   return back;
 }
 
+bool is_wanted(const EnginePlan& engine, const RunPlan& plan, const SuiteOptions& options) { return !options.wanted || options.wanted(engine, plan); }
+
 }  // namespace
 
 CaseRuns plan_case(const Case& value, const std::vector<EngineEntry>& found, const SuiteOptions& options) {
@@ -104,6 +106,13 @@ CaseRuns plan_case(const Case& value, const std::vector<EngineEntry>& found, con
   all.hashes = case_hashes(value.file);
   all.engines = plan_runs(value, found, options.selection);
   return all;
+}
+
+std::size_t number_of_runs(const CaseRuns& all, const SuiteOptions& options) {
+  std::size_t n = 0;
+  for (const auto& engine : all.engines)
+    if (engine.entry) n += static_cast<std::size_t>(std::ranges::count_if(engine.runs, [&](const RunPlan& plan) { return is_wanted(engine, plan, options); }));
+  return n;
 }
 
 CaseRuns prepare_case(const Case& value, const std::vector<EngineEntry>& found, const SuiteOptions& options) {
@@ -120,7 +129,7 @@ void add_runs(CaseRuns& all, const SuiteOptions& options) {
     const auto& engine = all.engines[e];
     if (!engine.entry) continue;
     for (const auto& plan : engine.runs) {
-      if (options.wanted && !options.wanted(engine, plan)) continue;
+      if (!is_wanted(engine, plan, options)) continue;
       CaseRun run;
       const Scene scene = scene_of(value, plan);
       const auto& [initial, file, hash] = sampler.of(scene);

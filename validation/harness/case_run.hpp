@@ -42,6 +42,9 @@ struct CaseRuns {
 /// Engines of a case and their runs; none is sampled yet.
 [[nodiscard]] CaseRuns plan_case(const Case&, const std::vector<EngineEntry>&, const SuiteOptions&);
 
+/// Of those that the plan wants.
+[[nodiscard]] std::size_t number_of_runs(const CaseRuns&, const SuiteOptions&);
+
 /// Samples the runs that are wanted and adds them, ready to be made. @throws InputError when a scene cannot be sampled
 void add_runs(CaseRuns&, const SuiteOptions&);
 

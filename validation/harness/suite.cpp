@@ -17,29 +17,22 @@
 namespace tripoint {
 namespace {
 
-/// Cases are prepared in order by one thread while others make their runs; results keep the order of the cases whatever ends first.
+/// Workers prepare the cases in order and make their runs, no more of either at a time than there are jobs. A case is prepared when the runs that
+/// wait are fewer than the jobs, so that particles of a few cases are held and not of all. Results keep the order of the cases whatever ends first.
 class Suite {
  public:
   Suite(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const SuiteOptions& options)
-      : cases_(cases), engines_(engines), options_(options), slots_(cases.size()) {}
+      : cases_(cases), options_(options), jobs_(static_cast<std::size_t>(std::max(1, options.jobs))), slots_(cases.size()) {
+    for (std::size_t c = 0; c < cases.size(); ++c) {
+      slots_[c].runs = std::make_unique<CaseRuns>(plan_case(cases[c], engines, options));
+      all_runs_ += number_of_runs(*slots_[c].runs, options);
+    }
+  }
 
   std::vector<CaseResult> run() {
     std::vector<std::thread> workers;
-    for (int i = 0; i < std::max(1, options_.jobs); ++i) workers.emplace_back([this] { work(); });
-    std::exception_ptr failure;
-    try {
-      for (std::size_t c = 0; c < cases_.size() && !interrupted() && !given_up_; ++c) prepare(c);
-    } catch (...) {
-      if (!interrupted()) failure = std::current_exception();  // what is stopped half-way is no failure: the complete cases are reported
-      given_up_ = true;
-    }
-    {
-      const std::lock_guard lock(mutex_);
-      all_queued_ = true;
-    }
-    changed_.notify_all();
+    for (std::size_t i = 0; i < jobs_; ++i) workers.emplace_back([this] { work(); });
     for (auto& w : workers) w.join();
-    if (failure) std::rethrow_exception(failure);
     if (failure_) std::rethrow_exception(failure_);
     std::vector<CaseResult> results;
     for (auto& s : slots_)
@@ -57,36 +50,62 @@ class Suite {
     std::size_t slot, run;
   };
 
-  void prepare(std::size_t c) {
-    auto runs = std::make_unique<CaseRuns>(prepare_case(cases_[c], engines_, options_));
-    const std::size_t n = runs->runs.size();
-    {
-      const std::lock_guard lock(mutex_);
-      slots_[c].runs = std::move(runs), slots_[c].left = n;
-      for (std::size_t r = 0; r < n; ++r) queue_.push_back({c, r});
-      queued_ += n;
-    }
-    changed_.notify_all();
-    if (n == 0) finish(c);
-  }
+  [[nodiscard]] bool wants_a_case() const { return !preparing_ && prepared_ < cases_.size() && queue_.size() < jobs_; }
+  [[nodiscard]] bool is_over() const { return given_up_ || interrupted() || (!preparing_ && prepared_ == cases_.size() && queue_.empty()); }
 
   void work() {
     for (;;) {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [this] { return !queue_.empty() || all_queued_; });
-      if (queue_.empty()) return;
-      const auto next = queue_.front();
-      queue_.pop_front();
-      lock.unlock();
-      if (given_up_ || interrupted()) continue;
-      try {
-        make(next);
-      } catch (...) {
-        lock.lock();
-        if (!failure_) failure_ = std::current_exception();
-        given_up_ = true;
-      }
+      changed_.wait(lock, [this] { return is_over() || wants_a_case() || !queue_.empty(); });
+      if (is_over()) return;
+      if (wants_a_case()) prepare_next(lock);
+      else make_next(lock);
     }
+  }
+
+  void prepare_next(std::unique_lock<std::mutex>& lock) {
+    const std::size_t c = prepared_;
+    preparing_ = true;
+    lock.unlock();
+    std::exception_ptr failure;
+    try {
+      add_runs(*slots_[c].runs, options_);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::size_t n = slots_[c].runs->runs.size();
+    lock.lock();
+    preparing_ = false;
+    ++prepared_;
+    if (failure) {
+      if (!interrupted()) give_up(failure);  // what is stopped half-way is no failure: the complete cases are reported
+      given_up_ = true;
+    } else {
+      slots_[c].left = n;
+      for (std::size_t r = 0; r < n; ++r) queue_.push_back({c, r});
+    }
+    lock.unlock();
+    changed_.notify_all();
+    if (n == 0 && !failure) finish(c);
+  }
+
+  void make_next(std::unique_lock<std::mutex>& lock) {
+    const auto next = queue_.front();
+    queue_.pop_front();
+    lock.unlock();
+    changed_.notify_all();
+    try {
+      make(next);
+    } catch (...) {
+      lock.lock();
+      give_up(std::current_exception());
+    }
+    changed_.notify_all();
+  }
+
+  void give_up(std::exception_ptr failure) {
+    if (!failure_) failure_ = std::move(failure);
+    given_up_ = true;
   }
 
   void make(const Work& next) {
@@ -113,22 +132,23 @@ class Suite {
     const std::lock_guard lock(mutex_);
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     ++done_;
-    const double left = elapsed / static_cast<double>(done_) * static_cast<double>(queued_ - done_);
-    options_.say(fmt::format("[{:3}/{}{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{}{} ({:.2f} CPU s)", done_, queued_, all_queued_ ? "" : "+", elapsed, left,
+    const double left = elapsed / static_cast<double>(done_) * static_cast<double>(all_runs_ - done_);
+    options_.say(fmt::format("[{:3}/{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{}{} ({:.2f} CPU s)", done_, all_runs_, elapsed, left,
                              all.value->id, all.engines[run.engine].name, run.plan.label, run.kept ? "kept, " : "", run.row.status, run.row.reason.empty() ? "" : ", " + run.row.reason, run.row.cost.cpu_s));
   }
 
   const std::vector<Case>& cases_;
-  const std::vector<EngineEntry>& engines_;
   const SuiteOptions& options_;
+  const std::size_t jobs_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Work> queue_;
   std::vector<Slot> slots_;
-  std::size_t queued_ = 0, done_ = 0, announced_ = 0;
-  bool all_queued_ = false;
-  std::exception_ptr failure_;  ///< of a worker, the first
+  std::size_t all_runs_ = 0, done_ = 0, announced_ = 0;
+  std::size_t prepared_ = 0;  ///< cases
+  bool preparing_ = false;    ///< a worker prepares a case
+  std::exception_ptr failure_;  ///< the first
   std::atomic<bool> given_up_{false};
 };
 

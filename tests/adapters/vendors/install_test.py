@@ -16,6 +16,7 @@ sys.path.insert(0, str(ADAPTERS))
 from environments import File, InstallError, catalogue, release  # noqa: E402
 from packages import fetched, install_npm, unpack  # noqa: E402
 
+CASES = Path(__file__).resolve().parents[3] / "cases"
 ABC = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"  # SHA-256 of "abc"
 
 
@@ -42,6 +43,7 @@ class Catalogue(Home):
                 wanted = release(f"{name}@{version}")
                 self.assertTrue(wanted.adapter.is_file(), wanted.adapter)
                 self.assertTrue(wanted.files)
+                self.assertTrue((CASES / wanted.first).is_dir(), wanted.first)  # a subject of the suite
                 for file in wanted.files:
                     self.assertRegex(file.sha256, "^[0-9a-f]{64}$")
                     self.assertGreater(file.size, 0)
@@ -61,6 +63,10 @@ class Asking(Home):
         for word in ("Apache-2.0", "MB to fetch from PyPI", "on the disk", "--yes"):
             self.assertIn(word, end.stderr)
         self.assertEqual(list(self.folder.glob("mujoco*")), [])
+
+    def test_what_also_comes_from_debian_is_said(self):
+        self.assertIn("MB to fetch from PyPI and Debian", self.install("splishsplash").stderr)
+        self.assertIn("MB to fetch from Debian,", self.install("ode").stderr)
 
     def test_an_unknown_name_or_version_is_told_what_there_is(self):
         for words, known in (("mojuco", "mujoco"), ("mujoco@0.1", "4.0.0")):
