@@ -444,23 +444,23 @@ void Neighbours::count_still_pairs(const Particles& particles) {
 }
 
 /// Clusters end with a row of cells, so that what is near to their members has the same order for each of them, and where rows begin
-/// that need no list, or that stay while others move: what they meet differs.
+/// that need no list.
 void Neighbours::form_clusters(const Grid& grid, std::size_t rows) {
   Clusters& c = clusters_;
   c.first.clear();
+  const auto has_list = [&](std::size_t row) { return kinds_.empty() || kinds_[row] != RowKind::meets_nothing; };
   const auto along = static_cast<std::size_t>(grid.count[0]);
   for (std::size_t cell = 0; cell < grid.cells(); cell += along) {
     const std::uint32_t end = grid.first[cell + along];
     for (std::uint32_t i = grid.first[cell], from = end; i < end; ++i) {
-      const bool begins = from == end || i - from == static_cast<std::uint32_t>(c.lanes) || (!kinds_.empty() && kinds_[i] != kinds_[i - 1]);
+      const bool begins = from == end || i - from == static_cast<std::uint32_t>(c.lanes) || (!kinds_.empty() && has_list(i) != has_list(i - 1));
       if (begins) from = i, c.first.push_back(i);
     }
   }
   c.first.push_back(static_cast<std::uint32_t>(rows));
   c.listed.clear(), c.unlisted.clear();
   for (std::uint32_t k = 0; k < c.size(); ++k) {
-    const bool has_list = kinds_.empty() || kinds_[c.first[k]] != RowKind::meets_nothing;
-    (has_list ? c.listed : c.unlisted).push_back(k);
+    (has_list(c.first[k]) ? c.listed : c.unlisted).push_back(k);
   }
 }
 
