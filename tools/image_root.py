@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Carries out the instructions of the Dockerfile in bare Debian roots by mmdebstrap and chroot, and runs a gate in the last one.
 
-    image_root.py [--keep DIR]        as root; --keep leaves the image's root in DIR
+    image_root.py [--keep DIR] [--profile NAME]     as root; --keep leaves the image's root in DIR, --profile runs the suite's profile in it too
 
 It knows FROM, RUN (with a cache mount), COPY (with --from), WORKDIR, ENV and CMD in the forms that the file uses, and refuses any other. What a root lacks to
 reach this machine's registries (hosts, certificates, proxies, pip settings) is given to it as tools/test-fresh.sh does, and counts as the machine's, not the image's; so does CI, with which warnings are errors.
@@ -194,6 +194,7 @@ def gate_in(root):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--keep", type=Path, help="folder that the image's root is moved to")
+    parser.add_argument("--profile", help="a profile of the suite that is run in the image as well")
     options = parser.parse_args()
     if os.geteuid() != 0:
         raise SystemExit("image: needs root: sudo make test-image")
@@ -211,6 +212,9 @@ def main():
         say(f"its command: {' '.join(root.command)}")
         root.run(root.command)
         say(f"PASS: a gate in it took {gate_in(root):.1f} s")
+        if options.profile:
+            seconds = root.run(["tripoint", "validate", "--profile", options.profile, "--jobs", "2", "--out", "suite"], network=False)
+            say(f"PASS: its profile {options.profile} took {seconds:.0f} s")
         for place in ("proc", "sys", "dev"):
             subprocess.run(["umount", "--recursive", str(root.folder / place)], check=True)
         if options.keep:
