@@ -40,7 +40,7 @@ def as_shipped(program, case, steps, threads, time_step):
 
 def first_time_step(program, case):
     done = subprocess.run([program, "explain", case, "--trial", "1"], capture_output=True, text=True, check=True)
-    return float(re.search(r"steps of ([\d.e+-]+) s", done.stdout)[1])
+    return float(re.search(r"about \d+ steps of ([\d.e+-]+) s, so", done.stdout)[1])
 
 
 def measured(args, load, time_step):
