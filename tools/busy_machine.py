@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Threads, load and how threads wait: milliseconds of wall time a step, as a table.
 
