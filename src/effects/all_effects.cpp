@@ -7,6 +7,7 @@
 #include "effects/body_table.hpp"
 #include "effects/busy_clusters.hpp"
 #include "effects/fluid/material_numbers.hpp"
+#include "effects/fluid/walls.hpp"
 #include "effects/pair_passes.hpp"
 #include "effects/run_pass.hpp"
 #include "scene/effect_rule.hpp"
@@ -140,6 +141,13 @@ int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_
   return scene.mode_of(term) == Mode::paper ? 1 : 2;
 }
 
+/// Fixed particles may sleep where every effect of the scene looks at none that is asleep, and no term works on every pair.
+std::optional<double> sleeps_beyond(const Scene& scene, const std::vector<Active>& effects, bool meets_all) {
+  constexpr std::array<std::string_view, 5> looks_at_awake{"rigid", "fluid", "motion", "prescribed", "heat"};
+  if (meets_all || scene.transport_velocity || !std::ranges::all_of(effects, [&](const Active& a) { return std::ranges::find(looks_at_awake, a.name) != looks_at_awake.end(); })) return {};
+  return fluid::numbers_of(scene).averages_walls ? fluid::reach_of_patches * scene.spacing : 0.0;
+}
+
 }  // namespace
 
 std::string missing_effect(const Scene& scene) {
@@ -227,6 +235,7 @@ struct Passes::Impl {
   PairKernels kernels;
   bool meets_all;   ///< a term works on every pair, whatever meets there
   bool leaves_own;  ///< the density leaves own pairs out
+  std::optional<double> sleeps_beyond;
   BusyClusters busy{};
 };
 
@@ -238,9 +247,10 @@ Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes
   const int flow = pressure == 0 ? 0 : 3 * (pressure - 1) + viscosity, moments = heat == 2 ? 1 : 0;
   if (lanes == 0) lanes = density + flow + heat > 0 ? best_lanes() : 1;
   const PairPasses passes = pair_passes(lanes);
+  const bool meets_all = heat + moments > 0 || summed || pressure == 0;
   impl_ = std::make_unique<Impl>(Impl{lanes, passes.density({density, moments}), passes.rates({flow, heat}),
                                       passes.rates({0, heat}), pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene),
-                                      sums_all || heat + moments > 0 || summed || pressure == 0, density == 2});
+                                      sums_all || meets_all, density == 2, sums_all ? std::nullopt : tripoint::sleeps_beyond(scene, effects, meets_all)});
 }
 Passes::~Passes() = default;
 Passes::Passes(Passes&&) noexcept = default;
@@ -249,6 +259,8 @@ Passes& Passes::operator=(Passes&&) noexcept = default;
 int Passes::lanes() const { return impl_->lanes; }
 
 bool Passes::needed() const { return impl_->density.run != nullptr || impl_->rates.run != nullptr; }
+
+std::optional<double> Passes::sleeps_beyond() const { return impl_->sleeps_beyond; }
 
 void Passes::forget_clusters() { impl_->busy.forget(); }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ class Passes {
   [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
   [[nodiscard]] int lanes() const;    ///< particles of a cluster that the neighbours must have
   void run(PassName, World&) const;
+  /// How far around what something can reach fixed particles must be awake, for every bit to stay [m]; none: nothing may sleep.
+  [[nodiscard]] std::optional<double> sleeps_beyond() const;
   /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work is found anew.
   void forget_clusters();
 

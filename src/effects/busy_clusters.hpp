@@ -3,12 +3,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "effects/run_pass.hpp"
 #include "effects/world.hpp"
 #include "sph/pass.hpp"
 
 namespace tripoint {
 
-/// Clusters that a pass has work in: a dry wall and the inside of a body meet nothing, and cost nothing. What is left out keeps every
+/// Clusters that a pass has work in, and the entries of their lists that act: a dry wall and the inside of a body meet nothing, and cost nothing. What is left out keeps every
 /// bit: the forces between what never acts on each other are sums of zeros, and the density of what is fixed among what is fixed
 /// stays what the first pass over the present lists found. Of use where no term works on every pair, as heat does.
 class BusyClusters {
@@ -21,17 +22,19 @@ class BusyClusters {
   void sum_rates(const PassFunction&, World&, const PairKernels&) const;
 
  private:
-  void find(const World&, bool leaves_own);
-  void keep(const PassFunction&, const Particles&);
+  void find(World&, bool leaves_own);
+  void learn_still(const PassFunction&, World&, const PairKernels&);
+  void sum_listed(const PassFunction&, World&, const PairKernels&) const;
+  void keep(const PassFunction&, const World&);
   void put_back(const PassFunction&, Particles&) const;
-  [[nodiscard]] bool stays(const Particles&) const;
 
   bool known_ = false;
-  std::vector<std::uint32_t> in_density_, in_rates_;  ///< clusters, ascending
+  ChosenClusters in_density_, in_rates_;
   std::vector<std::uint32_t> still_;                  ///< rows of the clusters whose density is kept
   std::vector<double> density_;                       ///< of each of them, one column after the other
-  std::vector<std::uint32_t> fixed_;                  ///< rows that never move
-  std::vector<Vec3> place_;                           ///< of each of them, as the density was kept [m]
+  bool placed_ = false;                               ///< World::placed as the density was kept
+  long still_known_ = -1;                             ///< Neighbours::whole_lists() that the next are of
+  std::vector<double> density_among_still_;           ///< of Neighbours::still_ids() among themselves, one column after the other
 };
 
 }  // namespace tripoint

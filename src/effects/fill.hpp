@@ -3,8 +3,15 @@
 #include <span>
 
 #include "core/machine.hpp"
+#include "particles/particles.hpp"
 
 namespace tripoint {
+
+/// Of a column the rows that are awake.
+template <class T>
+[[nodiscard]] std::span<T> awake(Particles& p, const Field<T>& field) {
+  return p[field].first(p.awake());
+}
 
 /// Sets a column, shared among threads where it is long enough.
 inline void fill(std::span<double> column, double value, int threads) {

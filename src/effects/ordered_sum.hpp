@@ -5,7 +5,21 @@
 #include <cstddef>
 #include <vector>
 
+#include "effects/world.hpp"
+
 namespace tripoint {
+namespace detail {
+
+template <std::size_t n>
+std::array<double, n> total_of(const std::vector<std::array<double, n>>& blocks) {
+  std::array<double, n> total{};
+  for (const auto& part : blocks) {
+    for (std::size_t k = 0; k < n; ++k) total[k] += part[k];
+  }
+  return total;
+}
+
+}  // namespace detail
 
 /// Sums of add(i, sums) over i = 0..count-1 in fixed blocks, and then block after block: the same bits whatever the threads.
 /// @param blocks memory that is used again from call to call
@@ -20,11 +34,32 @@ template <std::size_t n, class Add>
     for (std::size_t i = b * block; i < end; ++i) add(i, sum);
     blocks[b] = sum;
   }
-  std::array<double, n> total{};
-  for (const auto& part : blocks) {
-    for (std::size_t k = 0; k < n; ++k) total[k] += part[k];
+  return detail::total_of(blocks);
+}
+
+/// The same over the rows that are awake, with the bits of a sum over all: what sleeps must add zeros.
+template <std::size_t n, class Add>
+[[nodiscard]] std::array<double, n> ordered_sums(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
+  const Particles& p = world.particles;
+  if (p.awake() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
+  const std::span<const std::uint32_t> first = world.neighbours->row_blocks();
+  blocks.assign(first.size() - 1, {});
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (blocks.size() > 1)
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    std::array<double, n> sum{};
+    for (std::size_t i = first[b]; i < first[b + 1]; ++i) add(i, sum);
+    blocks[b] = sum;
   }
-  return total;
+  return detail::total_of(blocks);
+}
+
+/// The same over all rows, those that sleep too.
+template <std::size_t n, class Add>
+[[nodiscard]] std::array<double, n> ordered_sums_of_all(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
+  const Particles& p = world.particles;
+  if (p.awake() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
+  const std::vector<std::uint32_t> rows = world.neighbours->rows_in_order(p);
+  return ordered_sums(rows.size(), world.threads, blocks, [&](std::size_t k, std::array<double, n>& sum) { add(rows[k], sum); });
 }
 
 }  // namespace tripoint

@@ -14,7 +14,7 @@ PassTask task_of(const Particles& particles, Neighbours& neighbours, const PairK
   static const double nearer = 1.0 - defect_size("neighbours.support");
   const double support = nearer * neighbours.support();
   return {x.x.data(), x.y.data(), x.z.data(), nullptr, c.first.data(), c.start.data(), c.entries.data(), c.near.data(), c.own.empty() ? nullptr : c.own.data(),
-          c.within.empty() ? nullptr : c.within.data(), neighbours.shifts().data(), nullptr, nullptr, c.size(), support * support, &kernels, threads};
+          c.within.empty() ? nullptr : c.within.data(), nullptr, neighbours.shifts().data(), nullptr, nullptr, c.size(), support * support, &kernels, threads};
 }
 
 std::vector<double*> columns_of(const PassFunction& function, Particles& particles) {
@@ -34,31 +34,32 @@ void run_pass(const PassFunction& function, Particles& particles, Neighbours& ne
   function.run(task);
 }
 
-void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads, const std::vector<std::uint32_t>& clusters) {
-  if (!function.run || clusters.empty()) return;
+void run_pass_among(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads, const std::vector<std::uint64_t>& entries) {
   PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
-  task.columns = columns.data(), task.chosen = clusters.data(), task.count = clusters.size();
+  task.columns = columns.data(), task.within = nullptr, task.only = entries.data();
   function.run(task);
 }
 
-void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads,
-              const std::vector<std::uint32_t>& rows) {
-  if (!function.run || rows.empty()) return;
-  const Clusters& c = neighbours.clusters();
-  std::vector<std::uint32_t> chosen;
-  std::vector<std::uint8_t> members;
-  for (const std::uint32_t row : rows) {
-    const std::uint32_t cluster = c.of(row);
-    assert(chosen.empty() || chosen.back() <= cluster);
-    if (chosen.empty() || chosen.back() != cluster) chosen.push_back(cluster), members.push_back(0);
-    members.back() = static_cast<std::uint8_t>(members.back() | 1u << (row - c.first[cluster]));
-  }
+void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads, const ChosenClusters& chosen) {
+  if (!function.run || chosen.clusters.empty()) return;
   PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
-  task.columns = columns.data(), task.chosen = chosen.data(), task.members = members.data(), task.count = chosen.size();
-  if (function.finds) task.within = nullptr;  // of some clusters alone it is of no use
+  task.columns = columns.data(), task.chosen = chosen.clusters.data(), task.count = chosen.clusters.size();
+  if (!chosen.members.empty()) task.members = chosen.members.data();
+  if (!function.finds && !neighbours.clusters().acting.empty()) task.only = neighbours.clusters().acting.data();
   function.run(task);
+}
+
+ChosenClusters clusters_of(const Clusters& c, const std::vector<std::uint32_t>& rows) {
+  ChosenClusters chosen;
+  for (const std::uint32_t row : rows) {
+    const std::uint32_t cluster = c.of(row);
+    assert(chosen.clusters.empty() || chosen.clusters.back() <= cluster);
+    if (chosen.clusters.empty() || chosen.clusters.back() != cluster) chosen.clusters.push_back(cluster), chosen.members.push_back(0);
+    chosen.members.back() = static_cast<std::uint8_t>(chosen.members.back() | 1u << (row - c.first[cluster]));
+  }
+  return chosen;
 }
 
 }  // namespace tripoint

@@ -12,10 +12,20 @@ namespace tripoint {
 /// Adds each term's sum to its columns; what they hold before is the caller's.
 /// @param function made for clusters as wide as those of the neighbours   @throws MissingField that a term names and nobody owns
 void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads);
-/// For these rows only. @param rows each once, ascending
-void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads, const std::vector<std::uint32_t>& rows);
 
-/// For these clusters only; what a finding pass found of the others stays. @param clusters each once, ascending
-void run_pass_over(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads, const std::vector<std::uint32_t>& clusters);
+/// For these entries only, and without finding which are within the support. @param entries of each a bit, as in Clusters::within
+void run_pass_among(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads, const std::vector<std::uint64_t>& entries);
+
+/// Some of the clusters of a list, ascending.
+struct ChosenClusters {
+  std::vector<std::uint32_t> clusters;
+  std::vector<std::uint8_t> members;  ///< of each, bit l where member l is to be summed; empty: all are
+};
+/// Those of these rows, with these rows alone as members. @param rows each once, ascending
+[[nodiscard]] ChosenClusters clusters_of(const Clusters&, const std::vector<std::uint32_t>& rows);
+
+/// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts. What a finding pass found of
+/// the others stays; it looks at all entries, and must not be asked for some members alone.
+void run_pass_over(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads, const ChosenClusters&);
 
 }  // namespace tripoint

@@ -58,6 +58,7 @@ struct World {
   double next_time = 0.0;  ///< end of the step that is being taken, exactly as the loop will set it [s]
   int threads = 1;
   std::optional<std::array<std::size_t, 3>> axis_order;  ///< rotation by NO_SQUISH in this order, to compare with
+  bool placed = false;                                   ///< members of all rigid bodies have been put to their places by the poses of these
   bool moved = true;                                     ///< positions differ from those of the last rates
 
   [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }

@@ -59,6 +59,22 @@ void Columns::permute(std::span<const std::uint32_t> order, int threads) {
   }
 }
 
+void Columns::rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, int threads) {
+  assert(from.size() == to.size());
+  for (Column& c : columns_) {
+    std::visit(
+        [&]<class T>(AlignedVector<T>& values) {
+          auto& moved = std::get<AlignedVector<T>>(moved_);
+          if (moved.size() < from.size()) moved.resize(from.size());
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+          for (std::size_t k = 0; k < from.size(); ++k) moved[k] = values[from[k]];
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+          for (std::size_t k = 0; k < to.size(); ++k) values[to[k]] = moved[k];
+        },
+        c.values);
+  }
+}
+
 void Columns::append_row() {
   ++rows_;
   for (Column& c : columns_) {

@@ -73,6 +73,8 @@ class Columns {
   /// Row n becomes what was row order[n], in every column; spans taken before are no longer valid. @param order a permutation of
   /// 0..size()-1
   void permute(std::span<const std::uint32_t> order, int threads = 1);
+  /// Row to[k] becomes what was row from[k], in every column, for each k; other rows stay. @param from,to the same rows, each once
+  void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, int threads = 1);
   /// Adds a row of zeros to every column; spans taken before are no longer valid.
   void append_row();
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,9 @@ struct Clusters {
   /// Of each entry a bit: whether it is within the support of a member now, not only near to it. Each cluster begins a word, at
   /// within_start(). As found by the last pass that finds them: of the present places, as densities are. Empty where none has.
   std::vector<std::uint64_t> within;
+  /// Of each entry a bit, as in `within`: whether it acts on a member at all. Found anew with each list; empty where all may.
+  std::vector<std::uint64_t> acting;
+  std::vector<std::uint32_t> listed, unlisted;  ///< clusters with a list; without, since all they could meet is fixed as they are: ascending
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
   /// The cluster that a row is a member of.
   [[nodiscard]] std::uint32_t of(std::size_t row) const { return static_cast<std::uint32_t>(std::ranges::upper_bound(first, row) - first.begin() - 1); }
@@ -82,6 +86,12 @@ class RowEntries {
   unsigned lane_;
 };
 
+/// What can sleep: see Particles.
+struct Resting {
+  std::vector<char> bodies;  ///< of each solid body, 1 where its members stay where they are; empty: nothing sleeps
+  double around = 0.0;       ///< distance within which they are awake around those that something can reach; where less, the reach of a list [m]
+};
+
 /// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
 /// a sum over them has the same bits whatever the threads or the order of particles before. Periodic images count each;
 /// a particle may be its own neighbour through a periodic boundary.
@@ -95,8 +105,10 @@ class Neighbours {
 
   /// Sorts the particles and lists them anew when one has moved by more than skin/2 since the last time.
   /// @throws Diverged when a position is not finite
+  /// @param resting asked where lists are made. What sleeps is left out of them, and what is awake and can meet only what is fixed has none.
+  /// Members of fixed bodies must not have moved since the rebuild before the last. The first lists are whole: of all particles
   /// @return whether the rows have a new order
-  bool update(Particles&, double time);
+  bool update(Particles&, double time, const std::function<Resting()>& resting = {});
   /// Lists the particles anew from the positions of an earlier rebuild, as a restart must to continue the same bits.
   /// @param build_positions by row of `particles`, as build_positions() gave them
   /// @param rebuilds as counted until then
@@ -120,7 +132,18 @@ class Neighbours {
   [[nodiscard]] const Vec3& shift(std::uint32_t image) const noexcept { return shift_[image]; }
   [[nodiscard]] const std::array<Vec3, 27>& shifts() const noexcept { return shift_; }
   [[nodiscard]] double support() const noexcept { return support_; }
-  [[nodiscard]] std::size_t entries() const noexcept { return pairs_; }  ///< directed pairs within support + skin
+  [[nodiscard]] std::size_t entries() const noexcept { return pairs_; }  ///< directed pairs within support + skin, of what sleeps too
+  /// Lists of all particles that were made until now. What follows from fixed places alone is to be found with them.
+  [[nodiscard]] long whole_lists() const noexcept { return whole_lists_; }
+  /// Whether the present lists are whole, and those after them need not be: who keeps what follows from fixed places alone finds it now.
+  [[nodiscard]] bool may_rest_next() const noexcept { return still_.known && listed_all_; }
+  /// Fixed particles by id, in an order that stays; the place of one in it. Only where may_rest_next() or something sleeps.
+  [[nodiscard]] std::span<const std::uint32_t> still_ids() const noexcept { return still_.id; }
+  [[nodiscard]] std::uint32_t still_place(std::size_t id) const noexcept { return still_.place[id]; }
+  /// First awake row of each block of 1024 rows, and one past the last: blocks are counted over all rows, as if what sleeps lay among them.
+  [[nodiscard]] std::span<const std::uint32_t> row_blocks() const noexcept { return row_blocks_; }
+  /// All rows in order of (cell, id), those that sleep too.
+  [[nodiscard]] std::vector<std::uint32_t> rows_in_order(const Particles&) const;
   [[nodiscard]] long rebuilds() const noexcept { return rebuilds_; }
   [[nodiscard]] std::span<const Vec3> build_positions() const noexcept { return built_; }
 
@@ -128,9 +151,15 @@ class Neighbours {
   struct Grid;
   [[nodiscard]] bool outdated(const Particles&) const;
   void wrap(Particles&) const;
-  void rebuild(Particles&, double time);
-  void sort_and_list(Particles&);
-  void form_clusters(const Grid&);
+  void rebuild(Particles&, double time, const Resting&);
+  void sort_and_list(Particles&, const Resting&);
+  void sort_all(Particles&, Grid&);
+  void sort_awake(Particles&, Grid&, const Resting&);
+  void learn_still(const Particles&, const Grid&, const Resting&);
+  void find_blocks(const Grid&, std::span<const char> awake, std::size_t particles);
+  [[nodiscard]] std::vector<char> within(std::vector<char> marks, double distance) const;
+  void count_still_pairs(const Particles&);
+  void form_clusters(const Grid&, std::size_t rows);
   void list(const Particles&, const Grid&);
   bool list_into(const Particles&, const Grid&, std::span<const std::size_t> rooms);
 
@@ -140,9 +169,32 @@ class Neighbours {
   std::array<Vec3, 27> shift_{};
   Clusters clusters_;
   ScanFunction scan_;
-  std::vector<std::size_t> listed_;  ///< entries of each thread's clusters at the last build
+  std::vector<std::size_t> listed_by_;  ///< entries of each thread's clusters at the last build
   std::size_t pairs_ = 0;
   std::vector<Vec3> built_;
+  /// Fixed particles in stretches along x, each as long as the reach of a list and one cell wide: they are woken by stretches.
+  struct Still {
+    bool known = false;
+    std::vector<char> bodies;
+    Vec3 origin, width, low, high;         ///< of the grid's cells; corners of the particles [m]
+    std::array<int, 3> count{};            ///< stretches
+    std::vector<std::uint32_t> first, id;  ///< first of each stretch, and one past the last; ids in order of (cell, id)
+    std::vector<std::uint32_t> place, pairs;  ///< of each id its place in `id`; of each place the directed pairs with fixed ones
+    std::size_t all_pairs = 0;
+    [[nodiscard]] std::size_t index(const std::array<int, 3>& s) const {
+      return static_cast<std::size_t>(s[0]) + static_cast<std::size_t>(count[0]) * (static_cast<std::size_t>(s[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(s[2]));
+    }
+  } still_;
+  /// What sleeps in a stretch comes before this awake row.
+  struct Gap {
+    std::uint32_t before, stretch;
+  };
+  std::vector<Gap> gaps_;
+  std::vector<std::uint32_t> row_blocks_;
+  enum class RowKind : char { moves, still, meets_nothing };
+  std::vector<RowKind> kinds_;           ///< of each awake row; empty: all move
+  long whole_lists_ = 0;
+  bool listed_all_ = false;
   long rebuilds_ = 0;
   bool marked_ = false;
 };

@@ -60,6 +60,7 @@ struct PassTask {
   const std::uint8_t* near;      ///< of each entry, bit l where it is near to member l
   const std::uint8_t* own;       ///< of each entry, bit l where it is an own pair of member l; null where there is none
   std::uint64_t* within;         ///< as Clusters::within; null: all entries are looked at
+  const std::uint64_t* only;     ///< of each entry a bit, as in Clusters::within: whether it is looked at; null: all are
   const Vec3* shift;             ///< of each image [m]
   const std::uint32_t* chosen;   ///< clusters to work on; null for all
   const std::uint8_t* members;   ///< of each chosen one, bit l where member l is to be summed; null for all
@@ -175,9 +176,11 @@ template <int L, class ForUnit, bool finds, class... Terms>
   const std::uint32_t members_bits = Entry::of(static_cast<std::uint32_t>(row), Entry::box_itself).bits;
   const std::size_t start = t.start[cluster], end = t.start[cluster + 1];
   std::uint64_t* within = t.within ? t.within + within_start(start, cluster) : nullptr;
+  const std::uint64_t* only = t.only ? t.only + within_start(start, cluster) : nullptr;
   for (std::size_t from = start; from < end; from += within_bits) {
     std::uint64_t left = ~std::uint64_t{0} >> (within_bits - std::min(end - from, within_bits)), found = 0;
     if (!finds && within) left = *within++;
+    if (only) left &= *only++;
     for (; left != 0; left &= left - 1) {
       const std::size_t e = from + static_cast<std::size_t>(std::countr_zero(left));
       const Entry entry{t.entries[e]};

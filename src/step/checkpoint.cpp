@@ -30,9 +30,19 @@ std::vector<double> plain(const T& value) {
   return plain(std::span<const T>(&value, 1));
 }
 
-void save(const Columns& columns, const std::string& group, Checkpoint& kept) {
+template <class T>
+std::vector<T> in_order(std::span<const T> values, std::span<const std::uint32_t> order) {
+  std::vector<T> out;
+  for (const std::uint32_t row : order) out.push_back(values[row]);
+  return out;
+}
+
+/// @param order of the rows; empty: as they are
+void save(const Columns& columns, const std::string& group, Checkpoint& kept, std::span<const std::uint32_t> order = {}) {
   columns.for_each([&]<class T>(const FieldInfo& field, std::span<const T> values) {
     const std::string name = group + std::string(field.name);
+    const std::vector<T> ordered = in_order(values, order);
+    if (!order.empty()) values = ordered;
     if constexpr (std::is_same_v<T, int>) kept.whole[name].assign(values.begin(), values.end());
     else kept.real[name] = plain(values);
   });
@@ -157,7 +167,9 @@ Checkpoint Simulation::checkpoint() const {
 Checkpoint Simulation::state() const {
   Checkpoint kept;
   kept.text["step/layout"] = layout();
-  save(world_.particles, "particles/", kept);
+  const bool sleeps = world_.particles.awake() < world_.particles.size();
+  const std::vector<std::uint32_t> order = sleeps ? world_.neighbours->rows_in_order(world_.particles) : std::vector<std::uint32_t>{};  // as if nothing slept
+  save(world_.particles, "particles/", kept, order);
   save(world_.bodies, "bodies/", kept);
   kept.text["bodies/name"] = world_.body_names;
   save(world_.bonds, "bonds", kept);
@@ -172,7 +184,9 @@ Checkpoint Simulation::state() const {
   kept.real["step/lagged"] = {lagged.half_step, lagged.viscous_step, static_cast<double>(lagged.viscous_age)};
   kept.real["step/guards"] = {guards_.turned_over, guards_.first_step};
   if (world_.neighbours) {
-    kept.real["neighbours/build_positions"] = plain(world_.neighbours->build_positions());
+    const std::span<const Vec3> built = world_.neighbours->build_positions();
+    const std::vector<Vec3> ordered = in_order(built, order);
+    kept.real["neighbours/build_positions"] = plain(sleeps ? std::span<const Vec3>(ordered) : built);
     kept.whole["neighbours/rebuilds"] = {world_.neighbours->rebuilds()};
   }
   return kept;

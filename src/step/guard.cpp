@@ -36,7 +36,7 @@ bool all_finite(std::span<const double> values, int threads) {
 /// Looks for values at or below 0 in a column that has none.
 void refuse_not_positive(const World& world, const Guarded& g) {
   const Particles& p = world.particles;
-  const auto values = p[g.field];
+  const auto values = p[g.field].first(p.awake());
   const bool positive = holds_for_all(values.size(), world.threads, [&](std::size_t from, std::size_t to) {
     double least = 1.0;
 #pragma omp simd reduction(min : least)
@@ -45,7 +45,7 @@ void refuse_not_positive(const World& world, const Guarded& g) {
   });
   if (positive) return;
   for (std::size_t id = 0; id < p.size(); ++id)
-    if (const std::size_t i = p.row(id); !(values[i] > 0.0)) fail(world, g.name, i, g.name, to_string(g.written), fmt::format("is at {:.4g} {}", values[i], g.not_positive));
+    if (const std::size_t i = p.row(id); i < values.size() && !(values[i] > 0.0)) fail(world, g.name, i, g.name, to_string(g.written), fmt::format("is at {:.4g} {}", values[i], g.not_positive));
 }
 
 /// Whether forces move a particle: not a wall, not held, gripped or flowing in.
@@ -113,10 +113,10 @@ double turnover(const Ledger& ledger, double start_potential) {
 void check_finite(const World& world) {
   const Particles& p = world.particles;
   for (const Guarded& g : world.guarded) {
-    const auto values = p[g.field];
+    const auto values = p[g.field].first(p.awake());
     if (all_finite(values, world.threads)) continue;
     for (std::size_t id = 0; id < p.size(); ++id)
-      if (const std::size_t i = p.row(id); !std::isfinite(values[i])) fail(world, "finite", i, g.name, to_string(g.written), fmt::format("has no finite {}", g.name));
+      if (const std::size_t i = p.row(id); i < values.size() && !std::isfinite(values[i])) fail(world, "finite", i, g.name, to_string(g.written), fmt::format("has no finite {}", g.name));
   }
   for (const Guarded& g : world.guarded)
     if (!g.not_positive.empty()) refuse_not_positive(world, g);
@@ -140,7 +140,7 @@ void check_escape(const World& world, const Enclosure& domain) {
   for (std::size_t a = 0; a < 3; ++a) {
     if (s.periodic[a]) continue;
     const double low = domain.box.min[a], high = domain.box.max[a];
-    for (std::size_t i = 0; i < r[a].size(); ++i) {
+    for (std::size_t i = 0; i < world.particles.awake(); ++i) {
       if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
       const std::string where = domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
                                              : fmt::format("{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and scene.max where it may, or unguarded = [\"escape\"]", low, high);

@@ -263,7 +263,7 @@ void Simulation::update_rates() {
   change();
   clock_.ends(Stage::change);
   if (world_.neighbours) {
-    world_.neighbours->update(world_.particles, world_.time);
+    world_.neighbours->update(world_.particles, world_.time, [this] { return resting(); });
     if (!world_.neighbours->marked() || !world_.change.empty()) {
       world_.neighbours->mark_own(world_.particles, world_.own);
       passes_.forget_clusters();
@@ -279,6 +279,20 @@ void Simulation::update_rates() {
   clock_.ends(Stage::rates);
   run(&Effect::bonds);  // (12), hourglass
   clock_.ends(Stage::bonds);
+}
+
+/// Members of fixed bodies, where nothing is to come that could move one.
+Resting Simulation::resting() const {
+  const std::optional<double> beyond = passes_.sleeps_beyond();
+  if (!beyond || next_moment_ < moments_.size()) return {};
+  Resting rest{std::vector<char>(world_.bodies.size()), *beyond};
+  for (std::size_t b = 0; b < rest.bodies.size(); ++b) {
+    if (!is_alive(world_, b) || !is_rigid(world_, b)) continue;
+    rest.bodies[b] = world_.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed);
+    if (!rest.bodies[b] && !world_.placed) return {};  // as it moves for the first time, all are put to their places
+  }
+  if (std::ranges::find(rest.bodies, 1) == rest.bodies.end()) return {};
+  return rest;
 }
 
 /// Fig. 5: melt, solidify, merge, split, fracture, before any rate of the new time.

@@ -90,6 +90,7 @@ class Simulation {
   [[nodiscard]] long steps_to(double time) const;
   void step(double end);
   void update_rates();
+  [[nodiscard]] Resting resting() const;
   void change();
   void pass(PassName);
   [[nodiscard]] TimeStepBound next_bound() const;

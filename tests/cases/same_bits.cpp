@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Whether cases have the same bits on any number of threads and at every vector width: a few steps of each, all columns, bonds, bookings
 /// and the order of rows compared with those of one thread that works a particle at a time, and on every pair.
-///   same-bits [--steps MOST] CASE.toml...
+///   same-bits [--steps MOST] [--budget PARTICLE-STEPS] CASE.toml...
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -72,13 +72,13 @@ State state_after(const Scene& scene, const InitialState& initial, const Way& wa
 }
 
 /// @return whether all ways agree
-bool agrees(const std::string& file, Mode mode, long most) {
+bool agrees(const std::string& file, Mode mode, long most, double budget) {
   const CaseReading reading = read_case(file);
   RunChoice choice;
   choice.mode = mode;
   const Scene scene = scene_for(reading.value, choice);
   const InitialState initial = sample(scene);
-  const auto afford = static_cast<long>(2e4 / static_cast<double>(std::max<std::size_t>(1, initial.size())));
+  const auto afford = static_cast<long>(budget / static_cast<double>(std::max<std::size_t>(1, initial.size())));
   const long steps = std::clamp(afford, 2L, most);
   State oracle;
   try {
@@ -105,6 +105,7 @@ bool agrees(const std::string& file, Mode mode, long most) {
 int main(int argc, char** argv) {
   tripoint::set_settler(tripoint::settled);
   long most = 10;
+  double budget = 2e4;
   bool all = true;
   int states = 0;
   try {
@@ -113,7 +114,11 @@ int main(int argc, char** argv) {
         most = std::max(1L, std::atol(argv[++i]));
         continue;
       }
-      for (const Mode mode : read_case(argv[i]).value.modes) all = agrees(argv[i], mode, most) && all, ++states;
+      if (std::string_view(argv[i]) == "--budget" && i + 1 < argc) {
+        budget = std::atof(argv[++i]);
+        continue;
+      }
+      for (const Mode mode : read_case(argv[i]).value.modes) all = agrees(argv[i], mode, most, budget) && all, ++states;
     }
   } catch (const std::exception& e) {
     return fmt::print(stderr, "same-bits: {}\n", e.what()), 2;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <tuple>
 
@@ -212,6 +213,86 @@ TEST(Neighbours, OfAParticleThatIsNowhereNameIt) {
     EXPECT_EQ(e.particle, 4);
     EXPECT_EQ(e.field, "position");
     EXPECT_EQ(e.time, 2.5);
+  }
+}
+
+/// A long fixed bar, body 0, and a few particles that move along above it.
+Particles bar_with_movers() {
+  constexpr int along = 120, across = 5;
+  constexpr std::size_t fixed = along * across * across, movers = 12;
+  Particles p(fixed + movers, common_fields(false));
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> noise(-0.01, 0.01);
+  const auto x = positions(p);
+  std::ranges::fill(p[field::body], -1);
+  for (std::size_t i = 0; i < fixed; ++i) {
+    const auto n = static_cast<int>(i);
+    x.set(i, Vec3{0.1 * (n % along), 0.1 * (n / along % across), 0.1 * (n / along / across)} + Vec3{noise(random), noise(random), noise(random)});
+    p[field::body][i] = 0;
+  }
+  for (std::size_t i = fixed; i < p.size(); ++i) x.set(i, {0.3 + 0.1 * static_cast<double>(i - fixed), 0.2 + noise(random), 0.55});
+  return p;
+}
+
+/// Ids of rows, and of what each is listed with, in the order of the list.
+std::vector<int> listed_ids(const Particles& p, const Neighbours& n, std::size_t row) {
+  std::vector<int> ids;
+  for (const Entry e : n.of(row)) ids.push_back(p[field::id][e.row()]);
+  return ids;
+}
+
+TEST(Neighbours, WhatSleepsChangesNoListNoCountAndNoOrder) {
+  for (const int lanes : {1, 4, 8}) {
+    Particles some = bar_with_movers(), all = some;
+    Neighbours sleepy(0.25, 0.05, {}, 2, lanes), whole(0.25, 0.05, {}, 1, lanes);
+    for (int round = 0; round < 8; ++round) {
+      for (Particles* p : {&some, &all})
+        for (std::size_t i = 0; i < p->size(); ++i)
+          if ((*p)[field::body][i] < 0) positions(*p).x[i] += round < 5 ? 0.9 : -1.4;  // far at once: what slept wakes, and what woke sleeps
+      ASSERT_TRUE(sleepy.update(some, 0.0, [] { return Resting{{1}, 0.5}; }));
+      whole.update(all, 0.0);
+      EXPECT_EQ(sleepy.entries(), whole.entries()) << "round " << round;
+      EXPECT_EQ(some.awake() < some.size(), round >= 2) << "the first lists are of all, and so are those in which fixed particles are found";
+      const std::vector<std::uint32_t> order = sleepy.rows_in_order(some);
+      ASSERT_EQ(order.size(), all.size());
+      for (std::size_t n = 0; n < order.size(); ++n) ASSERT_EQ(some[field::id][order[n]], all[field::id][n]);
+      const Clusters& c = sleepy.clusters();
+      std::vector<char> has_list(some.awake(), 0);
+      for (const std::uint32_t k : c.listed) std::fill(has_list.begin() + c.first[k], has_list.begin() + c.first[k + 1], char{1});
+      for (std::size_t n = 0; n < order.size(); ++n) {
+        const std::size_t row = order[n];
+        const std::vector<int> ids = listed_ids(all, whole, n);
+        const bool meets_mover = std::ranges::any_of(ids, [&](int id) { return all[field::body][all.row(static_cast<std::size_t>(id))] < 0; });
+        const bool listed = row < some.awake() && has_list[row] != 0;
+        EXPECT_TRUE(listed || (all[field::body][n] >= 0 && !meets_mover)) << "round " << round << ", id " << all[field::id][n];
+        EXPECT_TRUE(!listed || listed_ids(some, sleepy, row) == ids) << "round " << round << ", id " << all[field::id][n];
+      }
+    }
+    EXPECT_LT(some.awake(), some.size() / 3);
+    EXPECT_EQ(whole.whole_lists(), 8);
+    EXPECT_EQ(sleepy.whole_lists(), 2);
+  }
+}
+
+TEST(Neighbours, BlocksOfRowsAreThoseOfAllRows) {
+  Particles p = bar_with_movers();
+  Neighbours n(0.25, 0.05, {}, 1, 8);
+  for (int round = 0; round < 4; ++round) {
+    for (std::size_t i = 0; i < p.size(); ++i)
+      if (p[field::body][i] < 0) positions(p).x[i] += 1.7;
+    n.update(p, 0.0, [] { return Resting{{1}, 0.3}; });
+  }
+  ASSERT_LT(p.awake(), p.size());
+  const std::vector<std::uint32_t> order = n.rows_in_order(p);
+  const auto first = n.row_blocks();
+  ASSERT_EQ(first.size(), (p.size() + 1023) / 1024 + 1);
+  for (std::size_t b = 0; b + 1 < first.size(); ++b) {
+    std::vector<std::uint32_t> awake;
+    for (std::size_t k = 1024 * b; k < std::min(order.size(), 1024 * (b + 1)); ++k)
+      if (order[k] < p.awake()) awake.push_back(order[k]);
+    std::vector<std::uint32_t> block(first[b + 1] - first[b]);
+    std::iota(block.begin(), block.end(), first[b]);
+    EXPECT_EQ(block, awake) << "block " << b;
   }
 }
 

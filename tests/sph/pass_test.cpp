@@ -107,7 +107,7 @@ TEST_F(PassTest, ForSomeRowsLeavesTheOthersAsTheyWere) {
     neighbours.update(particles, 0.0);
     clear();
     const std::vector<std::uint32_t> rows{3, 4, 17, 250, 599};
-    run_pass(of(lanes, {1, 1}), particles, neighbours, kernels, 2, rows);
+    run_pass_over(of(lanes, {1, 1}), particles, neighbours, kernels, 2, clusters_of(neighbours.clusters(), rows));
     const auto some = sums();
     for (std::uint32_t i = 0; i < 600; ++i) EXPECT_EQ(some[i], std::ranges::count(rows, i) ? all[i] : 0.0) << lanes << " lanes, row " << i;
   }

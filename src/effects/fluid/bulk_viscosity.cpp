@@ -23,7 +23,7 @@ void set_bulk_pressure(World& world, const SceneNumbers& n) {
   const auto delta = p[field::number_density], before = p[field::number_density_before], q = p[field::bulk_pressure];
   const auto rest = p[field::rest_density], m = p[field::mass], pressure = p[field::pressure], V = p[field::volume], group = p[field::group];
   std::vector<std::array<double, 1>> blocks;
-  const auto taken = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+  const auto taken = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     const double squeezed = flows && group[i] == -1.0 ? delta[i] / before[i] - 1.0 : 0.0;
     const double next = pressure[i] > 0.0 && V[i] * rest[i] < m[i] ? std::max(viscosity * std::min(rest[i], n.damped_density) * squeezed, -pressure[i]) : 0.0;
     sum[0] += 0.5 * (q[i] + next) * V[i] * squeezed;

@@ -65,7 +65,7 @@ class Fluid : public Effect {
   void drift(World&, double dt) override;
   void clear(World&, PassName) override;
   void state(World&) override;
-  void happen(World& world, const Happening&) override { set_groups(world); }
+  void happen(World& world, const Happening&) override { set_groups(world), walls_.clear(); }
   void adopt(World&) override;
   void check(const World& world) const override { refuse_overlap(world, numbers_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
@@ -136,7 +136,9 @@ void Fluid::adopt(World& world) {
   for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
+  const bool same_solids = world.change.regrouped.empty() && world.change.bodies.empty();
   set_groups(world);
+  if (!same_solids) walls_.clear();
 }
 
 void Fluid::set_groups(World& world) {
@@ -144,7 +146,6 @@ void Fluid::set_groups(World& world) {
   const Groups group_of(world);
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (group.size() > worth_threads)
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(i);
-  walls_.clear();
   world.lagged.viscous_age = 0;
 }
 
@@ -163,16 +164,16 @@ void Fluid::clear(World& world, PassName pass) {
   if (pass == PassName::heat) return;
   if (pass == PassName::rates) {
     for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x, &field::viscous_force_y, &field::viscous_force_z})
-      fill(p[*f], 0.0, world.threads);
+      fill(awake(p, *f), 0.0, world.threads);
   } else if (world.scene.mode_of(Term::density) == Mode::corrected) {
-    const auto delta = p[field::number_density];
+    const auto delta = awake(p, field::number_density);
     fill(delta, kernels_.wendland.value(0.0), world.threads);
     if (!p.has(field::own_density.name)) return;
     const auto own = p[field::own_density];
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (delta.size() > worth_threads)
     for (std::size_t i = 0; i < delta.size(); ++i) delta[i] += own[i];
   } else {
-    const auto rho = p[field::density], m = p[field::mass];
+    const auto rho = awake(p, field::density), m = p[field::mass];
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (rho.size() > worth_threads)
     for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * kernels_.poly6.value(0.0);
   }
@@ -200,7 +201,7 @@ TimeStepBound Fluid::max_dt(const World& world) const {
   const auto v = velocities(world.particles);
   double v2 = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : v2)
-  for (std::size_t i = 0; i < world.particles.size(); ++i) v2 = std::max(v2, dot(v.at(i), v.at(i)));
+  for (std::size_t i = 0; i < world.particles.awake(); ++i) v2 = std::max(v2, dot(v.at(i), v.at(i)));
   const double courant = world.scene.mode_of(Term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.35 : 0.45;
   TimeStepBound bound;
   tighten(bound, courant * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "sound");

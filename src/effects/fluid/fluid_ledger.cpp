@@ -7,7 +7,7 @@
 namespace tripoint::fluid {
 namespace {
 
-/// Core energy of the pairs of i that act, half of each pair [J].
+/// Core energy of the pairs of i that act, half of each pair [J]. What sleeps has none.
 double core_energy(const World& world, const Triple<const double>& x, std::span<const double> group, const Core& core, std::size_t i) {
   double sum = 0.0;
   for (const Entry e : world.neighbours->of(i)) {
@@ -26,8 +26,8 @@ void add_fluid(const World& world, const SceneNumbers& n, const PairKernels& ker
   const auto m = p[field::mass], rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
   const auto x = positions(p);
   std::vector<std::array<double, 1>> blocks;
-  const auto compression = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    if (core) sum[0] += core_energy(world, x, group, kernels.core, i);
+  const auto compression = ordered_sums_of_all(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+    if (core && i < p.awake()) sum[0] += core_energy(world, x, group, kernels.core, i);
     sum[0] += compression_energy(state_of(n, group[i], rest[i], world.scene.clamps()), m[i], rho[i]);
   });
   ledger.energy["compression"] += compression[0];

@@ -19,8 +19,8 @@ void refuse_overlap(const World& world, const SceneNumbers& n) {
   const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
   const auto pressed = [&](std::size_t i) { return group[i] == 0.0 ? 0.0 : rho[i] / rest[i]; };
   double most = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : most) if (rho.size() > worth_threads)
-  for (std::size_t i = 0; i < rho.size(); ++i) most = std::max(most, pressed(i));
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : most) if (p.awake() > worth_threads)
+  for (std::size_t i = 0; i < p.awake(); ++i) most = std::max(most, pressed(i));
   if (most <= n.overlap_density) return;
   std::size_t worst = 0;
   while (pressed(worst) != most) ++worst;
@@ -37,13 +37,13 @@ void set_density(World& world, const SceneNumbers& n) {
   if (world.scene.mode_of(Term::density) == Mode::corrected) {
     const auto delta = p[field::number_density];
     const double scale = denser / n.lattice_density;
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-    for (std::size_t i = 0; i < rho.size(); ++i) rho[i] = m[i] * (delta[i] * scale);
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+    for (std::size_t i = 0; i < p.awake(); ++i) rho[i] = m[i] * (delta[i] * scale);
   } else if (paper_denser != 1.0) {
     for (double& value : rho) value *= paper_denser;
   }
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-  for (std::size_t i = 0; i < rho.size(); ++i) V[i] = m[i] / rho[i];
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+  for (std::size_t i = 0; i < p.awake(); ++i) V[i] = m[i] / rho[i];
 }
 
 void set_pressure(World& world, const SceneNumbers& n) {
@@ -52,8 +52,8 @@ void set_pressure(World& world, const SceneNumbers& n) {
   const bool paper = world.scene.mode_of(Term::state) == Mode::paper;
   static const double stiffer = 1.0 + defect_size("fluid.state"), paper_stiffer = 1.0 + defect_size("fluid.paper.state");
   static const bool walls_pull = defect_size("walls.clamp") > 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-  for (std::size_t i = 0; i < rho.size(); ++i) {
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+  for (std::size_t i = 0; i < p.awake(); ++i) {
     const EquationOfState e = state_of(n, group[i], rest[i], world.scene.clamps() && !(walls_pull && group[i] == 0.0));
     pressure[i] = paper ? paper_stiffer * pressure_paper(e, rho[i]) : stiffer * pressure_corrected(e, rho[i]);
   }
@@ -66,8 +66,8 @@ void set_pressure_shares(World& world, const SceneNumbers& n) {
   const auto q = p.has(field::bulk_pressure) ? p[field::bulk_pressure] : std::span<double>{};
   // At a free surface a particle has few neighbours, and is not thinned: it presses on its rest volume.
   const auto pressed = [&](std::size_t i) { return n.surface_head > 0.0 && group[i] == -1.0 ? std::min(V[i], m[i] / rest[i]) : V[i]; };
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-  for (std::size_t i = 0; i < share.size(); ++i) {
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
+  for (std::size_t i = 0; i < p.awake(); ++i) {
     const double volume = pressed(i);
     share[i] = volume * volume * (q.empty() ? pressure[i] : pressure[i] + q[i]) / n.gradient_moment;
   }
@@ -88,7 +88,7 @@ void predict_velocities(World& world) {
   const auto centre = of_bodies(field::body_centre), velocity = of_bodies(field::body_velocity), omega = of_bodies(field::body_angular_velocity);
   const auto gained = of_bodies(field::body_acceleration), turned = of_bodies(field::body_angular_acceleration);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  for (std::size_t i = 0; i < p.awake(); ++i) {
     if (!is_member(i)) {
       seen.set(i, ahead != 0.0 ? v.at(i) + ahead * (g + total_force(forces, i) / m[i]) : v.at(i));
       continue;

@@ -24,15 +24,15 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
   const bool paper = world.scene.mode_of(Term::viscosity) == Mode::paper, central = !paper && world.scene.viscosity_form == "central";
   const PassFunction spread = pair_passes(world.neighbours->clusters().lanes).spread({paper ? 1 : central ? 2 : 3});
   using Sums = ViscousSpread<ViscosityCentral>::adds;
-  for (const Field<double>* f : Sums::list) fill(p[*f], 0.0, world.threads);
-  run_pass(spread, p, *world.neighbours, kernels, world.threads);
+  for (const Field<double>* f : Sums::list) fill(awake(p, *f), 0.0, world.threads);
+  run_pass_over(spread, p, *world.neighbours, kernels, world.threads, {world.neighbours->clusters().listed, {}});
 
   const auto group = p[field::group], m = p[field::mass];
   std::array<std::span<const double>, Sums::size> sum;
   std::ranges::transform(Sums::list, sum.begin(), [&](const Field<double>* f) { return std::as_const(p)[*f]; });
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest)
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  for (std::size_t i = 0; i < p.awake(); ++i) {
     if (group[i] == 0.0) continue;  // walls do not move by forces
     const double rate = central ? largest_eigenvalue({sum[0][i], sum[1][i], sum[2][i], sum[3][i], sum[4][i], sum[5][i]}) : sum[0][i];
     greatest = std::max(greatest, rate / m[i]);

@@ -23,27 +23,9 @@ std::vector<int> frames_of(const World& world) {
   return frames;
 }
 
+constexpr std::uint32_t none = ~std::uint32_t{0};
+
 Vec3 rounded(const Vec3& a) { return {std::round(a.x), std::round(a.y), std::round(a.z)}; }
-
-/// mean[k] over the patch of k of what was put to its members.
-void take_mean(const std::vector<std::size_t>& start, const std::vector<std::uint32_t>& patch, const std::vector<double>& of, std::vector<double>& mean, int threads) {
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t k = 0; k < mean.size(); ++k) {
-    double sum = 0.0;
-    for (std::size_t e = start[k]; e < start[k + 1]; ++e) sum += of[patch[e]];
-    mean[k] = sum / static_cast<double>(start[k + 1] - start[k]);
-  }
-}
-
-/// The transpose: member k is given its part of the mean of each patch that it is in. Who is in my patch has me in its own.
-void give_parts(const std::vector<std::size_t>& start, const std::vector<std::uint32_t>& patch, const std::vector<double>& of, std::vector<double>& part, int threads) {
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t k = 0; k < part.size(); ++k) {
-    double sum = 0.0;
-    for (std::size_t e = start[k]; e < start[k + 1]; ++e) sum += of[patch[e]] / static_cast<double>(start[patch[e] + 1] - start[patch[e]]);
-    part[k] = sum;
-  }
-}
 
 }  // namespace
 
@@ -52,23 +34,27 @@ void Walls::find(const World& world) {
   known_ = world.neighbours->rebuilds();
   wet_walls_.clear();
   const auto group = world.particles[field::group];
+  const auto stick = world.particles[field::stick];
+  const bool drags_all = world.scene.mode_of(Term::viscosity) == Mode::paper;  // (8) as printed brakes at walls that slip too
   const Clusters& c = world.neighbours->clusters();
-  for (std::size_t k = 0; k < c.size(); ++k) {
+  for (const std::size_t k : c.listed) {
     unsigned walls = 0, wet = 0;  // bits of members
-    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) walls |= static_cast<unsigned>(group[i] == wall_group) << (i - c.first[k]);
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) walls |= static_cast<unsigned>(group[i] == wall_group && (drags_all || stick[i] != 0.0)) << (i - c.first[k]);
     for (std::size_t e = c.start[k]; e < c.start[k + 1] && (walls & ~wet) != 0; ++e)
       if (group[Entry{c.entries[e]}.row()] == liquid_group) wet |= c.near[e];
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
       if ((walls & wet) >> (i - c.first[k]) & 1u) wet_walls_.push_back(i);
   }
+  wet_ = clusters_of(c, wet_walls_);
 }
 
-void Walls::know_walls(const World& world, const SceneNumbers& n, const PairKernels& kernels, const std::vector<int>& frames) {
+/// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter adds to the part that is fixed wall.
+void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
   const Particles& p = world.particles;
   const auto group = p[field::group];
-  const auto body = p[field::body], source = p[field::source];
-  const auto id = p[field::id];
+  const auto body = p[field::body], source = p[field::source], id = p[field::id];
   const auto x = positions(p);
+  const std::vector<int> frames = frames_of(world);
   const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
   const double dx = world.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
   const bool jittered = world.scene.jitter > 0.0 && world.scene.jitter < 0.25;  // two of one lattice then stand nearer to their places than to others
@@ -92,38 +78,75 @@ void Walls::know_walls(const World& world, const SceneNumbers& n, const PairKern
   }
 }
 
-void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
-  if (known_faces_ == world.neighbours->rebuilds()) return;
-  known_faces_ = world.neighbours->rebuilds();
+/// The faces of what is fixed, or of what is driven, with their patches.
+void Walls::add_faces(const World& world, bool fixed) {
   const Particles& p = world.particles;
   const auto group = p[field::group];
-  const auto body = p[field::body];
+  const auto body = p[field::body], id = p[field::id];
   const auto x = positions(p);
   const std::vector<int> frames = frames_of(world);
   const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
-  const double patch = 1.75 * world.scene.spacing;
-  face_.clear(), hidden_.clear();
-  constexpr std::uint32_t none = ~std::uint32_t{0};
-  const auto id = p[field::id];
-  if (at_face_.empty()) know_walls(world, n, kernels, frames);
-  std::vector<std::uint32_t> place(p.size(), none);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (group[i] != wall_group) continue;
-    const bool at_face = at_face_[static_cast<std::size_t>(id[i])] != 0;
-    if (at_face) place[i] = static_cast<std::uint32_t>(face_.size());
-    (at_face ? face_ : hidden_).push_back(static_cast<std::uint32_t>(i));
+  const double radius = patch_radius * world.scene.spacing;
+  place_.resize(p.size(), none);
+  const std::size_t old = face_.size();
+  for (std::size_t i = 0; i < p.awake(); ++i) {
+    if (group[i] != wall_group || (frame_of(i) == fixed_frame) != fixed || at_face_[static_cast<std::size_t>(id[i])] == 0) continue;
+    place_[static_cast<std::size_t>(id[i])] = static_cast<std::uint32_t>(face_.size());
+    face_.push_back(static_cast<std::uint32_t>(id[i]));
   }
-  start_.assign(1, 0), patch_.clear();
-  for (const std::uint32_t i : face_) {
-    patch_.push_back(place[i]);
+  for (std::size_t k = old; k < face_.size(); ++k) {
+    const std::size_t i = p.row(face_[k]);
+    patch_.push_back(static_cast<std::uint32_t>(k));
     for (const Entry e : world.neighbours->of(i)) {
       const std::size_t j = e.row();
-      if (place[j] == none || j == i || frame_of(i) != frame_of(j)) continue;
-      if (norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())) < patch) patch_.push_back(place[j]);
+      if (group[j] != wall_group || j == i || frame_of(i) != frame_of(j) || at_face_[static_cast<std::size_t>(id[j])] == 0) continue;
+      if (norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())) < radius) patch_.push_back(place_[static_cast<std::size_t>(id[j])]);
     }
     start_.push_back(patch_.size());
   }
-  first_.resize(face_.size()), second_.resize(face_.size());
+}
+
+void Walls::find_rows(const World& world) {
+  const Particles& p = world.particles;
+  const auto group = p[field::group];
+  const auto id = p[field::id];
+  hidden_.clear(), awake_.clear(), row_.clear();
+  for (std::uint32_t i = 0; i < p.awake(); ++i) {
+    if (group[i] != wall_group) continue;
+    const auto one = static_cast<std::size_t>(id[i]);
+    if (at_face_[one] == 0) hidden_.push_back(i);
+    else awake_.push_back(place_[one]), row_.push_back(i);
+  }
+}
+
+/// Fixed walls keep their faces and patches from one whole list to the next.
+void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
+  if (known_faces_ == world.neighbours->rebuilds()) return;
+  known_faces_ = world.neighbours->rebuilds();
+  if (at_face_.empty()) find_exposed(world, n, kernels);
+  if (known_whole_ != world.neighbours->whole_lists()) {
+    known_whole_ = world.neighbours->whole_lists();
+    face_.clear(), start_.assign(1, 0), patch_.clear(), place_.clear();
+    add_faces(world, true);
+    fixed_faces_ = face_.size();
+  } else {
+    face_.resize(fixed_faces_), start_.resize(fixed_faces_ + 1), patch_.resize(start_.back());
+  }
+  add_faces(world, false);
+  for (auto* column : {&density_, &mean_, &mean_of_mean_, &part_, &part_again_, &share_}) column->resize(face_.size());
+  find_rows(world);
+}
+
+/// Calls give(k, sum over the patch of k of what was put to its members), for the faces that are awake.
+template <class Give>
+void Walls::sum_patches(const std::vector<double>& of, int threads, Give give) const {
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t n = 0; n < awake_.size(); ++n) {
+    const std::size_t k = awake_[n];
+    double sum = 0.0;
+    for (std::size_t e = start_[k]; e < start_[k + 1]; ++e) sum += of[patch_[e]];
+    give(k, sum);
+  }
 }
 
 void Walls::average_density(World& world, const SceneNumbers& n, const PairKernels& kernels) {
@@ -131,32 +154,36 @@ void Walls::average_density(World& world, const SceneNumbers& n, const PairKerne
   Particles& p = world.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], m = p[field::mass], V = p[field::volume];
   for (const std::uint32_t i : hidden_) rho[i] = rest[i], V[i] = m[i] / rest[i];
-  const auto id = p[field::id];
-  for (std::size_t k = 0; k < face_.size(); ++k) first_[k] = rho[face_[k]] / rest[face_[k]] - (excess_.empty() ? 0.0 : excess_[static_cast<std::size_t>(id[face_[k]])]);
-  take_mean(start_, patch_, first_, second_, world.threads);
-  take_mean(start_, patch_, second_, first_, world.threads);
-  for (std::size_t k = 0; k < face_.size(); ++k) {
-    const std::size_t i = face_[k];
-    rho[i] = first_[k] * rest[i];
+  for (std::size_t a = 0; a < awake_.size(); ++a)
+    density_[awake_[a]] = rho[row_[a]] / rest[row_[a]] - (excess_.empty() ? 0.0 : excess_[face_[awake_[a]]]);
+  sum_patches(density_, world.threads, [&](std::size_t k, double sum) { mean_[k] = sum / members(k); });
+  sum_patches(mean_, world.threads, [&](std::size_t k, double sum) { mean_of_mean_[k] = sum / members(k); });
+  for (std::size_t a = 0; a < awake_.size(); ++a) {
+    const std::size_t i = row_[a];
+    rho[i] = mean_of_mean_[awake_[a]] * rest[i];
     V[i] = m[i] / rho[i];
   }
 }
 
+/// The transpose of the mean, twice: who is in my patch has me in its own.
 void Walls::hand_down_shares(World& world) {
   const auto share = world.particles[field::pressure_share];
   static const double weaker = 1.0 - defect_size("walls.pressure");
-  for (std::size_t k = 0; k < face_.size(); ++k) first_[k] = weaker * share[face_[k]];
-  give_parts(start_, patch_, first_, second_, world.threads);
-  give_parts(start_, patch_, second_, first_, world.threads);
-  for (std::size_t k = 0; k < face_.size(); ++k) share[face_[k]] = first_[k];
+  for (std::size_t a = 0; a < awake_.size(); ++a) {
+    const std::size_t k = awake_[a];
+    part_[k] = weaker * share[row_[a]] / members(k);
+  }
+  sum_patches(part_, world.threads, [&](std::size_t k, double sum) { part_again_[k] = sum / members(k); });
+  sum_patches(part_again_, world.threads, [&](std::size_t k, double sum) { share_[k] = sum; });
+  for (std::size_t a = 0; a < awake_.size(); ++a) share[row_[a]] = share_[awake_[a]];
 }
 
 void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
   find(world);
-  if (wet_walls_.empty()) return;
   Particles& p = world.particles;
-  for (const Field<double>* f : WallExtrapolation::adds::list) fill(p[*f], 0.0, world.threads);
-  run_pass(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads, wet_walls_);
+  for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, world.threads);
+  if (wet_walls_.empty()) return;
+  run_pass_over(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads, wet_);
 
   const auto weight = p[field::wall_weight];
   const auto moved = triple(p, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z);

@@ -4,9 +4,13 @@
 #include <vector>
 
 #include "effects/fluid/material_numbers.hpp"
+#include "effects/run_pass.hpp"
 #include "effects/world.hpp"
 
 namespace tripoint::fluid {
+
+/// Of a patch at the face of a wall, and how far a wall particle is from those whose density tells on its share of the pressure [spacings].
+inline constexpr double patch_radius = 1.75, reach_of_patches = 4.0 * patch_radius;
 
 /// What fixed and driven walls do to liquids (model 8.4). Their pressure is the gradient of an energy, as that of all particles is, so that walls
 /// do no net work. In a scene where liquid alone touches them it follows from the mean number density of a patch of the wall's face: how single wall
@@ -20,28 +24,40 @@ class Walls {
   /// Hands the pressure shares of the patches to their particles, by the transpose of average_density(): the force is the gradient of the energy
   /// of compression at the mean density.
   void hand_down_shares(World&);
-  /// Sets the viscous velocity of the walls that liquid is near.
+  /// Sets the viscous velocity of the walls that liquid is near, where it sticks to them.
   void mirror_velocities(World&, const PairKernels&);
   /// Groups have changed: look again which particles are walls.
   void clear() {
-    known_ = known_faces_ = -1;
+    known_ = known_faces_ = known_whole_ = -1;
     at_face_.clear(), excess_.clear();
   }
 
  private:
   void find(const World&);
   void find_faces(const World&, const SceneNumbers&, const PairKernels&);
-  void know_walls(const World&, const SceneNumbers&, const PairKernels&, const std::vector<int>& frames);
+  void find_exposed(const World&, const SceneNumbers&, const PairKernels&);
+  void add_faces(const World&, bool fixed);
+  void find_rows(const World&);
+  template <class Give>
+  void sum_patches(const std::vector<double>& of, int threads, Give give) const;
+  [[nodiscard]] double members(std::size_t k) const { return static_cast<double>(start_[k + 1] - start_[k]); }
 
-  std::vector<std::uint32_t> wet_walls_;  ///< rows of walls with liquid in their lists
-  std::vector<std::uint32_t> hidden_;     ///< rows of walls that are not at a face
-  std::vector<std::uint32_t> face_;       ///< rows of those that are
+  std::vector<std::uint32_t> wet_walls_;  ///< rows of walls with liquid in their lists that it sticks to
+  ChosenClusters wet_;                    ///< their clusters
+  std::vector<std::uint32_t> hidden_;     ///< rows of walls that are not at a face, and awake
+  std::vector<std::uint32_t> face_;       ///< ids of those that are: fixed ones, whose patches stay, then driven ones
   std::vector<std::size_t> start_;        ///< first entry of each patch, and one past the last
   std::vector<std::uint32_t> patch_;      ///< places in face_, the particle itself first
+  std::size_t fixed_faces_ = 0;
+  std::vector<std::uint32_t> awake_, row_;  ///< places in face_ of those that are awake, and their rows
+  std::vector<std::uint32_t> place_;      ///< by id, the place in face_
   std::vector<char> at_face_;             ///< by id, whether it is a wall's and at its face: what moves as one keeps its faces
   std::vector<double> excess_;            ///< by id, what jitter adds to the density of a wall particle over its rest density; empty where nothing is jittered
-  std::vector<double> first_, second_;    ///< of the face: memory that is used again
+  /// Of each place in face_: density over the rest density, its mean and the mean of that; what each member of its patch is given of its share of
+  /// the pressure, the same once more, and the sum of that. Those that sleep keep theirs.
+  std::vector<double> density_, mean_, mean_of_mean_, part_, part_again_, share_;
   long known_ = -1, known_faces_ = -1;    ///< the rebuild that the rows are of
+  long known_whole_ = -1;                 ///< the whole lists that fixed faces are of
 };
 
 }  // namespace tripoint::fluid

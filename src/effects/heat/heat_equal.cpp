@@ -29,7 +29,7 @@ void EqualHeat::adopt(World& world) {
 
 void EqualHeat::add_to(const World& world, Ledger& ledger) const {
   std::vector<std::array<double, 1>> blocks;
-  const auto sums = ordered_sums(world.particles.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += heat_content(world, i, temperature_); });
+  const auto sums = ordered_sums_of_all(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += heat_content(world, i, temperature_); });
   ledger.energy["thermal"] += sums[0];
 }
 

@@ -35,7 +35,7 @@ void FreeMotion::kick(World& world, double dt) {
   const Vec3 g = heavier * world.scene.gravity;
   const bool guided = p.has(field::driven.name);
   const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
-  const auto sums = ordered_sums(p.size(), world.threads, blocks_, [&](std::size_t i, std::array<double, works>& work) {
+  const auto sums = ordered_sums(world, blocks_, [&](std::size_t i, std::array<double, works>& work) {
     if (is_member(i)) return;
     if (guided && driven[i] != 0) {  // whoever moves it takes the work
       for (std::size_t k = 0; k < forces.size(); ++k) work[works_on_free + k] += dt * dot(forces[k].at(i), v.at(i));
@@ -64,7 +64,7 @@ void FreeMotion::drift(World& world, double dt) {
   const bool guided = p.has(field::driven.name);
   const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t i = 0; i < p.size(); ++i)
+  for (std::size_t i = 0; i < p.awake(); ++i)
     if (!is_member(i) && !(guided && driven[i] != 0)) r.set(i, r.at(i) + dt * (shifts ? v.at(i) + w.at(i) : v.at(i)));
   world.moved = true;
 }
@@ -78,7 +78,7 @@ TimeStepBound FreeMotion::max_dt(const World& world) const {
   const RigidMembers is_member(world);
   double a2 = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : a2)
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  for (std::size_t i = 0; i < p.awake(); ++i) {
     if (is_member(i)) continue;
     const Vec3 a = g + total_force(forces, i) / m[i];
     a2 = std::max(a2, dot(a, a));
@@ -96,7 +96,7 @@ void FreeMotion::add_to(const World& world, Ledger& ledger) const {
   const RigidMembers is_member(world);
   std::vector<std::array<double, entries>> blocks;
   const auto add = [](std::array<double, entries>& sum, std::size_t first, const Vec3& a) { sum[first] += a.x, sum[first + 1] += a.y, sum[first + 2] += a.z; };
-  const auto sums = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, entries>& sum) {
+  const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, entries>& sum) {
     if (is_member(i)) return;
     const Vec3 r = world.unwrapped(i), P = m[i] * v.at(i);
     add(sum, momentum, P);

@@ -5,8 +5,8 @@
 
 #include "core/defect.hpp"
 #include "core/errors.hpp"
-#include "core/machine.hpp"
 #include "effects/rigid/rotation.hpp"
+#include "effects/rows_loop.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint::rigid {
@@ -125,17 +125,18 @@ void place_members(World& world) {
   const auto orientation = world.bodies[field::body_orientation];
   const auto alive = world.bodies[field::body_alive];
   const RigidMembers is_member(world);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (!is_member(i)) continue;
+  const std::size_t rows = world.placed ? p.awake() : p.size();  // the first time moves members of fixed bodies too, by a rounding error
+  world.placed = true;
+  for_rows(rows, world.threads, [&](std::size_t i) {
+    if (!is_member(i)) return;
     const auto b = static_cast<std::size_t>(body[i]);
-    if (!alive[b]) continue;
+    if (!alive[b]) return;
     const Vec3 r = centre[b] + rotate(orientation[b], reference.at(i));
     x.set(i, r);
-  }
+  });
   if (!world.box.any()) return;
   const auto image = images(p);
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  for (std::size_t i = 0; i < rows; ++i) {
     if (!is_member(i)) continue;
     Vec3 r = x.at(i);
     const Vec3 n = image.at(i);
@@ -154,12 +155,11 @@ void give_velocities(World& world) {
   const auto velocity = world.bodies[field::body_velocity], omega = world.bodies[field::body_angular_velocity];
   const auto orientation = world.bodies[field::body_orientation];
   const RigidMembers is_member(world);
-#pragma omp parallel for schedule(static) num_threads(world.threads) if (p.size() > worth_threads)
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (!is_member(i)) continue;
+  for_rows(p.awake(), world.threads, [&](std::size_t i) {
+    if (!is_member(i)) return;
     const auto b = static_cast<std::size_t>(body[i]);
     v.set(i, velocity[b] + cross(omega[b], rotate(orientation[b], reference.at(i))));
-  }
+  });
 }
 
 }  // namespace tripoint::rigid
