@@ -283,7 +283,9 @@ def seen_velocity_at_start(s):
 def mirrored(s):
     """2 v_w - mean v_f of 8.4, and of which walls; the sums it is made of."""
     mu = s.material("viscosity", 0.0)
-    pairs = (s.group[:, None] == WALL) & (s.group[None, :] == LIQUID)
+    slips = np.array([k < len(s.scene["bodies"]) and s.scene["bodies"][k]["slip"] == "free" for k in s["source"]])
+    sticks = ~slips | s.printed("viscosity")  # no other viscous pair would see it
+    pairs = ((s.group == WALL) & sticks)[:, None] & (s.group[None, :] == LIQUID)
     weight = np.where(pairs, -mu[None, :] * s.slope_over_r, 0.0)
     v_f = s.vector("viscous_velocity")
     total, moved = weight.sum(axis=1), weight @ np.where((s.group == LIQUID)[:, None], v_f, 0.0)
