@@ -9,6 +9,7 @@
 #include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "core/machine.hpp"
+#include "particles/grid.hpp"
 
 namespace tripoint {
 namespace {
@@ -44,91 +45,6 @@ void fit(std::vector<T>& column, std::size_t size) {
 }
 
 }  // namespace
-
-/// Cells finer than the list's reach, most of all in x, which runs fastest: as measured, so that the particles of a cluster are
-/// near to each other and what is near to them is few whole rows of cells.
-struct Neighbours::Grid {
-  static constexpr std::array<double, 3> cells_a_reach{6.0, 1.5, 1.5};
-  static constexpr int cells_a_stretch = 6;  ///< see Neighbours::Still
-  static constexpr double slack = 1e-9;  ///< of the reach, far above the rounding of cell numbers
-
-  std::array<int, 3> count{1, 1, 1};
-  Vec3 origin, width;
-  std::vector<std::uint32_t> first;  // row that starts each cell, one more at the end
-
-  [[nodiscard]] std::size_t index(const std::array<int, 3>& c) const {
-    return static_cast<std::size_t>(c[0]) + static_cast<std::size_t>(count[0]) * (static_cast<std::size_t>(c[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(c[2]));
-  }
-  [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(count[0]) * count[1] * count[2]; }
-  [[nodiscard]] std::array<int, 3> place(const Vec3& r) const {
-    std::array<int, 3> c{};
-    for (std::size_t a = 0; a < 3; ++a) c[a] = std::clamp(static_cast<int>((r[a] - origin[a]) / width[a]), 0, count[a] - 1);
-    return c;
-  }
-
-  [[nodiscard]] static std::array<int, 3> stretch(const std::array<int, 3>& c) { return {c[0] / cells_a_stretch, c[1], c[2]}; }
-
-  /// @param low, high corners of all positions   @param reach of a list
-  static Grid over(const Vec3& low, const Vec3& high, double reach, const PeriodicBox& box, std::size_t particles) {
-    Grid g;
-    // A particle far away must not ask for a mountain of empty cells: then all become wider.
-    const double most_cells = 16.0 * static_cast<double>(particles) + 1024.0;
-    for (double scale = 1.0;; scale *= 2.0) {
-      double cells = 1.0;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const double least = scale * reach / cells_a_reach[a];
-        const double extent = box.periodic[a] ? box.width[a] : std::max(high[a] - low[a], 0.0);
-        const double n = std::max(1.0, std::floor(extent / least) + (box.periodic[a] ? 0.0 : 1.0));
-        g.origin[a] = box.periodic[a] ? box.min[a] : low[a];
-        g.width[a] = box.periodic[a] ? extent / n : least;
-        g.count[a] = static_cast<int>(std::min(n, 1e9));
-        cells *= n;
-      }
-      if (cells <= most_cells) return g;
-    }
-  }
-
-  /// Numbers of the cells that [low, high] along an axis touches; beyond 0..count-1 in periodic directions, where they mean images.
-  [[nodiscard]] std::array<int, 2> touched(std::size_t a, double low, double high, bool periodic) const {
-    const double from = std::floor((low - origin[a]) / width[a]), to = std::floor((high - origin[a]) / width[a]);
-    const double least = periodic ? -count[a] : 0.0, most = periodic ? 2.0 * count[a] - 1.0 : count[a] - 1.0;
-    return {static_cast<int>(std::clamp(from, least, most)), static_cast<int>(std::clamp(to, least, most))};
-  }
-  [[nodiscard]] int image(std::size_t a, int cell) const { return cell < 0 ? -1 : cell >= count[a] ? 1 : 0; }
-  /// Distance of an interval to a cell along an axis; 0 where they touch.
-  [[nodiscard]] double gap(std::size_t a, int cell, double low, double high) const {
-    const double begin = origin[a] + cell * width[a], end = begin + width[a];
-    return std::max({0.0, begin - high, low - end});
-  }
-
-  /// The rows of cells within reach of a box, in the order of cells.
-  void candidates(const Vec3& low, const Vec3& high, double reach, const PeriodicBox& box, std::vector<CandidateRange>& ranges) const {
-    ranges.clear();
-    const double wide = reach * (1.0 + slack);
-    const auto zs = touched(2, low.z - wide, high.z + wide, box.periodic[2]), ys = touched(1, low.y - wide, high.y + wide, box.periodic[1]);
-    for (int z = zs[0]; z <= zs[1]; ++z) {
-      const double dz = gap(2, z, low.z, high.z);
-      for (int y = ys[0]; y <= ys[1]; ++y) {
-        const double dy = gap(1, y, low.y, high.y), left = wide * wide - dy * dy - dz * dz;
-        if (left < 0.0) continue;
-        const double along = std::sqrt(left);
-        const auto xs = touched(0, low.x - along, high.x + along, box.periodic[0]);
-        add_row(xs, y, z, ranges);
-      }
-    }
-  }
-
- private:
-  void add_row(const std::array<int, 2>& xs, int y, int z, std::vector<CandidateRange>& ranges) const {
-    const int iy = image(1, y), iz = image(2, z);
-    for (int ix = image(0, xs[0]); ix <= image(0, xs[1]); ++ix) {
-      const int from = std::max(xs[0] - ix * count[0], 0), to = std::min(xs[1] - ix * count[0], count[0] - 1);
-      const std::array<int, 3> start{from, y - iy * count[1], z - iz * count[2]}, end{to, start[1], start[2]};
-      const std::uint32_t first_row = first[index(start)], past = first[index(end) + 1];
-      if (first_row != past) ranges.push_back({first_row, past, Entry::box_itself + static_cast<std::uint32_t>(ix + 3 * iy + 9 * iz)});
-    }
-  }
-};
 
 Neighbours::Neighbours(double support, double skin, const PeriodicBox& box, int threads, int lanes)
     : support_(support), skin_(skin), box_(box), threads_(threads), scan_(scan_of(lanes)) {

@@ -77,8 +77,8 @@ TEST(Walls, OfAJitteredSceneDoNotLookAtWhereTheJitterPutTheLayersBehindTheirFace
       if (const double z = lab.initial.position[id].z; z < 0.0 && z > -lab.scene.spacing) return rho[id] / 1000.0;
     return 0.0;
   };
-  EXPECT_NEAR(face(0.1, 0.1), 1.0, 1e-12);
-  EXPECT_NEAR(face(0.1, -0.1), 1.0, 1e-12);
+  EXPECT_NEAR(face(0.1, 0.1), 1.0, 1e-6);  // what jitter adds is kept to a millionth
+  EXPECT_NEAR(face(0.1, -0.1), 1.0, 1e-6);
   EXPECT_GT(face(0.0, 0.1), 1.03);  // whoever lays a wall denser than the lattice has it denser
   EXPECT_EQ(face(0.1, 0.0), face(0.0, 0.0));
 }

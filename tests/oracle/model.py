@@ -180,7 +180,8 @@ def jitter_of_walls(s):
     fixed = np.array([b >= 0 and s.raw["bodies"]["body.motion"][b] == 1 for b in s.body]) & (s.group == WALL)
     of_one_lattice = fixed[:, None] & fixed[None, :] & (s["source"][:, None] == s["source"][None, :]) & (s.distance < s.h)
     laid = wendland(np.linalg.norm(np.round(s.d / s.dx), axis=2) * s.dx, s.h)
-    return np.where(of_one_lattice, wendland(s.distance, s.h) - laid, 0.0).sum(axis=1) * s.dx**3 / s.S0
+    added = np.where(of_one_lattice, wendland(s.distance, s.h) - laid, 0.0).sum(axis=1) * s.dx**3 / s.S0
+    return np.round(added * 2.0**20) / 2.0**20
 
 
 def wall_patches(s):
