@@ -70,7 +70,7 @@ std::size_t count(const std::vector<std::size_t>& shape) {
 
 /// All frames at once; where that fails, frame by frame up to the first that is torn, which may be the first of all.
 template <class T>
-void read_whole_frames(hid_t dataset, hid_t type, std::vector<std::size_t>& shape, std::vector<T>& values, const std::string& what) {
+void read_whole_frames(hid_t dataset, hid_t type, std::vector<std::size_t>& shape, std::vector<T>& values, const std::string& what, bool may_be_none) {
   values.resize(count(shape));
   if (values.empty() || H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0) return;
   const std::size_t frames = shape[0], row = values.size() / frames;
@@ -83,6 +83,7 @@ void read_whole_frames(hid_t dataset, hid_t type, std::vector<std::size_t>& shap
     if (H5Dread(dataset, type, memory.get(), file_space.get(), H5P_DEFAULT, values.data() + shape[0] * row) < 0) break;
   }
   values.resize(shape[0] * row);
+  if (shape[0] == 0 && !may_be_none) throw InputError(what + ": cannot be read (torn, or a checksum does not match)");
 }
 
 void expect_class(hid_t dataset, H5T_class_t wanted, const std::string& what) {
@@ -190,25 +191,25 @@ std::vector<std::size_t> shape(hid_t file, const std::string& path, const std::s
   return shape_of(open_own_dataset(file, path, name_of_file).get(), name_of_file + ": " + path);
 }
 
-Block read_real(hid_t file, const std::string& path, const std::string& name_of_file) {
+Block read_real(hid_t file, const std::string& path, const std::string& name_of_file, bool may_be_none) {
   const std::string what = name_of_file + ": " + path;
   const Handle dataset = open_own_dataset(file, path, name_of_file);
   expect_class(dataset.get(), H5T_FLOAT, what);
   Block block;
   block.shape = shape_of(dataset.get(), what);
   refuse_bombs(dataset.get(), block.shape, what);
-  read_whole_frames(dataset.get(), H5T_NATIVE_DOUBLE, block.shape, block.real, what);
+  read_whole_frames(dataset.get(), H5T_NATIVE_DOUBLE, block.shape, block.real, what, may_be_none);
   return block;
 }
 
-Block read_whole(hid_t file, const std::string& path, const std::string& name_of_file) {
+Block read_whole(hid_t file, const std::string& path, const std::string& name_of_file, bool may_be_none) {
   const std::string what = name_of_file + ": " + path;
   const Handle dataset = open_own_dataset(file, path, name_of_file);
   expect_class(dataset.get(), H5T_INTEGER, what);
   Block block;
   block.shape = shape_of(dataset.get(), what);
   refuse_bombs(dataset.get(), block.shape, what);
-  read_whole_frames(dataset.get(), H5T_NATIVE_INT, block.shape, block.whole, what);
+  read_whole_frames(dataset.get(), H5T_NATIVE_INT, block.shape, block.whole, what, may_be_none);
   return block;
 }
 

@@ -70,8 +70,9 @@ struct Block {
 /// Extents of a dataset. @throws InputError where it is none of this file
 [[nodiscard]] std::vector<std::size_t> shape(hid_t file, const std::string& path, const std::string& name_of_file);
 /// @throws InputError also when not even the first frame is whole
-[[nodiscard]] Block read_real(hid_t file, const std::string& path, const std::string& name_of_file);
-[[nodiscard]] Block read_whole(hid_t file, const std::string& path, const std::string& name_of_file);
+/// @param may_be_none a first frame that cannot be read is no error: there is none, as where a writer was killed within it
+[[nodiscard]] Block read_real(hid_t file, const std::string& path, const std::string& name_of_file, bool may_be_none = false);
+[[nodiscard]] Block read_whole(hid_t file, const std::string& path, const std::string& name_of_file, bool may_be_none = false);
 [[nodiscard]] std::string unit_of(hid_t file, const std::string& path);
 /// Names of the members of a group, sorted; empty when the group is not there.
 [[nodiscard]] std::vector<std::string> members(hid_t file, const std::string& path);

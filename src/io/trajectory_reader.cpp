@@ -15,8 +15,8 @@ class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path), file_(h5::open_for_reading(path)) {
     if (!h5::has(file_.get(), "/h5md")) throw InputError(path + ": is no H5MD file (it has no group h5md)");
-    time_ = h5::read_real(file_.get(), "/particles/all/position/time", path).real;
-    step_ = h5::read_whole(file_.get(), "/particles/all/position/step", path).whole;
+    time_ = h5::read_real(file_.get(), "/particles/all/position/time", path, true).real;
+    step_ = h5::read_whole(file_.get(), "/particles/all/position/step", path, true).whole;
     frames_ = std::min(time_.size(), step_.size());
     while (frames_ > 0 && std::isnan(time_[frames_ - 1])) --frames_;  // the writer was killed before it wrote the time, its last act
     whole_ = frames_;
@@ -35,7 +35,7 @@ class Reader {
   /// Real values of an element, frames x rows x width flattened. The unit must be the contract's.
   h5::Block real(const std::string& element, std::size_t width, const std::string& unit) {
     const std::string value = "/" + element + "/value";
-    h5::Block block = h5::read_real(file_.get(), value, path_);
+    h5::Block block = h5::read_real(file_.get(), value, path_, frames_ == 0);
     const std::string given = h5::unit_of(file_.get(), value);
     if (given != unit) throw InputError(path_ + ": " + value + " is in \"" + given + "\", expected \"" + unit + "\"");
     expect(block, width, value);
@@ -46,7 +46,7 @@ class Reader {
   }
   h5::Block whole(const std::string& element) {
     const std::string value = "/" + element + "/value";
-    h5::Block block = h5::read_whole(file_.get(), value, path_);
+    h5::Block block = h5::read_whole(file_.get(), value, path_, frames_ == 0);
     expect(block, 1, value);
     block.whole.resize(total(block), -1);
     widen(element, block, block.whole, -1);
@@ -92,7 +92,7 @@ class Reader {
   void expect_own_times(const std::string& element) const {
     const std::string name = "/" + element + "/time";
     if (!h5::has(file_.get(), name)) return;
-    const std::vector<double> own = h5::read_real(file_.get(), name, path_).real;
+    const std::vector<double> own = h5::read_real(file_.get(), name, path_, true).real;
     for (std::size_t f = 0; f < std::min(own.size(), frames_); ++f)
       if (own[f] != time_[f]) throw InputError(path_ + ": " + element + " is of " + std::to_string(own[f]) + " s in frame " + std::to_string(f) + ", and position of " + std::to_string(time_[f]) + " s");
   }
