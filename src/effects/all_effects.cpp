@@ -267,10 +267,11 @@ void Passes::forget_clusters() { impl_->busy.forget(); }
 void Passes::run(PassName name, World& world) const {
   if (!needed()) return;
   Impl& i = *impl_;
-  if (!i.meets_all && name == PassName::density) return i.busy.sum_density(i.density, world, i.kernels, i.leaves_own);
-  if (!i.meets_all && name == PassName::rates) return i.busy.sum_rates(i.rates, world, i.kernels);
   const PassFunction& pass = name == PassName::density ? i.density : name == PassName::rates ? i.rates : i.heat;
-  run_pass(pass, world.particles, *world.neighbours, i.kernels, world.threads);
+  if (!i.meets_all && name == PassName::density) i.busy.sum_density(pass, world, i.kernels, i.leaves_own);
+  else if (!i.meets_all && name == PassName::rates) i.busy.sum_rates(pass, world, i.kernels);
+  else run_pass(pass, world.particles, *world.neighbours, i.kernels, world.threads);
+  if (pass.run) world.refresh(pass.adds());
 }
 
 }  // namespace tripoint

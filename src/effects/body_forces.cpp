@@ -48,7 +48,7 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
   const bool wraps = world.box.any() && !wrapped_arms;
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
-    if (body[i] < 0 || !asked[static_cast<std::size_t>(body[i])]) continue;
+    if (body[i] < 0 || !world.owns(i) || !asked[static_cast<std::size_t>(body[i])]) continue;
     const auto b = static_cast<std::size_t>(body[i]);
     const Vec3 arm = (wraps ? world.unwrapped(i) : x.at(i)) - centre[b];
     for (const Felt& f : felt) {

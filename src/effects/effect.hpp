@@ -69,6 +69,8 @@ class Effect {
   /// The second stage of two-stage schemes, with rates at the predicted state. @return whether rates of heat must be had again
   virtual bool correct(World&, double /*dt*/) { return false; }
   virtual void happen(World&, const Happening&) {}
+  /// Rows and ids stand for other particles (World::halo): what the effect keeps by them is void.
+  virtual void renumber(World&) {}
   /// Looks, after every step, for a state that the effect's equations do not hold for. @throws Diverged
   virtual void check(const World&) const {}
   [[nodiscard]] virtual TimeStepBound max_dt(const World&) const { return {}; }

@@ -37,10 +37,24 @@ template <std::size_t n, class Add>
   return detail::total_of(blocks);
 }
 
+namespace detail {
+
+/// add() works on every row, copies too, and of these its sums are left out: they are their owners'.
+template <std::size_t n, class Add>
+[[nodiscard]] std::array<double, n> ordered_sums_of_own(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
+  return ordered_sums(world.particles.size(), world.threads, blocks, [&](std::size_t i, std::array<double, n>& sum) {
+    std::array<double, n> unused{};
+    add(i, world.owns(i) ? sum : unused);
+  });
+}
+
+}  // namespace detail
+
 /// The same over the rows that are awake, with the bits of a sum over all: what sleeps must add zeros.
 template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = world.particles;
+  if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
   if (p.awake() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
   const std::span<const std::uint32_t> first = world.neighbours->row_blocks();
   blocks.assign(first.size() - 1, {});
@@ -57,6 +71,7 @@ template <std::size_t n, class Add>
 template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums_of_all(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = world.particles;
+  if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
   if (p.awake() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
   const std::vector<std::uint32_t> rows = world.neighbours->rows_in_order(p);
   return ordered_sums(rows.size(), world.threads, blocks, [&](std::size_t k, std::array<double, n>& sum) { add(rows[k], sum); });

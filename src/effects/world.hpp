@@ -12,6 +12,7 @@
 #include "effects/force.hpp"
 #include "effects/guarded.hpp"
 #include "effects/ledger.hpp"
+#include "particles/halo.hpp"
 #include "particles/neighbours.hpp"
 #include "particles/particles.hpp"
 #include "scene/scene.hpp"
@@ -61,7 +62,18 @@ struct World {
   bool placed = false;                                   ///< members of all rigid bodies have been put to their places by the poses of these
   bool moved = true;                                     ///< positions differ from those of the last rates
 
+  Halo* halo = nullptr;       ///< those that hold the rest of the scene; null: this process holds all
+  std::vector<char> copies;   ///< of each row, 1 where it is a copy of another's particle; empty where this process holds all
+
   [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }
+  /// Whether a row is this process's own: what is summed over particles is summed over these.
+  [[nodiscard]] bool owns(std::size_t row) const { return copies.empty() || copies[row] == 0; }
+  /// Whether this process tells what all hold alike, as the energies of bodies.
+  [[nodiscard]] bool tells_of_bodies() const { return !halo || halo->is_first(); }
+  /// Copies take from their owners what a pair pass has summed.
+  void refresh(std::span<const Field<double>* const> columns) {
+    if (halo) halo->refresh(particles, columns);
+  }
   /// Place of a particle that is not put back into a periodic box.
   [[nodiscard]] Vec3 unwrapped(std::size_t row) const;
   [[nodiscard]] const Material& material_of(std::size_t row) const {

@@ -62,7 +62,7 @@ Neighbours::Neighbours(double support, double skin, const PeriodicBox& box, int 
 }
 
 bool Neighbours::outdated(const Particles& particles) const {
-  if (built_.size() != particles.size() || rebuilds_ == 0) return true;
+  if (!are_made_ || built_.size() != particles.size() || rebuilds_ == 0) return true;
   const auto x = positions(particles);
   const double limit = 0.25 * skin_ * skin_ * (1.0 - 1e-9);  // beyond rounding: what is within the support now was within reach then
   double greatest = 0.0;
@@ -146,7 +146,7 @@ void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
   } else {
     sort_awake(particles, grid, resting);
   }
-  marked_ = false;
+  marked_ = false, are_made_ = true;
   form_clusters(grid, particles.awake());
   list(particles, grid);
   count_still_pairs(particles);

@@ -114,6 +114,11 @@ class Neighbours {
   /// @param rebuilds as counted until then
   void rebuild_from(Particles&, std::span<const Vec3> build_positions, double time, long rebuilds = 1);
 
+  /// Whether a particle has moved by more than skin/2 since the last lists, or there are none.
+  [[nodiscard]] bool outdated(const Particles&) const;
+  /// Rows stand for other particles: update() then makes lists whatever has moved.
+  void forget() { built_.clear(), still_ = {}, are_made_ = false; }
+
   /// Threads from now on. They change neither lists nor their order.
   void use_threads(int threads) { threads_ = threads; }
 
@@ -149,7 +154,6 @@ class Neighbours {
 
  private:
   struct Grid;
-  [[nodiscard]] bool outdated(const Particles&) const;
   void wrap(Particles&) const;
   void rebuild(Particles&, double time, const Resting&);
   void sort_and_list(Particles&, const Resting&);
@@ -196,6 +200,7 @@ class Neighbours {
   long whole_lists_ = 0;
   bool listed_all_ = false;
   long rebuilds_ = 0;
+  bool are_made_ = false;  ///< lists, of these particles
   bool marked_ = false;
 };
 

@@ -149,10 +149,10 @@ void check_escape(const World& world, const Enclosure& domain) {
   }
 }
 
-void check_energy(const World& world, const Ledger& ledger, double dt, GuardMemory& memory) {
+void check_energy(const World& world, const Ledger& ledger, double start_potential, double dt, GuardMemory& memory) {
   if (ledger.energy.count("time_integration") == 0 || is_off(world.scene, "ledger")) return;
   const Made made = made_by_scheme(ledger, memory.still);
-  memory.turned_over = std::max(memory.turned_over, turnover(ledger, world.booked[account::start_potential]));
+  memory.turned_over = std::max(memory.turned_over, turnover(ledger, start_potential));
   const double grid_speed = world.scene.spacing / dt, least = 1e-10 * ledger.mass * grid_speed * grid_speed;
   if (std::abs(made.energy) <= 0.5 * std::max(memory.turned_over, least)) return;
   const std::size_t i = fastest(world);

@@ -36,7 +36,7 @@ struct GuardMemory {
 /// rest what the printed pressure has made. Below a ten-billionth of the energy that the mass would have at one spacing a step
 /// nothing is told apart from round-off.
 /// @throws Diverged naming the particle of the greatest kinetic energy
-void check_energy(const World&, const Ledger&, double dt, GuardMemory&);
+void check_energy(const World&, const Ledger&, double start_potential, double dt, GuardMemory&);
 
 /// A step that shrinks to a hundred-thousandth of the first goes on, if at all, for ever.
 /// @throws Diverged naming the bound and the particle of the greatest kinetic energy

@@ -68,7 +68,7 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   refuse_large_step();
   if (const double first = scene.time_step.value_or(bound_.dt); scene.end_time > most_steps * first)
     throw InputError(fmt::format("the run would take {:.3g} steps: its first step is {:.3g} s, set by {}, and it ends at {:.3g} s; at most {:.0e} can be made", scene.end_time / first, first, scene.time_step ? "the scene" : bound_.name, scene.end_time, most_steps));
-  book_start(world_, ledger());
+  book_start(world_, own_ledger());
   happen_until_now();
   keep_good_state();
 }
@@ -85,12 +85,14 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   world_.threads = options_.threads;
   world_.axis_order = options_.axis_order;
   world_.box = box_of(scene);
+  world_.halo = options_.halo;
   declare(world_, effects_);
   guards_.still = is_still(scene, initial);
   load(initial);
   enclosure_ = enclosure_of(scene, initial);
   if (passes_.needed()) {
-    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.box,
+    // Where others hold a part of the scene, what is seen across a periodic boundary is a copy, at its image's place.
+    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.halo ? PeriodicBox{} : world_.box,
                               options_.threads, passes_.lanes());
   }
   plan_events();
@@ -255,20 +257,17 @@ void Simulation::check() {
     const DeclaredView view(world_, a);
     a.effect->check(world_);
   }
-  if (steps_ % steps_between_ledgers == 0) check_energy(world_, ledger(), dt_, guards_);
+  if (steps_ % steps_between_ledgers != 0) return;
+  double start_potential = world_.booked[account::start_potential];
+  if (world_.halo) world_.halo->add({&start_potential, 1});
+  check_energy(world_, ledger(), start_potential, dt_, guards_);
 }
 
 void Simulation::update_rates() {
   clock_.start();
   change();
   clock_.ends(Stage::change);
-  if (world_.neighbours) {
-    world_.neighbours->update(world_.particles, world_.time, [this] { return resting(); });
-    if (!world_.neighbours->marked() || !world_.change.empty()) {
-      world_.neighbours->mark_own(world_.particles, world_.own);
-      passes_.forget_clusters();
-    }
-  }
+  if (world_.neighbours) update_lists();
   clock_.ends(Stage::search);
   if (world_.moved) pass(PassName::density);  // (4), moments: of places only
   clock_.ends(Stage::density);
@@ -281,10 +280,34 @@ void Simulation::update_rates() {
   clock_.ends(Stage::bonds);
 }
 
+void Simulation::update_lists() {
+  if (world_.halo) follow_halo();
+  world_.neighbours->update(world_.particles, world_.time, [this] { return resting(); });
+  if (world_.halo && !world_.neighbours->marked()) {
+    const auto id = world_.particles[field::id];
+    world_.copies.resize(id.size());
+    for (std::size_t i = 0; i < id.size(); ++i) world_.copies[i] = static_cast<std::size_t>(id[i]) >= world_.halo->owned();
+  }
+  if (world_.neighbours->marked() && world_.change.empty()) return;
+  world_.neighbours->mark_own(world_.particles, world_.own);
+  passes_.forget_clusters();
+}
+
+/// Where one process's lists are outdated, particles go to who has their place now, and all make new lists.
+void Simulation::follow_halo() {
+  double outdated = world_.neighbours->outdated(world_.particles) ? -1.0 : 0.0;
+  std::string unused;
+  world_.halo->take_least(outdated, unused);
+  if (outdated == 0.0) return;
+  world_.halo->migrate(world_.particles, world_.box);
+  world_.neighbours->forget();
+  for (const Active& a : effects_) a.effect->renumber(world_);
+}
+
 /// Members of fixed bodies, where nothing is to come that could move one.
 Resting Simulation::resting() const {
   const std::optional<double> beyond = passes_.sleeps_beyond();
-  if (!beyond || next_moment_ < moments_.size()) return {};
+  if (!beyond || world_.halo || next_moment_ < moments_.size()) return {};
   Resting rest{std::vector<char>(world_.bodies.size()), *beyond};
   for (std::size_t b = 0; b < rest.bodies.size(); ++b) {
     if (!is_alive(world_, b) || !is_rigid(world_, b)) continue;
@@ -319,6 +342,7 @@ TimeStepBound Simulation::next_bound() const {
     const TimeStepBound b = a.effect->max_dt(world_);
     tighten(least, b.dt, b.name);
   }
+  if (world_.halo) world_.halo->take_least(least.dt, least.name);
   return least;
 }
 
@@ -334,10 +358,26 @@ std::string Simulation::time_step_set_by() const {
   return bound_.name == "none" ? "output" : bound_.name;
 }
 
+/// What every process has is added up: all entries are sums over particles, or told by one process alone.
 Ledger Simulation::ledger() const {
+  Ledger sum = own_ledger();
+  if (!world_.halo) return sum;
+  std::vector<double> numbers{sum.mass};
+  for (const Vec3* v : {&sum.momentum, &sum.angular_momentum}) numbers.insert(numbers.end(), {v->x, v->y, v->z});
+  for (const auto& [entry, energy] : sum.energy) numbers.push_back(energy);
+  world_.halo->add(numbers);
+  sum.mass = numbers[0];
+  sum.momentum = {numbers[1], numbers[2], numbers[3]}, sum.angular_momentum = {numbers[4], numbers[5], numbers[6]};
+  std::size_t next = 7;
+  for (auto& [entry, energy] : sum.energy) energy = numbers[next++];
+  return sum;
+}
+
+Ledger Simulation::own_ledger() const {
   Ledger sum;
   const auto m = world_.particles[field::mass];
-  for (std::size_t id = 0; id < m.size(); ++id) sum.mass += m[world_.particles.row(id)];
+  for (std::size_t id = 0; id < m.size(); ++id)
+    if (const std::size_t row = world_.particles.row(id); world_.owns(row)) sum.mass += m[row];
   for (const Active& a : effects_) {
     const DeclaredView view(world_, a);
     a.effect->add_to(world_, sum);

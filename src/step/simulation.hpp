@@ -27,6 +27,7 @@ struct SimulationOptions {
   int lanes = 0;  ///< particles that a pair pass works on at once, 1, 4 or 8; 0 = what is fastest here. It changes no bit
   bool sums_all = false;  ///< pair passes sum also where nothing meets; it changes no bit
   std::optional<std::array<std::size_t, 3>> axis_order{};  ///< rotation by NO_SQUISH in this order instead of the better default
+  Halo* halo = nullptr;                                    ///< those that hold the rest of the scene; it must outlive the simulation
   StageSeconds* stage_seconds = nullptr;                   ///< where to add what each stage takes; it must outlive the simulation
 };
 
@@ -53,7 +54,7 @@ class Simulation {
   /// Threads of the steps that follow. They change no bit.
   void use_threads(int);
   [[nodiscard]] const World& world() const noexcept { return world_; }
-  [[nodiscard]] Ledger ledger() const;
+  [[nodiscard]] Ledger ledger() const;  ///< of all processes that share the scene, which all call it
   [[nodiscard]] long steps() const noexcept { return steps_; }
   [[nodiscard]] double pairs() const noexcept { return pairs_; }  ///< directed pairs visited by rate passes
   [[nodiscard]] double time_step() const noexcept { return dt_; }
@@ -92,7 +93,10 @@ class Simulation {
   void update_rates();
   [[nodiscard]] Resting resting() const;
   void change();
+  void update_lists();
+  void follow_halo();
   void pass(PassName);
+  [[nodiscard]] Ledger own_ledger() const;
   [[nodiscard]] TimeStepBound next_bound() const;
   void refuse_large_step() const;
   template <class... Args>

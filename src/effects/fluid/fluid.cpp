@@ -66,6 +66,7 @@ class Fluid : public Effect {
   void clear(World&, PassName) override;
   void state(World&) override;
   void happen(World& world, const Happening&) override { set_groups(world), walls_.clear(); }
+  void renumber(World&) override { walls_.clear(); }
   void adopt(World&) override;
   void check(const World& world) const override { refuse_overlap(world, numbers_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;

@@ -22,7 +22,9 @@ bool uses_transport_velocity(const Scene& scene) {
 void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels& kernels) {
   Particles& p = world.particles;
   for (const Field<double>* f : TransportForces::adds::list) fill(p[*f], 0.0, world.threads);
-  run_pass(pair_passes(world.neighbours->clusters().lanes).transport, p, *world.neighbours, kernels, world.threads);
+  const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).transport;
+  run_pass(pass, p, *world.neighbours, kernels, world.threads);
+  world.refresh(pass.adds());
   static const double weaker = 1.0 - defect_size("fluid.transport.background"), left = 1.0 - defect_size("fluid.transport.stress");
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it
   const double background = weaker * pressure / n.lattice_density, stress = left / n.lattice_density;

@@ -33,7 +33,7 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest)
   for (std::size_t i = 0; i < p.awake(); ++i) {
-    if (group[i] == 0.0) continue;  // walls do not move by forces
+    if (group[i] == 0.0 || !world.owns(i)) continue;  // walls do not move by forces
     const double rate = central ? largest_eigenvalue({sum[0][i], sum[1][i], sum[2][i], sum[3][i], sum[4][i], sum[5][i]}) : sum[0][i];
     greatest = std::max(greatest, rate / m[i]);
   }

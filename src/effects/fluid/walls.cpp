@@ -2,6 +2,7 @@
 #include "effects/fluid/walls.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <compare>
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double wall_group = 0.0, liquid_group = -1.0;
 constexpr int fixed_frame = -1;
+constexpr std::array<const Field<double>*, 3> seen_velocity{&field::viscous_velocity_x, &field::viscous_velocity_y, &field::viscous_velocity_z};
 
 /// What each body moves with: all that is fixed moves as one, each driven body by itself.
 std::vector<int> frames_of(const World& world) {
@@ -58,6 +60,16 @@ void Walls::find(const World& world) {
       if ((walls & wet) >> (i - c.first[k]) & 1u) wet_walls_.push_back(i);
   }
   wet_ = clusters_of(c, wet_walls_);
+}
+
+/// Of numbers by id, copies take those of their owners: only there all that is near is seen.
+template <class T>
+void hand_to_copies(const World& world, std::vector<T>& by_id) {
+  if (!world.halo) return;
+  std::vector<double> numbers(world.particles.size());  // where nothing is jittered there are none
+  std::ranges::copy(by_id, numbers.begin());
+  world.halo->refresh(numbers);
+  for (std::size_t id = 0; id < by_id.size(); ++id) by_id[id] = static_cast<T>(numbers[id]);
 }
 
 /// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter adds to the part that is fixed wall.
@@ -137,7 +149,10 @@ void Walls::find_rows(const World& world) {
 void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
   if (known_faces_ == world.neighbours->rebuilds()) return;
   known_faces_ = world.neighbours->rebuilds();
-  if (at_face_.empty()) find_exposed(world, n, kernels);
+  if (at_face_.empty()) {
+    find_exposed(world, n, kernels);
+    hand_to_copies(world, at_face_), hand_to_copies(world, excess_);
+  }
   if (known_whole_ != world.neighbours->whole_lists()) {
     known_whole_ = world.neighbours->whole_lists();
     face_.clear(), start_.assign(1, 0), patch_.clear(), place_.clear();
@@ -149,6 +164,15 @@ void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKern
   add_faces(world, false);
   for (auto* column : {&density_, &mean_, &mean_of_mean_, &part_, &part_again_, &share_}) column->resize(face_.size());
   find_rows(world);
+}
+
+/// The same for one number a face.
+void Walls::hand_to_copied_faces(const World& world, std::vector<double>& of) const {
+  if (!world.halo) return;
+  std::vector<double> numbers(world.particles.size());
+  for (std::size_t k = 0; k < face_.size(); ++k) numbers[face_[k]] = of[k];
+  world.halo->refresh(numbers);
+  for (std::size_t k = 0; k < face_.size(); ++k) of[k] = numbers[face_[k]];
 }
 
 /// Calls give(k, sum over the patch of k of what was put to its members), for the faces that are awake.
@@ -171,7 +195,9 @@ void Walls::average_density(World& world, const SceneNumbers& n, const PairKerne
   for (std::size_t a = 0; a < awake_.size(); ++a)
     density_[awake_[a]] = rho[row_[a]] / rest[row_[a]] - (excess_.empty() ? 0.0 : excess_[face_[awake_[a]]]);
   sum_patches(density_, world.threads, [&](std::size_t k, double sum) { mean_[k] = sum / members(k); });
+  hand_to_copied_faces(world, mean_);
   sum_patches(mean_, world.threads, [&](std::size_t k, double sum) { mean_of_mean_[k] = sum / members(k); });
+  hand_to_copied_faces(world, mean_of_mean_);
   for (std::size_t a = 0; a < awake_.size(); ++a) {
     const std::size_t i = row_[a];
     rho[i] = mean_of_mean_[awake_[a]] * rest[i];
@@ -187,8 +213,11 @@ void Walls::hand_down_shares(World& world) {
     const std::size_t k = awake_[a];
     part_[k] = weaker * share[row_[a]] / members(k);
   }
+  hand_to_copied_faces(world, part_);
   sum_patches(part_, world.threads, [&](std::size_t k, double sum) { part_again_[k] = sum / members(k); });
+  hand_to_copied_faces(world, part_again_);
   sum_patches(part_again_, world.threads, [&](std::size_t k, double sum) { share_[k] = sum; });
+  hand_to_copied_faces(world, share_);
   for (std::size_t a = 0; a < awake_.size(); ++a) share[row_[a]] = share_[awake_[a]];
 }
 
@@ -196,7 +225,7 @@ void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
   find(world);
   Particles& p = world.particles;
   for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, world.threads);
-  if (wet_walls_.empty()) return;
+  if (wet_walls_.empty()) return world.refresh(seen_velocity);
   run_pass_over(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads, wet_);
 
   const auto weight = p[field::wall_weight];
@@ -209,6 +238,7 @@ void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
     const std::size_t i = wet_walls_[k];
     if (weight[i] > 0.0) seen.set(i, v.at(i) + slip * (v.at(i) - moved.at(i) / weight[i]));
   }
+  world.refresh(seen_velocity);
 }
 
 }  // namespace tripoint::fluid

@@ -38,6 +38,7 @@ class Walls {
   void find_exposed(const World&, const SceneNumbers&, const PairKernels&);
   void add_faces(const World&, bool fixed);
   void find_rows(const World&);
+  void hand_to_copied_faces(const World&, std::vector<double>& of) const;
   template <class Give>
   void sum_patches(const std::vector<double>& of, int threads, Give give) const;
   [[nodiscard]] double members(std::size_t k) const { return static_cast<double>(start_[k + 1] - start_[k]); }

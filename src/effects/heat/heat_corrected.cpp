@@ -79,7 +79,7 @@ void add_heat(World& world, Stage stage, Change change) {
   const auto phase = p[field::phase];
   static const bool leaks = defect_size("heat.held") > 0.0;
   std::vector<std::array<double, 1>> blocks;
-  const auto to_walls = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+  const auto to_walls = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (held[i] && !leaks) {
       sum[0] += change(i);
       return;
@@ -195,7 +195,7 @@ void CorrectedHeat::add_to(const World& world, Ledger& ledger) const {
   const auto H = world.particles[field::enthalpy];
   const bool melts = world.particles.has(field::liquid_fraction);
   std::vector<std::array<double, 2>> blocks;
-  const auto sums = ordered_sums(H.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 2>& sum) {
+  const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 2>& sum) {
     const double bound = melts ? latent_heat(world, i) : 0.0;
     sum[0] += H[i] - bound;
     sum[1] += bound;

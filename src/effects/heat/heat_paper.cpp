@@ -65,7 +65,7 @@ void PaperHeat::drift(World& world, double dt) {
   const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
   const std::vector<Fusion> fusions = melts ? fusions_of(world.scene) : std::vector<Fusion>{};
   std::vector<std::array<double, 1>> blocks;
-  const auto to_walls = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
+  const auto to_walls = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     if (held[i]) {
       sum[0] += enthalpy_of(m[i], c_p[i], rate[i] * dt);
       return;
@@ -106,7 +106,7 @@ void PaperHeat::add_to(const World& world, Ledger& ledger) const {
   const bool melts = p.has(field::liquid_fraction.name);
   const auto m = p[field::mass], c_p = p[field::heat_capacity], T = p[field::temperature];
   std::vector<std::array<double, 2>> blocks;
-  const auto sums = ordered_sums(p.size(), world.threads, blocks, [&](std::size_t i, std::array<double, 2>& sum) {
+  const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 2>& sum) {
     sum[0] += enthalpy_of(m[i], c_p[i], T[i]);
     if (melts) sum[1] += latent_heat(world, i);
   });

@@ -31,7 +31,7 @@ void book_held(World& world, Change change) {
   const auto held = world.particles[field::held], body = world.particles[field::body];
   const auto heat = world.bodies[field::body_heat];
   for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i] != 0 && body[i] >= 0) heat[static_cast<std::size_t>(body[i])] -= change(i);
+    if (held[i] != 0 && body[i] >= 0 && world.owns(i)) heat[static_cast<std::size_t>(body[i])] -= change(i);
 }
 
 /// An event `heat`: its particles take the temperature and hold it until the end; the heat given is booked at the walls.

@@ -299,6 +299,7 @@ TimeStepBound RigidBodies::max_dt(const World& world) const {
 }
 
 void RigidBodies::add_to(const World& world, Ledger& ledger) const {
+  if (!world.tells_of_bodies()) return;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (!is_alive(world, b) || !is_rigid(world, b)) continue;
     const BodyMotion m = motion_of(world, b);

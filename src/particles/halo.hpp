@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "core/field.hpp"
+#include "particles/particles.hpp"
+
+namespace tripoint {
+
+struct PeriodicBox;
+
+/// What a simulation asks of those that hold the rest of its scene, where this process holds a part of it (decision 021). Its rows are then its
+/// own particles and, after them, copies of those of others that are within reach of its own. What a step does to a particle by itself, all do
+/// that see it, with the same bits; its sums over pairs are complete at its owner alone, who hands them on. Every call is made by all
+/// processes, in the same order.
+class Halo {
+ public:
+  virtual ~Halo() = default;
+  /// Who has a part of space now is handed what has moved there, and copies of what is within reach of it. Ids are 0..size()-1 anew, those of
+  /// own particles first; every column goes with its particle. What is seen across a periodic boundary is a copy at its image's place.
+  virtual void migrate(Particles&, const PeriodicBox&) = 0;
+  [[nodiscard]] virtual std::size_t owned() const = 0;  ///< particles of its own: ids 0..owned()-1
+  /// Copies take these columns from their owners.
+  virtual void refresh(Particles&, std::span<const Field<double>* const> columns) = 0;
+  /// The same for one number a particle, by id.
+  virtual void refresh(std::span<double> by_id) = 0;
+  /// Each number becomes its sum over all processes, with the same bits for all.
+  virtual void add(std::span<double> numbers) = 0;
+  /// A number becomes the least of all processes, and the word the one beside it.
+  virtual void take_least(double& number, std::string& word) = 0;
+  /// Whether this is the one process that tells what all hold alike.
+  [[nodiscard]] virtual bool is_first() const = 0;
+};
+
+}  // namespace tripoint
