@@ -299,16 +299,19 @@ TimeStepBound RigidBodies::max_dt(const World& world) const {
 }
 
 void RigidBodies::add_to(const World& world, Ledger& ledger) const {
-  if (!world.tells_of_bodies()) return;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (!is_alive(world, b) || !is_rigid(world, b)) continue;
+    if (!world.tells_of_bodies()) {  // the same entries all the same
+      for (const char* entry : {"kinetic", "potential"}) ledger.energy.try_emplace(entry, 0.0);
+      continue;
+    }
     const BodyMotion m = motion_of(world, b);
     ledger.momentum += m.mass * m.velocity;
     ledger.angular_momentum += m.L + m.mass * cross(m.centre, m.velocity);
     ledger.energy["kinetic"] += kinetic_energy(world, b);
     ledger.energy["potential"] += potential_energy(world, b);
   }
-  ledger.angular_momentum += world.booked.undelivered_spin;
+  if (world.tells_of_bodies()) ledger.angular_momentum += world.booked.undelivered_spin;
 }
 
 }  // namespace
