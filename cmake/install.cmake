@@ -9,7 +9,8 @@ install(TARGETS tripoint EXPORT tripoint RUNTIME DESTINATION bin COMPONENT progr
 install(TARGETS engine-tripoint engine-exact engine-bullet engine-lammps RUNTIME DESTINATION libexec/tripoint COMPONENT program)
 install(TARGETS mesh-field LIBRARY DESTINATION lib/tripoint COMPONENT program)
 install(DIRECTORY ${CMAKE_BINARY_DIR}/libexec/tripoint/ DESTINATION libexec/tripoint COMPONENT program USE_SOURCE_PERMISSIONS
-  FILES_MATCHING PATTERN "engine-*" PATTERN selftest EXCLUDE PATTERN engine-tripoint EXCLUDE PATTERN engine-exact EXCLUDE PATTERN engine-bullet EXCLUDE PATTERN engine-lammps EXCLUDE)
+  FILES_MATCHING PATTERN "engine-*" PATTERN selftest EXCLUDE PATTERN engine-tripoint EXCLUDE PATTERN engine-exact EXCLUDE PATTERN engine-bullet EXCLUDE PATTERN engine-lammps EXCLUDE
+  PATTERN engine-tripoint-mpi EXCLUDE)  # made for the wheel in the checkout
 foreach(room cases reports)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room} DESTINATION share/tripoint COMPONENT program PATTERN __pycache__ EXCLUDE)
 endforeach()

@@ -31,9 +31,11 @@ int count_columns(const Particles& particles) {
 /// At the first migration every rank has all particles, and takes those that LAMMPS has put into its part of the box.
 void LammpsHalo::migrate(Particles& particles, const PeriodicBox& box) {
   if (!ranks_) ranks_ = &begin_(count_columns(particles));
-  pack(particles, box);
+  PeriodicBox split = box;
+  for (std::size_t a = 0; a < 3; ++a) split.periodic[a] = box.periodic[a] && splits_[a];
+  pack(particles, split);
   ranks_->migrate();
-  unpack(particles, box);
+  unpack(particles, split);
   ++migrations_;
 }
 

@@ -14,8 +14,9 @@ namespace tripoint::ranks {
 class LammpsHalo : public Halo {
  public:
   /// @param begin makes the fix for that many columns; called at the first migration, when the columns are known
-  explicit LammpsHalo(std::function<Ranks&(int columns)> begin) : begin_(std::move(begin)) {}
+  LammpsHalo(std::array<bool, 3> splits, std::function<Ranks&(int columns)> begin) : splits_(splits), begin_(std::move(begin)) {}
   void migrate(Particles&, const PeriodicBox&) override;
+  [[nodiscard]] std::array<bool, 3> splits() const override { return splits_; }
   [[nodiscard]] std::size_t owned() const override { return ranks_->owned(); }
   void refresh(Particles&, std::span<const Field<double>* const> columns) override;
   void refresh(std::span<double> by_id) override;
@@ -32,6 +33,7 @@ class LammpsHalo : public Halo {
   void pack(Particles&, const PeriodicBox&);
   void unpack(Particles&, const PeriodicBox&);
 
+  std::array<bool, 3> splits_;
   std::function<Ranks&(int)> begin_;
   Ranks* ranks_ = nullptr;
   long migrations_ = 0;

@@ -216,6 +216,12 @@ int tripoint_rank() {
   return rank;
 }
 
+int tripoint_size() {
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  return size;
+}
+
 void tripoint_abort(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
 
 /// What `plugin load` calls.

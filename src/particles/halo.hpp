@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -19,8 +20,11 @@ class Halo {
  public:
   virtual ~Halo() = default;
   /// Who has a part of space now is handed what has moved there, and copies of what is within reach of it. Ids are 0..size()-1 anew, those of
-  /// own particles first; every column goes with its particle. What is seen across a periodic boundary is a copy at its image's place.
+  /// own particles first; every column goes with its particle. Of a direction that is split, what is seen across a periodic boundary is a copy at
+  /// its image's place.
   virtual void migrate(Particles&, const PeriodicBox&) = 0;
+  /// Directions in which the scene is split. Across the others each process sees what is periodic by itself.
+  [[nodiscard]] virtual std::array<bool, 3> splits() const = 0;
   [[nodiscard]] virtual std::size_t owned() const = 0;  ///< particles of its own: ids 0..owned()-1
   /// Copies take these columns from their owners.
   virtual void refresh(Particles&, std::span<const Field<double>* const> columns) = 0;

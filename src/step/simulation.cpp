@@ -91,9 +91,9 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   load(initial);
   enclosure_ = enclosure_of(scene, initial);
   if (passes_.needed()) {
-    // Where others hold a part of the scene, what is seen across a periodic boundary is a copy, at its image's place.
-    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.halo ? PeriodicBox{} : world_.box,
-                              options_.threads, passes_.lanes());
+    PeriodicBox seen = world_.box;
+    for (std::size_t a = 0; a < 3 && world_.halo; ++a) seen.periodic[a] = seen.periodic[a] && !world_.halo->splits()[a];
+    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), seen, options_.threads, passes_.lanes());
   }
   plan_events();
 }

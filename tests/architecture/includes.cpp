@@ -29,6 +29,7 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"adapters/tripoint", {"core", "scene", "io", "particles", "sph", "effects", "step", "adapters"}},
     {"adapters/bullet", {"core", "scene", "io", "adapters"}},
     {"adapters/lammps", {"core", "scene", "io", "adapters"}},
+    {"adapters/ranks", {"core", "scene", "io", "particles", "sph", "effects", "step", "adapters", "adapters/tripoint"}},
     {"validation/references", {"core", "scene", "io", "adapters"}},
     {"validation/metrics", {"core", "scene", "io", "adapters", "validation/references"}},
     {"validation/harness", {"core", "scene", "io", "adapters", "validation/references", "validation/metrics"}},
@@ -51,6 +52,7 @@ constexpr std::array homes{
     Home{"BulletDynamics/", "adapters/bullet"},
     Home{"LinearMath/", "adapters/bullet"},
     Home{"lammps/", "adapters/lammps"},
+    Home{"lammps/", "adapters/ranks"},
     Home{"hdf5", "io"},
     Home{"H5", "io"},
     Home{"toml++/", "scene"},
@@ -59,7 +61,7 @@ constexpr std::array homes{
     Home{"png.h", "render"},
     Home{"tiny_obj_loader", "scene"},
     Home{"CLI/", "program/cli"},
-    Home{"mpi", ""},
+    Home{"mpi", "adapters/ranks"},
 };
 /// Seconds to compile each: only in a .cpp.
 constexpr std::array<std::string_view, 6> dear{"toml++/", "nlohmann/json.hpp", "CLI/", "boost/math/", "openvdb/", "Eigen/Eigen"};

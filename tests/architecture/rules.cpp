@@ -22,7 +22,8 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 }
 
 std::vector<Offence> missing_licence(const Source& source) {
-  const std::string_view licence = source.path.starts_with("adapters/lammps/") ? "GPL-2.0-only" : "BSD-3-Clause";
+  const bool with_lammps = source.path.starts_with("adapters/lammps/") || source.path.starts_with("adapters/ranks/");
+  const std::string_view licence = with_lammps ? "GPL-2.0-only" : "BSD-3-Clause";
   const std::string wanted = fmt::format("SPDX-License-Identifier: {}", licence);
   const auto lines = lines_of(source.text);
   for (std::size_t n = 0; n < lines.size() && n < 3; ++n) {

