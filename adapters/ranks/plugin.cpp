@@ -60,7 +60,7 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   [[nodiscard]] double* numbers(std::size_t one) const override { return numbers_[one]; }
   void migrate() override;
   void forward(double* const* columns, int count, const std::uint32_t* rows) override;
-  void add(double* numbers, int count) override { MPI_Allreduce(MPI_IN_PLACE, numbers, count, MPI_DOUBLE, MPI_SUM, world); }
+  void add(double* numbers, int count) override;
   void take_least(double& number, char* word, int length) override;
   [[nodiscard]] std::vector<double> gather(const std::vector<double>& own) override;
   [[nodiscard]] double bytes_sent() const override { return bytes_sent_; }
@@ -151,6 +151,12 @@ void FixHalo::migrate() {
   bigint here = atom->nlocal, everywhere = 0;
   MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
   if (everywhere != atom->natoms) throw EngineError("LAMMPS lost " + std::to_string(atom->natoms - everywhere) + " of " + std::to_string(atom->natoms) + " particles between ranks");
+}
+
+/// One rank adds and tells the others: the bits are the same for all, whatever the library's way of sums.
+void FixHalo::add(double* numbers, int count) {
+  MPI_Reduce(comm->me == 0 ? MPI_IN_PLACE : numbers, numbers, count, MPI_DOUBLE, MPI_SUM, 0, world);
+  MPI_Bcast(numbers, count, MPI_DOUBLE, 0, world);
 }
 
 void FixHalo::take_least(double& number, char* word, int length) {

@@ -11,21 +11,23 @@
 namespace tripoint::ranks {
 namespace {
 
-bool any(const Scene& scene, bool (*is)(const Body&)) { return std::ranges::any_of(scene.bodies, is); }
+/// Effects that run over ranks. What else a scene calls for is refused, also where it is not known here.
+constexpr std::array<std::string_view, 5> shared{"rigid", "fluid", "motion", "density", "heat"};
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> unshared{{{"phase", "melting and freezing, which make and end bodies and bonds"},
+                                                                                 {"fracture", "fracture, which ends bonds"},
+                                                                                 {"plastic", "plastic flow, which goes with bonds"},
+                                                                                 {"elastic", "elastic bodies, whose bonds would have to move with their particles"}}};
 
 /// What of the scene has no part over ranks; empty where all has.
 std::string refused_part(const Scene& scene) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> effects{{{"phase", "melting and freezing, which make and end bodies and bonds"},
-                                                                                  {"fracture", "fracture, which ends bonds"},
-                                                                                  {"plastic", "plastic flow, which goes with bonds"},
-                                                                                  {"elastic", "elastic bodies, whose bonds would have to move with their particles"}}};
-  for (const auto& [effect, what] : effects)
-    if (calls_for(scene, effect)) return std::string(what);
-  if (any(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; })) return "free bodies, whose forces are sums over ranks";
-  if (any(scene, [](const Body& b) { return b.motion == Motion::prescribed; })) return "driven bodies, whose work is a sum over ranks";
   if (!scene.inflows.empty()) return "inflow, which makes particles";
   if (!scene.events.empty()) return "events";
   if (scene.recovers) return "recovery, which goes back to a kept state";
+  for (const auto& [effect, what] : unshared)
+    if (calls_for(scene, effect)) return std::string(what);
+  for (const CalledEffect& called : needed_effects(scene))
+    if (std::ranges::find(shared, called.name) == shared.end()) return "the effect " + called.name;
   return {};
 }
 

@@ -59,6 +59,21 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
   }
 }
 
+/// Every process has the members that are its own.
+void add_over_halo(const World& world, std::vector<BodyForces>& sums) {
+  if (!world.halo || sums.empty()) return;
+  std::vector<double> numbers;
+  const auto each = [&](auto visit) {
+    for (BodyForces& sum : sums)
+      for (std::size_t k = 0; k < sum.count; ++k)
+        for (Vec3* v : {&sum.forces[k], &sum.torques[k]}) visit(*v);
+  };
+  each([&](const Vec3& v) { numbers.insert(numbers.end(), {v.x, v.y, v.z}); });
+  world.halo->add(numbers);
+  const double* from = numbers.data();
+  each([&](Vec3& v) { v = {from[0], from[1], from[2]}, from += 3; });
+}
+
 }  // namespace
 
 std::vector<BodyForces> forces_on_bodies(const World& world) {
@@ -72,7 +87,9 @@ void forces_on_moving_bodies(const World& world, std::vector<BodyForces>& sums) 
   if (world.bodies.size() == 0) return;
   std::vector<char> asked(world.bodies.size());
   for (std::size_t b = 0; b < asked.size(); ++b) asked[b] = moves(world, b);
-  if (std::ranges::find(asked, 1) != asked.end()) sum_forces(world, asked, sums);
+  if (std::ranges::find(asked, 1) == asked.end()) return;
+  sum_forces(world, asked, sums);
+  add_over_halo(world, sums);
 }
 
 }  // namespace tripoint

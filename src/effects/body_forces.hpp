@@ -23,9 +23,9 @@ struct BodyForces {
     return sum;
   }
 };
-/// One entry a body, sums in order of id; empty where no effect of the scene makes forces.
+/// One entry a body, sums in order of id over what this process owns; empty where no effect of the scene makes forces.
 [[nodiscard]] std::vector<BodyForces> forces_on_bodies(const World&);
-/// The same for the bodies that move only, zero for others; empty when none does. @param sums is used again from call to call
+/// The same for the bodies that move only, zero for others, of all processes that share the scene; empty when none does. @param sums is used again from call to call
 void forces_on_moving_bodies(const World&, std::vector<BodyForces>& sums);
 
 }  // namespace tripoint

@@ -299,6 +299,7 @@ void Simulation::follow_halo() {
   std::string unused;
   world_.halo->take_least(outdated, unused);
   if (outdated == 0.0) return;
+  if (!world_.bonds.empty() || !world_.own.empty()) throw InputError("bonds cannot go with their particles to another process");
   world_.halo->migrate(world_.particles, world_.box);
   world_.neighbours->forget();
   for (const Active& a : effects_) a.effect->renumber(world_);

@@ -117,6 +117,7 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   update_spin(world, b);
   t[field::body_acceleration][b] = (1.0 / dt) * (v - v_before);
   t[field::body_angular_acceleration][b] = (1.0 / dt) * (t[field::body_angular_velocity][b] - omega_before);
+  if (!world.tells_of_bodies()) return;
   const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
   for (std::size_t k = 0; k < world.forces.size(); ++k)
     if (world.forces[k].feels == Feels::all) world.booked[world.forces[k].work] += dt * (dot(f.forces[k], mean) + dot(f.torques[k], spin));
@@ -126,7 +127,7 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
 /// What forces do to a driven body goes to whoever drives it. Half a kick works along the drift that it is beside: at a
 /// keyframe the one before goes with the old velocity and the one after with the new.
 void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& forces, double dt) {
-  if (forces.empty()) return;
+  if (forces.empty() || !world.tells_of_bodies()) return;
   const bool ends_step = world.time == world.next_time;
   const PrescribedState s = driven_state(world, b, ends_step ? world.time - dt : world.time + dt);
   const Vec3 omega = s.angular_velocity, v = s.velocity + cross(omega, rotate(s.rotation, world.bodies[field::body_offset][b]));
@@ -185,13 +186,15 @@ void RigidBodies::drift(World& world, double dt) {
       t[field::body_centre][b] += dt * t[field::body_velocity][b];
       const double before = kinetic_energy(world, b);
       turn(world, b, dt);
-      world.booked[account::rotation_drift] += kinetic_energy(world, b) - before;
+      if (world.tells_of_bodies()) world.booked[account::rotation_drift] += kinetic_energy(world, b) - before;
     } else {
       const double kinetic = kinetic_energy(world, b), potential = potential_energy(world, b);
       drive(world, b, world.next_time);
       const double raised = potential_energy(world, b) - potential;
-      world.booked[account::driven_potential] += raised;
-      world.booked[account::walls] -= kinetic_energy(world, b) - kinetic + raised;
+      if (world.tells_of_bodies()) {
+        world.booked[account::driven_potential] += raised;
+        world.booked[account::walls] -= kinetic_energy(world, b) - kinetic + raised;
+      }
     }
     any = true;
   }
