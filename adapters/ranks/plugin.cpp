@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // The plugin of LAMMPS: the fix `tripoint/halo`, which keeps the solver's columns with LAMMPS's atoms. LAMMPS decomposes the box, moves atoms between
 // ranks and says which copies each rank needs; nothing of the model is here.
+#include <lammps/atom.h>
+#include <lammps/comm.h>
+#include <lammps/domain.h>
+#include <lammps/fix.h>
+#include <lammps/lammps.h>
+#include <lammps/memory.h>
+#include <lammps/update.h>
 #include <mpi.h>
 
 #include <cstring>
 
 #include "adapters/ranks/ranks.hpp"
 #include "core/errors.hpp"
-#include "lammps/atom.h"
-#include "lammps/comm.h"
-#include "lammps/domain.h"
-#include "lammps/fix.h"
-#include "lammps/lammps.h"
-#include "lammps/memory.h"
-#include "lammps/update.h"
 
 namespace tripoint::ranks {
 namespace {
