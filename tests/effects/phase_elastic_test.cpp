@@ -235,7 +235,6 @@ TEST(Softening, LeavesAMaterialAloneThatDoesNotSoften) {
 TEST(PrintedHeat, ALiquidThatIsSetToATemperatureTakesHeatAndNoFusion) {
   lab::Lab lab = swinging_bar();
   lab.scene.modes[static_cast<std::size_t>(Term::heat)] = Mode::paper;
-  lab.scene.modes[static_cast<std::size_t>(Term::phase)] = Mode::paper;
   lab.initial.temperature.assign(lab.initial.size(), 420.0);
   lab.scene.events = {heat(0.01, 440.0)};
   Simulation s(lab.scene, lab.initial);
