@@ -379,7 +379,7 @@ class Spin(Pages):
                    {"name": "bullet", "status": "ok", "runs": [run(None, 0.60346)], "gates": []}]
         (page,), notes = headlines.pages(self.load(case(engines, "rigid/torque-free")), self.path)
         self.assertEqual(notes, [])
-        self.assertIn("at a step of 10 ms, 1 of 2 engines and presets point within 0.01 rad of the truth; bullet is 0.6035 rad off; tripoint as printed is 1.901 rad off.", page.answer)
+        self.assertIn("at a step of 10 ms, 1 of 2 engines and presets (without our printed form) point within 0.01 rad of the truth; bullet is 0.6035 rad off; tripoint as printed is 1.901 rad off.", page.answer)
         self.assertEqual([(line.label, line.cells[:2]) for line in page.lines], [("tripoint", ["10 ms", "3.6e-05"]), ("bullet", ["10 ms", "0.6035"]), ("tripoint as printed", ["10 ms", "1.901"])])
 
 
