@@ -114,7 +114,7 @@ class Cases:
 
     def passes(self, case, engine, out, tree=None):
         engines = sorted(e for e in self.cases[case]["engines"] if e.startswith(engine))
-        done = run(["build/bin/tripoint", "validate", case, "--engines", ",".join(engines), "--no-history", "--out", out], tree or self.tree, 900)
+        done = run(["build/bin/tripoint", "validate", case, "--engines", ",".join(engines), "--no-history", "--no-report", "--out", out], tree or self.tree, 900)
         results = pathlib.Path(out) / "results.json"
         if done is None or not results.exists():
             return False, "timed out" if done is None else f"exit {done.returncode}"

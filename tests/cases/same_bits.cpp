@@ -13,18 +13,12 @@
 
 #include "core/machine.hpp"
 #include "scene/read_case.hpp"
+#include "state_after.hpp"
 #include "step/settle.hpp"
-#include "step/simulation.hpp"
 
 using namespace tripoint;
 
 namespace {
-
-struct Way {
-  int threads, lanes;
-  bool sums_all = false;  ///< also where nothing meets
-  bool changes = false;   ///< another number of threads after every step
-};
 
 /// Every number of threads that the project promises, and every width that this machine has, each at least once.
 std::vector<Way> ways() {
@@ -47,28 +41,6 @@ std::string difference(const Checkpoint& a, const Checkpoint& b) {
   for (const auto& [name, values] : a.whole)
     if (const auto at = b.whole.find(name); at == b.whole.end() || values != at->second) return name;
   return a.text == b.text ? "" : "text";
-}
-
-struct State {
-  Checkpoint kept;
-  std::string failure;  ///< of a scene that is meant to fail: it must do so alike
-  double pairs = 0.0;
-  long steps = 0;
-};
-
-State state_after(const Scene& scene, const InitialState& initial, const Way& way, long steps) {
-  State state;
-  try {
-    Simulation s(scene, initial, {.threads = way.threads, .force_time_step = true, .lanes = way.lanes, .sums_all = way.sums_all});
-    s.advance_to(scene.end_time, [&] {
-      if (way.changes) s.use_threads(1 + static_cast<int>(s.steps() % 3));
-      return --steps > 0;
-    });
-    state.kept = s.checkpoint(), state.pairs = s.pairs(), state.steps = s.steps();
-  } catch (const Diverged& e) {
-    state.failure = e.what();
-  }
-  return state;
 }
 
 /// @return whether all ways agree

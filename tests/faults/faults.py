@@ -8,7 +8,7 @@ seam.cpp lets the n-th call fail, in each kind, for every n (or every N-th of th
 stands in the program's stderr, which this script keeps apart from the files. Then it looks:
 
 - exit 0 means that every frame and the result are there, to the last bit of an undisturbed run;
-- another exit has words on stderr, and no result says ok;
+- another exit has a code of the contracts and words on stderr, and no result says ok;
 - frames that were announced are in the file with their bits (a loss of power may take them);
 - a run goes on from the last announced checkpoint, and ends with the bits of the undisturbed one;
 - nothing hangs, and nothing ends by a signal but the one that we sent (a process without memory may: the libraries below it do).
@@ -37,6 +37,7 @@ DEATHS = ("before", "half", "after", "lost")
 HARMLESS = ("short", "eintr")  # a call that is cut short is made again
 KINDS = [*DEATHS, *HARMLESS, "eio", "enospc", "erofs", "edquot", "eio" + STICKY, "enospc" + STICKY, "erofs" + STICKY]  # and memory, memory+sticky
 PATIENCE = 60.0  # [s] for a run of 0.05 s
+CODES = {"engine-tripoint": (0, 1, 2, 4, 7, 130), "tripoint": (0, 1, 2, 3, 4, 5, 6, 7, 130)}  # that the contracts know
 GOOD = ("whole", "died", "refused")
 
 
@@ -154,6 +155,8 @@ def judged(target, folder, end, kind):
         return target.broken_promise(folder, end, kind) or "died"
     if end.returncode < 0:
         return f"CRASH by signal {-end.returncode}"
+    if end.returncode not in CODES[target.process]:
+        return f"CODE: exit {end.returncode} means nothing"
     if end.returncode == 0:
         return "whole" if target.is_whole(folder) else "WRONG: exit 0, and not all is there"
     if kind in HARMLESS:
@@ -168,7 +171,7 @@ def judged(target, folder, end, kind):
 def try_point(target, scratch, kind, at, seed):
     folder = scratch / f"{kind}-{at}-{seed}"
     environment = {"LD_PRELOAD": str(target.seam), "FAULT_PROCESS": target.process, "FAULT_FOLDER": str(folder), "FAULT_AT": str(at), "FAULT_SEED": str(seed),
-                   "FAULT_KIND": kind.removesuffix(STICKY), "FAULT_STICKY": "1" if kind.endswith(STICKY) else "0", "FAULT_LOG": str(scratch / f"{folder.name}.log")}
+                   "FAULT_KIND": kind, "FAULT_LOG": str(scratch / f"{folder.name}.log")}
     try:
         found = judged(target, folder, target.run(folder, environment), kind)
     except subprocess.TimeoutExpired:

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands between a program and the C library (LD_PRELOAD), and lets one of its calls fail: the n-th that changes a file below a folder, or the
+// Stands between a program and the C library (LD_PRELOAD), and lets some of its calls fail: the n-th that changes a file below a folder, or the
 // n-th that asks for memory. Programs are tested as they are shipped; nothing of this is in them.
 //
 //   FAULT_PROCESS   beginning of the name of the process that is meant; others are left alone
 //   FAULT_FOLDER    calls on files below it count
-//   FAULT_AT        which call fails, from 1; 0 = none, calls are counted only
+//   FAULT_AT        which call fails, from 1; 0 = none, calls are counted only. Several: "7,30", each with its kind
 //   FAULT_KIND      eio, enospc, erofs, edquot, eintr: the call fails so; short: half of it is done, as may be;
 //                   before, half, after: the process is killed before the call, half way through it, after it;
 //                   lost: it is killed, and what no fsync has made durable is undone, but for a beginning whose length FAULT_SEED draws;
-//                   memory: the n-th call for memory gives none
-//   FAULT_STICKY    1: all later calls fail too
+//                   clock: from then on the date jumps by years at every look;
+//                   memory: the n-th call for memory gives none. With "+sticky" all later calls fail too
 //   FAULT_LOG       a line a call that counts, or the one that failed: number, operation, path; of calls for memory their number at the end
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -17,8 +17,10 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdarg>
@@ -68,19 +70,54 @@ struct Unsynced {
   bool existed = false;        ///< what a renamed file replaced
 };
 
+constexpr const char* sticky_word = "+sticky";
+
+/// One call that fails, or all from it on.
+struct Fault {
+  long at = 0;
+  std::string kind;
+  bool sticky = false;
+};
+
+/// Parts of a text between commas.
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts{""};
+  for (const char c : text) {
+    if (c == ',') parts.emplace_back();
+    else parts.back() += c;
+  }
+  return parts;
+}
+
+std::vector<Fault> faults_asked() {
+  const std::vector<std::string> places = parts_of(said("FAULT_AT")), kinds = parts_of(said("FAULT_KIND"));
+  std::vector<Fault> faults;
+  for (size_t n = 0; n < places.size() && n < kinds.size(); ++n) {
+    const size_t word = kinds[n].find(sticky_word);
+    faults.push_back({std::atol(places[n].c_str()), kinds[n].substr(0, word), word != std::string::npos});
+  }
+  return faults;
+}
+
 struct Plan {
-  long at = std::atol(said("FAULT_AT")), seed = std::atol(said("FAULT_SEED"));
-  std::string kind = said("FAULT_KIND"), folder = said("FAULT_FOLDER"), log = said("FAULT_LOG");
-  bool meant = is_meant(), sticky = *said("FAULT_STICKY") == '1', loses = kind == "lost";
+  std::vector<Fault> faults = faults_asked();
+  long seed = std::atol(said("FAULT_SEED"));
+  std::string folder = said("FAULT_FOLDER"), log = said("FAULT_LOG");
+  bool meant = is_meant();
+  bool counts_only = faults.size() == 1 && faults[0].at == 0;
+  bool loses = std::ranges::any_of(faults, [](const Fault& f) { return f.kind == "lost"; });
+  bool jumps = false;  ///< the date does
   long calls = 0;
   std::vector<Unsynced> unsynced;
   std::recursive_mutex mutex;
 };
 
-Plan& plan() {
-  static Plan* const made = new Plan;  // never destroyed: programs write while they end
-  return *made;
+Plan*& made_plan() {
+  static Plan* made = new Plan;  // never destroyed: programs write while they end
+  return made;
 }
+
+Plan& plan() { return *made_plan(); }
 
 std::string path_of(int fd) {
   char link[64], path[4096];
@@ -152,22 +189,32 @@ void made_durable(const std::string& path) {
 
 enum class Fate { passes, fails, half_and_on, half_and_dies, done_and_dies };
 
+/// What a fault of that kind does to such a call.
+Fate fate_of(const std::string& kind, const char* operation) {
+  if (kind == "clock") plan().jumps = true;
+  if (kind == "clock") return Fate::passes;
+  if ((kind == "eintr" || kind == "short") && std::strcmp(operation, "write") != 0) return Fate::passes;  // only a write to a disk may be cut short
+  if (kind == "lost") lose();
+  if (kind == "lost" || kind == "before") die();
+  if (kind == "half") return Fate::half_and_dies;
+  if (kind == "after") return Fate::done_and_dies;
+  if (kind == "short") return Fate::half_and_on;
+  errno = kind == "enospc" ? ENOSPC : kind == "erofs" ? EROFS : kind == "edquot" ? EDQUOT : kind == "eintr" ? EINTR : EIO;
+  return Fate::fails;
+}
+
 /// What becomes of a call that changes a file. Where it fails, errno says why.
 Fate fate(const char* operation, const std::string& path) {
   Plan& p = plan();
-  if (!p.meant || p.kind == "memory" || p.folder.empty() || path.rfind(p.folder, 0) != 0) return Fate::passes;
+  if (!p.meant || p.folder.empty() || path.rfind(p.folder, 0) != 0) return Fate::passes;
   ++p.calls;
-  if (p.at == 0) note(operation, path);
-  if (p.at == 0 || p.calls < p.at || (p.calls > p.at && !p.sticky)) return Fate::passes;
-  if (p.calls == p.at) note(operation, path);
-  if ((p.kind == "eintr" || p.kind == "short") && std::strcmp(operation, "write") != 0) return Fate::passes;  // only a write to a disk may be cut short
-  if (p.loses) lose();
-  if (p.loses || p.kind == "before") die();
-  if (p.kind == "half") return Fate::half_and_dies;
-  if (p.kind == "after") return Fate::done_and_dies;
-  if (p.kind == "short") return Fate::half_and_on;
-  errno = p.kind == "enospc" ? ENOSPC : p.kind == "erofs" ? EROFS : p.kind == "edquot" ? EDQUOT : p.kind == "eintr" ? EINTR : EIO;
-  return Fate::fails;
+  if (p.counts_only) note(operation, path);
+  for (const Fault& f : p.faults) {
+    if (f.at == 0 || f.kind == "memory" || p.calls < f.at || (p.calls > f.at && !f.sticky)) continue;
+    if (p.calls == f.at) note(operation, path);
+    if (const Fate found = fate_of(f.kind, operation); found != Fate::passes) return found;
+  }
+  return Fate::passes;
 }
 
 /// A call that is done whole or not at all. @param call does it
@@ -227,8 +274,8 @@ bool memory_is_out() {
   if (memory.state == 0) {
     memory.state = 1;  // what is called here may ask for memory
     memory.at = std::atol(said("FAULT_AT"));
-    memory.sticky = *said("FAULT_STICKY") == '1';
-    if (std::strcmp(said("FAULT_KIND"), "memory") == 0 && is_meant()) memory.state = 2;
+    memory.sticky = std::strstr(said("FAULT_KIND"), sticky_word);
+    if (std::strncmp(said("FAULT_KIND"), "memory", 6) == 0 && is_meant()) memory.state = 2;
   }
   if (memory.state == 1) return false;
   const long now = ++memory.calls;
@@ -248,6 +295,22 @@ bool memory_is_out() {
 }  // namespace
 
 extern "C" {
+
+/// Takes a new plan from the environment: for a program that forks a child a trial.
+void fault_seam_begins() {
+  made_plan() = new Plan;
+  memory.state = 0;
+  memory.calls = 0;
+}
+
+int clock_gettime(clockid_t clock, timespec* now) {
+  NEXT(clock_gettime);
+  const int result = next(clock, now);
+  if (memory.state == 0 || clock != CLOCK_REALTIME || !plan().jumps) return result;
+  plan().seed = plan().seed * 1103515245 + 12345;
+  now->tv_sec += plan().seed / 65536 % 300000000;
+  return result;
+}
 
 void* malloc(size_t n) { return memory_is_out() ? nullptr : __libc_malloc(n); }
 void* calloc(size_t n, size_t each) { return memory_is_out() ? nullptr : __libc_calloc(n, each); }

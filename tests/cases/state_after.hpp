@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+
+#include "step/simulation.hpp"
+
+namespace tripoint {
+
+/// A way to make a run, which must not change a bit of it.
+struct Way {
+  int threads, lanes;
+  bool sums_all = false;  ///< also where nothing meets
+  bool changes = false;   ///< another number of threads after every step
+};
+
+struct State {
+  Checkpoint kept;
+  std::string failure;  ///< of a scene that is meant to fail: it must do so alike
+  double pairs = 0.0;
+  long steps = 0;
+};
+
+/// The state after that many steps, or at the end of the scene.
+inline State state_after(const Scene& scene, const InitialState& initial, const Way& way, long steps) {
+  State state;
+  try {
+    Simulation s(scene, initial, {.threads = way.threads, .force_time_step = true, .lanes = way.lanes, .sums_all = way.sums_all});
+    s.advance_to(scene.end_time, [&] {
+      if (way.changes) s.use_threads(1 + static_cast<int>(s.steps() % 3));
+      return --steps > 0;
+    });
+    state.kept = s.checkpoint();
+    state.pairs = s.pairs();
+    state.steps = s.steps();
+  } catch (const Diverged& e) {
+    state.failure = e.what();
+  }
+  return state;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Runs of the engine under faults that a seed draws: one to three calls that fail, each in a kind of its own, an interval of checkpoints, and up to
+// three attempts, of which the later ones go on from the last announced checkpoint. A process is forked a run, so that hundreds of thousands can be made.
+//   seeded-faults BUILD CASE.toml... [--count N] [--seed S] [--jobs N]
+// What was announced is read from the run's stderr, which is kept apart from its files.
+// Exit: 0 every promise of docs/promises.md held, 1 one did not, with the seed that shows it again (--seed S --count 1).
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "adapters/tripoint/tripoint_engine.hpp"
+
+extern "C" void fault_seam_begins();  // of seam.cpp, which is part of this program
+
+using namespace tripoint;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int patience = 60'000;  ///< [ms] for a run of some tens
+constexpr std::array kinds{"before", "half", "after", "lost", "short", "eintr", "eio", "enospc", "erofs", "edquot", "clock", "eio+sticky", "enospc+sticky", "erofs+sticky"};
+constexpr std::array codes{0, 1, 2, 4, 7, 130};  ///< that the contracts know of an engine
+constexpr int most_attempts = 3;
+
+bool is_harmless(const std::string& kind) { return kind == "short" || kind == "eintr" || kind == "clock"; }
+bool kills(const std::string& kind) { return kind == "before" || kind == "half" || kind == "after" || kind == "lost"; }
+
+struct Ended {
+  int code = 0;  ///< exit code, or minus the signal
+  bool hung = false;
+  std::string said;  ///< stderr
+};
+
+/// Does `work` in a child of its own. @return how it ended and what it said
+template <class Work>
+Ended in_child(Work work) {
+  const int said = memfd_create("said", MFD_CLOEXEC);
+  const pid_t child = fork();
+  if (child == 0) {
+    dup2(said, 2);
+    std::exit(work());
+  }
+  const int handle = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
+  pollfd wait{handle, POLLIN, 0};
+  Ended end;
+  end.hung = poll(&wait, 1, patience) == 0;
+  if (end.hung) kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(handle);
+  end.code = WIFSIGNALED(status) ? -WTERMSIG(status) : WEXITSTATUS(status);
+  const auto size = static_cast<std::size_t>(lseek(said, 0, SEEK_END));
+  end.said.resize(size);
+  end.said.resize(static_cast<std::size_t>(std::max<ssize_t>(0, pread(said, end.said.data(), size, 0))));
+  close(said);
+  return end;
+}
+
+int serve_job(const std::string& path) {
+  std::string program = "engine-tripoint", verb = "--run", job = path;
+  std::array<char*, 4> words{program.data(), verb.data(), job.data(), nullptr};
+  return serve(3, words.data(), [] { return std::unique_ptr<Engine>(new TripointEngine); });
+}
+
+/// A scene, and what its undisturbed run shows.
+struct Reference {
+  nlohmann::json job;
+  std::string particles;
+  double end_time = 0.0;
+  std::vector<std::string> hashes;  ///< [n]: of the first n frames
+  long calls = 0;                   ///< that change a file
+};
+
+std::vector<std::string> hashes_of(const Trajectory& t) {
+  FramesHash hash;
+  std::vector<std::string> found{hash.text()};
+  for (const Snapshot& frame : t.frames) {
+    hash.add(frame);
+    found.push_back(hash.text());
+  }
+  return found;
+}
+
+std::string write_job_file(const Reference& of, const fs::path& folder, double interval, const std::string& resume) {
+  nlohmann::json job = of.job;
+  job["output"] = folder.string();
+  job["particles"] = of.particles;
+  job["threads"] = 1;
+  job["settings"]["checkpoint_interval"] = interval;
+  if (!resume.empty()) job["resume"] = resume;
+  const fs::path path = folder.parent_path() / (folder.filename().string() + ".job.json");
+  std::ofstream(path) << job.dump();
+  return path.string();
+}
+
+void set_plan(const std::string& folder, const std::string& at, const std::string& kind, unsigned seed, const std::string& log = "") {
+  setenv("FAULT_PROCESS", "seeded-faults", 1);
+  setenv("FAULT_FOLDER", folder.c_str(), 1);
+  setenv("FAULT_AT", at.c_str(), 1);
+  setenv("FAULT_KIND", kind.c_str(), 1);
+  setenv("FAULT_SEED", std::to_string(seed).c_str(), 1);
+  setenv("FAULT_LOG", log.c_str(), 1);
+  fault_seam_begins();
+}
+
+std::string status_of(const fs::path& folder) {
+  std::ifstream in(folder / "result.json");
+  return in ? nlohmann::json::parse(in).value("status", "") : "";
+}
+
+/// @return "", or what is wrong with a run that says it is whole
+std::string fault_of_whole(const Reference& of, const fs::path& folder) {
+  if (status_of(folder) != "ok") return "WRONG: exit 0, and the result does not say ok";
+  if (hashes_of(read_trajectory((folder / "trajectory.h5").string())) != of.hashes) return "WRONG: exit 0, and not every frame has its bits";
+  return "";
+}
+
+/// One attempt: its faults and what became of it.
+struct Attempt {
+  std::vector<std::string> kinds;
+  Ended end;
+  [[nodiscard]] bool may_be_killed() const { return std::ranges::any_of(kinds, kills); }
+  [[nodiscard]] bool loses_power() const { return std::ranges::find(kinds, "lost") != kinds.end(); }
+  [[nodiscard]] bool is_harmless() const { return std::ranges::all_of(kinds, ::is_harmless); }
+};
+
+/// Number of frames that this attempt announced, counted from the first of the run.
+std::size_t announced_frames(const std::string& said) {
+  static const std::regex line("(?:^|\n)frame (\\d+) ");
+  std::size_t most = 0;
+  for (std::sregex_iterator at(said.begin(), said.end(), line), none; at != none; ++at) most = std::max<std::size_t>(most, std::stoul((*at)[1]) + 1);
+  return most;
+}
+
+std::string last_checkpoint(const std::string& said) {
+  static const std::regex line("(?:^|\n)checkpoint (\\S+) ");
+  std::string last;
+  for (std::sregex_iterator at(said.begin(), said.end(), line), none; at != none; ++at) last = (*at)[1];
+  return last;
+}
+
+/// What is left behind, looked at without faults. @return "", or which promise does not hold
+std::string broken_promise(const Reference& of, const fs::path& folder, const Attempt& attempt, const std::string& checkpoint, double interval) {
+  if (attempt.end.code == 0) return fault_of_whole(of, folder);
+  if (status_of(folder) == "ok") return "WRONG: the run did not end well, and its result says ok";
+  if (const std::size_t count = announced_frames(attempt.end.said); count > 0 && !attempt.loses_power()) {
+    const std::vector<std::string> there = hashes_of(read_trajectory((folder / "trajectory.h5").string()));
+    if (there.size() <= count) return fmt::format("LOST: {} of {} announced frames are there", there.size() - 1, count);
+    if (there[count] != of.hashes.at(count)) return fmt::format("WRONG: the first {} announced frames have other bits", count);
+  }
+  if (checkpoint.empty()) return "";
+  const fs::path again = folder.string() + ".again";
+  fs::copy(folder, again, fs::copy_options::recursive);
+  if (serve_job(write_job_file(of, again, interval, (again / fs::path(checkpoint).filename()).string())) != 0) return "LOST: the announced " + checkpoint + " is refused";
+  return fault_of_whole(of, again);
+}
+
+/// In capitals what must not be; whole, died, refused what may.
+std::string judged(const Reference& of, const fs::path& folder, const Attempt& attempt, const std::string& checkpoint, double interval) {
+  const Ended& end = attempt.end;
+  if (end.hung) return "HANG";
+  if (end.code < 0 && !(end.code == -SIGKILL && attempt.may_be_killed())) return fmt::format("CRASH by signal {}", -end.code);
+  if (end.code > 0 && attempt.is_harmless()) return "REFUSED what may be made again: " + end.said;
+  if (end.code > 0 && std::ranges::find(codes, end.code) == codes.end()) return fmt::format("CODE: exit {} means nothing", end.code);
+  if (end.code > 0 && end.said.empty()) return fmt::format("SILENT: exit {} without a word", end.code);
+  const Ended look = in_child([&] {
+    std::string found;
+    try {
+      found = broken_promise(of, folder, attempt, checkpoint, interval);
+    } catch (const std::exception& e) {
+      found = std::string("LOST: cannot be read: ") + e.what();
+    }
+    if (found.empty()) return 0;
+    fmt::print(stderr, "\n\t{}", found);
+    return 1;
+  });
+  if (look.code == 0) return end.code == 0 ? "whole" : end.code < 0 ? "died" : "refused";
+  const std::size_t tab = look.said.rfind('\t');
+  return tab == std::string::npos ? fmt::format("CRASH while it is looked at: {}, {}", look.code, look.said) : look.said.substr(tab + 1);
+}
+
+/// One seed: attempts until one ends well, or as many as there may be. @return what became of each, and the story of one that broke a promise
+std::vector<std::string> try_seed(const std::vector<Reference>& references, unsigned long seed, const fs::path& scratch, std::string& story) {
+  std::mt19937_64 dice(seed);
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(dice() % n); };
+  const Reference& of = references[below(references.size())];
+  const fs::path folder = scratch / std::to_string(seed);
+  const double interval = of.end_time * (0.05 + 0.01 * static_cast<double>(below(60)));
+  std::vector<std::string> found;
+  std::string checkpoint;
+  for (int n = 0; n < most_attempts; ++n) {
+    Attempt attempt;
+    std::string at, kind;
+    for (std::size_t k = 1 + below(3); k-- > 0;) {
+      attempt.kinds.emplace_back(kinds[below(kinds.size())]);
+      at += (at.empty() ? "" : ",") + std::to_string(1 + below(static_cast<std::size_t>(of.calls)));
+      kind += (kind.empty() ? "" : ",") + attempt.kinds.back();
+    }
+    fs::create_directories(folder);
+    const std::string job = write_job_file(of, folder, interval, checkpoint);
+    attempt.end = in_child([&] {
+      set_plan(folder.string(), at, kind, static_cast<unsigned>(dice()));
+      return serve_job(job);
+    });
+    if (const std::string written = last_checkpoint(attempt.end.said); !written.empty()) checkpoint = written;
+    found.push_back(judged(of, folder, attempt, checkpoint, interval));
+    fs::remove_all(folder.string() + ".again");
+    story += fmt::format("  attempt {}: calls {} fail by {}: exit {}: {}\n", n + 1, at, kind, attempt.end.code, found.back());
+    if (found.back() != "died" && found.back() != "refused") break;
+    if (checkpoint.empty()) break;
+  }
+  fs::remove_all(folder);
+  fs::remove(folder.string() + ".job.json");
+  fs::remove(folder.string() + ".again.job.json");
+  return found;
+}
+
+/// @param program that writes the job of a case; @param file of the case
+Reference reference_of(const fs::path& program, const fs::path& file, const fs::path& scratch) {
+  const fs::path from = scratch / file.stem();
+  if (std::system(fmt::format("{} run {} --quiet --out {} >/dev/null", program.string(), file.string(), from.string()).c_str()) != 0) throw std::runtime_error(file.string() + " does not run");
+  Reference of;
+  std::ifstream in(from / "job.json");
+  of.job = nlohmann::json::parse(in);
+  of.particles = fs::absolute(from / "particles.h5").string();
+  of.end_time = of.job.at("times").back().get<double>() - of.job.at("times").front().get<double>();
+  const fs::path folder = scratch / ("reference-" + file.stem().string());
+  fs::create_directories(folder);
+  const std::string job = write_job_file(of, folder, 0.2 * of.end_time, ""), log = folder.string() + ".log";
+  const Ended end = in_child([&] {
+    set_plan(folder.string(), "0", "files", 0, log);
+    return serve_job(job);
+  });
+  if (end.code != 0) throw std::runtime_error(from.string() + ": the undisturbed run ends with " + end.said);
+  of.hashes = hashes_of(read_trajectory((folder / "trajectory.h5").string()));
+  std::ifstream calls(log);
+  for (std::string line; std::getline(calls, line);) ++of.calls;
+  return of;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  unsigned long count = 200, first = 1, jobs = 2;
+  std::vector<fs::path> paths;
+  for (int n = 1; n < argc; ++n) {
+    const std::string word = argv[n];
+    unsigned long* const number = word == "--count" ? &count : word == "--seed" ? &first : word == "--jobs" ? &jobs : nullptr;
+    if (number && n + 1 < argc) *number = std::strtoul(argv[++n], nullptr, 10);
+    else paths.emplace_back(word);
+  }
+  if (paths.size() < 2) return fmt::print(stderr, "usage: seeded-faults BUILD CASE.toml... [--count N] [--seed S] [--jobs N]\n"), 2;
+  const fs::path scratch = fs::path(fs::exists("/dev/shm") ? "/dev/shm" : "/tmp") / fmt::format("tripoint-seeded-{}", getpid());
+  fs::create_directories(scratch);
+  std::vector<Reference> references;
+  for (std::size_t n = 1; n < paths.size(); ++n) references.push_back(reference_of(paths[0] / "bin/tripoint", paths[n], scratch));
+
+  std::vector<pid_t> workers;
+  for (unsigned long j = 0; j < jobs; ++j) {
+    workers.push_back(fork());
+    if (workers.back() != 0) continue;
+    std::map<std::string, long> table;
+    bool good = true;
+    for (unsigned long seed = first + j; seed < first + count; seed += jobs) {
+      std::string story;
+      for (const std::string& what : try_seed(references, seed, scratch, story)) {
+        const std::string word = what.substr(0, what.find_first_of(": "));
+        ++table[word];
+        if (word == "whole" || word == "died" || word == "refused") continue;
+        good = false;
+        fmt::print("seed {} breaks a promise\n{}", seed, story);
+        std::fflush(stdout);
+      }
+    }
+    for (const auto& [word, n] : table) fmt::print("worker {}: {} {}\n", j + 1, n, word);
+    std::fflush(stdout);
+    std::_Exit(good ? 0 : 1);
+  }
+  bool good = true;
+  for (const pid_t worker : workers) {
+    int status = 0;
+    waitpid(worker, &status, 0);
+    good = good && status == 0;
+  }
+  fs::remove_all(scratch);
+  fmt::print("{} seeds from {} on: {}\n", count, first, good ? "every promise held" : "a promise was broken");
+  return good ? 0 : 1;
+}
