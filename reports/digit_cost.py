@@ -40,6 +40,11 @@ class Ladder:
         return 10.0 ** self.slope if self.slope is not None else None
 
     @property
+    def time(self):
+        """"2.7 s become 6 days", of the finest level; empty without a factor."""
+        return f"{spoken(self.points[-1][2])} become {spoken(self.factor * self.points[-1][2])}" if self.factor is not None and self.points else ""
+
+    @property
     def factor_pairs(self):
         return 10.0 ** self.pairs if self.pairs is not None else None
 
@@ -54,7 +59,16 @@ def plain(factor):
 
 
 def times(factor):
-    return f"{plain(factor)} ×"
+    """Two digits: a factor from two levels has no more."""
+    return f"{plain(float(f'{factor:.2g}'))} ×"
+
+
+def spoken(seconds):
+    """"0.3 s", "12 min", "6 days", "3e+04 years"."""
+    for size, unit in ((31557600.0, "years"), (86400.0, "days"), (3600.0, "h"), (60.0, "min")):
+        if seconds >= 2.0 * size:
+            return f"{seconds / size:.2g} {unit}"
+    return f"{seconds:.2g} s"
 
 
 def floor_of(case):

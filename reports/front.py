@@ -5,7 +5,7 @@ Nothing is judged here: verdicts, shares of limits and seconds are those of resu
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import load
 import summary
@@ -14,8 +14,8 @@ from model import is_number
 NEAREST = 10
 MOVED = 0.05  # a change of a share of a limit below this is not listed: most of it is noise of the machine's seeds
 STEP = 0.01   # a relative change of a knob below this is none: a solver's own step follows the last digits of the run
-ORDER = ("worse", "better", "apart", "limit", "new")
-WORDS = {"apart": "not comparable"}
+ORDER = ("worse", "better", "moved", "apart", "limit", "new")
+WORDS = {"apart": "not comparable", "limit": "new limit"}
 KNOBS = {"time_step": ("step", 1e3, " ms"), "spacing": ("spacing", 1e3, " mm"), "support_ratio": ("support ratio", 1, ""), "walkers": ("number of walkers", 1, ""),
          "iterations": ("number of iterations", 1, ""), "jitter": ("jitter", 1, ""), "seed": ("seed", 1, "")}
 
@@ -26,7 +26,7 @@ class Change:
     where: str     # engine, metric, mode
     before: str
     after: str
-    kind: str      # worse, better, apart (made at another step or setting), limit (another one is asked) or new
+    kind: str      # worse, better, moved (within a band that holds a stated figure, not 0), apart (made at another step or setting), limit (another one is asked) or new
     weight: float  # the largest first
 
     @property
@@ -65,13 +65,13 @@ def keyed(case):
 
 
 def baseline(results):
-    """({gate: (share, verdict)}, {case id: verdict}, date, whether it is another results.json): of the run before, else of the history."""
+    """({gate: (share, verdict, that gate or None, knobs)}, {case id: verdict}, date, the results before or None): of the run before, else of the history."""
     path = results.folder / "results.previous.json"
     try:
         before = load.load(path) if path.is_file() else None
     except load.Unreadable:
         before = None
-    used = {key: (gate.used, gate.verdict, gate.allowed, knobs_of(engine, gate)) for case in before.cases for key, engine, gate in keyed(case)} if before else {}
+    used = {key: (gate.used, gate.verdict, gate, knobs_of(engine, gate)) for case in before.cases for key, engine, gate in keyed(case)} if before else {}
     verdicts = {case.id: case.verdict for case in before.cases} if before else {}
     date, now = str(before.raw.get("date") or "") if before else "", str(results.raw.get("date") or "")
     for case in results.cases:
@@ -112,19 +112,36 @@ def changes(results):
 
 
 def compare(case, engine, gate, old):
-    where = " ".join(part for part in (engine.label, gate.metric.replace("_", " "), gate.mode) if part)
+    where = f"{engine.label}, {gate.metric.replace('_', ' ')}" + (f" at {gate.level:.4g}" if is_number(gate.level) else "") + (", as printed" if gate.mode == "paper" else "")
     kind = "worse" if gate.verdict != "PASS" else "better"
     if old is None:
         return Change(case, where, "no gate", gate.verdict, kind, 5.0) if kind == "worse" else None
-    share, verdict, allowed, knobs = old
+    share, verdict, before, knobs = old
     if verdict != gate.verdict:
         return Change(case, where, verdict, gate.verdict, kind, 10.0)
-    if allowed not in (None, gate.allowed):
-        return Change(case, where, allowed, gate.allowed, "limit", 0.0)
-    if is_number(share) and is_number(gate.used) and abs(gate.used - share) > MOVED and max(share, gate.used) > 0.2:
+    relimited = before is not None and before.allowed != gate.allowed
+    then, now = (off(before, before.value), off(before, gate.value)) if before is not None else (share, gate.used)
+    if is_number(then) and is_number(now) and abs(now - then) > MOVED and max(then, now) > 0.2:
         changed = settings_changed(knobs, knobs_of(engine, gate))
-        return Change(case, f"{where}: {changed}" if changed else where, f"{100 * share:.0f} %", f"{100 * gate.used:.0f} % of the limit", "apart" if changed else "worse" if gate.used > share else "better", abs(gate.used - share))
-    return None
+        kind = "apart" if changed else "moved" if before is not None and states_a_figure(before) else "worse" if now > then else "better"
+        values = (f"{before.value:.4g}", f"{gate.value:.4g}") if before is not None else (f"{100 * then:.0f} %", f"{100 * now:.0f} % of the limit")
+        room = "" if before is None else f" (allowed {gate.allowed}; before, {before.allowed})" if relimited else f" (allowed {gate.allowed})"
+        return Change(case, f"{where}: {changed}" if changed else where, values[0], values[1] + room, kind, abs(now - then))
+    return Change(case, where, before.allowed, gate.allowed, "limit", 0.0) if relimited else None
+
+
+def states_a_figure(gate):
+    """Whether the band holds a figure that is expected, as of a known defect, and not the error 0: nearer to its middle is not better then."""
+    return bool(gate.band) and not gate.band[0] <= 0.0 <= gate.band[1]
+
+
+def off(gate, value):
+    """How far a value is off by the rule of a gate, in its units: of a band that holds 0 the error itself counts, not the way to the band's middle."""
+    if not is_number(value):
+        return None
+    if gate.band and not states_a_figure(gate):
+        return abs(value) / max(-gate.band[0], gate.band[1], 1e-300)
+    return replace(gate, value=value).used
 
 
 def knobs_of(engine, gate):

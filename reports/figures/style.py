@@ -72,6 +72,12 @@ def panels(count, labels, height=2.9, columns=None):
     return figure, axes
 
 
+def columns(labels, width):
+    """Columns of a legend that fit into a width [inches]: five or two of short names, fewer of long ones."""
+    most = 5 if width > HALF else 2
+    return max(1, min(len(labels), most, int(width / (0.075 * max(map(len, labels)) + 0.55))))
+
+
 def legend(figure, axes):
     """One legend for all panels, on top, each label once."""
     entries = {}
@@ -79,7 +85,7 @@ def legend(figure, axes):
         for handle, label in zip(*axis.get_legend_handles_labels()):
             entries.setdefault(label, handle)
     if entries:
-        figure.legend(entries.values(), entries.keys(), loc="upper left", ncol=min(len(entries), 5 if figure.get_figwidth() > HALF else 2), bbox_to_anchor=(0.03, 1.0), columnspacing=1.4, borderaxespad=0.25)
+        figure.legend(entries.values(), entries.keys(), loc="upper left", ncol=columns(entries, figure.get_figwidth()), bbox_to_anchor=(0.03, 1.0), columnspacing=1.4, borderaxespad=0.25)
 
 
 def logarithmic(axis, which="xy"):

@@ -221,6 +221,31 @@ TEST(Softening, TakesStiffnessWithTheLiquidFractionAndClosesTheLedger) {
   }
 }
 
+TEST(Softening, LeavesAMaterialAloneThatDoesNotSoften) {
+  lab::Lab lab = swinging_bar();
+  lab.scene.materials[0].t_solid = 320.0;
+  lab.scene.materials[0].t_melt = 360.0;
+  lab.scene.materials.push_back(lab.scene.materials[0]);
+  lab.scene.materials.back().name = "that softens";
+  lab.scene.materials.back().softens = true;
+  const Simulation s = lab.run(1e-3);
+  for (const double share : lab::by_id(s, field::stiffness_share)) EXPECT_EQ(share, 1.0);
+}
+
+TEST(PrintedHeat, ALiquidThatIsSetToATemperatureTakesHeatAndNoFusion) {
+  lab::Lab lab = swinging_bar();
+  lab.scene.modes[static_cast<std::size_t>(Term::heat)] = Mode::paper;
+  lab.initial.temperature.assign(lab.initial.size(), 420.0);
+  lab.scene.events = {heat(0.01, 440.0)};
+  Simulation s(lab.scene, lab.initial);
+  s.advance_to(0.009);
+  for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 0);
+  const Ledger before = s.ledger();
+  s.advance_to(0.0102);
+  for (const double temperature : lab::by_id(s, field::temperature)) EXPECT_GT(temperature, 430.0);
+  EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(before), 1.0, 1e-12);
+}
+
 /// Two rigid particles 0.1 m apart that spin by 2 rad/s, of a material of 1e5 Pa that is elastic between 320 and 360 K, at these temperatures.
 Simulation spinning_pair(double first, double second, bool softens = true) {
   lab::Lab lab = lab::melting_lab(0.1, {.t_melt = 360.0, .t_solid = 320.0, .conductivity = 1e-12});

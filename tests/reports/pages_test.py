@@ -119,8 +119,8 @@ class DigitCost(Pages):
         self.assertNotIn("heat/one", text[text.index("Cases without a study"):])
 
 
-def gated(value, step=1e-3, verdict="pass", state="a", limit=1.0):
-    gate = {"metric": "error", "mode": "corrected", "value": value, "limit": limit, "verdict": verdict, "reason": "r"}
+def gated(value, step=1e-3, verdict="pass", state="a", limit=1.0, band=None):
+    gate = {"metric": "error", "mode": "corrected", "value": value, "verdict": verdict, "reason": "r", **({"band": band} if band else {"limit": limit})}
     run = {"knobs": {"mode": "corrected", "time_step": step}, "base": True, "status": "ok", "metrics": {"error": {"value": value}}, "cost": {}, "state_hash": state, "folder": "runs/heat/one/tripoint"}
     return case([{"name": "tripoint", "status": "ok", "runs": [run], "gates": [gate]}])
 
@@ -141,10 +141,24 @@ class SinceTheLastRun(Pages):
 
     def test_a_figure_made_at_another_step_is_not_called_better_or_worse(self):
         text = self.front(gated(0.7, 0.742e-3), gated(0.35, 0.437e-3))
-        self.assertIn("not comparable heat/one tripoint error corrected: its step changed, 0.742 to 0.437 ms: 70 % → 35 % of the limit", text)
+        self.assertIn("not comparable heat/one tripoint, error: its step changed, 0.742 to 0.437 ms: 0.7 → 0.35 (allowed ≤ 1)", text)
         self.assertIn("Nothing got worse, of what can be compared.", text)
         self.assertNotIn("better", text)
         self.assertIn("better heat/one", self.front(gated(0.7, 0.742e-3), gated(0.35, 0.741e-3)))
+
+    def test_a_limit_that_moves_along_does_not_hide_what_got_worse(self):
+        text = self.front(gated(-0.0095, band=[-0.03, 0.03]), gated(-0.0301, band=[-0.045, 0.015]))
+        self.assertIn("worse heat/one tripoint, error: -0.0095 → -0.0301 (allowed -0.045 to 0.015; before, -0.03 to 0.03)", text)
+        self.assertIn("new limit heat/one tripoint, error: ≤ 1 → ≤ 2", self.front(gated(0.5), gated(0.5, limit=2.0)))
+
+    def test_in_a_band_about_zero_the_error_counts_and_not_the_way_to_the_middle(self):
+        self.assertIn("better heat/one", self.front(gated(0.25, band=[-0.1, 0.3]), gated(0.05, band=[-0.1, 0.3])))
+        self.assertIn("worse heat/one", self.front(gated(0.0, band=[-0.1, 0.3]), gated(0.1, band=[-0.1, 0.3])))
+
+    def test_in_a_band_about_a_stated_figure_nothing_is_better_or_worse(self):
+        text = self.front(gated(-0.35, band=[-0.42, -0.28]), gated(-0.302, band=[-0.42, -0.28]))
+        self.assertIn("moved heat/one tripoint, error: -0.35 → -0.302", text)
+        self.assertIn("Nothing got worse.", text)
 
     def test_a_gate_that_falls_is_worse_at_any_step(self):
         self.assertIn("worse heat/one", self.front(gated(0.7, 1e-3), gated(1.2, 2e-3, "fail")))
@@ -365,7 +379,7 @@ class Spin(Pages):
                    {"name": "bullet", "status": "ok", "runs": [run(None, 0.60346)], "gates": []}]
         (page,), notes = headlines.pages(self.load(case(engines, "rigid/torque-free")), self.path)
         self.assertEqual(notes, [])
-        self.assertIn("at a step of 10 ms, 1 of 2 engines and presets point within 0.01 rad of the truth; bullet is 0.6035 rad off; tripoint as printed is 1.901 rad off.", page.answer)
+        self.assertIn("at a step of 10 ms, 1 of 2 engines and presets (without our printed form) point within 0.01 rad of the truth; bullet is 0.6035 rad off; tripoint as printed is 1.901 rad off.", page.answer)
         self.assertEqual([(line.label, line.cells[:2]) for line in page.lines], [("tripoint", ["10 ms", "3.6e-05"]), ("bullet", ["10 ms", "0.6035"]), ("tripoint as printed", ["10 ms", "1.901"])])
 
 
