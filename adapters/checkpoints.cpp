@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adapters/checkpoints.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 
+#include "core/durable_file.hpp"
 #include "io/checkpoint_file.hpp"
 
 namespace tripoint {
@@ -35,15 +33,6 @@ const Values& take(const std::map<std::string, Values>& arrays, const std::strin
   const auto at = arrays.find(name);
   if (at == arrays.end() || at->second.empty()) throw InputError(path + ": has no " + name);
   return at->second;
-}
-
-/// Frames that the checkpoint counts on must not be in memory only.
-void fsync_trajectory(const std::string& folder) {
-  const int file = ::open((folder + "/trajectory.h5").c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return;
-  const bool safe = ::fsync(file) == 0;
-  ::close(file);
-  if (!safe) throw EngineError(folder + "/trajectory.h5: cannot be made durable: " + std::strerror(errno));
 }
 
 /// Times up to the one that the run was on its way to must be times of this job, or its steps would not be those of the whole run.
@@ -91,7 +80,8 @@ std::string Checkpoints::write(Checkpoint kept, double time, long step, const Pr
   kept.real["run/time"] = {time};
   kept.whole["run/frames"] = {static_cast<std::int64_t>(progress.frames)};
   kept.real["run/times"].assign(job_.times.begin(), job_.times.begin() + static_cast<std::ptrdiff_t>(progress.frames) + 1);
-  fsync_trajectory(job_.output);
+  // Frames that the checkpoint counts on must not be in memory only.
+  if (const std::string frames = job_.output + "/trajectory.h5"; fs::exists(frames)) make_durable(frames);
   const std::string path = (fs::path(job_.output) / fmt::format("checkpoint-{:09}.h5", step)).string();
   write_checkpoint(path, kept);
   if (kept_.empty() || kept_.back() != path) kept_.push_back(path);

@@ -16,6 +16,7 @@
 
 #include "adapters/checkpoints.hpp"
 #include "adapters/engine.hpp"
+#include "core/durable_file.hpp"
 
 namespace tripoint {
 namespace {
@@ -208,7 +209,7 @@ class Run {
     TrajectoryWriter writer(begun, domain_of(job_.scene));
     for (const Snapshot& frame : earlier_) show(writer, frame);
     earlier_.clear();
-    if (begun != path) std::filesystem::rename(begun, path);
+    if (begun != path) put_in_place(begun, path);
     while (progress_.frames < job_.times.size()) {
       const double time = job_.times[progress_.frames];
       const double cpu = cpu_seconds(), wall = wall_seconds();
@@ -224,6 +225,13 @@ class Run {
     result_.state_hash = state_hash(last_);
     writer.close();
     write_xdmf(job_.output, shown_, last_);
+  }
+
+  /// The file that held the frames of before the checkpoint is gone after this: all of the new one must be durable first.
+  void put_in_place(const std::string& begun, const std::string& path) const {
+    make_durable(begun);
+    std::filesystem::rename(begun, path);
+    make_durable(std::filesystem::absolute(path).parent_path().string());
   }
 
   void show(TrajectoryWriter& writer, const Snapshot& frame) {

@@ -18,6 +18,7 @@ MEANS = {
     "state": "equation of state, not clamped where it must pull (9)", "viscosity": "viscosity that keeps angular momentum (8)", "walls": "walls that press by the mean density of their face, and mirror the velocity", "elastic": "strain in the turned frame (11)",
     "hourglass": "energy against zero-energy modes (12)", "heat": "conduction with equal and opposite flows and a moment factor (21)", "phase": "latent heat and hysteresis (Fig. 5)", "rotation": "splitting of the free top (19)-(20)",
     "time": "kick-drift-kick, two-stage heat", "bulk_viscosity": "numerical bulk viscosity of liquids (8.4), which the paper does not have",
+    "bending": "gradients at surfaces that are exact for curved displacements (8.7), which the paper does not have",
     "surface_weight": "pressure of half a layer's weight at a free surface (8.3), which the paper does not have"}
 
 

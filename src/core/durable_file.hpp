@@ -13,6 +13,15 @@
 
 namespace tripoint {
 
+/// What a file holds, or the names in a folder, survive a loss of power from now on. @throws EngineError naming it and the system's reason
+inline void make_durable(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool safe = file >= 0 && ::fsync(file) == 0;
+  const int why = errno;
+  if (file >= 0) ::close(file);
+  if (!safe) throw EngineError(path + ": cannot be made durable: " + std::strerror(why));
+}
+
 /// Writes a file so that a reader finds the old contents or all of the new: temporary name, fsync, rename, fsync of the folder.
 /// @throws EngineError naming the file and the system's reason
 inline void write_durably(const std::string& path, std::string_view text) {

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/defect.hpp"
+#include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
+#include "sph/surface_gradient.hpp"
 
 namespace tripoint::solid {
 namespace {
@@ -47,6 +49,33 @@ Symmetric moment_of(const World& world, std::uint32_t id) {
   Symmetric M;
   for (const Bond& b : world.bonds.of(id)) M = M + symmetric_part(-volume[world.particles.row(b.other)] * outer(b.gradient, b.x));
   return M;
+}
+
+/// Sets the gradients of a list. @param to called as to(bond), its gradient [1/m4]
+template <class To>
+void set_gradients(World& world, std::uint32_t id, To to) {
+  const auto list = std::as_const(world.bonds).of(id);
+  if (std::ranges::all_of(list, [&](const Bond& b) { return b.gradient == to(b); })) return;  // the list counts as changed where it is
+  for (Bond& b : world.bonds.edit(id)) b.gradient = to(b);
+}
+
+/// grad W(x_ij), whatever stood for it.
+void set_kernel_gradients(World& world, const ElasticityKernel& kernel, std::uint32_t id) {
+  set_gradients(world, id, [&](const Bond& b) { return bond_of(kernel, b.x).gradient; });
+}
+
+/// At a surface: grad W + M_i c_ij/v_j, so that d_ij = v_j A_i of it has the correction c_ij.
+void correct_for_bending(World& world, std::uint32_t id, double share, const Symmetric& moment, const Symmetric& A) {
+  const auto list = std::as_const(world.bonds).of(id);
+  const auto volume_of = [&](const Bond& b) { return world.particles[field::solid_volume][world.particles.row(b.other)]; };
+  std::vector<GradientPoint> points;
+  for (const Bond& b : list) points.push_back({-b.x, -volume_of(b) * dot(b.gradient, b.x) / dot(b.x, b.x)});
+  if (!at_surface(points)) return;
+  const std::vector<Vec3> correction = curvature_correction(points, A);
+  set_gradients(world, id, [&, first = list.data()](const Bond& b) {
+    const Vec3& c = correction[static_cast<std::size_t>(&b - first)];
+    return b.gradient + (share / volume_of(b)) * (moment * c);
+  });
 }
 
 bool is_regular(const World& world, std::uint32_t id) {
@@ -123,6 +152,7 @@ bool softens(const Scene& scene, const Material& m) {
 ElasticForms::ElasticForms(const Scene& scene)
     : paper_(scene.mode_of(Term::elastic) == Mode::paper),
       hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0 : scene.hourglass * (1.0 - defect_size("elastic.hourglass"))),
+      bending_(paper_ ? 0.0 : kept_number(scene.values, key_row("scene", "bending")) * (1.0 - defect_size("elastic.bending"))),
       factor_(paper_ ? 2.0 * (1.0 - defect_size("elastic.paper.factor")) : 1.0 - defect_size("elastic.force")) {
   for (const Material& m : scene.materials) {
     constants_.push_back(m.young_modulus && m.poisson_ratio ? elastic_constants(*m.young_modulus, *m.poisson_ratio) : ElasticConstants{});
@@ -165,6 +195,7 @@ void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first
   const ElasticForms forms(world.scene);
   const ElasticParticles is_elastic(world);
   const EnergyOwners owns(world);
+  const ElasticityKernel kernel = bond_kernel(world.scene);
   static const double crooked = 1.0 + defect_size("elastic.shape");
   for (const std::uint32_t id : ids) set_stiffness(world, is_elastic, id);
   for (const std::uint32_t id : ids) p[field::solid_volume][p.row(id)] = volume_of(world, forms.paper(), owns(p.row(id)), id);
@@ -172,7 +203,12 @@ void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first
     const std::size_t i = p.row(id);
     ShapeInverse shape{{}, owns(i) || world.bonds.of(id).empty() ? 0 : no_energy_rank};
     if (owns(i) && forms.paper()) shape = {{1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3};
-    if (owns(i) && !forms.paper()) shape = shape_inverse(moment_of(world, id));
+    if (owns(i) && !forms.paper()) {
+      if (forms.bending() != 0.0) set_kernel_gradients(world, kernel, id);
+      const Symmetric moment = moment_of(world, id);
+      shape = shape_inverse(moment);
+      if (forms.bending() != 0.0 && shape.rank == 3) correct_for_bending(world, id, forms.bending(), moment, shape.inverse);
+    }
     shape_inverses(p).set(i, crooked * shape.inverse);
     p[field::shape_rank][i] = shape.rank;
   }

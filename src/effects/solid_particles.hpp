@@ -80,6 +80,8 @@ class ElasticForms {
   [[nodiscard]] bool paper() const noexcept { return paper_; }
   /// Coefficient a of the hourglass energy, 0 = none.
   [[nodiscard]] double hourglass() const noexcept { return hourglass_; }
+  /// Share of the correction for bending that gradients at surfaces have, 0 = none.
+  [[nodiscard]] double bending() const noexcept { return bending_; }
   /// Constants of particles by rows, softened where their material softens; zero where they own no strain energy.
   class Constants {
    public:
@@ -104,7 +106,7 @@ class ElasticForms {
 
  private:
   bool paper_;
-  double hourglass_, factor_;
+  double hourglass_, bending_, factor_;
   std::vector<ElasticConstants> constants_;  ///< of each material
   std::vector<char> softens_;
 };

@@ -114,13 +114,6 @@ void for_each_dataset(hid_t file, const std::string& group, const std::function<
     for (const std::string& name : h5::members(file, "/" + group + "/" + part)) visit(part + "/" + name);
 }
 
-void fsync_file(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool safe = file >= 0 && ::fsync(file) == 0;
-  if (file >= 0) ::close(file);
-  if (!safe) throw EngineError(path + ": cannot be made durable: " + std::strerror(errno));
-}
-
 template <class T>
 bool same_arrays(const std::map<std::string, std::vector<T>>& a, const std::map<std::string, std::vector<T>>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
@@ -152,9 +145,9 @@ void write_checkpoint(const std::string& path, const Checkpoint& kept) {
   } catch (const InputError& e) {
     throw EngineError(std::string("a new checkpoint does not read back: ") + e.what());
   }
-  fsync_file(temporary);
+  make_durable(temporary);
   if (std::rename(temporary.c_str(), path.c_str()) != 0) throw EngineError(path + ": cannot be written: " + std::strerror(errno));
-  fsync_file(std::filesystem::absolute(path).parent_path().string());
+  make_durable(std::filesystem::absolute(path).parent_path().string());
 }
 
 }  // namespace tripoint

@@ -99,7 +99,7 @@ struct Bond {
   std::uint32_t other = 0;  ///< id of j
   std::uint32_t twin = 0;   ///< place of i in the list of j
   Vec3 x;                   ///< reference vector x_ij = r_i - r_j, in the reference frame of i [m]
-  Vec3 gradient;            ///< grad W(x_ij) of the kernel (17) with respect to i [1/m4]
+  Vec3 gradient;            ///< grad W(x_ij) of the kernel (17) with respect to i, or what stands for it at a surface (model 8.7) [1/m4]
   double weight = 0.0;      ///< W(x_ij) of the kernel (17) [1/m3]
 };
 static_assert(sizeof(Bond) == 64);

@@ -55,7 +55,8 @@ TEST(BondSums, HaveTheSameBitsOnEveryVectorUnit) {
   const Star star;
   for (const bool periodic : {false, true})
     for (const bool hourglass : {false, true})
-      EXPECT_EQ(star.results(bond_sums_for<Any>(periodic, hourglass)), star.results(bond_sums_for<Avx2>(periodic, hourglass)));
+      for (const bool bends : {false, true})
+        EXPECT_EQ(star.results(bond_sums_for<Any>({periodic, hourglass, bends})), star.results(bond_sums_for<Avx2>({periodic, hourglass, bends})));
 }
 
 TEST(BondSums, SeeATwinAsItsOwnListHasIt) {

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -111,7 +112,7 @@ std::string write_job_file(const Reference& of, const fs::path& folder, double i
 }
 
 void set_plan(const std::string& folder, const std::string& at, const std::string& kind, unsigned seed, const std::string& log = "") {
-  setenv("FAULT_PROCESS", "seeded-faults", 1);
+  setenv("FAULT_PROCESS", program_invocation_short_name, 1);
   setenv("FAULT_FOLDER", folder.c_str(), 1);
   setenv("FAULT_AT", at.c_str(), 1);
   setenv("FAULT_KIND", kind.c_str(), 1);

@@ -44,6 +44,32 @@ def solid_volume(s, owns):
     return volume
 
 
+def bond_gradients(s, i, volume, share):
+    """8.7: grad W(x_ij) of the kernel (17) for the list of i; at a surface of a solid with the correction for bending, as the quotient
+    of least squares of second order, and of first order where less than a fifth is known of a curvature."""
+    x = -np.array([b[1] for b in s.bonds[i]]).reshape(-1, 3)  # x_ji
+    r = np.linalg.norm(x, axis=1)
+    plain = np.array([elasticity_slope(d, REACH * s.dx) for d in r])[:, None] * -x / r[:, None]
+    v = volume[[b[0] for b in s.bonds[i]]]
+    w = -v * np.array([elasticity_slope(d, REACH * s.dx) for d in r]) / r
+    M = (x * w[:, None]).T @ x
+    eigenvalues = np.linalg.eigvalsh(M)
+    inward = w @ x
+    outward = -(x @ inward) / (r * np.linalg.norm(inward)) if np.linalg.norm(inward) > 1e-9 * (w @ r) else np.ones(1)
+    if share == 0 or eigenvalues[0] < 0.2 * eigenvalues[2] or outward.max() > 0.65:
+        return plain
+    q = np.einsum("ka,kb->kab", x, x).reshape(-1, 9) / 2  # |q| does not depend on the axes
+    root = np.sqrt(w)[:, None]
+    linear = root * x
+    rest = root * q - linear @ np.linalg.lstsq(linear, root * q, rcond=None)[0]
+    _, size, known = np.linalg.svd(rest, full_matrices=False)
+    greatest = np.linalg.norm(root * q, 2)
+    known = known[size**2 > 0.2 * greatest**2]
+    fit = np.linalg.pinv(np.hstack([linear, root * q @ known.T]), rcond=1e-8)[:3] * root.T  # 3 rows: d_ij
+    first = np.linalg.pinv(linear) * root.T
+    return plain + share * ((fit - first).T @ M) / v[:, None]
+
+
 class Deformed:
     """F, strain, stress, energy and forces of one particle that owns strain energy, by its list: (10) to (16) or 8.7."""
 

@@ -36,6 +36,7 @@ transport_velocity = false
 clamp = false
 merge_distance = 1.6
 hourglass = 0.5
+bending = 0.5
 bulk_viscosity = 0.1
 surface_weight = 0.4
 contact_viscosity = 0.1

@@ -72,7 +72,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
   const auto strain_of = solid::strains(p);
   const PeriodicWidths box = periodic_widths(world.box);
   const bool hourglass = forms.hourglass() != 0.0, at_once = !flows(world);
-  const BondSums sum = bond_sums(world.box.any(), hourglass);
+  const BondSums sum = bond_sums({world.box.any(), hourglass, forms.bending() != 0.0});
   Stresses stresses(world, forms, all);
   double least = 1.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least)
@@ -162,7 +162,7 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
   const auto id_of = p[field::id], regular = p[field::regular_bonds];
   const auto f = triple(p, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z);
   const PeriodicWidths box = periodic_widths(world.box);
-  const BondSums sum = bond_sums(world.box.any(), forms.hourglass() != 0.0);
+  const BondSums sum = bond_sums({world.box.any(), forms.hourglass() != 0.0, forms.bending() != 0.0});
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
     const auto id = static_cast<std::uint32_t>(id_of[row]);

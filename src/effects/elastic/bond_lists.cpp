@@ -9,7 +9,7 @@ namespace {
 
 std::size_t hash_of(const BondShape& s) {
   std::uint64_t h = 0;
-  for (const double v : {s.x.x, s.x.y, s.x.z, s.slope, s.hourglass}) h = (std::rotl(h, 23) ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
+  for (const double v : {s.x.x, s.x.y, s.x.z, s.slope, s.hourglass, s.gradient.x, s.gradient.y, s.gradient.z}) h = (std::rotl(h, 23) ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
   return h ^ (h >> 29);
 }
 
@@ -34,7 +34,7 @@ void BondLists::make_room() {
 
 std::uint32_t BondLists::shape_of(const Bond& bond) {
   const double x2 = dot(bond.x, bond.x);
-  const BondShape shape{bond.x, dot(bond.gradient, bond.x) / x2, bond.weight / x2};
+  const BondShape shape{bond.x, dot(bond.gradient, bond.x) / x2, bond.gradient, bond.weight / x2};
   make_room();
   std::size_t at = hash_of(shape) & (table_.size() - 1);
   for (; table_[at] != 0; at = (at + 1) & (table_.size() - 1))

@@ -12,9 +12,11 @@ namespace tripoint::elastic {
 struct alignas(vector_bytes) BondShape {
   Vec3 x;                  ///< reference vector x_ij [m]
   double slope = 0.0;      ///< grad W(x_ij) = slope x_ij [1/m5]
+  Vec3 gradient;           ///< Bond::gradient: slope x_ij, but at a surface that is corrected for bending [1/m4]
   double hourglass = 0.0;  ///< W(x_ij)/|x_ij|^2 [1/m5]
   bool operator==(const BondShape&) const noexcept = default;
 };
+static_assert(sizeof(BondShape) == vector_bytes);
 
 /// The lists of bonds as the passes stream them: 12 bytes a bond, and what bonds have in common once. Memory that is made from
 /// World::bonds and follows it; no state of its own.

@@ -5,8 +5,6 @@
 
 namespace tripoint::elastic {
 
-BondSums bond_sums(bool periodic, bool hourglass) {
-  return machine_has_avx2() ? bond_sums_for<Avx2>(periodic, hourglass) : bond_sums_for<Any>(periodic, hourglass);
-}
+BondSums bond_sums(const BondForms& forms) { return machine_has_avx2() ? bond_sums_for<Avx2>(forms) : bond_sums_for<Any>(forms); }
 
 }  // namespace tripoint::elastic

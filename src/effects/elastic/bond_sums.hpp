@@ -91,15 +91,20 @@ struct BondSums {
   void (*list)(const BondLists::List&, const BondShape*, const Place*, const Place&, const PeriodicWidths&, ListSums&);
   void (*partners)(const BondLists::List&, const BondShape*, const Place*, const Deformed*, const Place&, const PeriodicWidths&, PartnerForces&);
 };
+/// What differs between scenes.
+struct BondForms {
+  bool periodic = false, hourglass = false;
+  bool bends = false;  ///< bonds have gradients of their own: gradW below is that of the bond, which need not lie along x
+};
 /// Those that this machine runs fastest.
-[[nodiscard]] BondSums bond_sums(bool periodic, bool hourglass);
+[[nodiscard]] BondSums bond_sums(const BondForms&);
 /// Those that are compiled for a vector unit.
 template <class ForUnit>
-[[nodiscard]] BondSums bond_sums_for(bool periodic, bool hourglass);
+[[nodiscard]] BondSums bond_sums_for(const BondForms&);
 template <>
-BondSums bond_sums_for<Any>(bool periodic, bool hourglass);
+BondSums bond_sums_for<Any>(const BondForms&);
 template <>
-BondSums bond_sums_for<Avx2>(bool periodic, bool hourglass);
+BondSums bond_sums_for<Avx2>(const BondForms&);
 
 namespace detail {
 
@@ -128,7 +133,7 @@ template <bool periodic>
 }  // namespace detail
 
 /// @param places by id: their volumes are read
-template <bool hourglass, class ForUnit>
+template <bool hourglass, bool bends, class ForUnit>
 void sum_reference(const BondLists::List& list, const BondShape* shapes, const Place* places, ReferenceSums& out) {
   using namespace detail;
   Quads moment;
@@ -138,7 +143,13 @@ void sum_reference(const BondLists::List& list, const BondShape* shapes, const P
     const double volume = places[list.other[n]].volume;
     Quad x;
     load(x, &bond);
-    gradient += (volume * bond.slope) * x;
+    if constexpr (bends) {
+      Quad g;
+      load(g, &bond.gradient);
+      gradient += volume * g;
+    } else {
+      gradient += (volume * bond.slope) * x;
+    }
     if constexpr (hourglass) {
       const Quad wx = (volume * bond.hourglass) * x;
       moment.x += bond.x.x * wx, moment.y += bond.x.y * wx, moment.z += bond.x.z * wx;
@@ -153,7 +164,7 @@ void sum_reference(const BondLists::List& list, const BondShape* shapes, const P
 }
 
 /// @param at place of i   @param places by id
-template <bool periodic, bool hourglass, class ForUnit>
+template <bool periodic, bool hourglass, bool bends, class ForUnit>
 void sum_list(const BondLists::List& list, const BondShape* shapes, const Place* places, const Place& at, const PeriodicWidths& box, ListSums& out) {
   using namespace detail;
   Quads displacement, swept;
@@ -168,8 +179,13 @@ void sum_list(const BondLists::List& list, const BondShape* shapes, const Place*
     nearest<periodic>(u, box);
     u += x;
     const Quad ux = bond.x.x * u, uy = bond.x.y * u, uz = bond.x.z * u;
-    const double slope = j.volume * bond.slope;
-    displacement.x += slope * ux, displacement.y += slope * uy, displacement.z += slope * uz;
+    if constexpr (bends) {
+      const Vec3 g = j.volume * bond.gradient;
+      displacement.x += g.x * u, displacement.y += g.y * u, displacement.z += g.z * u;
+    } else {
+      const double slope = j.volume * bond.slope;
+      displacement.x += slope * ux, displacement.y += slope * uy, displacement.z += slope * uz;
+    }
     if constexpr (hourglass) {
       const double w = j.volume * bond.hourglass;
       swept.x += w * ux, swept.y += w * uy, swept.z += w * uz;
@@ -181,7 +197,7 @@ void sum_list(const BondLists::List& list, const BondShape* shapes, const Place*
 
 /// sum_j -T_j gradW(x_ji), and sum_j -k_j v_j W(x_ji)/|x_ji|^2 ((F_j - I) x_ji + u_ij), k = a E/2: x_ji as j has it in its list.
 /// @param at place of i   @param places,deformed by id
-template <bool periodic, bool hourglass, class ForUnit>
+template <bool periodic, bool hourglass, bool bends, class ForUnit>
 void sum_partners(const BondLists::List& list, const BondShape* shapes, const Place* places, const Deformed* deformed, const Place& at, const PeriodicWidths& box, PartnerForces& out) {
   using namespace detail;
   Quad i, stress{}, of_hourglass{};
@@ -192,7 +208,8 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
     const Vec3& x = bond.x;
     Quads T;
     load(T.x, &j.T.x), load(T.y, &j.T.y), load(T.z, &j.T.z);
-    stress -= bond.slope * (x.x * T.x + x.y * T.y + x.z * T.z);
+    if constexpr (bends) stress -= bond.gradient.x * T.x + bond.gradient.y * T.y + bond.gradient.z * T.z;
+    else stress -= bond.slope * (x.x * T.x + x.y * T.y + x.z * T.z);
     if constexpr (hourglass) {
       Quads G;
       Quad u, r;
@@ -207,14 +224,18 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
   store(&out.stress, stress), store(&out.hourglass, of_hourglass);
 }
 
-template <bool periodic, bool hourglass, class ForUnit>
+template <bool periodic, bool hourglass, bool bends, class ForUnit>
 [[nodiscard]] BondSums sums_of() {
-  return {&sum_reference<hourglass, ForUnit>, &sum_list<periodic, hourglass, ForUnit>, &sum_partners<periodic, hourglass, ForUnit>};
+  return {&sum_reference<hourglass, bends, ForUnit>, &sum_list<periodic, hourglass, bends, ForUnit>, &sum_partners<periodic, hourglass, bends, ForUnit>};
+}
+template <bool bends, class ForUnit>
+[[nodiscard]] BondSums pick_of(const BondForms& forms) {
+  if (forms.periodic) return forms.hourglass ? sums_of<true, true, bends, ForUnit>() : sums_of<true, false, bends, ForUnit>();
+  return forms.hourglass ? sums_of<false, true, bends, ForUnit>() : sums_of<false, false, bends, ForUnit>();
 }
 template <class ForUnit>
-[[nodiscard]] BondSums pick_bond_sums(bool periodic, bool hourglass) {
-  if (periodic) return hourglass ? sums_of<true, true, ForUnit>() : sums_of<true, false, ForUnit>();
-  return hourglass ? sums_of<false, true, ForUnit>() : sums_of<false, false, ForUnit>();
+[[nodiscard]] BondSums pick_bond_sums(const BondForms& forms) {
+  return forms.bends ? pick_of<true, ForUnit>(forms) : pick_of<false, ForUnit>(forms);
 }
 
 }  // namespace tripoint::elastic

@@ -5,8 +5,8 @@
 namespace tripoint::elastic {
 
 template <>
-BondSums bond_sums_for<Unit>(bool periodic, bool hourglass) {
-  return pick_bond_sums<Unit>(periodic, hourglass);
+BondSums bond_sums_for<Unit>(const BondForms& forms) {
+  return pick_bond_sums<Unit>(forms);
 }
 
 }  // namespace tripoint::elastic

@@ -107,6 +107,7 @@ std::vector<DefectEntry> defects() {
           {"elastic.projector", "that share of the missing directions added to P of sheets and chains", "solid/rotation-thin"},
           {"elastic.reduced", "sheets and chains with the moduli of a solid", "solid/sheet"},
           {"elastic.hourglass", "hourglass energy times 1 - size", "solid/tension-jitter"},
+          {"elastic.bending", "correction for bending of gradients at surfaces times 1 - size", "solid/slender-bar"},
           {"elastic.own_pairs", "weight of own pairs in the number density times 1 + size", "solid/contact"},
           {"elastic.paper.factor", "the printed factor 2 times 1 - size", "solid/tension"},
           {"elastic.paper.stress", "printed stress times 1 + size", "solid/tension"},
