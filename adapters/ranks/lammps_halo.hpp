@@ -20,7 +20,9 @@ class LammpsHalo : public Halo {
   [[nodiscard]] std::size_t owned() const override { return ranks_->owned(); }
   void refresh(Particles&, std::span<const Field<double>* const> columns) override;
   void refresh(std::span<double> by_id) override;
-  void add(std::span<double> numbers) override { ranks_->add(numbers.data(), static_cast<int>(numbers.size())); }
+  void add(std::span<double> numbers) override {
+    if (ranks_) ranks_->add(numbers.data(), static_cast<int>(numbers.size()));  // before, all hold the whole scene
+  }
   void take_least(double& number, std::string& word) override;
   [[nodiscard]] bool is_first() const override { return ranks_->rank() == 0; }
 

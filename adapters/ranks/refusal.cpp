@@ -26,6 +26,7 @@ std::string refused_part(const Scene& scene) {
   if (scene.recovers) return "recovery, which goes back to a kept state";
   for (const auto& [effect, what] : unshared)
     if (calls_for(scene, effect)) return std::string(what);
+  if (!calls_for(scene, "fluid") && !calls_for(scene, "heat")) return "a scene of which no particle meets another";
   for (const CalledEffect& called : needed_effects(scene))
     if (std::ranges::find(shared, called.name) == shared.end()) return "the effect " + called.name;
   return {};

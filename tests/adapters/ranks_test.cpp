@@ -233,6 +233,7 @@ void expect_refused(Prepared p, const std::string& word) {
 TEST(Ranks, RefuseByNameWhatTheyDoNotShare) {
   NEEDS_RANKS();
   const Prepared p = dam(0.01, 1);
+  expect_refused(test::block({}, {}, 0.1, 1, 0.01), "no particle meets another");
   Prepared happens = p;
   happens.job.scene.events.emplace_back();
   expect_refused(happens, "events");
