@@ -125,7 +125,8 @@ def compare(case, engine, gate, old):
         changed = settings_changed(knobs, knobs_of(engine, gate))
         kind = "apart" if changed else "moved" if before is not None and states_a_figure(before) else "worse" if now > then else "better"
         values = (f"{before.value:.4g}", f"{gate.value:.4g}") if before is not None else (f"{100 * then:.0f} %", f"{100 * now:.0f} % of the limit")
-        room = "" if before is None else f" (allowed {gate.allowed}; before, {before.allowed})" if relimited else f" (allowed {gate.allowed})"
+        outside = ", outside of that" if now > 1.0 and relimited else ""
+        room = "" if before is None else f" (allowed {gate.allowed}; before, {before.allowed}{outside})" if relimited else f" (allowed {gate.allowed})"
         return Change(case, f"{where}: {changed}" if changed else where, values[0], values[1] + room, kind, abs(now - then))
     return Change(case, where, before.allowed, gate.allowed, "limit", 0.0) if relimited else None
 
@@ -225,7 +226,8 @@ def square(entries):
     if bad:
         return summary.worst(bad), f"{sum(any(word in bad for word in found) for found in words)} of {len(words)}"
     if green:
-        return "PASS", str(green)
+        wrong = any(word == summary.DEFECT and not mode for case, engines in entries for engine in engines for mode, word in summary.standings(case, engine))  # and not by a printed form alone
+        return summary.DEFECT if wrong else "PASS", str(green)
     for word in (summary.UNJUDGED, "refused", "missing"):
         if any(word in found for found in words):
             return word, str(sum(word in found for found in words))

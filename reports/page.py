@@ -65,8 +65,8 @@ def page_of(case, up=""):
 
 
 def judged(gate):
-    """The word of a gate: one that holds a predicted defect does not look like plain green."""
-    return summary.DEFECT if gate.verdict == "PASS" and gate.reason.startswith(summary.PREDICTED) else gate.verdict
+    """The word of a gate: one that holds a predicted or a known defect does not look like plain green."""
+    return summary.DEFECT if gate.verdict == "PASS" and gate.reason.startswith((summary.PREDICTED, summary.KNOWN)) else gate.verdict
 
 
 def of_one_value(gates):

@@ -9,6 +9,7 @@ KINDS = {"verification": "an exact solution", "validation": "an experiment", "co
 
 
 PREDICTED = "predicted defect"  # begins the reason of a gate that holds what the printed equations were predicted to get wrong
+KNOWN = "known defect"  # the same of an engine's own
 DEFECT, DIVERGENCE, UNJUDGED = "expected defect", "expected divergence", "not judged"
 TONES = {"PASS": "pass", "OK": "pass", "EQUIVALENT": "pass", "FAIL": "fail", "DIVERGED": "fail", "KILLED": "fail", "ERROR": "fail", "TIMEOUT": "fail", "DIFFERENT": "fail",
          "REFUSED": "refused", "MISSING": "missing", DEFECT.upper(): "defect", DIVERGENCE.upper(): "diverges", UNJUDGED.upper(): "unjudged", "INTERRUPTED": "open"}
@@ -41,7 +42,7 @@ def standing(case, engine, mode=""):
     if declared_divergence(case, mode) and "diverged" in (runs or [engine.status]):
         return DIVERGENCE
     if verdict == "PASS":
-        return DEFECT if any(gate.reason.startswith(PREDICTED) for gate in gates) and (mode or len(engine.modes) == 1) else verdict
+        return DEFECT if any(gate.reason.startswith((PREDICTED, KNOWN)) for gate in gates) and (mode or len(engine.modes) == 1) else verdict
     return UNJUDGED if engine.status == "ok" else engine.status
 
 

@@ -148,7 +148,7 @@ class SinceTheLastRun(Pages):
 
     def test_a_limit_that_moves_along_does_not_hide_what_got_worse(self):
         text = self.front(gated(-0.0095, band=[-0.03, 0.03]), gated(-0.0301, band=[-0.045, 0.015]))
-        self.assertIn("worse heat/one tripoint, error: -0.0095 → -0.0301 (allowed -0.045 to 0.015; before, -0.03 to 0.03)", text)
+        self.assertIn("worse heat/one tripoint, error: -0.0095 → -0.0301 (allowed -0.045 to 0.015; before, -0.03 to 0.03, outside of that)", text)
         self.assertIn("new limit heat/one tripoint, error: ≤ 1 → ≤ 2", self.front(gated(0.5), gated(0.5, limit=2.0)))
 
     def test_in_a_band_about_zero_the_error_counts_and_not_the_way_to_the_middle(self):
