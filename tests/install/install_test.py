@@ -53,7 +53,7 @@ class Install(unittest.TestCase):
     def test_every_engine_of_the_build_is_there(self):
         built = {path.name for path in (BUILD / "libexec" / "tripoint").glob("engine-*") if path.is_file()}
         installed = {path.name for path in (self.prefix / "libexec" / "tripoint").iterdir()}
-        self.assertEqual(installed, built)
+        self.assertEqual(installed, built - {"engine-tripoint-mpi"})  # made for the wheel in the checkout, and under a licence of its own
         told = run(self.program, "engines", cwd=self.path)
         self.assertEqual(told.returncode, 0, told.stderr)
         self.assertIn("bullet", told.stdout)
