@@ -73,13 +73,14 @@ std::string repeat_command(const Case& value, const SuiteOptions& options) {
   return command;
 }
 
-std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePlan& engine, const CaseRun& run, const HarmlessChange& change) {
+/// @param number of the run: runs of one start have files of their own, since HDF5 writes the second of the day into each
+std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePlan& engine, const CaseRun& run, const HarmlessChange& change, std::size_t number) {
   ChangedScene changed{run.job.scene, *run.initial, run.job.threads};
   change.apply(changed);
   auto made = std::make_shared<ChangedRun>();
   made->job = make_job(value, engine, run.plan, changed.scene, changed.initial);
   made->job.threads = changed.threads;
-  made->particles = fs::path(run.particles).replace_extension(fmt::format("{}.h5", change.name)).string();
+  made->particles = fs::path(run.particles).replace_extension(fmt::format("{}-{}.h5", change.name, number)).string();
   made->initial = std::move(changed.initial);
   const std::lock_guard lock(no_spawn_mutex());
   fs::remove(made->particles);
@@ -136,7 +137,7 @@ void add_runs(CaseRuns& all, const SuiteOptions& options) {
       run.engine = e, run.plan = plan, run.initial = initial, run.particles = file, run.particles_hash = hash;
       run.job = make_job(value, engine, plan, scene, *initial);
       run.job.threads = options.threads;
-      if (options.change) run.changed = changed_run(value, engine, run, *options.change);
+      if (options.change) run.changed = changed_run(value, engine, run, *options.change, all.runs.size());
       run.folder = (folder / engine.name / (engine.preset == "default" ? plan.label : engine.preset + "-" + plan.label)).string();
       all.runs.push_back(std::move(run));
     }
