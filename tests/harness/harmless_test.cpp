@@ -2,10 +2,13 @@
 // Changes that physics does not feel: each is undone exactly, is refused where it is no symmetry, and is felt by a solver that has an axis, an order or a unit of its own.
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
 #include "scene/read_case.hpp"
+#include "validation/harness/case_run.hpp"
 #include "validation/harness/selftest.hpp"
 
 namespace tripoint {
@@ -194,6 +197,24 @@ TEST(Harmless, ASolverWithAnAxisOfItsOwnFeelsTheRotation) {
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_FALSE(rows[0].borne);
   EXPECT_NEAR(rows[0].greatest, 0.5 * 0.01 * 9.81 * 0.5 * 0.5, 1e-9) << rows[0].found;  // its error along z, gone along x
+}
+
+TEST(Harmless, RunsOfOneStartHaveFilesOfTheirOwn) {
+  const TestFolder folder;
+  const auto value = read_flight_case(folder, "[[study]]\naxis = \"time_step\"\nlevels = [0.02, 0.01, 0.005]\nmetric = \"position\"\n");  // other steps, one start
+  EngineEntry ours;
+  ours.name = "tripoint";
+  ours.available = true;
+  SuiteOptions options;
+  options.out = folder / "out";
+  options.selection.engines = {"tripoint"};
+  const auto changes = harmless_changes();
+  options.change = &changes.front();
+  const CaseRuns all = prepare_case(value, {ours}, options);
+  std::set<std::string> files;
+  for (const CaseRun& run : all.runs) files.insert(run.changed->particles);
+  EXPECT_GT(all.runs.size(), 1u);
+  EXPECT_EQ(files.size(), all.runs.size());
 }
 
 TEST(Harmless, AFeltChangeEndsTheSelfTestWithFive) {
