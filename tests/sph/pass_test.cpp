@@ -113,12 +113,6 @@ TEST_F(PassTest, ForSomeRowsLeavesTheOthersAsTheyWere) {
   }
 }
 
-TEST_F(PassTest, ForNoRowLeavesAllAsTheyWere) {
-  clear();
-  run_pass_over(of(neighbours.clusters().lanes, {1, 1}), particles, neighbours, kernels, 2, {});
-  for (const double sum : sums()) EXPECT_EQ(sum, 0.0);
-}
-
 TEST_F(PassTest, LeavesOutWhatASlotDoesNotHave) {
   for (const double sum : run({2, 2}, 1)) EXPECT_EQ(sum, 0.0);  // neither has a second form
   EXPECT_EQ(of(1, {0, 0}).run, nullptr);
