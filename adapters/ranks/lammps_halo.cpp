@@ -30,7 +30,7 @@ int count_columns(const Particles& particles) {
 
 /// At the first migration every rank has all particles, and takes those that LAMMPS has put into its part of the box.
 void LammpsHalo::migrate(Particles& particles, const PeriodicBox& box) {
-  if (!ranks_) ranks_ = &begin_(count_columns(particles));
+  if (!ranks_) columns_of_particle_ = count_columns(particles), ranks_ = &begin_(columns_of_particle_);
   PeriodicBox split = box;
   for (std::size_t a = 0; a < 3; ++a) split.periodic[a] = box.periodic[a] && splits_[a];
   pack(particles, split);
@@ -81,11 +81,13 @@ void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* co
   for (std::size_t id = 0; id < rows_.size(); ++id) rows_[id] = static_cast<std::uint32_t>(particles.row(id));
   columns_.clear();
   for (const Field<double>* f : columns) columns_.push_back(particles[*f].data());
+  exchanges_ += 1.0, numbers_a_copy_ += static_cast<double>(columns_.size());
   ranks_->forward(columns_.data(), static_cast<int>(columns_.size()), rows_.data());
 }
 
 void LammpsHalo::refresh(std::span<double> by_id) {
   double* const column = by_id.data();
+  exchanges_ += 1.0, numbers_a_copy_ += 1.0;
   ranks_->forward(&column, 1, nullptr);
 }
 
@@ -93,6 +95,7 @@ void LammpsHalo::take_least(double& number, std::string& word) {
   if (!ranks_) return;  // all still hold the whole scene, and know the same
   char text[32] = {};
   word.copy(text, sizeof text - 1);
+  collectives_ += word.empty() ? 1.0 : 2.0;
   ranks_->take_least(number, text, word.empty() ? 0 : static_cast<int>(sizeof text));
   word = text;
 }

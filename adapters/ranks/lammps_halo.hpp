@@ -21,7 +21,7 @@ class LammpsHalo : public Halo {
   void refresh(Particles&, std::span<const Field<double>* const> columns) override;
   void refresh(std::span<double> by_id) override;
   void add(std::span<double> numbers) override {
-    if (ranks_) ranks_->add(numbers.data(), static_cast<int>(numbers.size()));  // before, all hold the whole scene
+    if (ranks_) collectives_ += 2, ranks_->add(numbers.data(), static_cast<int>(numbers.size()));  // before, all hold the whole scene
   }
   void take_least(double& number, std::string& word) override;
   [[nodiscard]] bool is_first() const override { return ranks_->rank() == 0; }
@@ -30,6 +30,13 @@ class LammpsHalo : public Halo {
   [[nodiscard]] int number_of(std::size_t id) const { return ranks_ ? ranks_->id(id) : static_cast<int>(id); }
   [[nodiscard]] Ranks* ranks() const noexcept { return ranks_; }
   [[nodiscard]] long migrations() const noexcept { return migrations_; }
+  /// What was asked of the other ranks so far, counted also where there is no other: exchanges of columns, numbers that each copy took in them, and
+  /// collective calls. `tripoint predict` has its counts from here.
+  struct Traffic {
+    double exchanges = 0.0, numbers_a_copy = 0.0, collectives = 0.0;
+    int columns = 0;  ///< that go with a particle or a new copy
+  };
+  [[nodiscard]] Traffic traffic() const noexcept { return {exchanges_, numbers_a_copy_, collectives_, columns_of_particle_}; }
 
  private:
   void pack(Particles&, const PeriodicBox&);
@@ -39,6 +46,8 @@ class LammpsHalo : public Halo {
   std::function<Ranks&(int)> begin_;
   Ranks* ranks_ = nullptr;
   long migrations_ = 0;
+  double exchanges_ = 0.0, numbers_a_copy_ = 0.0, collectives_ = 0.0;
+  int columns_of_particle_ = 0;
   std::vector<std::uint32_t> rows_;  ///< memory that is used again: of each id
   std::vector<double*> columns_;     ///< likewise
 };

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "adapters/ranks/mpiexec.hpp"
+#include "adapters/ranks/probe.hpp"
 #include "adapters/ranks/ranks_engine.hpp"
 
 namespace tripoint::ranks {
@@ -88,6 +89,8 @@ int main(int argc, char** argv) {
   const std::string verb = argc > 1 ? argv[1] : "";
   try {
     if (verb == "--rank" && argc == 3) return tripoint::ranks::be_a_rank(argv[0], argv[2]);
+    if (verb == "--probe" && argc == 2) return tripoint::ranks::probe();
+    if (verb == "--probe-rank" && argc == 3) return tripoint::ranks::be_a_probe(argv[2]);
     if (verb == "--run" && argc == 3) return tripoint::ranks::run(argc, argv);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "error: %s\n", e.what());

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -28,7 +29,8 @@ std::string log_of(const std::string& output) { return output + "/mpiexec.log"; 
 int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, const std::string& output) {
   std::error_code ignored;
   const std::string self = fs::read_symlink("/proc/self/exe", ignored).string(), ranks = std::to_string(count), log = log_of(output);
-  const std::string launcher = "fork";
+  const char* chosen = std::getenv("TRIPOINT_MPI_LAUNCHER");  // hydra's: fork for this machine; slurm or ssh for several, which nobody has tried
+  const std::string launcher = chosen && *chosen ? chosen : "fork";
   const pid_t parent = ::getpid(), pid = ::fork();
   if (pid < 0) throw EngineError(std::string("mpiexec could not be started: ") + std::strerror(errno));
   if (pid == 0) {

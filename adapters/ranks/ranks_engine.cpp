@@ -149,8 +149,15 @@ void RanksEngine::account(Result& result) const {
   result.extra["time_step"] = simulation_->time_step();
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
   result.extra["ranks"] = halo_->ranks()->size();
+  result.pairs = simulation_->pairs();
   result.extra["migrations"] = static_cast<double>(halo_->migrations());
+  result.extra["own_on_rank_0"] = static_cast<double>(halo_->owned());
   result.extra["copies_on_rank_0"] = static_cast<double>(halo_->ranks()->all() - halo_->owned());
+  const LammpsHalo::Traffic traffic = halo_->traffic();
+  result.extra["exchanges"] = traffic.exchanges;
+  result.extra["numbers_a_copy"] = traffic.numbers_a_copy;
+  result.extra["collectives"] = traffic.collectives;
+  result.extra["columns"] = traffic.columns;
   if (simulation_->steps() > 0) result.extra["bytes_a_step_from_rank_0"] = halo_->ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
 }
 

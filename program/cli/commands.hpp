@@ -18,6 +18,7 @@ void add_report(CLI::App& app, int& exit_code);
 void add_converge(CLI::App& app, int& exit_code);
 void add_recommend(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
+void add_predict(CLI::App& app, int& exit_code);
 void add_ablate(CLI::App& app, int& exit_code);
 void add_gate(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);

@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", TRIPOINT_VERSION);
   app.require_subcommand(1);
   int exit_code = exit_pass;
-  for (const auto add : {add_run, add_validate, add_merge, add_suite, add_status, add_compare, add_report, add_render, add_view, add_converge, add_recommend, add_plan, add_ablate, add_gate, add_summary, add_check, add_explain, add_list, add_new,
+  for (const auto add : {add_run, add_validate, add_merge, add_suite, add_status, add_compare, add_report, add_render, add_view, add_converge, add_recommend, add_plan, add_predict, add_ablate, add_gate, add_summary, add_check, add_explain, add_list, add_new,
                          add_schema, add_engines, add_engine, add_releases, add_bench, add_export})
     add(app, exit_code);
   if (const auto wrong = mistyped_word(app, argc, argv); !wrong.empty()) {

