@@ -38,6 +38,7 @@ constexpr const char* description =
 
 /// Particles times ranks up to which shares are counted one by one; beyond, they are scaled by volume.
 constexpr double most_counted = 1e9;
+constexpr double slow_latency = 1e-4;  ///< [s] of a message between two processes of one machine: fifty times what a quiet one takes
 constexpr int most_ranks = 1000000, most_measured = 1024;
 
 struct Options {
@@ -187,6 +188,8 @@ int predict_case(Options o) {
   r.memory = predict::fit_memory(r.runs, one.prepared.front().weight_bytes);
   r.traffic = one.timed.front().traffic;
   if (o.machine.empty()) r.machine = runs.probe();
+  if (o.machine.empty() && r.machine.latency > slow_latency)
+    r.notes.push_back(fmt::format("the probe found {:.3g} us for a message: other programs hold the cores, so that what is said of messages is far too slow; probe a quiet machine, or give --machine", 1e6 * r.machine.latency));
   add_lines(r, runs, o, one.prepared.front());
   if (interrupted()) return exit_interrupted;
   const nlohmann::ordered_json document = prediction_json(r);
