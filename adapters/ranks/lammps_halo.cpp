@@ -36,7 +36,7 @@ void LammpsHalo::migrate(Particles& particles, const PeriodicBox& box) {
   pack(particles, split);
   ranks_->migrate();
   unpack(particles, split);
-  ++migrations_;
+  if (++migrations_ == 1) own_at_start_ = ranks_->owned(), copies_at_start_ = ranks_->all() - ranks_->owned();
 }
 
 void LammpsHalo::pack(Particles& particles, const PeriodicBox& box) {

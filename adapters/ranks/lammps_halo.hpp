@@ -35,8 +35,9 @@ class LammpsHalo : public Halo {
   struct Traffic {
     double exchanges = 0.0, numbers_a_copy = 0.0, collectives = 0.0;
     int columns = 0;  ///< that go with a particle or a new copy
+    std::size_t own_at_start = 0, copies_at_start = 0;  ///< of this rank
   };
-  [[nodiscard]] Traffic traffic() const noexcept { return {exchanges_, numbers_a_copy_, collectives_, columns_of_particle_}; }
+  [[nodiscard]] Traffic traffic() const noexcept { return {exchanges_, numbers_a_copy_, collectives_, columns_of_particle_, own_at_start_, copies_at_start_}; }
 
  private:
   void pack(Particles&, const PeriodicBox&);
@@ -48,6 +49,7 @@ class LammpsHalo : public Halo {
   long migrations_ = 0;
   double exchanges_ = 0.0, numbers_a_copy_ = 0.0, collectives_ = 0.0;
   int columns_of_particle_ = 0;
+  std::size_t own_at_start_ = 0, copies_at_start_ = 0;
   std::vector<std::uint32_t> rows_;  ///< memory that is used again: of each id
   std::vector<double*> columns_;     ///< likewise
 };

@@ -151,13 +151,14 @@ void RanksEngine::account(Result& result) const {
   result.extra["ranks"] = halo_->ranks()->size();
   result.pairs = simulation_->pairs();
   result.extra["migrations"] = static_cast<double>(halo_->migrations());
-  result.extra["own_on_rank_0"] = static_cast<double>(halo_->owned());
   result.extra["copies_on_rank_0"] = static_cast<double>(halo_->ranks()->all() - halo_->owned());
   const LammpsHalo::Traffic traffic = halo_->traffic();
   result.extra["exchanges"] = traffic.exchanges;
   result.extra["numbers_a_copy"] = traffic.numbers_a_copy;
   result.extra["collectives"] = traffic.collectives;
   result.extra["columns"] = traffic.columns;
+  result.extra["own_at_start_on_rank_0"] = static_cast<double>(traffic.own_at_start);
+  result.extra["copies_at_start_on_rank_0"] = static_cast<double>(traffic.copies_at_start);
   if (simulation_->steps() > 0) result.extra["bytes_a_step_from_rank_0"] = halo_->ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
 }
 

@@ -110,7 +110,7 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
   t.steps = r.steps;
   t.wall.push_back(r.stepping_wall / steps), t.cpu.push_back(r.stepping_cpu / steps);
   t.bytes = std::max(t.bytes, outcome.cost.peak_bytes);
-  t.own = of(r.extra, "own_on_rank_0"), t.copies = of(r.extra, "copies_on_rank_0");
+  t.own = of(r.extra, "own_at_start_on_rank_0"), t.copies = of(r.extra, "copies_at_start_on_rank_0");
   t.pairs = r.pairs / (steps + 1.0);  // the start makes one pass more than there are steps
   t.traffic = {of(r.extra, "exchanges") / (steps + 1.0), of(r.extra, "numbers_a_copy") / (steps + 1.0), of(r.extra, "collectives") / (steps + 1.0), std::max(0.0, of(r.extra, "migrations") - 1.0) / steps, of(r.extra, "columns")};
   if (!quiet_) say(fmt::format("predict: {} on {} rank{}: {:.4g} ms a step, {:.4g} CPU ms of rank 0", p.label, t.ranks, t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * t.cpu.back()));

@@ -30,7 +30,7 @@ struct Timed {
   long steps = 0;
   std::vector<double> wall, cpu;  ///< [s] a step, of each repeat; CPU of rank 0
   double bytes = 0.0, pairs = 0.0;  ///< of rank 0, pairs a pass as the engine counts them
-  double own = 0.0, copies = 0.0;   ///< of rank 0
+  double own = 0.0, copies = 0.0;   ///< of rank 0, as it starts
   predict::Traffic traffic;
   [[nodiscard]] double best_wall() const;
   [[nodiscard]] double best_cpu() const;

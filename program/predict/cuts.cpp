@@ -11,7 +11,7 @@ namespace {
 
 constexpr double allowed = 1.02;  ///< greatest number of a rank over the mean, as the engine asks of `balance`
 constexpr int most_rounds = 20;   ///< likewise
-constexpr double margin = 1e-4;   ///< by which LAMMPS keeps a shrunk box around its particles, in widths
+constexpr double margin = 1e-4;   ///< by which LAMMPS keeps a shrunk box around its particles, in widths of the box that it was made with
 
 /// Greatest number of a part over the mean.
 double imbalance(const Cloud& cloud, const Cuts& cuts) {
@@ -61,7 +61,7 @@ Cuts cuts_of(const Cloud& cloud, int ranks) {
   cuts.grid = rank_grid(ranks, high - low + around, cloud.periodic);
   for (std::size_t a = 0; a < 3; ++a) {
     const bool wraps = cloud.periodic[a] && cuts.cut(a);
-    const double room = margin * std::max(high[a] - low[a], cloud.spacing);
+    const double room = margin * (high[a] - low[a] + 2.0 * cloud.spacing);  // the engine makes it one spacing wider on each side
     const double from = wraps ? cloud.min[a] : low[a] - room, to = wraps ? cloud.max[a] : high[a] + room;
     for (int n = 0; n <= cuts.grid[a]; ++n) cuts.at[a].push_back(from + (to - from) * n / cuts.grid[a]);
   }

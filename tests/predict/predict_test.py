@@ -50,6 +50,13 @@ class Predict(unittest.TestCase):
         self.assertEqual(rows[1000, 1e9]["shares"], "by volume")
         self.assertAlmostEqual(rows[1000, 1e9]["particles_a_rank"], 1e6, delta=1.0)
 
+    def test_cuts_move_as_those_of_the_engine_do(self):
+        """A dam fills a part of its tank: equal parts would give one rank nearly all, so that LAMMPS shifts its cut."""
+        done = self.call("fluid/dam-break-small", "--quiet", "--repeats", "1", "--seconds", "0.02", "--machine", "cluster.toml", "--measure", "2", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (row,) = json.loads(done.stdout)["rows"]
+        self.assertEqual(row["rank_0"], row["measured"]["rank_0"])
+
     def test_the_table_says_that_it_is_a_prediction(self):
         done = self.call(*CASE, "--machine", "cluster.toml", "--ranks", "2,4")
         self.assertEqual(done.returncode, 0, done.stderr)
