@@ -140,11 +140,14 @@ void end_strays(const std::string& mark) {
   using namespace std::chrono_literals;
   constexpr auto patience = 2s;  // to become another program takes milliseconds, on a busy machine too
   constexpr auto longest = 10s;  // for what starts others as fast as it is killed
+  constexpr int looks = 5;       // the list of children may leave out one that comes while it is made
   const auto start = std::chrono::steady_clock::now();
   const std::string entry = fmt::format("{}={}", stray_mark, mark);
   for (;;) {
     const auto ran = std::chrono::steady_clock::now() - start;
-    if (end_children(entry) && ran < longest) continue;
+    bool found = false;
+    for (int look = 0; look < looks && !found; ++look) found = end_children(entry);
+    if (found && ran < longest) continue;
     const auto [strays, unsure] = look_for(entry);
     if (strays.empty() && (!unsure || ran > patience)) return;
     if (ran > longest) return;
