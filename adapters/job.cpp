@@ -137,6 +137,7 @@ void write_job(const std::string& path, const Job& job) { write_durably(path, jo
 Result read_result(const std::string& path) {
   const json value = parse(path);
   const JsonObject o(value, "result");
+  if (o.has("contract") && o.integer("contract") != 1) throw InputError(path + ": is not of contract 1");
   Result r;
   r.status = o.text("status");
   r.message = o.text_or("message", "");

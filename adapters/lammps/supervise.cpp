@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "adapters/job.hpp"
+#include "core/children.hpp"
 
 namespace tripoint::lammps {
 namespace {
@@ -48,6 +49,7 @@ int supervise(const std::string& job_path, int (*child)(int, char**), int argc, 
   const std::string output = output_of(job_path), log = output + "/log.lammps", result = output + "/result.json";
   std::error_code ignored;
   if (!output.empty()) std::filesystem::remove(log, ignored), std::filesystem::remove(result, ignored);
+  keep_ends_of_children();
   const pid_t parent = ::getpid(), pid = ::fork();
   if (pid < 0) return 1;
   if (pid == 0) {

@@ -16,6 +16,7 @@
 #include <regex>
 
 #include "adapters/ranks/ranks_engine.hpp"
+#include "core/children.hpp"
 
 namespace tripoint::ranks {
 namespace {
@@ -31,6 +32,7 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
   const std::string self = fs::read_symlink("/proc/self/exe", ignored).string(), ranks = std::to_string(count), log = log_of(output);
   const char* chosen = std::getenv("TRIPOINT_MPI_LAUNCHER");  // hydra's: fork for this machine; slurm or ssh for several, which nobody has tried
   const std::string launcher = chosen && *chosen ? chosen : "fork";
+  keep_ends_of_children();
   const pid_t parent = ::getpid(), pid = ::fork();
   if (pid < 0) throw EngineError(std::string("mpiexec could not be started: ") + std::strerror(errno));
   if (pid == 0) {

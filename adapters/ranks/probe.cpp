@@ -16,6 +16,7 @@
 #include <iterator>
 
 #include "adapters/ranks/wheel.hpp"
+#include "core/children.hpp"
 #include "core/errors.hpp"
 
 namespace tripoint::ranks {
@@ -45,6 +46,7 @@ struct Scratch {
 int start_two(const Wheel& wheel, const std::string& path) {
   std::error_code none;
   const std::string self = fs::read_symlink("/proc/self/exe", none).string();
+  keep_ends_of_children();
   const pid_t pid = ::fork();
   if (pid < 0) throw EngineError("mpiexec could not be started");
   if (pid == 0) {

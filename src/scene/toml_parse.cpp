@@ -21,6 +21,7 @@ namespace tripoint {
 #include <charconv>
 #include <fstream>
 
+#include "core/children.hpp"
 #include "scene/nearest.hpp"
 #include "scene/toml_node.hpp"
 
@@ -70,6 +71,7 @@ bool child_survives([[maybe_unused]] const std::string& text) {
 #if defined(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
   return true;  // a process for each input would leave a fuzzer no inputs
 #else
+  keep_ends_of_children();
   const pid_t child = fork();
   if (child < 0) return true;  // no process to spare: the bounds have been checked, go on
   if (child == 0) {

@@ -51,6 +51,18 @@ TEST(Lammps, PutsItsErrorIntoTheResult) {
   EXPECT_NE(out.result.message.find("nosuch"), std::string::npos) << out.result.message;
 }
 
+/// A dump by MPI-IO keeps its file open until LAMMPS is closed. MPI is ended as soon as a run fails: closed after that, LAMMPS would be ended by MPI.
+/// The force is 0 times infinity from the first step on.
+TEST(Lammps, IsLeftOpenWhereItDivergesAndMpiHasEnded) {
+  const test::Folder folder;
+  Prepared p = test::block({}, {}, 1.0, 1, 0.01);
+  p.job.settings["commands"] = "variable push equal 0*exp(1e6*step)\nfix push all addforce v_push 0 0\ndump open all atom/mpiio 1 " + folder.at("dump.mpiio");
+  const Outcome out = test::run(debian, p);
+  EXPECT_EQ(out.exit_code, 7) << out.log;
+  EXPECT_EQ(out.result.status, "diverged");
+  EXPECT_NE(out.result.message.find("not finite"), std::string::npos) << out.result.message;
+}
+
 /// A cube that flies towards another, past its middle by `aside` in both other directions [m].
 Outcome passing(double aside) {
   Scene s;

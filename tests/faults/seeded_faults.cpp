@@ -126,10 +126,12 @@ std::string status_of(const fs::path& folder) {
   return in ? nlohmann::json::parse(in).value("status", "") : "";
 }
 
+bool is_whole(const Reference& of, const fs::path& folder) { return hashes_of(read_trajectory((folder / "trajectory.h5").string())) == of.hashes; }
+
 /// @return "", or what is wrong with a run that says it is whole
 std::string fault_of_whole(const Reference& of, const fs::path& folder) {
   if (status_of(folder) != "ok") return "WRONG: exit 0, and the result does not say ok";
-  if (hashes_of(read_trajectory((folder / "trajectory.h5").string())) != of.hashes) return "WRONG: exit 0, and not every frame has its bits";
+  if (!is_whole(of, folder)) return "WRONG: exit 0, and not every frame has its bits";
   return "";
 }
 
@@ -160,7 +162,10 @@ std::string last_checkpoint(const std::string& said) {
 /// What is left behind, looked at without faults. @return "", or which promise does not hold
 std::string broken_promise(const Reference& of, const fs::path& folder, const Attempt& attempt, const std::string& checkpoint, double interval) {
   if (attempt.end.code == 0) return fault_of_whole(of, folder);
-  if (status_of(folder) == "ok") return "WRONG: the run did not end well, and its result says ok";
+  if (status_of(folder) == "ok") {  // the last act: who dies after it has left all that it says
+    if (attempt.end.code > 0) return "WRONG: the run did not end well, and its result says ok";
+    if (!is_whole(of, folder)) return "WRONG: killed after its result said ok, and not every frame has its bits";
+  }
   if (const std::size_t count = announced_frames(attempt.end.said); count > 0 && !attempt.loses_power()) {
     const std::vector<std::string> there = hashes_of(read_trajectory((folder / "trajectory.h5").string()));
     if (there.size() <= count) return fmt::format("LOST: {} of {} announced frames are there", there.size() - 1, count);

@@ -98,7 +98,7 @@ TEST(Process, AnOrphanThatHoldsThePipesDoesNotHoldUs) {
 }
 
 TEST(Process, ProgressLinesAreReported) {
-  auto spec = shell("echo progress 0.25 >&2; echo noise >&2; echo progress 7 >&2");
+  auto spec = shell("echo progress 0.25 >&2; echo noise >&2; echo progress nan >&2; echo progress -1e999 >&2; echo progress 7 >&2");
   std::vector<double> seen;
   spec.progress = [&](double done) { seen.push_back(done); };
   (void)run_process(spec);

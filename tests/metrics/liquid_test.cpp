@@ -95,5 +95,21 @@ TEST(LiquidMetrics, TimeATouchAndAnAcceleration) {
   EXPECT_NEAR(g.value(metric("acceleration", "final", "block")), 4.0 - 0.5 * 9.81, 1e-9);
 }
 
+TEST(LiquidMetrics, AnAccelerationThatChangesWithinItsWindowIsNoSurerForMoreFrames) {
+  const auto uncertainty = [](int frames, double per_second) {
+    auto s = test::pool(500.0);
+    s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
+    s.job.times.clear();
+    for (int n = 0; n <= frames; ++n) s.job.times.push_back(1.0 * n / frames);
+    Flow f(s, "added_mass");
+    for (auto& frame : f.run.frames) frame.bodies[0].velocity = {0, 0, 4.0 * frame.time + 0.5 * per_second * frame.time * frame.time};
+    return evaluate(metric("acceleration", "final", "block"), f.s.job, f.s.initial, f.run, *f.truth).uncertainty.numerical;
+  };
+  EXPECT_NEAR(uncertainty(20, 0.0), 0.0, 1e-9);
+  // A parabola 1/2 b t^2 is off its line by b/2 ((t - 1/2)^2 - 1/12): squares of b^2/720 on average, and two changes of sign, so that 4 - 2 are left over 1/12.
+  EXPECT_NEAR(uncertainty(200, -3.0), 3.0 * std::sqrt(12.0 / 720.0 / 2.0), 0.02);
+  EXPECT_NEAR(uncertainty(20, -3.0), uncertainty(200, -3.0), 0.05);
+}
+
 }  // namespace
 }  // namespace tripoint

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "metrics/fakes.hpp"
+#include "validation/metrics/frame_error.hpp"
 
 namespace tripoint {
 namespace {
@@ -166,6 +167,18 @@ TEST(Walkers, StateAnUncertaintyThatCoversTheTruthForManyAndForPooledCounts) {
     EXPECT_GT(covered, 0.92 * runs) << by_layers;  // k = 2
     EXPECT_LT(covered, 0.995 * runs) << by_layers;
   }
+}
+
+TEST(Metric, GivesTheFirstParticleThatFlowsInNoVolumeOfTheStart) {
+  auto s = test::thrown_block();
+  const auto last = s.initial.size() - 1;
+  s.initial.mass.push_back(7.0), s.initial.mass.pop_back();  // what lies behind the last is memory that a careless look would take for a particle
+  s.initial.material.push_back(0), s.initial.material.pop_back();
+  const auto choice = metric("position", "max");
+  const auto truth = make_reference(test::function("torque_free"), s.job, s.initial);
+  const MetricInput in{choice, s.job, s.initial, *truth};
+  EXPECT_GT(rest_volume(in, last), 0.0);
+  EXPECT_EQ(rest_volume(in, last + 1), 0.0);
 }
 
 TEST(Walkers, AgreeWithTheTruthWhereTheErrorIsAllNoise) {

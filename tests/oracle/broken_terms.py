@@ -23,6 +23,7 @@ BROKEN = [
     ("walls.stiffness=1e-6", "basin", "corrected", 2, [], "pressure 8.3"),
     ("fluid.surface=1e-6", "basin", "corrected", 2, [], "pressure 8.3"),
     ("walls.jitter=1e-6", "basin", "corrected", 2, [], "density of walls 8.4"),
+    ("walls.places=1e-5", "basin", "corrected", 2, [], "number density 8.2"),
     ("walls.velocity=1e-6", "basin", "corrected", 2, [], "mirrored velocity 8.4"),
     ("fluid.bulk_viscosity=1e-6", "basin", "corrected", 2, [], "bulk pressure 8.4"),
     ("fluid.viscosity.central=1e-6", "basin", "corrected", 2, [], "viscous force central 8.5"),

@@ -149,6 +149,9 @@ def number_density(s):
     total = np.where(s.own, 0.0, wendland(s.distance, s.h)).sum(axis=1) + wendland(0.0, s.h)
     if s.has("own_density"):
         total = total + s["own_density"]
+    if s.averages_walls():
+        laid, d = from_lattice(s)
+        total = total + np.where(laid, wendland(np.linalg.norm(d, axis=2), s.h) - wendland(s.distance, s.h), 0.0).sum(axis=1)
     return total, total
 
 
@@ -173,12 +176,27 @@ def pressure(s):
     return p, np.abs(k * rho)
 
 
+def laid_walls(s):
+    """Particles of fixed walls, where jitter leaves each nearest to its own place of the lattice."""
+    if not 0 < s.scene["jitter"] < 0.25:
+        return np.zeros(s.n, dtype=bool)
+    return np.array([b >= 0 and s.raw["bodies"]["body.motion"][b] == 1 for b in s.body]) & (s.group == WALL)
+
+
+def from_lattice(s):
+    """Pairs of liquid and wall that are felt from the lattice of 8.4, and r_i - r_j with the wall particle there."""
+    moves, x = np.zeros((s.n, 3)), s.r / s.dx
+    for source in np.unique(s["source"][laid_walls(s)]):
+        wall = laid_walls(s) & (s["source"] == source)
+        place = x[wall] - np.angle(np.exp(2j * np.pi * x[wall]).sum(axis=0)) / (2 * np.pi)
+        moves[wall] = s.dx * np.round((np.round(place) - place) * 2.0**20) / 2.0**20
+    liquid = s.group == LIQUID
+    return (liquid[:, None] != liquid[None, :]) & (s.distance < s.h), s.d + moves[:, None, :] - moves[None, :, :]
+
+
 def jitter_of_walls(s):
     """What jitter adds to the part of a fixed wall particle's density that is wall, over the rest density: 8.4."""
-    if not 0 < s.scene["jitter"] < 0.25:
-        return np.zeros(s.n)
-    fixed = np.array([b >= 0 and s.raw["bodies"]["body.motion"][b] == 1 for b in s.body]) & (s.group == WALL)
-    of_one_lattice = fixed[:, None] & fixed[None, :] & (s["source"][:, None] == s["source"][None, :]) & (s.distance < s.h)
+    of_one_lattice = laid_walls(s)[:, None] & laid_walls(s)[None, :] & (s["source"][:, None] == s["source"][None, :]) & (s.distance < s.h)
     laid = wendland(np.linalg.norm(np.round(s.d / s.dx), axis=2) * s.dx, s.h)
     added = np.where(of_one_lattice, wendland(s.distance, s.h) - laid, 0.0).sum(axis=1) * s.dx**3 / s.S0
     return np.round(added * 2.0**20) / 2.0**20
@@ -247,6 +265,11 @@ def pressure_force(s):
     size = -(share[:, None] + share[None, :]) * wendland_slope(s.distance, s.h)
     core = np.where((s.distance < s.h) & (s.distance < reach), kappa * (reach - s.distance), 0.0)
     total, _ = summed(s, np.where(s.acts, size + core, 0.0)[..., None] * away)
+    if s.averages_walls():
+        laid, d = from_lattice(s)
+        distance = np.linalg.norm(d, axis=2)
+        there = -(share[:, None] + share[None, :]) * wendland_slope(distance, s.h)
+        total = total + np.where(laid[..., None], there[..., None] * d / np.where(laid, distance, 1.0)[..., None] - size[..., None] * away, 0.0).sum(axis=1)
     return total, (s.condition * np.where(s.acts, np.abs(size) + core, 0.0)).sum(axis=1)
 
 

@@ -25,6 +25,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/children.hpp"
 #include "validation/harness/instructions.hpp"
 #include "validation/harness/strays.hpp"
 #include "validation/harness/watch.hpp"
@@ -219,6 +220,7 @@ bool drain(int fd, Take take) {
 /// The leader has ended or must end: nothing of its group stays, and every member that is ours to reap is paid for.
 void end_group(pid_t leader, ProcessEnd& end, bool leader_reaped) {
   ::kill(-leader, SIGKILL);
+  if (!leader_reaped) ::kill(leader, SIGKILL);  // it may have left its group, and we wait for it
   int status = 0;
   rusage use{};
   if (!leader_reaped && ::wait4(leader, &status, 0, &use) == leader) add_cost(end, use);
@@ -279,6 +281,7 @@ std::mutex& no_spawn_mutex() {
 
 ProcessEnd run_process(const ProcessSpec& spec) {
   adopt_orphans();
+  keep_ends_of_children();
   watch_for_our_end(our_stray_mark());
   ProcessEnd end;
   int out[2], err[2];

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <new>
 
+#include "core/children.hpp"
 #include "core/errors.hpp"
 
 namespace tripoint {
@@ -61,6 +62,7 @@ bool ends_within(pid_t child, double seconds) {
 }  // namespace
 
 void try_in_child(const std::function<void()>& deed, const std::string& what, double limit) {
+  keep_ends_of_children();
   const pid_t child = ::fork();
   if (child < 0) throw EngineError(what + " was not read: there is no process to spare to try it in");
   if (child == 0) be_the_copy(deed);

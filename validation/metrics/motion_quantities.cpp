@@ -21,13 +21,21 @@ MetricValue unformed(const std::string& why) {
 struct Line {
   double slope = not_a_number, error = 0.0;
 };
+/// Neighbours in time deviate from the line alike. Of n deviations those count as independent that would change sign as often: n independent ones do at
+/// half of the steps. Frames in between then add no certainty.
 Line fit(const std::vector<double>& t, const std::vector<double>& y) {
   const double n = static_cast<double>(t.size());
-  double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0;
+  double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0, last = 0.0;
   for (std::size_t i = 0; i < t.size(); ++i) t0 += t[i] / n, y0 += y[i] / n;
   for (std::size_t i = 0; i < t.size(); ++i) tt += (t[i] - t0) * (t[i] - t0), ty += (t[i] - t0) * (y[i] - y0);
-  for (std::size_t i = 0; i < t.size(); ++i) rest += std::pow(y[i] - y0 - ty / tt * (t[i] - t0), 2);
-  return {ty / tt, n > 2.0 ? std::sqrt(rest / (n - 2.0) / tt) : 0.0};
+  double independent = 0.0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double off = y[i] - y0 - ty / tt * (t[i] - t0);
+    rest += off * off;
+    if (off * last < 0.0) independent += 2.0;
+    last = off;
+  }
+  return {ty / tt, n > 2.0 ? std::sqrt(rest / (std::clamp(independent, 3.0, n) - 2.0) / tt) : 0.0};
 }
 
 // --- a body's motion along an axis ----------------------------------------------------------------------------------------

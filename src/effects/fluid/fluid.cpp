@@ -10,6 +10,7 @@
 #include "effects/fluid/bulk_viscosity.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
+#include "effects/fluid/laid_walls.hpp"
 #include "effects/fluid/phase_jump.hpp"
 #include "effects/fluid/solid_viscosity.hpp"
 #include "effects/fluid/transport.hpp"
@@ -59,14 +60,16 @@ class Fluid : public Effect {
         damps_(numbers_.bulk_viscosity > 0.0),
         mirrors_(mirrors_velocities(scene)),
         averages_(numbers_.averages_walls && can_have_walls(scene)),
+        lays_walls_(averages_ && has_laid_walls(scene)),
         solid_viscosity_(scene) {}
   void load(World&, const InitialState&) override;
   void kick(World&, double dt) override;
   void drift(World&, double dt) override;
   void clear(World&, PassName) override;
   void state(World&) override;
-  void happen(World& world, const Happening&) override { set_groups(world), walls_.clear(); }
-  void renumber(World&) override { walls_.clear(); }
+  void bonds(World&) override;
+  void happen(World& world, const Happening&) override { set_groups(world), clear_walls(); }
+  void renumber(World&) override { clear_walls(); }
   void adopt(World&) override;
   void check(const World& world) const override { refuse_overlap(world, numbers_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
@@ -79,6 +82,7 @@ class Fluid : public Effect {
   void set_material(World&, std::size_t row) const;
   void set_own_density(World&, std::size_t row) const;
   void set_groups(World&);
+  void clear_walls() { walls_.clear(), laid_.clear(); }
   void follow_temperature(World&) const;
 
   SceneNumbers numbers_;
@@ -88,7 +92,9 @@ class Fluid : public Effect {
   bool damps_;      ///< liquids have a numerical bulk viscosity
   bool mirrors_;    ///< viscous pairs see walls by the mirrored velocity
   bool averages_;   ///< walls press by the mean density of a patch of their face
+  bool lays_walls_;  ///< liquid feels fixed walls from their lattice
   Walls walls_;
+  LaidWalls laid_;
   SolidViscosity solid_viscosity_;
 };
 
@@ -139,7 +145,7 @@ void Fluid::adopt(World& world) {
   for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
   const bool same_solids = world.change.regrouped.empty() && world.change.bodies.empty();
   set_groups(world);
-  if (!same_solids) walls_.clear();
+  if (!same_solids) clear_walls();
 }
 
 void Fluid::set_groups(World& world) {
@@ -182,6 +188,7 @@ void Fluid::clear(World& world, PassName pass) {
 
 void Fluid::state(World& world) {
   if (world.moved) {
+    if (lays_walls_) laid_.lay_densities(world, kernels_);
     set_density(world, numbers_);
     if (averages_) walls_.average_density(world, numbers_, kernels_);
   }
@@ -194,6 +201,11 @@ void Fluid::state(World& world) {
   if (averages_) walls_.hand_down_shares(world);
   if (transports_) set_transport_forces(world, numbers_, kernels_);
   update_viscous_bound(world, kernels_);
+}
+
+/// Once the pass has summed the pressure of all pairs from where they are.
+void Fluid::bonds(World& world) {
+  if (lays_walls_) laid_.lay_forces(world, kernels_);
 }
 
 /// Sound C h/(c + |v|), C = 0.45 corrected, 0.35 with transport velocity (its background pressure adds half to the stiffness),
@@ -265,6 +277,7 @@ std::vector<DefectEntry> defects() {
           {"walls.pressure", "pressure of walls on liquids times 1 - size", "fluid/still-water"},
           {"fluid.surface", "part of its weight that the topmost layer of a liquid bears times 1 - size", "fluid/hydrostatic-ladder"},
           {"walls.jitter", "share of what the jitter of walls does to their own number density left in", "fluid/hydrostatic"},
+          {"walls.places", "share of how far jitter puts fixed walls off their lattice left in what liquid feels of them", "fluid/hydrostatic"},
           {"walls.stiffness", "stiffness of walls times 1 - size", "fluid/hydrostatic-ladder"},
           {"walls.clamp", "walls are not clamped: they pull where liquid is thin", "fluid/still-water"},
           {"fluid.bulk_viscosity", "numerical bulk viscosity of liquids times 1 - size", "fluid/still-water"},

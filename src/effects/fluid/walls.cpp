@@ -8,6 +8,7 @@
 
 #include "core/defect.hpp"
 #include "effects/fill.hpp"
+#include "effects/fluid/laid_walls.hpp"
 #include "effects/fluid/wall_terms.hpp"
 #include "effects/pair_passes.hpp"
 #include "effects/run_pass.hpp"
@@ -31,15 +32,9 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 /// What a neighbour adds to the kernel sum of a wall particle, and what it would from its place on the lattice.
 struct Share {
   int id;
-  double as_it_is, laid;
+  double as_it_is, from_lattice;
   auto operator<=>(const Share&) const = default;
 };
-
-/// A run that goes on finds rows in another order, and places of walls that are off by their last bit. A millionth of the rest density is far above
-/// what that does to a sum, and far below what matters, so both runs have the same bits.
-double to_a_millionth(double x) { return std::ldexp(std::round(std::ldexp(x, 20)), -20); }
-
-Vec3 rounded(const Vec3& a) { return {std::round(a.x), std::round(a.y), std::round(a.z)}; }
 
 }  // namespace
 
@@ -81,7 +76,7 @@ void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKe
   const std::vector<int> frames = frames_of(world);
   const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
   const double dx = world.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
-  const bool jittered = world.scene.jitter > 0.0 && world.scene.jitter < 0.25;  // two of one lattice then stand nearer to their places than to others
+  const bool jittered = has_laid_walls(world.scene);
   static const double put_back = 1.0 - defect_size("walls.jitter");
   at_face_.resize(p.size());
   if (jittered) excess_.assign(p.size(), 0.0);
@@ -94,13 +89,13 @@ void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKe
       if (j == i || group[j] != wall_group || frame_of(i) != frame_of(j)) continue;
       const Vec3 away = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image());
       const double as_it_is = kernels.wendland.value(norm(away));
-      if (as_it_is > 0.0) shares.push_back({id[j], as_it_is, source[i] == source[j] ? kernels.wendland.value(dx * norm(rounded(away / dx))) : as_it_is});
+      if (as_it_is > 0.0) shares.push_back({id[j], as_it_is, source[i] == source[j] ? kernels.wendland.value(dx * norm(laid(away / dx))) : as_it_is});
     }
     std::ranges::sort(shares);
-    double wall = kernels.wendland.value(0.0), laid = wall;
-    for (const Share& s : shares) wall += s.as_it_is, laid += s.laid;
+    double wall = kernels.wendland.value(0.0), from_lattice = wall;
+    for (const Share& s : shares) wall += s.as_it_is, from_lattice += s.from_lattice;
     at_face_[static_cast<std::size_t>(id[i])] = wall < (1.0 - n.least_exposure) * full ? 1 : 0;
-    if (jittered && frame_of(i) == fixed_frame) excess_[static_cast<std::size_t>(id[i])] = put_back * to_a_millionth((wall - laid) / full);
+    if (jittered && frame_of(i) == fixed_frame) excess_[static_cast<std::size_t>(id[i])] = put_back * to_a_millionth((wall - from_lattice) / full);
   }
 }
 

@@ -13,11 +13,17 @@ from pathlib import Path
 WRONG = os.environ.get("FAKE", "nothing")
 
 
+def die():
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
 def info():
     answer = {"contract": 1, "name": os.environ.get("FAKE_NAME", "fake"), "version": "1", "build": "python", "library": {"path": "", "hash": ""},
               "capabilities": ["rigid-free-flight", "gravity"], "presets": ["default"], "settings": {}, "deterministic": True}
     if WRONG == "slow info":
         time.sleep(60)
+    if WRONG == "dies at info":
+        die()
     if WRONG == "not there":
         answer.update(available=False, reason="its library is not installed")
     if WRONG == "deep info":
@@ -28,6 +34,11 @@ def info():
 
 def check():
     refused = WRONG == "refuses"
+    if WRONG == "dies at check":
+        die()
+    if WRONG == "floods its answer":
+        sys.stdout.write('{"can": true, "reason": "' + "x" * (5 << 20) + '"}')
+        return
     if WRONG == "gives a number as its reason":
         print('{"can": false, "reason": 5}')
         return
@@ -81,6 +92,8 @@ def result(folder, job, **changes):
         answer["readback"]["gravity"] = [1.01 * c for c in scene["gravity"]]
     if WRONG == "holds another mass":
         bodies[0]["mass"] *= 2.0
+    answer.update({"says OK": {"status": "OK"}, "speaks contract 2": {"contract": 2}, "ends at no time": {"time_reached": float("nan")},
+                   "says that it diverged": {"status": "diverged"}}.get(WRONG, {}))
     answer.update(changes)
     (folder / "result.json").write_text("{" if WRONG == "torn result" else json.dumps(answer))
 
@@ -99,6 +112,20 @@ def spoil(rows, times):
         return [row[:4] + [row[4] + 1.0] + row[5:] for row in rows] + rows
     if WRONG == "shifted time axis":
         return [[row[0] + 0.01 * times[-1]] + row[1:] for row in rows]
+    if WRONG == "one value is not a number":
+        rows[len(rows) // 2][3] = float("nan")
+    if WRONG == "one value is infinite":
+        rows[-1][2] = float("inf")
+    if WRONG == "a time is not a number":
+        rows[len(rows) // 2][0] = float("nan")
+    if WRONG == "leaves a frame out":
+        del rows[len(rows) // 2]
+    if WRONG == "names a body that is not there":
+        rows[-1][1] = 1
+    if WRONG == "names a body below the first":
+        rows[-1][1] = -1
+    if WRONG == "names half a body":
+        rows[-1][1] = 0.5
     return rows
 
 
@@ -121,6 +148,23 @@ def leave(folder):
         answer.write_text(answer.read_text()[:-1] + ', "extra": ' + '{"a":' * 400000 + "1" + "}" * 400000 + "}")
     if WRONG == "names a column twice":
         trajectory.write_text(trajectory.read_text().replace(",wz", ",x"))
+    if WRONG == "leaves half a line":
+        trajectory.write_text(trajectory.read_text()[:-60])
+    if WRONG == "leaves half of an H5MD file":
+        os.truncate(folder / "trajectory.h5", (folder / "trajectory.h5").stat().st_size // 2)
+    if WRONG == "numbers its particles past the last":
+        trajectory.write_text("time,id,x,y,z,vx,vy,vz\n0,27,0,0,0,0,0,0\n")
+    if WRONG == "leaves a folder as result":
+        answer.unlink()
+        answer.mkdir()
+    if WRONG == "leaves half a result":
+        answer.write_text(answer.read_text()[:100])
+        die()
+    if WRONG == "leaves files of other years":
+        for file, year in ((trajectory, 0), (answer, 4e9)):
+            os.utime(file, (year, year))
+    if WRONG == "dies after its result":
+        die()
     if WRONG == "takes all runs away":
         shutil.rmtree(folder.parents[1])
 
@@ -137,8 +181,20 @@ def run(path):
             particles.write(b"more")
     if WRONG == "leaves no result":
         return
+    if WRONG == "dies at once":
+        die()
     if WRONG == "hangs":
         time.sleep(600)
+    if WRONG == "stops itself":
+        os.kill(os.getpid(), signal.SIGSTOP)
+    if WRONG == "hides among its parents and hangs":
+        os.setpgid(0, os.getpgid(os.getppid()))
+        time.sleep(600)
+    if WRONG == "closes its streams":
+        for stream in (0, 1, 2):
+            os.close(stream)
+    if WRONG == "leaves a result alone":
+        return result(folder, job)
     if WRONG == "floods":
         for _ in range(2000):
             sys.stderr.write("an engine that will not be quiet\n" * 1000)
@@ -154,9 +210,9 @@ def run(path):
     rows = flight(job, g, times)
     if WRONG == "is killed":
         write(folder, rows[:2])
-        os.kill(os.getpid(), signal.SIGKILL)
+        die()
     write(folder, spoil(rows, times))
-    if WRONG == "columns of other times":
+    if WRONG in ("columns of other times", "leaves half of an H5MD file"):
         write_h5md(folder, times, rows)
     if "link" in WRONG:
         other = next(path for path in sorted(folder.parents[1].glob("*/*/trajectory.csv")) if path.parent != folder.resolve() and "mine" not in path.parts)

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What can happen to a child process, as its parent sees it: each becomes a row with its reason, and none a pass (docs/promises.md, "Faults of a child").
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "harness/fakes.hpp"
+#include "validation/harness/process.hpp"
+#include "validation/harness/try_in_child.hpp"
+#include "validation/harness/verdict.hpp"
+
+namespace {
+
+/// Lets the n-th call of its kind fail, counted from 1, and all others through.
+struct FailingCall {
+  std::atomic<int> calls{0}, failing{0}, error{0};
+  bool fails() { return ++calls == failing; }
+  void plan(int which, int why) { calls = 0, failing = which, error = why; }
+};
+FailingCall spawns, forks, pipes;
+
+template <class F>
+F* next(const char* name) {
+  return reinterpret_cast<F*>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+
+// These stand before the C library's own in this program.
+extern "C" {
+int posix_spawn(pid_t* pid, const char* path, const posix_spawn_file_actions_t* actions, const posix_spawnattr_t* attributes, char* const* argv, char* const* environment) {
+  if (spawns.fails()) return spawns.error;
+  return next<decltype(posix_spawn)>("posix_spawn")(pid, path, actions, attributes, argv, environment);
+}
+pid_t fork() noexcept {
+  if (forks.fails()) return errno = forks.error, -1;
+  return next<pid_t()>("fork")();
+}
+int pipe2(int* ends, int flags) noexcept {
+  if (pipes.fails()) return errno = pipes.error, -1;
+  return next<int(int*, int)>("pipe2")(ends, flags);
+}
+}
+
+namespace tripoint {
+namespace {
+
+constexpr const char* required = "[engines.fake]\nrequired = true\n";
+
+/// What the fake engine does, and what its row must say.
+struct ChildFault {
+  const char* what;
+  const char* status;
+  const char* words;         ///< of the reason
+  double wall_limit = 60.0;  ///< [s]
+  int code = exit_missing;   ///< of the suite
+};
+void PrintTo(const ChildFault& fault, std::ostream* out) { *out << fault.what; }
+
+class ChildFaults : public ::testing::TestWithParam<ChildFault> {};
+
+TEST_P(ChildFaults, AreARowThatSaysWhyAndNeverAPass) {
+  const TestFolder folder;
+  const auto start = std::chrono::steady_clock::now();
+  const auto c = fly(folder, GetParam().what, required, GetParam().wall_limit);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+  EXPECT_EQ(c.exit_code, GetParam().code);
+  ASSERT_EQ(c.engines.size(), 1u);
+  EXPECT_EQ(c.engines[0].status, GetParam().status);
+  EXPECT_NE(c.engines[0].reason.find(GetParam().words), std::string::npos) << c.engines[0].reason;
+}
+
+INSTANTIATE_TEST_SUITE_P(Ends, ChildFaults,
+                         ::testing::Values(ChildFault{"dies at info", "missing", "--info was killed by signal 9"}, ChildFault{"dies at check", "error", "--check was killed by signal 9"},
+                                           ChildFault{"dies at once", "killed", "was killed by signal 9"}, ChildFault{"leaves half a result", "error", "result.json"},
+                                           ChildFault{"dies after its result", "error", "says ok but was killed by signal 9"},
+                                           ChildFault{"stops itself", "timeout", "was stopped after 1 s", 1.0},
+                                           ChildFault{"hides among its parents and hangs", "timeout", "was stopped after 1 s", 1.0}));
+
+INSTANTIATE_TEST_SUITE_P(Lies, ChildFaults,
+                         ::testing::Values(ChildFault{"says OK", "error", "OK"}, ChildFault{"speaks contract 2", "error", "is not of contract 1"}, ChildFault{"ends at no time", "error", "result.json"},
+                                           ChildFault{"says that it diverged", "diverged", "it gives no place", 60.0, exit_diverged}, ChildFault{"floods its answer", "refused", "--check did not print {can, reason}"}));
+
+INSTANTIATE_TEST_SUITE_P(Files, ChildFaults,
+                         ::testing::Values(ChildFault{"leaves half a line", "error", "cells, the header has"}, ChildFault{"leaves half of an H5MD file", "error", "trajectory.h5"},
+                                           ChildFault{"leaves a folder as result", "error", "no regular file"}, ChildFault{"leaves a result alone", "error", "trajectory.csv: cannot be read"},
+                                           ChildFault{"leaves a frame out", "error", "no frame at t = 0.25"}, ChildFault{"one value is not a number", "error", "not finite"},
+                                           ChildFault{"one value is infinite", "error", "not finite"}, ChildFault{"a time is not a number", "error", "the time is not finite"},
+                                           ChildFault{"names a body that is not there", "error", "is not one of"}, ChildFault{"names a body below the first", "error", "is not one of"},
+                                           ChildFault{"names half a body", "error", "is not one of"}, ChildFault{"numbers its particles past the last", "error", "is not one of"}));
+
+/// What is no fault of the engine's result does not cost it its pass.
+TEST(HarmlessChildEvents, LeaveAGoodResultGood) {
+  for (const char* what : {"closes its streams", "leaves files of other years"}) {
+    const TestFolder folder;
+    const auto c = fly(folder, what, required);
+    EXPECT_EQ(c.exit_code, exit_pass) << what << ": " << c.engines.at(0).status << " " << c.engines.at(0).reason;
+  }
+}
+
+TEST(StaleOutput, ATrajectoryOfAnEarlierRunIsNotJudged) {
+  const TestFolder folder;
+  ASSERT_EQ(fly(folder, "nothing").exit_code, exit_pass);
+  ASSERT_TRUE(std::filesystem::exists(folder / "out/runs/test/flight/fake/base/trajectory.csv"));
+  const auto c = fly(folder, "leaves a result alone", required);
+  EXPECT_EQ(c.engines.at(0).status, "error");
+  EXPECT_EQ(c.exit_code, exit_missing);
+}
+
+/// Which start of a child fails, and what the row must say then.
+struct Moment {
+  int start;
+  const char* status;
+};
+constexpr Moment moments[] = {{1, "missing"}, {2, "error"}, {3, "error"}};  // --info, --check, --run
+
+TEST(Starts, AChildThatCannotBeStartedIsARowWithTheSystemsWords) {
+  for (const int error : {EAGAIN, ENOMEM, ENOEXEC})
+    for (const auto& [start, status] : moments) {
+      const TestFolder folder;
+      spawns.plan(start, error);
+      const auto c = fly(folder, "nothing", required);
+      spawns.plan(0, 0);
+      EXPECT_EQ(c.exit_code, exit_missing) << start;
+      EXPECT_EQ(c.engines.at(0).status, status) << start;
+      EXPECT_NE(c.engines.at(0).reason.find(std::string("could not be started: ") + std::strerror(error)), std::string::npos) << c.engines.at(0).reason;
+    }
+}
+
+TEST(Starts, AChildWithoutAPipeIsNotStarted) {
+  for (int which = 1; which <= 6; ++which) {  // two pipes a child
+    const TestFolder folder;
+    pipes.plan(which, EMFILE);
+    const auto c = fly(folder, "nothing", required);
+    pipes.plan(0, 0);
+    EXPECT_EQ(c.exit_code, exit_missing) << which;
+    EXPECT_EQ(c.engines.at(0).status, moments[(which - 1) / 2].status) << which;
+    EXPECT_NE(c.engines.at(0).reason.find(std::strerror(EMFILE)), std::string::npos) << c.engines.at(0).reason;
+  }
+}
+
+TEST(Starts, AForeignFileIsNotReadWhereNoCopyCanTryIt) {
+  int done = 0;
+  forks.plan(1, EAGAIN);
+  EXPECT_THROW(try_in_child([&] { ++done; }, "a file", 5.0), EngineError);
+  forks.plan(0, 0);
+  EXPECT_EQ(done, 0);
+}
+
+/// A shell that starts us with `trap '' CHLD` hands that down: the system then throws the ends of children away.
+class EndsThrownAway : public ::testing::Test {
+ protected:
+  EndsThrownAway() { before_ = ::signal(SIGCHLD, SIG_IGN); }
+  ~EndsThrownAway() override { ::signal(SIGCHLD, before_); }
+
+ private:
+  sighandler_t before_ = nullptr;
+};
+
+TEST_F(EndsThrownAway, AreKeptByWhoStartsAnEngine) {
+  ProcessSpec spec;
+  spec.argv = {"/bin/sh", "-c", "exit 3"};
+  spec.wall_limit = 5.0;
+  const auto end = run_process(spec);
+  EXPECT_EQ(describe(end), "exited with code 3");
+}
+
+TEST_F(EndsThrownAway, AreKeptByWhoTriesAFile) {
+  EXPECT_THROW(try_in_child([] { ::raise(SIGSEGV); }, "a file", 5.0), EngineError);
+}
+
+TEST(ForkStorm, EndsWithItsRun) {
+  const TestFolder folder;
+  // Each in a session of its own; half of them become children of ours, and their parents are gone.
+  ProcessSpec spec;
+  spec.argv = {"/usr/bin/python3", "-c",
+               "import os, time\n"
+               "for n in range(200):\n"
+               "  if os.fork() == 0:\n"
+               "    os.setsid()\n"
+               "    if os.fork() and n % 2: os._exit(0)\n"
+               "    time.sleep(300)\n"};
+  const auto end = run_process(spec);
+  EXPECT_EQ(describe(end), "exited with code 0");
+  spec.argv = {"/bin/sh", "-c", "cat /proc/[0-9]*/cmdline 2>/dev/null | tr '\\0' ' ' | grep -c 'os.fork() and n % [2]'"};
+  EXPECT_EQ(run_process(spec).output, "0\n");
+}
+
+TEST(ForkStorm, OneThatIsAlwaysAnotherProcessEndsWithItsRun) {
+  const TestFolder folder;
+  const std::string beats = folder / "beats";  // a byte for each process
+  write_text(beats, "");
+  ProcessSpec spec;
+  spec.argv = {"/usr/bin/python3", "-c",
+               "import os, sys, time\n"
+               "end, beats = time.monotonic() + 60, sys.argv[1]\n"
+               "if os.fork():\n"
+               "  while os.path.getsize(beats) < 20: time.sleep(0.01)\n"
+               "  os._exit(0)\n"
+               "while time.monotonic() < end:\n"
+               "  os.setsid()\n"
+               "  with open(beats, 'a') as file: file.write('x')\n"
+               "  if os.fork(): os._exit(0)\n",
+               beats};
+  EXPECT_EQ(describe(run_process(spec)), "exited with code 0");
+  ::usleep(100'000);  // one that was killed may be ending still
+  const auto last = std::filesystem::file_size(beats);
+  EXPECT_GE(last, 20u);
+  ::usleep(300'000);
+  EXPECT_EQ(std::filesystem::file_size(beats), last) << "it outlived its run";
+}
+
+}  // namespace
+}  // namespace tripoint
