@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -15,7 +15,7 @@ namespace tripoint::predict {
 namespace {
 
 constexpr double usual_pack_rate = 4e9;  ///< [bytes/s]
-constexpr int bytes_for_rate = 1 << 20;  ///< of the probe's exchange that the bandwidth is read from
+constexpr double least_for_rate = 1 << 16;  ///< [bytes] of the probe's exchanges that the bandwidth is read from
 
 const std::vector<std::string> keys{"name", "cores_a_node", "latency", "bandwidth", "allreduce", "pack_rate", "core_speed", "waiting"};
 
@@ -57,14 +57,15 @@ Machine machine_of_probe(const std::string& text, int cores) {
     Machine m;
     m.cores_a_node = cores;
     m.source = "a probe of " + o.at("mpi").get<std::string>() + " between two ranks";
-    double large = 0.0;
+    // On a machine that is not quiet a small exchange may take longer than a large one: none is faster than the latency, and the best rate was possible.
+    m.latency = INFINITY;
+    for (const auto& e : o.at("exchanges")) m.latency = std::min(m.latency, e.at("seconds").get<double>());
     for (const auto& e : o.at("exchanges")) {
-      if (e.at("bytes") == 8) m.latency = e.at("seconds");
-      if (e.at("bytes") == bytes_for_rate) large = e.at("seconds");
+      const double bytes = e.at("bytes"), moving = e.at("seconds").get<double>() - m.latency;
+      if (bytes >= least_for_rate && moving > 0.0) m.bandwidth = std::max(m.bandwidth, bytes / moving);
     }
     m.allreduce = o.at("allreduce").at(0).at("seconds"), m.pack_rate = o.at("pack_rate");
-    if (!(m.latency > 0.0 && large > m.latency && m.allreduce > 0.0 && m.pack_rate > 0.0)) throw EngineError("the probe of MPI gave times that cannot be: " + text);
-    m.bandwidth = bytes_for_rate / (large - m.latency);
+    if (!(m.latency > 0.0 && m.bandwidth > 0.0 && m.allreduce > 0.0 && m.pack_rate > 0.0)) throw EngineError("the probe of MPI gave times that cannot be: " + text);
     return m;
   } catch (const nlohmann::json::exception& e) {
     throw EngineError(std::string("the probe of MPI gave no answer that can be read: ") + e.what());

@@ -51,6 +51,15 @@ TEST(Machine, AProbeGivesLatencyAndBandwidth) {
   EXPECT_EQ(m.cores_a_node, 8);
 }
 
+/// Another program had its turn in every small exchange.
+TEST(Machine, AProbeOfABusyMachineStillHasARate) {
+  std::string busy = probed;
+  busy.replace(busy.find("1e-6"), 4, "9e-3");
+  const Machine m = machine_of_probe(busy.insert(busy.find("{\"bytes\": 8"), R"({"bytes": 65536, "seconds": 1e-4}, )"), 8);
+  EXPECT_EQ(m.latency, 1e-4);
+  EXPECT_NEAR(m.bandwidth, 1048576 / 4.25288e-4, 1.0);
+}
+
 TEST(Machine, AProbeThatCannotBeIsAnError) {
   EXPECT_THROW(static_cast<void>(machine_of_probe("{}", 8)), EngineError);
   std::string zero = probed;
