@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -23,12 +24,29 @@ Job in_one_process(Job job) {
   return job;
 }
 
+/// Columns that a snapshot need not have.
+template <class S>
+auto optional_columns(S& s) {
+  return std::array{&s.temperature, &s.density, &s.pressure, &s.liquid_fraction, &s.mass};
+}
+using There = std::array<double, 5>;  ///< of each, above 0 where the scene has it
+
+/// A rank without particles cannot see by itself which columns there are.
+There columns_there(const Snapshot& s, Ranks& ranks) {
+  There there{};
+  const auto columns = optional_columns(s);
+  for (std::size_t k = 0; k < there.size(); ++k) there[k] = columns[k]->empty() ? 0.0 : 1.0;
+  ranks.add(there.data(), static_cast<int>(there.size()));
+  return there;
+}
+
 /// The columns of a snapshot that are there, as one list: what of a particle goes to the first rank.
 template <class S, class Visit>
-void each_column(S& s, std::size_t particles, Visit visit) {
+void each_column(S& s, const There& there, Visit visit) {
   for (auto* column : {&s.position, &s.velocity}) visit(*column);
-  for (auto* column : {&s.temperature, &s.density, &s.pressure, &s.liquid_fraction, &s.mass})
-    if (column->size() == particles) visit(*column);
+  const auto columns = optional_columns(s);
+  for (std::size_t k = 0; k < there.size(); ++k)
+    if (there[k] > 0.0) visit(*columns[k]);
   for (auto* column : {&s.phase, &s.body, &s.material}) visit(*column);
 }
 
@@ -41,23 +59,23 @@ void take(const double*& from, int& value) { value = static_cast<int>(*from++); 
 
 /// The particles of all ranks, by number; empty columns but on the first rank.
 void gather_particles(Snapshot& s, const LammpsHalo& halo, Ranks& ranks) {
-  const std::size_t here = s.position.size();
+  const There there = columns_there(s, ranks);
   std::vector<double> own;
   for (std::size_t id = 0; id < halo.owned(); ++id) {
     own.push_back(halo.number_of(id));
-    each_column(s, here, [&](const auto& column) { put(own, column[id]); });
+    each_column(s, there, [&](const auto& column) { put(own, column[id]); });
   }
   std::vector<double> total{static_cast<double>(halo.owned())};
   ranks.add(total.data(), 1);
   const std::vector<double> all = ranks.gather(own);
   const auto count = static_cast<std::size_t>(total[0]);
-  each_column(s, here, [&](auto& column) { column.resize(count); });
+  each_column(s, there, [&](auto& column) { column.resize(count); });
   s.id.resize(count);
   for (std::size_t n = 0; n < count; ++n) s.id[n] = static_cast<int>(n);
   const double* from = all.data();
   while (from != all.data() + all.size()) {
     const auto number = static_cast<std::size_t>(*from++);
-    each_column(s, count, [&](auto& column) { take(from, column[number]); });
+    each_column(s, there, [&](auto& column) { take(from, column[number]); });
   }
 }
 

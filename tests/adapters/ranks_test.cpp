@@ -165,16 +165,16 @@ Prepared thrown_hammer(bool flows, double jitter, double bending) {
   s.spacing = 0.01, s.jitter = jitter;
   s.values["bending"] = bending;
   Material rubber = test::material(1000.0);
-  rubber.young_modulus = 1e5, rubber.poisson_ratio = 0.3, rubber.stiffness = 100.0;
+  rubber.young_modulus = 3e5, rubber.poisson_ratio = 0.3, rubber.stiffness = 100.0;
   if (flows) rubber.elastic_limit = 0.005;
   s.materials = {rubber};
-  Body bar = test::rigid("bar", test::box({0, 0, 0}, {0.16, 0.03, 0.03}), {{3.0, 0, 0}, {0, 0, 15.0}});
+  Body bar = test::rigid("bar", test::box({0, 0, 0}, {0.16, 0.03, 0.03}), {{5.0, 0, 0}, {0, 0, 6.0}});
   bar.phase = Phase::elastic, bar.joined_to = {"head"};
-  const Body head = test::rigid("head", test::box({0.16, -0.01, 0}, {0.19, 0.04, 0.03}), {{3.0, 0, 0}, {}});
+  const Body head = test::rigid("head", test::box({0.16, -0.01, 0}, {0.19, 0.04, 0.03}), {{5.0, 0, 0}, {}});
   Body mark = test::rigid("mark", test::box({0.0, 0.1, 0}, {0.04, 0.13, 0.03}));  // stays behind, so that the box does not go along
   mark.phase = Phase::elastic;
   s.bodies = {bar, head, mark};
-  return test::prepare(s, 0.06, 3);
+  return test::prepare(s, 0.02, 2);
 }
 
 void expect_kept(const Outcome& out) {
@@ -192,7 +192,7 @@ TEST(Ranks, SwingElasticBodiesAsOneProcessDoes) {
   expect_kept(two);
   EXPECT_GT(two.result.extra.at("migrations"), 10.0);
   const auto& frames = two.trajectory.frames;
-  for (const std::size_t b : {std::size_t{0}, std::size_t{1}}) EXPECT_GT(frames.back().bodies[b].position.x - frames.front().bodies[b].position.x, 0.1) << "it has left the half that it was in";
+  for (const std::size_t b : {std::size_t{0}, std::size_t{1}}) EXPECT_GT(frames.back().bodies[b].position.x - frames.front().bodies[b].position.x, 0.08) << "it has left the half that it was in";
 }
 
 TEST(Ranks, CorrectForBendingAsOneProcessDoes) {
@@ -204,7 +204,7 @@ TEST(Ranks, FlowPlasticallyAsOneProcessDoes) {
   NEEDS_RANKS();
   const Prepared p = thrown_hammer(true, 0.0, 0.0);
   expect_equal_on_ranks(p);
-  EXPECT_GT(run_on(2, p).trajectory.frames.back().energy.at("plastic"), 1e-4);
+  EXPECT_GT(run_on(2, p).trajectory.frames.back().energy.at("plastic"), 1e-5);
 }
 
 TEST(Ranks, SwingElasticBodiesAsPrinted) {
@@ -212,6 +212,16 @@ TEST(Ranks, SwingElasticBodiesAsPrinted) {
   Scene s = thrown_hammer(false, 0.0, 0.0).job.scene;
   s.modes[static_cast<std::size_t>(Term::elastic)] = Mode::paper;
   expect_equal_on_ranks(test::prepare(s, 0.01, 1));
+}
+
+/// All that the first of four ranks has flies over to others: without particles it still steps, and tells what all are.
+TEST(Ranks, GoOnWithoutParticles) {
+  NEEDS_RANKS();
+  Prepared p = thrown_hammer(false, 0.0, 0.0);
+  for (Body& b : p.job.scene.bodies)
+    if (b.name != "mark") b.velocity.value = {12.0, 0, 0};
+  p = test::prepare(p.job.scene, 0.02, 2);
+  expect_equal(test::run(one_process, p), run_on(4, p), shared);
 }
 
 /// One rank is one process, to the bit.
