@@ -58,7 +58,7 @@ def draw(case, trajectories, notes):
             kinds |= panel(sheet, place, curve, t, frame, rest, view, cut, warm, flat, pale, by_phase)
             if line == 0 and not flight:
                 sheet.write(place, 0.0, 1.0, f"t = {style.power(frame.time) if frame.time else 0} s", (0, 3), "bottom", style.SOFT)
-        sheet.write(line if flight else line * columns, 0.0, 1.0, curve.label + (", phase" if by_phase else ""), (3, -3), "top", style.look(curve)["color"], "bold")
+        sheet.write(line if flight else line * columns, 0.0, 1.0, "by phase" if by_phase else curve.label, (3, -3), "top", style.look(curve)["color"], "bold")
         outside = max(outside, beyond(view(chosen[-1].position), low, high))
     how = sheet.legend(warm, kinds)
     end = first.strobe[-1].time

@@ -39,20 +39,32 @@ matplotlib.rcParams.update({
     "text.parse_math": False})  # names come from files: a dollar sign is a dollar sign
 
 
-def colour(label, labels):
-    """The same colour for an engine and preset in every figure of a case: the common engines have their own, the others take what is left in their order."""
+def colour_and_round(label, labels):
+    """The same colour for an engine and preset in every figure of a case: the common engines have their own, the others take what is left in their order.
+
+    @return (colour, how often all colours had been given away before it)
+    """
     labels = list(dict.fromkeys(labels))
     taken = {KNOWN[name] for name in labels if name in KNOWN}
     spare = [hue for hue in (*HUES, GREY, RED) if hue not in taken]
     others = [name for name in labels if name not in KNOWN]
-    return KNOWN.get(label) or (spare[others.index(label) % len(spare)] if label in others else GREY)
+    if label not in others:
+        return KNOWN.get(label, GREY), 0
+    rounds, place = divmod(others.index(label), len(spare))
+    return spare[place], rounds
+
+
+def colour(label, labels):
+    """The colour alone, where nothing else tells curves apart."""
+    return colour_and_round(label, labels)[0]
 
 
 def look(curve):
-    """Line and marker of a curve: hue = engine and preset, marker = preset, dashes = mode."""
+    """Line and marker of a curve: hue = engine and preset, marker = preset, and another one where hues come again, dashes = mode."""
     presets = list(dict.fromkeys(e.preset for e in curve.case.engines if e.name == curve.engine.name))
     labels = [e.label for e in curve.case.engines if e.status not in ("missing", "refused")]
-    return {"color": colour(curve.engine.label, labels), "marker": MARKERS[presets.index(curve.engine.preset) % len(MARKERS)], "linestyle": "--" if curve.mode == "paper" else "-"}
+    hue, rounds = colour_and_round(curve.engine.label, labels)
+    return {"color": hue, "marker": MARKERS[(presets.index(curve.engine.preset) + 3 * rounds + rounds // 2) % len(MARKERS)], "linestyle": "--" if curve.mode == "paper" else "-"}
 
 
 def panels(count, labels, height=2.9, columns=None):
@@ -85,7 +97,18 @@ def legend(figure, axes):
         for handle, label in zip(*axis.get_legend_handles_labels()):
             entries.setdefault(label, handle)
     if entries:
+        make_room_above(figure, 0.3 + 0.19 * -(-len(entries) // columns(entries, figure.get_figwidth())))
         figure.legend(entries.values(), entries.keys(), loc="upper left", ncol=columns(entries, figure.get_figwidth()), bbox_to_anchor=(0.03, 1.0), columnspacing=1.4, borderaxespad=0.25)
+
+
+def make_room_above(figure, wanted):
+    """A figure grows until this much [inches] is free above its panels, which keep their size."""
+    height, room = figure.get_figheight(), figure.subplotpars
+    missing = wanted - (1 - room.top) * height
+    if missing <= 0:
+        return
+    figure.set_figheight(height + missing)
+    figure.subplots_adjust(bottom=room.bottom * height / (height + missing), top=1 - wanted / (height + missing))
 
 
 def logarithmic(axis, which="xy"):

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/errors.hpp"
+#include "io/ordered_file.hpp"
 
 namespace tripoint::h5 {
 namespace {
@@ -271,6 +272,7 @@ Handle open_for_change(const std::string& path) {
 
 Handle create_file(const std::string& path) {
   const Handle access = unlocked_access(path);
+  write_in_order(access.get());
   return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose, path};
 }
 

@@ -79,6 +79,7 @@ struct Block {
 /// @throws InputError when it is no readable HDF5 file
 [[nodiscard]] Handle open_for_reading(const std::string& path);
 [[nodiscard]] Handle open_for_change(const std::string& path);
+/// Who is killed while it writes leaves all that was flushed before (io/ordered_file.hpp).
 [[nodiscard]] Handle create_file(const std::string& path);
 /// Of the library's latest format, whose own structures carry checksums, after `user_block` bytes left free.
 [[nodiscard]] Handle create_latest(const std::string& path, std::size_t user_block);

@@ -69,8 +69,8 @@ struct TrajectoryWriter::Impl {
     if (at == columns.end()) {
       if (frames > 0) throw EngineError(path + ": " + element + " appears after the first frame");
       const h5::Handle group = h5::make_group(file.get(), element);
+      link_time(group.get());  // before the column: what is made first is written last
       at = columns.emplace(element, h5::Column(group.get(), "value", type, rows, width, unit)).first;
-      link_time(group.get());
     }
     at->second.append(static_cast<std::size_t>(frames), rows == scalar ? 1 : rows, data);
   }

@@ -429,6 +429,26 @@ class Figures(unittest.TestCase):
         for words in ("what is left between engine and exact", "Turn from the start", "dashes: further ones"):
             self.assertIn(words, bodies.caption(solid, True))
 
+    def test_engines_of_one_hue_have_other_markers(self):
+        from types import SimpleNamespace as Any
+        from figures import style
+        engines = [Any(name=f"engine {n}", preset="default", label=f"engine {n}", status="run") for n in range(20)]
+        case = Any(engines=engines)
+        looks = [style.look(Any(case=case, engine=e, mode="corrected")) for e in engines]
+        self.assertEqual(len({(look["color"], look["marker"]) for look in looks}), 20)
+        self.assertEqual({look["marker"] for look in looks[:8]}, {"o"})
+
+    def test_a_legend_of_many_long_names_stands_above_the_panels(self):
+        from figures import style
+        figure, axes = style.panels(2, 15)
+        before = axes[0].get_window_extent().height
+        for n in range(15):
+            axes[0].plot([0, 1], [0, n], label=f"an engine of a long name, number {n}")
+        style.legend(figure, axes)
+        below = figure.legends[0].get_window_extent(figure.canvas.get_renderer()).y0
+        self.assertGreater(below, axes[0].get_window_extent().y1)
+        self.assertAlmostEqual(axes[0].get_window_extent().height, before, delta=1.0)
+
     def test_phases_are_drawn_beside_temperatures_where_they_change(self):
         import numpy as np
         from trajectories import Frame, Trajectory

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/ordered_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/errors.hpp"
+
+#if __has_include(<H5FDdevelop.h>)
+#include <H5FDdevelop.h>
+#endif
+
+namespace tripoint::h5 {
+namespace {
+
+bool write_all(int file, haddr_t at, const char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t n = ::pwrite(file, data, size, static_cast<off_t>(at));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    data += n;
+    at += static_cast<haddr_t>(n);
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+/// Bytes past the end of the file read as zeros, as HDF5 expects.
+bool read_all(int file, haddr_t at, char* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t n = ::pread(file, data, size, static_cast<off_t>(at));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return false;
+    if (n == 0) {
+      std::memset(data, 0, size);
+      return true;
+    }
+    data += n;
+    at += static_cast<haddr_t>(n);
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+/// Which block goes first: the superblock, which says where the file ends; then the nodes of indexes, those nearest to the root first, since a
+/// node that still has what it hands over does no harm; then the rest, as a dataset's extent, from the end of the file to its beginning, so that
+/// a dataset that was made first is the last to grow. (HDF5's format: a node begins with TREE, type, level.)
+int rank_of(const std::pair<haddr_t, std::string>& block) {
+  constexpr int first = 1000, last = -1;
+  const std::string& bytes = block.second;
+  if (block.first == 0) return first;
+  if (bytes.size() > 5 && bytes.compare(0, 4, "TREE") == 0) return static_cast<unsigned char>(bytes[5]);
+  return last;
+}
+
+/// A file of HDF5. What lies where nothing lay at the last flush is written at once, since nothing leads to it yet; what replaces older
+/// bytes is held until the next flush. Once a change has failed there are no more: what the library still does to close would lead into the gap.
+class OrderedFile {
+ public:
+  OrderedFile(int file, haddr_t end) : file_(file), end_of_file_(end) {}
+  ~OrderedFile() { ::close(file_); }
+  OrderedFile(const OrderedFile&) = delete;
+  OrderedFile& operator=(const OrderedFile&) = delete;
+
+  bool read(haddr_t at, char* data, std::size_t size) const {
+    if (!read_all(file_, at, data, size)) return false;
+    for (auto block = first_beyond(held_, at); block != held_.end() && block->first < at + size; ++block) {
+      const haddr_t from = std::max(at, block->first), to = std::min(at + size, block->first + block->second.size());
+      std::memcpy(data + (from - at), block->second.data() + (from - block->first), to - from);
+    }
+    return true;
+  }
+
+  bool write(bool is_raw, haddr_t at, const char* data, std::size_t size) {
+    if (!is_raw && is_flushed(at, size)) {
+      held_[at].assign(data, size);
+      return true;
+    }
+    if (!is_raw) fresh_[at] = size;
+    if (!change(at, data, size)) return false;
+    end_of_file_ = std::max<haddr_t>(end_of_file_, at + size);
+    return true;
+  }
+
+  bool flush() {
+    std::vector<std::pair<haddr_t, std::string>> blocks(std::make_move_iterator(held_.begin()), std::make_move_iterator(held_.end()));
+    held_.clear();
+    std::sort(blocks.begin(), blocks.end(), [](const auto& a, const auto& b) { return std::pair(rank_of(a), a.first) > std::pair(rank_of(b), b.first); });
+    for (const auto& [at, bytes] : blocks)
+      if (!change(at, bytes.data(), bytes.size())) return false;
+    flushed_.merge(fresh_);
+    fresh_.clear();
+    return true;
+  }
+
+  /// A file must not be shorter than its superblock says, so that it grows before it is flushed and shrinks after.
+  bool set_length(haddr_t length) {
+    if (length == end_of_file_) return true;
+    if (length < end_of_file_ && !flush()) return false;
+    while (!has_failed_ && ::ftruncate(file_, static_cast<off_t>(length)) != 0) has_failed_ = errno != EINTR;
+    if (!has_failed_) end_of_file_ = length;
+    return !has_failed_;
+  }
+
+  /// What could not be kept in memory is a gap as well.
+  void give_up() { has_failed_ = true; }
+
+  [[nodiscard]] int file() const { return file_; }
+  [[nodiscard]] haddr_t end_of_file() const { return end_of_file_; }
+
+ private:
+  bool change(haddr_t at, const char* data, std::size_t size) {
+    has_failed_ = has_failed_ || !write_all(file_, at, data, size);
+    return !has_failed_;
+  }
+
+  /// The first block that ends beyond a place.
+  template <class Map>
+  static typename Map::const_iterator first_beyond(const Map& blocks, haddr_t at) {
+    auto block = blocks.upper_bound(at);
+    if (block == blocks.begin()) return block;
+    const auto before = std::prev(block);
+    return before->first + size_of(before->second) > at ? before : block;
+  }
+  static std::size_t size_of(const std::string& bytes) { return bytes.size(); }
+  static std::size_t size_of(std::size_t size) { return size; }
+
+  bool is_flushed(haddr_t at, std::size_t size) const {
+    const auto block = first_beyond(flushed_, at);
+    return block != flushed_.end() && block->first < at + size;
+  }
+
+  int file_;
+  haddr_t end_of_file_;
+  bool has_failed_ = false;
+  std::map<haddr_t, std::string> held_;             ///< address -> bytes that replace older ones
+  std::map<haddr_t, std::size_t> flushed_, fresh_;  ///< address -> size of blocks of the file's structure, before and since the last flush
+};
+
+/// What HDF5 holds of an open file; it fills in the first member.
+struct Open {
+  H5FD_t of_library;
+  OrderedFile file;
+  haddr_t end_of_space;
+};
+
+Open& own(H5FD_t* file) { return *reinterpret_cast<Open*>(file); }
+const Open& own(const H5FD_t* file) { return *reinterpret_cast<const Open*>(file); }
+
+/// No exception may pass through the library: for want of memory a call fails, and the file changes no more.
+template <class Act>
+herr_t carry_out(H5FD_t* file, Act act) noexcept {
+  OrderedFile& own_file = own(file).file;
+  try {
+    return act(own_file) ? 0 : -1;
+  } catch (const std::bad_alloc&) {
+    own_file.give_up();
+    return -1;
+  }
+}
+
+H5FD_t* open_file(const char* name, unsigned flags, hid_t /*access*/, haddr_t /*greatest*/) {
+  const int create = (flags & H5F_ACC_CREAT) != 0 ? O_CREAT : 0, truncate = (flags & H5F_ACC_TRUNC) != 0 ? O_TRUNC : 0;
+  const int exclusive = (flags & H5F_ACC_EXCL) != 0 ? O_EXCL : 0, mode = (flags & H5F_ACC_RDWR) != 0 ? O_RDWR : O_RDONLY;
+  const int file = ::open(name, mode | create | truncate | exclusive | O_CLOEXEC, 0666);
+  if (file < 0) return nullptr;
+  struct stat status {};
+  Open* made = ::fstat(file, &status) == 0 ? new (std::nothrow) Open{{}, {file, static_cast<haddr_t>(status.st_size)}, 0} : nullptr;
+  if (made == nullptr) {
+    ::close(file);
+    return nullptr;
+  }
+  return &made->of_library;
+}
+
+herr_t close_file(H5FD_t* file) {
+  const std::unique_ptr<Open> until_flushed(&own(file));
+  return carry_out(file, [](OrderedFile& open) { return open.flush(); });
+}
+
+/// By device and inode, as the library asks whether a file is open already.
+int compare(const H5FD_t* one, const H5FD_t* other) {
+  struct stat a {}, b {};
+  ::fstat(own(one).file.file(), &a);
+  ::fstat(own(other).file.file(), &b);
+  if (a.st_dev != b.st_dev) return a.st_dev < b.st_dev ? -1 : 1;
+  return a.st_ino == b.st_ino ? 0 : a.st_ino < b.st_ino ? -1 : 1;
+}
+
+/// Without the library's joining of neighbouring writes of structure: each comes alone, and its kind can be told.
+herr_t features(const H5FD_t* /*file*/, unsigned long* flags) {
+  *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  return 0;
+}
+
+haddr_t end_of_space(const H5FD_t* file, H5FD_mem_t /*kind*/) { return own(file).end_of_space; }
+
+herr_t set_end_of_space(H5FD_t* file, H5FD_mem_t /*kind*/, haddr_t end) {
+  own(file).end_of_space = end;
+  return 0;
+}
+
+haddr_t end_of_file(const H5FD_t* file, H5FD_mem_t /*kind*/) { return own(file).file.end_of_file(); }
+
+herr_t read_file(H5FD_t* file, H5FD_mem_t /*kind*/, hid_t /*transfer*/, haddr_t at, std::size_t size, void* data) {
+  return carry_out(file, [&](OrderedFile& open) { return open.read(at, static_cast<char*>(data), size); });
+}
+
+herr_t write_file(H5FD_t* file, H5FD_mem_t kind, hid_t /*transfer*/, haddr_t at, std::size_t size, const void* data) {
+  return carry_out(file, [&](OrderedFile& open) { return open.write(kind == H5FD_MEM_DRAW, at, static_cast<const char*>(data), size); });
+}
+
+herr_t flush_file(H5FD_t* file, hid_t /*transfer*/, hbool_t /*is_closing*/) {
+  return carry_out(file, [](OrderedFile& open) { return open.flush(); });
+}
+
+herr_t set_length(H5FD_t* file, hid_t /*transfer*/, hbool_t /*is_closing*/) {
+  return carry_out(file, [&](OrderedFile& open) { return open.set_length(own(file).end_of_space); });
+}
+
+hid_t registered_driver() {
+  H5FD_class_t driver{};
+#ifdef H5FD_CLASS_VERSION
+  driver.version = H5FD_CLASS_VERSION;
+  driver.value = static_cast<H5FD_class_value_t>(512);  // of those that the library leaves to others
+#endif
+  driver.name = "tripoint-ordered";
+  driver.maxaddr = (haddr_t{1} << 62) - 1;
+  driver.fc_degree = H5F_CLOSE_WEAK;
+  driver.open = open_file;
+  driver.close = close_file;
+  driver.cmp = compare;
+  driver.query = features;
+  driver.get_eoa = end_of_space;
+  driver.set_eoa = set_end_of_space;
+  driver.get_eof = end_of_file;
+  driver.read = read_file;
+  driver.write = write_file;
+  driver.flush = flush_file;
+  driver.truncate = set_length;
+  const H5FD_mem_t kinds[] = H5FD_FLMAP_DICHOTOMY;
+  std::copy(std::begin(kinds), std::end(kinds), driver.fl_map);
+  return H5FDregister(&driver);
+}
+
+}  // namespace
+
+void write_in_order(hid_t access) {
+  static const hid_t driver = registered_driver();
+  if (driver < 0 || H5Pset_driver(access, driver, nullptr) < 0) throw EngineError("HDF5 takes no driver for files of its own order");
+}
+
+}  // namespace tripoint::h5
