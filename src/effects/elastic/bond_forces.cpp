@@ -189,7 +189,8 @@ void hand_deformed_to_copies(const World& world, Deformations& all) {
   if (!world.halo || kept_to_itself) return;
   constexpr std::size_t each = sizeof(Deformed) / sizeof(double);
   static_assert(std::is_standard_layout_v<Deformed> && std::is_trivially_copyable_v<Column>);
-  world.halo->refresh({&all.deformed.data()->strained.x.x, all.deformed.size() * each}, each);
+  double* const first = all.deformed.empty() ? nullptr : &all.deformed.front().strained.x.x;
+  world.halo->refresh({first, all.deformed.size() * each}, each);
 }
 
 /// @return whether a volume has changed, or who owns strain energy
