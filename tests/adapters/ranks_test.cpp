@@ -214,6 +214,24 @@ TEST(Ranks, SwingElasticBodiesAsPrinted) {
   expect_equal_on_ranks(test::prepare(s, 0.01, 1));
 }
 
+/// A rod that goes through a periodic direction, which is split, slides along itself while a wave of sound runs in it.
+TEST(Ranks, WrapBondsAroundAPeriodicDirection) {
+  NEEDS_RANKS();
+  Scene s;
+  s.spacing = 0.01, s.jitter = 0.1;
+  Material rubber = test::material(1000.0);
+  rubber.young_modulus = 3e5, rubber.poisson_ratio = 0.3;
+  s.materials = {rubber};
+  Body rod = test::rigid("rod", test::box({0, 0, 0}, {0.24, 0.03, 0.03}), {{5.0, 0, 0}, {}});
+  rod.phase = Phase::elastic;
+  s.bodies = {rod};
+  s.periodic = {true, false, false};
+  s.min = Vec3{0, -0.1, -0.1}, s.max = Vec3{0.24, 0.1, 0.1};
+  Prepared p = test::prepare(s, 0.02, 2);
+  for (std::size_t i = 0; i < p.initial.size(); ++i) p.initial.velocity[i] += Vec3{0.2 * std::sin(2.0 * M_PI * p.initial.position[i].x / 0.24), 0.1 * std::cos(2.0 * M_PI * p.initial.position[i].x / 0.24), 0.0};
+  expect_equal_on_ranks(p);
+}
+
 /// All that the first of four ranks has flies over to others: without particles it still steps, and tells what all are.
 TEST(Ranks, GoOnWithoutParticles) {
   NEEDS_RANKS();
