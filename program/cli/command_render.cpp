@@ -171,7 +171,7 @@ void check_words(const RenderOptions& o) {
 }
 
 std::string legend_of(const Showing& s) {
-  if (s.colouring == Colouring::temperature) return fmt::format("colours: {:.6g} K dark to {:.6g} K light", s.cold, s.hot);
+  if (s.colouring == Colouring::temperature) return fmt::format("colours: {:.4g} K dark to {:.4g} K light", s.cold, s.hot);
   if (s.colouring == Colouring::phase) return "colours: liquid blue, another liquid light blue, elastic green, rigid orange";
   return "colours: each solid body has its own, liquid is blue";
 }
