@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-only
 #include "adapters/ranks/lammps_halo.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <type_traits>
 
+#include "core/defect.hpp"
 #include "core/errors.hpp"
 
 namespace tripoint::ranks {
@@ -29,14 +31,48 @@ int count_columns(const Particles& particles) {
 }  // namespace
 
 /// At the first migration every rank has all particles, and takes those that LAMMPS has put into its part of the box.
-void LammpsHalo::migrate(Particles& particles, const PeriodicBox& box) {
-  if (!ranks_) columns_of_particle_ = count_columns(particles), ranks_ = &begin_(columns_of_particle_);
+void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box) {
+  if (!ranks_) {
+    const std::size_t lists = most_list_numbers(bonds, own);
+    has_lists_ = lists > 0;
+    columns_of_particle_ = count_columns(particles);
+    ranks_ = &begin_(columns_of_particle_, lists);
+  }
   PeriodicBox split = box;
   for (std::size_t a = 0; a < 3; ++a) split.periodic[a] = box.periodic[a] && splits_[a];
+  reach_now_ = reach_of(particles, bonds, box);
   pack(particles, split);
-  ranks_->migrate();
+  if (has_lists_) pack_lists(bonds, own);
+  ranks_->migrate(reach_now_);
   unpack(particles, split);
+  if (has_lists_) unpack_lists(bonds, own);
   if (++migrations_ == 1) own_at_start_ = ranks_->owned(), copies_at_start_ = ranks_->all() - ranks_->owned();
+}
+
+/// As far as the longest bond of all ranks reaches now: until the next migration nobody takes copies away, however bonds are stretched.
+double LammpsHalo::reach_of(const Particles& particles, const Bonds& bonds, const PeriodicBox& box) {
+  if (!has_lists_) return reach_;
+  double least = -longest_bond(particles, bonds, migrations_ == 0 ? particles.size() : owned(), box);
+  std::string unused;
+  take_least(least, unused);
+  static const double shorter = 1.0 - defect_size("ranks.reach");
+  return shorter * std::max(reach_, -least * (1.0 + 1e-9));
+}
+
+/// Lists are written down once, with the numbers that ids are at the start: over ranks nobody changes them.
+void LammpsHalo::pack_lists(const Bonds& bonds, const OwnPairs& own) {
+  if (migrations_ == 0) {
+    for (std::size_t atom = 0; atom < ranks_->owned(); ++atom) ranks_->lists(atom) = lists_as_numbers(bonds, own, static_cast<std::size_t>(ranks_->id(atom)));
+  } else if (known_changes_ != std::array{bonds.changes(), own.changes()}) {
+    throw EngineError("bonds or own pairs of a scene that is shared out have changed");
+  }
+}
+
+void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
+  Share share{ranks_->owned(), {}, [this](std::size_t id) { return std::span<const double>(ranks_->lists(id)); }};
+  for (std::size_t atom = 0; atom < ranks_->all(); ++atom) share.number.push_back(ranks_->id(atom));
+  take_lists(share, bonds, own);
+  known_changes_ = {bonds.changes(), own.changes()};
 }
 
 void LammpsHalo::pack(Particles& particles, const PeriodicBox& box) {
@@ -82,13 +118,14 @@ void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* co
   columns_.clear();
   for (const Field<double>* f : columns) columns_.push_back(particles[*f].data());
   exchanges_ += 1.0, numbers_a_copy_ += static_cast<double>(columns_.size());
-  ranks_->forward(columns_.data(), static_cast<int>(columns_.size()), rows_.data());
+  ranks_->forward({columns_.data(), static_cast<int>(columns_.size()), rows_.data(), 1});
 }
 
-void LammpsHalo::refresh(std::span<double> by_id) {
-  double* const column = by_id.data();
-  exchanges_ += 1.0, numbers_a_copy_ += 1.0;
-  ranks_->forward(&column, 1, nullptr);
+void LammpsHalo::refresh(std::span<double> by_id, std::size_t each) {
+  columns_.clear();
+  for (std::size_t k = 0; k < each; ++k) columns_.push_back(by_id.data() + k);
+  exchanges_ += 1.0, numbers_a_copy_ += static_cast<double>(each);
+  ranks_->forward({columns_.data(), static_cast<int>(each), nullptr, each});
 }
 
 void LammpsHalo::take_least(double& number, std::string& word) {

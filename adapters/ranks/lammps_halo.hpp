@@ -6,6 +6,7 @@
 
 #include "adapters/ranks/ranks.hpp"
 #include "particles/halo.hpp"
+#include "particles/moving_lists.hpp"
 #include "particles/neighbours.hpp"
 
 namespace tripoint::ranks {
@@ -13,13 +14,16 @@ namespace tripoint::ranks {
 /// The solver's halo on LAMMPS's atoms: every column of a particle goes with its atom as a number.
 class LammpsHalo : public Halo {
  public:
-  /// @param begin makes the fix for that many columns; called at the first migration, when the columns are known
-  LammpsHalo(std::array<bool, 3> splits, std::function<Ranks&(int columns)> begin) : splits_(splits), begin_(std::move(begin)) {}
-  void migrate(Particles&, const PeriodicBox&) override;
+  /// Makes the fix for that many columns, and numbers of lists at most; called at the first migration, when they are known.
+  using Begin = std::function<Ranks&(int columns, std::size_t lists)>;
+  /// @param reach of a neighbour list [m]: copies reach as far, or as the longest bond does
+  LammpsHalo(std::array<bool, 3> splits, double reach, Begin begin) : splits_(splits), reach_(reach), begin_(std::move(begin)) {}
+  /// @throws EngineError where bonds or own pairs are not as the last call left them
+  void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) override;
   [[nodiscard]] std::array<bool, 3> splits() const override { return splits_; }
   [[nodiscard]] std::size_t owned() const override { return ranks_->owned(); }
   void refresh(Particles&, std::span<const Field<double>* const> columns) override;
-  void refresh(std::span<double> by_id) override;
+  void refresh(std::span<double> by_id, std::size_t each) override;
   void add(std::span<double> numbers) override {
     if (ranks_) collectives_ += 2, ranks_->add(numbers.data(), static_cast<int>(numbers.size()));  // before, all hold the whole scene
   }
@@ -38,18 +42,25 @@ class LammpsHalo : public Halo {
     std::size_t own_at_start = 0, copies_at_start = 0;  ///< of this rank
   };
   [[nodiscard]] Traffic traffic() const noexcept { return {exchanges_, numbers_a_copy_, collectives_, columns_of_particle_, own_at_start_, copies_at_start_}; }
+  [[nodiscard]] double reach_of_copies() const noexcept { return reach_now_; }  ///< at the last migration [m]
 
  private:
   void pack(Particles&, const PeriodicBox&);
+  void pack_lists(const Bonds&, const OwnPairs&);
   void unpack(Particles&, const PeriodicBox&);
+  void unpack_lists(Bonds&, OwnPairs&);
+  [[nodiscard]] double reach_of(const Particles&, const Bonds&, const PeriodicBox&);
 
   std::array<bool, 3> splits_;
-  std::function<Ranks&(int)> begin_;
+  double reach_, reach_now_ = 0.0;
+  Begin begin_;
   Ranks* ranks_ = nullptr;
   long migrations_ = 0;
   double exchanges_ = 0.0, numbers_a_copy_ = 0.0, collectives_ = 0.0;
   int columns_of_particle_ = 0;
   std::size_t own_at_start_ = 0, copies_at_start_ = 0;
+  bool has_lists_ = false;                        ///< the scene has bonds or own pairs
+  std::array<std::uint64_t, 2> known_changes_{};  ///< of bonds and of own pairs, as the last migration left them
   std::vector<std::uint32_t> rows_;  ///< memory that is used again: of each id
   std::vector<double*> columns_;     ///< likewise
 };

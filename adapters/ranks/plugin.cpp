@@ -10,6 +10,7 @@
 #include <lammps/update.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "adapters/ranks/ranks.hpp"
@@ -41,8 +42,8 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   FixHalo& operator=(const FixHalo&) = delete;
 
   int setmask() override { return 0; }
-  void grow_arrays(int rows) override { memory->grow(numbers_, rows, columns_, "tripoint/halo:numbers"); }
-  void copy_arrays(int from, int to, int) override { std::memcpy(numbers_[to], numbers_[from], bytes_of_row()); }
+  void grow_arrays(int rows) override;
+  void copy_arrays(int from, int to, int) override;
   int pack_exchange(int one, double* to) override { return put(one, to); }
   int unpack_exchange(int one, double* from) override { return take(one, from); }
   int pack_border(int count, int* atoms, double* to) override;
@@ -58,32 +59,32 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   [[nodiscard]] int id(std::size_t one) const override { return static_cast<int>(atom->tag[one]) - 1; }
   [[nodiscard]] double* position(std::size_t one) const override { return atom->x[one]; }
   [[nodiscard]] double* numbers(std::size_t one) const override { return numbers_[one]; }
-  void migrate() override;
-  void forward(double* const* columns, int count, const std::uint32_t* rows) override;
+  [[nodiscard]] std::vector<double>& lists(std::size_t one) const override { return lists_[one]; }
+  void migrate(double reach) override;
+  void forward(const Columns&) override;
   void add(double* numbers, int count) override;
   void take_least(double& number, char* word, int length) override;
   [[nodiscard]] std::vector<double> gather(const std::vector<double>& own) override;
   [[nodiscard]] double bytes_sent() const override { return bytes_sent_; }
 
  private:
-  static constexpr int most_forwarded = 16;  ///< columns of one exchange: the density pass has 7, the rates 8
+  static constexpr int most_forwarded = 24;  ///< columns of one exchange: the density pass has 7, the rates 8, a deformation 24
   [[nodiscard]] std::size_t bytes_of_row() const { return static_cast<std::size_t>(columns_) * sizeof(double); }
   int put(int one, double* to) const;
   int take(int one, const double* from);
-  [[nodiscard]] std::size_t row_of(int one) const { return rows_ ? rows_[one] : static_cast<std::size_t>(one); }
+  [[nodiscard]] std::size_t place_of(int one) const { return (forwarded_.rows ? forwarded_.rows[one] : static_cast<std::size_t>(one)) * forwarded_.stride; }
 
-  int columns_;
+  int columns_, most_lists_;  ///< numbers of an atom: those of its columns, and of its lists at most
   double** numbers_ = nullptr;
+  mutable std::vector<std::vector<double>> lists_;
   bool begun_ = false;
-  double* const* forwarded_ = nullptr;  ///< what forward() works on
-  int forwarded_count_ = 0;
-  const std::uint32_t* rows_ = nullptr;
+  Columns forwarded_{};  ///< what forward() works on
   double bytes_sent_ = 0.0;
 };
 
-FixHalo::FixHalo(LAMMPS* lammps, int count, char** words) : Fix(lammps, count, words), columns_(count == 4 ? std::atoi(words[3]) : 0) {
-  if (columns_ < 1) throw EngineError("the fix tripoint/halo takes the number of columns");
-  comm_border = columns_, comm_forward = most_forwarded, maxexchange = columns_ + 1;
+FixHalo::FixHalo(LAMMPS* lammps, int count, char** words) : Fix(lammps, count, words), columns_(count == 5 ? std::atoi(words[3]) : 0), most_lists_(count == 5 ? std::atoi(words[4]) : 0) {
+  if (columns_ < 1) throw EngineError("the fix tripoint/halo takes the number of columns, and of numbers that lists have at most");
+  comm_border = columns_ + 1 + most_lists_, comm_forward = most_forwarded, maxexchange = comm_border + 1;
   FixHalo::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::BORDER);
@@ -97,14 +98,31 @@ FixHalo::~FixHalo() noexcept(false) {
   the_fix = nullptr;
 }
 
+void FixHalo::grow_arrays(int rows) {
+  memory->grow(numbers_, rows, columns_, "tripoint/halo:numbers");
+  lists_.resize(static_cast<std::size_t>(rows));
+}
+
+void FixHalo::copy_arrays(int from, int to, int) {
+  std::memcpy(numbers_[to], numbers_[from], bytes_of_row());
+  lists_[static_cast<std::size_t>(to)] = lists_[static_cast<std::size_t>(from)];
+}
+
+/// The columns, how many numbers the lists have, and these.
 int FixHalo::put(int one, double* to) const {
   std::memcpy(to, numbers_[one], bytes_of_row());
-  return columns_;
+  const std::vector<double>& lists = lists_[static_cast<std::size_t>(one)];
+  to[columns_] = static_cast<double>(lists.size());
+  std::copy(lists.begin(), lists.end(), to + columns_ + 1);
+  return columns_ + 1 + static_cast<int>(lists.size());
 }
 
 int FixHalo::take(int one, const double* from) {
   std::memcpy(numbers_[one], from, bytes_of_row());
-  return columns_;
+  const double* const lists = from + columns_ + 1;
+  const int count = static_cast<int>(from[columns_]);
+  lists_[static_cast<std::size_t>(one)].assign(lists, lists + count);
+  return columns_ + 1 + count;
 }
 
 int FixHalo::pack_border(int count, int* atoms, double* to) {
@@ -123,7 +141,7 @@ int FixHalo::unpack_border(int count, int first, double* from) {
 int FixHalo::pack_forward_comm(int count, int* atoms, double* to, int, int*) {
   int used = 0;
   for (int k = 0; k < count; ++k)
-    for (int c = 0; c < forwarded_count_; ++c) to[used++] = forwarded_[c][row_of(atoms[k])];
+    for (int c = 0; c < forwarded_.count; ++c) to[used++] = forwarded_.first[c][place_of(atoms[k])];
   bytes_sent_ += static_cast<double>(used) * sizeof(double);
   return used;
 }
@@ -131,18 +149,19 @@ int FixHalo::pack_forward_comm(int count, int* atoms, double* to, int, int*) {
 void FixHalo::unpack_forward_comm(int count, int first, double* from) {
   int used = 0;
   for (int k = 0; k < count; ++k)
-    for (int c = 0; c < forwarded_count_; ++c) forwarded_[c][row_of(first + k)] = from[used++];
+    for (int c = 0; c < forwarded_.count; ++c) forwarded_.first[c][place_of(first + k)] = from[used++];
 }
 
-void FixHalo::forward(double* const* columns, int count, const std::uint32_t* rows) {
-  if (count > most_forwarded) throw EngineError("more columns than one exchange of halos takes");
-  forwarded_ = columns, forwarded_count_ = count, rows_ = rows;
-  comm->forward_comm(this, count);
+void FixHalo::forward(const Columns& columns) {
+  if (columns.count > most_forwarded) throw EngineError("more columns than one exchange of halos takes");
+  forwarded_ = columns;
+  comm->forward_comm(this, columns.count);
 }
 
-void FixHalo::migrate() {
+void FixHalo::migrate(double reach) {
   if (!begun_) lmp->init();
   begun_ = true;
+  comm->cutghostuser = reach;
   domain->pbc();
   domain->reset_box();
   comm->setup();

@@ -25,11 +25,19 @@ class Ranks {
   [[nodiscard]] virtual int id(std::size_t atom) const = 0;               ///< of all ranks, from 0
   [[nodiscard]] virtual double* position(std::size_t atom) const = 0;     ///< x, y, z [m]
   [[nodiscard]] virtual double* numbers(std::size_t atom) const = 0;      ///< that go with the atom
-  /// Atoms go to the rank that has their place, and are copied to those that it is near to.
+  /// Bonds and own pairs, as numbers that go with the atom; no more of them than add_halo() was told.
+  [[nodiscard]] virtual std::vector<double>& lists(std::size_t atom) const = 0;
+  /// Atoms go to the rank that has their place, and are copied to those that it is near to. @param reach of copies [m]
   /// @throws EngineError when LAMMPS has lost one
-  virtual void migrate() = 0;
-  /// Copies take these columns from their owners. @param rows of the columns, by atom; null: rows are atoms
-  virtual void forward(double* const* columns, int count, const std::uint32_t* rows) = 0;
+  virtual void migrate(double reach) = 0;
+  /// What copies take from their owners: columns, of which a row has one number each.
+  struct Columns {
+    double* const* first;        ///< number of row 0 in each column
+    int count;
+    const std::uint32_t* rows;   ///< of each atom; null: rows are atoms
+    std::size_t stride;          ///< from the number of a row to that of the next
+  };
+  virtual void forward(const Columns&) = 0;
   virtual void add(double* numbers, int count) = 0;
   /// The least of all ranks, and the word beside it. @param word of `length` characters
   virtual void take_least(double& number, char* word, int length) = 0;

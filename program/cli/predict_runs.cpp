@@ -97,6 +97,7 @@ void PredictRuns::choose_end(Prepared& p) {
   const Outcome pilot = run(p, 1, std::min(whole, p.scene.time_step.value_or(1e-9 * whole)));
   const double bound = of(pilot.result.extra, "time_step_bound");
   const double step = p.scene.time_step.value_or(bound > 0.0 && std::isfinite(bound) ? bound : whole);
+  if (const double reach = of(pilot.result.extra, "reach_of_copies"); reach > 0.0) p.cloud.reach = reach;  // bonds may be longer than a list's reach
   const double took = std::max(1e-7, pilot.result.stepping_cpu / static_cast<double>(pilot.result.steps));
   const auto steps = std::clamp(static_cast<long>(seconds_ / took), least_steps, most_steps);
   p.end = std::min(whole, step * static_cast<double>(steps));

@@ -21,6 +21,7 @@ const std::vector<std::string>& assumptions() {
       "shares: the decomposition at the start; what moves later and is not balanced again is not seen",
       "every rank has a core of its own, at the speed of one rank alone: no shared memory bandwidth, no lower clock",
       "network: each message has the same latency and each rank its whole bandwidth, however many send; messages do not overlap with work",
+      "bonds are part of the cost of a particle, and what they send with a new share is not counted",
       "new neighbour lists are made as often as in the timed steps",
       "memory: what one rank took at most, a particle, and the whole scene on every rank, which holds it as it starts"};
   return lines;

@@ -202,6 +202,7 @@ std::vector<DefectEntry> registered_defects() {
   std::vector<DefectEntry> list{
       {"neighbours.seam", "pairs across a periodic boundary left out", "heat/cosine-mode"},
       {"neighbours.support", "pairs beyond 1 - size of the support radius left out", "heat/lattice-sum"},
+      {"passes.copies", "over ranks, copies are not handed what a pair pass has summed", "coupling/over-ranks"},
       {"time.first_kick", "first half kick left out: the leapfrog starts first order", "rigid/ballistic"},
   };
   for (const Registered& r : all_effects) {
@@ -271,7 +272,8 @@ void Passes::run(PassName name, World& world) const {
   if (!i.meets_all && name == PassName::density) i.busy.sum_density(pass, world, i.kernels, i.leaves_own);
   else if (!i.meets_all && name == PassName::rates) i.busy.sum_rates(pass, world, i.kernels);
   else run_pass(pass, world.particles, *world.neighbours, i.kernels, world.threads);
-  if (pass.run) world.refresh(pass.adds());
+  static const bool kept_to_itself = defect_size("passes.copies") > 0.0;
+  if (pass.run && !kept_to_itself) world.refresh(pass.adds());
 }
 
 }  // namespace tripoint

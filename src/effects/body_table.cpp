@@ -69,21 +69,16 @@ std::size_t body_row(const World& world, std::string_view name) {
   return row;
 }
 
-WholeMotion whole_motion(const World& world, std::size_t body) {
+WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velocity, const std::vector<double>& mass) {
   WholeMotion whole;
-  const std::vector<std::size_t> rows = members(world, body);
-  std::vector<Vec3> r;
-  std::vector<double> mass;
+  if (place.empty()) return whole;
   Vec3 P, moment;
-  for (const std::size_t i : rows) {
-    r.push_back(world.unwrapped(i));
-    mass.push_back(world.particles[field::mass][i]);
-    const Vec3 p = mass.back() * world.particles.velocity(i);
+  for (std::size_t k = 0; k < place.size(); ++k) {
+    const Vec3 p = mass[k] * velocity[k];
     P += p;
-    moment += cross(r.back(), p);
+    moment += cross(place[k], p);
   }
-  if (rows.empty()) return whole;
-  const MassProperties m = mass_properties(r, mass);
+  const MassProperties m = mass_properties({place.begin(), place.end()}, mass);
   whole.mass = m.mass;
   whole.centre = m.centre;
   whole.velocity = P / m.mass;
@@ -92,6 +87,17 @@ WholeMotion whole_motion(const World& world, std::size_t body) {
   for (std::size_t a = 0; a < 3; ++a) w[a] = m.principal_inertia[a] > 1e-12 * m.principal_inertia.z ? L[a] / m.principal_inertia[a] : 0.0;
   whole.spin = rotate(m.principal_axes, w);
   return whole;
+}
+
+WholeMotion whole_motion(const World& world, std::size_t body) {
+  std::vector<Vec3> place, velocity;
+  std::vector<double> mass;
+  for (const std::size_t i : members(world, body)) {
+    place.push_back(world.unwrapped(i));
+    velocity.push_back(world.particles.velocity(i));
+    mass.push_back(world.particles[field::mass][i]);
+  }
+  return whole_motion(place, velocity, mass);
 }
 
 }  // namespace tripoint

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -49,6 +50,8 @@ struct WholeMotion {
   double mass = 0.0;               ///< [kg]
   Vec3 centre, velocity, spin;     ///< [m], [m/s], [rad/s]
 };
+/// @param place,velocity,mass of its members [m], [m/s], [kg]; none: all zero
+[[nodiscard]] WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velocity, const std::vector<double>& mass);
 [[nodiscard]] WholeMotion whole_motion(const World&, std::size_t body);
 
 }  // namespace tripoint

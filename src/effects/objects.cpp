@@ -259,21 +259,55 @@ void Grouping::record_change() {
 
 void regroup(World& world, const ChangedBodies& changed, const BeforeRelisting& before) { Grouping(world, changed).run(before); }
 
-std::size_t count_objects(const World& world) {
+namespace {
+
+/// Bodies that have members, and pairs of bodies, the lower row first, that bonds hold together.
+struct Held {
+  std::vector<char> lives;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+};
+
+Held held_here(const World& world) {
+  Held held{std::vector<char>(world.bodies.size(), 0), {}};
   const auto body = world.particles[field::body];
-  Sets sets(std::vector<int>(world.bodies.size(), -1));
-  std::vector<char> lives(world.bodies.size(), 0);
   for (std::uint32_t id = 0; id < world.particles.size(); ++id) {
     const int b = body[world.particles.row(id)];
     if (b < 0) continue;
-    lives[static_cast<std::size_t>(b)] = 1;
+    held.lives[static_cast<std::size_t>(b)] = 1;
     for (const Bond& bond : world.bonds.of(id)) {
       const int other = body[world.particles.row(bond.other)];
-      if (other >= 0 && other != b) sets.unite(static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(other));
+      if (other >= 0 && other != b) held.pairs.insert(std::minmax(static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(other)));
     }
   }
+  return held;
+}
+
+/// Of a shared scene, in which no bond begins: what holds together is what the scene has joined.
+void add_over_halo(const World& world, Held& held) {
+  if (!world.halo) return;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;
+  for (std::uint32_t b = 0; b < world.bodies.size(); ++b) {
+    for (const std::string& name : world.scene.bodies[static_cast<std::size_t>(world.bodies[field::body_source][b])].joined_to)
+      joined.push_back(std::minmax(b, static_cast<std::uint32_t>(body_row(world, name))));
+  }
+  sort_once(joined);
+  std::vector<double> found(held.lives.begin(), held.lives.end());
+  for (const auto& pair : joined) found.push_back(held.pairs.contains(pair) ? 1.0 : 0.0);
+  world.halo->add(found);
+  for (std::size_t b = 0; b < held.lives.size(); ++b) held.lives[b] = found[b] > 0.0;
+  for (std::size_t k = 0; k < joined.size(); ++k)
+    if (found[held.lives.size() + k] > 0.0) held.pairs.insert(joined[k]);
+}
+
+}  // namespace
+
+std::size_t count_objects(const World& world) {
+  Held held = held_here(world);
+  add_over_halo(world, held);
+  Sets sets(std::vector<int>(world.bodies.size(), -1));
+  for (const auto& [a, b] : held.pairs) sets.unite(a, b);
   std::size_t count = 0;
-  for (std::uint32_t b = 0; b < lives.size(); ++b) count += lives[b] && sets.root(b) == b ? 1 : 0;
+  for (std::uint32_t b = 0; b < held.lives.size(); ++b) count += held.lives[b] && sets.root(b) == b ? 1 : 0;
   return count;
 }
 

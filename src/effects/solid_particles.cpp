@@ -2,6 +2,7 @@
 #include "effects/solid_particles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -268,8 +269,14 @@ Quaternion orientation_of(const World& world, std::size_t body) {
   const ElasticForms forms(world.scene);
   Matrix3 sum;
   for (const std::size_t i : members(world, body)) {
+    if (!world.owns(i)) continue;
     const Deformation d = deformation_of(world, forms, static_cast<std::uint32_t>(world.particles[field::id][i]));
     sum = sum + world.particles[field::mass][i] * rotation_of(d.F, d.P, d.rank);
+  }
+  if (world.halo) {
+    std::array<double, 9> rows{sum.xx, sum.xy, sum.xz, sum.yx, sum.yy, sum.yz, sum.zx, sum.zy, sum.zz};
+    world.halo->add(rows);
+    sum = {rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8]};
   }
   return quaternion_of(rotation_of(sum, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3));
 }

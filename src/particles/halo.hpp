@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/field.hpp"
+#include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
 
 namespace tripoint {
@@ -20,16 +21,17 @@ class Halo {
  public:
   virtual ~Halo() = default;
   /// Who has a part of space now is handed what has moved there, and copies of what is within reach of it. Ids are 0..size()-1 anew, those of
-  /// own particles first; every column goes with its particle. Of a direction that is split, what is seen across a periodic boundary is a copy at
+  /// own particles first; every column goes with its particle, and so do its bonds and own pairs (moving_lists.hpp): what one of its own has a bond with
+  /// is among the copies, however far it is. Nobody may change lists of a scene that is shared out. Of a direction that is split, what is seen across a periodic boundary is a copy at
   /// its image's place.
-  virtual void migrate(Particles&, const PeriodicBox&) = 0;
+  virtual void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) = 0;
   /// Directions in which the scene is split. Across the others each process sees what is periodic by itself.
   [[nodiscard]] virtual std::array<bool, 3> splits() const = 0;
   [[nodiscard]] virtual std::size_t owned() const = 0;  ///< particles of its own: ids 0..owned()-1
   /// Copies take these columns from their owners.
   virtual void refresh(Particles&, std::span<const Field<double>* const> columns) = 0;
-  /// The same for one number a particle, by id.
-  virtual void refresh(std::span<double> by_id) = 0;
+  /// The same for numbers by id. @param each how many a particle has, one after the other
+  virtual void refresh(std::span<double> by_id, std::size_t each) = 0;
   /// Each number becomes its sum over all processes, with the same bits for all.
   virtual void add(std::span<double> numbers) = 0;
   /// A number becomes the least of all processes, and the word the one beside it.

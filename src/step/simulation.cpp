@@ -267,6 +267,7 @@ void Simulation::update_rates() {
   clock_.start();
   change();
   clock_.ends(Stage::change);
+  if (world_.halo) follow_halo();
   if (world_.neighbours) update_lists();
   clock_.ends(Stage::search);
   if (world_.moved) pass(PassName::density);  // (4), moments: of places only
@@ -281,28 +282,44 @@ void Simulation::update_rates() {
 }
 
 void Simulation::update_lists() {
-  if (world_.halo) follow_halo();
   world_.neighbours->update(world_.particles, world_.time, [this] { return resting(); });
-  if (world_.halo && !world_.neighbours->marked()) {
-    const auto id = world_.particles[field::id];
-    world_.copies.resize(id.size());
-    for (std::size_t i = 0; i < id.size(); ++i) world_.copies[i] = static_cast<std::size_t>(id[i]) >= world_.halo->owned();
-  }
+  if (world_.halo && !world_.neighbours->marked()) mark_copies();
   if (world_.neighbours->marked() && world_.change.empty()) return;
   world_.neighbours->mark_own(world_.particles, world_.own);
   passes_.forget_clusters();
 }
 
+/// Whether particles are to be shared out anew: where there are no neighbour lists, as if there were.
+bool Simulation::outdated() const {
+  const Particles& p = world_.particles;
+  if (world_.neighbours) return world_.neighbours->outdated(p);
+  if (shared_at_.size() != p.size()) return true;
+  const double limit = 0.5 * options_.skin * world_.support();
+  const auto x = positions(p);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (!(norm(x.at(i) - shared_at_[i]) <= limit)) return true;
+  return false;
+}
+
 /// Where one process's lists are outdated, particles go to who has their place now, and all make new lists.
 void Simulation::follow_halo() {
-  double outdated = world_.neighbours->outdated(world_.particles) ? -1.0 : 0.0;
+  double any = outdated() ? -1.0 : 0.0;
   std::string unused;
-  world_.halo->take_least(outdated, unused);
-  if (outdated == 0.0) return;
-  if (!world_.bonds.empty() || !world_.own.empty()) throw InputError("bonds cannot go with their particles to another process");
-  world_.halo->migrate(world_.particles, world_.box);
-  world_.neighbours->forget();
+  world_.halo->take_least(any, unused);
+  if (any == 0.0) return;
+  world_.halo->migrate(world_.particles, world_.bonds, world_.own, world_.box);
   for (const Active& a : effects_) a.effect->renumber(world_);
+  if (world_.neighbours) return world_.neighbours->forget();
+  mark_copies();
+  const auto x = positions(world_.particles);
+  shared_at_.clear();
+  for (std::size_t i = 0; i < world_.particles.size(); ++i) shared_at_.push_back(x.at(i));
+}
+
+void Simulation::mark_copies() {
+  const auto id = world_.particles[field::id];
+  world_.copies.resize(id.size());
+  for (std::size_t i = 0; i < id.size(); ++i) world_.copies[i] = static_cast<std::size_t>(id[i]) >= world_.halo->owned();
 }
 
 /// Members of fixed bodies, where nothing is to come that could move one.

@@ -94,7 +94,9 @@ class Simulation {
   [[nodiscard]] Resting resting() const;
   void change();
   void update_lists();
+  [[nodiscard]] bool outdated() const;
   void follow_halo();
+  void mark_copies();
   void pass(PassName);
   [[nodiscard]] Ledger own_ledger() const;
   [[nodiscard]] TimeStepBound next_bound() const;
@@ -123,6 +125,7 @@ class Simulation {
   GuardMemory guards_;
   Enclosure enclosure_;
   Recovery recovery_;
+  std::vector<Vec3> shared_at_;  ///< where particles were when they were last shared out, by row; of scenes without neighbour lists
   InitialState start_;  ///< what a run that recovers is set up from again; else empty
 };
 

@@ -159,6 +159,119 @@ TEST(Ranks, CarryFreeAndDrivenBodiesAsOneProcessDoes) {
   expect_equal_on_ranks(test::prepare(s, 0.02, 2));
 }
 
+/// A bar that is thrown along x, turning and vibrating, with a rigid head; from an end to the other it crosses what borders of ranks there are.
+Prepared thrown_hammer(bool flows, double jitter, double bending) {
+  Scene s;
+  s.spacing = 0.01, s.jitter = jitter;
+  s.values["bending"] = bending;
+  Material rubber = test::material(1000.0);
+  rubber.young_modulus = 3e5, rubber.poisson_ratio = 0.3, rubber.stiffness = 100.0;
+  if (flows) rubber.elastic_limit = 0.005;
+  s.materials = {rubber};
+  Body bar = test::rigid("bar", test::box({0, 0, 0}, {0.16, 0.03, 0.03}), {{5.0, 0, 0}, {0, 0, 6.0}});
+  bar.phase = Phase::elastic, bar.joined_to = {"head"};
+  const Body head = test::rigid("head", test::box({0.16, -0.01, 0}, {0.19, 0.04, 0.03}), {{5.0, 0, 0}, {}});
+  Body mark = test::rigid("mark", test::box({0.0, 0.1, 0}, {0.04, 0.13, 0.03}));  // stays behind, so that the box does not go along
+  mark.phase = Phase::elastic;
+  s.bodies = {bar, head, mark};
+  return test::prepare(s, 0.02, 2);
+}
+
+void expect_kept(const Outcome& out) {
+  const Snapshot &start = out.trajectory.frames.front(), &end = out.trajectory.frames.back();
+  EXPECT_GT(norm(start.momentum), 0.1);
+  EXPECT_LT(norm(end.momentum - start.momentum), 1e-11 * norm(start.momentum));
+  EXPECT_LT(norm(end.angular_momentum - start.angular_momentum), 1e-11 * norm(start.angular_momentum));
+}
+
+TEST(Ranks, SwingElasticBodiesAsOneProcessDoes) {
+  NEEDS_RANKS();
+  const Prepared p = thrown_hammer(false, 0.1, 0.0);
+  expect_equal_on_ranks(p);
+  const Outcome two = run_on(2, p);
+  expect_kept(two);
+  EXPECT_GT(two.result.extra.at("migrations"), 10.0);
+  const auto& frames = two.trajectory.frames;
+  for (const std::size_t b : {std::size_t{0}, std::size_t{1}}) EXPECT_GT(frames.back().bodies[b].position.x - frames.front().bodies[b].position.x, 0.08) << "it has left the half that it was in";
+}
+
+TEST(Ranks, CorrectForBendingAsOneProcessDoes) {
+  NEEDS_RANKS();
+  expect_equal_on_ranks(thrown_hammer(false, 0.0, 1.0));
+}
+
+TEST(Ranks, FlowPlasticallyAsOneProcessDoes) {
+  NEEDS_RANKS();
+  const Prepared p = thrown_hammer(true, 0.0, 0.0);
+  expect_equal_on_ranks(p);
+  EXPECT_GT(run_on(2, p).trajectory.frames.back().energy.at("plastic"), 1e-5);
+}
+
+TEST(Ranks, SwingElasticBodiesAsPrinted) {
+  NEEDS_RANKS();
+  Scene s = thrown_hammer(false, 0.0, 0.0).job.scene;
+  s.modes[static_cast<std::size_t>(Term::elastic)] = Mode::paper;
+  expect_equal_on_ranks(test::prepare(s, 0.01, 1));
+}
+
+/// A rod that goes through a periodic direction, which is split, slides along itself while a wave of sound runs in it.
+TEST(Ranks, WrapBondsAroundAPeriodicDirection) {
+  NEEDS_RANKS();
+  Scene s;
+  s.spacing = 0.01, s.jitter = 0.1;
+  Material rubber = test::material(1000.0);
+  rubber.young_modulus = 3e5, rubber.poisson_ratio = 0.3;
+  s.materials = {rubber};
+  Body rod = test::rigid("rod", test::box({0, 0, 0}, {0.24, 0.03, 0.03}), {{5.0, 0, 0}, {}});
+  rod.phase = Phase::elastic;
+  s.bodies = {rod};
+  s.periodic = {true, false, false};
+  s.min = Vec3{0, -0.1, -0.1}, s.max = Vec3{0.24, 0.1, 0.1};
+  Prepared p = test::prepare(s, 0.02, 2);
+  for (std::size_t i = 0; i < p.initial.size(); ++i) p.initial.velocity[i] += Vec3{0.2 * std::sin(2.0 * M_PI * p.initial.position[i].x / 0.24), 0.1 * std::cos(2.0 * M_PI * p.initial.position[i].x / 0.24), 0.0};
+  expect_equal_on_ranks(p);
+}
+
+/// All that the first of four ranks has flies over to others: without particles it still steps, and tells what all are.
+TEST(Ranks, GoOnWithoutParticles) {
+  NEEDS_RANKS();
+  Prepared p = thrown_hammer(false, 0.0, 0.0);
+  for (Body& b : p.job.scene.bodies)
+    if (b.name != "mark") b.velocity.value = {12.0, 0, 0};
+  p = test::prepare(p.job.scene, 0.02, 2);
+  expect_equal(test::run(one_process, p), run_on(4, p), shared);
+}
+
+/// One rank is one process, to the bit.
+TEST(Ranks, OneOfThemHasEveryBit) {
+  NEEDS_RANKS();
+  for (const bool flows : {false, true}) {
+    const Prepared p = thrown_hammer(flows, 0.1, 0.0);
+    const Outcome one = test::run(one_process, p), same = run_on(1, p);
+    ASSERT_EQ(same.exit_code, 0) << same.result.message;
+    EXPECT_EQ(one.result.state_hash, same.result.state_hash);
+  }
+}
+
+/// A soft bar is pulled to three times its length by driven ends: its bonds are then longer than a neighbour list reaches.
+TEST(Ranks, FollowBondsThatAreLongerThanListsReach) {
+  NEEDS_RANKS();
+  Scene s;
+  s.spacing = 0.01;
+  Material rubber = test::material(1000.0);
+  rubber.young_modulus = 1e4, rubber.poisson_ratio = 0.0;
+  s.materials = {rubber};
+  Body bar = test::rigid("bar", test::box({0, 0, 0}, {0.12, 0.03, 0.03}));
+  bar.phase = Phase::elastic, bar.joined_to = {"held", "pulled"};
+  const Body held = test::rigid("held", test::box({-0.03, 0, 0}, {0, 0.03, 0.03}), {}, Motion::fixed);
+  const Body pulled = test::rigid("pulled", test::box({0.12, 0, 0}, {0.15, 0.03, 0.03}), {{2.0, 0, 0}, {}}, Motion::prescribed);
+  s.bodies = {bar, held, pulled};
+  const Prepared p = test::prepare(s, 0.12, 2);
+  const Outcome two = run_on(2, p);
+  expect_equal(test::run(one_process, p), two, shared);
+  EXPECT_GT(two.result.extra.at("reach_of_copies"), 1.5 * 1.1 * s.support_ratio * s.spacing);
+}
+
 TEST(Ranks, GiveTheSameBitsAgain) {
   NEEDS_RANKS();
   const Prepared p = dam(0.01, 1);
@@ -241,10 +354,9 @@ TEST(Ranks, RefuseByNameWhatTheyDoNotShare) {
   flows.job.scene.inflows.emplace_back();
   flows.job.scene.inflows[0].material = "water";
   expect_refused(flows, "inflow");
-  Prepared elastic = test::block({}, {}, 0.1, 1, 0.01);
-  elastic.job.scene.bodies[0].phase = Phase::elastic;
-  elastic.job.scene.materials[0].young_modulus = 1e5, elastic.job.scene.materials[0].poisson_ratio = 0.3;
-  expect_refused(elastic, "elastic bodies");
+  Prepared breaks = thrown_hammer(false, 0.0, 0.0);
+  breaks.job.scene.materials[0].fracture_stretch = 1.1;
+  expect_refused(breaks, "fracture, which ends bonds");
   Prepared setting = p;
   setting.job.settings["rank"] = 2.0;
   expect_refused(setting, "no setting is named rank");

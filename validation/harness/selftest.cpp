@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "core/errors.hpp"
 #include "validation/harness/selftest_runs.hpp"
@@ -19,8 +20,24 @@ EngineEntry test_build(const std::string& path) {
   return engine;
 }
 
-DefectOutcome try_defect(const Case& value, const Defect& defect, const EngineEntry& engine, const SelftestOptions& o) {
+/// Beside the solver, where they are there: the optional test build of it over ranks.
+std::vector<EngineEntry> test_builds(const EngineEntry& solver) {
+  std::vector<EngineEntry> engines{solver};
+  const std::string ranks = (std::filesystem::path(solver.executable).parent_path() / "engine-tripoint-mpi").string();
+  if (std::error_code none; std::filesystem::exists(ranks, none)) engines.push_back(ask_engine(ranks));
+  return engines;
+}
+
+DefectOutcome try_defect(const Case& value, const Defect& defect, const std::vector<EngineEntry>& engines, const SelftestOptions& o) {
   DefectOutcome outcome{defect.name, value.id, defect.size, !defect.killed_by.empty(), {}, defect.place};
+  const auto name = engine_of_defect(value, defect);
+  const auto found = std::find_if(engines.begin(), engines.end(), [&](const EngineEntry& e) { return e.name == name && e.available; });
+  if (found == engines.end()) {
+    outcome.tried = outcome.killed = false;
+    outcome.found = name + " is not there: its wheel, or its test build";
+    return outcome;
+  }
+  const EngineEntry& engine = *found;
   const auto whole = run_with_defect(value, engine, defect.killed_by, "", "no-defect", o);
   const auto text = fmt::format("{}={}", defect.name, defect.size);
   const auto broken = run_with_defect(value, engine, defect.killed_by, text, text, o);
@@ -35,11 +52,12 @@ DefectOutcome try_defect(const Case& value, const Defect& defect, const EngineEn
   return outcome;
 }
 
-void try_all(const std::vector<Case>& cases, const EngineEntry& engine, const SelftestOptions& options, SelftestOutcome& outcome) {
+void try_all(const std::vector<Case>& cases, const EngineEntry& solver, const SelftestOptions& options, SelftestOutcome& outcome) {
+  const auto engines = test_builds(solver);
   for (const auto& value : cases)
-    for (const auto& defect : value.defects) outcome.defects.push_back(try_defect(value, defect, engine, options));
+    for (const auto& defect : value.defects) outcome.defects.push_back(try_defect(value, defect, engines, options));
   for (const auto& value : cases)
-    for (auto& row : try_harmless(value, engine, options)) outcome.harmless.push_back(std::move(row));
+    for (auto& row : try_harmless(value, solver, options)) outcome.harmless.push_back(std::move(row));
 }
 
 }  // namespace
@@ -75,7 +93,7 @@ SelftestOutcome run_selftest(const SelftestOptions& options) {
   for (const auto& value : cases)
     for (auto& row : try_smallest(value, engine, options)) outcome.smallest.push_back(std::move(row));
   if (!options.only_smallest) try_all(cases, engine, options, outcome);
-  const bool survived = std::any_of(outcome.defects.begin(), outcome.defects.end(), [](const auto& d) { return !d.killed; }) ||
+  const bool survived = std::any_of(outcome.defects.begin(), outcome.defects.end(), [](const auto& d) { return d.tried && !d.killed; }) ||
                         std::any_of(outcome.harmless.begin(), outcome.harmless.end(), [](const auto& h) { return !h.borne; }) ||
                         std::any_of(outcome.smallest.begin(), outcome.smallest.end(), [](const auto& s) { return !s.holds(); });
   if (outcome.defects.empty() && outcome.harmless.empty() && outcome.smallest.empty())

@@ -28,6 +28,7 @@ struct DefectOutcome {
   bool killed = false;
   std::string found;  ///< what the gates said
   SourcePlace place;
+  bool tried = true;  ///< false where the engine that it is for is not there
 };
 
 /// One [[harmless]] of one case.

@@ -14,13 +14,13 @@
 namespace tripoint {
 namespace {
 
-bool is_ours(const Gate& gate, const std::string& metric) { return gate.metric == metric && (gate.engine.empty() || gate.engine == "tripoint"); }
+bool judges(const Gate& gate, const std::string& engine, const std::string& metric) { return gate.metric == metric && (gate.engine.empty() || gate.engine == engine); }
 
 /// Whether a gate on one of these metrics looks at this run; a gate on every run is content with the case's own.
-bool is_needed(const Case& value, const std::vector<std::string>& metrics, const RunPlan& run) {
+bool is_needed(const Case& value, const std::string& engine, const std::vector<std::string>& metrics, const RunPlan& run) {
   for (const auto& metric : metrics)
     for (const auto& gate : value.gates) {
-      if (!is_ours(gate, metric) || !fits_mode(gate, run.mode)) continue;
+      if (!judges(gate, engine, metric) || !fits_mode(gate, run.mode)) continue;
       if (metric.ends_with(".order") ? !run.levels.empty() : !gate.level && run.base) return true;
       for (const auto& [axis, level] : run.levels)
         if (gate.level && same_level(level, *gate.level)) return true;
@@ -30,13 +30,20 @@ bool is_needed(const Case& value, const std::vector<std::string>& metrics, const
 
 }  // namespace
 
+std::string engine_of_defect(const Case& value, const Defect& defect) {
+  const auto judged_by = [&](const std::string& engine) {
+    return std::any_of(value.gates.begin(), value.gates.end(), [&](const Gate& g) { return std::find(defect.killed_by.begin(), defect.killed_by.end(), g.metric) != defect.killed_by.end() && g.engine == engine; });
+  };
+  return !judged_by("tripoint") && !judged_by("") && judged_by("tripoint-mpi") ? "tripoint-mpi" : "tripoint";
+}
+
 CaseResult run_with_defect(const Case& value, const EngineEntry& engine, const std::vector<std::string>& metrics, const std::string& defect, const std::string& folder, const SelftestOptions& o) {
   SuiteOptions suite;
-  suite.selection.engines = {"tripoint"};
+  suite.selection.engines = {engine.name};
   suite.jobs = o.jobs, suite.say = o.say;
   suite.out = (std::filesystem::path(o.out) / folder).string();
   if (!defect.empty()) suite.environment["TRIPOINT_DEFECT"] = defect;
-  suite.wanted = [&](const EnginePlan&, const RunPlan& run) { return is_needed(value, metrics, run); };
+  suite.wanted = [&](const EnginePlan&, const RunPlan& run) { return is_needed(value, engine.name, metrics, run); };
   const auto results = run_suite({value}, {engine}, suite);
   if (results.cases.empty()) throw EngineError("interrupted");
   return results.cases.front();

@@ -5,7 +5,11 @@
 /// What the self-test does with one case and one defect.
 namespace tripoint {
 
-/// Runs what the gates on these metrics need, with a defect ("name=size"; empty = none), into `folder` below the self-test's own.
+/// The engine whose test build a defect is put into: the solver in one process, unless of all gates that must turn red each judges the solver over
+/// ranks alone.
+[[nodiscard]] std::string engine_of_defect(const Case&, const Defect&);
+
+/// Runs what the gates of this engine on these metrics need, with a defect ("name=size"; empty = none), into `folder` below the self-test's own.
 /// @throws EngineError when interrupted
 [[nodiscard]] CaseResult run_with_defect(const Case&, const EngineEntry&, const std::vector<std::string>& metrics, const std::string& defect, const std::string& folder, const SelftestOptions&);
 

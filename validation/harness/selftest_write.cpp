@@ -29,7 +29,7 @@ std::string smallest_table(const std::vector<SmallestOutcome>& rows) {
 std::string selftest_table(const SelftestOutcome& outcome) {
   std::string text;
   for (const auto& d : outcome.defects)
-    text += one_line(fmt::format("{:9} {:24} {:<9g} {:26} {}{}", d.killed ? "killed" : "SURVIVES", d.defect, d.size, d.case_id, d.found, d.killed ? "" : "  (" + to_string(d.place) + ")")) + "\n";
+    text += one_line(fmt::format("{:9} {:24} {:<9g} {:26} {}{}", !d.tried ? "not tried" : d.killed ? "killed" : "SURVIVES", d.defect, d.size, d.case_id, d.found, d.killed ? "" : "  (" + to_string(d.place) + ")")) + "\n";
   for (const auto& p : outcome.problems) text += "PROBLEM   " + one_line(p) + "\n";
   for (const auto& h : outcome.harmless)
     text += one_line(fmt::format("{:9} {:24} {:<9.2g} {:26} {}", h.borne ? "borne" : "FELT", h.change, h.greatest, h.case_id, h.found)) + "\n";
@@ -44,7 +44,7 @@ std::string selftest_table(const SelftestOutcome& outcome) {
 std::string selftest_json(const SelftestOutcome& outcome) {
   Json defects = Json::array(), harmless = Json::array(), smallest = Json::array();
   for (const auto& d : outcome.defects)
-    defects.push_back({{"defect", d.defect}, {"case", d.case_id}, {"size", d.size}, {"killed", d.killed}, {"found", d.found}, {"file", d.place.file}, {"line", d.place.line}});
+    defects.push_back({{"defect", d.defect}, {"case", d.case_id}, {"size", d.size}, {"killed", d.killed}, {"tried", d.tried}, {"found", d.found}, {"file", d.place.file}, {"line", d.place.line}});
   for (const auto& h : outcome.harmless)
     harmless.push_back({{"change", h.change}, {"case", h.case_id}, {"borne", h.borne}, {"greatest", number(h.greatest)}, {"tolerance", h.tolerance}, {"found", h.found}});
   for (const auto& s : outcome.smallest)

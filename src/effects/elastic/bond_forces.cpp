@@ -4,9 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
+#include "core/defect.hpp"
 #include "effects/failure.hpp"
 
 namespace tripoint::elastic {
@@ -77,6 +80,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
   double least = 1.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(min : least)
   for (std::size_t row = 0; row < p.size(); ++row) {
+    if (!world.owns(row)) continue;  // its list is not whole here: it is handed over
     const auto id = static_cast<std::uint32_t>(id_of[row]);
     const BondLists::List list = all.lists.of(world.bonds, id);
     if (!owns(row)) {
@@ -123,7 +127,7 @@ void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
   Stresses stresses(world, forms, all);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
-    if (!owns(row)) continue;
+    if (!owns(row) || !world.owns(row)) continue;
     const int rank = rank_of[row];
     const Symmetric A = shape.at(row), P = forms.projector(A, rank), total = strain_of.at(row), elastic = total - plastic_of.at(row);
     stresses.set(row, static_cast<std::size_t>(id_of[row]), total, rank == 3 ? elastic : between(P, elastic), A, P, rank);
@@ -165,6 +169,7 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
   const BondSums sum = bond_sums({world.box.any(), forms.hourglass() != 0.0, forms.bending() != 0.0});
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
+    if (!world.owns(row)) continue;
     const auto id = static_cast<std::uint32_t>(id_of[row]);
     const BondLists::List list = all.lists.of(world.bonds, id);
     if (list.count == 0 || !feels_energy(list, all, id)) continue;
@@ -176,6 +181,16 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
     sum.partners(list, all.lists.shapes(), all.places.data(), all.deformed.data(), all.places[id], box, of_partners);
     f.set(row, f.at(row) + all.places[id].volume * (Vec3(of_partners.stress) + of_partners.hourglass));
   }
+}
+
+/// What partners see of a particle is known where its list is whole: at its owner.
+void hand_deformed_to_copies(const World& world, Deformations& all) {
+  static const bool kept_to_itself = defect_size("elastic.copies") > 0.0;
+  if (!world.halo || kept_to_itself) return;
+  constexpr std::size_t each = sizeof(Deformed) / sizeof(double);
+  static_assert(std::is_standard_layout_v<Deformed> && std::is_trivially_copyable_v<Column>);
+  double* const first = all.deformed.empty() ? nullptr : &all.deformed.front().strained.x.x;
+  world.halo->refresh({first, all.deformed.size() * each}, each);
 }
 
 /// @return whether a volume has changed, or who owns strain energy
@@ -216,7 +231,7 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
   if (least > 0.0) return;
   const solid::EnergyOwners owns(world);
   const auto rank_of = p[field::shape_rank], id_of = p[field::id];
-  const auto is_worst = [&](std::size_t row) { return rank_of[row] == 3 && owns(row) && volume_ratio(all.deformed[static_cast<std::size_t>(id_of[row])]) == least; };
+  const auto is_worst = [&](std::size_t row) { return rank_of[row] == 3 && owns(row) && world.owns(row) && volume_ratio(all.deformed[static_cast<std::size_t>(id_of[row])]) == least; };
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (is_worst(row))
       fail(world, "inversion", row, "deformation", "state",
@@ -226,7 +241,10 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
 
 void add_forces(World& world, const ElasticForms& forms, Deformations& all) {
   if (flows(world)) set_stress(world, forms, all);
+  hand_deformed_to_copies(world, all);
   add_all(world, forms, all);
+  static constexpr std::array<const Field<double>*, 3> force{&field::elastic_force_x, &field::elastic_force_y, &field::elastic_force_z};
+  world.refresh(force);
 }
 
 }  // namespace tripoint::elastic

@@ -23,6 +23,7 @@ class Elastic : public Effect {
   void state(World& world) override { deform(world, forms_, deformations_); }
   void bonds(World& world) override { add_forces(world, forms_, deformations_); }
   void adopt(World&) override;
+  void renumber(World&) override { deformations_ = {}; }
   void check(const World& world) const override { refuse_inversion(world, forms_, deformations_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World&, Ledger&) const override;
@@ -65,6 +66,7 @@ TimeStepBound Elastic::max_dt(const World& world) const {
 void Elastic::add_to(const World& world, Ledger& ledger) const {
   std::vector<std::array<double, 2>> blocks;
   const auto sums = ordered_sums(world.particles.size(), world.threads, blocks, [&](std::size_t id, std::array<double, 2>& sum) {
+    if (!world.owns(world.particles.row(id))) return;
     const solid::DeformationEnergy energy = solid::deformation_energy(world, forms_, static_cast<std::uint32_t>(id));
     sum[0] += energy.elastic;
     sum[1] += energy.hourglass;
@@ -111,6 +113,7 @@ std::vector<DefectEntry> defects() {
           {"elastic.own_pairs", "weight of own pairs in the number density times 1 + size", "solid/contact"},
           {"elastic.paper.factor", "the printed factor 2 times 1 - size", "solid/tension"},
           {"elastic.paper.stress", "printed stress times 1 + size", "solid/tension"},
+          {"elastic.copies", "over ranks, copies are not handed how their particles are deformed", "coupling/over-ranks"},
           {"bodies.bonds", "forces and torques of bonds on bodies times 1 - size", "solid/heavy-tip"}};
 }
 

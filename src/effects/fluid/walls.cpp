@@ -63,7 +63,7 @@ void hand_to_copies(const World& world, std::vector<T>& by_id) {
   if (!world.halo) return;
   std::vector<double> numbers(world.particles.size());  // where nothing is jittered there are none
   std::ranges::copy(by_id, numbers.begin());
-  world.halo->refresh(numbers);
+  world.halo->refresh(numbers, 1);
   for (std::size_t id = 0; id < by_id.size(); ++id) by_id[id] = static_cast<T>(numbers[id]);
 }
 
@@ -166,7 +166,7 @@ void Walls::hand_to_copied_faces(const World& world, std::vector<double>& of) co
   if (!world.halo) return;
   std::vector<double> numbers(world.particles.size());
   for (std::size_t k = 0; k < face_.size(); ++k) numbers[face_[k]] = of[k];
-  world.halo->refresh(numbers);
+  world.halo->refresh(numbers, 1);
   for (std::size_t k = 0; k < face_.size(); ++k) of[k] = numbers[face_[k]];
 }
 

@@ -63,7 +63,7 @@ void PlasticFlow::state(World& world) {
   const solid::ElasticParticles is_elastic(world);
   static const double booked = 1.0 - defect_size("plastic.dissipation");
   const auto lost = ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
-    if (is_elastic(row)) sum[0] += flow(world, row);
+    if (is_elastic(row) && world.owns(row)) sum[0] += flow(world, row);
   });
   world.booked[dissipation] += booked * lost[0];
   world.booked[account::deformation_released] += booked * lost[0];

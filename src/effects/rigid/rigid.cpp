@@ -341,6 +341,7 @@ std::vector<DefectEntry> defects() {
           {"rigid.split", "velocity of the split part times 1 + size", "rigid/split-in-flight"},
           {"rigid.one_axis.turn", "turn of a body that reaches through a periodic direction times 1 + size", "rigid/shaft"},
           {"rigid.one_axis.spin", "angular velocity of such a body times 1 + size", "rigid/shaft"},
+          {"bodies.over_ranks", "over ranks, forces on the members that ranks but the first have, times 1 - size", "coupling/over-ranks"},
           {"rigid.truncated", "moment below which a body does not turn about an axis times 1 + size", "rigid/bent-chain"},
           {"rigid.adopt.undelivered", "spin about such an axis is lost as particles leave the body", "phase/bent-chain-melts"},
           {"rigid.prescribed.lever", "part of omega x lever left out of a prescribed body's velocity", "rigid/prescribed-merge"},

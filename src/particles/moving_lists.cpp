@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "particles/moving_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/errors.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr std::size_t of_counts = 2, of_bond = 8, of_own = 2;  ///< numbers
+
+/// The ids here of a particle, by its number: of its own before copies, of which there is one for each image that is near.
+class Ids {
+ public:
+  explicit Ids(const std::vector<int>& number) {
+    for (std::uint32_t id = 0; id < number.size(); ++id) ids_.emplace_back(number[id], id);
+    std::ranges::sort(ids_);
+  }
+  [[nodiscard]] auto of(int number) const { return std::ranges::equal_range(ids_, number, {}, &Pair::first); }
+  /// The one that has the bonds: places are told apart by the nearest image, so that any image will do. none where it is not here
+  [[nodiscard]] std::uint32_t first(int number) const {
+    const auto found = of(number);
+    return found.empty() ? none : found.front().second;
+  }
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+ private:
+  using Pair = std::pair<int, std::uint32_t>;
+  std::vector<Pair> ids_;
+};
+
+Bond bond_from(const double* n, std::uint32_t other) {
+  Bond b;
+  b.other = other;
+  b.x = {n[1], n[2], n[3]}, b.gradient = {n[4], n[5], n[6]}, b.weight = n[7];
+  return b;
+}
+
+[[noreturn]] void refuse_lost(int number, int partner) {
+  throw InputError("particle " + std::to_string(number) + " of the scene has a bond with particle " + std::to_string(partner) + ", which is not among the copies of its process: their bond is longer than copies reach");
+}
+
+std::vector<Bond> bonds_of(const Share& share, const Ids& ids, std::size_t id) {
+  const std::span<const double> numbers = share.lists(id);
+  std::vector<Bond> bonds;
+  if (numbers.empty()) return bonds;
+  const auto count = static_cast<std::size_t>(numbers[0]);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double* const one = numbers.data() + of_counts + k * of_bond;
+    const std::uint32_t other = ids.first(static_cast<int>(one[0]));
+    if (id >= share.owned && other >= share.owned) continue;
+    if (other == Ids::none) refuse_lost(share.number[id], static_cast<int>(one[0]));
+    bonds.push_back(bond_from(one, other));
+  }
+  return bonds;
+}
+
+std::vector<OwnPair> own_of(const Share& share, const Ids& ids, std::size_t id) {
+  const std::span<const double> numbers = share.lists(id);
+  std::vector<OwnPair> own;
+  if (numbers.empty()) return own;
+  const auto before = static_cast<std::size_t>(numbers[0]), count = static_cast<std::size_t>(numbers[1]);
+  for (std::size_t k = 0; k < count; ++k) {
+    const double* const one = numbers.data() + of_counts + before * of_bond + k * of_own;
+    for (const auto& [number, other] : ids.of(static_cast<int>(one[0]))) own.push_back({other, one[1]});
+  }
+  std::ranges::sort(own, {}, &OwnPair::other);
+  return own;
+}
+
+void set_twins(Bonds& bonds, std::size_t count) {
+  for (std::size_t id = 0; id < count; ++id) {
+    for (Bond& b : bonds.edit(id)) {
+      const auto list = std::as_const(bonds).of(b.other);
+      b.twin = static_cast<std::uint32_t>(std::ranges::find(list, id, &Bond::other) - list.begin());
+      if (b.twin == list.size()) throw InputError("a bond that went to another process is in the list of one of its particles alone");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> lists_as_numbers(const Bonds& bonds, const OwnPairs& own, std::size_t id) {
+  const auto b = bonds.of(id);
+  const auto o = own.of(id);
+  std::vector<double> numbers{static_cast<double>(b.size()), static_cast<double>(o.size())};
+  numbers.reserve(of_counts + b.size() * of_bond + o.size() * of_own);
+  for (const Bond& one : b) numbers.insert(numbers.end(), {static_cast<double>(one.other), one.x.x, one.x.y, one.x.z, one.gradient.x, one.gradient.y, one.gradient.z, one.weight});
+  for (const OwnPair& one : o) numbers.insert(numbers.end(), {static_cast<double>(one.other), one.weight});
+  return numbers;
+}
+
+std::size_t most_list_numbers(const Bonds& bonds, const OwnPairs& own) {
+  if (bonds.empty() && own.empty()) return 0;
+  std::size_t most = 0;
+  for (std::size_t id = 0; id < std::max(bonds.particles(), own.particles()); ++id) most = std::max(most, bonds.of(id).size() * of_bond + own.of(id).size() * of_own);
+  return of_counts + most;
+}
+
+void take_lists(const Share& share, Bonds& bonds, OwnPairs& own) {
+  const Ids ids(share.number);
+  const std::size_t count = share.number.size();
+  bonds = {}, own = {};
+  bonds.grow(count), own.grow(count);
+  for (std::size_t id = 0; id < count; ++id) {
+    if (ids.first(share.number[id]) != id) continue;  // another image has its lists
+    if (const std::vector<Bond> list = bonds_of(share, ids, id); !list.empty()) bonds.replace(id, list);
+    if (id >= share.owned) continue;
+    if (const std::vector<OwnPair> list = own_of(share, ids, id); !list.empty()) own.replace(id, list);
+  }
+  set_twins(bonds, count);
+  bonds.compact(), own.compact();
+}
+
+double longest_bond(const Particles& particles, const Bonds& bonds, std::size_t owned, const PeriodicBox& box) {
+  double most = 0.0;
+  for (std::size_t id = 0; id < owned; ++id) {
+    const auto list = bonds.of(id);
+    if (list.empty()) continue;
+    const Vec3 at = particles.position(particles.row(id));
+    for (const Bond& b : list) {
+      Vec3 d = particles.position(particles.row(b.other)) - at;
+      for (std::size_t a = 0; a < 3; ++a)
+        if (box.periodic[a]) d[a] -= box.width[a] * std::round(d[a] / box.width[a]);
+      most = std::max(most, dot(d, d));
+    }
+  }
+  return std::sqrt(most);
+}
+
+}  // namespace tripoint
