@@ -152,7 +152,8 @@ void add_lines(PredictionReport& r, PredictRuns& runs, const Options& o, const P
   for (const int ranks : o.weak ? (o.measure.empty() ? o.ranks : o.measure) : std::vector<int>{}) {
     if (ranks == 1) continue;
     weak.push_back(runs.prepare(fmt::format("weak-{}", ranks), {fmt::format("scene.spacing={:.17g}", base.scene.spacing / std::cbrt(ranks))}));
-    const Prepared& p = weak.back();
+    Prepared& p = weak.back();
+    p.cloud.reach = base.cloud.reach * p.scene.spacing / base.scene.spacing;
     const auto particles = static_cast<double>(p.initial.size());
     r.lines.push_back(line_of(r, p.cloud, whole_of(p.cloud, particles), ranks, particles));
     r.lines.back().weak = true;
