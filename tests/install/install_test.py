@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Installs the build into an empty folder, moves it, and builds a project on it: install_test.py BUILD SOURCE"""
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -49,6 +50,22 @@ class Install(unittest.TestCase):
             self.assertFalse(path.is_symlink(), path)
             self.assertFalse("__pycache__" in path.parts, path)
             self.assertFalse(any(word in held for word in words), path)
+
+    def test_every_program_is_hardened(self):
+        built = re.search(r"^CMAKE_BUILD_TYPE:STRING=(.*)$", (BUILD / "CMakeCache.txt").read_text(), re.M).group(1)
+        programs = [path for path, held in self.files.items() if held.startswith(b"\x7fELF")]
+        self.assertGreaterEqual(len(programs), 6)  # the program, four engines, a module
+        for path in programs:
+            told = run("readelf", "--wide", "--file-header", "--segments", "--dynamic", "--dyn-syms", path)
+            self.assertEqual(told.returncode, 0, told.stderr)
+            wanted = {"GNU_RELRO": "its tables can be written to", r"\((FLAGS|FLAGS_1)\).*\b(BIND_NOW|NOW)\b": "its table of functions can be written to",
+                      r"GNU_STACK .* RW +0x": "its stack can be run", "__stack_chk_fail": "no guard stands before return addresses"}
+            if path.suffix != ".so":
+                wanted[r"\(FLAGS_1\).*\bPIE\b"] = "it lies at the same address in each run"
+            if built in ("Release", "RelWithDebInfo"):
+                wanted[r"__\w+_chk@GLIBC"] = "no call of the C library is held to the size of its buffer"
+            for words, fault in wanted.items():
+                self.assertTrue(re.search(words, told.stdout), f"{path.name}: {fault}")
 
     def test_every_engine_of_the_build_is_there(self):
         built = {path.name for path in (BUILD / "libexec" / "tripoint").glob("engine-*") if path.is_file()}
