@@ -4,28 +4,40 @@
 
     tools/mutate.py [--seed 1] [--count 50] [--room gate|metrics|references]... [--build build] [--fast] [--list] [--at "FILE:LINE:COLUMN: OPERATOR"]...
 
-A mutant that its tests do not see, and that no reader can show to compute the same, is a test that is missing. The files are changed in place, one
-at a time, and are put back whatever happens: run it in a checkout where nothing else works. --list shows the mutants and runs none; --fast leaves out
-the tests of the suite's own processes, which take a minute for each mutant that survives.
+A mutant that its tests do not see, and that no reader can show to compute the same, is a test that is missing. No file of the
+checkout is changed: the mutated copy is compiled without optimisation in a folder of its own and linked before the library that holds the true one.
+--list shows the mutants and runs none; --fast leaves out the tests that start processes, which take a minute for each mutant that survives.
 """
 import argparse
+import json
+import os
 import random
 import re
+import resource
+import shlex
+import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 
-# A room: its files, the test program that covers it, and the filters in the order in which they are tried (the fast ones first).
-HARNESS = ("harness", ["-Process*:Kills*:Engines*:Instructions*:Timing*:*Hostile*:NeverFails*:Harmless*", "NeverFails*:Harmless*:*Hostile*:Timing*"])
+# Tests: a program and the filters in the order in which they are tried. The first leaves out what starts processes.
+METRICS, REFERENCES = ("metrics", ["*"]), ("references", ["*"])
+PROCESSES = "Ends/*:Files/*:Lies/*:Starts*:TryInChild*:ForkStorm*:Uncertainty.OfAnInput*:StaleOutput*"
+SLOW = "Process*:Kills*:Engines*:Instructions*:Timing*:*Hostile*:NeverFails*:Harmless*"
+HARNESS = ("harness", [f"-{PROCESSES}:{SLOW}", "NeverFailsGate*", PROCESSES, "NeverFails*:Harmless*:*Hostile*:Timing*:-NeverFailsGate*"])
+FAST = 2  # of the filters: the rest starts a process for each test
+TWINS = ("print-reference-values", ["tests/references/twins.py"])  # not GoogleTest: a script computes again what the program prints
+# A room: its files, and the tests that cover it.
 ROOMS = {
     "gate": (["validation/metrics/verdict.cpp"] + [f"validation/harness/{name}.cpp" for name in ("apply_gate", "judge", "judge_asked", "verdict", "gate_verdict", "recheck", "slack", "results_read", "baseline",
              "baseline_compare", "baseline_edges", "baseline_rows", "baseline_cases", "baseline_accept")], [HARNESS]),
-    "metrics": (["validation/metrics/*.cpp"], [("metrics", ["*"]), HARNESS]),
-    "references": (["validation/references/*.cpp"], [("references", ["*"]), ("metrics", ["*"])]),
+    "metrics": (["validation/metrics/*.cpp"], [METRICS, HARNESS]),
+    "references": (["validation/references/*.cpp"], [REFERENCES, TWINS, METRICS, HARNESS]),
 }
 ELSEWHERE = {"validation/metrics/verdict.cpp"}  # of the gate, though in the room of the metrics
 
@@ -96,11 +108,6 @@ def parenthesised(code, start):
     return None
 
 
-# What the compiler would remark on in a mutant: it is to be seen by a test, not by -Werror.
-QUIET = "".join(f'#pragma GCC diagnostic ignored "-W{name}"\n' for name in ("parentheses", "unused-variable", "unused-parameter", "unused-but-set-variable", "unused-function", "unused-value",
-                "empty-body", "misleading-indentation", "bool-compare", "type-limits", "maybe-uninitialized", "uninitialized", "int-in-bool-context", "conversion", "float-conversion", "extra"))
-
-
 class Mutant:
     def __init__(self, room, path, number, column, operator, line):
         self.room, self.path, self.number, self.column, self.operator, self.line = room, path, number, column, operator, line
@@ -140,40 +147,93 @@ def sample(mutants, count, seed):
     return chosen
 
 
+class Build:
+    """What is built already, and how a changed file is compiled and linked into its tests."""
+
+    def __init__(self, folder, work):
+        self.folder, self.work, self.links = Path(folder).resolve(), Path(work), {}
+        self.commands = {entry["file"]: shlex.split(entry["command"]) for entry in json.loads((self.folder / "compile_commands.json").read_text())}
+
+    def program(self, name):
+        return f"tests/{name}" if name == TWINS[0] else f"tests/test-{name}"
+
+    def make(self, name):
+        subprocess.run(["ninja", "-C", str(self.folder), "-j", "1", self.program(name)], check=True, capture_output=True)
+        listed = subprocess.run(["ninja", "-C", str(self.folder), "-t", "commands", self.program(name)], check=True, capture_output=True, text=True).stdout.splitlines()[-1]
+        words = shlex.split(listed)
+        self.links[name] = words[words.index("&&") + 1:len(words) - 1 - words[::-1].index("&&")]
+
+    def compile(self, path, text):
+        """@return whether the file with this text compiles"""
+        copy = self.work / path.name
+        copy.write_text(text)
+        words = [w for w in self.commands[str(path)] if not w.endswith("ccache") and not w.startswith(("-O", "-W", "-D_FORTIFY", "-U_FORTIFY"))]
+        words[words.index("-o") + 1], words[words.index("-c") + 1] = str(self.work / "mutant.o"), str(copy)
+        return subprocess.run([*words, "-O0", "-w"], cwd=self.folder, capture_output=True, check=False).returncode == 0
+
+    def link(self, name):
+        """The object comes before the library, so that the library's own is not taken."""
+        words = list(self.links[name])
+        words[words.index("-o") + 1] = str(self.work / name)
+        words.insert(words.index("-o"), str(self.work / "mutant.o"))
+        gold = ["-fuse-ld=gold"] if shutil.which("ld.gold") else []
+        subprocess.run([*words, *gold], cwd=self.folder, check=True, capture_output=True)
+        return self.work / name
+
+    def original(self, name):
+        return self.folder / self.program(name)
+
+
+def run_tests(name, program, words, limit):
+    """@return what saw a fault, or None"""
+    asked = ["/usr/bin/python3", "-B", str(ROOT / words), str(program)] if name == TWINS[0] else [str(program), "--gtest_brief=1", "--gtest_fail_fast", f"--gtest_filter={words}"]
+    with subprocess.Popen(asked, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True, preexec_fn=bounded) as child:
+        try:
+            text, _ = child.communicate(timeout=limit)
+        except subprocess.TimeoutExpired:
+            os.killpg(child.pid, signal.SIGKILL)
+            child.communicate()
+            return "time limit"
+    if child.returncode == 0:
+        return None
+    failed = re.findall(r"\[  FAILED  \] (\S+)", text)
+    return words if name == TWINS[0] else failed[0].rstrip(",") if failed else f"the tests of {name} ended {child.returncode}"
+
+
+def bounded():
+    """A mutant may ask for all the memory."""
+    resource.setrlimit(resource.RLIMIT_AS, (8 << 30, 8 << 30))
+
+
 def seen_by(mutant, build, limits, fast):
     """@return "invalid", "survived", or which test saw it"""
-    for program, filters in ROOMS[mutant.room][1]:
-        made = subprocess.run(["ninja", "-C", build, "-j", "1", f"test-{program}"], capture_output=True, text=True, check=False)
-        if made.returncode != 0:
-            return "invalid" if "error:" in made.stdout + made.stderr else sys.exit(made.stdout + made.stderr)
-        for words in filters[:1] if fast else filters:
-            try:
-                limit = 10.0 + 5.0 * limits[program, words]
-                ended = subprocess.run([f"{build}/tests/test-{program}", "--gtest_brief=1", f"--gtest_filter={words}"], capture_output=True, text=True, errors="replace", timeout=limit, check=False)
-            except subprocess.TimeoutExpired:
-                return "time limit"
-            if ended.returncode != 0:
-                failed = re.findall(r"\[  FAILED  \] (\S+)", ended.stdout)
-                return failed[0].rstrip(",") if failed else f"the tests ended {ended.returncode}"
+    lines = mutant.path.read_text().split("\n")
+    lines[mutant.number] = mutant.line
+    if not build.compile(mutant.path, "\n".join(lines)):
+        return "invalid"
+    for name, filters in ROOMS[mutant.room][1]:
+        program = build.link(name)
+        for words in filters[:FAST] if fast else filters:
+            if seen := run_tests(name, program, words, 10.0 + 5.0 * limits[name, words]):
+                return seen
     return "survived"
 
 
 def unchanged_tests(rooms, build, fast):
     """The tests pass as they are. @return seconds of each"""
     seconds = {}
-    for program, filters in {(p, tuple(f)) for room in rooms for p, f in ROOMS[room][1]}:
-        subprocess.run(["ninja", "-C", build, "-j", "1", f"test-{program}"], check=True, capture_output=True)
-        for words in filters[:1] if fast else filters:
+    for name, filters in {(p, tuple(f)) for room in rooms for p, f in ROOMS[room][1]}:
+        build.make(name)
+        for words in filters[:FAST] if fast else filters:
             start = time.monotonic()
-            ended = subprocess.run([f"{build}/tests/test-{program}", "--gtest_brief=1", f"--gtest_filter={words}"], capture_output=True, text=True, errors="replace", check=False)
-            if ended.returncode != 0:
-                sys.exit(f"test-{program} fails as it is ({ended.returncode}):\n{ended.stdout[-2000:]}{ended.stderr[-2000:]}")
-            seconds[program, words] = time.monotonic() - start
+            if seen := run_tests(name, build.original(name), words, None):
+                sys.exit(f"the tests of {name} fail as they are: {seen}")
+            seconds[name, words] = time.monotonic() - start
     return seconds
 
 
-def show(mutant, verdict, text):
-    old, new = text.split("\n")[mutant.number], mutant.line
+def show(mutant, verdict):
+    old, new = mutant.path.read_text().split("\n")[mutant.number], mutant.line
     print(f"{'SURVIVED' if verdict == 'survived' else 'seen':8} {mutant}{'' if verdict == 'survived' else '  by ' + verdict}\n    - {old.strip()}\n    + {new.strip()}", flush=True)
 
 
@@ -194,26 +254,24 @@ def main():
     print(f"seed {asked.seed}: {count} of {len(every)} mutants in {', '.join(rooms)}", flush=True)
     if asked.list:
         return print("\n".join(str(m) for m in (every if not asked.at else chosen)))
-    limits = unchanged_tests(rooms, asked.build, asked.fast)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
+    with tempfile.TemporaryDirectory(prefix="mutants-", dir=asked.build) as work:
+        return run(asked, rooms, chosen, count, Build(asked.build, work))
+
+
+def run(asked, rooms, chosen, count, build):
+    limits = unchanged_tests(rooms, build, asked.fast)
     score, invalid = {room: [0, 0] for room in rooms}, 0
     for mutant in chosen:
         if sum(total for _, total in score.values()) == count:
             break
-        text = mutant.path.read_text()
-        lines = text.split("\n")
-        lines[mutant.number] = mutant.line
-        try:
-            mutant.path.write_text(QUIET + "\n".join(lines))
-            verdict = seen_by(mutant, asked.build, limits, asked.fast)
-        finally:
-            mutant.path.write_text(text)
+        verdict = seen_by(mutant, build, limits, asked.fast)
         if verdict == "invalid":
             invalid += 1
             continue
         score[mutant.room][0] += verdict != "survived"
         score[mutant.room][1] += 1
-        show(mutant, verdict, text)
+        show(mutant, verdict)
     for room, (seen, total) in score.items():
         print(f"{room}: {seen} of {total} seen")
     seen, total = (sum(s[k] for s in score.values()) for k in (0, 1))
