@@ -76,7 +76,7 @@ std::optional<Outcome> finished_run(const RunRequest& request, const std::string
     end.how = ProcessEnd::How::exited, end.code = record.at("code");
     end.cpu_s = record.at("cpu_s"), end.wall_s = record.at("wall_s"), end.peak_bytes = record.at("peak_bytes");
     Outcome outcome = read_back(request, end);
-    if (outcome.status != record.at("status")) return {};
+    if (outcome.status != record.at("status").get<std::string>()) return {};
     outcome.cost.instructions = record.at("instructions"), outcome.cost.counted_by = record.at("counted_by");
     outcome.kept = true;
     return outcome;
