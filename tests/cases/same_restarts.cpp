@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Whether cases that are cut and go on have the bits of one unbroken run: cut at the first steps, at steps in which particles melt, freeze,
 /// join, part, tear or flow in, and between; gone on with on 1, 2 and 3 threads, and from the cut of a cut.
-///   same-restarts [--budget PARTICLE-STEPS] CASE.toml...
+///   same-restarts [--budget PARTICLE-STEPS] [--every-step N] CASE.toml...
+/// --every-step N: cut after every step from 1 to N, and after every one of N steps about the first of each kind of change; a row a state says how many
+/// cuts lie in a step that melts, freezes, changes bodies, changes bonds, lets particles flow in or meets an event.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
@@ -45,8 +48,17 @@ struct State {
   InitialState initial;
 };
 
+constexpr std::array kinds{"melts", "freezes", "bodies", "bonds", "inflow", "events"};  ///< of changes within a step
+
+/// Steps in which something changed: of any kind, and of each.
+struct Turns {
+  std::vector<long> any;
+  std::array<std::vector<long>, kinds.size()> of;
+};
+
 struct Counts {
-  long states = 0, cuts = 0, turns = 0, restarts = 0;
+  long states = 0, cuts = 0, turns = 0, restarts = 0, every_step = 0;
+  std::array<long, kinds.size()> of{};
 };
 
 /// Steps to the next output, to the one after it and so on, as a run does, until go_on says no.
@@ -62,25 +74,51 @@ void go(Simulation& s, const Scene& scene, const std::function<bool()>& go_on) {
   }
 }
 
+/// Which kinds of change the last step brought, between `before` [s] and now.
+std::array<bool, kinds.size()> changes_of(const World& world, const Scene& scene, double before) {
+  const Change& change = world.change;
+  const bool meets_event = std::ranges::any_of(scene.events, [&](const Event& e) { return before < e.time && e.time <= world.time; });
+  return {!change.melted.empty(), !change.frozen.empty(), !change.bodies.empty(), !change.relisted.empty(), !change.born.empty(), meets_event};
+}
+
 /// Steps of an unbroken run in which something changed, and how many it had.
-std::vector<long> turns_of(const State& state, long most, long& steps) {
-  std::vector<long> turns;
+Turns turns_of(const State& state, long most, long& steps) {
+  Turns turns;
   Simulation s(state.scene, state.initial, {.force_time_step = true});
+  double before = s.world().time;
   go(s, state.scene, [&] {
-    if (!s.world().change.empty()) turns.push_back(s.steps());
+    if (!s.world().change.empty()) turns.any.push_back(s.steps());
+    const auto changes = changes_of(s.world(), state.scene, before);
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      if (changes[k]) turns.of[k].push_back(s.steps());
+    before = s.world().time;
     return s.steps() < most;
   });
   steps = s.steps();
   return turns;
 }
 
-std::set<long> cuts_of(const std::vector<long>& turns, long steps, Counts& counts) {
-  std::set<long> cuts{1, 2, 3, steps / 3, steps / 2, 2 * steps / 3};
-  const std::size_t some = std::min(turns.size(), most_turns);
-  for (std::size_t k = 0; k < some; ++k) cuts.insert(turns[k * turns.size() / some]);
-  std::erase_if(cuts, [&](long at) { return at < 1 || at + goes_on > steps; });
-  counts.turns += std::ranges::count_if(cuts, [&](long at) { return std::ranges::binary_search(turns, at); });
+/// Steps from 1 to n, and n about the first change of each kind.
+std::set<long> every_step(const Turns& turns, long n) {
+  std::set<long> cuts;
+  for (long at = 1; at <= n; ++at) cuts.insert(at);
+  for (const std::vector<long>& some : turns.of)
+    for (long at = 0; at < n && !some.empty(); ++at) cuts.insert(some.front() - n / 2 + at);
   return cuts;
+}
+
+std::set<long> cuts_of(const Turns& turns, long steps, Counts& counts) {
+  std::set<long> cuts{1, 2, 3, steps / 3, steps / 2, 2 * steps / 3};
+  const std::size_t some = std::min(turns.any.size(), most_turns);
+  for (std::size_t k = 0; k < some; ++k) cuts.insert(turns.any[k * turns.any.size() / some]);
+  if (counts.every_step > 0) cuts = every_step(turns, counts.every_step);
+  std::erase_if(cuts, [&](long at) { return at < 1 || at + goes_on > steps; });
+  return cuts;
+}
+
+/// How many cuts lie in such steps.
+long inside(const std::set<long>& cuts, const std::vector<long>& turns) {
+  return std::ranges::count_if(cuts, [&](long at) { return std::ranges::binary_search(turns, at); });
 }
 
 /// The state so many steps after a cut. @param halfway cut once more on the way
@@ -96,7 +134,7 @@ Checkpoint after(const State& state, const Checkpoint& cut, int threads, bool ha
 /// @return whether all restarts agree
 bool agrees(const std::string& name, const State& state, long most, Counts& counts) {
   long steps = 0;
-  const std::vector<long> turns = turns_of(state, most, steps);
+  const Turns turns = turns_of(state, most, steps);
   const std::set<long> cuts = cuts_of(turns, steps, counts);
   std::map<long, Checkpoint> at;
   Simulation unbroken(state.scene, state.initial, {.force_time_step = true});
@@ -118,7 +156,15 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
     }
   }
   counts.cuts += static_cast<long>(cuts.size());
+  counts.turns += inside(cuts, turns.any);
   ++counts.states;
+  if (counts.every_step > 0) fmt::print("{:44} {:6} {:6}", name, steps, cuts.size());
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    const long within = inside(cuts, turns.of[k]);
+    counts.of[k] += within;
+    if (counts.every_step > 0) fmt::print("{:>8}", within);
+  }
+  if (counts.every_step > 0) fmt::print("   equal\n"), std::fflush(stdout);
   return true;
 }
 
@@ -153,11 +199,19 @@ int main(int argc, char** argv) {
         budget = std::atof(argv[++i]);
         continue;
       }
+      if (std::string_view(argv[i]) == "--every-step" && i + 1 < argc) {
+        counts.every_step = std::max(1L, std::atol(argv[++i]));
+        fmt::print("{:44} {:>6} {:>6}", "cuts in a step that", "steps", "cuts");
+        for (const char* kind : kinds) fmt::print("{:>8}", kind);
+        fmt::print("\n");
+        continue;
+      }
       for (const Mode mode : read_case(argv[i]).value.modes) all = agrees(argv[i], mode, budget, counts) && all;
     }
   } catch (const std::exception& e) {
     return fmt::print(stderr, "same-restarts: {}\n", e.what()), 2;
   }
+  for (std::size_t k = 0; k < kinds.size() && counts.every_step > 0; ++k) fmt::print("{} cuts: {}\n", kinds[k], counts.of[k]);
   fmt::print("{} states, {} cuts, {} of them at a change, {} restarts\n", counts.states, counts.cuts, counts.turns, counts.restarts);
   return all && counts.states > 0 ? 0 : 1;
 }
