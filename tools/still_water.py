@@ -199,8 +199,7 @@ def page(args):
           "0.2 m, the other follows from the ratio; \"across\" counts particles along the short side. The layer is 6 particles thick and periodic. Everything else is a default;\nsettled cells have `scene.settle = true` ([decision 13](decisions/013-a-settled-start.md)). Cells whose cost was above the budget ran shorter, or not at all.\n\n"
           "Without viscosity no wall can hold water back, whatever its slip: such a pair of cells is one run (measured: every bit equal).\n\n"
           "A cell of the columns by time holds the greatest rms speed of any frame of that window, and the greatest speed of any particle in it, both over sqrt(g H). Energies are over\n"
-          "rho g H V: the most that fixed walls did, and what finite steps had made at the end. The first two tables are of before [decision 19](decisions/019-a-surface-bears-half-a-layer.md),\n"
-          "the third of since: every cell that was run twice since then had the same bits.")
+          "rho g H V: the most that fixed walls did, and what finite steps had made at the end.")
     for folder in args.out:
         rows = rows_of(folder)
         title = Path(folder).stem.replace("-", " ")

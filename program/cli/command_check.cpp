@@ -6,6 +6,7 @@
 
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "program/cli/start_notes.hpp"
 #include "effects/plan.hpp"
 #include "scene/idle_keys.hpp"
 #include "scene/read_case.hpp"
@@ -36,6 +37,7 @@ int check(const std::string& file, const std::vector<std::string>& set) {
   for (auto& f : trial(reading.value)) findings.push_back(std::move(f));
   long errors = 0;
   for (const auto& f : library_values(reading)) say("note: " + with_place(f));
+  for (const auto& f : start_notes(scene, state)) say("note: " + with_place(f));
   for (const auto& f : findings) {
     errors += f.error ? 1 : 0;
     say((f.error ? "error: " : "warning: ") + with_place(f));

@@ -13,6 +13,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/run_progress.hpp"
+#include "program/cli/start_notes.hpp"
 #include "core/errors.hpp"
 #include "scene/idle_keys.hpp"
 #include "scene/units.hpp"
@@ -147,6 +148,7 @@ void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std:
 /// What `check` would say of the particles and metrics: a run of its own is not refused for it, but not silent either.
 void say_findings(const CaseReading& reading, const Scene& scene, const InitialState& initial, const Job& job) {
   for (const auto& f : library_values(reading)) say("note: " + with_place(f));
+  for (const auto& f : start_notes(scene, initial)) say("note: " + with_place(f));
   auto findings = preflight(reading.value, scene, initial);
   for (auto& f : idle_keys(reading, scene, initial)) findings.push_back(std::move(f));
   for (auto& f : try_metrics(reading.value, job, initial)) findings.push_back(std::move(f));

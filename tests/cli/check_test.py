@@ -78,6 +78,23 @@ class Check(unittest.TestCase):
             done = call("check", scene("end_time = 1.0") + STONE + CUBE + '[reference]\nfunction = "ballistic"\n' + metric("velocity"), folder)
             self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
 
+    def test_it_says_that_still_liquid_on_a_lattice_will_stir(self):
+        tank = body("floor", "stone", [0.0, 0.0, -0.3], [0.6, 0.6, 0.0], 'motion = "fixed"')
+        domain = 'end_time = 0.1\nmin = [0.0, 0.0, -0.5]\nmax = [0.6, 0.6, 2.0]\nperiodic = ["x", "y"]\ngravity = [0.0, 0.0, -9.81]\n'
+        thin, thick = ('[[material]]\nname = "oil"\ndensity = 900.0\nviscosity = ' + mu for mu in ("1e-3\n", "50.0\n"))
+        pool, stream = (body("pool", "oil", [0.0, 0.0, 0.0], [0.6, 0.6, 0.6], how) for how in ("", "velocity = [1.0, 0.0, 0.0]"))
+        block = body("block", "stone", [0.0, 0.0, 1.0], [0.4, 0.4, 1.4])
+        told = {"still": (True, scene(domain) + thin + STONE + pool + tank), "settled": (False, scene(domain + "settle = true") + thin + STONE + pool + tank),
+                "held back": (False, scene(domain) + thick + STONE + pool + tank), "moves": (False, scene(domain) + thin + STONE + stream + tank),
+                "with a free block": (False, scene(domain) + thin + STONE + pool + tank + block), "weightless": (False, scene(domain.replace("-9.81", "0.0")) + thin + "stiffness = 200.0\n" + STONE + pool + tank),
+                "along a channel": (False, scene(domain.replace("[0.0, 0.0, -9.81]", "[9.81, 0.0, 0.0]")) + thin + STONE + pool + tank)}
+        for name, (wanted, text) in told.items():
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                done = call("check", text, folder)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                self.assertEqual("some 0.07 m/s rms" in done.stderr and "scene.settle = true" in done.stderr, wanted, done.stderr)
+                self.assertEqual("lattice" in done.stderr, wanted, done.stderr)
+
     def test_it_leaves_nothing_behind(self):
         with tempfile.TemporaryDirectory() as folder:
             before = {p.name for p in Path(tempfile.gettempdir()).glob("tripoint-check-*")}

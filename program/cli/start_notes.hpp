@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+#include "scene/read_case.hpp"
+
+namespace tripoint {
+
+/// One note where liquid that lies still above fixed solids will stir when it is let go: it starts as a lattice, which is no equilibrium, and moves
+/// at 0.03 to 0.06 sqrt(g H) rms for seconds (docs/still-water.md) unless its viscosity holds that back. None where the scene says `settle`, or
+/// holds a free solid, with which it cannot settle.
+/// @param state of the scene's particles at the start
+[[nodiscard]] std::vector<Finding> start_notes(const Scene&, const InitialState& state);
+
+}  // namespace tripoint
