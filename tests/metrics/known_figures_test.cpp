@@ -165,11 +165,11 @@ double of_series(const Still& f, const std::string& norm, const std::string& at 
 }
 
 TEST(KnownFigures, OfEachNormInTime) {
-  const auto f = counted({1, 2, -4, 2, 1});
+  const auto f = counted({3, 2, -4, 2, 1});
   EXPECT_NEAR(of_series(f, "final"), 1.0, 1e-12);
   EXPECT_NEAR(of_series(f, "max"), 4.0, 1e-12);
-  EXPECT_NEAR(of_series(f, "mean"), 0.25, 1e-12);  // trapezia of (1 + 2)/2, (2 - 4)/2, (-4 + 2)/2 and (2 + 1)/2, over 4
-  EXPECT_NEAR(of_series(f, "rms"), 2.5, 1e-12);    // trapezia of the squares: (5 + 20 + 20 + 5)/2/4 = 6.25
+  EXPECT_NEAR(of_series(f, "mean"), 0.5, 1e-12);  // trapezia of (3 + 2)/2, (2 - 4)/2, (-4 + 2)/2 and (2 + 1)/2, over 4
+  EXPECT_NEAR(of_series(f, "rms"), std::sqrt(7.25), 1e-12);  // trapezia of the squares: (13 + 20 + 20 + 5)/2/4
   EXPECT_NEAR(of_series(f, "mean", "", {0.25, 0.75}), -1.0, 1e-12);
   EXPECT_NEAR(of_series(f, "max", "", {0.75, 1.0}), 2.0, 1e-12);
   EXPECT_NEAR(of_series(counted({1, 2, 3, 4, 5}), "slope"), 4.0, 1e-12);
