@@ -123,6 +123,25 @@ TEST(NeverFailsGate, Way26ACaseThatIsDeletedOrTakenOffItsProfileIsGone) {
   EXPECT_TRUE(lost_case_remarks(other).empty());
 }
 
+TEST(NeverFailsGate, OnlyAWholeRunOfAProfileOwesAllItsCases) {
+  Accepted suite;
+  auto whole = suite.r;
+  write_text(suite.folder / "cases/test/second.toml", flight_case());
+  whole.cases[0].file = suite.folder / "cases/test/second.toml", whole.cases[0].id = "test/second";
+  whole.filter_known = true, whole.profile = "commit", whole.what.clear(), whole.tag.clear(), whole.shard.clear();
+  EXPECT_TRUE(says(lost_case_remarks(whole), "the results of that profile do not hold it", "GONE"));
+  const auto none = [](Results r, auto change) {
+    change(r);
+    return lost_case_remarks(r).empty();
+  };
+  EXPECT_TRUE(none(whole, [](Results& r) { r.filter_known = false; }));
+  EXPECT_TRUE(none(whole, [](Results& r) { r.what = {"cases/test"}; }));
+  EXPECT_TRUE(none(whole, [](Results& r) { r.tag = "table1"; }));
+  EXPECT_TRUE(none(whole, [](Results& r) { r.shard = "1/2"; }));
+  EXPECT_TRUE(none(whole, [](Results& r) { r.profile.clear(); }));
+  EXPECT_TRUE(none(whole, [](Results& r) { r.profile = "nightly"; }));
+}
+
 TEST(NeverFailsGate, Way27AnotherCopyOfTheBaselinesJudgesAChangeThatBringsItsOwn) {
   Accepted suite;
   std::filesystem::copy(suite.folder / "baselines", suite.folder / "theirs", std::filesystem::copy_options::recursive);

@@ -118,6 +118,21 @@ TEST(Audit, LetsWhatItsOwnExactSolutionSaysComeBack) {
   EXPECT_EQ(t.sound(), "") << "there and back between two frames";
 }
 
+TEST(Audit, LetsTwoKeyframesHoldABodyStill) {
+  auto s = spinning(1.0);
+  s.job.bodies[0].motion = s.job.scene.bodies[0].motion = Motion::prescribed;
+  s.job.bodies[0].angular_velocity = {};
+  s.job.bodies[0].keyframes = {{0.0, {}, {}}, {2.0, {}, {}}};
+  s.job.scene.bodies[0].keyframes = s.job.bodies[0].keyframes;
+  for (auto& v : s.initial.velocity) v = {};
+  set_times(s, 2.0, 2);
+  Trial still(s, "keyframes");
+  EXPECT_EQ(still.sound(), "");
+  auto& keyframes = still.s.job.bodies[0].keyframes;
+  keyframes = {{0.0, {}, {}}, {2.0, {1.0, 0.0, 0.0}, {}}};
+  EXPECT_NE(still.sound().find("nothing has moved by the end"), std::string::npos);
+}
+
 /// A hot and a cold block, apart by a gap of whole spacings.
 Prepared hot_and_cold(int gap) {
   auto s = bar({4, 4, 4}, 0.1, [](const Vec3&) { return 400.0; }, 1000.0, 2, false);
