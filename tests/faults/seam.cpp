@@ -68,6 +68,8 @@ struct Unsynced {
   off_t at = 0, size = 0;      ///< where bytes were written; size of the file before
   std::string bytes;           ///< that were there
   bool existed = false;        ///< what a renamed file replaced
+  long rename = 0;             ///< number of this change, where it is a rename
+  std::vector<std::pair<long, std::string>> former;  ///< renames that moved the file since, each with the name that it had before
 };
 
 constexpr const char* sticky_word = "+sticky";
@@ -109,6 +111,7 @@ struct Plan {
   bool jumps = false;  ///< the date does
   long calls = 0;
   std::vector<Unsynced> unsynced;
+  long renames = 0;
   std::recursive_mutex mutex;
 };
 
@@ -170,16 +173,28 @@ void undo(const Unsynced& u) {
   syscall(SYS_close, f);
 }
 
+/// What a rename that is undone had moved has its former name again: else the making of a file that took another's place would be undone on that other one.
+void call_as_before(long rename) {
+  for (Unsynced& u : plan().unsynced) {
+    if (u.former.empty() || u.former.back().first != rename) continue;
+    u.path = u.former.back().second;
+    u.former.pop_back();
+  }
+}
+
 /// The power goes: of what was not durable a beginning is left.
 void lose() {
   auto& all = plan().unsynced;
   const size_t kept = all.empty() ? 0 : static_cast<size_t>(plan().seed * 2654435761UL % (all.size() + 1));
-  for (size_t n = all.size(); n > kept; --n) undo(all[n - 1]);
+  for (size_t n = all.size(); n > kept; --n) {
+    undo(all[n - 1]);
+    if (all[n - 1].what == Unsynced::What::renamed) call_as_before(all[n - 1].rename);
+  }
 }
 
 void remember_bytes(const std::string& path, off_t at, size_t count) {
   if (!plan().loses) return;
-  plan().unsynced.push_back({Unsynced::What::bytes, path, "", at, size_of(path), bytes_at(path, at, count), true});
+  plan().unsynced.push_back({Unsynced::What::bytes, path, "", at, size_of(path), bytes_at(path, at, count), true, 0, {}});
 }
 
 /// After an fsync of a file its bytes are durable, after that of a folder the names in it.
@@ -253,7 +268,7 @@ int open_by(const char* path, int flags, Call call) {
     const bool counts = plan().loses && name.rfind(plan().folder, 0) == 0;
     if (counts && size >= 0 && (flags & O_TRUNC)) remember_bytes(name, 0, static_cast<size_t>(size));
     const int fd = call();
-    if (counts && size < 0 && fd >= 0) plan().unsynced.push_back({Unsynced::What::made, name, "", 0, 0, "", false});
+    if (counts && size < 0 && fd >= 0) plan().unsynced.push_back({Unsynced::What::made, name, "", 0, 0, "", false, 0, {}});
     return fd;
   });
 }
@@ -383,11 +398,14 @@ int rename(const char* from, const char* to) {
   const std::string old_name = absolute(from), name = absolute(to);
   return whole("rename", name, [&] {
     const off_t size = size_of(name);
-    Unsynced u{Unsynced::What::renamed, name, old_name, 0, size, plan().loses && size > 0 ? bytes_at(name, 0, static_cast<size_t>(size)) : "", size >= 0};
+    Unsynced u{Unsynced::What::renamed, name, old_name, 0, size, plan().loses && size > 0 ? bytes_at(name, 0, static_cast<size_t>(size)) : "", size >= 0, ++plan().renames, {}};
     const int result = next(from, to);
     if (!plan().loses || result != 0) return result;
-    for (Unsynced& earlier : plan().unsynced)
-      if (earlier.path == old_name) earlier.path = name;
+    for (Unsynced& earlier : plan().unsynced) {
+      if (earlier.path != old_name) continue;
+      earlier.former.emplace_back(u.rename, old_name);
+      earlier.path = name;
+    }
     plan().unsynced.push_back(std::move(u));
     return result;
   });
