@@ -23,6 +23,7 @@ cmake --build --preset fuzz --target "${targets[@]/#/fuzz-}" >/dev/null
 
 # The leaks that would be found are those of libraries at their end. What asks for too much memory gets an exception in a build without sanitizers.
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1
+[[ -d /dev/shm ]] && export TMPDIR=${TMPDIR:-/dev/shm} # inputs that are read as files: a disk would hold the targets up
 mkdir -p build-fuzz/found
 status=0
 TIMEFORMAT='%U %S'
