@@ -13,15 +13,17 @@ constexpr double on_lattice = 1e-6;
 
 constexpr double max_cells = 1e8;
 
+/// Spacings from the lattice's origin. Beyond it round-off is more than on_lattice, and further out an index no whole number of 64 bits.
+constexpr double farthest = 1e9;
+
 struct Span {
-  double origin = 0.0;
-  long first = 0, count = 0;
+  double origin = 0.0, first = 0.0, count = 0.0;  ///< first and count are whole numbers
 };
 
 /// Cells of a lattice through `origin` whose centres lie between low and high.
 Span cells_between(double origin, double low, double high, double dx) {
   const double first = std::ceil((low - origin) / dx - 0.5 - on_lattice), last = std::floor((high - origin) / dx - 0.5 + on_lattice);
-  return {origin, static_cast<long>(first), static_cast<long>(std::max(0.0, last - first + 1.0))};
+  return {origin, first, std::max(0.0, last - first + 1.0)};
 }
 
 Span along(const Scene& s, const Body& b, const Bounds& box, std::size_t a) {
@@ -58,7 +60,9 @@ Lattice lattice_of(const Scene& s, const Body& b) {
     cells *= std::max(0.0, (box.max[a] - box.min[a]) / s.spacing + 2.0);
     if (!(cells <= max_cells)) throw InputError(b.place, fmt::format("body \"{}\" spans more than {:.0e} cells of spacing {} m: coarsen scene.spacing", b.name, max_cells, s.spacing));
     const Span span = along(s, b, box, a);
-    lattice.origin[a] = span.origin, lattice.first[a] = span.first, lattice.count[a] = span.count;
+    if (!(std::abs(span.first) <= farthest))
+      throw InputError(b.place, fmt::format("body \"{}\" lies {:.2g} spacings from {} = {} m, where a number cannot tell one particle's place from the next: move it nearer", b.name, std::abs(span.first), "xyz"[a], span.origin));
+    lattice.origin[a] = span.origin, lattice.first[a] = static_cast<long>(span.first), lattice.count[a] = static_cast<long>(span.count);
   }
   return lattice;
 }
