@@ -28,6 +28,20 @@ TEST(Sample, FillsABoxWithParticlesHalfASpacingInside) {
   }
 }
 
+TEST(Sample, LaysNothingWhereRoundOffIsMoreThanThePlaceOfAParticle) {
+  const auto at = [](const std::string& x, const std::string& scene = "") {
+    try {
+      return std::to_string(sample(scene_of("shape={kind='box',min=[" + x + ",0,0],max=[" + x + ".4,0.3,0.2]}", scene)).size());
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+  };
+  EXPECT_EQ(at("90000000"), "24");  // 9e8 spacings
+  EXPECT_NE(at("110000000").find("1.1e+09 spacings from x = 0 m, where a number cannot tell"), std::string::npos) << at("110000000");
+  const auto wide = at("0", "min=[-1e20,0,0]\nmax=[0.5,1,1]\nperiodic=['x']");
+  EXPECT_NE(wide.find("1e+21 spacings from x = -1e+20 m"), std::string::npos) << wide;
+}
+
 TEST(Sample, GivesEachParticleTheMassOfItsCell) {
   const auto s = sample(scene_of("shape={kind='box',min=[0,0,0],max=[0.4,0.3,0.2]}"));
   double mass = 0.0;
