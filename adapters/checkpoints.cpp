@@ -35,12 +35,15 @@ const Values& take(const std::map<std::string, Values>& arrays, const std::strin
   return at->second;
 }
 
-/// Times up to the one that the run was on its way to must be times of this job, or its steps would not be those of the whole run.
+/// Times up to the one that the run was on its way to must be times of this job, or its steps would not be those of the whole
+/// run.
 void expect_times(const Job& job, const std::vector<double>& times) {
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (k < job.times.size() && job.times[k] == times[k]) continue;
-    throw InputError(fmt::format("{}: its run {} t = {:.17g} s, which is no output time of this one: keep output_interval, and an end that comes no sooner",
-                                 job.resume, k + 1 < times.size() ? "showed" : "was on its way to", times[k]));
+    throw InputError(
+        fmt::format("{}: its run {} t = {:.17g} s, which is no output time of this one: keep output_interval, and an end that "
+                    "comes no sooner",
+                    job.resume, k + 1 < times.size() ? "showed" : "was on its way to", times[k]));
   }
 }
 
@@ -98,7 +101,8 @@ Checkpoint open_checkpoint(const Job& job, const std::vector<std::string>& ident
   for (std::size_t k = 0; k < identity.size(); ++k) {
     if (k < theirs.size() && theirs[k] == identity[k]) continue;
     const std::string what = identity[k].substr(0, identity[k].find(' '));
-    throw InputError(fmt::format("{}: is of another {}: it holds \"{}\", this run is \"{}\"", job.resume, what, k < theirs.size() ? theirs[k] : "", identity[k]));
+    throw InputError(fmt::format("{}: is of another {}: it holds \"{}\", this run is \"{}\"", job.resume, what,
+                                 k < theirs.size() ? theirs[k] : "", identity[k]));
   }
   expect_times(job, take(kept.real, "run/times", job.resume));
   return kept;
@@ -115,7 +119,8 @@ std::vector<Snapshot> earlier_frames(const Job& job, const Checkpoint& kept) {
     hash.add(frame);
   }
   if (frames.size() == wanted && hash.text() == take(kept.text, "run/frames_hash", job.resume)[0]) return frames;
-  throw InputError(path + ": does not hold the " + std::to_string(wanted) + " frames that were written before the checkpoint; keep both in one folder");
+  throw InputError(path + ": does not hold the " + std::to_string(wanted) +
+                   " frames that were written before the checkpoint; keep both in one folder");
 }
 
 }  // namespace tripoint

@@ -48,8 +48,8 @@ class Checkpoints {
   std::deque<std::string> kept_;
 };
 
-/// Reads the checkpoint that the job resumes from. @throws InputError: torn, of another scene, of another build, or on its way to a
-/// time that is no output time of this job
+/// Reads the checkpoint that the job resumes from. @throws InputError: torn, of another scene, of another build, or on its way to
+/// a time that is no output time of this job
 [[nodiscard]] Checkpoint open_checkpoint(const Job&, const std::vector<std::string>& identity);
 
 /// The frames that the cut run had written, from trajectory.h5 beside the checkpoint.

@@ -29,16 +29,19 @@ json parse(const std::string& path) {
 }
 
 json reference_json(const ReferenceChoice& r) {
-  return {{"kind", r.kind}, {"function", r.function}, {"file", r.file}, {"source", r.source}, {"args", to_json(r.args)}, {"uncertainty", r.uncertainty}};
+  return {{"kind", r.kind},     {"function", r.function},  {"file", r.file},
+          {"source", r.source}, {"args", to_json(r.args)}, {"uncertainty", r.uncertainty}};
 }
 
 ReferenceChoice reference_from(const JsonObject& o) {
-  return {o.text_or("kind", "analytic"), o.text_or("function", ""), o.text_or("file", ""), o.text_or("source", ""), o.settings("args"), o.number_or("uncertainty", 0.0)};
+  return {o.text_or("kind", "analytic"), o.text_or("function", ""), o.text_or("file", ""),
+          o.text_or("source", ""),       o.settings("args"),        o.number_or("uncertainty", 0.0)};
 }
 
 json gauges_json(const std::vector<JobGauge>& gauges) {
   json list = json::array();
-  for (const JobGauge& g : gauges) list.push_back({{"metric", g.metric}, {"quantity", g.quantity}, {"body", g.body}, {"where", to_json(g.where)}});
+  for (const JobGauge& g : gauges)
+    list.push_back({{"metric", g.metric}, {"quantity", g.quantity}, {"body", g.body}, {"where", to_json(g.where)}});
   return list;
 }
 
@@ -52,7 +55,14 @@ std::string below(const std::string& folder, const std::string& path) {
 }
 
 Divergence divergence_from(const JsonObject& o) {
-  return {whole_number<long>(o.number_or("particle", -1)), whole_number<long>(o.number_or("body", -1)), o.text_or("field", ""), o.text_or("stage", ""), o.number_or("time", 0.0), o.text_or("guard", ""), o.text_or("file", ""), o.text_or("checkpoint", "")};
+  return {whole_number<long>(o.number_or("particle", -1)),
+          whole_number<long>(o.number_or("body", -1)),
+          o.text_or("field", ""),
+          o.text_or("stage", ""),
+          o.number_or("time", 0.0),
+          o.text_or("guard", ""),
+          o.text_or("file", ""),
+          o.text_or("checkpoint", "")};
 }
 
 Readback readback_from(const JsonObject& o) {
@@ -61,7 +71,8 @@ Readback readback_from(const JsonObject& o) {
   r.time_step = o.number_or("time_step", 0.0);
   r.precision = o.text_or("precision", "double");
   for (const JsonObject& b : o.objects("bodies"))
-    r.bodies.push_back({b.text("name"), b.number("mass"), b.vector("centre"), b.vector("principal_inertia"), b.number_or("friction", not_a_number), b.number_or("restitution", not_a_number),
+    r.bodies.push_back({b.text("name"), b.number("mass"), b.vector("centre"), b.vector("principal_inertia"),
+                        b.number_or("friction", not_a_number), b.number_or("restitution", not_a_number),
                         b.number_or("linear_damping", 0.0), b.number_or("angular_damping", 0.0)});
   return r;
 }
@@ -69,8 +80,14 @@ Readback readback_from(const JsonObject& o) {
 json to_json(const Readback& r) {
   json bodies = json::array();
   for (const ReadbackBody& b : r.bodies)
-    bodies.push_back({{"name", b.name}, {"mass", b.mass}, {"centre", tripoint::to_json(b.centre)}, {"principal_inertia", tripoint::to_json(b.principal_inertia)}, {"friction", b.friction},
-                      {"restitution", b.restitution}, {"linear_damping", b.linear_damping}, {"angular_damping", b.angular_damping}});
+    bodies.push_back({{"name", b.name},
+                      {"mass", b.mass},
+                      {"centre", tripoint::to_json(b.centre)},
+                      {"principal_inertia", tripoint::to_json(b.principal_inertia)},
+                      {"friction", b.friction},
+                      {"restitution", b.restitution},
+                      {"linear_damping", b.linear_damping},
+                      {"angular_damping", b.angular_damping}});
   return {{"gravity", tripoint::to_json(r.gravity)}, {"time_step", r.time_step}, {"precision", r.precision}, {"bodies", bodies}};
 }
 
@@ -87,7 +104,8 @@ Job read_job(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   job.particles = below(folder, o.text("particles"));
   const JsonObject r = o.object("resolution");
-  job.resolution = {r.number("spacing"), r.number("support_ratio"), r.maybe_number("time_step"), r.maybe_number("walkers"), r.maybe_number("iterations")};
+  job.resolution = {r.number("spacing"), r.number("support_ratio"), r.maybe_number("time_step"), r.maybe_number("walkers"),
+                    r.maybe_number("iterations")};
   job.preset = o.text_or("preset", "default");
   job.settings = o.settings("settings");
   if (o.has("reference")) job.reference = reference_from(o.object("reference"));
@@ -95,7 +113,8 @@ Job read_job(const std::string& path) {
   job.threads = whole_number<int>(o.number_or("threads", 1));
   job.ranks = whole_number<int>(o.number_or("ranks", 1));
   if (o.has("gauges"))
-    for (const JsonObject& g : o.objects("gauges")) job.gauges.push_back({g.text("metric"), g.text("quantity"), g.text_or("body", ""), g.settings("where")});
+    for (const JsonObject& g : o.objects("gauges"))
+      job.gauges.push_back({g.text("metric"), g.text("quantity"), g.text_or("body", ""), g.settings("where")});
   job.times = o.numbers("times");
   if (job.times.empty()) throw InputError(path + ": times is empty");
   for (std::size_t k = 1; k < job.times.size(); ++k)
@@ -111,8 +130,11 @@ std::string job_text(const Job& job) {
                    {"scene", scene_to_json(job.scene, job.bodies)},
                    {"particles", job.particles},
                    {"resolution",
-                    {{"spacing", job.resolution.spacing}, {"support_ratio", job.resolution.support_ratio}, {"time_step", maybe(job.resolution.time_step)},
-                     {"walkers", maybe(job.resolution.walkers)}, {"iterations", maybe(job.resolution.iterations)}}},
+                    {{"spacing", job.resolution.spacing},
+                     {"support_ratio", job.resolution.support_ratio},
+                     {"time_step", maybe(job.resolution.time_step)},
+                     {"walkers", maybe(job.resolution.walkers)},
+                     {"iterations", maybe(job.resolution.iterations)}}},
                    {"preset", job.preset},
                    {"settings", to_json(job.settings)},
                    {"reference", reference_json(job.reference)},
@@ -143,7 +165,8 @@ Result read_result(const std::string& path) {
   r.message = o.text_or("message", "");
   r.time_reached = o.number_or("time_reached", 0.0);
   r.steps = whole_number<long>(o.number_or("steps", 0.0));
-  if (o.has("counters")) r.pairs = o.object("counters").number_or("pairs", 0.0), r.iterations = o.object("counters").number_or("iterations", 0.0);
+  if (o.has("counters"))
+    r.pairs = o.object("counters").number_or("pairs", 0.0), r.iterations = o.object("counters").number_or("iterations", 0.0);
   if (o.has("seconds")) {
     const JsonObject s = o.object("seconds");
     r.setup_wall = s.number_or("setup_wall", 0.0), r.setup_cpu = s.number_or("setup_cpu", 0.0);
@@ -165,15 +188,21 @@ void write_result(const std::string& path, const Result& r) {
              {"time_reached", r.time_reached},
              {"steps", r.steps},
              {"counters", {{"pairs", r.pairs}, {"iterations", r.iterations}}},
-             {"seconds", {{"setup_wall", r.setup_wall}, {"setup_cpu", r.setup_cpu}, {"stepping_wall", r.stepping_wall}, {"stepping_cpu", r.stepping_cpu}}},
+             {"seconds",
+              {{"setup_wall", r.setup_wall},
+               {"setup_cpu", r.setup_cpu},
+               {"stepping_wall", r.stepping_wall},
+               {"stepping_cpu", r.stepping_cpu}}},
              {"state_hash", r.state_hash},
              {"time_step_bound", r.time_step_bound},
              {"readback", to_json(r.readback)},
              {"divergence", nullptr},
              {"extra", r.extra}};
   if (r.divergence)
-    value["divergence"] = {{"particle", r.divergence->particle}, {"body", r.divergence->body}, {"field", r.divergence->field}, {"stage", r.divergence->stage}, {"time", r.divergence->time},
-                           {"guard", r.divergence->guard}, {"file", r.divergence->file}, {"checkpoint", r.divergence->checkpoint}};
+    value["divergence"] = {{"particle", r.divergence->particle}, {"body", r.divergence->body},
+                           {"field", r.divergence->field},       {"stage", r.divergence->stage},
+                           {"time", r.divergence->time},         {"guard", r.divergence->guard},
+                           {"file", r.divergence->file},         {"checkpoint", r.divergence->checkpoint}};
   write_durably(path, value.dump(1));
 }
 

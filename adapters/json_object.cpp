@@ -31,7 +31,9 @@ const json& JsonObject::at(const std::string& key) const {
   return *found;
 }
 
-void JsonObject::wrong(const std::string& key, const std::string& expected) const { throw InputError(path_ + "." + key + ": expected " + expected); }
+void JsonObject::wrong(const std::string& key, const std::string& expected) const {
+  throw InputError(path_ + "." + key + ": expected " + expected);
+}
 
 double JsonObject::number(const std::string& key) const {
   const json& v = at(key);
@@ -103,11 +105,16 @@ Settings JsonObject::settings(const std::string& key) const {
   const json& all = at(key);
   if (!all.is_object()) wrong(key, "an object");
   for (const auto& [name, v] : all.items()) {
-    if (v.is_boolean()) out[name] = v.get<bool>();
-    else if (v.is_number()) out[name] = v.get<double>();
-    else if (v.is_string()) out[name] = v.get<std::string>();
-    else if (v.is_array()) out[name] = object(key).numbers(name);
-    else wrong(key + "." + name, "true or false, a number, a string or a list of numbers");
+    if (v.is_boolean())
+      out[name] = v.get<bool>();
+    else if (v.is_number())
+      out[name] = v.get<double>();
+    else if (v.is_string())
+      out[name] = v.get<std::string>();
+    else if (v.is_array())
+      out[name] = object(key).numbers(name);
+    else
+      wrong(key + "." + name, "true or false, a number, a string or a list of numbers");
   }
   return out;
 }

@@ -35,11 +35,21 @@ json maybe(const std::optional<Vec3>& v) { return v ? to_json(*v) : json(nullptr
 json to_json(const Shape& s) {
   json out{{"kind", shape_kinds[static_cast<int>(s.kind)]}};
   switch (s.kind) {
-    case Shape::Kind::box: out["min"] = to_json(s.min), out["max"] = to_json(s.max); break;
-    case Shape::Kind::sphere: out["centre"] = to_json(s.centre), out["radius"] = s.radius; break;
-    case Shape::Kind::cylinder: out["base"] = to_json(s.base), out["axis"] = to_json(s.axis), out["length"] = s.length, out["radius"] = s.radius; break;
-    case Shape::Kind::half_space: out["point"] = to_json(s.point), out["normal"] = to_json(s.normal); break;
-    case Shape::Kind::mesh: out["file"] = s.file, out["scale"] = s.scale; break;
+    case Shape::Kind::box:
+      out["min"] = to_json(s.min), out["max"] = to_json(s.max);
+      break;
+    case Shape::Kind::sphere:
+      out["centre"] = to_json(s.centre), out["radius"] = s.radius;
+      break;
+    case Shape::Kind::cylinder:
+      out["base"] = to_json(s.base), out["axis"] = to_json(s.axis), out["length"] = s.length, out["radius"] = s.radius;
+      break;
+    case Shape::Kind::half_space:
+      out["point"] = to_json(s.point), out["normal"] = to_json(s.normal);
+      break;
+    case Shape::Kind::mesh:
+      out["file"] = s.file, out["scale"] = s.scale;
+      break;
     case Shape::Kind::unite:
     case Shape::Kind::difference:
       out["of"] = json::array();
@@ -52,11 +62,21 @@ Shape shape_from(const JsonObject& o) {
   Shape s;
   s.kind = kind_from<Shape::Kind>(o, shape_kinds);
   switch (s.kind) {
-    case Shape::Kind::box: s.min = o.vector("min"), s.max = o.vector("max"); break;
-    case Shape::Kind::sphere: s.centre = o.vector("centre"), s.radius = o.number("radius"); break;
-    case Shape::Kind::cylinder: s.base = o.vector("base"), s.axis = o.vector("axis"), s.length = o.number("length"), s.radius = o.number("radius"); break;
-    case Shape::Kind::half_space: s.point = o.vector("point"), s.normal = o.vector("normal"); break;
-    case Shape::Kind::mesh: s.file = o.text("file"), s.scale = o.number("scale"); break;
+    case Shape::Kind::box:
+      s.min = o.vector("min"), s.max = o.vector("max");
+      break;
+    case Shape::Kind::sphere:
+      s.centre = o.vector("centre"), s.radius = o.number("radius");
+      break;
+    case Shape::Kind::cylinder:
+      s.base = o.vector("base"), s.axis = o.vector("axis"), s.length = o.number("length"), s.radius = o.number("radius");
+      break;
+    case Shape::Kind::half_space:
+      s.point = o.vector("point"), s.normal = o.vector("normal");
+      break;
+    case Shape::Kind::mesh:
+      s.file = o.text("file"), s.scale = o.number("scale");
+      break;
     case Shape::Kind::unite:
     case Shape::Kind::difference:
       for (const JsonObject& part : o.objects("of")) s.of.push_back(shape_from(part));
@@ -69,10 +89,17 @@ Shape shape_from(const JsonObject& o) {
 json to_json(const TemperatureField& t) {
   json out{{"kind", temperature_kinds[static_cast<int>(t.kind)]}};
   switch (t.kind) {
-    case TemperatureField::Kind::constant: out["value"] = t.value; break;
-    case TemperatureField::Kind::cosine: out["mean"] = t.mean, out["amplitude"] = t.amplitude, out["wave_vector"] = to_json(t.wave_vector), out["phase"] = t.phase; break;
-    case TemperatureField::Kind::step: out["point"] = to_json(t.point), out["normal"] = to_json(t.normal), out["behind"] = t.behind, out["ahead"] = t.ahead; break;
-    case TemperatureField::Kind::expression: out["value"] = t.expression;
+    case TemperatureField::Kind::constant:
+      out["value"] = t.value;
+      break;
+    case TemperatureField::Kind::cosine:
+      out["mean"] = t.mean, out["amplitude"] = t.amplitude, out["wave_vector"] = to_json(t.wave_vector), out["phase"] = t.phase;
+      break;
+    case TemperatureField::Kind::step:
+      out["point"] = to_json(t.point), out["normal"] = to_json(t.normal), out["behind"] = t.behind, out["ahead"] = t.ahead;
+      break;
+    case TemperatureField::Kind::expression:
+      out["value"] = t.expression;
   }
   return out;
 }
@@ -81,10 +108,18 @@ TemperatureField temperature_from(const JsonObject& o) {
   TemperatureField t;
   t.kind = kind_from<TemperatureField::Kind>(o, temperature_kinds);
   switch (t.kind) {
-    case TemperatureField::Kind::constant: t.value = o.number("value"); break;
-    case TemperatureField::Kind::cosine: t.mean = o.number("mean"), t.amplitude = o.number("amplitude"), t.wave_vector = o.vector("wave_vector"), t.phase = o.number("phase"); break;
-    case TemperatureField::Kind::step: t.point = o.vector("point"), t.normal = o.vector("normal"), t.behind = o.number("behind"), t.ahead = o.number("ahead"); break;
-    case TemperatureField::Kind::expression: t.expression = o.text("value");
+    case TemperatureField::Kind::constant:
+      t.value = o.number("value");
+      break;
+    case TemperatureField::Kind::cosine:
+      t.mean = o.number("mean"), t.amplitude = o.number("amplitude"), t.wave_vector = o.vector("wave_vector"),
+      t.phase = o.number("phase");
+      break;
+    case TemperatureField::Kind::step:
+      t.point = o.vector("point"), t.normal = o.vector("normal"), t.behind = o.number("behind"), t.ahead = o.number("ahead");
+      break;
+    case TemperatureField::Kind::expression:
+      t.expression = o.text("value");
   }
   return t;
 }
@@ -92,14 +127,22 @@ TemperatureField temperature_from(const JsonObject& o) {
 json to_json(const VelocityField& v) {
   json out{{"kind", velocity_kinds[static_cast<int>(v.kind)]}};
   switch (v.kind) {
-    case VelocityField::Kind::constant: out["value"] = to_json(v.value); break;
-    case VelocityField::Kind::cosine: out["mean"] = to_json(v.mean), out["amplitude"] = to_json(v.amplitude), out["wave_vector"] = to_json(v.wave_vector), out["phase"] = v.phase; break;
+    case VelocityField::Kind::constant:
+      out["value"] = to_json(v.value);
+      break;
+    case VelocityField::Kind::cosine:
+      out["mean"] = to_json(v.mean), out["amplitude"] = to_json(v.amplitude), out["wave_vector"] = to_json(v.wave_vector),
+      out["phase"] = v.phase;
+      break;
     case VelocityField::Kind::linear:
       out["centre"] = to_json(v.centre);
       out["gradient"] = json::array({to_json(v.gradient[0]), to_json(v.gradient[1]), to_json(v.gradient[2])});
       break;
-    case VelocityField::Kind::taylor_green: out["speed"] = v.speed, out["wavelength"] = v.wavelength; break;
-    case VelocityField::Kind::expression: out["value"] = v.expression;
+    case VelocityField::Kind::taylor_green:
+      out["speed"] = v.speed, out["wavelength"] = v.wavelength;
+      break;
+    case VelocityField::Kind::expression:
+      out["value"] = v.expression;
   }
   return out;
 }
@@ -120,10 +163,19 @@ VelocityField velocity_from(const json& value, const std::string& path) {
   VelocityField v;
   v.kind = kind_from<VelocityField::Kind>(o, velocity_kinds);
   switch (v.kind) {
-    case VelocityField::Kind::constant: v.value = o.vector("value"); break;
-    case VelocityField::Kind::cosine: v.mean = o.vector("mean"), v.amplitude = o.vector("amplitude"), v.wave_vector = o.vector("wave_vector"), v.phase = o.number("phase"); break;
-    case VelocityField::Kind::linear: v.centre = o.vector("centre"), v.gradient = rows_from(value.value("gradient", json()), path + ".gradient"); break;
-    case VelocityField::Kind::taylor_green: v.speed = o.number("speed"), v.wavelength = o.number("wavelength"); break;
+    case VelocityField::Kind::constant:
+      v.value = o.vector("value");
+      break;
+    case VelocityField::Kind::cosine:
+      v.mean = o.vector("mean"), v.amplitude = o.vector("amplitude"), v.wave_vector = o.vector("wave_vector"),
+      v.phase = o.number("phase");
+      break;
+    case VelocityField::Kind::linear:
+      v.centre = o.vector("centre"), v.gradient = rows_from(value.value("gradient", json()), path + ".gradient");
+      break;
+    case VelocityField::Kind::taylor_green:
+      v.speed = o.number("speed"), v.wavelength = o.number("wavelength");
+      break;
     case VelocityField::Kind::expression: {
       const std::vector<std::string> parts = o.texts("value");
       if (parts.size() != 3) throw InputError(path + ".value: expected 3 expressions");
@@ -135,13 +187,15 @@ VelocityField velocity_from(const json& value, const std::string& path) {
 
 json to_json(const std::vector<Keyframe>& frames) {
   json out = json::array();
-  for (const Keyframe& k : frames) out.push_back({{"time", k.time}, {"position", to_json(k.position)}, {"rotation", to_json(k.rotation)}});
+  for (const Keyframe& k : frames)
+    out.push_back({{"time", k.time}, {"position", to_json(k.position)}, {"rotation", to_json(k.rotation)}});
   return out;
 }
 
 std::vector<Keyframe> keyframes_from(const JsonObject& o) {
   std::vector<Keyframe> frames;
-  for (const JsonObject& k : o.objects("keyframes")) frames.push_back({k.number("time"), k.vector("position"), k.quaternion("rotation")});
+  for (const JsonObject& k : o.objects("keyframes"))
+    frames.push_back({k.number("time"), k.vector("position"), k.quaternion("rotation")});
   return frames;
 }
 
@@ -151,8 +205,10 @@ std::vector<Keyframe> keyframes_from(const JsonObject& o) {
 template <class Owner>
 void add_effect_values(const Owner& owner, std::string_view table, json& out) {
   each_effect_key(owner, table, [&]<class T>(const Key& key, const T& value) {
-    if constexpr (std::is_same_v<T, std::optional<double>>) out[std::string(key.name)] = maybe(value);
-    else out[std::string(key.name)] = value;
+    if constexpr (std::is_same_v<T, std::optional<double>>)
+      out[std::string(key.name)] = maybe(value);
+    else
+      out[std::string(key.name)] = value;
   });
 }
 
@@ -161,16 +217,24 @@ template <class Owner>
 void take_effect_values(const JsonObject& o, std::string_view table, Owner& owner) {
   each_effect_key(owner, table, [&]<class T>(const Key& row, T& value) {
     const std::string key(row.name);
-    if constexpr (std::is_same_v<T, double>) value = o.number_or(key, value);
-    else if constexpr (std::is_same_v<T, bool>) value = o.flag_or(key, value);
-    else if constexpr (std::is_same_v<T, std::string>) value = o.text_or(key, value);
-    else value = o.maybe_number(key);
+    if constexpr (std::is_same_v<T, double>)
+      value = o.number_or(key, value);
+    else if constexpr (std::is_same_v<T, bool>)
+      value = o.flag_or(key, value);
+    else if constexpr (std::is_same_v<T, std::string>)
+      value = o.text_or(key, value);
+    else
+      value = o.maybe_number(key);
   });
 }
 
 json to_json(const Material& m) {
-  json out{{"name", m.name}, {"density", m.density}, {"solid", m.solid}, {"stiffness", maybe(m.stiffness)},
-           {"solid_conductivity", maybe(m.solid_conductivity)}, {"solid_heat_capacity", maybe(m.solid_heat_capacity)}};
+  json out{{"name", m.name},
+           {"density", m.density},
+           {"solid", m.solid},
+           {"stiffness", maybe(m.stiffness)},
+           {"solid_conductivity", maybe(m.solid_conductivity)},
+           {"solid_heat_capacity", maybe(m.solid_heat_capacity)}};
   add_effect_values(m, "material", out);
   return out;
 }
@@ -188,12 +252,26 @@ Material material_from(const JsonObject& o) {
 
 json to_json(const Body& b, const JobBody& j) {
   const MassProperties& p = j.properties;
-  return {{"name", b.name}, {"index", j.index}, {"material", b.material}, {"phase", to_string(b.phase)}, {"motion", to_string(b.motion)},
-          {"keyframes", to_json(b.keyframes)}, {"temperature_held", b.temperature_held}, {"mass", p.mass}, {"centre", to_json(p.centre)},
-          {"principal_inertia", to_json(p.principal_inertia)}, {"principal_axes", to_json(p.principal_axes)}, {"orientation", to_json(j.orientation)},
-          {"velocity", to_json(j.velocity)}, {"angular_velocity", to_json(j.angular_velocity)}, {"velocity_field", to_json(b.velocity)},
-          {"temperature", b.temperature ? to_json(*b.temperature) : json(nullptr)}, {"shape", to_json(b.shape)}, {"slip", b.free_slip ? "free" : "no"},
-          {"joins", b.joins}, {"joined_to", b.joined_to}};
+  return {{"name", b.name},
+          {"index", j.index},
+          {"material", b.material},
+          {"phase", to_string(b.phase)},
+          {"motion", to_string(b.motion)},
+          {"keyframes", to_json(b.keyframes)},
+          {"temperature_held", b.temperature_held},
+          {"mass", p.mass},
+          {"centre", to_json(p.centre)},
+          {"principal_inertia", to_json(p.principal_inertia)},
+          {"principal_axes", to_json(p.principal_axes)},
+          {"orientation", to_json(j.orientation)},
+          {"velocity", to_json(j.velocity)},
+          {"angular_velocity", to_json(j.angular_velocity)},
+          {"velocity_field", to_json(b.velocity)},
+          {"temperature", b.temperature ? to_json(*b.temperature) : json(nullptr)},
+          {"shape", to_json(b.shape)},
+          {"slip", b.free_slip ? "free" : "no"},
+          {"joins", b.joins},
+          {"joined_to", b.joined_to}};
 }
 
 void body_from(const json& value, const JsonObject& o, Scene& scene, std::vector<JobBody>& bodies) {
@@ -205,8 +283,10 @@ void body_from(const json& value, const JsonObject& o, Scene& scene, std::vector
   b.keyframes = keyframes_from(o);
   b.temperature_held = o.flag_or("temperature_held", false);
   if (o.has("temperature")) b.temperature = temperature_from(o.object("temperature"));
-  if (o.has("velocity_field")) b.velocity = velocity_from(value["velocity_field"], o.path() + ".velocity_field");
-  else b.velocity.value = o.vector("velocity");
+  if (o.has("velocity_field"))
+    b.velocity = velocity_from(value["velocity_field"], o.path() + ".velocity_field");
+  else
+    b.velocity.value = o.vector("velocity");
   b.angular_velocity = o.vector("angular_velocity");
   if (o.has("shape")) b.shape = shape_from(o.object("shape"));
   b.free_slip = o.text_or("slip", "no") == "free";
@@ -230,8 +310,13 @@ void body_from(const json& value, const JsonObject& o, Scene& scene, std::vector
 }
 
 json to_json(const Event& e) {
-  return {{"kind", event_kinds[static_cast<int>(e.kind)]}, {"time", e.time}, {"name", e.name}, {"bodies", e.bodies},
-          {"region", e.region ? to_json(*e.region) : json(nullptr)}, {"temperature", maybe(e.temperature)}, {"until", maybe(e.until)},
+  return {{"kind", event_kinds[static_cast<int>(e.kind)]},
+          {"time", e.time},
+          {"name", e.name},
+          {"bodies", e.bodies},
+          {"region", e.region ? to_json(*e.region) : json(nullptr)},
+          {"temperature", maybe(e.temperature)},
+          {"until", maybe(e.until)},
           {"keyframes", to_json(e.keyframes)}};
 }
 
@@ -249,12 +334,19 @@ Event event_from(const JsonObject& o) {
 }
 
 json to_json(const Inflow& f) {
-  return {{"material", f.material}, {"shape", to_json(f.shape)}, {"velocity", to_json(f.velocity)}, {"temperature", maybe(f.temperature)},
-          {"start", f.start}, {"stop", f.stop}, {"rate", maybe(f.rate)}};
+  return {{"material", f.material},
+          {"shape", to_json(f.shape)},
+          {"velocity", to_json(f.velocity)},
+          {"temperature", maybe(f.temperature)},
+          {"start", f.start},
+          {"stop", f.stop},
+          {"rate", maybe(f.rate)}};
 }
 
 Inflow inflow_from(const JsonObject& o) {
-  return {o.text("material"), shape_from(o.object("shape")), o.vector("velocity"), o.maybe_number("temperature"), o.number("start"), o.number("stop"), o.maybe_number("rate")};
+  return {
+      o.text("material"), shape_from(o.object("shape")), o.vector("velocity"), o.maybe_number("temperature"), o.number("start"),
+      o.number("stop"),   o.maybe_number("rate")};
 }
 
 }  // namespace
@@ -264,10 +356,25 @@ json scene_to_json(const Scene& s, const std::vector<JobBody>& bodies) {
   for (std::size_t k = 0; k < 3; ++k)
     if (s.periodic[k]) periodic.push_back(axes[k]);
   for (std::size_t k = 0; k < term_count; ++k) modes[std::string(to_string(static_cast<Term>(k)))] = to_string(s.modes[k]);
-  json out{{"end_time", s.end_time}, {"gravity", to_json(s.gravity)}, {"spacing", s.spacing}, {"support_ratio", s.support_ratio}, {"mode", to_string(s.mode)},
-           {"modes", modes}, {"time_step", maybe(s.time_step)}, {"seed", s.seed}, {"jitter", s.jitter}, {"min", maybe(s.min)}, {"max", maybe(s.max)},
-           {"periodic", periodic}, {"output_interval", s.output_interval}, {"settle", s.settle}, {"merge_distance", s.merge_distance}, {"contact", s.contact ? "auto" : "none"},
-           {"clamp", s.clamps()}, {"on_failure", s.recovers ? "recover" : "stop"}, {"unguarded", s.unguarded}};
+  json out{{"end_time", s.end_time},
+           {"gravity", to_json(s.gravity)},
+           {"spacing", s.spacing},
+           {"support_ratio", s.support_ratio},
+           {"mode", to_string(s.mode)},
+           {"modes", modes},
+           {"time_step", maybe(s.time_step)},
+           {"seed", s.seed},
+           {"jitter", s.jitter},
+           {"min", maybe(s.min)},
+           {"max", maybe(s.max)},
+           {"periodic", periodic},
+           {"output_interval", s.output_interval},
+           {"settle", s.settle},
+           {"merge_distance", s.merge_distance},
+           {"contact", s.contact ? "auto" : "none"},
+           {"clamp", s.clamps()},
+           {"on_failure", s.recovers ? "recover" : "stop"},
+           {"unguarded", s.unguarded}};
   add_effect_values(s, "scene", out);
   out["materials"] = out["bodies"] = out["events"] = out["inflows"] = json::array();
   for (const Material& m : s.materials) out["materials"].push_back(to_json(m));
@@ -285,7 +392,8 @@ void scene_from_json(const json& value, Scene& s, std::vector<JobBody>& bodies) 
   s.support_ratio = o.number("support_ratio");
   s.mode = mode_from(o.text("mode"));
   const JsonObject modes = o.object("modes");
-  for (std::size_t k = 0; k < term_count; ++k) s.modes[k] = mode_from(modes.text_or(std::string(to_string(static_cast<Term>(k))), std::string(to_string(s.mode))));
+  for (std::size_t k = 0; k < term_count; ++k)
+    s.modes[k] = mode_from(modes.text_or(std::string(to_string(static_cast<Term>(k))), std::string(to_string(s.mode))));
   s.time_step = o.maybe_number("time_step");
   s.seed = static_cast<std::uint64_t>(o.integer("seed"));
   s.jitter = o.number("jitter");

@@ -77,7 +77,8 @@ int print_info(const Engine& engine) {
 }
 
 std::string refusal(const Engine& engine, const Job& job) {
-  if (!job.resume.empty() && !dynamic_cast<const Restartable*>(&engine)) return engine.info().name + ": cannot continue from a checkpoint";
+  if (!job.resume.empty() && !dynamic_cast<const Restartable*>(&engine))
+    return engine.info().name + ": cannot continue from a checkpoint";
   return engine.refusal(job);
 }
 
@@ -219,7 +220,8 @@ class Run {
       last_ = engine_.observe();
       show(writer, last_);
       tell_status(time);
-      fmt::print(stderr, "frame {} t {:.9g} s\nprogress {:.4f}\n", writer.frames() - 1, time, (time - job_.times.front()) / std::max(job_.times.back() - job_.times.front(), 1e-300));
+      fmt::print(stderr, "frame {} t {:.9g} s\nprogress {:.4f}\n", writer.frames() - 1, time,
+                 (time - job_.times.front()) / std::max(job_.times.back() - job_.times.front(), 1e-300));
     }
     account();
     result_.state_hash = state_hash(last_);
@@ -274,10 +276,20 @@ class Run {
   }
 
   void tell_failure(const Diverged& e) {
-    Divergence d{e.particle, e.body, e.field, e.stage, e.time, e.guard, engine_.show_failure(e, job_.output), checkpoints_ ? checkpoints_->last() : ""};
+    Divergence d{e.particle,
+                 e.body,
+                 e.field,
+                 e.stage,
+                 e.time,
+                 e.guard,
+                 engine_.show_failure(e, job_.output),
+                 checkpoints_ ? checkpoints_->last() : ""};
     result_.message = e.what();
     if (!d.file.empty()) result_.message += fmt::format("; {} shows it and what is around it", d.file);
-    result_.message += d.checkpoint.empty() ? fmt::format("; last good frame at t = {:.9g} s, no checkpoint was kept (checkpoint_interval)", result_.time_reached) : "; last good checkpoint " + d.checkpoint;
+    result_.message +=
+        d.checkpoint.empty()
+            ? fmt::format("; last good frame at t = {:.9g} s, no checkpoint was kept (checkpoint_interval)", result_.time_reached)
+            : "; last good checkpoint " + d.checkpoint;
     result_.divergence = std::move(d);
   }
 
@@ -306,11 +318,15 @@ class Run {
   std::string result_path_;
   Result result_;
   LedgerChange ledger_;
-  double status_interval_ = status_interval(), next_status_ = wall_seconds() + (std::isfinite(status_interval_) ? 0.0 : status_interval_);
+  double status_interval_ = status_interval(),
+         next_status_ = wall_seconds() + (std::isfinite(status_interval_) ? 0.0 : status_interval_);
 };
 
 int usage(const char* program) {
-  fmt::print(stderr, "usage: {0} --info | --check JOB.json | --run JOB.json\nAn engine of tripoint; `tripoint run CASE --engine NAME` writes the job and calls it.\n", program);
+  fmt::print(stderr,
+             "usage: {0} --info | --check JOB.json | --run JOB.json\nAn engine of tripoint; `tripoint run CASE --engine NAME` "
+             "writes the job and calls it.\n",
+             program);
   return bad_job;
 }
 

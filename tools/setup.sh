@@ -10,7 +10,7 @@ core=(make g++ cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev lib
   nlohmann-json3-dev libboost-dev libtinyobjloader-dev libopenvdb-dev libpng-dev libbullet-dev liblammps-dev)  # build and run
 report=(python3-matplotlib python3-h5py python3-jinja2)                                            # for /usr/bin/python3
 wheel=(python3-venv ca-certificates)                                                               # makes .venv
-tests=(libgtest-dev libgmock-dev git bubblewrap python3-yaml weasyprint valgrind)                             # `make test` only
+tests=(libgtest-dev libgmock-dev clang-format-14 git bubblewrap python3-yaml weasyprint valgrind)  # `make test` only
 peers=(libglvnd0)                                                                                   # `make bench-peers` only
 
 fuzzer=(clang-16 libclang-rt-16-dev libomp-16-dev)                                                  # `make fuzz` only

@@ -91,7 +91,9 @@ RigidMotion BulletEngine::start_motion(const Row& row, const JobBody& body) cons
 }
 
 void BulletEngine::enter(Row& row, const RigidMotion& motion) {
-  const Drive drive = row.motion == Motion::fixed ? Drive::fixed : row.motion == Motion::prescribed ? Drive::kinematic : Drive::dynamic;
+  const Drive drive = row.motion == Motion::fixed        ? Drive::fixed
+                      : row.motion == Motion::prescribed ? Drive::kinematic
+                                                         : Drive::dynamic;
   row.handle = world_->add({row.properties.mass, row.properties.principal_inertia, motion, drive, row.pieces});
 }
 
@@ -108,7 +110,9 @@ void BulletEngine::advance_to(double time) {
 namespace {
 
 /// Number of equal steps, none above `limit`, over an interval.
-long steps_in(double interval, double limit) { return std::max(1L, static_cast<long>(std::ceil(interval / limit * (1.0 - 1e-9)))); }
+long steps_in(double interval, double limit) {
+  return std::max(1L, static_cast<long>(std::ceil(interval / limit * (1.0 - 1e-9))));
+}
 
 }  // namespace
 
@@ -147,7 +151,8 @@ void BulletEngine::check_finite() const {
     if (rows_[i].handle < 0) continue;
     const RigidMotion m = world_->motion(rows_[i].handle);
     if (!finite(m.centre) || !finite(m.velocity) || !finite(m.angular_velocity) || !std::isfinite(norm(m.orientation)))
-      throw Diverged(-1, static_cast<long>(i), "position", "stepSimulation", time_, fmt::format("the state of {} is not finite", rows_[i].name));
+      throw Diverged(-1, static_cast<long>(i), "position", "stepSimulation", time_,
+                     fmt::format("the state of {} is not finite", rows_[i].name));
   }
 }
 
@@ -178,7 +183,8 @@ void BulletEngine::show_body(Snapshot& s, const Row& r) const {
   const RigidMotion m = world_->motion(r.handle);
   const Wrench wrench = last_dt_ > 0.0 ? world_->contact(r.handle, last_dt_) : Wrench{};
   const int index = static_cast<int>(s.bodies.size());
-  s.bodies.push_back({m.centre, m.velocity, m.angular_velocity, normalised(m.orientation * conjugate(r.frame)), r.properties.mass, wrench.force, wrench.torque});
+  s.bodies.push_back({m.centre, m.velocity, m.angular_velocity, normalised(m.orientation * conjugate(r.frame)), r.properties.mass,
+                      wrench.force, wrench.torque});
   for (std::size_t k = 0; k < r.members.size(); ++k) {
     const auto i = static_cast<std::size_t>(r.members[k]);
     const Vec3 arm = rotate(m.orientation, r.arms[k]);
@@ -203,7 +209,8 @@ Readback BulletEngine::readback() const {
   for (const Row& r : rows_) {
     if (r.handle < 0) continue;
     const HeldBody held = world_->held(r.handle);
-    back.bodies.push_back({r.name, held.mass, held.centre, held.principal_inertia, held.friction, held.restitution, held.linear_damping, held.angular_damping});
+    back.bodies.push_back({r.name, held.mass, held.centre, held.principal_inertia, held.friction, held.restitution,
+                           held.linear_damping, held.angular_damping});
   }
   return back;
 }

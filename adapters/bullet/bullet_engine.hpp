@@ -49,10 +49,12 @@ class BulletEngine final : public Engine {
   void merge(const Event&);
   void split(const Event&);
   void take_out(Row&);
-  void launch(Row&, std::vector<int> members, const Snapshot& now, const Quaternion& axes, const std::vector<Piece>& world_pieces);
+  void launch(Row&, std::vector<int> members, const Snapshot& now, const Quaternion& axes,
+              const std::vector<Piece>& world_pieces);
   [[nodiscard]] Row& alive(const std::string& name);
   [[nodiscard]] Quaternion orientation(const Row&) const;
-  [[nodiscard]] std::vector<Piece> world_pieces(const std::vector<int>& members, const Snapshot& now, const Quaternion& lattice) const;
+  [[nodiscard]] std::vector<Piece> world_pieces(const std::vector<int>& members, const Snapshot& now,
+                                                const Quaternion& lattice) const;
 
   void show_body(Snapshot&, const Row&) const;
 

@@ -54,11 +54,13 @@ void BulletEngine::take_out(Row& r) {
 
 /// Makes the row a body of the given particles with their momenta.
 /// @param now all particles, as they are   @param axes orientation that the row goes on with; (1,0,0,0) at a birth
-void BulletEngine::launch(Row& r, std::vector<int> members, const Snapshot& now, const Quaternion& axes, const std::vector<Piece>& world_pieces) {
+void BulletEngine::launch(Row& r, std::vector<int> members, const Snapshot& now, const Quaternion& axes,
+                          const std::vector<Piece>& world_pieces) {
   std::sort(members.begin(), members.end());
   std::vector<Vec3> at;
   std::vector<double> mass;
-  for (const int i : members) at.push_back(now.position[static_cast<std::size_t>(i)]), mass.push_back(now.mass[static_cast<std::size_t>(i)]);
+  for (const int i : members)
+    at.push_back(now.position[static_cast<std::size_t>(i)]), mass.push_back(now.mass[static_cast<std::size_t>(i)]);
   const MassProperties p = mass_properties(at, mass);
   Vec3 momentum, angular_momentum;  // about the new centre
   for (std::size_t k = 0; k < at.size(); ++k) {
@@ -93,7 +95,8 @@ void BulletEngine::merge(const Event& event) {
 }
 
 /// One piece a particle, along the lattice axes of the body that it was in. [world frame]
-std::vector<Piece> BulletEngine::world_pieces(const std::vector<int>& members, const Snapshot& now, const Quaternion& lattice) const {
+std::vector<Piece> BulletEngine::world_pieces(const std::vector<int>& members, const Snapshot& now,
+                                              const Quaternion& lattice) const {
   std::vector<Piece> pieces;
   for (const int i : members) {
     Piece piece = particle_piece();

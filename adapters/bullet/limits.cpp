@@ -13,10 +13,12 @@ namespace {
 
 std::string refuse_bodies(const Job& job) {
   for (const JobBody& body : job.bodies)
-    if (body.phase != Phase::rigid) return fmt::format("Bullet knows rigid bodies only, and {} is {}", body.name, to_string(body.phase));
+    if (body.phase != Phase::rigid)
+      return fmt::format("Bullet knows rigid bodies only, and {} is {}", body.name, to_string(body.phase));
   for (const Body& body : job.scene.bodies) {
     if (body.temperature) return fmt::format("Bullet knows no heat, and {} has a temperature", body.name);
-    if (body.joins || !body.joined_to.empty()) return fmt::format("bonds between bodies are not handed to Bullet, and {} has some", body.name);
+    if (body.joins || !body.joined_to.empty())
+      return fmt::format("bonds between bodies are not handed to Bullet, and {} has some", body.name);
   }
   return {};
 }
@@ -28,7 +30,8 @@ bool is_free(const Job& job, const std::string& name) {
 
 std::string refuse_events(const Job& job) {
   for (const Event& event : job.scene.events) {
-    if (event.kind != Event::Kind::merge && event.kind != Event::Kind::split) return "of the events only merge and split are handed to Bullet";
+    if (event.kind != Event::Kind::merge && event.kind != Event::Kind::split)
+      return "of the events only merge and split are handed to Bullet";
     for (const std::string& name : event.bodies)
       if (!is_free(job, name)) return fmt::format("Bullet's bodies merge and split in free flight, and {} is held", name);
   }
@@ -37,7 +40,8 @@ std::string refuse_events(const Job& job) {
 
 std::string refuse_scene(const Scene& scene) {
   if (scene.mode == Mode::paper) return "the paper's forms belong to the particle solver; Bullet has none";
-  if (std::any_of(scene.periodic.begin(), scene.periodic.end(), [](bool p) { return p; })) return "Bullet has no periodic directions";
+  if (std::any_of(scene.periodic.begin(), scene.periodic.end(), [](bool p) { return p; }))
+    return "Bullet has no periodic directions";
   if (!scene.inflows.empty()) return "Bullet has no inflow";
   if (!scene.contact && scene.bodies.size() > 1) return "Bullet's bodies meet, and the scene says contact = \"none\"";
   return {};

@@ -42,11 +42,16 @@ std::vector<Piece> pieces_of_parts(const std::vector<Shape>& parts, const PlaceO
 std::vector<Piece> pieces_of(const Shape& shape, const PlaceOfShape& place) {
   const auto local = [&](const Vec3& x) { return rotate_back(place.axes, x - place.centre); };
   switch (shape.kind) {
-    case Shape::Kind::box: return {{Piece::Kind::box, local(0.5 * (shape.min + shape.max)), conjugate(place.axes), 0.5 * (shape.max - shape.min)}};
-    case Shape::Kind::sphere: return {{Piece::Kind::sphere, local(shape.centre), {}, Vec3{shape.radius, shape.radius, shape.radius}}};
-    case Shape::Kind::unite: return pieces_of_parts(shape.of, place);
-    case Shape::Kind::mesh: return mesh_pieces(shape, place);
-    default: return {};
+    case Shape::Kind::box:
+      return {{Piece::Kind::box, local(0.5 * (shape.min + shape.max)), conjugate(place.axes), 0.5 * (shape.max - shape.min)}};
+    case Shape::Kind::sphere:
+      return {{Piece::Kind::sphere, local(shape.centre), {}, Vec3{shape.radius, shape.radius, shape.radius}}};
+    case Shape::Kind::unite:
+      return pieces_of_parts(shape.of, place);
+    case Shape::Kind::mesh:
+      return mesh_pieces(shape, place);
+    default:
+      return {};
   }
 }
 

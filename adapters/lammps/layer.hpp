@@ -10,9 +10,9 @@ namespace tripoint::lammps {
 
 /// One layer of a scene that is the same all along a periodic z: it stands for all layers, in plane strain.
 struct Layer {
-  InitialState state;              ///< of the lowest layer
-  std::vector<std::size_t> row;    ///< of every particle of the scene in it
-  std::size_t count = 1;           ///< layers
+  InitialState state;            ///< of the lowest layer
+  std::vector<std::size_t> row;  ///< of every particle of the scene in it
+  std::size_t count = 1;         ///< layers
 };
 
 /// Why the scene cannot be run in one layer, from what the job tells; empty = it can.

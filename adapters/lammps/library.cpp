@@ -58,9 +58,11 @@ void Library::create_atoms(const std::vector<int>& type, const std::vector<Vec3>
   const int n = static_cast<int>(type.size());
   std::vector<int> id(type.size());
   for (int i = 0; i < n; ++i) id[static_cast<std::size_t>(i)] = i + 1;
-  const int made = lammps_create_atoms(handle_, n, id.data(), type.data(), &position.front().x, velocity.empty() ? nullptr : &velocity.front().x, nullptr, 0);
+  const int made = lammps_create_atoms(handle_, n, id.data(), type.data(), &position.front().x,
+                                       velocity.empty() ? nullptr : &velocity.front().x, nullptr, 0);
   check();
-  if (made != n) throw EngineError("LAMMPS took " + std::to_string(made) + " of " + std::to_string(n) + " particles into its box");
+  if (made != n)
+    throw EngineError("LAMMPS took " + std::to_string(made) + " of " + std::to_string(n) + " particles into its box");
 }
 
 int Library::local_count() const { return lammps_extract_setting(handle_, "nlocal"); }

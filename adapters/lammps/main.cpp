@@ -15,7 +15,8 @@ std::string variable(const char* name, const char* otherwise) {
 }
 
 std::unique_ptr<tripoint::Engine> make() {
-  return std::make_unique<tripoint::lammps::LammpsEngine>(variable("TRIPOINT_LAMMPS_NAME", "lammps"), variable("TRIPOINT_LAMMPS_MISSING", ""));
+  return std::make_unique<tripoint::lammps::LammpsEngine>(variable("TRIPOINT_LAMMPS_NAME", "lammps"),
+                                                          variable("TRIPOINT_LAMMPS_MISSING", ""));
 }
 
 int serve_lammps(int argc, char** argv) {

@@ -14,7 +14,7 @@ namespace tripoint::lammps {
 class Model {
  public:
   virtual ~Model() = default;
-  virtual void advance_to(double time) = 0;          ///< [s]
+  virtual void advance_to(double time) = 0;  ///< [s]
   [[nodiscard]] virtual Snapshot observe() const = 0;
   [[nodiscard]] virtual Readback readback() const = 0;
   virtual void account(Result&) const = 0;
@@ -22,14 +22,14 @@ class Model {
 
 /// Settings of a case for LAMMPS, checked.
 struct Choice {
-  std::string conduction;   ///< brownian | langevin | sph | rheo; empty = the library's default
+  std::string conduction;  ///< brownian | langevin | sph | rheo; empty = the library's default
   double walkers = 1e5;
-  std::optional<double> cutoff;  ///< support radius of pair styles [spacings]; empty = the model's own
-  bool pool = true;         ///< walkers of a field of one coordinate are counted in layers
+  std::optional<double> cutoff;         ///< support radius of pair styles [spacings]; empty = the model's own
+  bool pool = true;                     ///< walkers of a field of one coordinate are counted in layers
   std::optional<double> rigid_modulus;  ///< of the bonds that stand in for rigid matter that melts [Pa]
   std::optional<double> sound_speed;    ///< of RHEO's liquid [m/s]
-  std::string freezing;     ///< t_melt | t_solid: which of them RHEO takes for both; empty = it takes none that differ
-  std::string commands;     ///< LAMMPS commands after the set-up
+  std::string freezing;  ///< t_melt | t_solid: which of them RHEO takes for both; empty = it takes none that differ
+  std::string commands;  ///< LAMMPS commands after the set-up
 };
 [[nodiscard]] std::map<std::string, std::string> setting_help();
 /// @throws InputError naming an unknown preset, key or word

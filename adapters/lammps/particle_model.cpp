@@ -12,7 +12,8 @@ double particle_mass(const InitialState& state, int source, const std::string& n
   double mass = 0.0;
   for (std::size_t i = 0; i < state.size(); ++i) {
     if (state.source[i] != source) continue;
-    if (mass > 0.0 && std::abs(state.mass[i] - mass) > 1e-12 * mass) throw EngineError(fmt::format("the particles of {} differ in mass, and a LAMMPS type has one mass", name));
+    if (mass > 0.0 && std::abs(state.mass[i] - mass) > 1e-12 * mass)
+      throw EngineError(fmt::format("the particles of {} differ in mass, and a LAMMPS type has one mass", name));
     mass = state.mass[i];
   }
   return mass;
@@ -37,16 +38,25 @@ bool is_turned(const JobBody& b) {
 }
 
 bool are_joined(const Body& a, const Body& b) {
-  const auto names = [](const Body& x, const Body& y) { return std::find(x.joined_to.begin(), x.joined_to.end(), y.name) != x.joined_to.end(); };
+  const auto names = [](const Body& x, const Body& y) {
+    return std::find(x.joined_to.begin(), x.joined_to.end(), y.name) != x.joined_to.end();
+  };
   return names(a, b) || names(b, a);
 }
 
 ParticleModel::ParticleModel(const Job& job, const InitialState& state, const Units& units, double limit)
-    : job_(job), state_(state), choice_(choice_for(job)), units_(units), limit_(wanted_time_step(job).value_or(limit)), library_(job.output + "/log.lammps"), time_(job.times.front()) {
+    : job_(job),
+      state_(state),
+      choice_(choice_for(job)),
+      units_(units),
+      limit_(wanted_time_step(job).value_or(limit)),
+      library_(job.output + "/log.lammps"),
+      time_(job.times.front()) {
   units_.origin = job.scene.min.value_or(state.position.front());
 }
 
-void ParticleModel::make_particles(const std::string& style, const std::string& extra, double margin, const std::vector<int>& types) {
+void ParticleModel::make_particles(const std::string& style, const std::string& extra, double margin,
+                                   const std::vector<int>& types) {
   const Scene& scene = job_.scene;
   if (flat_) units_.origin.z = state_.position.front().z;
   Vec3 lo = units_.place(state_.position.front()), hi = lo;
@@ -55,12 +65,15 @@ void ParticleModel::make_particles(const std::string& style, const std::string& 
   std::string edges, letters;
   for (std::size_t k = 0; k < (flat_ ? 2 : 3); ++k) {
     const bool wraps = scene.periodic[k] && scene.min && scene.max;
-    edges += fmt::format(" {:.17g} {:.17g}", wraps ? units_.place(*scene.min)[k] : lo[k] - margin, wraps ? units_.place(*scene.max)[k] : hi[k] + margin);
+    edges += fmt::format(" {:.17g} {:.17g}", wraps ? units_.place(*scene.min)[k] : lo[k] - margin,
+                         wraps ? units_.place(*scene.max)[k] : hi[k] + margin);
     letters += wraps ? " p" : " m";  // shrink-wrapped from no less than this box: a single layer is no flat box
   }
   if (flat_) edges += " -0.1 0.1", letters += " p";
-  library_.run("units lj\n" + std::string(flat_ ? "dimension 2\n" : "") + style + "\natom_modify map array sort 0 0.0\nboundary" + letters + "\n");
-  library_.run(fmt::format("region box block{}\ncreate_box {} box{}\n", edges, *std::max_element(types.begin(), types.end()), extra));
+  library_.run("units lj\n" + std::string(flat_ ? "dimension 2\n" : "") + style + "\natom_modify map array sort 0 0.0\nboundary" +
+               letters + "\n");
+  library_.run(
+      fmt::format("region box block{}\ncreate_box {} box{}\n", edges, *std::max_element(types.begin(), types.end()), extra));
   std::vector<int> type;
   std::vector<Vec3> position, velocity;
   for (std::size_t i = 0; i < state_.size(); ++i) {
@@ -101,7 +114,8 @@ void ParticleModel::make_gravity() {
   library_.run(fmt::format("fix weight free gravity {:.17g} vector {:.17g} {:.17g} {:.17g}", norm(g), g.x, g.y, g.z));
   library_.run("pair_style zero 1.0 nocoeff\npair_coeff * *\nrun 0 post no");
   const auto force = library_.vectors("f");
-  const auto first = std::find_if(job_.bodies.begin(), job_.bodies.end(), [](const JobBody& b) { return b.motion == Motion::free; });
+  const auto first =
+      std::find_if(job_.bodies.begin(), job_.bodies.end(), [](const JobBody& b) { return b.motion == Motion::free; });
   const std::size_t row = members(static_cast<std::size_t>(first - job_.bodies.begin())).front();
   gravity_ = (units_.mass * units_.acceleration() / state_.mass[row]) * force[row];
 }
@@ -137,7 +151,8 @@ Snapshot ParticleModel::particles() const {
     s.momentum += s.mass[i] * s.velocity[i];
     s.angular_momentum += s.mass[i] * cross(s.position[i], s.velocity[i]);
     s.energy["kinetic"] += 0.5 * s.mass[i] * dot(s.velocity[i], s.velocity[i]);
-    if (job_.bodies[static_cast<std::size_t>(state_.source[i])].motion == Motion::free) s.energy["potential"] -= s.mass[i] * dot(job_.scene.gravity, s.position[i]);
+    if (job_.bodies[static_cast<std::size_t>(state_.source[i])].motion == Motion::free)
+      s.energy["potential"] -= s.mass[i] * dot(job_.scene.gravity, s.position[i]);
   }
   return s;
 }

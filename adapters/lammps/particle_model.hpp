@@ -13,11 +13,11 @@ struct Units {
   double length = 1.0, time = 1.0, mass = 1.0;  ///< [m], [s], [kg]
   Vec3 origin;                                  ///< [m]
   [[nodiscard]] Vec3 place(const Vec3& x) const { return (x - origin) / length; }
-  [[nodiscard]] double speed() const { return length / time; }                       ///< [m/s]
-  [[nodiscard]] double acceleration() const { return length / (time * time); }       ///< [m/s2]
-  [[nodiscard]] double density() const { return mass / (length * length * length); } ///< [kg/m3]
-  [[nodiscard]] double pressure() const { return density() * speed() * speed(); }    ///< [Pa]
-  [[nodiscard]] double energy() const { return mass * speed() * speed(); }           ///< [J]
+  [[nodiscard]] double speed() const { return length / time; }                        ///< [m/s]
+  [[nodiscard]] double acceleration() const { return length / (time * time); }        ///< [m/s2]
+  [[nodiscard]] double density() const { return mass / (length * length * length); }  ///< [kg/m3]
+  [[nodiscard]] double pressure() const { return density() * speed() * speed(); }     ///< [Pa]
+  [[nodiscard]] double energy() const { return mass * speed() * speed(); }            ///< [J]
 };
 
 /// Velocity of a held or driven body from a time on, until its keyframes change it. [m/s], [s]
@@ -75,9 +75,9 @@ class ParticleModel : public Model {
   double limit_;  ///< [s]
   mutable Library library_;
   Clock clock_;
-  double time_;  ///< [s]
+  double time_;        ///< [s]
   bool flat_ = false;  ///< two dimensions: all particles at the z of the first
-  Vec3 gravity_;  ///< as LAMMPS holds it [m/s2]
+  Vec3 gravity_;       ///< as LAMMPS holds it [m/s2]
 };
 
 }  // namespace tripoint::lammps

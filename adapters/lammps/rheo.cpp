@@ -18,17 +18,21 @@
 namespace tripoint::lammps {
 namespace {
 
-constexpr double default_support = 3.0;    ///< [spacings]
-constexpr double bonds_within = 1.5;       ///< [spacings]: first and second neighbours of the cubic lattice
-constexpr double damping = 0.1;            ///< of bonds and contacts, of the critical one
-constexpr double surface_share = 0.79;     ///< of a full set of neighbours, the share of RHEO's examples (22 of 28 in 2D)
+constexpr double default_support = 3.0;  ///< [spacings]
+constexpr double bonds_within = 1.5;     ///< [spacings]: first and second neighbours of the cubic lattice
+constexpr double damping = 0.1;          ///< of bonds and contacts, of the critical one
+constexpr double surface_share = 0.79;   ///< of a full set of neighbours, the share of RHEO's examples (22 of 28 in 2D)
 constexpr double courant = 0.25, diffusion_number = 0.1;
 
 class Rheo final : public ParticleModel {
  public:
-  Rheo(const Job& job, const InitialState& state) : ParticleModel(job, state, rheo_units(job), step_limit(job)), support_(choice_.cutoff.value_or(default_support)), bodies_(job, state) {
+  Rheo(const Job& job, const InitialState& state)
+      : ParticleModel(job, state, rheo_units(job), step_limit(job)),
+        support_(choice_.cutoff.value_or(default_support)),
+        bodies_(job, state) {
     flows_ = anything_free(job);
-    make_particles("atom_style hybrid rheo/thermal bond\nnewton off\ncomm_modify vel yes", " bond/types 1 extra/bond/per/atom 60 extra/special/per/atom 120", support_, type_a_body());
+    make_particles("atom_style hybrid rheo/thermal bond\nnewton off\ncomm_modify vel yes",
+                   " bond/types 1 extra/bond/per/atom 60 extra/special/per/atom 120", support_, type_a_body());
     library_.run("mass * 1.0\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nthermo 0");
     make_gravity();
     make_pairs();
@@ -56,8 +60,10 @@ class Rheo final : public ParticleModel {
     result.time_step_bound = wanted_time_step(job_) ? "given" : "sound, bonds, viscosity, heat";
     result.extra["support_in_spacings"] = support_;
     result.extra["bond_modulus"] = bond_modulus(job_) * units_.pressure();
-    result.message = fmt::format("RHEO, quintic spline of support {:g} dx; solids are bonds of E = {:.3g} Pa and Poisson's ratio 1/4, damped; orientations are not followed", support_,
-                                 bond_modulus(job_) * units_.pressure());
+    result.message = fmt::format(
+        "RHEO, quintic spline of support {:g} dx; solids are bonds of E = {:.3g} Pa and Poisson's ratio 1/4, damped; "
+        "orientations are not followed",
+        support_, bond_modulus(job_) * units_.pressure());
   }
 
  private:
@@ -95,7 +101,10 @@ double Rheo::step_limit(const Job& job) {
 /// Contact of solids that are not bonded is as stiff as a bond, over one spacing.
 void Rheo::make_pairs() {
   const double gamma = 2.0 * damping * std::sqrt(stiffness());
-  library_.run(fmt::format("pair_style hybrid/overlay rheo {:.17g} harmonic/means rheo/solid\npair_coeff * * rheo\npair_coeff * * rheo/solid {:.17g} 1.0 {:.17g}", support_, stiffness(), gamma));
+  library_.run(
+      fmt::format("pair_style hybrid/overlay rheo {:.17g} harmonic/means rheo/solid\npair_coeff * * rheo\npair_coeff * * "
+                  "rheo/solid {:.17g} 1.0 {:.17g}",
+                  support_, stiffness(), gamma));
 }
 
 /// Each solid within itself, and with those it is joined to.
@@ -106,7 +115,8 @@ void Rheo::make_bonds() {
     library_.run(fmt::format("group body{} id{}", a, ids_of(a)));
     if (members(a).size() > 1) library_.run(fmt::format("create_bonds many body{0} body{0} 1 0.0 {1}", a, bonds_within));
     for (std::size_t b = 0; b < a; ++b)
-      if (are_joined(job_.scene.bodies[a], job_.scene.bodies[b])) library_.run(fmt::format("create_bonds many body{} body{} 1 0.0 {}", b, a, bonds_within));
+      if (are_joined(job_.scene.bodies[a], job_.scene.bodies[b]))
+        library_.run(fmt::format("create_bonds many body{} body{} 1 0.0 {}", b, a, bonds_within));
   }
   library_.run("special_bonds lj 0.0 1.0 1.0 coul 1.0 1.0 1.0\nbond_style bpm/spring");
   library_.run(fmt::format("bond_coeff 1 {:.17g} 1.0 {:.17g}", stiffness(), 2.0 * damping * std::sqrt(stiffness())));
@@ -114,7 +124,8 @@ void Rheo::make_bonds() {
 
 void Rheo::make_fixes() {
   const double full = 4.0 / 3.0 * 3.14159265358979323846 * support_ * support_ * support_;
-  library_.run(fmt::format("fix flow all rheo {:.17g} quintic 0 thermal", support_) + (flows_ ? fmt::format(" shift surface/detection coordination {:.0f} 8", surface_share * full) : ""));
+  library_.run(fmt::format("fix flow all rheo {:.17g} quintic 0 thermal", support_) +
+               (flows_ ? fmt::format(" shift surface/detection coordination {:.0f} 8", surface_share * full) : ""));
   std::string viscosity, conductivity, melting;
   for (std::size_t b = 0; b < job_.bodies.size(); ++b) {
     const RheoMatter m = rheo_matter(job_, b);
@@ -124,7 +135,8 @@ void Rheo::make_fixes() {
     if (m.melts && m.latent > 0.0) melting += fmt::format(" latent/heat {} constant {:.17g}", b + 1, m.latent);
   }
   library_.run("fix viscosity all rheo/viscosity" + viscosity + "\nfix pressure all rheo/pressure * linear");
-  library_.run("fix heat all rheo/thermal specific/heat * constant 1.0" + conductivity + melting + fmt::format(" react {} 1", job_.scene.merge_distance));
+  library_.run("fix heat all rheo/thermal specific/heat * constant 1.0" + conductivity + melting +
+               fmt::format(" react {} 1", job_.scene.merge_distance));
 }
 
 void Rheo::set_state() {
@@ -133,8 +145,7 @@ void Rheo::set_state() {
   for (std::size_t b = 0; b < job_.bodies.size(); ++b) {
     const RheoMatter m = rheo_matter(job_, b);
     if (job_.bodies[b].phase != Phase::liquid) library_.run(fmt::format("set group body{} rheo/status 1", b));
-    for (const std::size_t i : members(b))
-      energy[i] += m.melts && job_.bodies[b].phase == Phase::liquid ? m.latent : 0.0;
+    for (const std::size_t i : members(b)) energy[i] += m.melts && job_.bodies[b].phase == Phase::liquid ? m.latent : 0.0;
   }
   library_.set_scalars("esph", energy);
 }
@@ -152,12 +163,14 @@ double Rheo::hold_from(double time) {
   const double end = job_.times.back();
   double until = end;
   for (std::size_t b = 0; b < job_.bodies.size(); ++b) {
-    if (job_.bodies[b].temperature_held) hold(fmt::format("warm{}", b), ids_of(b), fmt::format("fix warm{0} warm{0} add/heat constant 0.0 overwrite yes", b));
+    if (job_.bodies[b].temperature_held)
+      hold(fmt::format("warm{}", b), ids_of(b), fmt::format("fix warm{0} warm{0} add/heat constant 0.0 overwrite yes", b));
     if (job_.bodies[b].motion == Motion::free) continue;
     const Drive drive = drive_at(job_.bodies[b], time, end);
     until = std::min(until, drive.until);
     const Vec3 v = drive.velocity / units_.speed();
-    hold(fmt::format("end{}", b), ids_of(b), fmt::format("velocity end{0} set {1:.17g} {2:.17g} {3:.17g}\nfix end{0} end{0} setforce 0.0 0.0 0.0", b, v.x, v.y, v.z));
+    hold(fmt::format("end{}", b), ids_of(b),
+         fmt::format("velocity end{0} set {1:.17g} {2:.17g} {3:.17g}\nfix end{0} end{0} setforce 0.0 0.0 0.0", b, v.x, v.y, v.z));
   }
   for (std::size_t e = 0; e < job_.scene.events.size(); ++e) {
     const Event& event = job_.scene.events[e];
@@ -197,7 +210,9 @@ void Rheo::refuse_molten_walls() const {
   for (std::size_t i = 0; i < state_.size(); ++i) {
     const JobBody& b = job_.bodies[static_cast<std::size_t>(state_.source[i])];
     const auto& melting = job_.scene.material(b.material).t_melt;
-    if (b.motion != Motion::free && melting && T[i] > *melting) throw EngineError(fmt::format("{} is held and would melt by t = {:.6g} s; RHEO shifts molten particles beside free ones", b.name, time_));
+    if (b.motion != Motion::free && melting && T[i] > *melting)
+      throw EngineError(
+          fmt::format("{} is held and would melt by t = {:.6g} s; RHEO shifts molten particles beside free ones", b.name, time_));
   }
 }
 
@@ -228,7 +243,9 @@ Snapshot Rheo::observe() const {
     const double c = *job_.scene.materials[static_cast<std::size_t>(s.material[i])].heat_capacity;
     s.phase[i] = static_cast<int>(s.body[i] < 0 ? Phase::liquid : from.phase == Phase::rigid ? Phase::rigid : Phase::elastic);
     s.density.push_back(rho[i] * units_.density());
-    s.liquid_fraction.push_back(m.melts && m.latent > 0.0 ? std::clamp((energy[i] - s.temperature[i]) / m.latent, 0.0, 1.0) : s.body[i] < 0 ? 1.0 : 0.0);
+    s.liquid_fraction.push_back(m.melts && m.latent > 0.0 ? std::clamp((energy[i] - s.temperature[i]) / m.latent, 0.0, 1.0)
+                                : s.body[i] < 0           ? 1.0
+                                                          : 0.0);
     s.energy["thermal"] += s.mass[i] * c * s.temperature[i];
     s.energy["latent"] += s.mass[i] * c * (energy[i] - s.temperature[i]);
   }

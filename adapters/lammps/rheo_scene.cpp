@@ -22,7 +22,8 @@ std::optional<double> modulus_of(const Job& job, std::size_t body) {
   const JobBody& b = job.bodies[body];
   const Material& m = material_of(job, body);
   if (b.motion != Motion::free || (b.phase == Phase::liquid && !m.t_melt)) return {};
-  const bool rigid = b.phase == Phase::rigid || (b.phase == Phase::liquid && m.solid == "rigid") || (m.t_melt && m.solid == "rigid");
+  const bool rigid =
+      b.phase == Phase::rigid || (b.phase == Phase::liquid && m.solid == "rigid") || (m.t_melt && m.solid == "rigid");
   return rigid ? choice_for(job).rigid_modulus : m.young_modulus;
 }
 
@@ -66,7 +67,8 @@ double viscosity_of(const Job& job, std::size_t body) {
 
 std::string why_not_event(const Event& e) {
   if (e.kind != Event::Kind::heat) return "of the events RHEO is handed heating only: no merge, split, release, hold or grip";
-  if (e.region && e.region->kind != Shape::Kind::box && e.region->kind != Shape::Kind::sphere) return "RHEO heats boxes and spheres here, and the region of an event is neither";
+  if (e.region && e.region->kind != Shape::Kind::box && e.region->kind != Shape::Kind::sphere)
+    return "RHEO heats boxes and spheres here, and the region of an event is neither";
   return {};
 }
 
@@ -75,15 +77,23 @@ std::string why_not_matter(const Job& job, std::size_t body) {
   const Material& m = material_of(job, body);
   if (!job.scene.bodies[body].temperature) return fmt::format("{} has no temperature", b.name);
   if (!m.conductivity || !m.heat_capacity) return fmt::format("{} has no conductivity or no heat capacity", m.name);
-  if (has_two_phases(m)) return fmt::format("{} conducts or holds heat otherwise when solid (solid_conductivity, solid_heat_capacity); RHEO is handed one value for both phases", m.name);
-  if (std::abs(heat_per_volume(job.scene, job.scene.bodies[body]) / heat_per_volume(job.scene, job.scene.bodies.front()) - 1.0) > 1e-9)
-    return fmt::format("RHEO conserves heat between equal heat capacities only, and that of {} differs from that of {}", b.name, job.bodies.front().name);
+  if (has_two_phases(m))
+    return fmt::format(
+        "{} conducts or holds heat otherwise when solid (solid_conductivity, solid_heat_capacity); RHEO is handed one value for "
+        "both phases",
+        m.name);
+  if (std::abs(heat_per_volume(job.scene, job.scene.bodies[body]) / heat_per_volume(job.scene, job.scene.bodies.front()) - 1.0) >
+      1e-9)
+    return fmt::format("RHEO conserves heat between equal heat capacities only, and that of {} differs from that of {}", b.name,
+                       job.bodies.front().name);
   if (is_turned(b)) return fmt::format("{} is turned; RHEO is handed driven bodies that are shifted only", b.name);
   if (b.motion != Motion::free) return {};
   if (m.density != density_of(job)) return fmt::format("{} has another density; RHEO is run here with one", b.name);
   if (m.t_melt && m.t_solid && *m.t_solid < *m.t_melt && choice_for(job).freezing.empty())
-    return fmt::format("{} freezes below its melting point; RHEO knows one temperature for both, which the setting freezing picks", m.name);
-  if (m.elastic_limit || m.fracture_stretch) return fmt::format("{} yields or breaks; bonds of RHEO are run here without either", m.name);
+    return fmt::format(
+        "{} freezes below its melting point; RHEO knows one temperature for both, which the setting freezing picks", m.name);
+  if (m.elastic_limit || m.fracture_stretch)
+    return fmt::format("{} yields or breaks; bonds of RHEO are run here without either", m.name);
   if ((b.phase != Phase::liquid || m.t_melt) && !modulus_of(job, body))
     return fmt::format("{} is rigid when solid, and RHEO has bonds only; the setting rigid_modulus gives them a modulus", m.name);
   return {};
@@ -121,7 +131,9 @@ RheoMatter rheo_matter(const Job& job, std::size_t body) {
 
 double bond_modulus(const Job& job) { return modulus(job) / rheo_units(job).pressure(); }
 
-double rheo_energy(const RheoMatter& m, double temperature) { return temperature + (m.melts && temperature > m.melting ? m.latent : 0.0); }
+double rheo_energy(const RheoMatter& m, double temperature) {
+  return temperature + (m.melts && temperature > m.melting ? m.latent : 0.0);
+}
 
 bool takes(const Event& e, const std::string& body, const Vec3& r) {
   if (!e.bodies.empty() && std::find(e.bodies.begin(), e.bodies.end(), body) == e.bodies.end()) return false;

@@ -12,7 +12,7 @@
 namespace tripoint::lammps {
 namespace {
 
-constexpr double default_support = 3.0;  // [spacings]
+constexpr double default_support = 3.0;   // [spacings]
 constexpr double diffusion_number = 0.1;  ///< D dt / dx2; explicit, and first order in time
 
 class SphHeat final : public Model {
@@ -33,10 +33,13 @@ class SphHeat final : public Model {
     time_ = time;
     const std::vector<double> T = library_.scalars("esph");
     for (std::size_t i = 0; i < T.size(); ++i)
-      if (!std::isfinite(T[i])) throw Diverged(static_cast<long>(i), -1, "temperature", "run", time, "the temperature is not finite");
+      if (!std::isfinite(T[i]))
+        throw Diverged(static_cast<long>(i), -1, "temperature", "run", time, "the temperature is not finite");
   }
 
-  [[nodiscard]] Snapshot observe() const override { return at_rest(job_, state_, time_, clock_.total(), library_.scalars("esph")); }
+  [[nodiscard]] Snapshot observe() const override {
+    return at_rest(job_, state_, time_, clock_.total(), library_.scalars("esph"));
+  }
   [[nodiscard]] Readback readback() const override { return rest_readback(job_, limit_); }
   void account(Result& result) const override {
     result.steps = clock_.total();
@@ -44,7 +47,9 @@ class SphHeat final : public Model {
   }
 
  private:
-  [[nodiscard]] double scaled_diffusivity(const Body& b) const { return diffusivity(job_.scene, b) / (job_.scene.spacing * job_.scene.spacing); }
+  [[nodiscard]] double scaled_diffusivity(const Body& b) const {
+    return diffusivity(job_.scene, b) / (job_.scene.spacing * job_.scene.spacing);
+  }
 
   [[nodiscard]] double cutoff() const { return choice_.cutoff.value_or(default_support); }
 
@@ -57,12 +62,14 @@ class SphHeat final : public Model {
     std::string edges;
     for (std::size_t k = 0; k < 3; ++k) {
       const double margin = cutoff() * scene.spacing;
-      const double from = scene.periodic[k] && scene.min ? (*scene.min)[k] : lo[k] - margin, to = scene.periodic[k] && scene.max ? (*scene.max)[k] : hi[k] + margin;
+      const double from = scene.periodic[k] && scene.min ? (*scene.min)[k] : lo[k] - margin,
+                   to = scene.periodic[k] && scene.max ? (*scene.max)[k] : hi[k] + margin;
       origin_[k] = from;
       edges += fmt::format(" 0 {:.17g}", (to - from) / scene.spacing);
     }
     const auto letter = [&](std::size_t k) { return scene.periodic[k] ? 'p' : 'f'; };
-    library_.run(fmt::format("units lj\natom_style sph\natom_modify map array sort 0 0.0\nboundary {} {} {}\n", letter(0), letter(1), letter(2)));
+    library_.run(fmt::format("units lj\natom_style sph\natom_modify map array sort 0 0.0\nboundary {} {} {}\n", letter(0),
+                             letter(1), letter(2)));
     library_.run(fmt::format("region box block{}\ncreate_box {} box\nmass * 1.0\n", edges, scene.bodies.size()));
   }
 
@@ -112,7 +119,9 @@ std::string why_no_sph_heat(const Job& job) {
   const double first = heat_per_volume(scene, scene.bodies.front());
   for (const Body& b : scene.bodies)
     if (std::abs(heat_per_volume(scene, b) / first - 1.0) > 1e-9)
-      return fmt::format("sph/heatconduction conserves heat between equal heat capacities only, and that of {} differs from that of {}", b.name, scene.bodies.front().name);
+      return fmt::format(
+          "sph/heatconduction conserves heat between equal heat capacities only, and that of {} differs from that of {}", b.name,
+          scene.bodies.front().name);
   return {};
 }
 

@@ -3,8 +3,8 @@
 //
 // Known to be wrong in it, measured in docs/engines.md: walls act about half a spacing outside their surface, as the velocity is
 // not reflected in them; nothing brings a particle's density back to where its neighbours are, as it only follows the continuity
-// equation; there is no clamp, so that stretched liquid pulls, and particles pair up under the Lucy kernel; the viscosity acts along
-// the difference of velocities, which brakes a liquid that turns; fix sph lets sound grow at w2 dt/4.
+// equation; there is no clamp, so that stretched liquid pulls, and particles pair up under the Lucy kernel; the viscosity acts
+// along the difference of velocities, which brakes a liquid that turns; fix sph lets sound grow at w2 dt/4.
 #include "adapters/lammps/sph_liquid.hpp"
 
 #include <fmt/format.h>
@@ -53,17 +53,24 @@ double step_limit(const Job& job) {
 
 class SphLiquid final : public ParticleModel {
  public:
-  SphLiquid(const Job& job, const InitialState& state) : ParticleModel(job, state, units_of(job), step_limit(job)), support_(support_of(job)), viscous_(greatest_viscosity(job.scene) > 0.0) {
+  SphLiquid(const Job& job, const InitialState& state)
+      : ParticleModel(job, state, units_of(job), step_limit(job)),
+        support_(support_of(job)),
+        viscous_(greatest_viscosity(job.scene) > 0.0) {
     make_particles("atom_style sph\nnewton on", "", support_, type_a_body());
     for (std::size_t b = 0; b < job.bodies.size(); ++b) {  // walls are made of still liquid
-      const double mass = job.bodies[b].phase == Phase::liquid ? particle_mass(state, static_cast<int>(b), job.bodies[b].name) : units_.mass;
+      const double mass =
+          job.bodies[b].phase == Phase::liquid ? particle_mass(state, static_cast<int>(b), job.bodies[b].name) : units_.mass;
       library_.run(fmt::format("mass {} {:.17g}", b + 1, mass / units_.mass));
     }
-    library_.run("set group all sph/rho 1.0 sph/e 0.0 sph/cv 1.0\ncomm_modify vel yes\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nthermo 0");
+    library_.run(
+        "set group all sph/rho 1.0 sph/e 0.0 sph/cv 1.0\ncomm_modify vel yes\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 "
+        "check yes\nthermo 0");
     make_gravity();
     make_pairs();
     library_.run("fix move free sph");
-    if (make_group("walls", [](const JobBody& b) { return b.motion == Motion::fixed; })) library_.run("fix walls walls sph/stationary");
+    if (make_group("walls", [](const JobBody& b) { return b.motion == Motion::fixed; }))
+      library_.run("fix walls walls sph/stationary");
     library_.run(choice_.commands);
   }
 
@@ -73,8 +80,10 @@ class SphLiquid final : public ParticleModel {
     result.time_step_bound = wanted_time_step(job_) ? "given" : "sound, viscosity";
     result.extra["support_in_spacings"] = support_;
     result.extra["sound_speed"] = units_.speed();
-    result.message = fmt::format("pair sph/taitwater{}, Lucy kernel of support {:g} dx, c = {:g} m/s; density by continuity, started at rest density; no clamp",
-                                 viscous_ ? "/morris" : "", support_, units_.speed());
+    result.message = fmt::format(
+        "pair sph/taitwater{}, Lucy kernel of support {:g} dx, c = {:g} m/s; density by continuity, started at rest density; no "
+        "clamp",
+        viscous_ ? "/morris" : "", support_, units_.speed());
   }
 
  private:
@@ -90,8 +99,10 @@ double SphLiquid::viscosity(std::size_t a, std::size_t b) const {
   const Scene& scene = job_.scene;
   const auto& A = scene.bodies[a];
   const auto& B = scene.bodies[b];
-  const double mu_a = scene.material(A.material).viscosity, mu_b = scene.material(B.material).viscosity, unit = units_.pressure() * units_.time;
-  if (A.phase == Phase::liquid && B.phase == Phase::liquid) return mu_a + mu_b > 0.0 ? 2.0 * mu_a * mu_b / (mu_a + mu_b) / unit : 0.0;
+  const double mu_a = scene.material(A.material).viscosity, mu_b = scene.material(B.material).viscosity,
+               unit = units_.pressure() * units_.time;
+  if (A.phase == Phase::liquid && B.phase == Phase::liquid)
+    return mu_a + mu_b > 0.0 ? 2.0 * mu_a * mu_b / (mu_a + mu_b) / unit : 0.0;
   if (A.phase != Phase::liquid && B.phase != Phase::liquid) return 0.0;
   return (A.phase == Phase::liquid ? B.free_slip : A.free_slip) ? 0.0 : (A.phase == Phase::liquid ? mu_a : mu_b) / unit;
 }
@@ -99,7 +110,8 @@ double SphLiquid::viscosity(std::size_t a, std::size_t b) const {
 void SphLiquid::make_pairs() {
   library_.run(viscous_ ? "pair_style sph/taitwater/morris" : "pair_style sph/taitwater");
   for (std::size_t a = 0; a < job_.bodies.size(); ++a)
-    for (std::size_t b = a; b < job_.bodies.size(); ++b) library_.run(fmt::format("pair_coeff {} {} 1.0 1.0 {:.17g} {:.17g}", a + 1, b + 1, viscosity(a, b), support_));
+    for (std::size_t b = a; b < job_.bodies.size(); ++b)
+      library_.run(fmt::format("pair_coeff {} {} 1.0 1.0 {:.17g} {:.17g}", a + 1, b + 1, viscosity(a, b), support_));
 }
 
 /// Stored in a particle [J]: m int p/rho^2 drho.
@@ -128,7 +140,8 @@ Snapshot SphLiquid::observe() const {
 
 std::string why_no_wall(const JobBody& b) {
   if (b.phase == Phase::elastic) return fmt::format("{} is elastic; sph/taitwater knows liquids and fixed walls only", b.name);
-  if (b.motion == Motion::free) return fmt::format("{} is a free rigid body; sph/taitwater is run here between fixed walls only", b.name);
+  if (b.motion == Motion::free)
+    return fmt::format("{} is a free rigid body; sph/taitwater is run here between fixed walls only", b.name);
   if (b.motion == Motion::prescribed) return fmt::format("{} is prescribed; walls of sph/taitwater are at rest here", b.name);
   return {};
 }
@@ -147,12 +160,16 @@ std::string why_no_sph_liquid(const Job& job) {
     }
     if (b.motion != Motion::free) return fmt::format("{} is a liquid that is held; sph/taitwater lets it flow", b.name);
     const double density = scene.material(b.material).density;
-    if (rho0 > 0.0 && density != rho0) return fmt::format("sph/taitwater weighs neighbours by mass and smears the density where liquids meet; {} has another one", b.name);
+    if (rho0 > 0.0 && density != rho0)
+      return fmt::format("sph/taitwater weighs neighbours by mass and smears the density where liquids meet; {} has another one",
+                         b.name);
     rho0 = density;
   }
   return sound_speed(scene) > 0.0 ? "" : "the scene gives no stiffness and no speed that one could follow from";
 }
 
-std::unique_ptr<Model> make_sph_liquid(const Job& job, const InitialState& state) { return std::make_unique<SphLiquid>(job, state); }
+std::unique_ptr<Model> make_sph_liquid(const Job& job, const InitialState& state) {
+  return std::make_unique<SphLiquid>(job, state);
+}
 
 }  // namespace tripoint::lammps

@@ -55,7 +55,7 @@ int supervise(const std::string& job_path, int (*child)(int, char**), int argc, 
   if (pid == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(1);  // the parent died before the line above
-    ::dup2(STDERR_FILENO, STDOUT_FILENO);  // some styles of LAMMPS print where only results belong
+    ::dup2(STDERR_FILENO, STDOUT_FILENO);   // some styles of LAMMPS print where only results belong
     std::exit(child(argc, argv));
   }
   int status = 0;

@@ -19,7 +19,8 @@ constexpr double hourglass = 10.0;        ///< of the manual's examples
 constexpr double courant = 0.2;           ///< dt c_L / support
 
 const Material& elastic_material(const Job& job) {
-  const auto found = std::find_if(job.bodies.begin(), job.bodies.end(), [](const JobBody& b) { return b.phase == Phase::elastic && b.motion == Motion::free; });
+  const auto found = std::find_if(job.bodies.begin(), job.bodies.end(),
+                                  [](const JobBody& b) { return b.phase == Phase::elastic && b.motion == Motion::free; });
   return job.scene.material(found->material);
 }
 
@@ -43,14 +44,16 @@ double step_limit(const Job& job) {
 
 class Tlsph final : public ParticleModel {
  public:
-  Tlsph(const Job& job, const InitialState& whole, Layer layer) : ParticleModel(job, layer.state, units_of(job), step_limit(job)), whole_(whole), layer_(std::move(layer)) {
+  Tlsph(const Job& job, const InitialState& whole, Layer layer)
+      : ParticleModel(job, layer.state, units_of(job), step_limit(job)), whole_(whole), layer_(std::move(layer)) {
     flat_ = job.scene.periodic[2];
     make_particles("atom_style smd\nnewton off\ncomm_modify vel yes", "", 3.0 * support_of(job), one_type());
     library_.run(fmt::format("set group all mol 1 volume 1.0 diameter {:.17g} smd/mass/density 1.0", support_of(job)));
     library_.run(fmt::format("neighbor {:.17g} bin\nneigh_modify every 10 delay 0 check yes\nthermo 0", support_of(job)));
     make_gravity();
     library_.run("group tlsph union all\npair_style smd/tlsph");
-    library_.run(fmt::format("pair_coeff 1 1 *COMMON 1.0 1.0 {:.17g} 0.0 0.0 {} 1.0 *STRENGTH_LINEAR *EOS_LINEAR *END", *elastic_material(job).poisson_ratio, hourglass));
+    library_.run(fmt::format("pair_coeff 1 1 *COMMON 1.0 1.0 {:.17g} 0.0 0.0 {} 1.0 *STRENGTH_LINEAR *EOS_LINEAR *END",
+                             *elastic_material(job).poisson_ratio, hourglass));
     library_.run("fix move tlsph smd/integrate_tlsph");
     library_.run(choice_.commands);
   }
@@ -86,14 +89,17 @@ class Tlsph final : public ParticleModel {
     result.steps = clock_.total();
     result.time_step_bound = wanted_time_step(job_) ? "given" : "elastic wave";
     result.extra["support_in_spacings"] = support_of(job_);
-    result.message = fmt::format("smd/tlsph, support {:g} dx, hourglass {:g}, no artificial viscosity{}", support_of(job_), hourglass, flat_ ? "; one layer in plane strain stands for all along z" : "");
+    result.message = fmt::format("smd/tlsph, support {:g} dx, hourglass {:g}, no artificial viscosity{}", support_of(job_),
+                                 hourglass, flat_ ? "; one layer in plane strain stands for all along z" : "");
   }
 
  private:
   /// What the object exerts on an end, which fix smd/setvel keeps from moving it [N].
   [[nodiscard]] Vec3 force_on_end(std::size_t b) const {
     Vec3 force;
-    for (std::size_t k = 0; k < 3; ++k) force[k] = static_cast<double>(layer_.count) * units_.mass * units_.acceleration() * library_.fix_value(fmt::format("end{}", b), static_cast<int>(k));
+    for (std::size_t k = 0; k < 3; ++k)
+      force[k] = static_cast<double>(layer_.count) * units_.mass * units_.acceleration() *
+                 library_.fix_value(fmt::format("end{}", b), static_cast<int>(k));
     return force;
   }
 
@@ -118,13 +124,16 @@ class Tlsph final : public ParticleModel {
 std::string why_not_matter(const Job& job, const JobBody& b) {
   const Material& m = job.scene.material(b.material);
   if (b.phase == Phase::liquid) return fmt::format("{} is liquid; smd/tlsph runs elastic objects alone", b.name);
-  if (b.phase == Phase::rigid && b.motion == Motion::free) return fmt::format("{} is a free rigid body; smd/tlsph knows held and driven ends only", b.name);
+  if (b.phase == Phase::rigid && b.motion == Motion::free)
+    return fmt::format("{} is a free rigid body; smd/tlsph knows held and driven ends only", b.name);
   if (is_turned(b)) return fmt::format("{} is turned; fix smd/setvel sets one velocity for all", b.name);
   if (b.phase != Phase::elastic) return {};
   if (!m.young_modulus || !m.poisson_ratio) return fmt::format("{} has no Young's modulus or no Poisson's ratio", m.name);
-  if (m.elastic_limit || m.fracture_stretch) return fmt::format("{} yields or breaks; smd/tlsph's laws of plasticity and damage are others", m.name);
+  if (m.elastic_limit || m.fracture_stretch)
+    return fmt::format("{} yields or breaks; smd/tlsph's laws of plasticity and damage are others", m.name);
   const Vec3& I = b.properties.principal_inertia;
-  if (I.x + I.y - I.z <= 1e-9 * I.z) return fmt::format("{} is one particle thin; smd/tlsph keeps the moduli of the bulk there", b.name);
+  if (I.x + I.y - I.z <= 1e-9 * I.z)
+    return fmt::format("{} is one particle thin; smd/tlsph keeps the moduli of the bulk there", b.name);
   return {};
 }
 
@@ -133,10 +142,12 @@ std::string why_not_one_object(const Scene& scene) {
   std::vector<std::size_t> reached{0};
   for (std::size_t n = 0; n < reached.size(); ++n)
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-      if (std::find(reached.begin(), reached.end(), b) == reached.end() && are_joined(scene.bodies[reached[n]], scene.bodies[b])) reached.push_back(b);
+      if (std::find(reached.begin(), reached.end(), b) == reached.end() && are_joined(scene.bodies[reached[n]], scene.bodies[b]))
+        reached.push_back(b);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     if (std::find(reached.begin(), reached.end(), b) == reached.end())
-      return fmt::format("{} is not joined to {}, and contact in MACHDYN is a penalty of its own that is not set up here", scene.bodies[b].name, scene.bodies.front().name);
+      return fmt::format("{} is not joined to {}, and contact in MACHDYN is a penalty of its own that is not set up here",
+                         scene.bodies[b].name, scene.bodies.front().name);
   return {};
 }
 
@@ -151,7 +162,8 @@ std::string why_no_tlsph(const Job& job) {
     if (const std::string reason = why_not_matter(job, b); !reason.empty()) return reason;
     free = free || (b.phase == Phase::elastic && b.motion == Motion::free);
     if (b.phase != Phase::elastic) continue;
-    if (!material.empty() && b.material != material) return fmt::format("smd/tlsph has no coefficients between two materials, and {} is of another one", b.name);
+    if (!material.empty() && b.material != material)
+      return fmt::format("smd/tlsph has no coefficients between two materials, and {} is of another one", b.name);
     material = b.material;
   }
   if (!free) return "no elastic body is free";

@@ -14,7 +14,8 @@ double Random::gaussian() {
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * uniform());
 }
 
-WalkerStart::WalkerStart(const Job& job, const InitialState& state, const CellBox& box) : scene_(job.scene), state_(state), box_(box) {
+WalkerStart::WalkerStart(const Job& job, const InitialState& state, const CellBox& box)
+    : scene_(job.scene), state_(state), box_(box) {
   Range all{INFINITY, -INFINITY};
   for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
     if (scene_.bodies[b].temperature_held) continue;
@@ -46,13 +47,16 @@ void WalkerStart::place_particles(const InitialState& state) {
     }
     ++placed;
     std::array<int, 3> c{};
-    for (std::size_t k = 0; k < 3; ++k) c[k] = std::clamp(static_cast<int>(std::floor((state.position[i][k] - box_.min[k]) / scene_.spacing)), 0, n[k] - 1);
+    for (std::size_t k = 0; k < 3; ++k)
+      c[k] = std::clamp(static_cast<int>(std::floor((state.position[i][k] - box_.min[k]) / scene_.spacing)), 0, n[k] - 1);
     const int cell = c[0] + n[0] * (c[1] + n[1] * c[2]);
-    if (particle_of_cell_[static_cast<std::size_t>(cell)] >= 0) throw EngineError("two particles lie in one cell of a spacing: walkers are counted on the lattice");
+    if (particle_of_cell_[static_cast<std::size_t>(cell)] >= 0)
+      throw EngineError("two particles lie in one cell of a spacing: walkers are counted on the lattice");
     particle_of_cell_[static_cast<std::size_t>(cell)] = static_cast<int>(i);
     cell_of_particle_.push_back(cell);
   }
-  if (placed != particle_of_cell_.size()) throw EngineError("a cell of the box holds no particle: walkers are counted on the lattice");
+  if (placed != particle_of_cell_.size())
+    throw EngineError("a cell of the box holds no particle: walkers are counted on the lattice");
 }
 
 double WalkerStart::excess(int particle, const Vec3& cells) const {
@@ -81,10 +85,12 @@ void WalkerStart::weigh_cells() {
   const std::array<double, 3> at{0.5 - a, 0.5, 0.5 + a}, share{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
   double sum = 0.0;
   for (int cell = 0; cell < static_cast<int>(particle_of_cell_.size()); ++cell) {
-    const Vec3 corner{double(cell % box_.cells[0]), double(cell / box_.cells[0] % box_.cells[1]), double(cell / box_.cells[0] / box_.cells[1])};
+    const Vec3 corner{double(cell % box_.cells[0]), double(cell / box_.cells[0] % box_.cells[1]),
+                      double(cell / box_.cells[0] / box_.cells[1])};
     double mean = 0.0, size = 0.0;
     for (std::size_t p = 0; p < 27; ++p) {
-      const double T = excess(particle_of_cell_[static_cast<std::size_t>(cell)], corner + Vec3{at[p % 3], at[p / 3 % 3], at[p / 9]});
+      const double T =
+          excess(particle_of_cell_[static_cast<std::size_t>(cell)], corner + Vec3{at[p % 3], at[p / 3 % 3], at[p / 9]});
       const double part = share[p % 3] * share[p / 3 % 3] * share[p / 9];
       mean += part * T, size += part * std::abs(T);
     }
@@ -96,8 +102,10 @@ void WalkerStart::weigh_cells() {
 /// A cell by its share, then a place within it by rejection under the field itself.
 Vec3 WalkerStart::draw(Random& random) const {
   const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end(), random.uniform() * cumulative_.back());
-  const int cell = static_cast<int>(std::min<std::ptrdiff_t>(found - cumulative_.begin(), static_cast<std::ptrdiff_t>(cumulative_.size()) - 1));
-  const Vec3 corner{double(cell % box_.cells[0]), double(cell / box_.cells[0] % box_.cells[1]), double(cell / box_.cells[0] / box_.cells[1])};
+  const int cell = static_cast<int>(
+      std::min<std::ptrdiff_t>(found - cumulative_.begin(), static_cast<std::ptrdiff_t>(cumulative_.size()) - 1));
+  const Vec3 corner{double(cell % box_.cells[0]), double(cell / box_.cells[0] % box_.cells[1]),
+                    double(cell / box_.cells[0] / box_.cells[1])};
   for (;;) {
     const Vec3 at = corner + Vec3{random.uniform(), random.uniform(), random.uniform()};
     if (random.uniform() * top_ < std::abs(excess(particle_of_cell_[static_cast<std::size_t>(cell)], at))) return at;

@@ -18,9 +18,9 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// Temperature beside a base as a density to draw walkers from: T(r) = base(r) + (content / N) n(r), n the number density of walkers
-/// with their signs. The base is the field's least value, so that all count as +1; between held faces it is the steady profile, and
-/// walkers where the start lies below it count as -1.
+/// Temperature beside a base as a density to draw walkers from: T(r) = base(r) + (content / N) n(r), n the number density of
+/// walkers with their signs. The base is the field's least value, so that all count as +1; between held faces it is the steady
+/// profile, and walkers where the start lies below it count as -1.
 class WalkerStart {
  public:
   WalkerStart(const Job&, const InitialState&, const CellBox&);
@@ -28,7 +28,7 @@ class WalkerStart {
   [[nodiscard]] Vec3 draw(Random&) const;
   /// +1 or -1, of a walker that starts here [cells].
   [[nodiscard]] int sign(const Vec3& cells) const { return excess_at(cells) < 0.0 ? -1 : 1; }
-  [[nodiscard]] double base(const Vec3& cells) const;  ///< [K], at a place in cells
+  [[nodiscard]] double base(const Vec3& cells) const;                  ///< [K], at a place in cells
   [[nodiscard]] double content() const { return cumulative_.back(); }  ///< integral of |T - base| [K spacings^3]
   /// Cell of each particle; -1 for one whose temperature is held.
   [[nodiscard]] const std::vector<int>& cell_of_particle() const { return cell_of_particle_; }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // Lengths are scaled to spacings, time stays in seconds; kT = D / dx2 and unit friction.
 //
-// A face of held temperature is a mirror that turns signs. What is left of the temperature beside the steady profile vanishes there, so it
-// goes on as an odd field beyond the face: walkers cross it freely and count with the opposite sign on the other side. Between two held
-// faces the box of twice the length is periodic; beside one, its ends are insulated walls. Both are exact.
+// A face of held temperature is a mirror that turns signs. What is left of the temperature beside the steady profile vanishes
+// there, so it goes on as an odd field beyond the face: walkers cross it freely and count with the opposite sign on the other
+// side. Between two held faces the box of twice the length is periodic; beside one, its ends are insulated walls. Both are exact.
 //
 // Langevin walkers (v' = -v/tau + noise, kT/m = D/tau) spread as 2 D (t - tau (1 - exp(-t/tau))), late by tau. Their steps form
 // a Gaussian process that mirror walls reflect exactly, so the lag is all there is: with the ratio step/tau below, the lag
@@ -36,7 +36,13 @@ const Body& free_body(const Scene& scene) {
 class Walkers final : public Model {
  public:
   Walkers(const Job& job, const InitialState& state, const CellBox& box, bool brownian)
-      : job_(job), state_(state), choice_(choice_for(job)), box_(box), brownian_(brownian), start_(job_, state_, box), library_(job.output + "/log.lammps"),
+      : job_(job),
+        state_(state),
+        choice_(choice_for(job)),
+        box_(box),
+        brownian_(brownian),
+        start_(job_, state_, box),
+        library_(job.output + "/log.lammps"),
         time_(job.times.front()) {
     axis_ = choice_.pool ? start_.only_axis() : -1;
     D_ = diffusivity(job.scene, free_body(job.scene)) / (job.scene.spacing * job.scene.spacing);
@@ -54,7 +60,8 @@ class Walkers final : public Model {
     clock_.run(library_, steps);
     time_ = time;
     for (std::size_t i = 0; i < job_.gauges.size(); ++i)
-      if (const auto [D, error] = gauged(job_.gauges[i]); error > 0.0) gauges_ += fmt::format("{:.17g},{},{:.17g},{:.17g}\n", time_, i, D, error);
+      if (const auto [D, error] = gauged(job_.gauges[i]); error > 0.0)
+        gauges_ += fmt::format("{:.17g},{},{:.17g},{:.17g}\n", time_, i, D, error);
   }
 
   [[nodiscard]] Snapshot observe() const override;
@@ -67,9 +74,12 @@ class Walkers final : public Model {
     result.extra["kelvin_a_walker"] = kelvin_a_walker();
     const auto [msd, error] = diffusivity_by_displacement({0, 1, 2});
     if (error > 0.0) result.extra["diffusivity"] = msd, result.extra["diffusivity_error"] = error;
-    result.message = fmt::format("{:.0f} {} walkers {}; {}; cell means lie (k dx)^2/24 below the values at the centres", choice_.walkers,
-                                 brownian_ ? "Brownian" : "Langevin", box_.held_axis >= 0 ? "beside the steady profile, with their signs" : fmt::format("above {} K", start_.base({})),
-                                 axis_ >= 0 ? fmt::format("counted in whole layers along {}, as the start depends on it alone", "xyz"[axis_]) : "counted in single cells");
+    result.message = fmt::format(
+        "{:.0f} {} walkers {}; {}; cell means lie (k dx)^2/24 below the values at the centres", choice_.walkers,
+        brownian_ ? "Brownian" : "Langevin",
+        box_.held_axis >= 0 ? "beside the steady profile, with their signs" : fmt::format("above {} K", start_.base({})),
+        axis_ >= 0 ? fmt::format("counted in whole layers along {}, as the start depends on it alone", "xyz"[axis_])
+                   : "counted in single cells");
     if (!brownian_) result.message += fmt::format("; relaxation time {:.3g} s, its lag taken off", tau_);
     if (gauges_.empty()) return;
     std::ofstream file(job_.output + "/gauges.csv");
@@ -78,7 +88,8 @@ class Walkers final : public Model {
   }
 
  private:
-  /// Sides of the walkers' box in cells. Where the start depends on one axis alone, walkers are free across it and their section is of no account.
+  /// Sides of the walkers' box in cells. Where the start depends on one axis alone, walkers are free across it and their section
+  /// is of no account.
   void choose_box() {
     for (std::size_t k = 0; k < 3; ++k) {
       const bool across = axis_ >= 0 && static_cast<int>(k) != axis_;
@@ -102,8 +113,10 @@ class Walkers final : public Model {
   }
 
   void make_box() {
-    library_.run(fmt::format("units lj\natom_style atomic\natom_modify sort 0 0.0\nboundary {} {} {}\n", wraps_[0] ? 'p' : 'f', wraps_[1] ? 'p' : 'f', wraps_[2] ? 'p' : 'f'));
-    library_.run(fmt::format("region box block 0 {} 0 {} 0 {}\ncreate_box 2 box\nmass * 1.0\npair_style none\n", sides_[0], sides_[1], sides_[2]));
+    library_.run(fmt::format("units lj\natom_style atomic\natom_modify sort 0 0.0\nboundary {} {} {}\n", wraps_[0] ? 'p' : 'f',
+                             wraps_[1] ? 'p' : 'f', wraps_[2] ? 'p' : 'f'));
+    library_.run(fmt::format("region box block 0 {} 0 {} 0 {}\ncreate_box 2 box\nmass * 1.0\npair_style none\n", sides_[0],
+                             sides_[1], sides_[2]));
     library_.run("comm_modify cutoff 0.05\nneighbor 0.0 bin\nneigh_modify every 1 delay 0 check no\nthermo 0\n");
   }
 
@@ -139,7 +152,8 @@ class Walkers final : public Model {
     if (brownian_)
       library_.run(fmt::format("fix move all brownian {:.17g} {} gamma_t 1.0 rng gaussian", D_, seed));
     else
-      library_.run(fmt::format("fix move all nve\nfix bath all langevin {0:.17g} {0:.17g} {1:.17g} {2}\n", D_ / tau_, tau_, seed));
+      library_.run(
+          fmt::format("fix move all nve\nfix bath all langevin {0:.17g} {0:.17g} {1:.17g} {2}\n", D_ / tau_, tau_, seed));
     std::string walls;
     for (std::size_t k = 0; k < 3; ++k)
       if (!wraps_[k]) walls += fmt::format(" {0}lo EDGE {0}hi EDGE", "xyz"[k]);
@@ -149,7 +163,8 @@ class Walkers final : public Model {
   /// Whether the box begins with the mirrored half.
   [[nodiscard]] bool held_low_alone() const { return box_.held_low && !box_.held_high; }
 
-  /// The diffusivity that a gauge asks for, along its axis or, where it has none, along all; {} where walkers do not go on for ever there.
+  /// The diffusivity that a gauge asks for, along its axis or, where it has none, along all; {} where walkers do not go on for
+  /// ever there.
   [[nodiscard]] std::pair<double, double> gauged(const JobGauge& gauge) const {
     if (gauge.quantity != "diffusivity") return {};
     const auto axis = gauge.where.find("axis");
@@ -159,7 +174,8 @@ class Walkers final : public Model {
     return diffusivity_by_displacement({(*word)[0] - 'x'});
   }
 
-  /// Half the mean squared displacement a second, of those of the axes along which walkers go on for ever, and its standard error. [m2/s]
+  /// Half the mean squared displacement a second, of those of the axes along which walkers go on for ever, and its standard
+  /// error. [m2/s]
   [[nodiscard]] std::pair<double, double> diffusivity_by_displacement(const std::vector<int>& axes) const {
     const double dx2 = job_.scene.spacing * job_.scene.spacing, time = time_ - job_.times.front();
     double sum = 0.0;
@@ -173,7 +189,9 @@ class Walkers final : public Model {
 
   [[nodiscard]] double kelvin_a_walker() const { return start_.content() / choice_.walkers; }
   /// Number of cells that are counted together.
-  [[nodiscard]] int pooled() const { return axis_ < 0 ? 1 : box_.cells[0] * box_.cells[1] * box_.cells[2] / box_.cells[static_cast<std::size_t>(axis_)]; }
+  [[nodiscard]] int pooled() const {
+    return axis_ < 0 ? 1 : box_.cells[0] * box_.cells[1] * box_.cells[2] / box_.cells[static_cast<std::size_t>(axis_)];
+  }
   [[nodiscard]] int bin_of(int cell) const {
     if (axis_ < 0) return cell;
     const auto& n = box_.cells;
@@ -202,11 +220,12 @@ class Walkers final : public Model {
   std::array<bool, 3> wraps_{};
   std::vector<Vec3> drawn_;  ///< where the walkers start
   std::vector<int> drawn_type_;
-  std::string gauges_;       ///< lines of gauges.csv so far
+  std::string gauges_;  ///< lines of gauges.csv so far
 };
 
 Walkers::Counts Walkers::counts() const {
-  const auto bins = static_cast<std::size_t>(axis_ < 0 ? box_.cells[0] * box_.cells[1] * box_.cells[2] : box_.cells[static_cast<std::size_t>(axis_)]);
+  const auto bins = static_cast<std::size_t>(axis_ < 0 ? box_.cells[0] * box_.cells[1] * box_.cells[2]
+                                                       : box_.cells[static_cast<std::size_t>(axis_)]);
   Counts count{std::vector<double>(bins), std::vector<double>(bins)};
   const bool moved = clock_.total() > 0;
   const std::vector<Vec3> position = moved ? library_.unordered_positions() : drawn_;
@@ -222,9 +241,11 @@ Walkers::Counts Walkers::counts() const {
         if (held_low_alone() ? inside < length : inside > length) sign = -sign;
         inside = held_low_alone() ? std::abs(inside - length) : std::min(inside, 2.0 * length - inside);
       }
-      c[k] = std::clamp(static_cast<int>(std::floor(inside)), 0, (static_cast<int>(k) == box_.held_axis ? box_.cells[k] : sides_[k]) - 1);
+      c[k] = std::clamp(static_cast<int>(std::floor(inside)), 0,
+                        (static_cast<int>(k) == box_.held_axis ? box_.cells[k] : sides_[k]) - 1);
     }
-    const auto bin = static_cast<std::size_t>(axis_ < 0 ? c[0] + box_.cells[0] * (c[1] + box_.cells[1] * c[2]) : c[static_cast<std::size_t>(axis_)]);
+    const auto bin = static_cast<std::size_t>(axis_ < 0 ? c[0] + box_.cells[0] * (c[1] + box_.cells[1] * c[2])
+                                                        : c[static_cast<std::size_t>(axis_)]);
     count.net[bin] += sign, count.all[bin] += 1.0;
   }
   return count;
@@ -261,7 +282,8 @@ std::string why_no_walkers(const Job& job) {
   if (!cell_box(scene, why)) return why;
   const Body& first = free_body(scene);
   for (const Body& b : scene.bodies)
-    if (!b.temperature_held && (std::abs(diffusivity(scene, b) / diffusivity(scene, first) - 1.0) > 1e-9 || std::abs(heat_per_volume(scene, b) / heat_per_volume(scene, first) - 1.0) > 1e-9))
+    if (!b.temperature_held && (std::abs(diffusivity(scene, b) / diffusivity(scene, first) - 1.0) > 1e-9 ||
+                                std::abs(heat_per_volume(scene, b) / heat_per_volume(scene, first) - 1.0) > 1e-9))
       return fmt::format("walkers need one diffusivity, and that of {} differs from that of {}", b.name, first.name);
   return {};
 }

@@ -17,8 +17,10 @@ template <class P, class Visit>
 void each_column(P& particles, Visit visit) {
   int column = 0;
   particles.for_each([&]<class T>(const FieldInfo& field, std::span<T> values) {
-    if constexpr (std::is_arithmetic_v<T>) visit(values, column++);
-    else throw EngineError("the column " + std::string(field.name) + " is not made of numbers and cannot go between ranks");
+    if constexpr (std::is_arithmetic_v<T>)
+      visit(values, column++);
+    else
+      throw EngineError("the column " + std::string(field.name) + " is not made of numbers and cannot go between ranks");
   });
 }
 
@@ -49,7 +51,8 @@ void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, cons
   if (++migrations_ == 1) own_at_start_ = ranks_->owned(), copies_at_start_ = ranks_->all() - ranks_->owned();
 }
 
-/// As far as the longest bond of all ranks reaches now: until the next migration nobody takes copies away, however bonds are stretched.
+/// As far as the longest bond of all ranks reaches now: until the next migration nobody takes copies away, however bonds are
+/// stretched.
 double LammpsHalo::reach_of(const Particles& particles, const Bonds& bonds, const PeriodicBox& box) {
   if (!has_lists_) return reach_;
   double least = -longest_bond(particles, bonds, migrations_ == 0 ? particles.size() : owned(), box);
@@ -62,7 +65,8 @@ double LammpsHalo::reach_of(const Particles& particles, const Bonds& bonds, cons
 /// Lists are written down once, with the numbers that ids are at the start: over ranks nobody changes them.
 void LammpsHalo::pack_lists(const Bonds& bonds, const OwnPairs& own) {
   if (migrations_ == 0) {
-    for (std::size_t atom = 0; atom < ranks_->owned(); ++atom) ranks_->lists(atom) = lists_as_numbers(bonds, own, static_cast<std::size_t>(ranks_->id(atom)));
+    for (std::size_t atom = 0; atom < ranks_->owned(); ++atom)
+      ranks_->lists(atom) = lists_as_numbers(bonds, own, static_cast<std::size_t>(ranks_->id(atom)));
   } else if (known_changes_ != std::array{bonds.changes(), own.changes()}) {
     throw EngineError("bonds or own pairs of a scene that is shared out have changed");
   }
@@ -81,7 +85,8 @@ void LammpsHalo::pack(Particles& particles, const PeriodicBox& box) {
     const std::size_t row = particles.row(first ? static_cast<std::size_t>(ranks_->id(atom)) : atom);
     each_column(particles, [&](auto values, int column) { ranks_->numbers(atom)[column] = static_cast<double>(values[row]); });
     const Vec3 r = particles.position(row);
-    for (std::size_t a = 0; a < 3; ++a) ranks_->position(atom)[a] = box.periodic[a] ? r[a] - std::floor((r[a] - box.min[a]) / box.width[a]) * box.width[a] : r[a];
+    for (std::size_t a = 0; a < 3; ++a)
+      ranks_->position(atom)[a] = box.periodic[a] ? r[a] - std::floor((r[a] - box.min[a]) / box.width[a]) * box.width[a] : r[a];
   }
 }
 

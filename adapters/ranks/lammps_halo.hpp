@@ -25,7 +25,8 @@ class LammpsHalo : public Halo {
   void refresh(Particles&, std::span<const Field<double>* const> columns) override;
   void refresh(std::span<double> by_id, std::size_t each) override;
   void add(std::span<double> numbers) override {
-    if (ranks_) collectives_ += 2, ranks_->add(numbers.data(), static_cast<int>(numbers.size()));  // before, all hold the whole scene
+    if (ranks_)
+      collectives_ += 2, ranks_->add(numbers.data(), static_cast<int>(numbers.size()));  // before, all hold the whole scene
   }
   void take_least(double& number, std::string& word) override;
   [[nodiscard]] bool is_first() const override { return ranks_->rank() == 0; }
@@ -34,14 +35,16 @@ class LammpsHalo : public Halo {
   [[nodiscard]] int number_of(std::size_t id) const { return ranks_ ? ranks_->id(id) : static_cast<int>(id); }
   [[nodiscard]] Ranks* ranks() const noexcept { return ranks_; }
   [[nodiscard]] long migrations() const noexcept { return migrations_; }
-  /// What was asked of the other ranks so far, counted also where there is no other: exchanges of columns, numbers that each copy took in them, and
-  /// collective calls. `tripoint predict` has its counts from here.
+  /// What was asked of the other ranks so far, counted also where there is no other: exchanges of columns, numbers that each copy
+  /// took in them, and collective calls. `tripoint predict` has its counts from here.
   struct Traffic {
     double exchanges = 0.0, numbers_a_copy = 0.0, collectives = 0.0;
-    int columns = 0;  ///< that go with a particle or a new copy
+    int columns = 0;                                    ///< that go with a particle or a new copy
     std::size_t own_at_start = 0, copies_at_start = 0;  ///< of this rank
   };
-  [[nodiscard]] Traffic traffic() const noexcept { return {exchanges_, numbers_a_copy_, collectives_, columns_of_particle_, own_at_start_, copies_at_start_}; }
+  [[nodiscard]] Traffic traffic() const noexcept {
+    return {exchanges_, numbers_a_copy_, collectives_, columns_of_particle_, own_at_start_, copies_at_start_};
+  }
   [[nodiscard]] double reach_of_copies() const noexcept { return reach_now_; }  ///< at the last migration [m]
 
  private:
@@ -61,8 +64,8 @@ class LammpsHalo : public Halo {
   std::size_t own_at_start_ = 0, copies_at_start_ = 0;
   bool has_lists_ = false;                        ///< the scene has bonds or own pairs
   std::array<std::uint64_t, 2> known_changes_{};  ///< of bonds and of own pairs, as the last migration left them
-  std::vector<std::uint32_t> rows_;  ///< memory that is used again: of each id
-  std::vector<double*> columns_;     ///< likewise
+  std::vector<std::uint32_t> rows_;               ///< memory that is used again: of each id
+  std::vector<double*> columns_;                  ///< likewise
 };
 
 }  // namespace tripoint::ranks

@@ -28,7 +28,8 @@ void follow(const Job& job) {
 }
 
 /// Leaves what ended this rank to the process that started mpiexec, and ends the others.
-[[noreturn]] void give_up(const Job& job, int rank, const char* status, const std::string& message, int code, std::optional<Divergence> divergence = {}) {
+[[noreturn]] void give_up(const Job& job, int rank, const char* status, const std::string& message, int code,
+                          std::optional<Divergence> divergence = {}) {
   Result failed;
   failed.status = status;
   failed.message = message;

@@ -29,8 +29,10 @@ std::string log_of(const std::string& output) { return output + "/mpiexec.log"; 
 /// mpiexec and its ranks as children; they end with this process. @return status as wait() gives it
 int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, const std::string& output) {
   std::error_code ignored;
-  const std::string self = fs::read_symlink("/proc/self/exe", ignored).string(), ranks = std::to_string(count), log = log_of(output);
-  const char* chosen = std::getenv("TRIPOINT_MPI_LAUNCHER");  // hydra's: fork for this machine; slurm or ssh for several, which nobody has tried
+  const std::string self = fs::read_symlink("/proc/self/exe", ignored).string(), ranks = std::to_string(count),
+                    log = log_of(output);
+  const char* chosen =
+      std::getenv("TRIPOINT_MPI_LAUNCHER");  // hydra's: fork for this machine; slurm or ssh for several, which nobody has tried
   const std::string launcher = chosen && *chosen ? chosen : "fork";
   keep_ends_of_children();
   const pid_t parent = ::getpid(), pid = ::fork();
@@ -40,7 +42,8 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
     if (::getppid() != parent) ::_exit(1);  // the parent died before the line above
     const int nothing = ::open("/dev/null", O_RDONLY), words = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(nothing, STDIN_FILENO), ::dup2(words, STDOUT_FILENO);
-    ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", launcher.c_str(), "-n", ranks.c_str(), self.c_str(), "--rank", job_path.c_str(), nullptr);
+    ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", launcher.c_str(), "-n", ranks.c_str(), self.c_str(),
+            "--rank", job_path.c_str(), nullptr);
     ::_exit(127);
   }
   int status = 0;
@@ -60,8 +63,10 @@ Ended first_to_end(const std::string& log) {
   static const std::regex process("PID ([0-9]+) RUNNING AT"), code("EXIT CODE: ([0-9]+)");
   std::smatch found;
   for (std::string line; std::getline(in, line);) {
-    if (ended.process == 0 && std::regex_search(line, found, process)) ended.process = std::stol(found[1]);
-    else if (std::regex_search(line, found, code)) return ended.code = std::stoi(found[1]), ended;
+    if (ended.process == 0 && std::regex_search(line, found, process))
+      ended.process = std::stol(found[1]);
+    else if (std::regex_search(line, found, code))
+      return ended.code = std::stoi(found[1]), ended;
   }
   return ended;
 }
@@ -92,16 +97,21 @@ Result result_of_failure(const std::string& output, int count, int status) {
   Result failed;
   failed.status = "error";
   const Ended ended = first_to_end(log_of(output));
-  failed.message = fmt::format("the ranks ended without a result; mpiexec {} {}", WIFSIGNALED(status) ? "was ended by signal" : "gave exit code", WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
+  failed.message = fmt::format("the ranks ended without a result; mpiexec {} {}",
+                               WIFSIGNALED(status) ? "was ended by signal" : "gave exit code",
+                               WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
   for (int rank = 0; rank < count; ++rank) {
     const Words words = words_of(output, rank);
     if (words.process == 0 || words.process != ended.process) continue;
-    failed.message = fmt::format("rank {} of {} was ended by signal {} ({}); its last words: {}", rank, count, ended.code, ::strsignal(ended.code), words.text);
+    failed.message = fmt::format("rank {} of {} was ended by signal {} ({}); its last words: {}", rank, count, ended.code,
+                                 ::strsignal(ended.code), words.text);
   }
   return failed;
 }
 
-int exit_code_of(const Result& result) { return result.status == "ok" ? 0 : result.status == "refused" ? 4 : result.status == "diverged" ? 7 : 1; }
+int exit_code_of(const Result& result) {
+  return result.status == "ok" ? 0 : result.status == "refused" ? 4 : result.status == "diverged" ? 7 : 1;
+}
 
 }  // namespace
 
@@ -112,7 +122,8 @@ int run_ranks(const std::string& job_path) {
   std::error_code ignored;
   fs::create_directories(job.output);
   fs::remove(result, ignored);
-  for (int rank = 0; rank < count; ++rank) fs::remove(failure_file(job.output, rank), ignored), fs::remove(words_file(job.output, rank), ignored);
+  for (int rank = 0; rank < count; ++rank)
+    fs::remove(failure_file(job.output, rank), ignored), fs::remove(words_file(job.output, rank), ignored);
   const int status = start_and_wait(find_wheel(), count, job_path, job.output);
   if (fs::exists(result, ignored)) return exit_code_of(read_result(result));
   const Result failed = result_of_failure(job.output, count, status);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
-// The plugin of LAMMPS: the fix `tripoint/halo`, which keeps the solver's columns with LAMMPS's atoms. LAMMPS decomposes the box, moves atoms between
-// ranks and says which copies each rank needs; nothing of the model is here.
+// The plugin of LAMMPS: the fix `tripoint/halo`, which keeps the solver's columns with LAMMPS's atoms. LAMMPS decomposes the box,
+// moves atoms between ranks and says which copies each rank needs; nothing of the model is here.
 #include <lammps/atom.h>
 #include <lammps/comm.h>
 #include <lammps/domain.h>
@@ -72,7 +72,9 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   [[nodiscard]] std::size_t bytes_of_row() const { return static_cast<std::size_t>(columns_) * sizeof(double); }
   int put(int one, double* to) const;
   int take(int one, const double* from);
-  [[nodiscard]] std::size_t place_of(int one) const { return (forwarded_.rows ? forwarded_.rows[one] : static_cast<std::size_t>(one)) * forwarded_.stride; }
+  [[nodiscard]] std::size_t place_of(int one) const {
+    return (forwarded_.rows ? forwarded_.rows[one] : static_cast<std::size_t>(one)) * forwarded_.stride;
+  }
 
   int columns_, most_lists_;  ///< numbers of an atom: those of its columns, and of its lists at most
   double** numbers_ = nullptr;
@@ -82,8 +84,12 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   double bytes_sent_ = 0.0;
 };
 
-FixHalo::FixHalo(LAMMPS* lammps, int count, char** words) : Fix(lammps, count, words), columns_(count == 5 ? std::atoi(words[3]) : 0), most_lists_(count == 5 ? std::atoi(words[4]) : 0) {
-  if (columns_ < 1) throw EngineError("the fix tripoint/halo takes the number of columns, and of numbers that lists have at most");
+FixHalo::FixHalo(LAMMPS* lammps, int count, char** words)
+    : Fix(lammps, count, words),
+      columns_(count == 5 ? std::atoi(words[3]) : 0),
+      most_lists_(count == 5 ? std::atoi(words[4]) : 0) {
+  if (columns_ < 1)
+    throw EngineError("the fix tripoint/halo takes the number of columns, and of numbers that lists have at most");
   comm_border = columns_ + 1 + most_lists_, comm_forward = most_forwarded, maxexchange = comm_border + 1;
   FixHalo::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
@@ -169,7 +175,9 @@ void FixHalo::migrate(double reach) {
   comm->borders();
   bigint here = atom->nlocal, everywhere = 0;
   MPI_Allreduce(&here, &everywhere, 1, MPI_LMP_BIGINT, MPI_SUM, world);
-  if (everywhere != atom->natoms) throw EngineError("LAMMPS lost " + std::to_string(atom->natoms - everywhere) + " of " + std::to_string(atom->natoms) + " particles between ranks");
+  if (everywhere != atom->natoms)
+    throw EngineError("LAMMPS lost " + std::to_string(atom->natoms - everywhere) + " of " + std::to_string(atom->natoms) +
+                      " particles between ranks");
 }
 
 /// One rank adds and tells the others: the bits are the same for all, whatever the library's way of sums.
@@ -201,7 +209,9 @@ std::vector<double> FixHalo::gather(const std::vector<double>& own) {
   return all;
 }
 
-void* create_halo(void* lammps, int count, char** words) { return static_cast<LAMMPS_NS::Fix*>(new FixHalo(static_cast<LAMMPS*>(lammps), count, words)); }
+void* create_halo(void* lammps, int count, char** words) {
+  return static_cast<LAMMPS_NS::Fix*>(new FixHalo(static_cast<LAMMPS*>(lammps), count, words));
+}
 
 /// "MPICH Version:      5.0.2\n..." becomes "MPICH 5.0.2"; another library's words stay as they are, up to the end of the line.
 std::string library_of_mpi() {
@@ -222,7 +232,8 @@ std::string library_of_mpi() {
 extern "C" {
 
 const tripoint::ranks::Facts* tripoint_built_with() {
-  static const tripoint::ranks::Facts facts{TRIPOINT_LAMMPS_VERSION, sizeof(LAMMPS_NS::tagint), sizeof(LAMMPS_NS::bigint), sizeof(LAMMPS_NS::imageint), "MPICH " MPICH_VERSION};
+  static const tripoint::ranks::Facts facts{TRIPOINT_LAMMPS_VERSION, sizeof(LAMMPS_NS::tagint), sizeof(LAMMPS_NS::bigint),
+                                            sizeof(LAMMPS_NS::imageint), "MPICH " MPICH_VERSION};
   return &facts;
 }
 
@@ -252,7 +263,13 @@ void tripoint_abort(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
 /// What `plugin load` calls.
 void lammpsplugin_init(void* lammps, void* handle, void* registers) {
   using namespace tripoint::ranks;
-  static PluginEntry entry{static_cast<LAMMPS_NS::LAMMPS*>(lammps)->version, "fix", "tripoint/halo", "columns of tripoint's solver with LAMMPS's atoms", "the tripoint authors", create_halo, handle};
+  static PluginEntry entry{static_cast<LAMMPS_NS::LAMMPS*>(lammps)->version,
+                           "fix",
+                           "tripoint/halo",
+                           "columns of tripoint's solver with LAMMPS's atoms",
+                           "the tripoint authors",
+                           create_halo,
+                           handle};
   reinterpret_cast<RegisterPlugin>(registers)(&entry, lammps);
 }
 }

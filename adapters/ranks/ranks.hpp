@@ -10,9 +10,9 @@ namespace tripoint::ranks {
 
 /// What a plugin was built with, or finds as it is loaded.
 struct Facts {
-  int lammps = 0;                                ///< version as a date, 20250722
+  int lammps = 0;                                               ///< version as a date, 20250722
   int bytes_of_id = 0, bytes_of_count = 0, bytes_of_image = 0;  ///< LAMMPS's tagint, bigint, imageint
-  std::string mpi;                               ///< library and version, "MPICH 5.0.2"
+  std::string mpi;                                              ///< library and version, "MPICH 5.0.2"
 };
 
 /// The particles of this rank, as LAMMPS's atoms: decomposed, migrated and copied to where they are near by LAMMPS.
@@ -20,11 +20,11 @@ class Ranks {
  public:
   [[nodiscard]] virtual int rank() const = 0;
   [[nodiscard]] virtual int size() const = 0;
-  [[nodiscard]] virtual std::size_t owned() const = 0;  ///< atoms of its own; copies follow them
-  [[nodiscard]] virtual std::size_t all() const = 0;    ///< with copies
-  [[nodiscard]] virtual int id(std::size_t atom) const = 0;               ///< of all ranks, from 0
-  [[nodiscard]] virtual double* position(std::size_t atom) const = 0;     ///< x, y, z [m]
-  [[nodiscard]] virtual double* numbers(std::size_t atom) const = 0;      ///< that go with the atom
+  [[nodiscard]] virtual std::size_t owned() const = 0;                 ///< atoms of its own; copies follow them
+  [[nodiscard]] virtual std::size_t all() const = 0;                   ///< with copies
+  [[nodiscard]] virtual int id(std::size_t atom) const = 0;            ///< of all ranks, from 0
+  [[nodiscard]] virtual double* position(std::size_t atom) const = 0;  ///< x, y, z [m]
+  [[nodiscard]] virtual double* numbers(std::size_t atom) const = 0;   ///< that go with the atom
   /// Bonds and own pairs, as numbers that go with the atom; no more of them than add_halo() was told.
   [[nodiscard]] virtual std::vector<double>& lists(std::size_t atom) const = 0;
   /// Atoms go to the rank that has their place, and are copied to those that it is near to. @param reach of copies [m]
@@ -32,10 +32,10 @@ class Ranks {
   virtual void migrate(double reach) = 0;
   /// What copies take from their owners: columns, of which a row has one number each.
   struct Columns {
-    double* const* first;        ///< number of row 0 in each column
+    double* const* first;  ///< number of row 0 in each column
     int count;
-    const std::uint32_t* rows;   ///< of each atom; null: rows are atoms
-    std::size_t stride;          ///< from the number of a row to that of the next
+    const std::uint32_t* rows;  ///< of each atom; null: rows are atoms
+    std::size_t stride;         ///< from the number of a row to that of the next
   };
   virtual void forward(const Columns&) = 0;
   virtual void add(double* numbers, int count) = 0;

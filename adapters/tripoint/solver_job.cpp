@@ -37,7 +37,8 @@ SimulationOptions options_of(const Job& job) {
   options.force_time_step = setting(job, "force_time_step", false);
   options.axis_order = axis_order_of(job.preset);
   options.skin = setting(job, "skin", options.skin);
-  if (!(options.skin >= 0.0 && options.skin <= 2.0)) throw InputError("the setting skin of the engine tripoint is from 0 to 2 support radii");
+  if (!(options.skin >= 0.0 && options.skin <= 2.0))
+    throw InputError("the setting skin of the engine tripoint is from 0 to 2 support radii");
   options.lanes = static_cast<int>(setting(job, "lanes", 0.0));
   return options;
 }
@@ -52,7 +53,8 @@ Readback readback_of(const World& world, const TimeStepBound& bound) {
   Readback held;
   held.gravity = world.scene.gravity;
   held.time_step = world.scene.time_step.value_or(bound.dt);
-  const auto of_scene = static_cast<std::size_t>(std::ranges::count_if(world.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
+  const auto of_scene =
+      static_cast<std::size_t>(std::ranges::count_if(world.scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; }));
   for (std::size_t b = 0; b < of_scene; ++b) {  // what is cold from the start has frozen to bodies of its own by now
     held.bodies.push_back({world.body_names[b], world.bodies[field::body_mass][b], world.bodies[field::body_centre][b],
                            world.bodies[field::body_inertia][b], 0.0, 0.0, 0.0, 0.0});

@@ -13,16 +13,19 @@ namespace {
 
 /// A setting that nobody reads would be ignored in silence. @return why not, or empty
 std::string refuse_settings(const Job& job, const EngineInfo& info) {
-  std::vector<std::string> known{"wall_limit", "walkers", "iterations"};  // the harness's own, and axes of studies that all engines take part in
+  std::vector<std::string> known{"wall_limit", "walkers",
+                                 "iterations"};  // the harness's own, and axes of studies that all engines take part in
   for (const auto& [name, meaning] : info.settings) known.push_back(name);
   for (const auto& [name, value] : job.settings) {
     if (std::ranges::find(known, name) != known.end()) continue;
     if (name == "restitution") {  // of all engines: contact is the gradient of an energy, which gives back what it took
       if (const double* e = std::get_if<double>(&value); e && *e == 1.0) continue;
-      return "tripoint: contact in the particle model is elastic by its energy: restitution is no setting, and only 1 is what it does";
+      return "tripoint: contact in the particle model is elastic by its energy: restitution is no setting, and only 1 is what it "
+             "does";
     }
     if (name.find("friction") != std::string::npos)
-      return "tripoint: the particle model meets by pressure and viscosity alone and has no law of Coulomb: " + name + " is no setting; scene.contact_viscosity brakes solids that slide on each other";
+      return "tripoint: the particle model meets by pressure and viscosity alone and has no law of Coulomb: " + name +
+             " is no setting; scene.contact_viscosity brakes solids that slide on each other";
     return "tripoint: no setting is named " + printable(name) + suggestion(name, known);
   }
   return {};
@@ -37,15 +40,18 @@ EngineInfo TripointEngine::info() const {
   info.build = TRIPOINT_BUILD;
   std::error_code ignored;
   info.library_path = std::filesystem::read_symlink("/proc/self/exe", ignored).string();  // the solver is this program
-  info.capabilities = {"rigid-free-flight", "gravity",  "merge", "split",     "release", "hold",
-                       "prescribed",        "periodic", "heat",  "heat-held", "paper",   "corrected", "restart",
-                       "liquid", "contact", "viscosity", "walls", "transport-velocity", "elastic", "phase"};
+  info.capabilities = {"rigid-free-flight", "gravity",  "merge",   "split",     "release", "hold",
+                       "prescribed",        "periodic", "heat",    "heat-held", "paper",   "corrected",
+                       "restart",           "liquid",   "contact", "viscosity", "walls",   "transport-velocity",
+                       "elastic",           "phase"};
   info.presets = {"default"};
   for (const char* axes : {"012", "021", "102", "120", "201", "210"}) info.presets.push_back(std::string(no_squish) + axes);
-  info.settings = {{"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
-                   {"skin", "skin of the neighbour lists in support radii; default 0.1"},
-                   {"lanes", "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"},
-                   {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"}};
+  info.settings = {
+      {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
+      {"skin", "skin of the neighbour lists in support radii; default 0.1"},
+      {"lanes",
+       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"},
+      {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"}};
   info.deterministic = true;
   info.defects = registered_defects();
   return info;
@@ -105,7 +111,9 @@ void TripointEngine::account(Result& result) const {
   if (std::isfinite(simulation_->bound().dt)) result.extra["time_step_bound"] = simulation_->bound().dt;
   if (const Recovery& recovery = simulation_->recovery(); recovery.count() > 0) {
     result.extra["recoveries"] = static_cast<double>(recovery.count());
-    if (result.message.empty()) result.message = "recovered " + std::to_string(recovery.count()) + (recovery.count() == 1 ? " time" : " times") + ", last when " + recovery.last();
+    if (result.message.empty())
+      result.message = "recovered " + std::to_string(recovery.count()) + (recovery.count() == 1 ? " time" : " times") +
+                       ", last when " + recovery.last();
   }
   if (const auto& lists = simulation_->world().neighbours)
     result.extra["neighbour_rebuilds"] = static_cast<double>(lists->rebuilds());

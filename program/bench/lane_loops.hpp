@@ -6,11 +6,12 @@
 
 #include "core/aligned.hpp"
 
-/// The machine's limit: the pair loops of one scene fused by hand, in the best layout known, for a `tripoint bench` to compare the
-/// solver's own passes with. They know nothing of columns, slots, groups or bodies.
+/// The machine's limit: the pair loops of one scene fused by hand, in the best layout known, for a `tripoint bench` to compare
+/// the solver's own passes with. They know nothing of columns, slots, groups or bodies.
 namespace tripoint::bench {
 
-/// What the loops read and add, one column each, padded by one vector. The seed's forms read the first nine, the corrected ones all.
+/// What the loops read and add, one column each, padded by one vector. The seed's forms read the first nine, the corrected ones
+/// all.
 struct LaneColumns {
   enum : std::size_t { x, y, z, u, v, w, pressure, volume, temperature, viscosity, conductivity, moment, count = moment + 6 };
   std::array<AlignedVector<double>, count> of;
@@ -18,7 +19,8 @@ struct LaneColumns {
   std::size_t rows = 0;
 };
 
-/// Clusters of as many rows as a vector has lanes, which follow one another in a row of cells; each lists the rows in reach of any.
+/// Clusters of as many rows as a vector has lanes, which follow one another in a row of cells; each lists the rows in reach of
+/// any.
 struct LaneLists {
   std::vector<std::uint32_t> first;  ///< row of each cluster, and the number of rows
   std::vector<std::size_t> start;    ///< of each cluster's list, one more at the end
@@ -39,7 +41,8 @@ struct LaneLoops {
   void (*list)(const LaneColumns&, const LaneCells&, double support, double reach, int threads, LaneLists&) = nullptr;
   using Loop = void (*)(LaneColumns&, const LaneLists&, double support, int threads);
   Loop seed_density = nullptr, seed_rates = nullptr;  ///< (4); (7), (8), (21)
-  Loop corrected_density = nullptr, corrected_rates = nullptr, corrected_heat = nullptr;  ///< model 8.2, 8.6; 8.3, 8.5, 8.6; 8.6 again
+  Loop corrected_density = nullptr, corrected_rates = nullptr,
+       corrected_heat = nullptr;  ///< model 8.2, 8.6; 8.3, 8.5, 8.6; 8.6 again
 };
 
 /// @tparam U the vector unit

@@ -57,16 +57,19 @@ Block block_of(const LaneColumns& c, const LaneCells& cells, std::size_t from, s
 }
 
 /// Appends the rows in reach of any lane. @return pairs within the support, of lanes below `lanes`
-double list_cluster(const LaneColumns& c, const LaneCells& cells, double support2, double reach2, std::size_t row, std::size_t lanes, std::vector<std::uint32_t>& out) {
+double list_cluster(const LaneColumns& c, const LaneCells& cells, double support2, double reach2, std::size_t row,
+                    std::size_t lanes, std::vector<std::uint32_t>& out) {
   const double *x = c.of[0].data(), *y = c.of[1].data(), *z = c.of[2].data();
-  const V x_i = load_lanes<L>(x + row), y_i = load_lanes<L>(y + row), z_i = load_lanes<L>(z + row), edge = V{} + reach2, inner = V{} + support2;
+  const V x_i = load_lanes<L>(x + row), y_i = load_lanes<L>(y + row), z_i = load_lanes<L>(z + row), edge = V{} + reach2,
+          inner = V{} + support2;
   const unsigned used = (1u << lanes) - 1u;
   const Block b = block_of(c, cells, row, row + lanes);
   double pairs = 0.0;
   for (int kz = b.low[2]; kz <= b.high[2]; ++kz) {
     for (int ky = b.low[1]; ky <= b.high[1]; ++ky) {
       const std::size_t line = static_cast<std::size_t>(cells.count[0]) * static_cast<std::size_t>(ky + cells.count[1] * kz);
-      const std::uint32_t from = cells.first[line + static_cast<std::size_t>(b.low[0])], to = cells.first[line + static_cast<std::size_t>(b.high[0]) + 1];
+      const std::uint32_t from = cells.first[line + static_cast<std::size_t>(b.low[0])],
+                          to = cells.first[line + static_cast<std::size_t>(b.high[0]) + 1];
       std::size_t n = out.size();
       out.resize(n + (to - from));
       for (std::uint32_t j = from; j < to; ++j) {
@@ -83,9 +86,11 @@ double list_cluster(const LaneColumns& c, const LaneCells& cells, double support
 
 void list(const LaneColumns& c, const LaneCells& cells, double support, double reach, int threads, LaneLists& lists) {
   lists.first.clear();
-  const std::size_t lines = static_cast<std::size_t>(cells.count[1]) * static_cast<std::size_t>(cells.count[2]), width = static_cast<std::size_t>(cells.count[0]);
+  const std::size_t lines = static_cast<std::size_t>(cells.count[1]) * static_cast<std::size_t>(cells.count[2]),
+                    width = static_cast<std::size_t>(cells.count[0]);
   for (std::size_t line = 0; line < lines; ++line)
-    for (std::uint32_t row = cells.first[line * width]; row < cells.first[(line + 1) * width]; row += L) lists.first.push_back(row);
+    for (std::uint32_t row = cells.first[line * width]; row < cells.first[(line + 1) * width]; row += L)
+      lists.first.push_back(row);
   const std::size_t clusters = lists.first.size(), parts = static_cast<std::size_t>(threads);
   lists.first.push_back(static_cast<std::uint32_t>(c.rows));
   lists.start.assign(clusters + 1, 0);
@@ -96,13 +101,15 @@ void list(const LaneColumns& c, const LaneCells& cells, double support, double r
     part[p].reserve(clusters / parts * 300);
     for (std::size_t n = clusters * p / parts; n < clusters * (p + 1) / parts; ++n) {
       const std::size_t before = part[p].size();
-      pairs += list_cluster(c, cells, support * support, reach * reach, lists.first[n], lists.first[n + 1] - lists.first[n], part[p]);
+      pairs +=
+          list_cluster(c, cells, support * support, reach * reach, lists.first[n], lists.first[n + 1] - lists.first[n], part[p]);
       lists.start[n + 1] = part[p].size() - before;
     }
   }
   for (std::size_t n = 0; n < clusters; ++n) lists.start[n + 1] += lists.start[n];
   lists.partner.resize(lists.start.back());
-  for (std::size_t p = 0, at = 0; p < parts; at += part[p].size(), ++p) std::ranges::copy(part[p], lists.partner.begin() + static_cast<std::ptrdiff_t>(at));
+  for (std::size_t p = 0, at = 0; p < parts; at += part[p].size(), ++p)
+    std::ranges::copy(part[p], lists.partner.begin() + static_cast<std::ptrdiff_t>(at));
   lists.pairs = pairs;
 }
 
@@ -110,7 +117,8 @@ void list(const LaneColumns& c, const LaneCells& cells, double support, double r
 
 template <>
 LaneLoops lane_loops<Unit>() {
-  return {L, &list, &sweep<SeedDensity>, &sweep<SeedRates>, &sweep<CorrectedDensity>, &sweep<CorrectedRates>, &sweep<CorrectedHeat>};
+  return {
+      L, &list, &sweep<SeedDensity>, &sweep<SeedRates>, &sweep<CorrectedDensity>, &sweep<CorrectedRates>, &sweep<CorrectedHeat>};
 }
 
 }  // namespace tripoint::bench

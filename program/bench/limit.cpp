@@ -35,7 +35,9 @@ std::vector<double> steps_of(const std::vector<LimitSeconds>& rounds, double reb
 }
 
 /// A number in [0.9, 1.1) that differs from row to row: loops over equal values could be cheaper.
-double uneven(std::size_t row, std::size_t column) { return 0.9 + 0.2 * static_cast<double>((row * 2654435761u + column * 40503u) % 1024u) / 1024.0; }
+double uneven(std::size_t row, std::size_t column) {
+  return 0.9 + 0.2 * static_cast<double>((row * 2654435761u + column * 40503u) % 1024u) / 1024.0;
+}
 
 LaneCells cells_over(const LaneColumns& c, double reach) {
   constexpr double finer[3] = {4.0, 1.0, 1.0};
@@ -80,7 +82,10 @@ void Limit::sort() {
   const std::size_t n = start_.rows;
   cells_ = cells_over(start_, reach_);
   std::vector<std::uint32_t> cell(n), order(n);
-  cells_.first.assign(static_cast<std::size_t>(cells_.count[0]) * static_cast<std::size_t>(cells_.count[1]) * static_cast<std::size_t>(cells_.count[2]) + 1, 0);
+  cells_.first.assign(static_cast<std::size_t>(cells_.count[0]) * static_cast<std::size_t>(cells_.count[1]) *
+                              static_cast<std::size_t>(cells_.count[2]) +
+                          1,
+                      0);
   const double *x = start_.of[0].data(), *y = start_.of[1].data(), *z = start_.of[2].data();
 #pragma omp parallel for schedule(static) num_threads(threads_)
   for (std::size_t i = 0; i < n; ++i) {
@@ -135,7 +140,8 @@ std::vector<double> Limit::sums(std::size_t unit) {
   search(r);
   (mode_ == Mode::paper ? r.loops.seed_rates : r.loops.corrected_rates)(columns_, r.lists, support_, threads_);
   std::vector<double> all;
-  for (std::size_t k = 0; k < 4; ++k) all.insert(all.end(), columns_.sum[k].begin(), columns_.sum[k].begin() + static_cast<std::ptrdiff_t>(columns_.rows));
+  for (std::size_t k = 0; k < 4; ++k)
+    all.insert(all.end(), columns_.sum[k].begin(), columns_.sum[k].begin() + static_cast<std::ptrdiff_t>(columns_.rows));
   return all;
 }
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "program/bench/lane_loops.hpp"
 #include "core/vec3.hpp"
+#include "program/bench/lane_loops.hpp"
 #include "scene/scene.hpp"
 
 namespace tripoint::bench {

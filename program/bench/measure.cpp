@@ -8,8 +8,8 @@
 #include <ctime>
 #include <numeric>
 
-#include "program/bench/memory.hpp"
 #include "effects/plan.hpp"
+#include "program/bench/memory.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint::bench {
@@ -102,7 +102,8 @@ Measured measure(const Work& work, const MeasureOptions& options) {
   m.step_seconds = spread_of(seconds);
   m.cpu_seconds = spread_of(cpu);
   for (std::size_t k = 0; k < stages.size(); ++k) m.stages[k] = stages[k] / steps;
-  m.outside = std::accumulate(seconds.begin(), seconds.end(), 0.0) / static_cast<double>(seconds.size()) - std::accumulate(m.stages.begin(), m.stages.end(), 0.0);
+  m.outside = std::accumulate(seconds.begin(), seconds.end(), 0.0) / static_cast<double>(seconds.size()) -
+              std::accumulate(m.stages.begin(), m.stages.end(), 0.0);
   m.time_step = simulation.time_step();
   m.support = support;
   m.bonds = static_cast<double>(simulation.world().bonds.pairs());

@@ -37,7 +37,7 @@ struct Measured {
   std::optional<LimitSeconds> limit;
   double limit_cpu = 0.0;  ///< CPU seconds of a step of the limit
   Spread over_limit_cpu;   ///< CPU seconds of a step over those of the limit
-  Spread over_limit;  ///< step over limit, by rounds: both were timed within the same seconds
+  Spread over_limit;       ///< step over limit, by rounds: both were timed within the same seconds
 
   [[nodiscard]] double particle_steps_per_second() const { return static_cast<double>(particles) / step_seconds.median; }
   [[nodiscard]] double pairs_per_second() const { return pairs / step_seconds.median; }

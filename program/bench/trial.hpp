@@ -11,7 +11,7 @@ namespace tripoint::bench {
 /// What the first steps of a scene took on this machine. Seconds are wall seconds, so other work on the machine is in them.
 struct Trial {
   std::size_t particles = 0;
-  long steps = 0;             ///< that were timed
+  long steps = 0;              ///< that were timed
   double setup_seconds = 0.0;  ///< from the particles to the first rates
   double step_seconds = 0.0;   ///< of one step, in the mean
   StageSeconds stages{};       ///< of one step, in the mean

@@ -26,7 +26,8 @@ void copy_bodies(Scene& scene, const Work& work) {
   const std::vector<Body> once = std::move(scene.bodies);
   scene.bodies.clear();
   for (int n = 0; n < copies * copies * copies; ++n) {
-    const Vec3 place{static_cast<double>(n % copies), static_cast<double>(n / copies % copies), static_cast<double>(n / copies / copies)};
+    const Vec3 place{static_cast<double>(n % copies), static_cast<double>(n / copies % copies),
+                     static_cast<double>(n / copies / copies)};
     const Vec3 by = work.pitch * place;
     for (Body b : once) {
       b.name += fmt::format(" {}", n);

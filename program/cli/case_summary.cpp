@@ -12,7 +12,9 @@
 namespace tripoint {
 namespace {
 
-std::string line(const std::string& name, const std::string& text) { return text.empty() ? "" : one_line(fmt::format("  {:10} {}", name, text)) + "\n"; }
+std::string line(const std::string& name, const std::string& text) {
+  return text.empty() ? "" : one_line(fmt::format("  {:10} {}", name, text)) + "\n";
+}
 
 std::string matter(const Scene& scene) {
   std::vector<std::string> bodies;
@@ -37,8 +39,11 @@ std::string simulated(const Scene& scene, const bench::Trial& trial) {
 /// What a liquid under gravity does first.
 std::string start_of(const Scene& scene) {
   if (scene.settle) return "liquids are let down into equilibrium before time 0 (settle = true)";
-  if (scene.gravity == Vec3{} || std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; })) return "";
-  return "liquids lie on a lattice, which sinks by a tenth of a spacing and breaks up; settle = true lets them down first, where solids hold them";
+  if (scene.gravity == Vec3{} ||
+      std::none_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; }))
+    return "";
+  return "liquids lie on a lattice, which sinks by a tenth of a spacing and breaks up; settle = true lets them down first, where "
+         "solids hold them";
 }
 
 std::string effects_of(const Plan& plan) {
@@ -63,7 +68,8 @@ std::string judged_by(const Case& c) {
   if (c.gates.empty()) return "no gate: the case measures and judges nothing";
   std::set<std::string> metrics;
   for (const auto& g : c.gates) metrics.insert(g.metric);
-  return fmt::format("{} gate{} on {}{}", c.gates.size(), c.gates.size() == 1 ? "" : "s", fmt::join(metrics, ", "), c.expect == "pass" ? "" : "; expected: " + c.expect);
+  return fmt::format("{} gate{} on {}{}", c.gates.size(), c.gates.size() == 1 ? "" : "s", fmt::join(metrics, ", "),
+                     c.expect == "pass" ? "" : "; expected: " + c.expect);
 }
 
 std::string engines_of(const Case& c) {
@@ -76,20 +82,25 @@ std::string engines_of(const Case& c) {
 
 std::string studies_of(const Case& c) {
   std::vector<std::string> studies;
-  for (const auto& s : c.studies) studies.push_back(fmt::format("{} levels of {}{}{}", s.levels.size(), s.axis, s.engine.empty() ? "" : " on ", s.engine));
+  for (const auto& s : c.studies)
+    studies.push_back(fmt::format("{} levels of {}{}{}", s.levels.size(), s.axis, s.engine.empty() ? "" : " on ", s.engine));
   return fmt::format("{}", fmt::join(studies, ", "));
 }
 
 std::string cost(const bench::Trial& t) {
   if (t.steps == 0) return t.failure.empty() ? "" : "not timed: " + t.failure;
-  return fmt::format("about {:.2g} s for the case's own run: {:.0f} steps of {:.2g} s", t.run_seconds(), t.run_steps, t.step_seconds);
+  return fmt::format("about {:.2g} s for the case's own run: {:.0f} steps of {:.2g} s", t.run_seconds(), t.run_steps,
+                     t.step_seconds);
 }
 
 }  // namespace
 
 std::string case_summary(const Case& c, const Scene& scene, const Plan& plan, const bench::Trial& trial) {
-  return one_line(fmt::format("{}: {}", c.id, c.title)) + "\n" + line("claims", c.claims) + line("simulates", simulated(scene, trial)) + line("bodies", matter(scene)) + line("starts", start_of(scene)) + line("effects", effects_of(plan)) +
-         line("truth", truth(c.reference)) + line("measures", measured_by(c)) + line("judged by", judged_by(c)) + line("engines", engines_of(c)) + line("refined", studies_of(c)) + line("costs", cost(trial)) + "\n";
+  return one_line(fmt::format("{}: {}", c.id, c.title)) + "\n" + line("claims", c.claims) +
+         line("simulates", simulated(scene, trial)) + line("bodies", matter(scene)) + line("starts", start_of(scene)) +
+         line("effects", effects_of(plan)) + line("truth", truth(c.reference)) + line("measures", measured_by(c)) +
+         line("judged by", judged_by(c)) + line("engines", engines_of(c)) + line("refined", studies_of(c)) +
+         line("costs", cost(trial)) + "\n";
 }
 
 }  // namespace tripoint

@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "program/bench/trial.hpp"
 #include "effects/plan.hpp"
+#include "program/bench/trial.hpp"
 #include "scene/scene.hpp"
 
 namespace tripoint {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "program/cli/commands.hpp"
-#include "program/cli/common.hpp"
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
+#include "program/cli/commands.hpp"
+#include "program/cli/common.hpp"
 #include "scene/effect_rule.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/process.hpp"
@@ -25,9 +25,12 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* description =
-    "Puts one term of the model after the other back to its printed form, all others corrected, and prints what each correction buys:\n"
-    "the metrics of each case with that one term as printed, beside those of the corrected model. A term that the paper does not have\n"
-    "is left out instead, and its row has the name of its key (bulk_viscosity). OUT/ablation.json holds it; in the folder of a report,\n"
+    "Puts one term of the model after the other back to its printed form, all others corrected, and prints what each correction "
+    "buys:\n"
+    "the metrics of each case with that one term as printed, beside those of the corrected model. A term that the paper does not "
+    "have\n"
+    "is left out instead, and its row has the name of its key (bulk_viscosity). OUT/ablation.json holds it; in the folder of a "
+    "report,\n"
     "its page \"what each correction buys\" shows it.\n"
     "  tripoint ablate                            the cases of the commit profile that run corrected\n"
     "  tripoint ablate heat/cosine-mode solid/rotation --out report";
@@ -51,15 +54,16 @@ std::vector<Term> terms_of(const Scene& scene) {
 
 /// One thing that is put back to what the paper has, a row each.
 struct Piece {
-  std::string name;                 ///< of the term, or of the key
-  std::optional<Term> term{};       ///< as printed; none: the term of a key is left out
-  const EffectRule* rule = nullptr; ///< whose key it is
+  std::string name;                  ///< of the term, or of the key
+  std::optional<Term> term{};        ///< as printed; none: the term of a key is left out
+  const EffectRule* rule = nullptr;  ///< whose key it is
   const EffectKey* key = nullptr;
 };
 
 std::vector<Piece> all_pieces() {
   std::vector<Piece> pieces;
-  for (std::size_t t = 0; t < term_count; ++t) pieces.push_back({std::string(to_string(static_cast<Term>(t))), static_cast<Term>(t)});
+  for (std::size_t t = 0; t < term_count; ++t)
+    pieces.push_back({std::string(to_string(static_cast<Term>(t))), static_cast<Term>(t)});
   for (const EffectRule& rule : effect_rules())
     for (const EffectKey& key : rule.keys)
       if (key.ablated) pieces.push_back({std::string(key.row.name), {}, &rule, &key});
@@ -68,7 +72,9 @@ std::vector<Piece> all_pieces() {
 
 /// Whether the piece can act in the scene. What acts nowhere after all has no row: its runs have the bits of the corrected ones.
 bool can_act(const Piece& piece, const Scene& scene) {
-  if (!piece.term) return kept_number(scene.values, piece.key->row) != 0.0 && calls_for(scene, piece.rule->name) && (!piece.key->idle || piece.key->idle(scene).empty());
+  if (!piece.term)
+    return kept_number(scene.values, piece.key->row) != 0.0 && calls_for(scene, piece.rule->name) &&
+           (!piece.key->idle || piece.key->idle(scene).empty());
   const auto terms = terms_of(scene);
   return std::find(terms.begin(), terms.end(), *piece.term) != terms.end();
 }
@@ -83,8 +89,10 @@ Case corrected(Case value) {
 }
 
 Case without(const Piece& piece, Case value) {
-  if (piece.term) value.scene.modes_given[static_cast<std::size_t>(*piece.term)] = Mode::paper;
-  else value.scene.values[std::string(piece.key->row.name)] = 0.0;
+  if (piece.term)
+    value.scene.modes_given[static_cast<std::size_t>(*piece.term)] = Mode::paper;
+  else
+    value.scene.values[std::string(piece.key->row.name)] = 0.0;
   return value;
 }
 
@@ -96,7 +104,11 @@ Json json_of(const CaseResult& result) {
       Json metrics = Json::object();
       for (const auto& [name, m] : run.metrics)
         metrics[name] = {{"value", std::isfinite(m.value) ? Json(m.value) : Json()}, {"uncertainty", m.uncertainty.combined()}};
-      return {{"status", run.status}, {"reason", run.reason}, {"state_hash", run.state_hash}, {"cpu_s", run.cost.cpu_s}, {"metrics", metrics}};
+      return {{"status", run.status},
+              {"reason", run.reason},
+              {"state_hash", run.state_hash},
+              {"cpu_s", run.cost.cpu_s},
+              {"metrics", metrics}};
     }
   return {{"status", "error"}, {"reason", "no run"}, {"state_hash", ""}, {"cpu_s", 0.0}, {"metrics", Json::object()}};
 }
@@ -145,7 +157,11 @@ int ablate(const Options& o) {
     if (!base.count(c.id)) continue;
     Json metrics = Json::array();
     for (const auto& m : c.metrics) metrics.push_back({{"name", m.name}, {"unit", m.unit}, {"quantity", m.quantity}});
-    document.push_back({{"id", c.id}, {"title", c.title}, {"metrics", metrics}, {"corrected", base.at(c.id)}, {"printed", terms.count(c.id) ? terms[c.id] : Json::object()}});
+    document.push_back({{"id", c.id},
+                        {"title", c.title},
+                        {"metrics", metrics},
+                        {"corrected", base.at(c.id)},
+                        {"printed", terms.count(c.id) ? terms[c.id] : Json::object()}});
     print_line(c.id);
     for (const auto& m : c.metrics) {
       print(fmt::format("  {:24} corrected {:>12}", one_line(m.name), number_text(base.at(c.id), m.name)));
@@ -154,9 +170,13 @@ int ablate(const Options& o) {
       print("\n");
     }
   }
-  write_durably((fs::path(o.out) / "ablation.json").string(), Json{{"format", 1}, {"tool", this_tool().commit}, {"cases", document}}.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_durably(
+      (fs::path(o.out) / "ablation.json").string(),
+      Json{{"format", 1}, {"tool", this_tool().commit}, {"cases", document}}.dump(1, ' ', false, Json::error_handler_t::replace) +
+          "\n");
   const auto results = fs::path(o.out) / "results.json";
-  const auto next = fs::exists(results) ? "tripoint report " + results.string() + " draws its page" : "with --out the folder of a report, tripoint report draws its page";
+  const auto next = fs::exists(results) ? "tripoint report " + results.string() + " draws its page"
+                                        : "with --out the folder of a report, tripoint report draws its page";
   print(fmt::format("{}; {}\n", (fs::path(o.out) / "ablation.json").string(), next));
   return interrupted() ? exit_interrupted : exit_pass;
 }
@@ -167,7 +187,8 @@ void add_ablate(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("ablate", description);
   auto o = std::make_shared<Options>();
   command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
-  command->add_option("--profile", o->filter.profile, "only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release"}));
+  command->add_option("--profile", o->filter.profile, "only cases of this profile (commit where no CASE is given)")
+      ->check(CLI::IsMember({"commit", "nightly", "release"}));
   command->add_option("--tag", o->filter.tag, "only cases with this tag");
   command->add_option("--out", o->out, "folder of ablation.json and the runs")->capture_default_str();
   command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();

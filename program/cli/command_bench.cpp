@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/errors.hpp"
+#include "io/trajectory.hpp"
 #include "program/bench/measure.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "core/errors.hpp"
-#include "io/trajectory.hpp"
 
 namespace tripoint {
 namespace {
@@ -24,7 +24,8 @@ using bench::Spread;
 using bench::Work;
 
 constexpr const char* description =
-    "Times standard work on this machine, stage by stage, beside the machine's own limit: the same pair loops fused by hand in the\n"
+    "Times standard work on this machine, stage by stage, beside the machine's own limit: the same pair loops fused by hand in "
+    "the\n"
     "best layout known, with lists that last as long, measured in the same seconds. Compare ratios, not seconds.\n"
     "  tripoint bench\n"
     "  tripoint bench --work liquid-heat-40k --threads 2 --json\n"
@@ -47,17 +48,35 @@ json as_json(const Work& work, const Measured& m) {
   json stages;
   for (std::size_t k = 0; k < stage_names.size(); ++k) stages[std::string(stage_names[k])] = m.stages[k];
   stages["outside"] = m.outside;
-  json row{{"name", work.name}, {"case", work.case_id}, {"mode", to_string(work.mode)}, {"set", work.set}, {"particles", m.particles}, {"threads", m.threads},
-           {"steps", m.steps}, {"step_s", as_json(m.step_seconds)}, {"particle_steps_per_s", m.particle_steps_per_second()}, {"setup_s", m.setup_seconds}, {"time_step", m.time_step},
-           {"support", m.support}, {"cpu_s", m.cpu_seconds.median},
-           {"stages_s", stages}, {"search_share", m.search_share()}, {"rebuilds_per_step", m.rebuilds}, {"bytes", m.bytes},
-           {"bytes_per_particle", m.bytes / static_cast<double>(m.particles)}, {"planned_bytes_per_particle", m.planned_bytes}, {"state_hash", m.state_hash}};
+  json row{{"name", work.name},
+           {"case", work.case_id},
+           {"mode", to_string(work.mode)},
+           {"set", work.set},
+           {"particles", m.particles},
+           {"threads", m.threads},
+           {"steps", m.steps},
+           {"step_s", as_json(m.step_seconds)},
+           {"particle_steps_per_s", m.particle_steps_per_second()},
+           {"setup_s", m.setup_seconds},
+           {"time_step", m.time_step},
+           {"support", m.support},
+           {"cpu_s", m.cpu_seconds.median},
+           {"stages_s", stages},
+           {"search_share", m.search_share()},
+           {"rebuilds_per_step", m.rebuilds},
+           {"bytes", m.bytes},
+           {"bytes_per_particle", m.bytes / static_cast<double>(m.particles)},
+           {"planned_bytes_per_particle", m.planned_bytes},
+           {"state_hash", m.state_hash}};
   if (m.bonds > 0.0) row["bonds_per_particle"] = m.bonds / static_cast<double>(m.particles);
   if (m.limit) {
     row["neighbours"] = m.pairs / static_cast<double>(m.particles);
     row["pairs_per_s"] = m.pairs_per_second();
-    row["limit"] = {{"lanes", m.limit->lanes}, {"search_s", m.limit->search}, {"density_s", m.limit->density}, {"rates_s", m.limit->rates}, {"again_s", m.limit->again},
-                    {"step_s", m.limit->step(m.rebuilds)}, {"cpu_s", m.limit_cpu}, {"particle_steps_per_s", static_cast<double>(m.particles) / m.limit->step(m.rebuilds)}};
+    row["limit"] = {
+        {"lanes", m.limit->lanes},       {"search_s", m.limit->search},
+        {"density_s", m.limit->density}, {"rates_s", m.limit->rates},
+        {"again_s", m.limit->again},     {"step_s", m.limit->step(m.rebuilds)},
+        {"cpu_s", m.limit_cpu},          {"particle_steps_per_s", static_cast<double>(m.particles) / m.limit->step(m.rebuilds)}};
     row["over_limit"] = as_json(m.over_limit);
     row["over_limit_cpu"] = as_json(m.over_limit_cpu);
   }
@@ -65,8 +84,9 @@ json as_json(const Work& work, const Measured& m) {
 }
 
 void print_header() {
-  print(fmt::format("{:26} {:>9} {:>3} {:>19} {:>8} {:>8} {:>8} {:>15} {:>8} {:>7}  {}\n", "work", "particles", "thr", "ms/step (best)", "M p-s/s", "M pair/s", "limit ms", "x limit (CPU)",
-                    "rebuilds", "B/part.", "share of the step"));
+  print(fmt::format("{:26} {:>9} {:>3} {:>19} {:>8} {:>8} {:>8} {:>15} {:>8} {:>7}  {}\n", "work", "particles", "thr",
+                    "ms/step (best)", "M p-s/s", "M pair/s", "limit ms", "x limit (CPU)", "rebuilds", "B/part.",
+                    "share of the step"));
 }
 
 /// The stages that take most, in per cent of the step.
@@ -83,9 +103,11 @@ std::string shares(const Measured& m) {
 
 void print_row(const Work& work, const Measured& m) {
   const auto limit = [&](const std::string& text) { return m.limit ? text : std::string("-"); };
-  print(fmt::format("{:26} {:9} {:3} {:10.3f} ({:.3f}) {:8.3f} {:>8} {:>8} {:>15} {:8.3f} {:7.0f}  {}\n", work.name, m.particles, m.threads, 1e3 * m.step_seconds.median,
-                    1e3 * m.step_seconds.best, 1e-6 * m.particle_steps_per_second(), limit(fmt::format("{:.1f}", 1e-6 * m.pairs_per_second())),
-                    limit(m.limit ? fmt::format("{:.3f}", 1e3 * m.limit->step(m.rebuilds)) : ""), limit(fmt::format("{:.2f} ({:.2f})", m.over_limit.median, m.over_limit_cpu.median)), m.rebuilds,
+  print(fmt::format("{:26} {:9} {:3} {:10.3f} ({:.3f}) {:8.3f} {:>8} {:>8} {:>15} {:8.3f} {:7.0f}  {}\n", work.name, m.particles,
+                    m.threads, 1e3 * m.step_seconds.median, 1e3 * m.step_seconds.best, 1e-6 * m.particle_steps_per_second(),
+                    limit(fmt::format("{:.1f}", 1e-6 * m.pairs_per_second())),
+                    limit(m.limit ? fmt::format("{:.3f}", 1e3 * m.limit->step(m.rebuilds)) : ""),
+                    limit(fmt::format("{:.2f} ({:.2f})", m.over_limit.median, m.over_limit_cpu.median)), m.rebuilds,
                     m.bytes / static_cast<double>(m.particles), shares(m)));
 }
 
@@ -134,8 +156,10 @@ int run_bench(const BenchOptions& o) {
   if (!o.as_document) print_header();
   for (const Work& w : works) {
     const Measured m = bench::measure(w, how);
-    if (o.as_document) rows.push_back(as_json(w, m));
-    else print_row(w, m);
+    if (o.as_document)
+      rows.push_back(as_json(w, m));
+    else
+      print_row(w, m);
   }
   if (o.as_document) print(json{{"format", 1}, {"machine", machine()}, {"threads", how.threads}, {"works", rows}}.dump(2) + "\n");
   return 0;
@@ -146,11 +170,17 @@ int run_bench(const BenchOptions& o) {
 void add_bench(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("bench", description);
   auto o = std::make_shared<BenchOptions>();
-  command->add_option("--work", o->work, "only this piece of standard work; may be repeated")->take_all()->allow_extra_args(false);
+  command->add_option("--work", o->work, "only this piece of standard work; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
   command->add_option("--threads", o->threads, "default: all cores")->check(CLI::Range(1, 1024));
   command->add_option("--steps", o->steps, "steps of the timed part, default: 60")->check(CLI::Range(1L, 1000000000L));
-  command->add_option("--rounds", o->rounds, "parts that they are timed in, each followed by a round of the limit")->check(CLI::Range(1, 1000))->capture_default_str();
-  command->add_option("--particles", o->particles, "runs nothing: writes the particles that the work starts from, for other codes")->type_name("FILE.h5");
+  command->add_option("--rounds", o->rounds, "parts that they are timed in, each followed by a round of the limit")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--particles", o->particles, "runs nothing: writes the particles that the work starts from, for other codes")
+      ->type_name("FILE.h5");
   command->add_flag("--list", o->list, "print the standard work");
   command->add_flag("--growth", o->growth, "liquid with heat, from 1,000 to 2,000,000 particles");
   command->add_flag("--json", o->as_document, "print one JSON document");

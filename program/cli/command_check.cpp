@@ -4,10 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "effects/plan.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/start_notes.hpp"
-#include "effects/plan.hpp"
 #include "scene/idle_keys.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/case_names.hpp"
@@ -42,7 +42,8 @@ int check(const std::string& file, const std::vector<std::string>& set) {
     errors += f.error ? 1 : 0;
     say((f.error ? "error: " : "warning: ") + with_place(f));
   }
-  print_line(fmt::format("{}: {} particles in {} {}, {} errors, {} warnings", file, state.size(), scene.bodies.size(), scene.bodies.size() == 1 ? "body" : "bodies", errors, static_cast<long>(findings.size()) - errors));
+  print_line(fmt::format("{}: {} particles in {} {}, {} errors, {} warnings", file, state.size(), scene.bodies.size(),
+                         scene.bodies.size() == 1 ? "body" : "bodies", errors, static_cast<long>(findings.size()) - errors));
   return errors > 0 ? 2 : 0;
 }
 
@@ -53,7 +54,9 @@ void add_check(CLI::App& app, int& exit_code) {
   auto file = std::make_shared<std::string>();
   auto set = std::make_shared<std::vector<std::string>>();
   command->add_option("CASE", *file, "path of a case file, or the id of a case that is shipped")->required();
-  command->add_option("--set", *set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")->take_all()->allow_extra_args(false);
+  command->add_option("--set", *set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
   command->callback([=, &exit_code] { exit_code = guarded([&] { return check(shown_path(case_file(*file)), *set); }); });
 }
 

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "core/errors.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
 #include "validation/harness/suite.hpp"
@@ -18,7 +18,8 @@ namespace {
 
 constexpr const char* compare_description =
     "Runs one case on the named engines and states their equivalence: the difference of their trajectories in each metric, its\n"
-    "uncertainty, the margin that the case sets, and both errors to truth, so that two engines that are wrong together are seen.\n"
+    "uncertainty, the margin that the case sets, and both errors to truth, so that two engines that are wrong together are "
+    "seen.\n"
     "  tripoint compare rigid/ballistic --engines tripoint,bullet\n"
     "Exit: 0 compared, 4 an engine did not run or two scenes are not the same scene, 7 diverged.";
 
@@ -77,15 +78,18 @@ int compare(const CompareOptions& o) {
   SuiteOptions options;
   options.selection.engines = words.names;
   for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);
-  if (options.selection.engines.size() < 2) throw InputError("--engines " + o.engines + ": name two engines or more, for example tripoint,bullet");
+  if (options.selection.engines.size() < 2)
+    throw InputError("--engines " + o.engines + ": name two engines or more, for example tripoint,bullet");
   options.out = o.out.empty() ? own_folder("compare", value.id) : o.out;
   options.jobs = o.jobs, options.say = [](const std::string& line) { say(line); };
   options.wanted = [](const EnginePlan&, const RunPlan& run) { return run.base; };
   const auto results = run_one_case(value, options, words.paths);
   if (results.cases.empty()) return exit_interrupted;
-  print(fmt::format("{:20} {:20} {:20} {:>11} {:>11} {:>11} {:>11} {:>11}  verdict\n", "a", "b", "metric", "difference", "uncertainty", "margin", "error a", "error b"));
+  print(fmt::format("{:20} {:20} {:20} {:>11} {:>11} {:>11} {:>11} {:>11}  verdict\n", "a", "b", "metric", "difference",
+                    "uncertainty", "margin", "error a", "error b"));
   for (const auto& q : results.cases.front().equivalence)
-    print_line(fmt::format("{:20} {:20} {:20} {:11.4g} {:11.2g} {:>11} {:11.4g} {:11.4g}  {}", q.a, q.b, q.metric, q.difference, q.uncertainty, q.margin ? fmt::format("{:.4g}", *q.margin) : "-", q.error_a, q.error_b, q.verdict));
+    print_line(fmt::format("{:20} {:20} {:20} {:11.4g} {:11.2g} {:>11} {:11.4g} {:11.4g}  {}", q.a, q.b, q.metric, q.difference,
+                           q.uncertainty, q.margin ? fmt::format("{:.4g}", *q.margin) : "-", q.error_a, q.error_b, q.verdict));
   print((std::filesystem::path(options.out) / "index.html").string() + "\n");
   return code_of_runs(results.cases.front());
 }
@@ -94,8 +98,11 @@ Study study_for(const Case& value, const ConvergeOptions& o) {
   Study study;
   study.axis = o.axis, study.engine = o.engine, study.levels = o.levels;
   for (const auto& s : value.studies)
-    if (s.axis == o.axis && study.levels.empty() && (s.engine.empty() || s.engine == o.engine)) study.levels = s.levels, study.order = s.order, study.jitter = s.jitter, study.seeds = s.seeds;
-  if (study.levels.empty()) throw InputError(fmt::format("{} has no study of {} for {}: name --levels a,b,c, coarse to fine", value.id, o.axis, o.engine));
+    if (s.axis == o.axis && study.levels.empty() && (s.engine.empty() || s.engine == o.engine))
+      study.levels = s.levels, study.order = s.order, study.jitter = s.jitter, study.seeds = s.seeds;
+  if (study.levels.empty())
+    throw InputError(
+        fmt::format("{} has no study of {} for {}: name --levels a,b,c, coarse to fine", value.id, o.axis, o.engine));
   for (const double level : study.levels)
     if (!(level > 0.0)) throw InputError(fmt::format("--levels: {:g} is no level; they are positive", level));
   return study;
@@ -105,9 +112,11 @@ void print_order(const OrderRow& o) {
   print_line(fmt::format("{}{}{} over {}", o.metric, o.mode.empty() ? "" : ", ", o.mode, o.axis));
   for (std::size_t k = 0; k < o.step.size(); ++k) {
     const bool ratio = k > 0 && o.error[k] != 0.0;
-    print_line(fmt::format("  {:<12.5g} {:12.5g}  +- {:<9.2g} {}", o.step[k], o.error[k], o.uncertainty[k], ratio ? fmt::format("/ {:.3g}", o.error[k - 1] / o.error[k]) : ""));
+    print_line(fmt::format("  {:<12.5g} {:12.5g}  +- {:<9.2g} {}", o.step[k], o.error[k], o.uncertainty[k],
+                           ratio ? fmt::format("/ {:.3g}", o.error[k - 1] / o.error[k]) : ""));
   }
-  print(fmt::format("  order {:.3f}, 95 % interval {:.3f} to {:.3f}, {}\n", o.order.value, o.order.low, o.order.high, o.order.fit_class));
+  print(fmt::format("  order {:.3f}, 95 % interval {:.3f} to {:.3f}, {}\n", o.order.value, o.order.low, o.order.high,
+                    o.order.fit_class));
 }
 
 int converge(const ConvergeOptions& o) {
@@ -144,7 +153,9 @@ void add_converge(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("converge", converge_description);
   auto o = std::make_shared<ConvergeOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
-  command->add_option("--axis", o->axis, "what is refined")->check(CLI::IsMember({"spacing", "time_step", "support_ratio", "walkers", "iterations"}))->capture_default_str();
+  command->add_option("--axis", o->axis, "what is refined")
+      ->check(CLI::IsMember({"spacing", "time_step", "support_ratio", "walkers", "iterations"}))
+      ->capture_default_str();
   command->add_option("--levels", o->levels, "a,b,c: coarse to fine")->delimiter(',')->allow_extra_args(false);
   command->add_option("--engine", o->engine, "name or path")->capture_default_str();
   command->add_option("--out", o->out, "folder of the report and the runs (default: report-converge/CASE)");

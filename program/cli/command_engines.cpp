@@ -2,17 +2,17 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
+#include <CLI/CLI.hpp>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>
 
+#include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "core/errors.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/discover.hpp"
 #include "validation/harness/engine_check.hpp"
@@ -28,17 +28,20 @@ constexpr const char* engines_description =
     "  tripoint engines --json     one JSON document";
 
 constexpr const char* engine_description =
-    "Makes, checks and installs engines. An engine is any executable that answers --info, --check JOB and --run JOB (docs/engines.md).\n"
+    "Makes, checks and installs engines. An engine is any executable that answers --info, --check JOB and --run JOB "
+    "(docs/engines.md).\n"
     "  tripoint engine new my-engine --lang python\n"
     "  tripoint engine check ./my-engine/engine-my-engine\n"
     "  tripoint engine install mujoco";
 
 constexpr const char* install_description =
-    "Fetches a pinned release of an engine, checks its SHA-256, and unpacks it into an environment of its own, in .venv-engines of the\n"
+    "Fetches a pinned release of an engine, checks its SHA-256, and unpacks it into an environment of its own, in .venv-engines "
+    "of the\n"
     "checkout or in the folder TRIPOINT_ENGINES. Size and licence are said first. What was fetched before is not fetched again.\n"
     "  tripoint engine install mujoco              the release that the project's cases know, after a question\n"
     "  tripoint engine install mujoco@3.3.7 --yes  another release; the name mujoco means it from now on\n"
-    "Exit 0 when it is installed, 2 for a name or version that is not known or when nobody agreed, 4 when it could not be fetched or does not start.";
+    "Exit 0 when it is installed, 2 for a name or version that is not known or when nobody agreed, 4 when it could not be "
+    "fetched or does not start.";
 
 std::string short_list(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
@@ -48,19 +51,22 @@ int list(bool json) {
   for (const auto& e : engines) {
     print_line(fmt::format("{:14} {}", e.name, e.available ? e.version : "missing: " + e.reason));
     if (!e.available) continue;
-    print_line("               can: " + short_list(e.capabilities)), print_line("               presets: " + short_list(e.presets));
+    print_line("               can: " + short_list(e.capabilities)),
+        print_line("               presets: " + short_list(e.presets));
     if (!e.library_path.empty()) print_line(fmt::format("               library: {} ({})", e.library_path, e.library_hash));
   }
   return 0;
 }
 
 std::string filled(std::string text, const std::string& name) {
-  for (auto at = text.find("@NAME@"); at != std::string::npos; at = text.find("@NAME@", at + name.size())) text.replace(at, 6, name);
+  for (auto at = text.find("@NAME@"); at != std::string::npos; at = text.find("@NAME@", at + name.size()))
+    text.replace(at, 6, name);
   return text;
 }
 
 void check_name(const std::string& name) {
-  const bool good = !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos && name.front() != '-';
+  const bool good = !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos &&
+                    name.front() != '-';
   if (!good) throw InputError("engine new " + name + ": a name is of small letters, digits and dashes, for example my-engine");
 }
 
@@ -85,7 +91,8 @@ int make_new(const std::string& name, const std::string& language) {
   return 0;
 }
 
-/// Hands over to the installer, which asks on the terminal: it takes this process's place. @return only when it could not be started
+/// Hands over to the installer, which asks on the terminal: it takes this process's place. @return only when it could not be
+/// started
 int install(const std::string& words, bool yes) {
   const std::string program = (fs::path(share_folder()) / "vendors" / "install.py").string();
   std::vector<const char*> argv{"/usr/bin/python3", "-B", program.c_str(), words.c_str()};
@@ -126,12 +133,21 @@ void add_engines(CLI::App& app, int& exit_code) {
 void add_engine(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("engine", engine_description);
   command->require_subcommand(1);
-  auto name = std::make_shared<std::string>(), language = std::make_shared<std::string>("python"), path = std::make_shared<std::string>();
-  auto* made = command->add_subcommand("new", "Copies a working engine to start from into the folder NAME.\n  tripoint engine new my-engine --lang python\nIt flies single bodies through the ballistic case as it stands.");
+  auto name = std::make_shared<std::string>(), language = std::make_shared<std::string>("python"),
+       path = std::make_shared<std::string>();
+  auto* made =
+      command->add_subcommand("new",
+                              "Copies a working engine to start from into the folder NAME.\n  tripoint engine new my-engine "
+                              "--lang python\nIt flies single bodies through the ballistic case as it stands.");
   made->add_option("NAME", *name, "small letters, digits and dashes")->required();
-  made->add_option("--lang", *language, "language of the template")->check(CLI::IsMember({"python", "cpp"}))->capture_default_str();
+  made->add_option("--lang", *language, "language of the template")
+      ->check(CLI::IsMember({"python", "cpp"}))
+      ->capture_default_str();
   made->callback([=, &exit_code] { exit_code = guarded([&] { return make_new(*name, *language); }); });
-  auto* checked = command->add_subcommand("check", "Tests an engine against the contract: answers, jobs good and broken, results, times, ids, repeatability.\n  tripoint engine check bullet\n  tripoint engine check my-engine/engine-my-engine\nExit 0 when every check holds, 1 otherwise.");
+  auto* checked = command->add_subcommand(
+      "check",
+      "Tests an engine against the contract: answers, jobs good and broken, results, times, ids, repeatability.\n  tripoint "
+      "engine check bullet\n  tripoint engine check my-engine/engine-my-engine\nExit 0 when every check holds, 1 otherwise.");
   checked->add_option("PATH|NAME", *path, "the engine's executable, or the name of one that is known")->required();
   checked->callback([=, &exit_code] { exit_code = guarded([&] { return check(*path); }); });
   auto yes = std::make_shared<bool>(false);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -10,11 +10,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "effects/plan.hpp"
 #include "program/bench/trial.hpp"
 #include "program/cli/case_summary.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "effects/plan.hpp"
 #include "scene/case_document.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/case_names.hpp"
@@ -25,11 +25,12 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-constexpr long usual_trial = 3;               ///< steps
+constexpr long usual_trial = 3;              ///< steps
 constexpr std::size_t most_tried = 100'000;  ///< particles, unless --trial asks for more
 
 constexpr const char* description =
-    "Says what a case means: a summary; then every key with its value in SI and the reason for it, the effects that the scene calls for and why, those\n"
+    "Says what a case means: a summary; then every key with its value in SI and the reason for it, the effects that the scene "
+    "calls for and why, those\n"
     "that it does without and the proof, the bytes of its particles by effect, and the seconds of its first steps.\n"
     "  tripoint explain rigid/ballistic\n"
     "  tripoint explain fluid/hydrostatic --trial 20 --threads 2\n"
@@ -39,7 +40,8 @@ constexpr const char* description =
 std::string origin(const Decision& d, const std::string& file) {
   if (!d.given) return "default: " + d.reason;
   if (d.place.line <= 0) return "given, " + d.place.file;
-  return d.place.file == file ? fmt::format("given, line {}", d.place.line) : fmt::format("given, {}:{}", d.place.file, d.place.line);
+  return d.place.file == file ? fmt::format("given, line {}", d.place.line)
+                              : fmt::format("given, {}:{}", d.place.file, d.place.line);
 }
 
 /// Keys that are not set are only counted: they would hide the others.
@@ -72,7 +74,8 @@ void print_plan(const Plan& plan) {
   print("\nDoes without\n");
   for (const auto& e : plan.idle) print_line(fmt::format("  {:10} {}", e.name, e.why));
   print("\nFields\n");
-  for (const auto& f : plan.fields) print_line(fmt::format("  {:24} {:8} {:8} of {:10} {} bytes", f.name, f.unit, f.per, f.owner, f.bytes));
+  for (const auto& f : plan.fields)
+    print_line(fmt::format("  {:24} {:8} {:8} of {:10} {} bytes", f.name, f.unit, f.per, f.owner, f.bytes));
   print(fmt::format("\n{} bytes a particle\n", plan.bytes_per_particle));
   for (const auto& [owner, bytes] : bytes_by_owner(plan)) print_line(fmt::format("  {:10} {}", owner, bytes));
 }
@@ -80,21 +83,35 @@ void print_plan(const Plan& plan) {
 void print_trial(const bench::Trial& t, int threads) {
   if (!t.failure.empty()) return print(fmt::format("\nNo steps are timed (--trial N times N): {}\n", t.failure));
   if (t.steps == 0) return;
-  print(fmt::format("\nMeasured in the first {} steps of {} particles on {} thread{}\n", t.steps, t.particles, threads, threads == 1 ? "" : "s"));
-  print(fmt::format("  {:.3g} s a step, {:.3g} us a particle-step; about {:.0f} steps of {:.3g} s, so about {:.3g} s for the whole run, and {:.3g} s to set it up\n", t.step_seconds,
-                    1e6 * t.step_seconds / static_cast<double>(t.particles), t.run_steps, t.time_step, t.run_seconds(), t.setup_seconds));
+  print(fmt::format("\nMeasured in the first {} steps of {} particles on {} thread{}\n", t.steps, t.particles, threads,
+                    threads == 1 ? "" : "s"));
+  print(
+      fmt::format("  {:.3g} s a step, {:.3g} us a particle-step; about {:.0f} steps of {:.3g} s, so about {:.3g} s for the whole "
+                  "run, and {:.3g} s to set it up\n",
+                  t.step_seconds, 1e6 * t.step_seconds / static_cast<double>(t.particles), t.run_steps, t.time_step,
+                  t.run_seconds(), t.setup_seconds));
   if (t.particles >= most_tried / 10)  // else the program itself outweighs them
-    print(fmt::format("  {:.0f} bytes a particle in memory: fields, neighbour lists, bonds and what is used between them\n", t.bytes));
+    print(fmt::format("  {:.0f} bytes a particle in memory: fields, neighbour lists, bonds and what is used between them\n",
+                      t.bytes));
   for (std::size_t k = 0; k < stage_names.size(); ++k)
-    if (t.stages[k] > 0.005 * t.step_seconds) print(fmt::format("  {:10} {:4.1f} %\n", stage_names[k], 100.0 * t.stages[k] / t.step_seconds));
+    if (t.stages[k] > 0.005 * t.step_seconds)
+      print(fmt::format("  {:10} {:4.1f} %\n", stage_names[k], 100.0 * t.stages[k] / t.step_seconds));
 }
 
 json as_json(const bench::Trial& t, int threads) {
   if (!t.failure.empty()) return {{"failure", t.failure}};
   json stages = json::object();
   for (std::size_t k = 0; k < stage_names.size(); ++k) stages[std::string(stage_names[k])] = t.stages[k];
-  return {{"steps", t.steps}, {"particles", t.particles}, {"threads", threads}, {"setup_seconds", t.setup_seconds}, {"step_seconds", t.step_seconds}, {"stages", stages},
-          {"time_step", t.time_step}, {"run_steps", t.run_steps}, {"run_seconds", t.run_seconds()}, {"bytes_per_particle", t.bytes}};
+  return {{"steps", t.steps},
+          {"particles", t.particles},
+          {"threads", threads},
+          {"setup_seconds", t.setup_seconds},
+          {"step_seconds", t.step_seconds},
+          {"stages", stages},
+          {"time_step", t.time_step},
+          {"run_steps", t.run_steps},
+          {"run_seconds", t.run_seconds()},
+          {"bytes_per_particle", t.bytes}};
 }
 
 json as_json(const CaseReading& reading, const Plan& plan) {
@@ -106,11 +123,19 @@ json as_json(const CaseReading& reading, const Plan& plan) {
     decisions.push_back(std::move(row));
   }
   for (const auto& e : plan.effects) effects.push_back({{"name", e.name}, {"mode", e.mode}, {"why", e.why}});
-  for (const auto& f : plan.fields) fields.push_back({{"name", f.name}, {"unit", f.unit}, {"per", f.per}, {"owner", f.owner}, {"bytes", f.bytes}});
+  for (const auto& f : plan.fields)
+    fields.push_back({{"name", f.name}, {"unit", f.unit}, {"per", f.per}, {"owner", f.owner}, {"bytes", f.bytes}});
   for (const auto& e : plan.idle) idle.push_back({{"name", e.name}, {"why", e.why}});
   for (const auto& [owner, sum] : bytes_by_owner(plan)) bytes[owner] = sum;
-  return {{"format", 1},         {"case", reading.value.id}, {"file", reading.value.file}, {"decisions", decisions}, {"effects", effects}, {"does_without", idle},
-          {"fields", fields}, {"bytes_per_particle", plan.bytes_per_particle}, {"bytes_by_effect", bytes}};
+  return {{"format", 1},
+          {"case", reading.value.id},
+          {"file", reading.value.file},
+          {"decisions", decisions},
+          {"effects", effects},
+          {"does_without", idle},
+          {"fields", fields},
+          {"bytes_per_particle", plan.bytes_per_particle},
+          {"bytes_by_effect", bytes}};
 }
 
 struct Options {
@@ -129,7 +154,9 @@ int explain(const Options& options) {
   }
   const Plan planned = plan_of(reading);
   const Scene scene = scene_for(reading.value, {});
-  const auto trial = [&](long steps) { return bench::try_scene(scene, steps, options.threads, options.trial ? SIZE_MAX : most_tried); };
+  const auto trial = [&](long steps) {
+    return bench::try_scene(scene, steps, options.threads, options.trial ? SIZE_MAX : most_tried);
+  };
   if (options.as_document) {
     json document = as_json(reading, planned);
     if (options.trial.value_or(0) > 0) document["trial"] = as_json(trial(*options.trial), options.threads);
@@ -151,10 +178,16 @@ void add_explain(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("explain", description);
   auto options = std::make_shared<Options>();
   command->add_option("CASE", options->file, "path of a case file, or the id of a case that is shipped")->required();
-  command->add_option("--set", options->set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")->take_all()->allow_extra_args(false);
+  command->add_option("--set", options->set, "replace a key: scene.spacing=0.01, body.NAME.velocity=[1,0,0]; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
   command->add_flag("--json", options->as_document, "print one JSON document");
-  command->add_flag("--resolved", options->as_case, "print the whole case as a case file: what it extends merged in, every gate in a table of its own");
-  command->add_option("--trial", options->trial, fmt::format("steps to time, 0 for none (default: {}; none with --json)", usual_trial))->check(CLI::NonNegativeNumber);
+  command->add_flag("--resolved", options->as_case,
+                    "print the whole case as a case file: what it extends merged in, every gate in a table of its own");
+  command
+      ->add_option("--trial", options->trial,
+                   fmt::format("steps to time, 0 for none (default: {}; none with --json)", usual_trial))
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--threads", options->threads, "threads of the steps that are timed")->check(CLI::PositiveNumber);
   command->callback([=, &exit_code] { exit_code = guarded([&] { return explain(*options); }); });
 }

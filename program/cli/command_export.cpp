@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
+#include <CLI/CLI.hpp>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -20,12 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* description =
-    "Writes a run for other programs, or the numbers of a report for a paper. docs/trajectory.md says which program reads which file.\n"
+    "Writes a run for other programs, or the numbers of a report for a paper. docs/trajectory.md says which program reads which "
+    "file.\n"
     "  tripoint export runs/rigid/ballistic/tripoint --to vtp                     frames.pvd for ParaView and PyVista\n"
     "  tripoint export runs/rigid/ballistic/tripoint --to xyz,lammps --out files  OVITO, ASE; only of particles that are alive\n"
     "  tripoint export runs/rigid/ballistic/tripoint --to csv --frames 0:100:10   poses of bodies, energies\n"
     "  tripoint export report/results.json --csv --latex --pdf                    tables and figures at print size\n"
-    "Of a run: vtp, xdmf, h5md, lammps, xyz, ply, obj, csv, paraview. Of a results.json: csv, latex, pdf. Numbers are copied: SI, every digit.\n"
+    "Of a run: vtp, xdmf, h5md, lammps, xyz, ply, obj, csv, paraview. Of a results.json: csv, latex, pdf. Numbers are copied: "
+    "SI, every digit.\n"
     "Exit: 0 written, 2 bad input, 4 a dataset, a library or room on the disk is missing, 130 Ctrl-C.";
 
 struct ExportOptions {
@@ -56,9 +58,13 @@ void add_export(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("export", description);
   auto o = std::make_shared<ExportOptions>();
   command->add_option("RUN|RESULTS", o->what, "folder of a run, or a results.json")->required();
-  command->add_option("--to", o->to, "formats, with commas between them; may be repeated")->type_name("FORMAT")->take_all()->allow_extra_args(false);
+  command->add_option("--to", o->to, "formats, with commas between them; may be repeated")
+      ->type_name("FORMAT")
+      ->take_all()
+      ->allow_extra_args(false);
   for (const char* format : {"csv", "latex", "pdf", "vtp", "xyz", "lammps", "ply", "obj"})
-    command->add_flag_callback(std::string("--") + format, [o, format] { o->to.emplace_back(format); }, std::string("the same as --to ") + format);
+    command->add_flag_callback(
+        std::string("--") + format, [o, format] { o->to.emplace_back(format); }, std::string("the same as --to ") + format);
   command->add_option("--out", o->out, "folder of the files (default: `export` in the folder of the run or report)");
   command->add_option("--frames", o->frames, "all, last, a number, or FROM:TO:STEP")->capture_default_str();
   command->add_flag("--json", o->json, "print one JSON document with the names of the files");

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/durable_file.hpp"
+#include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/gate_adopt.hpp"
 #include "program/cli/gate_judge.hpp"
-#include "core/durable_file.hpp"
-#include "core/errors.hpp"
 #include "validation/harness/baseline.hpp"
 #include "validation/harness/history.hpp"
 #include "validation/harness/judge.hpp"
@@ -27,8 +27,10 @@ namespace {
 constexpr const char* description =
     "Judges a results.json from its measured values and limits alone; it runs nothing and trusts no stored verdict, and\n"
     "reads the case files again: metrics, gates, runs and values must be those of the cases as they are. Then it judges the\n"
-    "limits: none more than 10 times its error (above 3 times warns) unless its reason is dated, none looser than the accepted baseline,\n"
-    "no gate gone that was accepted, no value moved by more than the drift that its gate states, no run with more than 1 % more pairs, steps or\n"
+    "limits: none more than 10 times its error (above 3 times warns) unless its reason is dated, none looser than the accepted "
+    "baseline,\n"
+    "no gate gone that was accepted, no value moved by more than the drift that its gate states, no run with more than 1 % more "
+    "pairs, steps or\n"
     "instructions than accepted. A case without a baseline yet is named in a warning.\n"
     "  tripoint gate report/results.json     exit 0 only when every gate is green\n"
     "  tripoint gate report --against base/results.json     every metric beside that of a base, in units of its limit\n"
@@ -37,17 +39,24 @@ constexpr const char* description =
     "  tripoint gate selftest                proves that the gates can fail, and only where they should";
 
 constexpr const char* accept_description =
-    "Accepts the figures of green cases as their baselines (baselines/<subject>/<case>.toml beside the folder cases), and prints what changes:\n"
+    "Accepts the figures of green cases as their baselines (baselines/<subject>/<case>.toml beside the folder cases), and prints "
+    "what changes:\n"
     "old limit, new limit, and the sum of all loosenings since the first baseline.\n"
     "  tripoint gate accept --reason 'kernel moments corrected, decision 006' report/results.json heat/cosine-mode";
 
 constexpr const char* selftest_description =
-    "Runs every defect that the cases declare in the test build of our solver, and expects the gates named in killed_by to turn red;\n"
-    "and asks that every defect which a physical term registers has a case that kills it. Then runs every harmless change that the cases\n"
-    "declare (threads, order, ulp, boost, mirror, rotation, units): no gate may turn and no metric may change by more than round-off.\n"
-    "Of defects that state a `smallest` size it finds by bisection the least one that turns the gate red: a table, red where it has grown by more than a quarter.\n"
-    "With --seeds N it looks for false alarms instead: all that chance has a hand in (jittered particles, walkers) runs again with N other seeds.\n"
-    "Exit 5 when a defect survives, a gate turns by its seed, a harmless change is felt, or a smallest visible defect has grown.\n"
+    "Runs every defect that the cases declare in the test build of our solver, and expects the gates named in killed_by to turn "
+    "red;\n"
+    "and asks that every defect which a physical term registers has a case that kills it. Then runs every harmless change that "
+    "the cases\n"
+    "declare (threads, order, ulp, boost, mirror, rotation, units): no gate may turn and no metric may change by more than "
+    "round-off.\n"
+    "Of defects that state a `smallest` size it finds by bisection the least one that turns the gate red: a table, red where it "
+    "has grown by more than a quarter.\n"
+    "With --seeds N it looks for false alarms instead: all that chance has a hand in (jittered particles, walkers) runs again "
+    "with N other seeds.\n"
+    "Exit 5 when a defect survives, a gate turns by its seed, a harmless change is felt, or a smallest visible defect has "
+    "grown.\n"
     "  tripoint gate selftest                every case\n"
     "  tripoint gate selftest heat/cosine-mode --jobs 2\n"
     "  tripoint gate selftest --smallest     only the table of smallest visible defects\n"
@@ -77,10 +86,12 @@ int accept_file(const GateOptions& o) {
   for (const auto& word : o.accepted) (word.ends_with(".json") ? path = word : ids.emplace_back(word));
   if (o.removed) return print(accept_removal(ids, {{}, {}, o.reason})), exit_pass;
   const auto results = judged(path);
-  if (const auto wrong = recheck_remarks(results); !wrong.empty()) throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
+  if (const auto wrong = recheck_remarks(results); !wrong.empty())
+    throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
   const Acceptance acceptance{results.date.substr(0, 10), results.tool.commit, o.reason};
   print(accept(results, ids, acceptance));
-  if (const auto history = history_file(results, path); !history.empty()) append_history(history, acceptance_lines(results, ids, acceptance));
+  if (const auto history = history_file(results, path); !history.empty())
+    append_history(history, acceptance_lines(results, ids, acceptance));
   return exit_pass;
 }
 
@@ -117,14 +128,17 @@ void add_gate(CLI::App& app, int& exit_code) {
   auto* accepts = command->add_subcommand("accept", accept_description);
   accepts->add_option("--reason", o->reason, "who decided what, and why")->required();
   accepts->add_flag("--removed", o->removed, "the ids (or paths) are of cases that are no more: their baselines are removed");
-  accepts->add_option("RESULTS|ID", o->accepted, "a results.json (default report/results.json), and the ids of the cases; none = all");
+  accepts->add_option("RESULTS|ID", o->accepted,
+                      "a results.json (default report/results.json), and the ids of the cases; none = all");
   auto* self = command->add_subcommand("selftest", selftest_description);
   self->add_option("CASE", o->selftest.what, "case files, folders or ids; none = every case")->type_name("CASE|DIR");
   self->add_option("--out", o->selftest.out, "folder of the runs")->capture_default_str();
   self->add_option("--jobs", o->selftest.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   self->add_flag("--smallest", o->selftest.only_smallest, "only the smallest visible defects");
-  self->add_option("--seeds", o->seeds, "other seeds to run what chance has a hand in with; nothing else is then done")->check(CLI::Range(1, 10000));
-  self->add_option("--profile", o->profile, "with --seeds: only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release"}));
+  self->add_option("--seeds", o->seeds, "other seeds to run what chance has a hand in with; nothing else is then done")
+      ->check(CLI::Range(1, 10000));
+  self->add_option("--profile", o->profile, "with --seeds: only cases of this profile (commit where no CASE is given)")
+      ->check(CLI::IsMember({"commit", "nightly", "release"}));
   self->add_flag("--json", o->json, "print selftest.json, and nothing else, on stdout");
   auto* adopts = add_gate_adopt(*command, exit_code);
   command->callback([=, &exit_code] {

@@ -25,7 +25,14 @@ int list(const CaseFilter& filter, bool json) {
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const auto& c : select_cases(filter)) {
     if (!json) print_line(fmt::format("{:28} {}", c.id, c.title)), print_line(fmt::format("{:28} {}", "", c.claims));
-    document.push_back({{"id", c.id}, {"title", c.title}, {"claims", c.claims}, {"kind", c.kind}, {"requirement", c.requirement}, {"profiles", c.profiles}, {"tags", c.tags}, {"file", c.file}});
+    document.push_back({{"id", c.id},
+                        {"title", c.title},
+                        {"claims", c.claims},
+                        {"kind", c.kind},
+                        {"requirement", c.requirement},
+                        {"profiles", c.profiles},
+                        {"tags", c.tags},
+                        {"file", c.file}});
   }
   if (json) print(nlohmann::ordered_json{{"cases", document}}.dump(2) + "\n");
   return 0;
@@ -39,7 +46,8 @@ void add_list(CLI::App& app, int& exit_code) {
   auto json = std::make_shared<bool>(false);
   command->add_option("CASE", filter->what, "only these: case files, folders of them, subjects or ids")->type_name("CASE|DIR");
   command->add_option("--tag", filter->tag, "only cases with this tag");
-  command->add_option("--profile", filter->profile, "only cases of this profile")->check(CLI::IsMember({"commit", "nightly", "release", "acceptance"}));
+  command->add_option("--profile", filter->profile, "only cases of this profile")
+      ->check(CLI::IsMember({"commit", "nightly", "release", "acceptance"}));
   command->add_option("-k", filter->substring, "only cases with this in their id")->type_name("SUBSTRING");
   command->add_flag("--json", *json, "print one JSON document");
   command->callback([=, &exit_code] { exit_code = guarded([&] { return list(*filter, *json); }); });

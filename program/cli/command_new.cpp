@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cerrno>
+#include <CLI/CLI.hpp>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 
+#include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "core/errors.hpp"
 #include "scene/nearest.hpp"
 #include "scene/read_case.hpp"
 
@@ -29,13 +29,17 @@ int create(const std::string& name) {
   fs::path path = name;
   if (path.extension() != ".toml") path += ".toml";
   const auto stem = path.stem().string();
-  if (stem.empty() || stem.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") != std::string::npos)
+  if (stem.empty() ||
+      stem.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") != std::string::npos)
     throw InputError(fmt::format("`{}` is no name for a case: use letters, digits, or any of _ - .", printable(stem)));
   std::error_code error;
   const auto folder = fs::absolute(path, error).parent_path();
   if (!fs::is_directory(folder, error)) throw InputError({path.string(), 0, 0}, "its folder does not exist: make it first");
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);  // in one act: no other file can slip in
-  if (file < 0) throw InputError({path.string(), 0, 0}, errno == EEXIST ? std::string("exists already, and is left as it is: choose another name") : fmt::format("cannot be written: {}", std::strerror(errno)));
+  if (file < 0)
+    throw InputError({path.string(), 0, 0}, errno == EEXIST
+                                                ? std::string("exists already, and is left as it is: choose another name")
+                                                : fmt::format("cannot be written: {}", std::strerror(errno)));
   const auto text = new_case_text("my/" + stem);
   const bool whole = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   if (::close(file) != 0 || !whole) throw InputError({path.string(), 0, 0}, "could not be written whole: is the disk full?");

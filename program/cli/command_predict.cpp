@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <fstream>
 #include <memory>
@@ -24,21 +24,26 @@ namespace tripoint {
 namespace {
 
 constexpr const char* description =
-    "Predicts what a step of a case costs on many ranks of the engine tripoint-mpi: time, efficiency, memory. Three short runs on one rank give\n"
-    "the cost of a particle and a pair, a probe of MPI between two ranks gives latency and bandwidth, and the particles are shared out as the\n"
+    "Predicts what a step of a case costs on many ranks of the engine tripoint-mpi: time, efficiency, memory. Three short runs "
+    "on one rank give\n"
+    "the cost of a particle and a pair, a probe of MPI between two ranks gives latency and bandwidth, and the particles are "
+    "shared out as the\n"
     "engine would do it. Every table says what is prediction; --measure runs it beside.\n"
     "  tripoint predict heat/cosine-mode --ranks 2,4,64\n"
     "  tripoint predict fluid/dam-break-small --ranks 1024,10240 --particles 1e8,1e9 --machine cluster.toml\n"
-    "  tripoint predict heat/cosine-mode --ranks 1,2 --measure 1,2 --set scene.spacing='0.125 mm'   beside what this machine takes\n"
+    "  tripoint predict heat/cosine-mode --ranks 1,2 --measure 1,2 --set scene.spacing='0.125 mm'   beside what this machine "
+    "takes\n"
     "  tripoint predict heat/cosine-mode --ranks 1,2,4,8 --kit > kit.sh                one file for a cluster: sbatch kit.sh\n"
     "  tripoint predict --compare FILE.json                                            what the kit has brought back\n"
-    "A machine file (TOML) has name, cores_a_node, latency (s), bandwidth (bytes/s); where they differ, allreduce (s), pack_rate (bytes/s),\n"
+    "A machine file (TOML) has name, cores_a_node, latency (s), bandwidth (bytes/s); where they differ, allreduce (s), pack_rate "
+    "(bytes/s),\n"
     "core_speed (of its cores over these), waiting (share of the work, 0.05).\n"
     "Exit: 0 done, 2 bad input, 4 the engine is missing or cannot run the case over ranks.";
 
 /// Particles times ranks up to which shares are counted one by one; beyond, they are scaled by volume.
 constexpr double most_counted = 1e9;
-constexpr double slow_latency = 1e-4;  ///< [s] of a message between two processes of one machine: fifty times what a quiet one takes
+constexpr double slow_latency =
+    1e-4;  ///< [s] of a message between two processes of one machine: fifty times what a quiet one takes
 constexpr int most_ranks = 1000000, most_measured = 1024;
 
 struct Options {
@@ -60,7 +65,8 @@ std::string text_of(const std::string& path) {
 int compare(const Options& o) {
   const auto document = nlohmann::ordered_json::parse(text_of(o.compare), nullptr, false);
   if (document.is_discarded()) throw InputError(o.compare + ": is no JSON");
-  print(o.json ? document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n" : prediction_text(document));
+  print(o.json ? document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
+               : prediction_text(document));
   return exit_pass;
 }
 
@@ -69,7 +75,8 @@ void check(const std::vector<int>& list, const char* option, int most) {
     if (n < 1 || n > most) throw InputError(fmt::format("{} {}: write whole numbers from 1 to {}", option, n, most));
 }
 
-/// The runs on one rank: the case, the same coarser, the same with a wider support, which tells the cost of a pair from that of a particle.
+/// The runs on one rank: the case, the same coarser, the same with a wider support, which tells the cost of a pair from that of a
+/// particle.
 struct OneRankRuns {
   std::vector<Prepared> prepared;
   std::vector<Timed> timed;
@@ -81,7 +88,9 @@ OneRankRuns time_one_rank(PredictRuns& runs, int repeats, std::vector<std::strin
   all.prepared.push_back(runs.prepare("case", {}));
   runs.choose_end(all.prepared.front());
   const Scene scene = all.prepared.front().scene;
-  const std::vector<std::pair<std::string, std::string>> others{{"coarse", fmt::format("scene.spacing={:.17g}", coarser * scene.spacing)}, {"wide", fmt::format("scene.support_ratio={:.17g}", wider * scene.support_ratio)}};
+  const std::vector<std::pair<std::string, std::string>> others{
+      {"coarse", fmt::format("scene.spacing={:.17g}", coarser * scene.spacing)},
+      {"wide", fmt::format("scene.support_ratio={:.17g}", wider * scene.support_ratio)}};
   for (const auto& [label, set] : others) {
     try {
       Prepared p = runs.prepare(label, {set});
@@ -104,7 +113,8 @@ predict::Shares shares_of(const predict::Cloud& cloud, int ranks, double particl
   return counted ? predict::share_out(cloud, ranks) : predict::share_volume(cloud, ranks, particles);
 }
 
-PredictedLine line_of(const PredictionReport& r, const predict::Cloud& cloud, const predict::Share& whole, int ranks, double particles) {
+PredictedLine line_of(const PredictionReport& r, const predict::Cloud& cloud, const predict::Share& whole, int ranks,
+                      double particles) {
   PredictedLine line;
   bool counted = false;
   const predict::Shares shares = shares_of(cloud, ranks, particles, counted);
@@ -130,7 +140,8 @@ void measure(PredictRuns& runs, const std::vector<const Prepared*>& prepared, st
     if (interrupted()) return;
   }
   const double each = one.best_wall() / static_cast<double>(prepared.front()->initial.size());
-  for (PredictedLine* line : lines) line->measured_efficiency = each * line->prediction.particles / (line->prediction.ranks * line->measured->best_wall());
+  for (PredictedLine* line : lines)
+    line->measured_efficiency = each * line->prediction.particles / (line->prediction.ranks * line->measured->best_wall());
 }
 
 void add_lines(PredictionReport& r, PredictRuns& runs, const Options& o, const Prepared& base) {
@@ -145,13 +156,16 @@ void add_lines(PredictionReport& r, PredictRuns& runs, const Options& o, const P
   std::vector<const Prepared*> prepared{&base};
   std::vector<std::size_t> measured;
   for (const int ranks : o.measure) {
-    auto found = std::find_if(r.lines.begin(), r.lines.end(), [&](const auto& l) { return l.prediction.ranks == ranks && l.prediction.particles == sampled; });
-    if (found == r.lines.end()) r.lines.push_back(line_of(r, base.cloud, whole_of(base.cloud, sampled), ranks, sampled)), found = r.lines.end() - 1;
+    auto found = std::find_if(r.lines.begin(), r.lines.end(),
+                              [&](const auto& l) { return l.prediction.ranks == ranks && l.prediction.particles == sampled; });
+    if (found == r.lines.end())
+      r.lines.push_back(line_of(r, base.cloud, whole_of(base.cloud, sampled), ranks, sampled)), found = r.lines.end() - 1;
     measured.push_back(static_cast<std::size_t>(found - r.lines.begin())), prepared.push_back(&base);
   }
   for (const int ranks : o.weak ? (o.measure.empty() ? o.ranks : o.measure) : std::vector<int>{}) {
     if (ranks == 1) continue;
-    weak.push_back(runs.prepare(fmt::format("weak-{}", ranks), {fmt::format("scene.spacing={:.17g}", base.scene.spacing / std::cbrt(ranks))}));
+    weak.push_back(runs.prepare(fmt::format("weak-{}", ranks),
+                                {fmt::format("scene.spacing={:.17g}", base.scene.spacing / std::cbrt(ranks))}));
     Prepared& p = weak.back();
     p.cloud.reach = base.cloud.reach * p.scene.spacing / base.scene.spacing;
     const auto particles = static_cast<double>(p.initial.size());
@@ -182,7 +196,8 @@ int predict_case(Options o) {
   for (std::size_t k = 0; k < one.prepared.size(); ++k) {
     const Prepared& p = one.prepared[k];
     const Timed& t = one.timed[k];
-    r.runs.push_back({static_cast<double>(p.initial.size()), whole_of(p.cloud, static_cast<double>(p.initial.size())).pairs, t.best_cpu(), t.bytes});
+    r.runs.push_back({static_cast<double>(p.initial.size()), whole_of(p.cloud, static_cast<double>(p.initial.size())).pairs,
+                      t.best_cpu(), t.bytes});
     r.labels.push_back(p.label);
   }
   r.cost = predict::fit_work(r.runs);
@@ -190,11 +205,15 @@ int predict_case(Options o) {
   r.traffic = one.timed.front().traffic;
   if (o.machine.empty()) r.machine = runs.probe();
   if (o.machine.empty() && r.machine.latency > slow_latency)
-    r.notes.push_back(fmt::format("the probe found {:.3g} us for a message: other programs hold the cores, so that what is said of messages is far too slow; probe a quiet machine, or give --machine", 1e6 * r.machine.latency));
+    r.notes.push_back(
+        fmt::format("the probe found {:.3g} us for a message: other programs hold the cores, so that what is said of messages is "
+                    "far too slow; probe a quiet machine, or give --machine",
+                    1e6 * r.machine.latency));
   add_lines(r, runs, o, one.prepared.front());
   if (interrupted()) return exit_interrupted;
   const nlohmann::ordered_json document = prediction_json(r);
-  print(o.json ? document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n" : prediction_text(document));
+  print(o.json ? document.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
+               : prediction_text(document));
   return exit_pass;
 }
 
@@ -222,16 +241,27 @@ void add_predict(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<Options>();
   command->add_option("CASE", o->what, "a case file or id");
   command->add_option("--ranks", o->ranks, "numbers of ranks to predict, N[,N...]")->delimiter(',')->allow_extra_args(false);
-  command->add_option("--particles", o->particles, "numbers of particles in the place of the case's own, by its shape: 1e7,1e9")->delimiter(',')->allow_extra_args(false);
+  command->add_option("--particles", o->particles, "numbers of particles in the place of the case's own, by its shape: 1e7,1e9")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--machine", o->machine, "a machine file (TOML) in the place of the probe")->type_name("FILE");
-  command->add_option("--measure", o->measure, "numbers of ranks to run here too, beside the prediction")->delimiter(',')->allow_extra_args(false);
+  command->add_option("--measure", o->measure, "numbers of ranks to run here too, beside the prediction")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_flag("--weak", o->weak, "also P times the particles on P ranks, by a finer spacing");
-  command->add_option("--repeats", o->repeats, "of each run, in turns; the best counts")->check(CLI::Range(1, 1000))->capture_default_str();
-  command->add_option("--seconds", o->seconds, "of each run on one rank, about")->check(CLI::PositiveNumber)->capture_default_str();
-  command->add_option("--set", o->set, "a.b=VALUE replaces a key of the case file; may be repeated")->take_all()->allow_extra_args(false);
+  command->add_option("--repeats", o->repeats, "of each run, in turns; the best counts")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seconds", o->seconds, "of each run on one rank, about")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--set", o->set, "a.b=VALUE replaces a key of the case file; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
   command->add_option("--out", o->out, "folder of the runs (default: report-predict/CASE)");
   command->add_flag("--kit", o->kit, "runs nothing: prints one shell file that measures the case on a cluster");
-  command->add_option("--compare", o->compare, "runs nothing: prints this result, measured beside predicted")->type_name("RESULT");
+  command->add_option("--compare", o->compare, "runs nothing: prints this result, measured beside predicted")
+      ->type_name("RESULT");
   command->add_flag("--quiet", o->quiet, "no progress on stderr");
   command->add_flag("--json", o->json, "print one JSON document");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return predict_for(*o); }); });

@@ -6,9 +6,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "core/errors.hpp"
 #include "validation/harness/front.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
@@ -19,7 +19,8 @@ namespace tripoint {
 namespace {
 
 constexpr const char* recommend_description =
-    "Measures what accuracy costs along the studies of a case, on every engine, and says which settings are cheapest for a wish; then makes that\n"
+    "Measures what accuracy costs along the studies of a case, on every engine, and says which settings are cheapest for a wish; "
+    "then makes that\n"
     "run and says how well error and cost were predicted. Error is |value| + 2 u of the metric, in its own scaled unit.\n"
     "  tripoint recommend heat/cosine-mode --error 1%\n"
     "  tripoint recommend rigid/torque-free --error 1e-5 --engines tripoint\n"
@@ -31,8 +32,10 @@ constexpr const char* recommend_description =
 constexpr double farthest = 16.0;
 
 constexpr const char* plan_description =
-    "Says beforehand how fine the levels, how many walkers and how many CPU seconds a wished error takes, with the interval that the measured\n"
-    "levels leave. Only the two or three coarsest levels of each study are run; nothing is with --from. A level more than 16 times finer than\n"
+    "Says beforehand how fine the levels, how many walkers and how many CPU seconds a wished error takes, with the interval that "
+    "the measured\n"
+    "levels leave. Only the two or three coarsest levels of each study are run; nothing is with --from. A level more than 16 "
+    "times finer than\n"
     "what was measured is not offered.\n"
     "  tripoint plan heat/cosine-mode --within 1%\n"
     "  tripoint plan heat/step-walkers --within 0.5% --metric uncertainty";
@@ -49,7 +52,8 @@ double wish_of(const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   const std::string rest = end;
-  if (end == text.c_str() || !(value > 0.0) || !std::isfinite(value) || (!rest.empty() && rest != "%")) throw InputError(text + ": write an error above 0, as 0.01 or 1%");
+  if (end == text.c_str() || !(value > 0.0) || !std::isfinite(value) || (!rest.empty() && rest != "%"))
+    throw InputError(text + ": write an error above 0, as 0.01 or 1%");
   return rest.empty() ? value : 0.01 * value;
 }
 
@@ -66,7 +70,8 @@ Case case_of(const Options& o) {
     value.studies = {study};
   }
   if (!o.axis.empty()) std::erase_if(value.studies, [&](const Study& s) { return s.axis != o.axis; });
-  if (value.studies.empty()) throw InputError(o.what + ": has no study to read a front from: name --axis and --levels a,b,c, coarse to fine");
+  if (value.studies.empty())
+    throw InputError(o.what + ": has no study to read a front from: name --axis and --levels a,b,c, coarse to fine");
   return value;
 }
 
@@ -83,7 +88,8 @@ CaseResult measure(const Options& o, const Case& value, const std::function<bool
   SuiteOptions options;
   options.selection.engines = words.names;
   for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);
-  options.out = o.out, options.jobs = o.jobs, options.threads = o.threads, options.say = [](const std::string& line) { say(line); };
+  options.out = o.out, options.jobs = o.jobs, options.threads = o.threads,
+  options.say = [](const std::string& line) { say(line); };
   options.wanted = [&](const EnginePlan& engine, const RunPlan& run) { return engine.name != "exact" && wanted(run); };
   const auto engines = discover_engines(words.paths);
   for (const auto& name : options.selection.engines)
@@ -115,29 +121,39 @@ std::string name_of(const Ladder& l) {
 }
 
 void print_ladders(const std::vector<Ladder>& ladders, const std::string& metric) {
-  print(fmt::format("measured front of {}\n  {:28} {:14} {:>12} {:>12} {:>10} {:>12}\n", metric, "engine", "axis", "level", "error", "CPU s", "pairs"));
+  print(fmt::format("measured front of {}\n  {:28} {:14} {:>12} {:>12} {:>10} {:>12}\n", metric, "engine", "axis", "level",
+                    "error", "CPU s", "pairs"));
   for (const auto& l : ladders)
-    for (const auto& p : l.points) print_line(fmt::format("  {:28} {:14} {:12.5g} {:12.4g} {:10.3g} {:12.4g}", name_of(l), l.axis, p.level, p.error, p.cpu_s, p.pairs));
+    for (const auto& p : l.points)
+      print_line(fmt::format("  {:28} {:14} {:12.5g} {:12.4g} {:10.3g} {:12.4g}", name_of(l), l.axis, p.level, p.error, p.cpu_s,
+                             p.pairs));
 }
 
-double factor_between(double a, double b) { return a > 0.0 && b > 0.0 ? std::max(a / b, b / a) : std::numeric_limits<double>::infinity(); }
+double factor_between(double a, double b) {
+  return a > 0.0 && b > 0.0 ? std::max(a / b, b / a) : std::numeric_limits<double>::infinity();
+}
 
 /// The recommended run itself.
 LadderPoint make_recommended(const Options& o, Case value, const Recommendation& r, const std::string& metric) {
   Study only;
   only.axis = r.ladder->axis, only.levels = {r.level}, only.engine = r.ladder->engine, only.mode = r.ladder->mode;
   for (const auto& s : value.studies)
-    if (s.axis == only.axis && (s.engine.empty() || s.engine == only.engine) && (s.mode.empty() || s.mode == only.mode)) only.jitter = s.jitter, only.seeds = s.seeds;
+    if (s.axis == only.axis && (s.engine.empty() || s.engine == only.engine) && (s.mode.empty() || s.mode == only.mode))
+      only.jitter = s.jitter, only.seeds = s.seeds;
   value.studies = {only};
   if (!only.mode.empty()) value.modes = {mode_from(only.mode)};
   auto chosen = o;
   chosen.engines = only.engine, chosen.out = o.out + "/recommended";
-  const auto result = measure(chosen, value, [&](const RunPlan& run) { const auto at = run.levels.find(only.axis); return at != run.levels.end() && same_level(at->second, only.levels[0]); });
+  const auto result = measure(chosen, value, [&](const RunPlan& run) {
+    const auto at = run.levels.find(only.axis);
+    return at != run.levels.end() && same_level(at->second, only.levels[0]);
+  });
   for (const auto& engine : result.engines)
     for (const auto& run : engine.runs) {
       const auto v = measured(run, metric);
       if (run.status != "ok") throw EngineError(fmt::format("the recommended run is {}: {}", run.status, run.reason));
-      if (engine.preset == r.ladder->preset && v) return {r.level, 0.0, std::abs(v->value) + 2.0 * v->uncertainty.combined(), run.cost.cpu_s, run.cost.pairs};
+      if (engine.preset == r.ladder->preset && v)
+        return {r.level, 0.0, std::abs(v->value) + 2.0 * v->uncertainty.combined(), run.cost.cpu_s, run.cost.pairs};
     }
   throw EngineError("the recommended run gave no value of " + metric);
 }
@@ -149,24 +165,41 @@ int recommend(Options o) {
   if (o.out.empty()) o.out = own_folder("recommend", value.id);
   make_folder(o.out);
   const auto metric = metric_of(o, value);
-  const auto result = o.from.empty() ? measure(o, value, [](const RunPlan& run) { return !run.levels.empty() || run.base; }) : read_case_of(o.from, value.id);
+  const auto result = o.from.empty() ? measure(o, value, [](const RunPlan& run) { return !run.levels.empty() || run.base; })
+                                     : read_case_of(o.from, value.id);
   const auto ladders = ladders_of(result, metric);
   if (!o.json) print_ladders(ladders, metric);
   const double wish = o.error.empty() ? 0.0 : wish_of(o.error);
   const auto r = o.error.empty() ? best_within(value.scene, ladders, o.seconds) : cheapest_for_error(value.scene, ladders, wish);
   if (!r) {
-    print(o.json ? std::string("{\"found\": false}\n") : std::string("no settings within twice of what was measured promise it\n"));
+    print(o.json ? std::string("{\"found\": false}\n")
+                 : std::string("no settings within twice of what was measured promise it\n"));
     return exit_inconclusive;
   }
-  if (!o.json) print(fmt::format("recommended: {}, {} = {:.6g}\n  predicted error {:.4g} (within a factor {:.2f}), {:.3g} CPU s (within {:.2f})\n", name_of(*r->ladder), r->ladder->axis, r->level, r->error.value, r->error.factor, r->cpu_s.value, r->cpu_s.factor));
+  if (!o.json)
+    print(fmt::format(
+        "recommended: {}, {} = {:.6g}\n  predicted error {:.4g} (within a factor {:.2f}), {:.3g} CPU s (within {:.2f})\n",
+        name_of(*r->ladder), r->ladder->axis, r->level, r->error.value, r->error.factor, r->cpu_s.value, r->cpu_s.factor));
   const auto made = make_recommended(o, value, *r, metric);
   const bool met = o.error.empty() ? made.cpu_s <= o.seconds : made.error <= wish;
   const double error_factor = factor_between(r->error.value, made.error), cpu_factor = factor_between(r->cpu_s.value, made.cpu_s);
   if (o.json)
-    print(nlohmann::ordered_json{{"found", true}, {"case", value.id}, {"metric", metric}, {"engine", r->ladder->engine}, {"preset", r->ladder->preset}, {"mode", r->ladder->mode}, {"axis", r->ladder->axis},
-                                 {"level", r->level}, {"predicted", {{"error", r->error.value}, {"cpu_s", r->cpu_s.value}}}, {"measured", {{"error", made.error}, {"cpu_s", made.cpu_s}}}, {"met", met}}.dump(2) + "\n");
+    print(nlohmann::ordered_json{{"found", true},
+                                 {"case", value.id},
+                                 {"metric", metric},
+                                 {"engine", r->ladder->engine},
+                                 {"preset", r->ladder->preset},
+                                 {"mode", r->ladder->mode},
+                                 {"axis", r->ladder->axis},
+                                 {"level", r->level},
+                                 {"predicted", {{"error", r->error.value}, {"cpu_s", r->cpu_s.value}}},
+                                 {"measured", {{"error", made.error}, {"cpu_s", made.cpu_s}}},
+                                 {"met", met}}
+              .dump(2) +
+          "\n");
   else
-    print(fmt::format("the run: error {:.4g} (predicted to a factor {:.2f}), {:.3g} CPU s (to {:.2f}): {}\n", made.error, error_factor, made.cpu_s, cpu_factor, met ? "meets the wish" : "DOES NOT meet the wish"));
+    print(fmt::format("the run: error {:.4g} (predicted to a factor {:.2f}), {:.3g} CPU s (to {:.2f}): {}\n", made.error,
+                      error_factor, made.cpu_s, cpu_factor, met ? "meets the wish" : "DOES NOT meet the wish"));
   return met ? exit_pass : exit_fail;
 }
 
@@ -177,32 +210,40 @@ int plan_for(Options o) {
   const double wish = wish_of(o.error);
   if (o.out.empty()) o.out = own_folder("plan", value.id);
   make_folder(o.out);
-  const auto result = o.from.empty() ? measure(o, value, [&](const RunPlan& run) { return is_coarse(value, run, 3); }) : read_case_of(o.from, value.id);
+  const auto result = o.from.empty() ? measure(o, value, [&](const RunPlan& run) { return is_coarse(value, run, 3); })
+                                     : read_case_of(o.from, value.id);
   const auto ladders = ladders_of(result, metric);
   print_ladders(ladders, metric);
-  print(fmt::format("to bring {} within {:.3g}:\n  {:28} {:14} {:>12} {:>24} {:>24}\n", metric, wish, "engine", "axis", "level", "CPU s (from..to)", "error (from..to)"));
+  print(fmt::format("to bring {} within {:.3g}:\n  {:28} {:14} {:>12} {:>24} {:>24}\n", metric, wish, "engine", "axis", "level",
+                    "CPU s (from..to)", "error (from..to)"));
   bool any = false;
   for (const auto& l : ladders) {
     const auto& fine = l.points.back();
-    const double slope = std::log(l.points[l.points.size() - 2].error / fine.error) / std::log(l.points[l.points.size() - 2].step / fine.step);
+    const double slope =
+        std::log(l.points[l.points.size() - 2].error / fine.error) / std::log(l.points[l.points.size() - 2].step / fine.step);
     double step = 0.0;
     for (const auto& p : l.points)
       if (p.error <= wish && step == 0.0) step = p.step;
     if (step == 0.0 && slope > 0.05) step = fine.step * std::pow(wish / fine.error, 1.0 / slope);
     if (step == 0.0) {
-      print_line(fmt::format("  {:28} {:14} {:>12}  its error falls with no power of the level (slope {:.2f}): no level brings it there", name_of(l), l.axis, "-", slope));
+      print_line(
+          fmt::format("  {:28} {:14} {:>12}  its error falls with no power of the level (slope {:.2f}): no level brings it there",
+                      name_of(l), l.axis, "-", slope));
       continue;
     }
     const bool upward = l.axis == "walkers" || l.axis == "iterations" || l.axis == "support_ratio";
     if (fine.step > farthest * step) {
-      print_line(fmt::format("  {:28} {:14} {:>12}  out of reach: its error falls as the level to the {:.2g}, which would take {:.2g}, {:.2g} times beyond what was measured", name_of(l), l.axis, "-", slope,
-                        upward ? 1.0 / step : step, fine.step / step));
+      print_line(
+          fmt::format("  {:28} {:14} {:>12}  out of reach: its error falls as the level to the {:.2g}, which would take {:.2g}, "
+                      "{:.2g} times beyond what was measured",
+                      name_of(l), l.axis, "-", slope, upward ? 1.0 / step : step, fine.step / step));
       continue;
     }
     any = true;
     const auto e = predicted_error(l, step), c = predicted_cpu(l, step);
-    print_line(fmt::format("  {:28} {:14} {:12.5g} {:>24} {:>24}", name_of(l), l.axis, upward ? 1.0 / step : step, fmt::format("{:.3g} ({:.3g}..{:.3g})", c.value, c.value / c.factor, c.value * c.factor),
-                      fmt::format("{:.3g} ({:.3g}..{:.3g})", e.value, e.value / e.factor, e.value * e.factor)));
+    print_line(fmt::format("  {:28} {:14} {:12.5g} {:>24} {:>24}", name_of(l), l.axis, upward ? 1.0 / step : step,
+                           fmt::format("{:.3g} ({:.3g}..{:.3g})", c.value, c.value / c.factor, c.value * c.factor),
+                           fmt::format("{:.3g} ({:.3g}..{:.3g})", e.value, e.value / e.factor, e.value * e.factor)));
   }
   return any ? exit_pass : exit_inconclusive;
 }
@@ -211,8 +252,11 @@ void add_common(CLI::App& command, Options& o, const std::string& name) {
   command.add_option("CASE", o.what, "a case file or id")->required();
   command.add_option("--metric", o.metric, "which metric (default: that of the case's first study)");
   command.add_option("--engines", o.engines, "only these engines, A,B");
-  command.add_option("--axis", o.axis, "only this axis")->check(CLI::IsMember({"spacing", "time_step", "support_ratio", "walkers", "iterations"}));
-  command.add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")->delimiter(',')->allow_extra_args(false);
+  command.add_option("--axis", o.axis, "only this axis")
+      ->check(CLI::IsMember({"spacing", "time_step", "support_ratio", "walkers", "iterations"}));
+  command.add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command.add_option("--from", o.from, "take the front from this results.json; run nothing for it");
   command.add_option("--out", o.out, "folder of the runs (default: report-" + name + "/CASE)");
   command.add_option("--jobs", o.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();

@@ -6,10 +6,10 @@
 #include <memory>
 #include <sstream>
 
-#include "program/cli/commands.hpp"
-#include "program/cli/common.hpp"
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
+#include "program/cli/commands.hpp"
+#include "program/cli/common.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/releases.hpp"
@@ -21,12 +21,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* releases_description =
-    "Can I upgrade? Runs a case on several releases of an engine, each in its own environment, and prints error and observed order by release.\n"
+    "Can I upgrade? Runs a case on several releases of an engine, each in its own environment, and prints error and observed "
+    "order by release.\n"
     "  tripoint releases mujoco --versions 2.3.7,3.3.7,3.7.0,3.10.0,3.17.0,4.0.0 rigid/torque-free\n"
     "  tripoint releases my-engine --versions ./old/engine-mine,./new/engine-mine rigid/ballistic\n"
-    "A version is one that `tripoint engine install NAME@VERSION` knows, or the path of an executable; oldest first. Without --versions all\n"
-    "pinned ones are taken. What is not installed is installed, after --yes. OUT holds releases.json, releases.md and index.html.\n"
-    "Exit 0: the last release is not worse than the first beyond the margin; 1: it is; 2: bad input; 4: a release cannot be installed or run.";
+    "A version is one that `tripoint engine install NAME@VERSION` knows, or the path of an executable; oldest first. Without "
+    "--versions all\n"
+    "pinned ones are taken. What is not installed is installed, after --yes. OUT holds releases.json, releases.md and "
+    "index.html.\n"
+    "Exit 0: the last release is not worse than the first beyond the margin; 1: it is; 2: bad input; 4: a release cannot be "
+    "installed or run.";
 
 constexpr double install_limit = 3600.0;  // [s]
 constexpr double page_limit = 120.0;      // [s]
@@ -98,7 +102,8 @@ Release run_release(const ReleasesOptions& o, const Case& value, const EngineEnt
 
 void write_page(const fs::path& out) {
   ProcessSpec spec;
-  spec.argv = {"/usr/bin/python3", (fs::path(share_folder()) / "reports" / "releases.py").string(), (out / "releases.json").string()};
+  spec.argv = {"/usr/bin/python3", (fs::path(share_folder()) / "reports" / "releases.py").string(),
+               (out / "releases.json").string()};
   spec.wall_limit = page_limit;
   const auto end = run_process(spec);
   if (end.how != ProcessEnd::How::exited || end.code != 0) say("tripoint: no page: " + end.log_tail);
@@ -129,8 +134,15 @@ void add_releases(CLI::App& app, int& exit_code) {
   command->add_option("CASE", o->what, "a case file or id")->required();
   command->add_option("--versions", o->versions, "A,B,C: versions or paths of executables, oldest first");
   command->add_option("--presets", o->presets, "A,B (default: those of the case, else all of the engine)");
-  command->add_option("--levels", o->levels, "time steps a,b,c, coarse to fine [s] (default: the case's study of the engine, else 2, 1, 1/2, 1/4 of its own step)")->delimiter(',')->allow_extra_args(false);
-  command->add_option("--margin", o->margin, "an error may differ by this factor before it counts as changed")->check(CLI::Range(1.0, 1e6))->capture_default_str();
+  command
+      ->add_option(
+          "--levels", o->levels,
+          "time steps a,b,c, coarse to fine [s] (default: the case's study of the engine, else 2, 1, 1/2, 1/4 of its own step)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--margin", o->margin, "an error may differ by this factor before it counts as changed")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
   command->add_option("--out", o->out, "folder of the table and the runs")->capture_default_str();
   command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_flag("--yes", o->yes, "install what is not installed");

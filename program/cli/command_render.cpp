@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -23,13 +23,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* description =
-    "Draws frames of a run that has ended: the surface of each body and liquid, equations (22) to (26) of the paper, ray-traced.\n"
-    "  tripoint render runs/paper/fig-12/tripoint                   six frames, a contact sheet, and a film where ffmpeg is installed\n"
+    "Draws frames of a run that has ended: the surface of each body and liquid, equations (22) to (26) of the paper, "
+    "ray-traced.\n"
+    "  tripoint render runs/paper/fig-12/tripoint                   six frames, a contact sheet, and a film where ffmpeg is "
+    "installed\n"
     "  tripoint render paper/fig-12 --frame -1 --colour temperature the last frame of the run that tripoint run left in runs/\n"
     "  tripoint render paper/fig-12 --frames 0:-1:1 --particles     every frame, as balls: a quick look\n"
     "  tripoint render paper/fig-12 --frame 5 --mesh shell.ply      also the closed mesh, with temperature, phase and body\n"
     "  tripoint render paper/fig-12 --zb05                          without the factor f of (25): what it repairs is seen\n"
-    "Up is against gravity. Fixed bodies are walls: what of them stands before the rest is cut away (--walls). A run in a periodic box is\n"
+    "Up is against gravity. Fixed bodies are walls: what of them stands before the rest is cut away (--walls). A run in a "
+    "periodic box is\n"
     "drawn as it lies in the box. docs/surface.md says what is drawn, how near it is to the truth, and what it costs.\n"
     "OUT then holds frame-NNNN.png, sheet.png and film.mp4. stdout says the files, one a line.";
 
@@ -48,14 +51,16 @@ struct RenderOptions {
 std::vector<std::size_t> frames_of(const RenderOptions& o, std::size_t count) {
   const auto row = [&](int n, const char* option) {
     const int at = n < 0 ? n + static_cast<int>(count) : n;
-    if (at < 0 || at >= static_cast<int>(count)) throw InputError(fmt::format("{} {}: the run has frames 0 to {}; -1 is the last", option, n, count - 1));
+    if (at < 0 || at >= static_cast<int>(count))
+      throw InputError(fmt::format("{} {}: the run has frames 0 to {}; -1 is the last", option, n, count - 1));
     return static_cast<std::size_t>(at);
   };
   if (o.frame) return {row(*o.frame, "--frame")};
   std::vector<std::size_t> chosen;
   if (o.frames.empty()) {
     const std::size_t wanted = std::min<std::size_t>(natural_frames, count);
-    for (std::size_t n = 0; n < wanted; ++n) chosen.push_back(wanted == 1 ? count - 1 : (n * (count - 1) + (wanted - 1) / 2) / (wanted - 1));
+    for (std::size_t n = 0; n < wanted; ++n)
+      chosen.push_back(wanted == 1 ? count - 1 : (n * (count - 1) + (wanted - 1) / 2) / (wanted - 1));
     return chosen;
   }
   const auto words = split(o.frames, ':');
@@ -69,19 +74,23 @@ std::vector<std::size_t> frames_of(const RenderOptions& o, std::size_t count) {
   if (numbers.size() < 2 || numbers.size() > 3 || words.size() != numbers.size() || (numbers.size() == 3 && numbers[2] < 1))
     throw InputError(fmt::format("--frames {}: write FIRST:LAST or FIRST:LAST:STEP, for example 0:-1:5", o.frames));
   const std::size_t last = row(numbers[1], "--frames");
-  for (std::size_t n = row(numbers[0], "--frames"); n <= last; n += static_cast<std::size_t>(numbers.size() == 3 ? numbers[2] : 1)) chosen.push_back(n);
+  for (std::size_t n = row(numbers[0], "--frames"); n <= last;
+       n += static_cast<std::size_t>(numbers.size() == 3 ? numbers[2] : 1))
+    chosen.push_back(n);
   if (chosen.empty()) throw InputError(fmt::format("--frames {}: the first frame lies behind the last", o.frames));
   return chosen;
 }
 
 /// Two positive numbers with one character between.
-std::pair<double, double> two_numbers(const std::string& text, char between, const std::string& option, const std::string& instead) {
+std::pair<double, double> two_numbers(const std::string& text, char between, const std::string& option,
+                                      const std::string& instead) {
   char* end = nullptr;
   const double a = std::strtod(text.c_str(), &end);
   const bool first = end != text.c_str() && *end == between;
   const char* rest = first ? end + 1 : end;
   const double b = std::strtod(rest, &end);
-  if (!first || end == rest || *end != '\0' || !std::isfinite(a) || !std::isfinite(b)) throw InputError(fmt::format("{} {}: write {}", option, text, instead));
+  if (!first || end == rest || *end != '\0' || !std::isfinite(a) || !std::isfinite(b))
+    throw InputError(fmt::format("{} {}: write {}", option, text, instead));
   return {a, b};
 }
 
@@ -89,28 +98,34 @@ Colouring colouring_of(const RenderOptions& o, const ShownRun& run, const std::v
   if (o.colour.empty()) return natural_colouring(run, frames);
   if (o.colour == "phase") return Colouring::phase;
   if (o.colour == "body") return Colouring::body;
-  if (!temperatures_of(run, frames)) throw InputError(run.folder + ": the run has no temperatures: --colour phase or --colour body");
+  if (!temperatures_of(run, frames))
+    throw InputError(run.folder + ": the run has no temperatures: --colour phase or --colour body");
   return Colouring::temperature;
 }
 
 Showing showing_of(const RenderOptions& o, const ShownRun& run, const std::vector<std::size_t>& frames) {
   Showing s;
   const auto size = two_numbers(o.size, 'x', "--size", "WIDTHxHEIGHT, for example 640x480");
-  if (!(size.first >= 16.0 && size.second >= 16.0 && size.first <= 8192.0 && size.second <= 8192.0)) throw InputError(fmt::format("--size {}: from 16x16 to 8192x8192", o.size));
+  if (!(size.first >= 16.0 && size.second >= 16.0 && size.first <= 8192.0 && size.second <= 8192.0))
+    throw InputError(fmt::format("--size {}: from 16x16 to 8192x8192", o.size));
   s.width = static_cast<int>(size.first), s.height = static_cast<int>(size.second);
   s.colouring = colouring_of(o, run, frames);
   s.walls = o.walls == "show" ? WallsDrawn::show : o.walls == "hide" ? WallsDrawn::hide : WallsDrawn::cut;
   s.particles = o.particles, s.whole = o.whole;
   s.view = {o.azimuth, o.elevation};
   s.surface = SurfaceOptions::for_spacing(run.spacing);
-  if (o.influence > 0.0) s.surface.influence_radius = o.influence * run.spacing, s.surface.distance = SurfaceOptions::distance_per_influence_radius * s.surface.influence_radius;
+  if (o.influence > 0.0)
+    s.surface.influence_radius = o.influence * run.spacing,
+    s.surface.distance = SurfaceOptions::distance_per_influence_radius * s.surface.influence_radius;
   if (o.distance > 0.0) s.surface.distance = o.distance * run.spacing;
   s.surface.detector = !o.zb05;
   s.room = room_for(run, frames);
   s.looked_at = looked_at(run, frames, s);
   s.threads = o.threads > 0 ? o.threads : omp_get_max_threads();
-  if (!o.range.empty()) std::tie(s.cold, s.hot) = two_numbers(o.range, ':', "--range", "COLD:HOT in kelvin, for example 250:450");
-  else if (const auto T = temperatures_of(run, frames)) std::tie(s.cold, s.hot) = *T;
+  if (!o.range.empty())
+    std::tie(s.cold, s.hot) = two_numbers(o.range, ':', "--range", "COLD:HOT in kelvin, for example 250:450");
+  else if (const auto T = temperatures_of(run, frames))
+    std::tie(s.cold, s.hot) = *T;
   return s;
 }
 
@@ -122,7 +137,9 @@ std::string in_path(const std::string& name) {
   for (const auto& folder : split(path != nullptr ? path : "", ':')) {
     const auto file = fs::path(folder) / name;
     std::error_code none;
-    if (const auto status = fs::status(file, none); fs::is_regular_file(status) && (status.permissions() & fs::perms::owner_exec) != fs::perms::none) return file.string();
+    if (const auto status = fs::status(file, none);
+        fs::is_regular_file(status) && (status.permissions() & fs::perms::owner_exec) != fs::perms::none)
+      return file.string();
   }
   return {};
 }
@@ -137,28 +154,37 @@ void make_film(const fs::path& out, const std::vector<std::size_t>& frames, doub
   for (const std::size_t n : frames) list << "file '" << frame_name(n) << "'\nduration " << 1.0 / rate << "\n";
   list.close();
   ProcessSpec spec;
-  spec.argv = {program, "-y", "-loglevel", "error", "-f", "concat", "-i", "film.txt", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "film.mp4"};
+  spec.argv = {program,    "-y",      "-loglevel", "error", "-f",
+               "concat",   "-i",      "film.txt",  "-vf",   "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+               "-pix_fmt", "yuv420p", "film.mp4"};
   spec.folder = fs::absolute(out).string();
   const auto end = run_process(spec);
   fs::remove(out / "film.txt");
-  if (end.how == ProcessEnd::How::exited && end.code == 0) print_line((out / "film.mp4").string());
-  else say(fmt::format("no film: ffmpeg {}: {}", describe(end), end.log_tail));
+  if (end.how == ProcessEnd::How::exited && end.code == 0)
+    print_line((out / "film.mp4").string());
+  else
+    say(fmt::format("no film: ffmpeg {}: {}", describe(end), end.log_tail));
 }
 
 /// FILE.ply, or FILE-0007.ply where several frames are asked for.
 std::string mesh_name(const std::string& file, std::size_t frame, bool several) {
   const fs::path path(file);
-  return several ? (path.parent_path() / fmt::format("{}-{:04}{}", path.stem().string(), frame, path.extension().string())).string() : file;
+  return several
+             ? (path.parent_path() / fmt::format("{}-{:04}{}", path.stem().string(), frame, path.extension().string())).string()
+             : file;
 }
 
 void write_meshes(const ShownRun& run, std::size_t frame, const Showing& s, const RenderOptions& o, const std::string& file) {
   const auto parts = meshes_of(run, run.trajectory.frames[frame], s, o.voxel * run.spacing);
-  if (fs::path(file).extension() == ".obj") write_obj(file, parts);
-  else write_ply(file, parts);
+  if (fs::path(file).extension() == ".obj")
+    write_obj(file, parts);
+  else
+    write_ply(file, parts);
   print_line(file);
   for (const SurfacePart& p : parts) {
     const MeshMeasures m = measures_of(p.mesh);
-    print_line(fmt::format("  {:24} {} triangles, {} {}, volume {:.6g} m3, area {:.6g} m2{}", p.name, p.mesh.triangles.size(), m.pieces, m.pieces == 1 ? "piece" : "pieces", volume(p.mesh), m.area,
+    print_line(fmt::format("  {:24} {} triangles, {} {}, volume {:.6g} m3, area {:.6g} m2{}", p.name, p.mesh.triangles.size(),
+                           m.pieces, m.pieces == 1 ? "piece" : "pieces", volume(p.mesh), m.area,
                            m.open_edges > 0 ? fmt::format(", {} edges open", m.open_edges) : ", closed"));
   }
 }
@@ -167,7 +193,8 @@ void check_words(const RenderOptions& o) {
   if (o.frame && !o.frames.empty()) throw InputError("--frame names one frame, --frames several: give one of them");
   if (o.particles && o.surface) throw InputError("--particles draws balls, --surface surfaces: give one of them");
   const auto ending = fs::path(o.mesh).extension();
-  if (!o.mesh.empty() && ending != ".ply" && ending != ".obj") throw InputError(fmt::format("--mesh {}: a mesh is a .ply file (with temperature, phase and body) or a .obj file", o.mesh));
+  if (!o.mesh.empty() && ending != ".ply" && ending != ".obj")
+    throw InputError(fmt::format("--mesh {}: a mesh is a .ply file (with temperature, phase and body) or a .obj file", o.mesh));
 }
 
 std::string legend_of(const Showing& s) {
@@ -197,7 +224,8 @@ int render(const RenderOptions& o) {
     if (interrupted()) return exit_interrupted;
   }
   if (frames.size() < 2) return exit_pass;
-  write_png((out / "sheet.png").string(), contact_sheet(small, static_cast<int>(std::ceil(std::sqrt(1.5 * static_cast<double>(small.size()))))));
+  write_png((out / "sheet.png").string(),
+            contact_sheet(small, static_cast<int>(std::ceil(std::sqrt(1.5 * static_cast<double>(small.size()))))));
   print_line((out / "sheet.png").string());
   make_film(out, frames, o.rate);
   return exit_pass;
@@ -208,26 +236,40 @@ int render(const RenderOptions& o) {
 void add_render(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("render", description);
   auto o = std::make_shared<RenderOptions>();
-  command->add_option("RUN", o->run, "folder of a run, its trajectory.h5, or the id of a case that has a run in runs/")->required();
+  command->add_option("RUN", o->run, "folder of a run, its trajectory.h5, or the id of a case that has a run in runs/")
+      ->required();
   command->add_option("--frame", o->frame, "this frame alone, counted from 0; -1 is the last");
-  command->add_option("--frames", o->frames, "these frames, the last included; six where none are named")->type_name("FIRST:LAST:STEP");
+  command->add_option("--frames", o->frames, "these frames, the last included; six where none are named")
+      ->type_name("FIRST:LAST:STEP");
   command->add_option("--out", o->out, "folder of the pictures (default: pictures in the run's folder)");
   command->add_option("--size", o->size, "of a picture in pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
-  command->add_option("--colour", o->colour, "temperature, phase or body; the first of them that tells something where none is named")->check(CLI::IsMember({"temperature", "phase", "body"}));
-  command->add_option("--range", o->range, "temperatures at the dark and the light end, in kelvin (default: those of the frames)")->type_name("COLD:HOT");
+  command
+      ->add_option("--colour", o->colour,
+                   "temperature, phase or body; the first of them that tells something where none is named")
+      ->check(CLI::IsMember({"temperature", "phase", "body"}));
+  command->add_option("--range", o->range, "temperatures at the dark and the light end, in kelvin (default: those of the frames)")
+      ->type_name("COLD:HOT");
   command->add_flag("--surface", o->surface, "surfaces, as without a word");
   command->add_flag("--particles", o->particles, "particles as balls: quicker");
   command->add_flag("--whole", o->whole, "one surface about all that is no wall, instead of one a body and one a liquid");
   command->add_flag("--zb05", o->zb05, "f = 1 everywhere: the surface of Zhu and Bridson 2005, equation (22)");
-  command->add_option("--walls", o->walls, "fixed bodies: cut away before the rest, all of them, or none")->check(CLI::IsMember({"cut", "show", "hide"}))->capture_default_str();
+  command->add_option("--walls", o->walls, "fixed bodies: cut away before the rest, all of them, or none")
+      ->check(CLI::IsMember({"cut", "show", "hide"}))
+      ->capture_default_str();
   command->add_option("--azimuth", o->azimuth, "where from, to the right of the front [degrees]")->capture_default_str();
-  command->add_option("--elevation", o->elevation, "where from, above the horizon [degrees]")->check(CLI::Range(-89.0, 89.0))->capture_default_str();
-  command->add_option("--influence-radius", o->influence, "ir of (24) in spacings; the larger, the smoother (default: 2.4)")->check(CLI::Range(1.2, 10.0));
-  command->add_option("--distance", o->distance, "R of (22) and (23) in spacings (default: 0.28 ir)")->check(CLI::Range(0.05, 5.0));
-  command->add_option("--mesh", o->mesh, "also writes the closed mesh: .ply with temperature, phase and body, or .obj")->type_name("FILE");
+  command->add_option("--elevation", o->elevation, "where from, above the horizon [degrees]")
+      ->check(CLI::Range(-89.0, 89.0))
+      ->capture_default_str();
+  command->add_option("--influence-radius", o->influence, "ir of (24) in spacings; the larger, the smoother (default: 2.4)")
+      ->check(CLI::Range(1.2, 10.0));
+  command->add_option("--distance", o->distance, "R of (22) and (23) in spacings (default: 0.28 ir)")
+      ->check(CLI::Range(0.05, 5.0));
+  command->add_option("--mesh", o->mesh, "also writes the closed mesh: .ply with temperature, phase and body, or .obj")
+      ->type_name("FILE");
   command->add_option("--voxel", o->voxel, "of the mesh, in spacings")->check(CLI::Range(0.05, 5.0))->capture_default_str();
   command->add_option("--rate", o->rate, "frames a second of the film")->check(CLI::Range(0.1, 240.0))->capture_default_str();
-  command->add_option("--threads", o->threads, "they do not change a bit of the pictures (default: all)")->check(CLI::Range(1, 1024));
+  command->add_option("--threads", o->threads, "they do not change a bit of the pictures (default: all)")
+      ->check(CLI::Range(1, 1024));
   command->callback([o, &exit_code] { exit_code = guarded([&] { return render(*o); }); });
 }
 

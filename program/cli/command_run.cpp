@@ -2,19 +2,19 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/run_progress.hpp"
 #include "program/cli/start_notes.hpp"
-#include "core/errors.hpp"
 #include "scene/idle_keys.hpp"
 #include "scene/units.hpp"
 #include "validation/harness/case_names.hpp"
@@ -30,15 +30,20 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* description =
-    "Runs one case on one engine, at the case's own resolution, and prints how it ended, and each metric with its unit, its standard\n"
+    "Runs one case on one engine, at the case's own resolution, and prints how it ended, and each metric with its unit, its "
+    "standard\n"
     "uncertainty and the limit that the case sets it. The exit code judges nothing: tripoint validate does.\n"
     "  tripoint run rigid/ballistic\n"
     "  tripoint run heat/cosine-mode --set scene.spacing='1 mm' --threads 2 --out coarse\n"
     "  tripoint run rigid/ballistic --engine bullet --until 0.5\n"
-    "  tripoint run heat/cosine-mode --checkpoint-interval '10 s'; tripoint run heat/cosine-mode --resume runs/heat/cosine-mode/tripoint\n"
-    "  tripoint run paper/fig-08-rigid --progress json --json --until 0.1   progress as JSON lines on stderr, the result on stdout\n"
-    "DIR then holds job.json, particles.h5, trajectory.h5 (H5MD; trajectory.xdmf opens it in ParaView), result.json and log.txt.\n"
-    "Ctrl-C leaves a checkpoint there too. A run that goes on from one has the same bits as one that was never cut, on any number of threads.\n"
+    "  tripoint run heat/cosine-mode --checkpoint-interval '10 s'; tripoint run heat/cosine-mode --resume "
+    "runs/heat/cosine-mode/tripoint\n"
+    "  tripoint run paper/fig-08-rigid --progress json --json --until 0.1   progress as JSON lines on stderr, the result on "
+    "stdout\n"
+    "DIR then holds job.json, particles.h5, trajectory.h5 (H5MD; trajectory.xdmf opens it in ParaView), result.json and "
+    "log.txt.\n"
+    "Ctrl-C leaves a checkpoint there too. A run that goes on from one has the same bits as one that was never cut, on any "
+    "number of threads.\n"
     "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged, 130 Ctrl-C.";
 
 struct RunOptions {
@@ -54,7 +59,10 @@ struct RunOptions {
 std::string checkpoint_file(const std::string& path) {
   if (fs::is_regular_file(path)) return fs::absolute(path).string();
   const auto found = checkpoints_in(path);
-  if (found.empty()) throw InputError(path + ": is no checkpoint, nor a folder with one (a run leaves checkpoint-STEP.h5 with --checkpoint-interval, and at Ctrl-C)");
+  if (found.empty())
+    throw InputError(
+        path +
+        ": is no checkpoint, nor a folder with one (a run leaves checkpoint-STEP.h5 with --checkpoint-interval, and at Ctrl-C)");
   return fs::absolute(found.back()).string();
 }
 
@@ -96,14 +104,20 @@ int code_of(const RunOptions& o, const Outcome& outcome) {
 }
 
 /// What the case allows the metric in this run; empty where it sets nothing.
-std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& run, const std::string& metric, const MetricValue& m) {
+std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& run, const std::string& metric,
+                      const MetricValue& m) {
   std::string text;
   for (const auto& g : value.gates) {
-    const bool of_level = !g.level || std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *g.level); });
-    const bool ours = (g.engine.empty() || g.engine == plan.name) && (g.mode.empty() || g.mode == run.mode) && (g.preset.empty() || g.preset == plan.preset);
+    const bool of_level = !g.level || std::any_of(run.levels.begin(), run.levels.end(),
+                                                  [&](const auto& l) { return same_level(l.second, *g.level); });
+    const bool ours = (g.engine.empty() || g.engine == plan.name) && (g.mode.empty() || g.mode == run.mode) &&
+                      (g.preset.empty() || g.preset == plan.preset);
     if (g.metric != metric || !ours || !of_level) continue;
-    if (g.limit && *g.limit > 0.0) text += fmt::format("  limit {:.4g} ({:.3g} % of it)", *g.limit, 100.0 * (std::abs(m.value) + 2.0 * m.uncertainty.combined()) / *g.limit);
-    else if (g.limit) text += fmt::format("  limit {:.4g}", *g.limit);  // a share of nothing is no number
+    if (g.limit && *g.limit > 0.0)
+      text += fmt::format("  limit {:.4g} ({:.3g} % of it)", *g.limit,
+                          100.0 * (std::abs(m.value) + 2.0 * m.uncertainty.combined()) / *g.limit);
+    else if (g.limit)
+      text += fmt::format("  limit {:.4g}", *g.limit);  // a share of nothing is no number
     if (g.at_least) text += fmt::format("  at least {:.4g}", *g.at_least);
     if (g.band) text += fmt::format("  band {:.4g} to {:.4g}", (*g.band)[0], (*g.band)[1]);
   }
@@ -118,16 +132,21 @@ void print_metrics(const Case& value, const EnginePlan& plan, const std::map<std
     const auto at = metrics.find(choice.name);
     if (at == metrics.end()) continue;
     const auto& m = at->second;
-    print_line(fmt::format("  {:26} {:12.5g} {:8} {:9.2g}{}{}", choice.name, m.value, choice.unit.empty() ? "1" : choice.unit, m.uncertainty.combined(), limits_of(value, plan, plan.runs.front(), choice.name, m),
-                      m.note.empty() ? "" : "  (" + m.note + ")"));
+    print_line(fmt::format("  {:26} {:12.5g} {:8} {:9.2g}{}{}", choice.name, m.value, choice.unit.empty() ? "1" : choice.unit,
+                           m.uncertainty.combined(), limits_of(value, plan, plan.runs.front(), choice.name, m),
+                           m.note.empty() ? "" : "  (" + m.note + ")"));
   }
 }
 
-void print_text(const RunOptions& o, const Case& value, const EnginePlan& plan, const Outcome& outcome, const std::map<std::string, MetricValue>& metrics) {
+void print_text(const RunOptions& o, const Case& value, const EnginePlan& plan, const Outcome& outcome,
+                const std::map<std::string, MetricValue>& metrics) {
   print_line(fmt::format("{}{}{}", outcome.status, outcome.reason.empty() ? "" : ": ", outcome.reason));
   const auto& r = outcome.result;
-  if (r.steps > 0) print_line(fmt::format("  t = {:g} s in {} steps; last step {:g} s{}", r.time_reached, r.steps, r.readback.time_step, r.time_step_bound.empty() ? "" : ", bound by " + r.time_step_bound));
-  print(fmt::format("  {:.3g} CPU s, {:.3g} s, {:.3g} MB\n", outcome.cost.cpu_s, outcome.cost.wall_s, outcome.cost.peak_bytes / 1e6));
+  if (r.steps > 0)
+    print_line(fmt::format("  t = {:g} s in {} steps; last step {:g} s{}", r.time_reached, r.steps, r.readback.time_step,
+                           r.time_step_bound.empty() ? "" : ", bound by " + r.time_step_bound));
+  print(fmt::format("  {:.3g} CPU s, {:.3g} s, {:.3g} MB\n", outcome.cost.cpu_s, outcome.cost.wall_s,
+                    outcome.cost.peak_bytes / 1e6));
   print_metrics(value, plan, metrics);
   print_line(fmt::format("  in {}", o.out));
 }
@@ -135,14 +154,24 @@ void print_text(const RunOptions& o, const Case& value, const EnginePlan& plan, 
 void print_json(const RunOptions& o, const Outcome& outcome, const std::map<std::string, MetricValue>& metrics) {
   nlohmann::ordered_json values = nlohmann::ordered_json::object();
   for (const auto& [name, m] : metrics) {
-    values[name] = {{"value", std::isfinite(m.value) ? nlohmann::ordered_json(m.value) : nlohmann::ordered_json()}, {"uncertainty", m.uncertainty.combined()}, {"note", m.note}};
+    values[name] = {{"value", std::isfinite(m.value) ? nlohmann::ordered_json(m.value) : nlohmann::ordered_json()},
+                    {"uncertainty", m.uncertainty.combined()},
+                    {"note", m.note}};
     if (!std::isfinite(m.value)) values[name]["finite"] = false;
   }
   const auto& r = outcome.result;
-  print(nlohmann::ordered_json{{"status", outcome.status}, {"reason", outcome.reason}, {"time_reached", r.time_reached}, {"steps", r.steps}, {"time_step_bound", r.time_step_bound},
-                               {"state_hash", r.state_hash}, {"cost", {{"cpu_s", outcome.cost.cpu_s}, {"wall_s", outcome.cost.wall_s}, {"peak_bytes", outcome.cost.peak_bytes}}},
-                               {"metrics", values}, {"folder", o.out}}
-            .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  print(nlohmann::ordered_json{
+            {"status", outcome.status},
+            {"reason", outcome.reason},
+            {"time_reached", r.time_reached},
+            {"steps", r.steps},
+            {"time_step_bound", r.time_step_bound},
+            {"state_hash", r.state_hash},
+            {"cost", {{"cpu_s", outcome.cost.cpu_s}, {"wall_s", outcome.cost.wall_s}, {"peak_bytes", outcome.cost.peak_bytes}}},
+            {"metrics", values},
+            {"folder", o.out}}
+            .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+        "\n");
 }
 
 /// What `check` would say of the particles and metrics: a run of its own is not refused for it, but not silent either.
@@ -178,7 +207,8 @@ int run(RunOptions o) {
   const auto plan = plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);
   const auto& base = plan.runs.front();
   const Scene scene = scene_of(value, base);
-  if (scene.settle && !o.quiet) say("letting the liquids down into equilibrium, which takes as long as some thousand steps (scene.settle)");
+  if (scene.settle && !o.quiet)
+    say("letting the liquids down into equilibrium, which takes as long as some thousand steps (scene.settle)");
   const auto initial = sample(scene);
   auto job = make_job(value, plan, base, scene, initial);
   if (!o.quiet) say_findings(reading, scene, initial, job);
@@ -191,7 +221,9 @@ int run(RunOptions o) {
   request.folder = fs::absolute(o.out).string(), request.particles = (fs::absolute(o.out) / "particles.h5").string();
   fs::remove(request.particles);
   write_particles(request.particles, initial);
-  if (!o.quiet) say(fmt::format("{} on {} {}: {} particles to t = {:g} s", value.id, plan.name, plan.entry->version, initial.size(), scene.end_time));
+  if (!o.quiet)
+    say(fmt::format("{} on {} {}: {} particles to t = {:g} s", value.id, plan.name, plan.entry->version, initial.size(),
+                    scene.end_time));
   RunProgress progress(progress_form(o.progress, o.quiet, isatty(2) == 1));
   request.progress = [&](double done) { progress.at(done); };
   request.status = [&](const std::string& status) { progress.at(status); };
@@ -200,8 +232,10 @@ int run(RunOptions o) {
   progress.end();
   std::map<std::string, MetricValue> metrics;
   if (outcome.trajectory) metrics = evaluate_all(value, job, initial, *outcome.trajectory);
-  if (o.json) print_json(o, outcome, metrics);
-  else print_text(o, value, plan, outcome, metrics);
+  if (o.json)
+    print_json(o, outcome, metrics);
+  else
+    print_text(o, value, plan, outcome, metrics);
   if (const auto command = interrupted() ? way_on(o) : ""; !command.empty()) say("go on with: " + command);
   return code_of(o, outcome);
 }
@@ -214,12 +248,23 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("CASE", o->what, "a case file or id")->required();
   command->add_option("--engine", o->engine, "name of an engine, or path of an executable")->capture_default_str();
   command->add_option("--out", o->out, "folder of the run (default: runs/CASE/ENGINE)");
-  command->add_option("--threads", o->threads, "threads of the engine; they do not change its bits")->check(CLI::Range(1, 1024))->capture_default_str();
-  command->add_option("--set", o->set, "a.b=VALUE replaces a key of the case file; may be repeated")->take_all()->allow_extra_args(false);
+  command->add_option("--threads", o->threads, "threads of the engine; they do not change its bits")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--set", o->set, "a.b=VALUE replaces a key of the case file; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
   command->add_option("--until", o->until, "end at this time instead: seconds, or a number with a unit");
-  command->add_option("--resume", o->resume, "go on from this checkpoint, or from the last in this folder; writes there unless --out says otherwise")->type_name("CHECKPOINT");
-  command->add_option("--checkpoint-interval", o->checkpoint_interval, "simulated time between checkpoints: seconds, or a number with a unit; the last two are kept");
-  command->add_option("--progress", o->progress, "on stderr: auto (one line on a terminal), lines, json (one object a line) or none")->check(CLI::IsMember({"auto", "lines", "json", "none"}))->capture_default_str();
+  command
+      ->add_option("--resume", o->resume,
+                   "go on from this checkpoint, or from the last in this folder; writes there unless --out says otherwise")
+      ->type_name("CHECKPOINT");
+  command->add_option("--checkpoint-interval", o->checkpoint_interval,
+                      "simulated time between checkpoints: seconds, or a number with a unit; the last two are kept");
+  command
+      ->add_option("--progress", o->progress, "on stderr: auto (one line on a terminal), lines, json (one object a line) or none")
+      ->check(CLI::IsMember({"auto", "lines", "json", "none"}))
+      ->capture_default_str();
   command->add_flag("--quiet", o->quiet, "no progress and no notes on stderr");
   command->add_flag("--json", o->json, "print one JSON document");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return run(*o); }); });

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
-#include "program/cli/common.hpp"
-#include "program/cli/gate_judge.hpp"
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
+#include "program/cli/common.hpp"
+#include "program/cli/gate_judge.hpp"
 #include "validation/harness/comment.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/verdict.hpp"
@@ -20,7 +20,8 @@ namespace tripoint {
 namespace {
 
 constexpr const char* description =
-    "Writes the text of a comment on a change: the verdict and the ten most changed metrics, base -> head in units of the limit, with the noise.\n"
+    "Writes the text of a comment on a change: the verdict and the ten most changed metrics, base -> head in units of the limit, "
+    "with the noise.\n"
     "It runs nothing and ends 0 whatever the verdict: `tripoint gate` is what blocks.\n"
     "  tripoint summary report                                          the ten metrics that use most of their limits\n"
     "  tripoint summary report --markdown --against base/results.json   the text of a comment\n"
@@ -38,11 +39,14 @@ Results judged(const std::string& path) {
   return results;
 }
 
-/// Where the case files are not here, as in a job that reads the results of another, the stored values and limits are judged, and that is said.
+/// Where the case files are not here, as in a job that reads the results of another, the stored values and limits are judged, and
+/// that is said.
 GateVerdict verdict_of(const Results& results, SummaryOptions& o) {
-  const bool here = std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return std::filesystem::exists(c.file); });
+  const bool here =
+      std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return std::filesystem::exists(c.file); });
   if (here) return gate_verdict(results, o.baselines);
-  o.comment.note = "Judged by the stored values and limits: the case files are not here, so neither they nor baselines were compared.";
+  o.comment.note =
+      "Judged by the stored values and limits: the case files are not here, so neither they nor baselines were compared.";
   GateVerdict verdict;
   add_remarks(verdict, results, verdict_remarks(results));
   return verdict;
@@ -50,7 +54,8 @@ GateVerdict verdict_of(const Results& results, SummaryOptions& o) {
 
 /// Where a runner says which commit of which project this is.
 std::string default_links() {
-  const char *server = std::getenv("GITHUB_SERVER_URL"), *project = std::getenv("GITHUB_REPOSITORY"), *commit = std::getenv("GITHUB_SHA");
+  const char *server = std::getenv("GITHUB_SERVER_URL"), *project = std::getenv("GITHUB_REPOSITORY"),
+             *commit = std::getenv("GITHUB_SHA");
   return server && project && commit ? fmt::format("{}/{}/blob/{}", server, project, commit) : std::string();
 }
 
@@ -84,17 +89,25 @@ void add_summary(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("summary", description);
   auto o = std::make_shared<SummaryOptions>();
   command->add_option("RESULTS", o->results, "a results.json, or the folder of one")->required();
-  command->add_flag("--markdown", o->markdown, "Markdown for a comment; its first line marks it, so that it can be found and written anew");
+  command->add_flag("--markdown", o->markdown,
+                    "Markdown for a comment; its first line marks it, so that it can be found and written anew");
   command->add_option("--against", o->against, "results of the base that the change is compared with")->type_name("BASE.json");
-  command->add_option("--again", o->again, "results of the base once more (A/A); what differs between the two counts as noise")->type_name("BASE2.json");
+  command->add_option("--again", o->again, "results of the base once more (A/A); what differs between the two counts as noise")
+      ->type_name("BASE2.json");
   command->add_option("--baselines", o->baselines, "judge by the baselines in this folder")->type_name("DIR");
   command->add_option("--head", o->comment.head, "name of what was judged, for people: a branch, a commit");
   command->add_option("--base", o->comment.base, "name of the base, for people");
-  command->add_option("--links", o->comment.links, "URL that the path of a case file is appended to (default: that of the commit, where a runner of GitHub says it)")->type_name("URL");
+  command
+      ->add_option(
+          "--links", o->comment.links,
+          "URL that the path of a case file is appended to (default: that of the commit, where a runner of GitHub says it)")
+      ->type_name("URL");
   command->add_option("--most", o->comment.most, "metrics in the table")->capture_default_str();
   command->add_flag("--informational", o->comment.informational, "say that the verdict blocks nothing");
-  command->add_option("--data", o->data, "also write [{name, unit, value, range, extra}], a judged metric each, in its own unit")->type_name("FILE");
-  command->add_option("--shares", o->shares, "the same in units of the limit, where less is better for every metric")->type_name("FILE");
+  command->add_option("--data", o->data, "also write [{name, unit, value, range, extra}], a judged metric each, in its own unit")
+      ->type_name("FILE");
+  command->add_option("--shares", o->shares, "the same in units of the limit, where less is better for every metric")
+      ->type_name("FILE");
   command->add_option("--badge", o->badge, "also write a badge: .svg, or .json as an endpoint answers")->type_name("FILE");
   command->add_option("--sarif", o->sarif, "also write what is not green as SARIF 2.1.0")->type_name("FILE");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return summarise(*o); }); });

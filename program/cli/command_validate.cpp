@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <thread>
 
+#include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "core/errors.hpp"
 #include "validation/harness/history.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
@@ -43,7 +43,8 @@ constexpr const char* description =
     "  tripoint validate heat                                the cases of one subject, from any folder\n"
     "  tripoint validate -k floating                         the cases with this in their id\n"
     "  tripoint validate my-cases/ --engine ./my-engine      your cases, with your engine beside ours\n"
-    "  tripoint validate --profile acceptance --engine ./my-engine   your engine by the limits that any engine must hold: a scorecard\n"
+    "  tripoint validate --profile acceptance --engine ./my-engine   your engine by the limits that any engine must hold: a "
+    "scorecard\n"
     "  tripoint validate --last-failed --no-report           once more what was not green; no page, so it is quick\n"
     "  tripoint validate --resume                            what an earlier call that was cut left to do\n"
     "  tripoint validate --profile nightly --shard 1/4       a quarter of the suite; tripoint merge joins the four\n"
@@ -52,7 +53,8 @@ constexpr const char* description =
 /// Ids of the cases that were not green in the results that OUT holds. @throws InputError where there are none
 std::vector<std::string> failed_last_time(const std::string& out) {
   const auto file = (std::filesystem::path(out) / "results.json").string();
-  if (!std::filesystem::exists(file)) throw InputError("--last-failed: there is no " + file + " to look into: validate without it first");
+  if (!std::filesystem::exists(file))
+    throw InputError("--last-failed: there is no " + file + " to look into: validate without it first");
   auto last = read_results(file);
   judge(last);
   std::vector<std::string> failed;
@@ -64,8 +66,8 @@ std::vector<std::string> failed_last_time(const std::string& out) {
   return failed;
 }
 
-/// The cases of this call; the report of an earlier one is set aside, so that what ends 2 leaves nothing to be judged in its place. A call that
-/// selects nothing, as one with a mistyped tag, asks for no run and leaves the report as it is.
+/// The cases of this call; the report of an earlier one is set aside, so that what ends 2 leaves nothing to be judged in its
+/// place. A call that selects nothing, as one with a mistyped tag, asks for no run and leaves the report as it is.
 std::vector<Case> cases_of(const ValidateOptions& o) {
   try {
     auto cases = select_cases(o.filter);
@@ -87,8 +89,10 @@ void add_all_presets(std::vector<Case>& cases, const std::vector<EngineEntry>& e
   for (auto& value : cases)
     for (const auto& name : asked) {
       const auto* engine = find_engine(engines, name);
-      const bool is_listed = std::any_of(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; });
-      const bool chooses_itself = engine && std::find(chosen_by_scene.begin(), chosen_by_scene.end(), name) != chosen_by_scene.end();
+      const bool is_listed =
+          std::any_of(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; });
+      const bool chooses_itself =
+          engine && std::find(chosen_by_scene.begin(), chosen_by_scene.end(), name) != chosen_by_scene.end();
       if (!engine || !engine->available || is_listed || chooses_itself) continue;
       EngineChoice choice;
       choice.name = name, choice.presets = engine->presets;
@@ -97,7 +101,8 @@ void add_all_presets(std::vector<Case>& cases, const std::vector<EngineEntry>& e
 }
 
 /// The acceptance profile ends with a scorecard: as text here, and as page, Markdown and JSON in OUT.
-void show_scorecard(const Results& results, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const ValidateOptions& o) {
+void show_scorecard(const Results& results, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines,
+                    const ValidateOptions& o) {
   const auto card = scorecard_of(results, cases, engines);
   if (const auto missing = write_scorecard(card, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
   if (!o.json) print(scorecard_text(card, results.asked));
@@ -107,7 +112,8 @@ void show_scorecard(const Results& results, const std::vector<Case>& cases, cons
 void fit_threads(SuiteOptions& suite) {
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency())), each = std::max(1, cores / suite.jobs);
   if (suite.jobs == 1 || suite.threads <= each) return;
-  say(fmt::format("tripoint: {} jobs of {} threads do not fit on {} cores: each job takes {}", suite.jobs, suite.threads, cores, each));
+  say(fmt::format("tripoint: {} jobs of {} threads do not fit on {} cores: each job takes {}", suite.jobs, suite.threads, cores,
+                  each));
   suite.threads = each;
 }
 
@@ -137,14 +143,16 @@ int validate(ValidateOptions o) {
   results.command = command_line(), results.profile = o.filter.profile, results.date = date_now(), results.shard = o.shard;
   results.what = o.filter.what, results.tag = o.filter.tag;
   results.filter_known = !o.last_failed && o.filter.substring.empty();  // else it is a part, and nobody can say of what
-  judge(results);  // a shard is asked less than a whole suite
+  judge(results);                                                       // a shard is asked less than a whole suite
   if (o.keep_history) {
     const auto file = o.history.empty() ? (std::filesystem::path(o.suite.out) / "history.jsonl").string() : o.history;
     append_history(file, history_lines(results));
     results.history = std::filesystem::relative(std::filesystem::absolute(file), std::filesystem::absolute(o.suite.out)).string();
   }
-  if (!o.page) write_results(results, o.suite.out);
-  else if (const auto missing = write_report(results, o.suite.out); !missing.empty()) say("tripoint: no page: " + missing);
+  if (!o.page)
+    write_results(results, o.suite.out);
+  else if (const auto missing = write_report(results, o.suite.out); !missing.empty())
+    say("tripoint: no page: " + missing);
   if (o.profile == "acceptance") show_scorecard(results, cases, engines, o);
   if (!o.json) print(notes_text(results));
   print(o.json ? results_text(results) : last_line(results, o.suite.out) + "\n");
@@ -157,26 +165,53 @@ void add_validate(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("validate", description);
   auto o = std::make_shared<ValidateOptions>();
   command->add_option("CASE", o->filter.what, "case files, folders of them, or ids")->type_name("CASE|DIR");
-  command->add_option("--profile", o->profile, "only cases of this profile (commit where no CASE is given)")->check(CLI::IsMember({"commit", "nightly", "release", "acceptance"}));
+  command->add_option("--profile", o->profile, "only cases of this profile (commit where no CASE is given)")
+      ->check(CLI::IsMember({"commit", "nightly", "release", "acceptance"}));
   command->add_option("--tag", o->filter.tag, "only cases with this tag");
   command->add_option("-k", o->filter.substring, "only cases with this in their id")->type_name("SUBSTRING");
   command->add_flag("--last-failed", o->last_failed, "only the cases that are not green in OUT/results.json");
   command->add_option("--engines", o->engines, "only these engines, A,B");
-  command->add_option("--engine", o->engine, "an engine that joins every case: the path of an executable, or a name; may be repeated")->take_all()->allow_extra_args(false);
-  command->add_flag("--sandbox", o->sandbox, "run engines that do not belong to this program by bubblewrap: no network, your files out of sight, writing in the run's own folder alone");
+  command
+      ->add_option("--engine", o->engine,
+                   "an engine that joins every case: the path of an executable, or a name; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  command->add_flag("--sandbox", o->sandbox,
+                    "run engines that do not belong to this program by bubblewrap: no network, your files out of sight, writing "
+                    "in the run's own folder alone");
   command->add_option("--out", o->suite.out, "folder of the report and the runs")->capture_default_str();
   command->add_option("--jobs", o->suite.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
-  command->add_option("--threads", o->suite.threads, "threads of each engine process")->check(CLI::Range(1, 1024))->capture_default_str();
-  command->add_option_function<std::uint64_t>("--seed", [o](std::uint64_t seed) { o->seed = seed, o->seed_given = true; }, "replaces the cases' seeds");
-  command->add_flag("--resume", o->suite.resume, "keep the runs in OUT that have ended, where job and engine are the same; make only the others");
-  command->add_option("--timing", o->timing, "then time every run in this many interleaved rounds, one of each engine twice a round: what it differs from itself is the noise floor below which a ratio is not resolved")->check(CLI::Range(2, 1000));
-  command->add_option("--count-instructions", o->suite.count_below, "where the processor counts no instructions, count those of every run below this many CPU seconds by callgrind, in a second run some fifty times slower")
-      ->expected(0, 1)->default_str("1")->check(CLI::PositiveNumber)->type_name("CPU_S");
-  command->add_option("--history", o->history, "file of JSON lines to which what was measured is appended, one line a case (default OUT/history.jsonl); the report draws it");
-  command->add_flag_callback("--no-history", [o] { o->keep_history = false; }, "append nothing");
+  command->add_option("--threads", o->suite.threads, "threads of each engine process")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option_function<std::uint64_t>(
+      "--seed", [o](std::uint64_t seed) { o->seed = seed, o->seed_given = true; }, "replaces the cases' seeds");
+  command->add_flag("--resume", o->suite.resume,
+                    "keep the runs in OUT that have ended, where job and engine are the same; make only the others");
+  command
+      ->add_option("--timing", o->timing,
+                   "then time every run in this many interleaved rounds, one of each engine twice a round: what it differs from "
+                   "itself is the noise floor below which a ratio is not resolved")
+      ->check(CLI::Range(2, 1000));
+  command
+      ->add_option("--count-instructions", o->suite.count_below,
+                   "where the processor counts no instructions, count those of every run below this many CPU seconds by "
+                   "callgrind, in a second run some fifty times slower")
+      ->expected(0, 1)
+      ->default_str("1")
+      ->check(CLI::PositiveNumber)
+      ->type_name("CPU_S");
+  command->add_option("--history", o->history,
+                      "file of JSON lines to which what was measured is appended, one line a case (default OUT/history.jsonl); "
+                      "the report draws it");
+  command->add_flag_callback(
+      "--no-history", [o] { o->keep_history = false; }, "append nothing");
   command->add_option("--shard", o->shard, "i/n: every n-th case, from the i-th");
-  command->add_option("--time-limit", o->suite.wall_limit, "seconds for one run; engine setting wall_limit goes before it")->check(CLI::PositiveNumber)->capture_default_str();
-  command->add_flag_callback("--no-report", [o] { o->page = false; }, "draw no page: results.json, junit.xml and summary.md are written all the same");
+  command->add_option("--time-limit", o->suite.wall_limit, "seconds for one run; engine setting wall_limit goes before it")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_flag_callback(
+      "--no-report", [o] { o->page = false; }, "draw no page: results.json, junit.xml and summary.md are written all the same");
   command->add_flag("--json", o->json, "print results.json, and nothing else, on stdout");
   command->callback([o, &exit_code] { exit_code = guarded([&] { return validate(*o); }); });
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "program/cli/common.hpp"
 
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,8 +29,17 @@ std::string& remembered() {
 constexpr const char *green = "32", *red = "31", *yellow = "33";
 
 /// Verdicts as they begin a line of the result.
-constexpr std::array<std::pair<std::string_view, const char*>, 11> colours{{{"PASS", green}, {"FAIL", red}, {"FAILS", red}, {"BAD INPUT", red}, {"INCONCLUSIVE", yellow}, {"MISSING", red}, {"SELF-TEST FAILED", red},
-                                                                           {"COST REGRESSION", yellow}, {"DIVERGED", red}, {"INTERRUPTED", yellow}, {"ok", green}}};
+constexpr std::array<std::pair<std::string_view, const char*>, 11> colours{{{"PASS", green},
+                                                                            {"FAIL", red},
+                                                                            {"FAILS", red},
+                                                                            {"BAD INPUT", red},
+                                                                            {"INCONCLUSIVE", yellow},
+                                                                            {"MISSING", red},
+                                                                            {"SELF-TEST FAILED", red},
+                                                                            {"COST REGRESSION", yellow},
+                                                                            {"DIVERGED", red},
+                                                                            {"INTERRUPTED", yellow},
+                                                                            {"ok", green}}};
 
 bool wants_colour() {
   const char *no = std::getenv("NO_COLOR"), *term = std::getenv("TERM");
@@ -41,7 +50,8 @@ bool wants_colour() {
 std::string painted(const std::string& line) {
   const std::size_t from = line.starts_with("verdict ") ? 8 : 0;
   for (const auto& [word, colour] : colours) {
-    const bool whole = line.compare(from, word.size(), word) == 0 && (line.size() == from + word.size() || line[from + word.size()] == ' ');
+    const bool whole =
+        line.compare(from, word.size(), word) == 0 && (line.size() == from + word.size() || line[from + word.size()] == ' ');
     if (whole) return fmt::format("{}\033[1;{}m{}\033[0m{}", line.substr(0, from), colour, word, line.substr(from + word.size()));
   }
   return line;
@@ -132,19 +142,27 @@ std::string no_such_engine(const std::string& name, const std::vector<EngineEntr
   std::vector<std::string> names;
   for (const auto& e : engines) names.push_back(e.name);
   const auto near = nearest(name, names);
-  return fmt::format("no engine is named {} ({})", printable(name), near.empty() ? "tripoint engines lists them" : "did you mean `" + near + "`?");
+  return fmt::format("no engine is named {} ({})", printable(name),
+                     near.empty() ? "tripoint engines lists them" : "did you mean `" + near + "`?");
 }
 
-std::string own_folder(const std::string& command, const std::string& case_id) { return "report-" + command + (case_id.empty() ? "" : "/" + case_id); }
+std::string own_folder(const std::string& command, const std::string& case_id) {
+  return "report-" + command + (case_id.empty() ? "" : "/" + case_id);
+}
 
-std::string results_file(const std::string& path) { return std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "results.json").string() : path; }
+std::string results_file(const std::string& path) {
+  return std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "results.json").string() : path;
+}
 
 void make_folder(const std::string& out) {
   std::error_code error;
   std::filesystem::create_directories(out, error);
   if (!error && !std::filesystem::is_directory(out)) error = std::make_error_code(std::errc::not_a_directory);
-  if (error) throw InputError(fmt::format("--out {}: the folder cannot be made: {}. Name another with --out", printable(out, 200), error.message()));
-  if (::access(out.c_str(), W_OK | X_OK) != 0) throw InputError(fmt::format("--out {}: the folder cannot be written to. Name another with --out", printable(out, 200)));
+  if (error)
+    throw InputError(
+        fmt::format("--out {}: the folder cannot be made: {}. Name another with --out", printable(out, 200), error.message()));
+  if (::access(out.c_str(), W_OK | X_OK) != 0)
+    throw InputError(fmt::format("--out {}: the folder cannot be written to. Name another with --out", printable(out, 200)));
 }
 
 void remember_command_line(int argc, char** argv) {
@@ -169,7 +187,8 @@ std::string date_now() {
   return text.data();
 }
 
-std::vector<EngineEntry> engines_asked_for(const std::string& only, const std::vector<std::string>& joining, Selection& selection) {
+std::vector<EngineEntry> engines_asked_for(const std::string& only, const std::vector<std::string>& joining,
+                                           Selection& selection) {
   const auto words = sort_engine_words(joining);
   selection.engines = split(only);
   for (const auto& name : words.names) selection.extra.push_back(name);

@@ -44,14 +44,17 @@ struct EngineWords {
 };
 [[nodiscard]] EngineWords sort_engine_words(const std::vector<std::string>& words);
 
-/// Finds the engines and fills the selection from --engines (`only`) and --engine (`joining`); says which of those asked for are not there.
+/// Finds the engines and fills the selection from --engines (`only`) and --engine (`joining`); says which of those asked for are
+/// not there.
 /// @throws EngineError when a path of `joining` is no executable file
-[[nodiscard]] std::vector<EngineEntry> engines_asked_for(const std::string& only, const std::vector<std::string>& joining, Selection&);
+[[nodiscard]] std::vector<EngineEntry> engines_asked_for(const std::string& only, const std::vector<std::string>& joining,
+                                                         Selection&);
 
 /// "no engine is named x (did you mean `y`?)"
 [[nodiscard]] std::string no_such_engine(const std::string& name, const std::vector<EngineEntry>& engines);
 
-/// Folder that a command writes to where no --out is given: one for each command and case, so that none overwrites another's report.
+/// Folder that a command writes to where no --out is given: one for each command and case, so that none overwrites another's
+/// report.
 [[nodiscard]] std::string own_folder(const std::string& command, const std::string& case_id);
 
 /// A results.json, or that of the folder of a report.
@@ -63,7 +66,8 @@ void make_folder(const std::string& out);
 /// What is said of a command or option that does not exist, with the nearest one; empty where none is mistyped.
 [[nodiscard]] std::string mistyped_word(const CLI::App& app, int argc, char** argv);
 
-/// Opens the standard streams that the caller has closed: the next file that is opened would take their place, and our words would go into it.
+/// Opens the standard streams that the caller has closed: the next file that is opened would take their place, and our words
+/// would go into it.
 void hold_standard_streams();
 /// Whether all that was printed has arrived; says so where it has not (a full disk, a closed pipe).
 [[nodiscard]] bool output_arrived();

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <optional>
 
-#include "program/cli/common.hpp"
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
+#include "program/cli/common.hpp"
 #include "validation/harness/baseline_propose.hpp"
 #include "validation/harness/changes.hpp"
 #include "validation/harness/gate_verdict.hpp"
@@ -23,8 +23,10 @@ namespace tripoint {
 namespace {
 
 constexpr const char* propose_description =
-    "Writes what `gate accept` would write as a patch, and accepts nothing: no baseline is touched. Above the patch, as text, stand what changes and\n"
-    "the line that accepts it. Without --reason the patch says that nobody has decided, and a baseline that says so is red (exit 4).\n"
+    "Writes what `gate accept` would write as a patch, and accepts nothing: no baseline is touched. Above the patch, as text, "
+    "stand what changes and\n"
+    "the line that accepts it. Without --reason the patch says that nobody has decided, and a baseline that says so is red (exit "
+    "4).\n"
     "  tripoint gate propose report/results.json flight/throw --patch baselines.patch";
 
 bool on_github() {
@@ -45,14 +47,17 @@ std::vector<Remark> as_warnings(std::vector<Remark> remarks) {
 }
 
 std::string last_words(const GateVerdict& verdict, bool informational) {
-  if (!informational || verdict.code == exit_pass) return fmt::format("verdict {} exit {}{}", verdict.word, verdict.code, verdict.absent);
-  return fmt::format("verdict {} exit 0 (informational; without --informational exit {}){}", verdict.word, verdict.code, verdict.absent);
+  if (!informational || verdict.code == exit_pass)
+    return fmt::format("verdict {} exit {}{}", verdict.word, verdict.code, verdict.absent);
+  return fmt::format("verdict {} exit 0 (informational; without --informational exit {}){}", verdict.word, verdict.code,
+                     verdict.absent);
 }
 
 }  // namespace
 
 int judge_results(const JudgeOptions& o) {
-  if (o.against.empty() && (o.no_worse || !o.again.empty())) throw InputError("gate: --no-worse and --again compare with a base: name it with --against BASE.json");
+  if (o.against.empty() && (o.no_worse || !o.again.empty()))
+    throw InputError("gate: --no-worse and --again compare with a base: name it with --against BASE.json");
   const auto results = judged(o.results);
   auto verdict = gate_verdict(results, o.baselines, o.require_baselines);
   std::optional<Comparison> comparison;
@@ -65,8 +70,10 @@ int judge_results(const JudgeOptions& o) {
   for (const auto& c : results.cases) print(case_line(c) + "\n");
   if (comparison) print(changes_table(*comparison));
   const auto remarks = o.informational ? as_warnings(verdict.remarks) : verdict.remarks;
-  if (o.annotations || on_github()) print_commands(annotations_text(remarks));
-  else print(remarks_text(remarks));
+  if (o.annotations || on_github())
+    print_commands(annotations_text(remarks));
+  else
+    print(remarks_text(remarks));
   if (!o.history.empty()) append_history(o.history, history_lines(results));
   print(notes_text(results));
   print_line(last_words(verdict, o.informational));
@@ -78,8 +85,10 @@ int propose_baselines(const ProposeOptions& o) {
   std::vector<std::string> ids;
   for (const auto& w : o.words) (w.ends_with(".json") ? path = w : ids.emplace_back(w));
   const auto results = judged(path);
-  if (const auto wrong = recheck_remarks(results); !wrong.empty()) throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
-  const auto list = proposals(results, ids, {results.date.substr(0, 10), results.tool.commit, o.reason.empty() ? undecided_reason : o.reason});
+  if (const auto wrong = recheck_remarks(results); !wrong.empty())
+    throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
+  const auto list =
+      proposals(results, ids, {results.date.substr(0, 10), results.tool.commit, o.reason.empty() ? undecided_reason : o.reason});
   const auto text = patch_text(list, path, list.empty() ? "." : patch_root(list.front().file), o.reason.empty());
   if (o.patch.empty()) return print(text), exit_pass;
   write_durably(o.patch, text);
@@ -91,21 +100,36 @@ int propose_baselines(const ProposeOptions& o) {
 
 void add_judge_options(CLI::App& gate, JudgeOptions& o) {
   gate.add_option("RESULTS", o.results, "a results.json, or the folder of one");
-  gate.add_option("--against", o.against, "print every metric beside that of this base, with the change in units of its limit and the noise; worse within the limit is said")->type_name("BASE.json");
-  gate.add_option("--again", o.again, "with --against: results of the base once more (A/A); what differs between the two counts as noise")->type_name("BASE2.json");
-  gate.add_flag("--no-worse", o.no_worse, "with --against: worse than the base by more than its noise is red (exit 1), a metric that is gone or a looser limit too (exit 4)");
+  gate.add_option("--against", o.against,
+                  "print every metric beside that of this base, with the change in units of its limit and the noise; worse "
+                  "within the limit is said")
+      ->type_name("BASE.json");
+  gate.add_option("--again", o.again,
+                  "with --against: results of the base once more (A/A); what differs between the two counts as noise")
+      ->type_name("BASE2.json");
+  gate.add_flag("--no-worse", o.no_worse,
+                "with --against: worse than the base by more than its noise is red (exit 1), a metric that is gone or a looser "
+                "limit too (exit 4)");
   gate.add_flag("--informational", o.informational, "say the verdict, and end 0 whatever it is");
-  gate.add_flag("--annotations", o.annotations, "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, the worst first");
-  gate.add_option("--baselines", o.baselines, "judge by the baselines in this folder, for example those of the branch that a change is to go into (default: beside the cases)")->type_name("DIR");
-  gate.add_flag("--require-baselines", o.require_baselines, "a case that has no baseline is an error, exit 4 (else one warning names them)");
-  gate.add_option("--history", o.history, "append a line of JSON a case, with every value and count, to this file (validate has done so to OUT/history.jsonl)");
+  gate.add_flag("--annotations", o.annotations,
+                "remarks as workflow commands of GitHub (also where GITHUB_ACTIONS is true): ten of a kind, the worst first");
+  gate.add_option("--baselines", o.baselines,
+                  "judge by the baselines in this folder, for example those of the branch that a change is to go into (default: "
+                  "beside the cases)")
+      ->type_name("DIR");
+  gate.add_flag("--require-baselines", o.require_baselines,
+                "a case that has no baseline is an error, exit 4 (else one warning names them)");
+  gate.add_option(
+      "--history", o.history,
+      "append a line of JSON a case, with every value and count, to this file (validate has done so to OUT/history.jsonl)");
 }
 
 CLI::App* add_propose(CLI::App& gate, ProposeOptions& o) {
   auto* command = gate.add_subcommand("propose", propose_description);
   command->add_option("--reason", o.reason, "who decided what, and why; without it the patch is undecided");
   command->add_option("--patch", o.patch, "file of the patch (default: on stdout)");
-  command->add_option("RESULTS|ID", o.words, "a results.json (default report/results.json), and the ids of the cases; none = all");
+  command->add_option("RESULTS|ID", o.words,
+                      "a results.json (default report/results.json), and the ids of the cases; none = all");
   return command;
 }
 

@@ -7,7 +7,8 @@ namespace CLI {
 class App;
 }
 
-/// Judging results that are there: `tripoint gate RESULTS`, `tripoint gate propose` and `tripoint summary`. None runs anything or writes a baseline.
+/// Judging results that are there: `tripoint gate RESULTS`, `tripoint gate propose` and `tripoint summary`. None runs anything or
+/// writes a baseline.
 namespace tripoint {
 
 struct JudgeOptions {

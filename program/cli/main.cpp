@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <sstream>
 
 #include "program/cli/commands.hpp"
@@ -23,7 +23,8 @@ constexpr const char* description =
 
 constexpr const char* footer =
     "tripoint COMMAND --help says more, with examples.\n"
-    "Exit codes: 0 pass, 1 an accuracy, order or invariant gate fails, 2 bad input, 3 inconclusive, 4 a required engine, reference\n"
+    "Exit codes: 0 pass, 1 an accuracy, order or invariant gate fails, 2 bad input, 3 inconclusive, 4 a required engine, "
+    "reference\n"
     "or metric is missing or not comparable, 5 the gate's self-test fails, 6 cost regression, 7 diverged, 130 Ctrl-C.";
 
 /// Lists commands by the first sentence of their descriptions: the rest is in each one's own help.
@@ -53,8 +54,10 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", TRIPOINT_VERSION);
   app.require_subcommand(1);
   int exit_code = exit_pass;
-  for (const auto add : {add_run, add_validate, add_merge, add_suite, add_status, add_compare, add_report, add_render, add_view, add_converge, add_recommend, add_plan, add_predict, add_ablate, add_gate, add_summary, add_check, add_explain, add_list, add_new,
-                         add_schema, add_engines, add_engine, add_releases, add_bench, add_export})
+  for (const auto add :
+       {add_run,      add_validate,  add_merge,  add_suite,   add_status, add_compare,  add_report,  add_render, add_view,
+        add_converge, add_recommend, add_plan,   add_predict, add_ablate, add_gate,     add_summary, add_check,  add_explain,
+        add_list,     add_new,       add_schema, add_engines, add_engine, add_releases, add_bench,   add_export})
     add(app, exit_code);
   if (const auto wrong = mistyped_word(app, argc, argv); !wrong.empty()) {
     say("tripoint: " + wrong);

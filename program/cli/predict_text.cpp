@@ -17,10 +17,12 @@ using predict::Prediction;
 /// One line each, the same in the table and in JSON.
 const std::vector<std::string>& assumptions() {
   static const std::vector<std::string> lines{
-      "work: seconds fixed, a particle and a pair, fitted to CPU seconds on one rank here; a rank pays them for its copies too, as it computes them",
+      "work: seconds fixed, a particle and a pair, fitted to CPU seconds on one rank here; a rank pays them for its copies too, "
+      "as it computes them",
       "shares: the decomposition at the start; what moves later and is not balanced again is not seen",
       "every rank has a core of its own, at the speed of one rank alone: no shared memory bandwidth, no lower clock",
-      "network: each message has the same latency and each rank its whole bandwidth, however many send; messages do not overlap with work",
+      "network: each message has the same latency and each rank its whole bandwidth, however many send; messages do not overlap "
+      "with work",
       "bonds are part of the cost of a particle, and what they send with a new share is not counted",
       "new neighbour lists are made as often as in the timed steps",
       "memory: what one rank took at most, a particle, and the whole scene on every rank, which holds it as it starts"};
@@ -31,42 +33,78 @@ std::vector<std::string> outside(const PredictionReport& r) {
   int most = 1;
   for (const auto& line : r.lines)
     if (line.measured) most = std::max(most, line.measured->ranks);
-  std::vector<std::string> text{fmt::format("measured here: one rank{}, on one machine; everything beyond is prediction", most > 1 ? fmt::format(", and up to {} ranks beside the prediction", most) : "")};
+  std::vector<std::string> text{fmt::format("measured here: one rank{}, on one machine; everything beyond is prediction",
+                                            most > 1 ? fmt::format(", and up to {} ranks beside the prediction", most) : "")};
   bool crowded = false, scaled = false;
-  for (const auto& line : r.lines) crowded = crowded || line.prediction.ranks > r.machine.cores_a_node, scaled = scaled || !line.prediction.counted;
-  if (crowded) text.push_back(fmt::format("more ranks than the {} cores of a node: the latency and bandwidth between nodes are taken to be those given", r.machine.cores_a_node));
+  for (const auto& line : r.lines)
+    crowded = crowded || line.prediction.ranks > r.machine.cores_a_node, scaled = scaled || !line.prediction.counted;
+  if (crowded)
+    text.push_back(
+        fmt::format("more ranks than the {} cores of a node: the latency and bandwidth between nodes are taken to be those given",
+                    r.machine.cores_a_node));
   if (scaled) text.push_back("lines \"by volume\" scale the scene's own particles to another number, by its shape");
-  if (std::any_of(r.lines.begin(), r.lines.end(), [](const auto& l) { return l.prediction.ranks > 1024; })) text.push_back("the engine takes at most 1024 ranks today");
+  if (std::any_of(r.lines.begin(), r.lines.end(), [](const auto& l) { return l.prediction.ranks > 1024; }))
+    text.push_back("the engine takes at most 1024 ranks today");
   return text;
 }
 
 json of(const PredictedLine& line) {
   const Prediction& p = line.prediction;
-  json row{{"prediction", true}, {"scaling", line.weak ? "weak" : "strong"}, {"ranks", p.ranks}, {"grid", line.grid}, {"particles", p.particles}, {"particles_a_rank", p.own}, {"copies_over_own", p.copies / p.own},
-           {"shares", p.counted ? "counted" : "by volume"}, {"ms_a_step", 1e3 * p.seconds()},
-           {"ms_of", {{"work", 1e3 * p.work}, {"messages", 1e3 * p.messages}, {"transport", 1e3 * p.transport}, {"collectives", 1e3 * p.collectives}, {"waiting", 1e3 * p.waiting}}},
-           {"imbalance", p.imbalance}, {"efficiency", p.efficiency}, {"particle_steps_a_second", p.rate()}, {"gb_a_rank", 1e-9 * p.bytes}, {"gb_of_whole_scene", 1e-9 * p.scene_bytes},
+  json row{{"prediction", true},
+           {"scaling", line.weak ? "weak" : "strong"},
+           {"ranks", p.ranks},
+           {"grid", line.grid},
+           {"particles", p.particles},
+           {"particles_a_rank", p.own},
+           {"copies_over_own", p.copies / p.own},
+           {"shares", p.counted ? "counted" : "by volume"},
+           {"ms_a_step", 1e3 * p.seconds()},
+           {"ms_of",
+            {{"work", 1e3 * p.work},
+             {"messages", 1e3 * p.messages},
+             {"transport", 1e3 * p.transport},
+             {"collectives", 1e3 * p.collectives},
+             {"waiting", 1e3 * p.waiting}}},
+           {"imbalance", p.imbalance},
+           {"efficiency", p.efficiency},
+           {"particle_steps_a_second", p.rate()},
+           {"gb_a_rank", 1e-9 * p.bytes},
+           {"gb_of_whole_scene", 1e-9 * p.scene_bytes},
            {"rank_0", {{"own", line.first.own}, {"copies", line.first.copies}, {"pairs", line.first.pairs}}}};
   if (!line.measured) return row;
   const Timed& t = *line.measured;
   json repeats = json::array();
   for (const double s : t.wall) repeats.push_back(1e3 * s);
-  row["measured"] = {{"ms_a_step", 1e3 * t.best_wall()}, {"repeats_ms", repeats}, {"cpu_ms_of_rank_0", 1e3 * t.best_cpu()}, {"steps", t.steps}, {"efficiency", line.measured_efficiency},
-                     {"difference_percent", 100.0 * (p.seconds() / t.best_wall() - 1.0)}, {"gb_a_rank", 1e-9 * t.bytes}, {"rank_0", {{"own", t.own}, {"copies", t.copies}, {"pairs", t.pairs}}}};
+  row["measured"] = {{"ms_a_step", 1e3 * t.best_wall()},
+                     {"repeats_ms", repeats},
+                     {"cpu_ms_of_rank_0", 1e3 * t.best_cpu()},
+                     {"steps", t.steps},
+                     {"efficiency", line.measured_efficiency},
+                     {"difference_percent", 100.0 * (p.seconds() / t.best_wall() - 1.0)},
+                     {"gb_a_rank", 1e-9 * t.bytes},
+                     {"rank_0", {{"own", t.own}, {"copies", t.copies}, {"pairs", t.pairs}}}};
   return row;
 }
 
 std::string head(const json& d) {
   const json& m = d.at("machine");
-  return fmt::format("prediction of {} on {} ({}): latency {:.3g} us, bandwidth {:.3g} GB/s, allreduce {:.3g} us a doubling, waiting {:.0f} %\n", d.at("case").get<std::string>(), m.at("name").get<std::string>(), m.at("source").get<std::string>(),
-                     1e6 * m.at("latency").get<double>(), 1e-9 * m.at("bandwidth").get<double>(), 1e6 * m.at("allreduce").get<double>(), 100.0 * m.at("waiting").get<double>());
+  return fmt::format(
+      "prediction of {} on {} ({}): latency {:.3g} us, bandwidth {:.3g} GB/s, allreduce {:.3g} us a doubling, waiting {:.0f} %\n",
+      d.at("case").get<std::string>(), m.at("name").get<std::string>(), m.at("source").get<std::string>(),
+      1e6 * m.at("latency").get<double>(), 1e-9 * m.at("bandwidth").get<double>(), 1e6 * m.at("allreduce").get<double>(),
+      100.0 * m.at("waiting").get<double>());
 }
 
 std::string predicted(const json& rows) {
-  std::string text = fmt::format("{:10} {:>7} {:>10} {:>11} {:>10} {:>11} {:>10} {:>12} {:>9}  {}\n", "prediction", "ranks", "particles", "a rank", "copies/own", "ms a step", "efficiency", "part.-st./s", "GB a rank", "shares");
+  std::string text =
+      fmt::format("{:10} {:>7} {:>10} {:>11} {:>10} {:>11} {:>10} {:>12} {:>9}  {}\n", "prediction", "ranks", "particles",
+                  "a rank", "copies/own", "ms a step", "efficiency", "part.-st./s", "GB a rank", "shares");
   for (const json& r : rows)
-    text += fmt::format("{:10} {:7} {:10.4g} {:11.4g} {:10.3f} {:11.4g} {:10.3f} {:12.4g} {:9.3g}  {}\n", r.at("scaling").get<std::string>(), r.at("ranks").get<int>(), r.at("particles").get<double>(), r.at("particles_a_rank").get<double>(),
-                        r.at("copies_over_own").get<double>(), r.at("ms_a_step").get<double>(), r.at("efficiency").get<double>(), r.at("particle_steps_a_second").get<double>(), r.at("gb_a_rank").get<double>(), r.at("shares").get<std::string>());
+    text += fmt::format(
+        "{:10} {:7} {:10.4g} {:11.4g} {:10.3f} {:11.4g} {:10.3f} {:12.4g} {:9.3g}  {}\n", r.at("scaling").get<std::string>(),
+        r.at("ranks").get<int>(), r.at("particles").get<double>(), r.at("particles_a_rank").get<double>(),
+        r.at("copies_over_own").get<double>(), r.at("ms_a_step").get<double>(), r.at("efficiency").get<double>(),
+        r.at("particle_steps_a_second").get<double>(), r.at("gb_a_rank").get<double>(), r.at("shares").get<std::string>());
   return text;
 }
 
@@ -75,11 +113,19 @@ std::string beside(const json& rows) {
   for (const json& r : rows) {
     if (!r.contains("measured")) continue;
     const json& m = r.at("measured");
-    text += fmt::format("{:10} {:7} {:10.4g} {:13.4g} {:13.4g} {:+11.1f} {:11.3f} {:11.3f} {:12} {:12}\n", r.at("scaling").get<std::string>(), r.at("ranks").get<int>(), r.at("particles").get<double>(), r.at("ms_a_step").get<double>(), m.at("ms_a_step").get<double>(),
-                        m.at("difference_percent").get<double>(), r.at("efficiency").get<double>(), m.at("efficiency").get<double>(), r.at("rank_0").at("copies").get<double>(), m.at("rank_0").at("copies").get<double>());
+    text += fmt::format(
+        "{:10} {:7} {:10.4g} {:13.4g} {:13.4g} {:+11.1f} {:11.3f} {:11.3f} {:12} {:12}\n", r.at("scaling").get<std::string>(),
+        r.at("ranks").get<int>(), r.at("particles").get<double>(), r.at("ms_a_step").get<double>(),
+        m.at("ms_a_step").get<double>(), m.at("difference_percent").get<double>(), r.at("efficiency").get<double>(),
+        m.at("efficiency").get<double>(), r.at("rank_0").at("copies").get<double>(), m.at("rank_0").at("copies").get<double>());
   }
   if (text.empty()) return text;
-  return fmt::format("\nmeasured beside the prediction (best of the repeats)\n{:10} {:>7} {:>10} {:>13} {:>13} {:>11} {:>11} {:>11} {:>12} {:>12}\n", "", "ranks", "particles", "prediction ms", "measured ms", "off by %", "pred. eff.", "meas. eff.", "pred. copies", "meas. copies") + text;
+  return fmt::format(
+             "\nmeasured beside the prediction (best of the repeats)\n{:10} {:>7} {:>10} {:>13} {:>13} {:>11} {:>11} {:>11} "
+             "{:>12} {:>12}\n",
+             "", "ranks", "particles", "prediction ms", "measured ms", "off by %", "pred. eff.", "meas. eff.", "pred. copies",
+             "meas. copies") +
+         text;
 }
 
 }  // namespace
@@ -88,16 +134,48 @@ json prediction_json(const PredictionReport& r) {
   const auto& m = r.machine;
   json runs = json::array(), rows = json::array();
   for (std::size_t n = 0; n < r.runs.size(); ++n)
-    runs.push_back({{"run", r.labels[n]}, {"particles", r.runs[n].particles}, {"pairs", r.runs[n].pairs}, {"cpu_ms_a_step", 1e3 * r.runs[n].seconds}, {"peak_bytes", r.runs[n].bytes},
+    runs.push_back({{"run", r.labels[n]},
+                    {"particles", r.runs[n].particles},
+                    {"pairs", r.runs[n].pairs},
+                    {"cpu_ms_a_step", 1e3 * r.runs[n].seconds},
+                    {"peak_bytes", r.runs[n].bytes},
                     {"fitted_ms", 1e3 * r.cost.seconds(r.runs[n].particles, r.runs[n].pairs)}});
   for (const auto& line : r.lines) rows.push_back(of(line));
-  return {{"format", 1}, {"kind", "prediction"}, {"case", r.case_id}, {"set", r.set}, {"version", r.version},
-          {"machine", {{"name", m.name}, {"source", m.source}, {"cores_a_node", m.cores_a_node}, {"latency", m.latency}, {"bandwidth", m.bandwidth}, {"allreduce", m.allreduce}, {"pack_rate", m.pack_rate}, {"core_speed", m.core_speed}, {"waiting", m.waiting}}},
-          {"measured_on", {{"cpu", r.cpu}, {"cores", r.cores}}},
-          {"cost", {{"fixed_s", r.cost.fixed}, {"particle_s", r.cost.particle}, {"pair_s", r.cost.pair}, {"worst_misfit", r.cost.worst_misfit}}},
-          {"memory", {{"base_bytes", r.memory.base}, {"scene_bytes_a_particle", r.memory.scene}, {"bytes_a_held_particle", r.memory.particle}}},
-          {"traffic_a_step", {{"exchanges", r.traffic.exchanges}, {"numbers_a_copy", r.traffic.numbers_a_copy}, {"collectives", r.traffic.collectives}, {"new_shares", r.traffic.migrations}, {"columns", r.traffic.columns}}},
-          {"one_rank", runs}, {"rows", rows}, {"assumptions", assumptions()}, {"outside_measured", outside(r)}, {"notes", r.notes}};
+  return {
+      {"format", 1},
+      {"kind", "prediction"},
+      {"case", r.case_id},
+      {"set", r.set},
+      {"version", r.version},
+      {"machine",
+       {{"name", m.name},
+        {"source", m.source},
+        {"cores_a_node", m.cores_a_node},
+        {"latency", m.latency},
+        {"bandwidth", m.bandwidth},
+        {"allreduce", m.allreduce},
+        {"pack_rate", m.pack_rate},
+        {"core_speed", m.core_speed},
+        {"waiting", m.waiting}}},
+      {"measured_on", {{"cpu", r.cpu}, {"cores", r.cores}}},
+      {"cost",
+       {{"fixed_s", r.cost.fixed},
+        {"particle_s", r.cost.particle},
+        {"pair_s", r.cost.pair},
+        {"worst_misfit", r.cost.worst_misfit}}},
+      {"memory",
+       {{"base_bytes", r.memory.base}, {"scene_bytes_a_particle", r.memory.scene}, {"bytes_a_held_particle", r.memory.particle}}},
+      {"traffic_a_step",
+       {{"exchanges", r.traffic.exchanges},
+        {"numbers_a_copy", r.traffic.numbers_a_copy},
+        {"collectives", r.traffic.collectives},
+        {"new_shares", r.traffic.migrations},
+        {"columns", r.traffic.columns}}},
+      {"one_rank", runs},
+      {"rows", rows},
+      {"assumptions", assumptions()},
+      {"outside_measured", outside(r)},
+      {"notes", r.notes}};
 }
 
 std::string prediction_text(const json& d) {
@@ -105,8 +183,12 @@ std::string prediction_text(const json& d) {
     if (d.at("kind") != "prediction" || d.at("format") != 1) throw InputError("it is no prediction of format 1");
     const json &c = d.at("cost"), &rows = d.at("rows"), &on = d.at("measured_on");
     std::string text = head(d);
-    text += fmt::format("cost on one rank of {} ({} cores): {:.4g} us a step + {:.4g} ns a particle + {:.4g} ns a pair; worst misfit of its {} runs {:.1f} %\n\n", on.at("cpu").get<std::string>(), on.at("cores").get<int>(), 1e6 * c.at("fixed_s").get<double>(), 1e9 * c.at("particle_s").get<double>(),
-                        1e9 * c.at("pair_s").get<double>(), d.at("one_rank").size(), 100.0 * c.at("worst_misfit").get<double>());
+    text += fmt::format(
+        "cost on one rank of {} ({} cores): {:.4g} us a step + {:.4g} ns a particle + {:.4g} ns a pair; worst misfit of its {} "
+        "runs {:.1f} %\n\n",
+        on.at("cpu").get<std::string>(), on.at("cores").get<int>(), 1e6 * c.at("fixed_s").get<double>(),
+        1e9 * c.at("particle_s").get<double>(), 1e9 * c.at("pair_s").get<double>(), d.at("one_rank").size(),
+        100.0 * c.at("worst_misfit").get<double>());
     text += predicted(rows) + beside(rows) + "\nassumptions of the prediction\n";
     for (const json& line : d.at("assumptions")) text += "  " + line.get<std::string>() + "\n";
     text += "outside what was measured\n";

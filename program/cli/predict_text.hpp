@@ -14,10 +14,10 @@ namespace tripoint {
 struct PredictedLine {
   predict::Prediction prediction;
   std::array<int, 3> grid{1, 1, 1};
-  bool weak = false;                   ///< as many particles a rank as the case has on one
-  predict::Share first;                ///< of rank 0
+  bool weak = false;     ///< as many particles a rank as the case has on one
+  predict::Share first;  ///< of rank 0
   std::optional<Timed> measured;
-  double measured_efficiency = 0.0;    ///< from the measured time on one rank
+  double measured_efficiency = 0.0;  ///< from the measured time on one rank
 };
 
 /// All that the command says.
@@ -33,11 +33,12 @@ struct PredictionReport {
   std::vector<predict::OneRank> runs;
   std::vector<std::string> labels;  ///< of the runs
   std::vector<PredictedLine> lines;
-  std::vector<std::string> notes;   ///< what could not be done
+  std::vector<std::string> notes;  ///< what could not be done
 };
 
 [[nodiscard]] nlohmann::ordered_json prediction_json(const PredictionReport&);
-/// The tables of a document of prediction_json(): of these runs, or read from a file. @throws InputError where it is no such document
+/// The tables of a document of prediction_json(): of these runs, or read from a file. @throws InputError where it is no such
+/// document
 [[nodiscard]] std::string prediction_text(const nlohmann::ordered_json&);
 
 }  // namespace tripoint

@@ -37,7 +37,8 @@ std::optional<RunStatus> status_from(const std::string& text) {
   s.time = *time, s.end = *end, s.step = step && std::abs(*step) < 1e15 ? static_cast<long>(*step) : 0;
   s.time_step = number_in(object, "time_step");
   s.ledger_residual = number_in(object, "ledger_residual"), s.ledger_exchanged = number_in(object, "ledger_exchanged");
-  if (const auto bound = object.find("bound"); bound != object.end() && bound->is_string()) s.bound = one_line(bound->get<std::string>().substr(0, 40));
+  if (const auto bound = object.find("bound"); bound != object.end() && bound->is_string())
+    s.bound = one_line(bound->get<std::string>().substr(0, 40));
   return s;
 }
 
@@ -46,7 +47,8 @@ std::string status_line(const RunStatus& s, double done, std::optional<double> s
   if (s.step > 0) line += fmt::format("  step {}", s.step);
   if (s.time_step) line += fmt::format("  dt = {:.3g} s", *s.time_step);
   if (!s.bound.empty()) line += fmt::format(" ({})", s.bound);
-  if (s.ledger_residual && s.ledger_exchanged && *s.ledger_exchanged > 0.0) line += fmt::format("  energy {:+.1g} of what was exchanged", *s.ledger_residual / *s.ledger_exchanged);
+  if (s.ledger_residual && s.ledger_exchanged && *s.ledger_exchanged > 0.0)
+    line += fmt::format("  energy {:+.1g} of what was exchanged", *s.ledger_residual / *s.ledger_exchanged);
   if (seconds_left) line += fmt::format("  {} left", wall_time(*seconds_left));
   return line;
 }

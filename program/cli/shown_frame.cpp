@@ -13,8 +13,8 @@
 namespace tripoint {
 namespace {
 
-constexpr double clip = 3.0;       // sizes of what is shown, beyond which nothing is looked at
-constexpr double ball = 0.5;       // radius of a ball [spacings]
+constexpr double clip = 3.0;         // sizes of what is shown, beyond which nothing is looked at
+constexpr double ball = 0.5;         // radius of a ball [spacings]
 constexpr double least_span = 1e-6;  // of temperatures, for colours [K]
 
 bool has(const Box& b) { return b.low.x <= b.high.x; }
@@ -29,7 +29,8 @@ Box united(const Box& a, const Box& b) {
 /// The lowest height that a picture shows [m].
 double lowest(const Box& b, const Vec3& up) {
   double least = std::numeric_limits<double>::infinity();
-  for (unsigned c = 0; c < 8; ++c) least = std::min(least, dot(up, Vec3{c & 1U ? b.high.x : b.low.x, c & 2U ? b.high.y : b.low.y, c & 4U ? b.high.z : b.low.z}));
+  for (unsigned c = 0; c < 8; ++c)
+    least = std::min(least, dot(up, Vec3{c & 1U ? b.high.x : b.low.x, c & 2U ? b.high.y : b.low.y, c & 4U ? b.high.z : b.low.z}));
   return least;
 }
 
@@ -40,7 +41,8 @@ Colour colour_of_row(const ShownRun& run, const Snapshot& f, std::size_t row, co
     const double share = f.temperature.empty() ? 0.0 : (f.temperature[row] - s.cold) / std::max(s.hot - s.cold, least_span);
     return std::isfinite(share) ? temperature_colour(share) : wall_colour();
   }
-  if (s.colouring == Colouring::phase || body < 0) return phase_colour(phase, !f.material.empty() && f.material[row] != first_liquid);
+  if (s.colouring == Colouring::phase || body < 0)
+    return phase_colour(phase, !f.material.empty() && f.material[row] != first_liquid);
   return body_colour(body);
 }
 
@@ -54,10 +56,13 @@ int first_liquid_of(const ShownRun& run) {
 }
 
 /// Rows of a part that are drawn: no wall that hides, none that has left the picture by far.
-std::vector<std::uint32_t> drawn_rows(const ShownPart& part, const Snapshot& f, const Showing& s, const Box& room, const Vec3& up, const Vec3& towards, double spacing) {
+std::vector<std::uint32_t> drawn_rows(const ShownPart& part, const Snapshot& f, const Showing& s, const Box& room, const Vec3& up,
+                                      const Vec3& towards, double spacing) {
   std::vector<std::uint32_t> rows;
   for (const std::uint32_t row : part.rows)
-    if (room.holds(f.position[row]) && !(part.wall && s.walls == WallsDrawn::cut && has(s.room.free) && hides(f.position[row], s.room.free, up, towards, spacing))) rows.push_back(row);
+    if (room.holds(f.position[row]) && !(part.wall && s.walls == WallsDrawn::cut && has(s.room.free) &&
+                                         hides(f.position[row], s.room.free, up, towards, spacing)))
+      rows.push_back(row);
   return rows;
 }
 
@@ -111,8 +116,11 @@ std::vector<Vec3> looked_at(const ShownRun& run, const std::vector<std::size_t>&
     const Snapshot& f = run.trajectory.frames[n];
     for (std::size_t i = 0; i < f.position.size(); ++i) {
       const bool wall = run.wall[i] != 0;
-      if (!is_there(f, i) || (wall && (s.walls == WallsDrawn::hide || n != frames.front())) || !(wall || !free_ones ? near : s.room.free).holds(f.position[i])) continue;
-      if (!(wall && s.walls == WallsDrawn::cut && free_ones && hides(f.position[i], s.room.free, up, towards, run.spacing))) places.push_back(f.position[i]);
+      if (!is_there(f, i) || (wall && (s.walls == WallsDrawn::hide || n != frames.front())) ||
+          !(wall || !free_ones ? near : s.room.free).holds(f.position[i]))
+        continue;
+      if (!(wall && s.walls == WallsDrawn::cut && free_ones && hides(f.position[i], s.room.free, up, towards, run.spacing)))
+        places.push_back(f.position[i]);
     }
   }
   return places;
@@ -125,7 +133,8 @@ Picture picture_of(const ShownRun& run, const Snapshot& f, const Showing& s) {
   Display display;
   display.up = up, display.size = norm(shown.high - shown.low);
   const bool has_walls = s.walls != WallsDrawn::hide && has(s.room.walls);
-  if (norm(run.gravity) > 0.0) display.ground = lowest(has_walls ? united(s.room.free, s.room.walls) : s.room.free, up) - 0.5 * run.spacing;
+  if (norm(run.gravity) > 0.0)
+    display.ground = lowest(has_walls ? united(s.room.free, s.room.walls) : s.room.free, up) - 0.5 * run.spacing;
   const Box room = grown(shown, clip * display.size);
   const int first_liquid = first_liquid_of(run);
   for (const ShownPart& part : parts_of(run, f, s.whole)) {
@@ -135,8 +144,10 @@ Picture picture_of(const ShownRun& run, const Snapshot& f, const Showing& s) {
     std::vector<Colour> colours;
     for (const std::uint32_t row : rows) colours.push_back(colour_of_row(run, f, row, s, first_liquid));
     const auto places = places_of(f, rows);
-    if (s.particles) display.targets.push_back(std::make_unique<SphereTarget>(places, ball * run.spacing, std::move(colours)));
-    else display.targets.push_back(std::make_unique<SurfaceTarget>(places, s.surface, std::move(colours)));
+    if (s.particles)
+      display.targets.push_back(std::make_unique<SphereTarget>(places, ball * run.spacing, std::move(colours)));
+    else
+      display.targets.push_back(std::make_unique<SurfaceTarget>(places, s.surface, std::move(colours)));
   }
   return draw(display, camera, s.width, s.height, s.threads);
 }

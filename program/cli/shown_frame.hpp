@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "program/cli/shown_run.hpp"
-#include "render/picture.hpp"
 #include "render/draw.hpp"
+#include "render/picture.hpp"
 #include "surface/implicit_surface.hpp"
 #include "surface/mesh_files.hpp"
 
@@ -33,10 +33,12 @@ struct Showing {
 /// What a run is coloured by where nobody says: temperature where it varies, else phase where there are several, else body.
 [[nodiscard]] Colouring natural_colouring(const ShownRun&, const std::vector<std::size_t>& frames);
 
-/// Least and greatest temperature of what is no wall; of everything where that has none or one only; nothing without temperatures [K].
+/// Least and greatest temperature of what is no wall; of everything where that has none or one only; nothing without temperatures
+/// [K].
 [[nodiscard]] std::optional<std::pair<double, double>> temperatures_of(const ShownRun&, const std::vector<std::size_t>& frames);
 
-/// Places that pictures of these frames should hold: free particles, and walls that are shown and no more than half their size off.
+/// Places that pictures of these frames should hold: free particles, and walls that are shown and no more than half their size
+/// off.
 [[nodiscard]] std::vector<Vec3> looked_at(const ShownRun&, const std::vector<std::size_t>& frames, const Showing&);
 
 [[nodiscard]] Picture picture_of(const ShownRun&, const Snapshot&, const Showing&);

@@ -17,10 +17,12 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double flown_off = 0.005;  // share of the free particles, at each end of each axis, that a picture may lose
+constexpr double flown_off = 0.005;     // share of the free particles, at each end of each axis, that a picture may lose
 constexpr std::size_t looked_at = 400;  // particles whose nearest neighbour is looked for
 
-int at_or(const std::vector<int>& column, std::size_t row, int otherwise) { return row < column.size() ? column[row] : otherwise; }
+int at_or(const std::vector<int>& column, std::size_t row, int otherwise) {
+  return row < column.size() ? column[row] : otherwise;
+}
 
 /// Up to three folders below one that hold a trajectory.
 std::string runs_below(const fs::path& folder) {
@@ -37,9 +39,13 @@ fs::path folder_of(const std::string& run) {
   if (fs::is_regular_file(path)) return path.parent_path().empty() ? fs::path(".") : path.parent_path();
   if (fs::exists(path / "trajectory.h5")) return path;
   if (const auto by_case = fs::path("runs") / path / "tripoint"; fs::exists(by_case / "trajectory.h5")) return by_case;
-  if (!fs::is_directory(path)) throw InputError(fmt::format("{}: no such folder, and no run of a case of this name in runs/. `tripoint run CASE` makes one", run));
+  if (!fs::is_directory(path))
+    throw InputError(
+        fmt::format("{}: no such folder, and no run of a case of this name in runs/. `tripoint run CASE` makes one", run));
   const auto others = runs_below(path);
-  throw InputError(fmt::format("{}: no trajectory.h5 here{}", run, others.empty() ? ". `tripoint run CASE --out DIR` leaves one in DIR" : "; there is one in " + others));
+  throw InputError(
+      fmt::format("{}: no trajectory.h5 here{}", run,
+                  others.empty() ? ". `tripoint run CASE --out DIR` leaves one in DIR" : "; there is one in " + others));
 }
 
 /// Median distance of a particle to its nearest neighbour.
@@ -74,7 +80,8 @@ void read_job_into(ShownRun& run, const std::string& file) {
   const Snapshot& first = run.trajectory.frames.front();
   for (std::size_t i = 0; i < run.wall.size() && i < first.position.size(); ++i) {
     const int body = at_or(first.body, i, -1);
-    run.wall[i] = is_there(first, i) && body >= 0 && static_cast<std::size_t>(body) < is_fixed.size() && is_fixed[static_cast<std::size_t>(body)];
+    run.wall[i] = is_there(first, i) && body >= 0 && static_cast<std::size_t>(body) < is_fixed.size() &&
+                  is_fixed[static_cast<std::size_t>(body)];
   }
 }
 
@@ -84,7 +91,8 @@ void find_walls(ShownRun& run) {
   const Snapshot& first = frames.front();
   for (std::size_t i = 0; i < first.position.size(); ++i) {
     bool still = is_there(first, i);
-    for (const Snapshot& f : frames) still = still && i < f.position.size() && is_there(f, i) && norm(f.position[i] - first.position[i]) < 1e-9 * run.spacing;
+    for (const Snapshot& f : frames)
+      still = still && i < f.position.size() && is_there(f, i) && norm(f.position[i] - first.position[i]) < 1e-9 * run.spacing;
     run.wall[i] = still && at_or(first.body, i, -1) >= 0;
   }
 }
@@ -118,7 +126,8 @@ ShownRun read_shown_run(const std::string& path) {
   run.folder = folder_of(path).string();
   run.trajectory = read_trajectory((fs::path(run.folder) / "trajectory.h5").string());
   const auto& frames = run.trajectory.frames;
-  if (frames.empty() || frames.front().position.empty()) throw InputError(run.folder + "/trajectory.h5 holds no particles: there is nothing to draw");
+  if (frames.empty() || frames.front().position.empty())
+    throw InputError(run.folder + "/trajectory.h5 holds no particles: there is nothing to draw");
   std::size_t rows = 0;
   for (const Snapshot& f : frames) rows = std::max(rows, f.position.size());
   run.wall.assign(rows, 0);
@@ -126,7 +135,8 @@ ShownRun read_shown_run(const std::string& path) {
   if (fs::exists(job)) read_job_into(run, job);
   if (!(run.spacing > 0.0)) run.spacing = spacing_of(frames.front(), run.folder);
   if (!run.has_job) find_walls(run);
-  if (std::ranges::all_of(parts_of(run, frames.front(), false), &ShownPart::wall)) std::ranges::fill(run.wall, char{0});  // else there is nothing to look at
+  if (std::ranges::all_of(parts_of(run, frames.front(), false), &ShownPart::wall))
+    std::ranges::fill(run.wall, char{0});  // else there is nothing to look at
   return run;
 }
 
@@ -136,14 +146,21 @@ std::vector<ShownPart> parts_of(const ShownRun& run, const Snapshot& frame, bool
     if (!is_there(frame, i)) continue;
     const int body = at_or(frame.body, i, -1), material = at_or(frame.material, i, 0);
     const bool wall = run.wall[i] != 0;
-    const auto key = wall ? std::tuple{0, body} : whole ? std::tuple{1, 0} : body < 0 ? std::tuple{1, material} : std::tuple{2, body};
+    const auto key = wall       ? std::tuple{0, body}
+                     : whole    ? std::tuple{1, 0}
+                     : body < 0 ? std::tuple{1, material}
+                                : std::tuple{2, body};
     ShownPart& part = parts[key];
     if (part.rows.empty()) {
       const auto named = [](const std::vector<std::string>& names, int n, const char* kind) {
-        return n >= 0 && static_cast<std::size_t>(n) < names.size() && !names[static_cast<std::size_t>(n)].empty() ? names[static_cast<std::size_t>(n)] : fmt::format("{} {}", kind, n);
+        return n >= 0 && static_cast<std::size_t>(n) < names.size() && !names[static_cast<std::size_t>(n)].empty()
+                   ? names[static_cast<std::size_t>(n)]
+                   : fmt::format("{} {}", kind, n);
       };
       part.wall = wall;
-      part.name = whole && !wall ? "all" : body < 0 ? "liquid " + named(run.material_names, material, "material") : named(run.body_names, body, "body");
+      part.name = whole && !wall ? "all"
+                  : body < 0     ? "liquid " + named(run.material_names, material, "material")
+                                 : named(run.body_names, body, "body");
     }
     part.rows.push_back(static_cast<std::uint32_t>(i));
   }
@@ -165,7 +182,8 @@ ShownRoom room_for(const ShownRun& run, const std::vector<std::size_t>& frames) 
 }
 
 bool hides(const Vec3& place, const Box& free, const Vec3& up, const Vec3& towards, double spacing) {
-  const Vec3 floor{up.x > 0.0 ? free.low.x : free.high.x, up.y > 0.0 ? free.low.y : free.high.y, up.z > 0.0 ? free.low.z : free.high.z};
+  const Vec3 floor{up.x > 0.0 ? free.low.x : free.high.x, up.y > 0.0 ? free.low.y : free.high.y,
+                   up.z > 0.0 ? free.low.z : free.high.z};
   if (dot(place - floor, up) < 0.0) return false;
   for (std::size_t a = 0; a < 3; ++a) {
     if (std::abs(towards[a]) < 0.02) continue;

@@ -13,15 +13,15 @@ namespace tripoint {
 struct ShownRun {
   std::string folder;
   Trajectory trajectory;
-  double spacing = 0.0;        ///< of the particles [m]
-  Vec3 gravity;                ///< 0 where the folder has no job [m/s2]
-  bool has_job = false;        ///< whether job.json says what is fixed
-  std::vector<char> wall;      ///< by row: a particle that belonged to a fixed body in the first frame
+  double spacing = 0.0;                                 ///< of the particles [m]
+  Vec3 gravity;                                         ///< 0 where the folder has no job [m/s2]
+  bool has_job = false;                                 ///< whether job.json says what is fixed
+  std::vector<char> wall;                               ///< by row: a particle that belonged to a fixed body in the first frame
   std::vector<std::string> body_names, material_names;  ///< by row of the bodies, of the materials; may be too short
 };
 
-/// Reads trajectory.h5 and, where it lies beside it, job.json. Without a job the spacing is the median distance of nearest neighbours,
-/// and a solid that never moves is a wall. Where all is wall, none is.
+/// Reads trajectory.h5 and, where it lies beside it, job.json. Without a job the spacing is the median distance of nearest
+/// neighbours, and a solid that never moves is a wall. Where all is wall, none is.
 /// @param run folder of a run, its trajectory.h5, or the id of a case that `tripoint run` left in runs/
 /// @throws InputError that says where runs are
 [[nodiscard]] ShownRun read_shown_run(const std::string& run);
@@ -40,13 +40,15 @@ struct ShownPart {
 /// @return parts of the particles that are alive in a frame, in the order walls, liquids, bodies
 [[nodiscard]] std::vector<ShownPart> parts_of(const ShownRun&, const Snapshot&, bool whole);
 
-/// What the frames have room for: free particles without the few that have flown off, and all walls. Both may be empty (low above high).
+/// What the frames have room for: free particles without the few that have flown off, and all walls. Both may be empty (low above
+/// high).
 struct ShownRoom {
   Box free, walls;
 };
 [[nodiscard]] ShownRoom room_for(const ShownRun&, const std::vector<std::size_t>& frames);
 
-/// Whether a wall's particle hides free ones from the viewer: it stands beyond their box, on a side that faces the viewer, and above the floor.
+/// Whether a wall's particle hides free ones from the viewer: it stands beyond their box, on a side that faces the viewer, and
+/// above the floor.
 [[nodiscard]] bool hides(const Vec3& place, const Box& free, const Vec3& up, const Vec3& towards, double spacing);
 
 }  // namespace tripoint

@@ -13,7 +13,9 @@ namespace {
 constexpr double stirs = 0.03;  ///< rms speed of a lattice that is let go, over sqrt(g H): the least that was measured
 
 /// The part of gravity that no periodic direction lets through [m/s2]
-Vec3 weight(const Scene& s) { return {s.periodic[0] ? 0.0 : s.gravity.x, s.periodic[1] ? 0.0 : s.gravity.y, s.periodic[2] ? 0.0 : s.gravity.z}; }
+Vec3 weight(const Scene& s) {
+  return {s.periodic[0] ? 0.0 : s.gravity.x, s.periodic[1] ? 0.0 : s.gravity.y, s.periodic[2] ? 0.0 : s.gravity.z};
+}
 
 bool is_solid(const Body& b, Motion motion) { return b.phase != Phase::liquid && b.motion == motion; }
 
@@ -37,7 +39,9 @@ const Material& material_of(const Scene& s, const Body& b) {
 
 std::vector<Finding> start_notes(const Scene& s, const InitialState& state) {
   const double g = norm(weight(s));
-  const auto any = [&](Motion motion) { return std::ranges::any_of(s.bodies, [&](const Body& b) { return is_solid(b, motion); }); };
+  const auto any = [&](Motion motion) {
+    return std::ranges::any_of(s.bodies, [&](const Body& b) { return is_solid(b, motion); });
+  };
   if (s.settle || g == 0.0 || any(Motion::free) || !any(Motion::fixed)) return {};
   for (std::size_t n = 0; n < s.bodies.size(); ++n) {
     const Body& b = s.bodies[n];
@@ -45,7 +49,11 @@ std::vector<Finding> start_notes(const Scene& s, const InitialState& state) {
     const Material& m = material_of(s, b);
     const double speed = stirs * std::sqrt(g * depth_at_rest(s, state, n, weight(s) / g));
     if (m.viscosity >= m.density * speed * s.spacing) continue;  // it is held back within about a spacing
-    return {{false, fmt::format("liquid \"{}\" starts as a lattice, which is no equilibrium: let go, it moves at some {:.1g} m/s rms for seconds; where it is to be at rest, scene.settle = true lets it down first", b.name, speed), b.place}};
+    return {{false,
+             fmt::format("liquid \"{}\" starts as a lattice, which is no equilibrium: let go, it moves at some {:.1g} m/s rms "
+                         "for seconds; where it is to be at rest, scene.settle = true lets it down first",
+                         b.name, speed),
+             b.place}};
   }
   return {};
 }

@@ -50,10 +50,12 @@ WorkCost fit_work(const std::vector<OneRank>& runs) {
   if (runs.empty()) throw InputError("no run on one rank to fit the cost of a step to");
   for (const OneRank& r : runs)
     if (!(r.particles > 0.0 && r.pairs > 0.0 && r.seconds > 0.0)) throw InputError("a run on one rank gave no time of a step");
-  const OneRank& most = *std::max_element(runs.begin(), runs.end(), [](const OneRank& a, const OneRank& b) { return a.pairs < b.pairs; });
+  const OneRank& most =
+      *std::max_element(runs.begin(), runs.end(), [](const OneRank& a, const OneRank& b) { return a.pairs < b.pairs; });
   const Row scale{most.seconds, most.seconds / most.particles, most.seconds / most.pairs};
   std::vector<Row> rows;
-  for (const OneRank& r : runs) rows.push_back({scale[0] / r.seconds, scale[1] * r.particles / r.seconds, scale[2] * r.pairs / r.seconds});
+  for (const OneRank& r : runs)
+    rows.push_back({scale[0] / r.seconds, scale[1] * r.particles / r.seconds, scale[2] * r.pairs / r.seconds});
   // Pairs are what a step is made of, so that they are never left out; fewer terms go first where they do as well.
   const std::array<std::vector<std::size_t>, 4> choices{{{2}, {0, 2}, {1, 2}, {0, 1, 2}}};
   constexpr double better = 1e-9;
@@ -77,7 +79,8 @@ WorkCost fit_work(const std::vector<OneRank>& runs) {
 
 Memory fit_memory(const std::vector<OneRank>& runs, double scene_bytes) {
   if (runs.empty()) throw InputError("no run on one rank to fit memory to");
-  const auto [least, most] = std::minmax_element(runs.begin(), runs.end(), [](const OneRank& a, const OneRank& b) { return a.particles < b.particles; });
+  const auto [least, most] =
+      std::minmax_element(runs.begin(), runs.end(), [](const OneRank& a, const OneRank& b) { return a.particles < b.particles; });
   const double apart = most->particles - least->particles;
   const double slope = apart > 0.0 ? (most->bytes - least->bytes) / apart : most->bytes / most->particles;
   Memory m;
@@ -87,7 +90,8 @@ Memory fit_memory(const std::vector<OneRank>& runs, double scene_bytes) {
   return m;
 }
 
-Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cost, const Memory& memory, const Traffic& traffic, const Machine& machine) {
+Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cost, const Memory& memory, const Traffic& traffic,
+                   const Machine& machine) {
   Prediction p;
   p.ranks = static_cast<int>(shares.ranks.size());
   p.particles = whole.own;
@@ -101,7 +105,8 @@ Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cos
   }
   p.imbalance = p.work * count / sum;
   if (p.ranks > 1) {
-    const double bytes = most_copies * head_of_a_number * (traffic.numbers_a_copy + traffic.migrations * (traffic.columns + atom_numbers));
+    const double bytes =
+        most_copies * head_of_a_number * (traffic.numbers_a_copy + traffic.migrations * (traffic.columns + atom_numbers));
     p.messages = (traffic.exchanges + traffic.migrations) * shares.messages * machine.latency;
     p.transport = bytes * (1.0 / machine.bandwidth + 2.0 / machine.pack_rate);
     p.collectives = traffic.collectives * std::ceil(std::log2(count)) * machine.allreduce;

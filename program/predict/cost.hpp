@@ -21,10 +21,12 @@ struct WorkCost {
   [[nodiscard]] double seconds(double particles, double pairs) const { return fixed + particle * particles + pair * pairs; }
 };
 
-/// The least relative squares over the runs; a term that would be negative is left out. @throws InputError without runs, or where one has no particles, pairs or time
+/// The least relative squares over the runs; a term that would be negative is left out. @throws InputError without runs, or where
+/// one has no particles, pairs or time
 [[nodiscard]] WorkCost fit_work(const std::vector<OneRank>&);
 
-/// Bytes of a rank: base + scene N + particle (own + copies), N the particles of the whole scene, which each rank holds as it starts.
+/// Bytes of a rank: base + scene N + particle (own + copies), N the particles of the whole scene, which each rank holds as it
+/// starts.
 struct Memory {
   double base = 0.0, scene = 0.0, particle = 0.0;
   [[nodiscard]] double bytes(double whole, double held) const { return base + scene * whole + particle * held; }
@@ -43,18 +45,19 @@ struct Traffic {
 struct Prediction {
   int ranks = 1;
   double particles = 0.0;
-  double own = 0.0, copies = 0.0;  ///< mean of the ranks
+  double own = 0.0, copies = 0.0;                                                        ///< mean of the ranks
   double work = 0.0, messages = 0.0, transport = 0.0, collectives = 0.0, waiting = 0.0;  ///< [s] a step
-  double imbalance = 1.0;          ///< work of the slowest rank over the mean
-  double efficiency = 1.0;         ///< seconds of one rank, over ranks times seconds of these
-  double bytes = 0.0;              ///< of the rank that holds most
-  double scene_bytes = 0.0;        ///< of them, the whole scene, which is held from the start
-  bool counted = false;            ///< shares were counted on the scene's own particles, not scaled by volume
+  double imbalance = 1.0;    ///< work of the slowest rank over the mean
+  double efficiency = 1.0;   ///< seconds of one rank, over ranks times seconds of these
+  double bytes = 0.0;        ///< of the rank that holds most
+  double scene_bytes = 0.0;  ///< of them, the whole scene, which is held from the start
+  bool counted = false;      ///< shares were counted on the scene's own particles, not scaled by volume
   [[nodiscard]] double seconds() const { return work + messages + transport + collectives + waiting; }
   [[nodiscard]] double rate() const { return particles / seconds(); }  ///< particle-steps a second
 };
 
 /// @param whole particles and pairs of the scene on one rank
-[[nodiscard]] Prediction predict(const Shares&, const Share& whole, const WorkCost&, const Memory&, const Traffic&, const Machine&);
+[[nodiscard]] Prediction predict(const Shares&, const Share& whole, const WorkCost&, const Memory&, const Traffic&,
+                                 const Machine&);
 
 }  // namespace tripoint::predict

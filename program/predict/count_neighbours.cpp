@@ -35,7 +35,8 @@ class Cells {
     for (long z = std::max(c[2] - 1, 0L); z <= std::min(c[2] + 1, count_[2] - 1); ++z)
       for (long y = std::max(c[1] - 1, 0L); y <= std::min(c[1] + 1, count_[1] - 1); ++y) {
         const long row = (z * count_[1] + y) * count_[0];
-        const std::size_t from = start_[static_cast<std::size_t>(row + std::max(c[0] - 1, 0L))], to = start_[static_cast<std::size_t>(row + std::min(c[0] + 1, count_[0] - 1)) + 1];
+        const std::size_t from = start_[static_cast<std::size_t>(row + std::max(c[0] - 1, 0L))],
+                          to = start_[static_cast<std::size_t>(row + std::min(c[0] + 1, count_[0] - 1)) + 1];
         for (std::size_t n = from; n < to; ++n) {
           const Vec3 d = points_[n] - r;
           if (d.x * d.x + d.y * d.y + d.z * d.z < reach_ * reach_) found += 1.0;

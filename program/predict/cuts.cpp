@@ -11,7 +11,8 @@ namespace {
 
 constexpr double allowed = 1.02;  ///< greatest number of a rank over the mean, as the engine asks of `balance`
 constexpr int most_rounds = 20;   ///< likewise
-constexpr double margin = 1e-4;   ///< by which LAMMPS keeps a shrunk box around its particles, in widths of the box that it was made with
+constexpr double margin =
+    1e-4;  ///< by which LAMMPS keeps a shrunk box around its particles, in widths of the box that it was made with
 
 /// Greatest number of a part over the mean.
 double imbalance(const Cloud& cloud, const Cuts& cuts) {
@@ -26,19 +27,24 @@ double imbalance(const Cloud& cloud, const Cuts& cuts) {
     }
     counts[place] += 1.0;
   }
-  return *std::max_element(counts.begin(), counts.end()) * static_cast<double>(counts.size()) / static_cast<double>(cloud.position.size());
+  return *std::max_element(counts.begin(), counts.end()) * static_cast<double>(counts.size()) /
+         static_cast<double>(cloud.position.size());
 }
 
-/// Planes of one direction, each bisected between the nearest places known to have too few and too many below, until all numbers are within `delta`.
+/// Planes of one direction, each bisected between the nearest places known to have too few and too many below, until all numbers
+/// are within `delta`.
 void shift(const std::vector<double>& sorted, std::vector<double>& at, double delta) {
   const std::size_t n = at.size() - 1;
-  const auto below = [&](double place) { return static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), place) - sorted.begin()); };
+  const auto below = [&](double place) {
+    return static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), place) - sorted.begin());
+  };
   std::vector<double> low(n + 1, at.front()), high(n + 1, at.back());
   for (int round = 0; round < most_rounds; ++round) {
     bool close = true;
     for (std::size_t i = 1; i < n; ++i) {
       for (std::size_t j = 1; j < n; ++j) {
-        const double target = static_cast<double>(sorted.size()) * static_cast<double>(i) / static_cast<double>(n), sum = below(at[j]);
+        const double target = static_cast<double>(sorted.size()) * static_cast<double>(i) / static_cast<double>(n),
+                     sum = below(at[j]);
         if (sum <= target) low[i] = std::max(low[i], at[j]);
         if (sum >= target) high[i] = std::min(high[i], at[j]);
         if (i == j && std::abs(sum - target) > delta * target) close = false;

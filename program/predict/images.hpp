@@ -8,6 +8,7 @@
 namespace tripoint::predict {
 
 /// Periodic images of these points within `reach` of the domain, in the directions `seen`.
-[[nodiscard]] std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::array<bool, 3>& seen, const Vec3& min, const Vec3& max, double reach);
+[[nodiscard]] std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::array<bool, 3>& seen, const Vec3& min,
+                                              const Vec3& max, double reach);
 
 }  // namespace tripoint::predict

@@ -53,7 +53,8 @@ code=$?
 if [ "$code" -eq 0 ]; then mv "$runs/result.json" "$OUT" && "$TRIPOINT" predict --compare "$OUT"; fi
 exit "$code"
 )",
-                     fmt::arg("most", *std::max_element(ranks.begin(), ranks.end())), fmt::arg("list", list), fmt::arg("what", quoted(what)), fmt::arg("words", words));
+                     fmt::arg("most", *std::max_element(ranks.begin(), ranks.end())), fmt::arg("list", list),
+                     fmt::arg("what", quoted(what)), fmt::arg("words", words));
 }
 
 }  // namespace tripoint::predict

@@ -14,18 +14,25 @@
 namespace tripoint::predict {
 namespace {
 
-constexpr double usual_pack_rate = 4e9;  ///< [bytes/s]
+constexpr double usual_pack_rate = 4e9;     ///< [bytes/s]
 constexpr double least_for_rate = 1 << 16;  ///< [bytes] of the probe's exchanges that the bandwidth is read from
 
-const std::vector<std::string> keys{"name", "cores_a_node", "latency", "bandwidth", "allreduce", "pack_rate", "core_speed", "waiting"};
+const std::vector<std::string> keys{"name",      "cores_a_node", "latency",    "bandwidth",
+                                    "allreduce", "pack_rate",    "core_speed", "waiting"};
 
 double number(const TomlNode& file, const std::string& key, double otherwise, bool may_be_zero = false) {
   const TomlNode* node = file.find(key);
-  if (!node && std::isnan(otherwise)) throw InputError(file.place, "a machine file needs the key " + key + " (" + (key == "latency" ? "seconds of one message" : key == "bandwidth" ? "bytes a second between two ranks" : "cores of a node") + ")");
+  if (!node && std::isnan(otherwise))
+    throw InputError(file.place, "a machine file needs the key " + key + " (" +
+                                     (key == "latency"     ? "seconds of one message"
+                                      : key == "bandwidth" ? "bytes a second between two ranks"
+                                                           : "cores of a node") +
+                                     ")");
   if (!node) return otherwise;
   const bool is_number = node->kind == TomlNode::Kind::integer || node->kind == TomlNode::Kind::real;
   const double value = node->kind == TomlNode::Kind::integer ? static_cast<double>(node->integer) : node->real;
-  if (!is_number || !std::isfinite(value) || value < 0.0 || (value == 0.0 && !may_be_zero)) throw InputError(node->place, key + ": write a number above 0, in SI units");
+  if (!is_number || !std::isfinite(value) || value < 0.0 || (value == 0.0 && !may_be_zero))
+    throw InputError(node->place, key + ": write a number above 0, in SI units");
   return value;
 }
 
@@ -57,7 +64,8 @@ Machine machine_of_probe(const std::string& text, int cores) {
     Machine m;
     m.cores_a_node = cores;
     m.source = "a probe of " + o.at("mpi").get<std::string>() + " between two ranks";
-    // On a machine that is not quiet a small exchange may take longer than a large one: none is faster than the latency, and the best rate was possible.
+    // On a machine that is not quiet a small exchange may take longer than a large one: none is faster than the latency, and the
+    // best rate was possible.
     m.latency = INFINITY;
     for (const auto& e : o.at("exchanges")) m.latency = std::min(m.latency, e.at("seconds").get<double>());
     for (const auto& e : o.at("exchanges")) {
@@ -65,7 +73,8 @@ Machine machine_of_probe(const std::string& text, int cores) {
       if (bytes >= least_for_rate && moving > 0.0) m.bandwidth = std::max(m.bandwidth, bytes / moving);
     }
     m.allreduce = o.at("allreduce").at(0).at("seconds"), m.pack_rate = o.at("pack_rate");
-    if (!(m.latency > 0.0 && m.bandwidth > 0.0 && m.allreduce > 0.0 && m.pack_rate > 0.0)) throw EngineError("the probe of MPI gave times that cannot be: " + text);
+    if (!(m.latency > 0.0 && m.bandwidth > 0.0 && m.allreduce > 0.0 && m.pack_rate > 0.0))
+      throw EngineError("the probe of MPI gave times that cannot be: " + text);
     return m;
   } catch (const nlohmann::json::exception& e) {
     throw EngineError(std::string("the probe of MPI gave no answer that can be read: ") + e.what());

@@ -32,7 +32,8 @@ Seen seen_by(const std::vector<double>& at, std::size_t n, double x, double reac
 
 }  // namespace
 
-std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::array<bool, 3>& seen, const Vec3& min, const Vec3& max, double reach) {
+std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::array<bool, 3>& seen, const Vec3& min,
+                                const Vec3& max, double reach) {
   std::vector<Vec3> all = members;
   for (std::size_t a = 0; a < 3; ++a) {
     if (!seen[a]) continue;
@@ -85,7 +86,8 @@ Shares share_out(const Cloud& cloud, int ranks) {
   std::array<bool, 3> own_images{};
   for (std::size_t a = 0; a < 3; ++a) own_images[a] = cloud.periodic[a] && !cuts.cut(a);
   for (std::size_t n = 0; n < held.size(); ++n) {
-    const std::vector<double> neighbours = count_neighbours(held[n], images_within(held[n], own_images, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
+    const std::vector<double> neighbours =
+        count_neighbours(held[n], images_within(held[n], own_images, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
     shares.ranks[n].pairs = std::accumulate(neighbours.begin(), neighbours.end(), 0.0);
   }
   return shares;

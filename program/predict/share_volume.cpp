@@ -8,8 +8,8 @@
 namespace tripoint::predict {
 namespace {
 
-/// Of a directed list, the mean share of a ball of one reach that is within a half space, of balls whose centres lie evenly up to one reach from its border inside:
-/// mean over s in 0..1 of 1/2 + 3 s / 4 - s^3 / 4 = 1/2 + 3/8 - 1/16.
+/// Of a directed list, the mean share of a ball of one reach that is within a half space, of balls whose centres lie evenly up to
+/// one reach from its border inside: mean over s in 0..1 of 1/2 + 3 s / 4 - s^3 / 4 = 1/2 + 3/8 - 1/16.
 constexpr double seen_of_a_copy = 13.0 / 16.0;
 
 /// How much of a cube one rank of a direction has, and sees beyond its part.
@@ -27,7 +27,8 @@ void parts_of(const std::vector<double>& at, double a, double b, double reach, d
   const int most = width > 0.0 ? static_cast<int>(std::ceil(reach / width)) + 1 : 0;
   for (int image = -most; image <= most; ++image) {
     const double from = a + image * width, to = b + image * width;
-    auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, std::upper_bound(at.begin(), at.end(), from - reach) - at.begin() - 1));
+    auto k = static_cast<std::size_t>(
+        std::max<std::ptrdiff_t>(0, std::upper_bound(at.begin(), at.end(), from - reach) - at.begin() - 1));
     for (; k < n && at[k] - reach < to; ++k) {
       const double low = width == 0.0 && k == 0 ? -INFINITY : at[k], high = width == 0.0 && k + 1 == n ? INFINITY : at[k + 1];
       const double own = overlap(from, to, low, high), all = overlap(from, to, low - reach, high + reach);
@@ -43,26 +44,32 @@ void parts_of(const std::vector<double>& at, double a, double b, double reach, d
 
 Shares share_volume(const Cloud& cloud, int ranks, double particles) {
   const Cuts cuts = cuts_of(cloud, ranks);
-  const double each = particles / static_cast<double>(cloud.position.size()), finer = std::cbrt(1.0 / each), reach = cloud.reach * finer;
+  const double each = particles / static_cast<double>(cloud.position.size()), finer = std::cbrt(1.0 / each),
+               reach = cloud.reach * finer;
   Shares shares;
   shares.grid = cuts.grid, shares.messages = messages_of(cuts, reach);
   shares.ranks.resize(static_cast<std::size_t>(ranks));
-  const std::vector<double> neighbours = count_neighbours(cloud.position, images_within(cloud.position, cloud.periodic, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
+  const std::vector<double> neighbours = count_neighbours(
+      cloud.position, images_within(cloud.position, cloud.periodic, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
   std::array<std::vector<Part>, 3> parts;
   for (std::size_t i = 0; i < cloud.position.size(); ++i) {
     for (std::size_t a = 0; a < 3; ++a) {
       const bool wraps = cloud.periodic[a] && cuts.cut(a);
       const double x = cloud.position[i][a], half = 0.5 * cloud.spacing;
-      if (cuts.cut(a)) parts_of(cuts.at[a], x - half, x + half, reach, wraps ? cloud.max[a] - cloud.min[a] : 0.0, parts[a]);
-      else parts[a].assign(1, Part{0, 1.0, 0.0});
+      if (cuts.cut(a))
+        parts_of(cuts.at[a], x - half, x + half, reach, wraps ? cloud.max[a] - cloud.min[a] : 0.0, parts[a]);
+      else
+        parts[a].assign(1, Part{0, 1.0, 0.0});
     }
     for (const Part& z : parts[2])
       for (const Part& y : parts[1])
         for (const Part& x : parts[0]) {
-          Share& s = shares.ranks[x.rank + static_cast<std::size_t>(cuts.grid[0]) * (y.rank + static_cast<std::size_t>(cuts.grid[1]) * z.rank)];
+          Share& s = shares.ranks[x.rank + static_cast<std::size_t>(cuts.grid[0]) *
+                                               (y.rank + static_cast<std::size_t>(cuts.grid[1]) * z.rank)];
           const double own = x.own * y.own * z.own, all = (x.own + x.beyond) * (y.own + y.beyond) * (z.own + z.beyond);
           s.own += each * own, s.copies += each * (all - own);
-          s.pairs += each * neighbours[i] * (x.own + seen_of_a_copy * x.beyond) * (y.own + seen_of_a_copy * y.beyond) * (z.own + seen_of_a_copy * z.beyond);
+          s.pairs += each * neighbours[i] * (x.own + seen_of_a_copy * x.beyond) * (y.own + seen_of_a_copy * y.beyond) *
+                     (z.own + seen_of_a_copy * z.beyond);
         }
   }
   return shares;

@@ -5,17 +5,18 @@
 
 #include "core/vec3.hpp"
 
-/// What each rank would hold of a scene, were it shared out as the engine tripoint-mpi does it (decision 021), without a rank that runs.
+/// What each rank would hold of a scene, were it shared out as the engine tripoint-mpi does it (decision 021), without a rank
+/// that runs.
 namespace tripoint::predict {
 
 /// The particles of a scene as far as sharing them out depends on them.
 struct Cloud {
-  std::vector<Vec3> position;     ///< [m]
-  double spacing = 0.0;           ///< [m]
-  double reach = 0.0;             ///< of copies beyond a rank's part of the box [m]
-  double pair_reach = 0.0;        ///< of a neighbour list [m]
+  std::vector<Vec3> position;  ///< [m]
+  double spacing = 0.0;        ///< [m]
+  double reach = 0.0;          ///< of copies beyond a rank's part of the box [m]
+  double pair_reach = 0.0;     ///< of a neighbour list [m]
   std::array<bool, 3> periodic{};
-  Vec3 min, max;                  ///< the domain, used in periodic directions only [m]
+  Vec3 min, max;  ///< the domain, used in periodic directions only [m]
 };
 
 struct Share {
@@ -29,12 +30,14 @@ struct Shares {
   std::vector<Share> ranks;          ///< of each, z slowest
 };
 
-/// Counts particles one by one: the cuts of LAMMPS's `balance 1.02 shift xyz 20 1.02`, own particles between them, copies in the box around by `reach`, pairs among both.
+/// Counts particles one by one: the cuts of LAMMPS's `balance 1.02 shift xyz 20 1.02`, own particles between them, copies in the
+/// box around by `reach`, pairs among both.
 /// @param ranks > 0   @throws InputError for an empty cloud
 [[nodiscard]] Shares share_out(const Cloud&, int ranks);
 
-/// The same scene of another number of particles, by volume: each particle of the cloud stands for a cube of matter, and reaches shrink with the spacing. Pairs of a
-/// copy are fewer, as those beyond its own reach are not there: of a slab of copies the mean is 13/16 of the whole, for each direction that it lies beyond.
+/// The same scene of another number of particles, by volume: each particle of the cloud stands for a cube of matter, and reaches
+/// shrink with the spacing. Pairs of a copy are fewer, as those beyond its own reach are not there: of a slab of copies the mean
+/// is 13/16 of the whole, for each direction that it lies beyond.
 /// @param particles of the scene that is meant, > 0
 [[nodiscard]] Shares share_volume(const Cloud&, int ranks, double particles);
 
@@ -44,13 +47,15 @@ struct Cuts {
   std::array<std::vector<double>, 3> at;  ///< grid[a] + 1 places [m]
   [[nodiscard]] bool cut(std::size_t a) const { return grid[a] > 1; }
 };
-/// As LAMMPS makes them: equal parts, and where one has over 1.02 of the mean number, planes that are bisected towards equal numbers.
+/// As LAMMPS makes them: equal parts, and where one has over 1.02 of the mean number, planes that are bisected towards equal
+/// numbers.
 [[nodiscard]] Cuts cuts_of(const Cloud&, int ranks);
 
 /// Messages of a rank in the middle: two a cut direction, more where a reach goes beyond the next rank.
 [[nodiscard]] double messages_of(const Cuts&, double reach);
 
 /// Of each member, how many members and images are within `reach`, itself left out.
-[[nodiscard]] std::vector<double> count_neighbours(const std::vector<Vec3>& members, const std::vector<Vec3>& images, double reach);
+[[nodiscard]] std::vector<double> count_neighbours(const std::vector<Vec3>& members, const std::vector<Vec3>& images,
+                                                   double reach);
 
 }  // namespace tripoint::predict

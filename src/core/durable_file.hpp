@@ -13,7 +13,8 @@
 
 namespace tripoint {
 
-/// What a file holds, or the names in a folder, survive a loss of power from now on. @throws EngineError naming it and the system's reason
+/// What a file holds, or the names in a folder, survive a loss of power from now on. @throws EngineError naming it and the
+/// system's reason
 inline void make_durable(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool safe = file >= 0 && ::fsync(file) == 0;
@@ -43,7 +44,8 @@ inline void write_durably(const std::string& path, std::string_view text) {
   ::close(file);
   if (std::rename(temporary.c_str(), path.c_str()) != 0) fail();
   const auto slash = path.find_last_of('/');
-  const int folder = ::open(slash == std::string::npos ? "." : path.substr(0, slash + 1).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int folder =
+      ::open(slash == std::string::npos ? "." : path.substr(0, slash + 1).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder >= 0) {
     ::fsync(folder);
     ::close(folder);

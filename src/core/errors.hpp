@@ -23,7 +23,8 @@ inline std::string to_string(const SourcePlace& p) {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(const std::string& what) : std::runtime_error(what) {}
-  InputError(const SourcePlace& place, const std::string& what) : std::runtime_error(place.file.empty() ? what : to_string(place) + ": " + what), place_(place) {}
+  InputError(const SourcePlace& place, const std::string& what)
+      : std::runtime_error(place.file.empty() ? what : to_string(place) + ": " + what), place_(place) {}
   [[nodiscard]] const SourcePlace& place() const noexcept { return place_; }
 
  private:
@@ -39,13 +40,20 @@ class EngineError : public std::runtime_error {
 /// A run blew up, or left what its equations hold for (exit code 7).
 class Diverged : public std::runtime_error {
  public:
-  Diverged(long id, long row, std::string what_field, std::string at_stage, double when, const std::string& what, std::string by_guard = "finite")
-      : std::runtime_error(what), particle(id), body(row), field(std::move(what_field)), stage(std::move(at_stage)), guard(std::move(by_guard)), time(when) {}
+  Diverged(long id, long row, std::string what_field, std::string at_stage, double when, const std::string& what,
+           std::string by_guard = "finite")
+      : std::runtime_error(what),
+        particle(id),
+        body(row),
+        field(std::move(what_field)),
+        stage(std::move(at_stage)),
+        guard(std::move(by_guard)),
+        time(when) {}
   long particle;  ///< id, -1 if it is no single particle
   long body;      ///< row of the body, -1 for none
   std::string field, stage;
   std::string guard;  ///< finite temperature inversion overlap escape ledger time_step
-  double time;  ///< [s]
+  double time;        ///< [s]
 };
 
 }  // namespace tripoint

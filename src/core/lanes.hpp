@@ -98,8 +98,7 @@ using MaskOf = typename Lanes<static_cast<int>(sizeof(V) / sizeof(double))>::Mas
 /// Whether any lane is set.
 [[nodiscard, gnu::always_inline]] inline bool any(bool mask) noexcept { return mask; }
 template <class Mask>
-  requires(sizeof(Mask) > sizeof(long))
-[[nodiscard, gnu::always_inline]] inline bool any(Mask mask) noexcept {
+requires(sizeof(Mask) > sizeof(long)) [[nodiscard, gnu::always_inline]] inline bool any(Mask mask) noexcept {
   return bits_of<static_cast<int>(sizeof(Mask) / sizeof(long))>(mask) != 0;
 }
 
@@ -124,8 +123,8 @@ template <class V>
   return value - V{};  // -0 and what is not finite keep their bits
 }
 
-/// 2ab/(a + b) of what is not negative. Where both are equal it is they themselves, to the bit; where they are in every lane nothing
-/// is divided.
+/// 2ab/(a + b) of what is not negative. Where both are equal it is they themselves, to the bit; where they are in every lane
+/// nothing is divided.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V harmonic_mean(V a, V b) noexcept {
   const MaskOf<V> differ = a != b;

@@ -9,6 +9,8 @@ namespace tripoint {
 inline constexpr std::size_t worth_threads = 4096;
 
 [[nodiscard]] inline bool machine_has_avx2() noexcept { return __builtin_cpu_supports("avx2"); }
-[[nodiscard]] inline bool machine_has_avx512() noexcept { return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"); }
+[[nodiscard]] inline bool machine_has_avx512() noexcept {
+  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+}
 
 }  // namespace tripoint

@@ -61,9 +61,7 @@ constexpr double contraction(const Symmetric& a, const Symmetric& b) noexcept {
   return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2.0 * (a.yz * b.yz + a.xz * b.xz + a.xy * b.xy);
 }
 /// P a P
-constexpr Symmetric between(const Symmetric& P, const Symmetric& a) noexcept {
-  return symmetric_part(full(P) * (full(a) * P));
-}
+constexpr Symmetric between(const Symmetric& P, const Symmetric& a) noexcept { return symmetric_part(full(P) * (full(a) * P)); }
 constexpr double determinant(const Matrix3& a) noexcept {
   return a.xx * (a.yy * a.zz - a.yz * a.zy) - a.xy * (a.yx * a.zz - a.yz * a.zx) + a.xz * (a.yx * a.zy - a.yy * a.zx);
 }

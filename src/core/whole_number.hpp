@@ -4,7 +4,8 @@
 
 namespace tripoint {
 
-/// A number that others wrote as a whole number, cut towards zero: beyond the range of T it is the nearest end of that, and NaN is 0.
+/// A number that others wrote as a whole number, cut towards zero: beyond the range of T it is the nearest end of that, and NaN
+/// is 0.
 template <class T>
 [[nodiscard]] constexpr T whole_number(double v) noexcept {
   constexpr double end = 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1);  // one past the greatest, exactly
@@ -12,7 +13,9 @@ template <class T>
   if (std::numeric_limits<T>::is_signed ? v < -end : v < 0.0) return std::numeric_limits<T>::min();
   return v == v ? static_cast<T>(v) : T{0};
 }
-static_assert(whole_number<int>(1e300) == std::numeric_limits<int>::max() && whole_number<int>(-2147483648.0) == std::numeric_limits<int>::min());
-static_assert(whole_number<long>(9223372036854775807.0) == std::numeric_limits<long>::max() && whole_number<unsigned>(-1.0) == 0u && whole_number<int>(-2.9) == -2);
+static_assert(whole_number<int>(1e300) == std::numeric_limits<int>::max() &&
+              whole_number<int>(-2147483648.0) == std::numeric_limits<int>::min());
+static_assert(whole_number<long>(9223372036854775807.0) == std::numeric_limits<long>::max() &&
+              whole_number<unsigned>(-1.0) == 0u && whole_number<int>(-2.9) == -2);
 
 }  // namespace tripoint

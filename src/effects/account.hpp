@@ -23,11 +23,13 @@ struct Account {
 
 /// Accounts that every scene has, since several effects book on them.
 namespace account {
-inline constexpr Account gravity_work{"gravity_work"};      ///< done by gravity on liquids and free bodies
+inline constexpr Account gravity_work{"gravity_work"};  ///< done by gravity on liquids and free bodies
 inline constexpr Account start_potential{"start_potential"};
 inline constexpr Account driven_potential{"driven_potential"};  ///< change of the potential energy of driven bodies
-inline constexpr Account rotation_drift{"rotation_drift"};  ///< change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly
-inline constexpr Account deformation_released{"deformation_released"};  ///< elastic and hourglass energy that events turned into heat, plastic or fracture entries
+inline constexpr Account rotation_drift{
+    "rotation_drift"};  ///< change of kinetic energy by the free rotation of bodies, which a scheme does not keep exactly
+inline constexpr Account deformation_released{
+    "deformation_released"};  ///< elastic and hourglass energy that events turned into heat, plastic or fracture entries
 inline constexpr Account inflow{"inflow"};    ///< kinetic, potential and thermal energy that flowed in
 inline constexpr Account merging{"merging"};  ///< kinetic energy lost as bodies became one
 inline constexpr Account walls{"walls"};      ///< taken by what is held, fixed or prescribed from outside
@@ -36,7 +38,8 @@ inline constexpr Account walls{"walls"};      ///< taken by what is held, fixed 
 /// An account was asked for that no effect of this scene has declared: a fault of the program, so it says the account by name.
 class MissingAccount : public std::logic_error {
  public:
-  explicit MissingAccount(std::string_view name) : std::logic_error("no effect of this scene has declared the account " + std::string(name)) {}
+  explicit MissingAccount(std::string_view name)
+      : std::logic_error("no effect of this scene has declared the account " + std::string(name)) {}
 };
 
 /// The accounts of a scene and what stands on them.

@@ -19,11 +19,11 @@
 
 namespace tripoint {
 
-#define TRIPOINT_EFFECT(name)                      \
-  namespace name {                                 \
-  EffectSpec spec(const Scene&);                   \
-  std::unique_ptr<Effect> make(const Scene&);      \
-  std::vector<DefectEntry> defects();              \
+#define TRIPOINT_EFFECT(name)                 \
+  namespace name {                            \
+  EffectSpec spec(const Scene&);              \
+  std::unique_ptr<Effect> make(const Scene&); \
+  std::vector<DefectEntry> defects();         \
   }
 #include TRIPOINT_EFFECT_LIST
 #undef TRIPOINT_EFFECT
@@ -117,14 +117,18 @@ void check_forces(const std::vector<Active>& effects) {
   std::vector<Account> seen;
   std::size_t forces = 0;
   const auto once = [&](const Account& a, const std::string& who) {
-    if (std::ranges::find(seen, a) != seen.end() || Bookings().has(a)) throw InputError("the account " + std::string(a.name) + " of the effect " + who + " is declared twice");
+    if (std::ranges::find(seen, a) != seen.end() || Bookings().has(a))
+      throw InputError("the account " + std::string(a.name) + " of the effect " + who + " is declared twice");
     seen.push_back(a);
   };
   for (const Active& a : effects) {
     for (const Force& f : a.spec.forces) {
       ++forces;
-      if (std::ranges::find(a.spec.owns, FieldInfo(f.x)) == a.spec.owns.end()) throw InputError("the effect " + a.name + " makes the force " + std::string(f.x.name) + " and does not own it");
-      if (!f.stored && f.entry.empty()) throw InputError("the work of the force " + std::string(f.x.name) + " has no entry of the ledger, and no energy stores it");
+      if (std::ranges::find(a.spec.owns, FieldInfo(f.x)) == a.spec.owns.end())
+        throw InputError("the effect " + a.name + " makes the force " + std::string(f.x.name) + " and does not own it");
+      if (!f.stored && f.entry.empty())
+        throw InputError("the work of the force " + std::string(f.x.name) +
+                         " has no entry of the ledger, and no energy stores it");
       once(f.work, a.name);
       if (f.work_on_driven) once(*f.work_on_driven, a.name);
       if (f.stored) once(f.stored->at_start, a.name);
@@ -132,7 +136,9 @@ void check_forces(const std::vector<Active>& effects) {
     for (const Account& one : a.spec.accounts) once(one, a.name);
     for (const Account& one : a.spec.numerical) once(one, a.name);
   }
-  if (forces > most_forces) throw InputError("the effects of this scene make " + std::to_string(forces) + " forces, and sums have room for " + std::to_string(most_forces));
+  if (forces > most_forces)
+    throw InputError("the effects of this scene make " + std::to_string(forces) + " forces, and sums have room for " +
+                     std::to_string(most_forces));
 }
 
 /// Place of a form in its slot: 0 = off, 1 = as printed, 2 = corrected.
@@ -144,7 +150,10 @@ int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_
 /// Fixed particles may sleep where every effect of the scene looks at none that is asleep, and no term works on every pair.
 std::optional<double> sleeps_beyond(const Scene& scene, const std::vector<Active>& effects, bool meets_all) {
   constexpr std::array<std::string_view, 5> looks_at_awake{"rigid", "fluid", "motion", "prescribed", "heat"};
-  if (meets_all || scene.transport_velocity || !std::ranges::all_of(effects, [&](const Active& a) { return std::ranges::find(looks_at_awake, a.name) != looks_at_awake.end(); })) return {};
+  if (meets_all || scene.transport_velocity || !std::ranges::all_of(effects, [&](const Active& a) {
+        return std::ranges::find(looks_at_awake, a.name) != looks_at_awake.end();
+      }))
+    return {};
   return fluid::numbers_of(scene).averages_walls ? fluid::reach_of_patches * scene.spacing : 0.0;
 }
 
@@ -213,8 +222,9 @@ std::vector<DefectEntry> registered_defects() {
 }
 
 void declare(World& world, const std::vector<Active>& effects) {
-  world.guarded = {{field::position_x, "position", Written::drift}, {field::position_y, "position", Written::drift}, {field::position_z, "position", Written::drift},
-                   {field::velocity_x, "velocity", Written::kick}, {field::velocity_y, "velocity", Written::kick}, {field::velocity_z, "velocity", Written::kick}};
+  world.guarded = {{field::position_x, "position", Written::drift}, {field::position_y, "position", Written::drift},
+                   {field::position_z, "position", Written::drift}, {field::velocity_x, "velocity", Written::kick},
+                   {field::velocity_y, "velocity", Written::kick},  {field::velocity_z, "velocity", Written::kick}};
   for (const Active& a : effects) {
     for (const Force& f : a.spec.forces) {
       world.forces.push_back(f);
@@ -241,7 +251,8 @@ struct Passes::Impl {
 };
 
 Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes, bool sums_all) {
-  const int heat = equal_temperature(scene) ? 0 : form_of(scene, effects, "heat", Term::heat), pressure = form_of(scene, effects, "fluid", Term::pressure);
+  const int heat = equal_temperature(scene) ? 0 : form_of(scene, effects, "heat", Term::heat),
+            pressure = form_of(scene, effects, "fluid", Term::pressure);
   const bool summed = form_of(scene, effects, "density", Term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
   const int density = summed ? 1 : form_of(scene, effects, "fluid", Term::density);
   const int viscosity = scene.mode_of(Term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : 2;
@@ -249,9 +260,10 @@ Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes
   if (lanes == 0) lanes = density + flow + heat > 0 ? best_lanes() : 1;
   const PairPasses passes = pair_passes(lanes);
   const bool meets_all = heat + moments > 0 || summed || pressure == 0;
-  impl_ = std::make_unique<Impl>(Impl{lanes, passes.density({density, moments}), passes.rates({flow, heat}),
-                                      passes.rates({0, heat}), pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene),
-                                      sums_all || meets_all, density == 2, sums_all ? std::nullopt : tripoint::sleeps_beyond(scene, effects, meets_all)});
+  impl_ = std::make_unique<Impl>(
+      Impl{lanes, passes.density({density, moments}), passes.rates({flow, heat}), passes.rates({0, heat}),
+           pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene), sums_all || meets_all,
+           density == 2, sums_all ? std::nullopt : tripoint::sleeps_beyond(scene, effects, meets_all)});
 }
 Passes::~Passes() = default;
 Passes::Passes(Passes&&) noexcept = default;
@@ -269,9 +281,12 @@ void Passes::run(PassName name, World& world) const {
   if (!needed()) return;
   Impl& i = *impl_;
   const PassFunction& pass = name == PassName::density ? i.density : name == PassName::rates ? i.rates : i.heat;
-  if (!i.meets_all && name == PassName::density) i.busy.sum_density(pass, world, i.kernels, i.leaves_own);
-  else if (!i.meets_all && name == PassName::rates) i.busy.sum_rates(pass, world, i.kernels);
-  else run_pass(pass, world.particles, *world.neighbours, i.kernels, world.threads);
+  if (!i.meets_all && name == PassName::density)
+    i.busy.sum_density(pass, world, i.kernels, i.leaves_own);
+  else if (!i.meets_all && name == PassName::rates)
+    i.busy.sum_rates(pass, world, i.kernels);
+  else
+    run_pass(pass, world.particles, *world.neighbours, i.kernels, world.threads);
   static const bool kept_to_itself = defect_size("passes.copies") > 0.0;
   if (pass.run && !kept_to_itself) world.refresh(pass.adds());
 }

@@ -9,10 +9,28 @@
 namespace tripoint {
 
 std::vector<FieldInfo> body_table_fields() {
-  return {field::body_phase,        field::body_mass,           field::body_centre,  field::body_velocity, field::body_acceleration,   field::body_angular_acceleration,
-          field::body_angular_momentum, field::body_angular_velocity, field::body_inertia, field::body_orientation, field::body_axes, field::body_turns,
-          field::body_start_centre, field::body_offset,         field::body_start_velocity, field::body_start_spin, field::body_motion, field::body_alive,
-          field::body_source, field::body_grip, field::body_grip_centre, field::body_grip_orientation};
+  return {field::body_phase,
+          field::body_mass,
+          field::body_centre,
+          field::body_velocity,
+          field::body_acceleration,
+          field::body_angular_acceleration,
+          field::body_angular_momentum,
+          field::body_angular_velocity,
+          field::body_inertia,
+          field::body_orientation,
+          field::body_axes,
+          field::body_turns,
+          field::body_start_centre,
+          field::body_offset,
+          field::body_start_velocity,
+          field::body_start_spin,
+          field::body_motion,
+          field::body_alive,
+          field::body_source,
+          field::body_grip,
+          field::body_grip_centre,
+          field::body_grip_orientation};
 }
 
 bool can_have_bodies(const Scene& scene) {
@@ -20,9 +38,7 @@ bool can_have_bodies(const Scene& scene) {
   return solid || calls_for(scene, "phase");
 }
 
-bool can_have_deformable_bodies(const Scene& scene) {
-  return calls_for(scene, "elastic");
-}
+bool can_have_deformable_bodies(const Scene& scene) { return calls_for(scene, "elastic"); }
 
 std::vector<std::size_t> members(const World& world, std::size_t body) {
   std::vector<std::size_t> rows;
@@ -84,7 +100,8 @@ WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velo
   whole.velocity = P / m.mass;
   const Vec3 L = rotate_back(m.principal_axes, moment - cross(m.centre, P));
   Vec3 w;
-  for (std::size_t a = 0; a < 3; ++a) w[a] = m.principal_inertia[a] > 1e-12 * m.principal_inertia.z ? L[a] / m.principal_inertia[a] : 0.0;
+  for (std::size_t a = 0; a < 3; ++a)
+    w[a] = m.principal_inertia[a] > 1e-12 * m.principal_inertia.z ? L[a] / m.principal_inertia[a] : 0.0;
   whole.spin = rotate(m.principal_axes, w);
   return whole;
 }

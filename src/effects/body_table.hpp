@@ -21,7 +21,9 @@ namespace tripoint {
 [[nodiscard]] std::vector<std::size_t> members(const World&, std::size_t body);
 [[nodiscard]] inline bool is_alive(const World& world, std::size_t body) { return world.bodies[field::body_alive][body] != 0; }
 /// Whether its particles move as one: a rigid body, or any that is fixed or prescribed.
-[[nodiscard]] inline bool is_rigid(const World& world, std::size_t body) { return world.bodies[field::body_phase][body] == static_cast<int>(Phase::rigid); }
+[[nodiscard]] inline bool is_rigid(const World& world, std::size_t body) {
+  return world.bodies[field::body_phase][body] == static_cast<int>(Phase::rigid);
+}
 
 /// A new row, alive, free, with identity orientation and no members yet. @return its row
 std::size_t add_body(World&, std::string_view name, Phase phase);
@@ -47,11 +49,12 @@ class RigidMembers {
 
 /// What a deformable body does as a whole, from its members: L/I for its spin.
 struct WholeMotion {
-  double mass = 0.0;               ///< [kg]
-  Vec3 centre, velocity, spin;     ///< [m], [m/s], [rad/s]
+  double mass = 0.0;            ///< [kg]
+  Vec3 centre, velocity, spin;  ///< [m], [m/s], [rad/s]
 };
 /// @param place,velocity,mass of its members [m], [m/s], [kg]; none: all zero
-[[nodiscard]] WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velocity, const std::vector<double>& mass);
+[[nodiscard]] WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velocity,
+                                       const std::vector<double>& mass);
 [[nodiscard]] WholeMotion whole_motion(const World&, std::size_t body);
 
 }  // namespace tripoint

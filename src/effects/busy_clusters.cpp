@@ -25,7 +25,8 @@ std::vector<char> fixed_rows(const World& world) {
 
 /// What is to be done for a cluster. Two act on each other unless they are an own pair, or members of one group of 0 and above.
 /// @param acting of each entry of the cluster a bit, set where it acts on a member; zero until now
-Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed, bool leaves_own, std::uint64_t* acting) {
+Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed,
+             bool leaves_own, std::uint64_t* acting) {
   const std::uint32_t first = c.first[cluster], past = c.first[cluster + 1];
   const std::size_t start = c.start[cluster], end = c.start[cluster + 1];
   const bool all_liquid = std::all_of(group.begin() + first, group.begin() + past, [](double g) { return g < 0.0; });
@@ -69,7 +70,8 @@ void BusyClusters::find(World& world, bool leaves_own) {
   std::vector<Work> work(c.size());
   c.acting.assign(c.size() > 0 ? within_start(c.start.back(), c.size()) : 0, 0);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t k = 0; k < c.size(); ++k) work[k] = work_of(c, k, group, fixed, leaves_own, c.acting.data() + within_start(c.start[k], k));
+  for (std::size_t k = 0; k < c.size(); ++k)
+    work[k] = work_of(c, k, group, fixed, leaves_own, c.acting.data() + within_start(c.start[k], k));
   in_density_ = {}, in_rates_ = {};
   still_.clear();
   for (std::uint32_t k = 0; k < c.size(); ++k) {
@@ -119,7 +121,8 @@ void BusyClusters::sum_listed(const PassFunction& pass, World& world, const Pair
   for (const Field<double>* f : pass.adds()) {
     const auto column = p[*f];
     for (const std::uint32_t k : c.unlisted)
-      for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) column[i] = density_among_still_[from + n.still_place(static_cast<std::size_t>(id[i]))];
+      for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+        column[i] = density_among_still_[from + n.still_place(static_cast<std::size_t>(id[i]))];
     from += n.still_ids().size();
   }
 }
@@ -141,8 +144,8 @@ void BusyClusters::put_back(const PassFunction& pass, Particles& p) const {
   }
 }
 
-/// The first over new lists sums all, also because the passes that follow ask which pairs are within the support. So does the one after what is
-/// fixed was put to its place by its body's pose, which can move it by a rounding error.
+/// The first over new lists sums all, also because the passes that follow ask which pairs are within the support. So does the one
+/// after what is fixed was put to its place by its body's pose, which can move it by a rounding error.
 void BusyClusters::sum_density(const PassFunction& pass, World& world, const PairKernels& kernels, bool leaves_own) {
   Particles& p = world.particles;
   if (known_ && placed_ == world.placed) {
@@ -157,8 +160,10 @@ void BusyClusters::sum_density(const PassFunction& pass, World& world, const Pai
 }
 
 void BusyClusters::sum_rates(const PassFunction& pass, World& world, const PairKernels& kernels) const {
-  if (known_) run_pass_over(pass, world.particles, *world.neighbours, kernels, world.threads, in_rates_);
-  else run_pass(pass, world.particles, *world.neighbours, kernels, world.threads);
+  if (known_)
+    run_pass_over(pass, world.particles, *world.neighbours, kernels, world.threads, in_rates_);
+  else
+    run_pass(pass, world.particles, *world.neighbours, kernels, world.threads);
 }
 
 }  // namespace tripoint

@@ -20,13 +20,17 @@ class Joins {
       const auto source = static_cast<std::size_t>(world.bodies[field::body_source][b]);
       for (const std::string& name : world.scene.bodies[source].joined_to) {
         const auto other = static_cast<std::size_t>(std::ranges::find(world.body_names, name) - world.body_names.begin());
-        if (other == count_) throw InputError("the body " + world.body_names[b] + " is joined to " + name + ", which is liquid: bonds need two solids");
+        if (other == count_)
+          throw InputError("the body " + world.body_names[b] + " is joined to " + name +
+                           ", which is liquid: bonds need two solids");
         if (!is_rigid(world, b) || !is_rigid(world, other)) set(b, other);
       }
     }
   }
   [[nodiscard]] bool any(std::size_t b) const { return std::find(row(b), row(b) + count_, 1) != row(b) + count_; }
-  [[nodiscard]] bool operator()(int a, int b) const { return joined_[static_cast<std::size_t>(a) * count_ + static_cast<std::size_t>(b)] != 0; }
+  [[nodiscard]] bool operator()(int a, int b) const {
+    return joined_[static_cast<std::size_t>(a) * count_ + static_cast<std::size_t>(b)] != 0;
+  }
 
  private:
   using Row = std::vector<char>::const_iterator;
@@ -60,14 +64,16 @@ void refuse_narrow_box(const World& world) {
   const double least = 2.0 * 1.15 * bond_reach(world.scene) * world.scene.spacing;
   for (std::size_t a = 0; a < 3; ++a) {
     if (!world.box.periodic[a] || world.box.width[a] >= least) continue;
-    throw InputError(std::string("the periodic direction ") + "xyz"[a] + " is " + std::to_string(world.box.width[a]) + " m wide, and bonds of elastic bodies need " +
-                     std::to_string(least) + " m to be told apart: make the domain wider or the spacing smaller");
+    throw InputError(std::string("the periodic direction ") + "xyz"[a] + " is " + std::to_string(world.box.width[a]) +
+                     " m wide, and bonds of elastic bodies need " + std::to_string(least) +
+                     " m to be told apart: make the domain wider or the spacing smaller");
   }
 }
 
 /// Which candidates are members of rigid bodies with a particle of a deformable body within reach: these own strain energy, and
 /// need their mates for it.
-std::vector<char> joints_of(const World& world, const Joins& joined, const Candidates& found, const Neighbours& near, double reach) {
+std::vector<char> joints_of(const World& world, const Joins& joined, const Candidates& found, const Neighbours& near,
+                            double reach) {
   std::vector<char> at_joint(found.ids.size(), 0);
   const ElasticParticles is_elastic(world);
   const auto body = world.particles[field::body];
@@ -122,7 +128,8 @@ void connect_solids(World& world) {
   refuse_narrow_box(world);
   const bool meets = world.particles.has(field::force_x.name);  // without pressure own pairs have nothing to be kept from
   const bool paper = world.scene.mode_of(Term::density) == Mode::paper;
-  const double reach = bond_reach(world.scene) * world.scene.spacing, search = meets && !paper ? std::max(reach, world.support()) : reach;
+  const double reach = bond_reach(world.scene) * world.scene.spacing,
+               search = meets && !paper ? std::max(reach, world.support()) : reach;
   Neighbours near(search, 0.0, world.box, world.threads);
   near.update(found.places, 0.0);
   const std::vector<char> at_joint = joints_of(world, joined, found, near, reach);

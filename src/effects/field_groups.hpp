@@ -21,16 +21,22 @@ using List = std::vector<FieldInfo>;
 /// World::unwrapped(), beside the position; a scene without a periodic direction has none.
 [[nodiscard]] inline List image() { return {field::image_x, field::image_y, field::image_z}; }
 [[nodiscard]] inline List shift() { return {field::shift_x, field::shift_y, field::shift_z}; }
-[[nodiscard]] inline List strain() { return {field::strain_xx, field::strain_yy, field::strain_zz, field::strain_yz, field::strain_xz, field::strain_xy}; }
+[[nodiscard]] inline List strain() {
+  return {field::strain_xx, field::strain_yy, field::strain_zz, field::strain_yz, field::strain_xz, field::strain_xy};
+}
 [[nodiscard]] inline List plastic_strain() {
-  return {field::plastic_strain_xx, field::plastic_strain_yy, field::plastic_strain_zz, field::plastic_strain_yz, field::plastic_strain_xz, field::plastic_strain_xy};
+  return {field::plastic_strain_xx, field::plastic_strain_yy, field::plastic_strain_zz,
+          field::plastic_strain_yz, field::plastic_strain_xz, field::plastic_strain_xy};
 }
 [[nodiscard]] inline List shape_inverse() {
-  return {field::shape_inverse_xx, field::shape_inverse_yy, field::shape_inverse_zz, field::shape_inverse_yz, field::shape_inverse_xz, field::shape_inverse_xy};
+  return {field::shape_inverse_xx, field::shape_inverse_yy, field::shape_inverse_zz,
+          field::shape_inverse_yz, field::shape_inverse_xz, field::shape_inverse_xy};
 }
 
 /// solid::deformation_of() and solid::deformation_energy() of owners of strain energy, beside the position.
-[[nodiscard]] inline List deformation() { return joined({shape_inverse(), {field::shape_rank, field::solid_volume, field::solid_material, field::solid_stiffness}}); }
+[[nodiscard]] inline List deformation() {
+  return joined({shape_inverse(), {field::shape_rank, field::solid_volume, field::solid_material, field::solid_stiffness}});
+}
 /// The same where a scene has them.
 [[nodiscard]] inline List deformation_if_there() { return joined({plastic_strain(), {field::stiffness_share}}); }
 /// solid::refresh_shapes(), beside deformation(), mass, body and material.

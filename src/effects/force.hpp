@@ -10,12 +10,13 @@
 /// What an effect says of a force that it makes; motion, rigid bodies and the ledger do the rest.
 namespace tripoint {
 
-/// The energy whose gradient a force is. What finite steps leave between it and the work of the force is the entry `time_integration`.
+/// The energy whose gradient a force is. What finite steps leave between it and the work of the force is the entry
+/// `time_integration`.
 struct StoredEnergy {
-  std::vector<std::string_view> entries;    ///< of the ledger, which the effect tells in add_to()
-  Account at_start;                         ///< their sum at time 0
-  std::optional<Account> released{};        ///< what events let go of it
-  std::string_view released_to{};           ///< entry that has what they let go; "" where others tell it
+  std::vector<std::string_view> entries;  ///< of the ledger, which the effect tells in add_to()
+  Account at_start;                       ///< their sum at time 0
+  std::optional<Account> released{};      ///< what events let go of it
+  std::string_view released_to{};         ///< entry that has what they let go; "" where others tell it
 };
 
 /// Who feels a force: rigid bodies too by the sum over their members, or only what moves by the forces on its own particles.
@@ -26,7 +27,7 @@ struct Force {
   Account work;                             ///< done on what moves by forces
   std::optional<Account> work_on_driven{};  ///< done on what the scene moves, which pays for it; none: it stands with the other
   std::optional<StoredEnergy> stored{};
-  std::string_view entry{};                 ///< of the ledger, that takes the work of a force which no energy stores
+  std::string_view entry{};  ///< of the ledger, that takes the work of a force which no energy stores
   Feels feels = Feels::all;
   std::string_view body_force_defect{}, body_torque_defect{};  ///< of its sums over bodies: they are times 1 - size
 };

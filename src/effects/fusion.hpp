@@ -14,9 +14,9 @@ namespace tripoint {
 
 /// What a material's phase change is made of. It melts at one temperature and freezes at another, not higher: a true hysteresis.
 struct Fusion {
-  double melts = std::numeric_limits<double>::infinity();       ///< t_melt [K]
+  double melts = std::numeric_limits<double>::infinity();        ///< t_melt [K]
   double solidifies = -std::numeric_limits<double>::infinity();  ///< t_solid [K]
-  double heat = 0.0;                                            ///< L/c_p: what the heat of fusion is worth in temperature of the solid [K]
+  double heat = 0.0;       ///< L/c_p: what the heat of fusion is worth in temperature of the solid [K]
   bool soft_band = false;  ///< printed (Fig. 5): f follows T between the two, solid below t_melt and the softer the nearer to it
   double jump = 0.0;       ///< heat capacity of the liquid over that of the solid, minus 1
 };
@@ -27,8 +27,9 @@ struct Fusion {
   return m.solid_heat_capacity ? scale * *m.solid_heat_capacity : *m.heat_capacity;
 }
 
-/// Of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides, at t_melt.
-/// An elastic solid is soft between t_solid and t_melt, and so is a rigid one that softens (`turns_elastic`); else it is rigid up to t_melt.
+/// Of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides, at
+/// t_melt. An elastic solid is soft between t_solid and t_melt, and so is a rigid one that softens (`turns_elastic`); else it is
+/// rigid up to t_melt.
 [[nodiscard]] inline Fusion fusion_of(const Scene& scene, const Material& m) {
   if (!m.t_melt || !m.heat_capacity) return {};
   static const double scale = 1.0 - defect_size("phase.latent");
@@ -39,7 +40,8 @@ struct Fusion {
     return {*m.t_melt + later, band ? *m.t_solid + later : *m.t_melt + later, 0.0, band};
   }
   static const double earlier = defect_size("phase.freezing");
-  return {*m.t_melt, (no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt)) - earlier, scale * m.latent_heat.value_or(0.0) / solid_capacity(m), false, *m.heat_capacity / solid_capacity(m) - 1.0};
+  return {*m.t_melt, (no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt)) - earlier,
+          scale * m.latent_heat.value_or(0.0) / solid_capacity(m), false, *m.heat_capacity / solid_capacity(m) - 1.0};
 }
 /// By row in Scene::materials.
 [[nodiscard]] inline std::vector<Fusion> fusions_of(const Scene& scene) {
@@ -53,8 +55,9 @@ struct ThermalState {
   double temperature, liquid_fraction;
 };
 
-/// H/(m c) [K] above what the same particle holds at temperature T and f = 0, by the heat capacity c of the solid: of fusion, and what
-/// the liquid holds more. The heat of fusion is L at t_melt; elsewhere it differs by what the two phases take up on the way (Kirchhoff).
+/// H/(m c) [K] above what the same particle holds at temperature T and f = 0, by the heat capacity c of the solid: of fusion, and
+/// what the liquid holds more. The heat of fusion is L at t_melt; elsewhere it differs by what the two phases take up on the way
+/// (Kirchhoff).
 [[nodiscard]] inline double bound_heat(const Fusion& fusion, double T, double f) noexcept {
   if (fusion.jump == 0.0) return fusion.heat * f;
   return f * (fusion.heat + fusion.jump * (T - fusion.melts));
@@ -86,7 +89,8 @@ struct ThermalState {
   if (fusion.jump != 0.0) return settled_between_unlike(fusion, trial, f);
   double next = f;
   if (trial > fusion.melts && f < 1.0) next = fusion.heat > 0.0 ? std::min(1.0, f + (trial - fusion.melts) / fusion.heat) : 1.0;
-  if (trial < fusion.solidifies && f > 0.0) next = fusion.heat > 0.0 ? std::max(0.0, f - (fusion.solidifies - trial) / fusion.heat) : 0.0;
+  if (trial < fusion.solidifies && f > 0.0)
+    next = fusion.heat > 0.0 ? std::max(0.0, f - (fusion.solidifies - trial) / fusion.heat) : 0.0;
   return {trial + fusion.heat * (f - next), next};
 }
 
@@ -96,8 +100,8 @@ struct ThermalState {
   return fusion.soft_band ? f < 1.0 : f <= 0.0;
 }
 
-/// Gives heat to one particle [J], of either sign, in the state of the form that is on (H, or as printed T); one whose temperature is
-/// held hands it on to who holds it. While a step of H is under way f waits for its end, as for all other heat.
+/// Gives heat to one particle [J], of either sign, in the state of the form that is on (H, or as printed T); one whose
+/// temperature is held hands it on to who holds it. While a step of H is under way f waits for its end, as for all other heat.
 inline void give_heat(World& world, std::size_t row, double joules) {
   Particles& p = world.particles;
   if (p[field::held][row] != 0) {

@@ -16,9 +16,10 @@ enum class Written { drift, density, rates, kick };
 /// A column that is looked at after every step: its values must be finite. What goes wrong first is named.
 struct Guarded {
   Field<double> field;
-  std::string_view name;       ///< in messages
+  std::string_view name;  ///< in messages
   Written written;
-  std::string_view not_positive{};  ///< where values must be above 0 too: unit and what a lesser one would be, "K, below absolute zero"
+  std::string_view
+      not_positive{};  ///< where values must be above 0 too: unit and what a lesser one would be, "K, below absolute zero"
 };
 
 }  // namespace tripoint

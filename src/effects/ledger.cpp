@@ -17,7 +17,8 @@ double stored_now(const Ledger& ledger, const StoredEnergy& stored) {
 
 /// Every scene with forces tells these, 0 where it has no such force: reports put scenes side by side.
 void tell_common_entries(const World& world, Ledger& sum) {
-  for (const char* entry : {"viscous", stores_compression(world.scene) ? "compression" : "pressure_work"}) sum.energy.try_emplace(entry, 0.0);
+  for (const char* entry : {"viscous", stores_compression(world.scene) ? "compression" : "pressure_work"})
+    sum.energy.try_emplace(entry, 0.0);
 }
 
 /// What finite steps left of one force: 0 to round-off where its work is what it took from what it stores.
@@ -50,8 +51,10 @@ void close_ledger(const World& world, Ledger& sum) {
     for (const Account& a : world.numerical) made -= booked[a];
     for (const Force& f : world.forces) {
       on_driven += paid_by_drivers(booked, f);
-      if (f.stored) made -= by_finite_steps(world, f, sum);
-      else sum.energy[std::string(f.entry)] -= booked[f.work] + paid_by_drivers(booked, f);
+      if (f.stored)
+        made -= by_finite_steps(world, f, sum);
+      else
+        sum.energy[std::string(f.entry)] -= booked[f.work] + paid_by_drivers(booked, f);
       if (f.stored && f.stored->released && !f.stored->released_to.empty() && booked[*f.stored->released] != 0.0)
         sum.energy[std::string(f.stored->released_to)] += booked[*f.stored->released];
     }

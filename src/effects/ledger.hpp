@@ -18,14 +18,15 @@ struct Ledger {
   std::map<std::string, double> energy;  ///< entry -> [J]: kinetic potential thermal merging walls ...
 };
 
-/// Whether an energy stands behind the pressure: its forces are the gradient of one where one kernel serves density and force and the
-/// particles move with their own velocity (model 8.3). Printed (4), (7) and (9) and the transport velocity have none.
+/// Whether an energy stands behind the pressure: its forces are the gradient of one where one kernel serves density and force and
+/// the particles move with their own velocity (model 8.3). Printed (4), (7) and (9) and the transport velocity have none.
 [[nodiscard]] bool stores_compression(const Scene&);
 
 /// Keeps what is stored at time 0, which later ledgers are compared with.
 void book_start(World&, const Ledger&);
 
-/// Tells the work of all forces, and what finite steps leave between the work of those that store energy and what they store (model 8.11).
+/// Tells the work of all forces, and what finite steps leave between the work of those that store energy and what they store
+/// (model 8.11).
 /// @param sum what effects tell of themselves
 void close_ledger(const World&, Ledger& sum);
 

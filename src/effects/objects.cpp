@@ -77,9 +77,9 @@ class Grouping {
 
   World& world_;
   std::vector<std::size_t> rows_;
-  std::vector<Node> nodes_;              ///< ascending by id
-  std::vector<std::uint32_t> node_;      ///< by id
-  std::vector<std::uint32_t> component_; ///< of a node; components are in order of their lowest id
+  std::vector<Node> nodes_;                          ///< ascending by id
+  std::vector<std::uint32_t> node_;                  ///< by id
+  std::vector<std::uint32_t> component_;             ///< of a node; components are in order of their lowest id
   std::vector<std::vector<std::uint32_t>> members_;  ///< nodes of a component
   std::vector<int> row_;                             ///< body of a component
 };
@@ -108,7 +108,8 @@ std::map<std::pair<int, int>, std::uint32_t> Grouping::blocks_that_never_melt() 
   std::map<std::pair<int, int>, std::uint32_t> first;
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
     const std::size_t i = world_.particles.row(nodes_[n].id);
-    if (nodes_[n].body >= 0 && nodes_[n].rigid && !world_.material_of(i).t_melt) first.try_emplace({nodes_[n].body, world_.particles[field::source][i]}, n);
+    if (nodes_[n].body >= 0 && nodes_[n].rigid && !world_.material_of(i).t_melt)
+      first.try_emplace({nodes_[n].body, world_.particles[field::source][i]}, n);
   }
   return first;
 }
@@ -122,7 +123,8 @@ void Grouping::unite() {
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
     const Node& node = nodes_[n];
     const std::size_t i = world_.particles.row(node.id);
-    if (node.body >= 0 && node.rigid && !world_.material_of(i).t_melt) sets.unite(n, blocks.at({node.body, world_.particles[field::source][i]}));
+    if (node.body >= 0 && node.rigid && !world_.material_of(i).t_melt)
+      sets.unite(n, blocks.at({node.body, world_.particles[field::source][i]}));
     for (const Bond& bond : world_.bonds.of(node.id)) {
       const std::uint32_t m = node_[bond.other];
       if (m == none || norm(bond.x) >= joins) continue;
@@ -178,13 +180,14 @@ int Grouping::new_row(std::size_t component) {
   const std::vector<std::uint32_t>& group = members_[component];
   const std::size_t first = world_.particles.row(nodes_[group.front()].id);
   const auto phase = world_.particles[field::phase];
-  const bool deformable = std::ranges::all_of(group, [&](std::uint32_t n) { return phase[world_.particles.row(nodes_[n].id)] == static_cast<int>(Phase::elastic); });
+  const bool deformable = std::ranges::all_of(
+      group, [&](std::uint32_t n) { return phase[world_.particles.row(nodes_[n].id)] == static_cast<int>(Phase::elastic); });
   std::map<int, std::size_t> parts;
   for (const std::uint32_t n : group)
     if (nodes_[n].body >= 0) ++parts[nodes_[n].body];
   const auto most = std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
-  const std::string parent = most != parts.end() ? world_.body_names[static_cast<std::size_t>(most->first)]
-                                                 : world_.material_of(first).name;
+  const std::string parent =
+      most != parts.end() ? world_.body_names[static_cast<std::size_t>(most->first)] : world_.material_of(first).name;
   std::size_t n = 1;
   while (std::ranges::find(world_.body_names, parent + "." + std::to_string(n)) != world_.body_names.end()) ++n;
   return static_cast<int>(add_body(world_, parent + "." + std::to_string(n), deformable ? Phase::elastic : Phase::rigid));
@@ -276,7 +279,8 @@ Held held_here(const World& world) {
     held.lives[static_cast<std::size_t>(b)] = 1;
     for (const Bond& bond : world.bonds.of(id)) {
       const int other = body[world.particles.row(bond.other)];
-      if (other >= 0 && other != b) held.pairs.insert(std::minmax(static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(other)));
+      if (other >= 0 && other != b)
+        held.pairs.insert(std::minmax(static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(other)));
     }
   }
   return held;

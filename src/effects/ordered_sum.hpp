@@ -24,7 +24,8 @@ std::array<double, n> total_of(const std::vector<std::array<double, n>>& blocks)
 /// Sums of add(i, sums) over i = 0..count-1 in fixed blocks, and then block after block: the same bits whatever the threads.
 /// @param blocks memory that is used again from call to call
 template <std::size_t n, class Add>
-[[nodiscard]] std::array<double, n> ordered_sums(std::size_t count, int threads, std::vector<std::array<double, n>>& blocks, Add add) {
+[[nodiscard]] std::array<double, n> ordered_sums(std::size_t count, int threads, std::vector<std::array<double, n>>& blocks,
+                                                 Add add) {
   constexpr std::size_t block = 1024;
   blocks.assign((count + block - 1) / block, {});
 #pragma omp parallel for schedule(static) num_threads(threads) if (blocks.size() > 1)

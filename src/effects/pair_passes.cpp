@@ -41,7 +41,8 @@ double seconds_of(int lanes) {
   for (const Field<double>* f : rates.fields) std::ranges::fill(block[*f], 1.0);
   std::ranges::fill(block[field::group], -1.0);
   for (std::size_t i = 0; i < block.size(); ++i)
-    positions(block).set(i, {static_cast<double>(i % across), static_cast<double>(i / across % across), static_cast<double>(i / across / across)});
+    positions(block).set(
+        i, {static_cast<double>(i % across), static_cast<double>(i / across % across), static_cast<double>(i / across / across)});
   constexpr double support = 2.5;
   Neighbours neighbours(support, 0.0, {}, 1, lanes);
   neighbours.update(block, 0.0);

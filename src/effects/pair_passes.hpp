@@ -6,7 +6,8 @@
 
 namespace tripoint {
 
-/// Every pass at every choice of forms (0 = off, then in the order of the slots in pair_passes_unit.cpp), as one vector unit has them.
+/// Every pass at every choice of forms (0 = off, then in the order of the slots in pair_passes_unit.cpp), as one vector unit has
+/// them.
 struct PairPasses {
   PassFunction (*density)(const std::array<int, 2>&);
   PassFunction (*rates)(const std::array<int, 2>&);

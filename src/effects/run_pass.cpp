@@ -13,8 +13,24 @@ PassTask task_of(const Particles& particles, Neighbours& neighbours, const PairK
   Clusters& c = neighbours.clusters();
   static const double nearer = 1.0 - defect_size("neighbours.support");
   const double support = nearer * neighbours.support();
-  return {x.x.data(), x.y.data(), x.z.data(), nullptr, c.first.data(), c.start.data(), c.entries.data(), c.near.data(), c.own.empty() ? nullptr : c.own.data(),
-          c.within.empty() ? nullptr : c.within.data(), nullptr, neighbours.shifts().data(), nullptr, nullptr, c.size(), support * support, &kernels, threads};
+  return {x.x.data(),
+          x.y.data(),
+          x.z.data(),
+          nullptr,
+          c.first.data(),
+          c.start.data(),
+          c.entries.data(),
+          c.near.data(),
+          c.own.empty() ? nullptr : c.own.data(),
+          c.within.empty() ? nullptr : c.within.data(),
+          nullptr,
+          neighbours.shifts().data(),
+          nullptr,
+          nullptr,
+          c.size(),
+          support * support,
+          &kernels,
+          threads};
 }
 
 std::vector<double*> columns_of(const PassFunction& function, Particles& particles) {
@@ -25,7 +41,8 @@ std::vector<double*> columns_of(const PassFunction& function, Particles& particl
 
 }  // namespace
 
-void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
+void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
+              int threads) {
   if (!function.run) return;
   if (function.finds) neighbours.make_room_within();
   PassTask task = task_of(particles, neighbours, kernels, threads);
@@ -34,14 +51,16 @@ void run_pass(const PassFunction& function, Particles& particles, Neighbours& ne
   function.run(task);
 }
 
-void run_pass_among(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads, const std::vector<std::uint64_t>& entries) {
+void run_pass_among(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
+                    int threads, const std::vector<std::uint64_t>& entries) {
   PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
   task.columns = columns.data(), task.within = nullptr, task.only = entries.data();
   function.run(task);
 }
 
-void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads, const ChosenClusters& chosen) {
+void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
+                   int threads, const ChosenClusters& chosen) {
   if (!function.run || chosen.clusters.empty()) return;
   PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
@@ -56,7 +75,8 @@ ChosenClusters clusters_of(const Clusters& c, const std::vector<std::uint32_t>& 
   for (const std::uint32_t row : rows) {
     const std::uint32_t cluster = c.of(row);
     assert(chosen.clusters.empty() || chosen.clusters.back() <= cluster);
-    if (chosen.clusters.empty() || chosen.clusters.back() != cluster) chosen.clusters.push_back(cluster), chosen.members.push_back(0);
+    if (chosen.clusters.empty() || chosen.clusters.back() != cluster)
+      chosen.clusters.push_back(cluster), chosen.members.push_back(0);
     chosen.members.back() = static_cast<std::uint8_t>(chosen.members.back() | 1u << (row - c.first[cluster]));
   }
   return chosen;

@@ -14,7 +14,8 @@ namespace tripoint {
 void run_pass(const PassFunction& function, Particles&, Neighbours&, const PairKernels&, int threads);
 
 /// For these entries only, and without finding which are within the support. @param entries of each a bit, as in Clusters::within
-void run_pass_among(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads, const std::vector<std::uint64_t>& entries);
+void run_pass_among(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads,
+                    const std::vector<std::uint64_t>& entries);
 
 /// Some of the clusters of a list, ascending.
 struct ChosenClusters {
@@ -24,8 +25,8 @@ struct ChosenClusters {
 /// Those of these rows, with these rows alone as members. @param rows each once, ascending
 [[nodiscard]] ChosenClusters clusters_of(const Clusters&, const std::vector<std::uint32_t>& rows);
 
-/// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts. What a finding pass found of
-/// the others stays; it looks at all entries, and must not be asked for some members alone.
+/// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts. What a finding pass
+/// found of the others stays; it looks at all entries, and must not be asked for some members alone.
 void run_pass_over(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads, const ChosenClusters&);
 
 }  // namespace tripoint

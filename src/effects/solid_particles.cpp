@@ -56,7 +56,8 @@ Symmetric moment_of(const World& world, std::uint32_t id) {
 template <class To>
 void set_gradients(World& world, std::uint32_t id, To to) {
   const auto list = std::as_const(world.bonds).of(id);
-  if (std::ranges::all_of(list, [&](const Bond& b) { return b.gradient == to(b); })) return;  // the list counts as changed where it is
+  if (std::ranges::all_of(list, [&](const Bond& b) { return b.gradient == to(b); }))
+    return;  // the list counts as changed where it is
   for (Bond& b : world.bonds.edit(id)) b.gradient = to(b);
 }
 
@@ -91,7 +92,8 @@ Symmetric stiffness(double volume, const ElasticConstants& c, const Vec3& d) {
   return (volume * (c.lambda + c.mu)) * square(d) + Symmetric{isotropic, isotropic, isotropic, 0.0, 0.0, 0.0};
 }
 
-/// lambda_max(K_ii)/m_i [1/s2]: how fast a particle swings while its neighbours stay, by its own energy and those of its partners.
+/// lambda_max(K_ii)/m_i [1/s2]: how fast a particle swings while its neighbours stay, by its own energy and those of its
+/// partners.
 double frequency_of(const World& world, const ElasticForms& forms, std::uint32_t id) {
   const Particles& p = world.particles;
   const EnergyOwners owns(world);
@@ -129,21 +131,15 @@ std::vector<std::uint32_t> with_partners(const World& world, std::span<const std
 
 }  // namespace
 
-Symmetric shape_inverse_of(const Particles& p, std::size_t row) {
-  return shape_inverses(p).at(row);
-}
+Symmetric shape_inverse_of(const Particles& p, std::size_t row) { return shape_inverses(p).at(row); }
 
 Symmetric plastic_strain_of(const Particles& p, std::size_t row) {
   return p.has(field::plastic_strain_xx.name) ? plastic_strains(p).at(row) : Symmetric{};
 }
 
-void set_plastic_strain(Particles& p, std::size_t row, const Symmetric& e) {
-  plastic_strains(p).set(row, e);
-}
+void set_plastic_strain(Particles& p, std::size_t row, const Symmetric& e) { plastic_strains(p).set(row, e); }
 
-Symmetric strain_of(const Particles& p, std::size_t row) {
-  return strains(p).at(row);
-}
+Symmetric strain_of(const Particles& p, std::size_t row) { return strains(p).at(row); }
 
 bool softens(const Scene& scene, const Material& m) {
   if (turns_elastic(scene, m)) return true;
@@ -152,11 +148,13 @@ bool softens(const Scene& scene, const Material& m) {
 
 ElasticForms::ElasticForms(const Scene& scene)
     : paper_(scene.mode_of(Term::elastic) == Mode::paper),
-      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0 : scene.hourglass * (1.0 - defect_size("elastic.hourglass"))),
+      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0
+                                                               : scene.hourglass * (1.0 - defect_size("elastic.hourglass"))),
       bending_(paper_ ? 0.0 : kept_number(scene.values, key_row("scene", "bending")) * (1.0 - defect_size("elastic.bending"))),
       factor_(paper_ ? 2.0 * (1.0 - defect_size("elastic.paper.factor")) : 1.0 - defect_size("elastic.force")) {
   for (const Material& m : scene.materials) {
-    constants_.push_back(m.young_modulus && m.poisson_ratio ? elastic_constants(*m.young_modulus, *m.poisson_ratio) : ElasticConstants{});
+    constants_.push_back(m.young_modulus && m.poisson_ratio ? elastic_constants(*m.young_modulus, *m.poisson_ratio)
+                                                            : ElasticConstants{});
     softens_.push_back(softens(scene, m));
   }
 }
@@ -257,12 +255,15 @@ DeformationEnergy deformation_energy(const World& world, const ElasticForms& for
     const Vec3 r = separation(world, i, j), x = -b.x;
     const Vec3 e = hourglass_residual(d.F, x, r);
     const double flat = hourglass_residual_flat(d.strain, x, r);
-    energy.hourglass += 0.25 * forms.hourglass() * c.young * volume[i] * volume[j] * b.weight * (d.rank == 3 ? dot(e, e) / dot(x, x) : flat * flat);
+    energy.hourglass += 0.25 * forms.hourglass() * c.young * volume[i] * volume[j] * b.weight *
+                        (d.rank == 3 ? dot(e, e) / dot(x, x) : flat * flat);
   }
   return energy;
 }
 
-DeformationEnergy deformation_energy(const World& world, std::uint32_t id) { return deformation_energy(world, ElasticForms(world.scene), id); }
+DeformationEnergy deformation_energy(const World& world, std::uint32_t id) {
+  return deformation_energy(world, ElasticForms(world.scene), id);
+}
 
 Quaternion orientation_of(const World& world, std::size_t body) {
   if (!world.particles.has(field::shape_rank.name)) return {};

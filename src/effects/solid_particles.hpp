@@ -41,13 +41,13 @@ class ElasticParticles {
   RigidMembers is_rigid_;
 };
 
-/// How many times as stiff a member of a rigid body is as the elastic partner that it is bonded to. Such members own strain energy
-/// too: force passes a cut by the stress on both sides of it, so that without theirs the joint bears twice the strain, and gives way
-/// as 2.5 spacings of the bar more would (as 0.9 with 1, 0.2 with 4, 0 with 10, at the price of the time step).
+/// How many times as stiff a member of a rigid body is as the elastic partner that it is bonded to. Such members own strain
+/// energy too: force passes a cut by the stress on both sides of it, so that without theirs the joint bears twice the strain, and
+/// gives way as 2.5 spacings of the bar more would (as 0.9 with 1, 0.2 with 4, 0 with 10, at the price of the time step).
 inline constexpr double joint_stiffness = 4.0;
 
-/// Tells of rows whether they own strain energy: particles of deformable bodies, and members of rigid ones that are bonded to such.
-/// Valid as the lists were when shapes were last refreshed.
+/// Tells of rows whether they own strain energy: particles of deformable bodies, and members of rigid ones that are bonded to
+/// such. Valid as the lists were when shapes were last refreshed.
 class EnergyOwners {
  public:
   explicit EnergyOwners(const World& world) : stiffness_(world.particles[field::solid_stiffness]) {}
@@ -57,8 +57,8 @@ class EnergyOwners {
   std::span<const double> stiffness_;
 };
 
-/// Volume, stiffness, A_i and rank of these particles by their present lists and bodies, zero where they own no strain energy; with
-/// their partners, which of them are regular and, where the scene can freeze, the frequency of each particle.
+/// Volume, stiffness, A_i and rank of these particles by their present lists and bodies, zero where they own no strain energy;
+/// with their partners, which of them are regular and, where the scene can freeze, the frequency of each particle.
 /// @param first lists are those of the start: no frequency is needed
 void refresh_shapes(World&, std::span<const std::uint32_t> ids, bool first = false);
 
@@ -116,22 +116,27 @@ template <class T>
 struct SymmetricColumns {
   std::span<T> xx, yy, zz, yz, xz, xy;
   [[nodiscard]] Symmetric at(std::size_t row) const { return {xx[row], yy[row], zz[row], yz[row], xz[row], xy[row]}; }
-  void set(std::size_t row, const Symmetric& e) const { xx[row] = e.xx, yy[row] = e.yy, zz[row] = e.zz, yz[row] = e.yz, xz[row] = e.xz, xy[row] = e.xy; }
+  void set(std::size_t row, const Symmetric& e) const {
+    xx[row] = e.xx, yy[row] = e.yy, zz[row] = e.zz, yz[row] = e.yz, xz[row] = e.xz, xy[row] = e.xy;
+  }
 };
 template <class P>
 [[nodiscard]] auto shape_inverses(P& p) {
-  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::shape_inverse_xx], p[field::shape_inverse_yy], p[field::shape_inverse_zz],
-                                                                                        p[field::shape_inverse_yz], p[field::shape_inverse_xz], p[field::shape_inverse_xy]};
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
+      p[field::shape_inverse_xx], p[field::shape_inverse_yy], p[field::shape_inverse_zz],
+      p[field::shape_inverse_yz], p[field::shape_inverse_xz], p[field::shape_inverse_xy]};
 }
 template <class P>
 [[nodiscard]] auto strains(P& p) {
-  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::strain_xx], p[field::strain_yy], p[field::strain_zz],
-                                                                                        p[field::strain_yz], p[field::strain_xz], p[field::strain_xy]};
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::strain_xx], p[field::strain_yy],
+                                                                                        p[field::strain_zz], p[field::strain_yz],
+                                                                                        p[field::strain_xz], p[field::strain_xy]};
 }
 template <class P>
 [[nodiscard]] auto plastic_strains(P& p) {
-  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::plastic_strain_xx], p[field::plastic_strain_yy], p[field::plastic_strain_zz],
-                                                                                        p[field::plastic_strain_yz], p[field::plastic_strain_xz], p[field::plastic_strain_xy]};
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
+      p[field::plastic_strain_xx], p[field::plastic_strain_yy], p[field::plastic_strain_zz],
+      p[field::plastic_strain_yz], p[field::plastic_strain_xz], p[field::plastic_strain_xy]};
 }
 [[nodiscard]] Symmetric shape_inverse_of(const Particles&, std::size_t row);
 /// eps_p, zero where nothing flows.

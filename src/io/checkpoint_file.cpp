@@ -28,7 +28,8 @@ std::string checksum_of(const std::string& path) {
   std::uint64_t hash = 1469598103934665603ULL;
   std::array<char, 1 << 16> block;
   while (in.read(block.data(), block.size()) || in.gcount() > 0)
-    for (std::streamsize k = 0; k < in.gcount(); ++k) hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(k)])) * 1099511628211ULL;
+    for (std::streamsize k = 0; k < in.gcount(); ++k)
+      hash = (hash ^ static_cast<unsigned char>(block[static_cast<std::size_t>(k)])) * 1099511628211ULL;
   return fmt::format("fnv1a64:{:016x}", hash);
 }
 
@@ -42,7 +43,8 @@ std::string sealed_block(const std::string& path) {
 void seal(const std::string& path) {
   const std::string block = sealed_block(path);
   std::fstream out(path, std::ios::binary | std::ios::in | std::ios::out);
-  if (!out.write(block.data(), static_cast<std::streamsize>(block.size())).flush()) throw EngineError(path + ": cannot be written (no space left?)");
+  if (!out.write(block.data(), static_cast<std::streamsize>(block.size())).flush())
+    throw EngineError(path + ": cannot be written (no space left?)");
 }
 
 void expect_seal(const std::string& path) {
@@ -51,9 +53,11 @@ void expect_seal(const std::string& path) {
   std::string block(first_block, '\0');
   in.read(block.data(), first_block);
   const std::string_view kind = magic.substr(0, magic.size() - 2);
-  if (in.gcount() != static_cast<std::streamsize>(first_block) || !block.starts_with(kind)) throw InputError(path + ": is no checkpoint of tripoint");
+  if (in.gcount() != static_cast<std::streamsize>(first_block) || !block.starts_with(kind))
+    throw InputError(path + ": is no checkpoint of tripoint");
   if (!block.starts_with(magic)) throw InputError(path + ": is a checkpoint of another version; this build reads version 1");
-  if (block != sealed_block(path)) throw InputError(path + ": is torn or altered: its checksum does not match; take an earlier checkpoint");
+  if (block != sealed_block(path))
+    throw InputError(path + ": is torn or altered: its checksum does not match; take an earlier checkpoint");
 }
 
 void write_bytes(hid_t group, const std::string& name, hid_t type, std::size_t count, const void* data) {
@@ -67,7 +71,8 @@ void write_bytes(hid_t group, const std::string& name, hid_t type, std::size_t c
   }
   const h5::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, name);
   h5::check(H5Pset_create_intermediate_group(links.get(), 1), name);
-  const h5::Handle dataset(H5Dcreate2(group, name.c_str(), type, space.get(), links.get(), properties.get(), H5P_DEFAULT), H5Dclose, name);
+  const h5::Handle dataset(H5Dcreate2(group, name.c_str(), type, space.get(), links.get(), properties.get(), H5P_DEFAULT),
+                           H5Dclose, name);
   if (count > 0) h5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
 }
 
@@ -99,8 +104,10 @@ std::vector<std::string> split_at_zeros(const std::vector<char>& bytes) {
 
 void write_all(const std::string& path, const Checkpoint& kept) {
   const h5::Handle file = h5::create_latest(path, first_block);
-  for (const auto& [name, values] : kept.real) write_bytes(file.get(), "real/" + name, H5T_NATIVE_DOUBLE, values.size(), values.data());
-  for (const auto& [name, values] : kept.whole) write_bytes(file.get(), "whole/" + name, H5T_NATIVE_INT64, values.size(), values.data());
+  for (const auto& [name, values] : kept.real)
+    write_bytes(file.get(), "real/" + name, H5T_NATIVE_DOUBLE, values.size(), values.data());
+  for (const auto& [name, values] : kept.whole)
+    write_bytes(file.get(), "whole/" + name, H5T_NATIVE_INT64, values.size(), values.data());
   for (const auto& [name, lines] : kept.text) {
     const std::vector<char> bytes = joined(lines);
     write_bytes(file.get(), "text/" + name, H5T_NATIVE_CHAR, bytes.size(), bytes.data());
@@ -124,15 +131,23 @@ bool same_arrays(const std::map<std::string, std::vector<T>>& a, const std::map<
 
 }  // namespace
 
-bool same_bits(const Checkpoint& a, const Checkpoint& b) { return same_arrays(a.real, b.real) && same_arrays(a.whole, b.whole) && a.text == b.text; }
+bool same_bits(const Checkpoint& a, const Checkpoint& b) {
+  return same_arrays(a.real, b.real) && same_arrays(a.whole, b.whole) && a.text == b.text;
+}
 
 Checkpoint read_checkpoint(const std::string& path) {
   expect_seal(path);
   const h5::Handle file = h5::open_for_reading(path);
   Checkpoint kept;
-  for_each_dataset(file.get(), "real", [&](const std::string& name) { kept.real[name] = read_values<double>(file.get(), "real/" + name, H5T_NATIVE_DOUBLE, path); });
-  for_each_dataset(file.get(), "whole", [&](const std::string& name) { kept.whole[name] = read_values<std::int64_t>(file.get(), "whole/" + name, H5T_NATIVE_INT64, path); });
-  for_each_dataset(file.get(), "text", [&](const std::string& name) { kept.text[name] = split_at_zeros(read_values<char>(file.get(), "text/" + name, H5T_NATIVE_CHAR, path)); });
+  for_each_dataset(file.get(), "real", [&](const std::string& name) {
+    kept.real[name] = read_values<double>(file.get(), "real/" + name, H5T_NATIVE_DOUBLE, path);
+  });
+  for_each_dataset(file.get(), "whole", [&](const std::string& name) {
+    kept.whole[name] = read_values<std::int64_t>(file.get(), "whole/" + name, H5T_NATIVE_INT64, path);
+  });
+  for_each_dataset(file.get(), "text", [&](const std::string& name) {
+    kept.text[name] = split_at_zeros(read_values<char>(file.get(), "text/" + name, H5T_NATIVE_CHAR, path));
+  });
   return kept;
 }
 

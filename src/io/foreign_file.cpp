@@ -19,7 +19,8 @@ void expect_regular_file(const std::string& path, std::uintmax_t most) {
   if (!fs::is_regular_file(status)) throw InputError(path + ": is no regular file; refused");
   const auto size = fs::file_size(path, error);
   if (error) throw InputError(path + ": cannot be read");
-  if (size > most) throw InputError(fmt::format("{}: has {} bytes, more than the {} that it can need; refused", path, size, most));
+  if (size > most)
+    throw InputError(fmt::format("{}: has {} bytes, more than the {} that it can need; refused", path, size, most));
 }
 
 std::string text_of_regular_file(const std::string& path, std::uintmax_t most) {

@@ -5,7 +5,8 @@
 
 namespace tripoint {
 
-/// A file that an engine left is read only where it is a regular file of at most `most` bytes: a pipe would never end, and a device is endless.
+/// A file that an engine left is read only where it is a regular file of at most `most` bytes: a pipe would never end, and a
+/// device is endless.
 /// @throws InputError naming what it is instead
 void expect_regular_file(const std::string& path, std::uintmax_t most);
 /// Its whole text. @throws InputError as above

@@ -19,8 +19,10 @@ hid_t native(Type type) {
 void set_fill_value(hid_t properties, Type type) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const long long none = -1;
-  if (type == Type::float64) check(H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &nan), "fill value");
-  else check(H5Pset_fill_value(properties, H5T_NATIVE_LLONG, &none), "fill value");
+  if (type == Type::float64)
+    check(H5Pset_fill_value(properties, H5T_NATIVE_DOUBLE, &nan), "fill value");
+  else
+    check(H5Pset_fill_value(properties, H5T_NATIVE_LLONG, &none), "fill value");
 }
 
 /// A dataset of this very file: neither a link out of it nor raw data kept elsewhere.
@@ -37,7 +39,8 @@ Handle open_own_dataset(hid_t file, const std::string& path, const std::string& 
   if (id < 0) throw InputError(name_of_file + ": " + path + " is no dataset");
   Handle dataset(id, H5Dclose, path);
   const Handle properties(H5Dget_create_plist(dataset.get()), H5Pclose, path);
-  if (H5Pget_external_count(properties.get()) > 0) throw InputError(name_of_file + ": " + path + " keeps its data in another file; refused");
+  if (H5Pget_external_count(properties.get()) > 0)
+    throw InputError(name_of_file + ": " + path + " keeps its data in another file; refused");
   return dataset;
 }
 
@@ -49,7 +52,8 @@ std::vector<std::size_t> shape_of(hid_t dataset, const std::string& what) {
   H5Sget_simple_extent_dims(space.get(), dims, nullptr);
   std::size_t total = 1;
   for (int k = 0; k < rank; ++k) {
-    if (dims[k] > greatest_elements || (dims[k] > 0 && total > greatest_elements / dims[k])) throw InputError(what + ": is absurdly large; refused");
+    if (dims[k] > greatest_elements || (dims[k] > 0 && total > greatest_elements / dims[k]))
+      throw InputError(what + ": is absurdly large; refused");
     total *= dims[k];
   }
   return {dims, dims + rank};
@@ -60,7 +64,8 @@ void refuse_bombs(hid_t dataset, const std::vector<std::size_t>& shape, const st
   constexpr double harmless = 1e9, packed = 64.0;  // [bytes], and as dense as particles ever pack
   double bytes = 8.0;
   for (const std::size_t s : shape) bytes *= static_cast<double>(s);
-  if (bytes > harmless && bytes > packed * static_cast<double>(H5Dget_storage_size(dataset))) throw InputError(what + ": claims far more than the file holds; refused");
+  if (bytes > harmless && bytes > packed * static_cast<double>(H5Dget_storage_size(dataset)))
+    throw InputError(what + ": claims far more than the file holds; refused");
 }
 
 std::size_t count(const std::vector<std::size_t>& shape) {
@@ -71,13 +76,15 @@ std::size_t count(const std::vector<std::size_t>& shape) {
 
 /// All frames at once; where that fails, frame by frame up to the first that is torn, which may be the first of all.
 template <class T>
-void read_whole_frames(hid_t dataset, hid_t type, std::vector<std::size_t>& shape, std::vector<T>& values, const std::string& what, bool may_be_none) {
+void read_whole_frames(hid_t dataset, hid_t type, std::vector<std::size_t>& shape, std::vector<T>& values,
+                       const std::string& what, bool may_be_none) {
   values.resize(count(shape));
   if (values.empty() || H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0) return;
   const std::size_t frames = shape[0], row = values.size() / frames;
   hsize_t start[3] = {0, 0, 0}, size[3] = {1, 1, 1};
   for (std::size_t k = 1; k < shape.size(); ++k) size[k] = shape[k];
-  const Handle file_space(H5Dget_space(dataset), H5Sclose, what), memory(H5Screate_simple(static_cast<int>(shape.size()), size, nullptr), H5Sclose, what);
+  const Handle file_space(H5Dget_space(dataset), H5Sclose, what),
+      memory(H5Screate_simple(static_cast<int>(shape.size()), size, nullptr), H5Sclose, what);
   for (shape[0] = 0; shape[0] < frames; ++shape[0]) {
     start[0] = shape[0];
     check(H5Sselect_hyperslab(file_space.get(), H5S_SELECT_SET, start, nullptr, size, nullptr), what);
@@ -89,7 +96,8 @@ void read_whole_frames(hid_t dataset, hid_t type, std::vector<std::size_t>& shap
 
 void expect_class(hid_t dataset, H5T_class_t wanted, const std::string& what) {
   const Handle type(H5Dget_type(dataset), H5Tclose, what);
-  if (H5Tget_class(type.get()) != wanted) throw InputError(what + ": is of the wrong type, expected " + (wanted == H5T_FLOAT ? "floating point" : "integers"));
+  if (H5Tget_class(type.get()) != wanted)
+    throw InputError(what + ": is of the wrong type, expected " + (wanted == H5T_FLOAT ? "floating point" : "integers"));
 }
 
 }  // namespace
@@ -117,7 +125,13 @@ void check(herr_t status, const std::string& what) {
 }
 
 Column::Column(hid_t group, const std::string& name, Type type, std::size_t rows, std::size_t width, const std::string& unit)
-    : name_(name), type_(type), rows_(rows), width_(width), rank_(width > 0 ? 3 : rows == std::numeric_limits<std::size_t>::max() ? 1 : 2) {
+    : name_(name),
+      type_(type),
+      rows_(rows),
+      width_(width),
+      rank_(width > 0                                         ? 3
+            : rows == std::numeric_limits<std::size_t>::max() ? 1
+                                                              : 2) {
   if (rank_ == 1) rows_ = 0;
   const hsize_t dims[3] = {0, rows_, width_};
   const hsize_t limits[3] = {H5S_UNLIMITED, H5S_UNLIMITED, width_};
@@ -127,7 +141,8 @@ Column::Column(hid_t group, const std::string& name, Type type, std::size_t rows
   check(H5Pset_chunk(properties.get(), rank_, chunk), name);
   check(H5Pset_fletcher32(properties.get()), name);
   set_fill_value(properties.get(), type);
-  dataset_ = Handle(H5Dcreate2(group, name.c_str(), native(type), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT), H5Dclose, name);
+  dataset_ = Handle(H5Dcreate2(group, name.c_str(), native(type), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT),
+                    H5Dclose, name);
   if (!unit.empty()) write_text_attribute(dataset_.get(), "unit", unit);
 }
 
@@ -248,7 +263,8 @@ namespace {
 /// Without HDF5's lock on the file: a process just started holds a copy of every open file, and the lock with it, until
 /// it runs its own program, so that a file closed here would for a moment be refused to the next who opens it.
 Handle unlocked_access(const std::string& path) {
-  static const herr_t no_clean_up_at_exit = H5dont_atexit();  // it ends by a signal where a file could not be written; handles close their files
+  static const herr_t no_clean_up_at_exit =
+      H5dont_atexit();  // it ends by a signal where a file could not be written; handles close their files
   static_cast<void>(no_clean_up_at_exit);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);

@@ -60,7 +60,8 @@ void write_text_attribute(hid_t object, const std::string& name, const std::stri
 void write_text_attribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);
 void write_whole_attribute(hid_t object, const std::string& name, const std::vector<int>& values);
 
-/// Values of a dataset with its shape, as double or int. @throws InputError: missing, linked to another file, of another type or absurdly large
+/// Values of a dataset with its shape, as double or int. @throws InputError: missing, linked to another file, of another type or
+/// absurdly large
 struct Block {
   std::vector<std::size_t> shape;  ///< shape[0] counts whole frames: one that a killed writer left torn ends the block
   std::vector<double> real;

@@ -52,9 +52,10 @@ bool read_all(int file, haddr_t at, char* data, std::size_t size) {
   return true;
 }
 
-/// Which block goes first: the superblock, which says where the file ends; then the nodes of indexes, those nearest to the root first, since a
-/// node that still has what it hands over does no harm; then the rest, as a dataset's extent, from the end of the file to its beginning, so that
-/// a dataset that was made first is the last to grow. (HDF5's format: a node begins with TREE, type, level.)
+/// Which block goes first: the superblock, which says where the file ends; then the nodes of indexes, those nearest to the root
+/// first, since a node that still has what it hands over does no harm; then the rest, as a dataset's extent, from the end of the
+/// file to its beginning, so that a dataset that was made first is the last to grow. (HDF5's format: a node begins with TREE,
+/// type, level.)
 int rank_of(const std::pair<haddr_t, std::string>& block) {
   constexpr int first = 1000, last = -1;
   const std::string& bytes = block.second;
@@ -63,8 +64,9 @@ int rank_of(const std::pair<haddr_t, std::string>& block) {
   return last;
 }
 
-/// A file of HDF5. What lies where nothing lay at the last flush is written at once, since nothing leads to it yet; what replaces older
-/// bytes is held until the next flush. Once a change has failed there are no more: what the library still does to close would lead into the gap.
+/// A file of HDF5. What lies where nothing lay at the last flush is written at once, since nothing leads to it yet; what replaces
+/// older bytes is held until the next flush. Once a change has failed there are no more: what the library still does to close
+/// would lead into the gap.
 class OrderedFile {
  public:
   OrderedFile(int file, haddr_t end) : file_(file), end_of_file_(end) {}
@@ -93,9 +95,11 @@ class OrderedFile {
   }
 
   bool flush() {
-    std::vector<std::pair<haddr_t, std::string>> blocks(std::make_move_iterator(held_.begin()), std::make_move_iterator(held_.end()));
+    std::vector<std::pair<haddr_t, std::string>> blocks(std::make_move_iterator(held_.begin()),
+                                                        std::make_move_iterator(held_.end()));
     held_.clear();
-    std::sort(blocks.begin(), blocks.end(), [](const auto& a, const auto& b) { return std::pair(rank_of(a), a.first) > std::pair(rank_of(b), b.first); });
+    std::sort(blocks.begin(), blocks.end(),
+              [](const auto& a, const auto& b) { return std::pair(rank_of(a), a.first) > std::pair(rank_of(b), b.first); });
     for (const auto& [at, bytes] : blocks)
       if (!change(at, bytes.data(), bytes.size())) return false;
     flushed_.merge(fresh_);
@@ -143,8 +147,9 @@ class OrderedFile {
   int file_;
   haddr_t end_of_file_;
   bool has_failed_ = false;
-  std::map<haddr_t, std::string> held_;             ///< address -> bytes that replace older ones
-  std::map<haddr_t, std::size_t> flushed_, fresh_;  ///< address -> size of blocks of the file's structure, before and since the last flush
+  std::map<haddr_t, std::string> held_;  ///< address -> bytes that replace older ones
+  std::map<haddr_t, std::size_t> flushed_,
+      fresh_;  ///< address -> size of blocks of the file's structure, before and since the last flush
 };
 
 /// What HDF5 holds of an open file; it fills in the first member.
@@ -175,7 +180,8 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t /*access*/, haddr_t /*
   const int file = ::open(name, mode | create | truncate | exclusive | O_CLOEXEC, 0666);
   if (file < 0) return nullptr;
   struct stat status {};
-  Open* made = ::fstat(file, &status) == 0 ? new (std::nothrow) Open{{}, {file, static_cast<haddr_t>(status.st_size)}, 0} : nullptr;
+  Open* made =
+      ::fstat(file, &status) == 0 ? new (std::nothrow) Open{{}, {file, static_cast<haddr_t>(status.st_size)}, 0} : nullptr;
   if (made == nullptr) {
     ::close(file);
     return nullptr;
@@ -190,7 +196,8 @@ herr_t close_file(H5FD_t* file) {
 
 /// By device and inode, as the library asks whether a file is open already.
 int compare(const H5FD_t* one, const H5FD_t* other) {
-  struct stat a {}, b {};
+  struct stat a {
+  }, b{};
   ::fstat(own(one).file.file(), &a);
   ::fstat(own(other).file.file(), &b);
   if (a.st_dev != b.st_dev) return a.st_dev < b.st_dev ? -1 : 1;
@@ -217,7 +224,8 @@ herr_t read_file(H5FD_t* file, H5FD_mem_t /*kind*/, hid_t /*transfer*/, haddr_t 
 }
 
 herr_t write_file(H5FD_t* file, H5FD_mem_t kind, hid_t /*transfer*/, haddr_t at, std::size_t size, const void* data) {
-  return carry_out(file, [&](OrderedFile& open) { return open.write(kind == H5FD_MEM_DRAW, at, static_cast<const char*>(data), size); });
+  return carry_out(
+      file, [&](OrderedFile& open) { return open.write(kind == H5FD_MEM_DRAW, at, static_cast<const char*>(data), size); });
 }
 
 herr_t flush_file(H5FD_t* file, hid_t /*transfer*/, hbool_t /*is_closing*/) {
@@ -257,7 +265,8 @@ hid_t registered_driver() {
 
 void write_in_order(hid_t access) {
   static const hid_t driver = registered_driver();
-  if (driver < 0 || H5Pset_driver(access, driver, nullptr) < 0) throw EngineError("HDF5 takes no driver for files of its own order");
+  if (driver < 0 || H5Pset_driver(access, driver, nullptr) < 0)
+    throw EngineError("HDF5 takes no driver for files of its own order");
 }
 
 }  // namespace tripoint::h5

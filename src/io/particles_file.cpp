@@ -36,7 +36,8 @@ InitialState read_particles(const std::string& path) {
   if (trajectory.frames.size() != 1) throw InputError(path + ": expected one frame, the particles at time 0");
   Snapshot& frame = trajectory.frames.front();
   for (std::size_t i = 0; i < frame.id.size(); ++i)
-    if (frame.id[i] != static_cast<int>(i)) throw InputError(path + ": row " + std::to_string(i) + " holds id " + std::to_string(frame.id[i]) + "; rows must be ids");
+    if (frame.id[i] != static_cast<int>(i))
+      throw InputError(path + ": row " + std::to_string(i) + " holds id " + std::to_string(frame.id[i]) + "; rows must be ids");
   InitialState s;
   s.position = std::move(frame.position);
   s.velocity = std::move(frame.velocity);
@@ -46,9 +47,11 @@ InitialState read_particles(const std::string& path) {
   s.body = std::move(frame.body);
   s.material = std::move(frame.material);
   const h5::Handle file = h5::open_for_reading(path);
-  if (h5::has(file.get(), "/particles/all/source/value")) s.source = h5::read_whole(file.get(), "/particles/all/source/value", path).whole;
+  if (h5::has(file.get(), "/particles/all/source/value"))
+    s.source = h5::read_whole(file.get(), "/particles/all/source/value", path).whole;
   const std::size_t n = s.position.size();
-  if (s.velocity.size() != n || s.mass.size() != n || s.phase.size() != n || s.body.size() != n || s.material.size() != n || s.source.size() != n)
+  if (s.velocity.size() != n || s.mass.size() != n || s.phase.size() != n || s.body.size() != n || s.material.size() != n ||
+      s.source.size() != n)
     throw InputError(path + ": a column of mass, velocity, phase, body, material or source is missing");
   return s;
 }

@@ -39,7 +39,8 @@ std::string encoded(const std::vector<T>& values) {
 
 template <class T>
 void array(std::ofstream& out, const char* type, const std::string& name, std::size_t components, const std::vector<T>& values) {
-  out << fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n", type, name, components, encoded(values));
+  out << fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n", type,
+                     name, components, encoded(values));
 }
 
 }  // namespace
@@ -53,11 +54,17 @@ void write_vtp(const std::string& path, const PointCloud& cloud) {
     points[i] = static_cast<std::int64_t>(i), ends[i] = points[i] + 1;
   }
   std::ofstream out(path);
-  out << fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n",
-                     std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+  out << fmt::format(
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" "
+      "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n",
+      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
   for (const auto& [name, value] : cloud.numbers)
-    out << fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"binary\">{}</DataArray>\n", name, encoded(std::vector<double>{value}));
-  out << fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData>\n", n);
+    out << fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"binary\">{}</DataArray>\n", name,
+                       encoded(std::vector<double>{value}));
+  out << fmt::format(
+      "</FieldData>\n<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+      "NumberOfPolys=\"0\">\n<PointData>\n",
+      n);
   for (const auto& a : cloud.arrays) array(out, "Float64", a.name, a.components, a.values);
   out << "</PointData>\n<Points>\n";
   array(out, "Float64", "Points", 3, places);

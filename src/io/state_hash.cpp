@@ -36,12 +36,15 @@ void FramesHash::add(const Snapshot& s) {
   const auto add_column = [&](const auto& column) {
     for (std::size_t i = 0; i < column.size(); ++i) {
       if (!exists(i)) continue;
-      if constexpr (std::is_same_v<decltype(column[i]), const int&>) hash.add(static_cast<double>(column[i]));
-      else hash.add(column[i]);
+      if constexpr (std::is_same_v<decltype(column[i]), const int&>)
+        hash.add(static_cast<double>(column[i]));
+      else
+        hash.add(column[i]);
     }
   };
   add_column(s.position), add_column(s.velocity), add_column(s.mass);
-  for (const auto* column : {&s.temperature, &s.temperature_error, &s.density, &s.pressure, &s.liquid_fraction}) add_column(*column);
+  for (const auto* column : {&s.temperature, &s.temperature_error, &s.density, &s.pressure, &s.liquid_fraction})
+    add_column(*column);
   for (const auto* column : {&s.id, &s.phase, &s.body, &s.material}) add_column(*column);
   for (const BodyState& b : s.bodies) {
     if (std::isnan(b.mass)) continue;

@@ -33,9 +33,9 @@ struct Snapshot {
   std::vector<double> mass;
   std::vector<BodyState> bodies;  ///< one row for each solid body that ever existed so far
   double total_mass = 0.0;
-  Vec3 momentum, angular_momentum;        ///< about the origin
-  std::map<std::string, double> energy;   ///< TERM of the ledger -> [J]
-  std::map<std::string, double> counts;   ///< [1]: recoveries so far; objects that bonds hold together
+  Vec3 momentum, angular_momentum;           ///< about the origin
+  std::map<std::string, double> energy;      ///< TERM of the ledger -> [J]
+  std::map<std::string, double> counts;      ///< [1]: recoveries so far; objects that bonds hold together
   std::map<std::string, double> heat_given;  ///< name of a body -> heat given to it so far by what holds its temperature [J]
   std::map<std::string, double> gauges;      ///< name of a gauge of the job -> what the engine itself reads there [SI]
   /// Whether the engine shows no particles at all: a solver of fields that answers by its gauges.
@@ -44,8 +44,10 @@ struct Snapshot {
 
 /// The scene's domain, as far as it has one; a bound that is not finite is none.
 struct Domain {
-  Vec3 min{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};  ///< [m]
-  Vec3 max{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};     ///< [m]
+  Vec3 min{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+           -std::numeric_limits<double>::infinity()};  ///< [m]
+  Vec3 max{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+           std::numeric_limits<double>::infinity()};  ///< [m]
   std::array<bool, 3> periodic{};
   [[nodiscard]] bool is_periodic() const { return periodic[0] || periodic[1] || periodic[2]; }
 };
@@ -73,12 +75,14 @@ class TrajectoryWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads trajectory.h5. @throws InputError naming file and what is missing, torn or of the wrong shape; sizes are bounded before reading.
+/// Reads trajectory.h5. @throws InputError naming file and what is missing, torn or of the wrong shape; sizes are bounded before
+/// reading.
 [[nodiscard]] Trajectory read_trajectory(const std::string& path);
 /// Reads a small engine's trajectory.csv (contracts): rows of particles or, with the column `body`, of bodies.
 /// Masses, phases and materials come from `initial`.
 [[nodiscard]] Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial, std::size_t bodies);
-/// Reads gauges.csv (rows of time, number of the gauge, value) into the frames of their times, and makes these where there are none.
+/// Reads gauges.csv (rows of time, number of the gauge, value) into the frames of their times, and makes these where there are
+/// none.
 /// @param names of the job's gauges, in their order
 void read_gauges_csv(const std::string& path, const std::vector<std::string>& names, Trajectory&);
 

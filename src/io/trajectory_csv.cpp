@@ -30,13 +30,16 @@ class Table {
   Table(const std::string& path, const std::string& header) : path_(path) {
     const auto names = split(header);
     for (std::size_t k = 0; k < names.size(); ++k)
-      if (!column_.emplace(names[k], k).second) throw InputError({path, 1, 0}, "the header names the column \"" + names[k] + "\" twice");
+      if (!column_.emplace(names[k], k).second)
+        throw InputError({path, 1, 0}, "the header names the column \"" + names[k] + "\" twice");
   }
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(place_, what); }
   void line(const std::string& text, int number) {
     place_ = {path_, number, 0};
     const auto cells = split(text);
-    if (cells.size() != column_.size()) throw InputError(place_, "has " + std::to_string(cells.size()) + " cells, the header has " + std::to_string(column_.size()));
+    if (cells.size() != column_.size())
+      throw InputError(place_,
+                       "has " + std::to_string(cells.size()) + " cells, the header has " + std::to_string(column_.size()));
     value_.assign(cells.size(), 0.0);
     for (std::size_t k = 0; k < cells.size(); ++k) value_[k] = number_in(cells[k]);
   }
@@ -49,7 +52,8 @@ class Table {
   [[nodiscard]] Vec3 vector(const char* x, const char* y, const char* z) const { return {(*this)[x], (*this)[y], (*this)[z]}; }
   [[nodiscard]] std::size_t row(const std::string& name, std::size_t rows) const {
     const double v = (*this)[name];
-    if (!(v >= 0.0 && v < static_cast<double>(rows)) || v != std::floor(v)) throw InputError(place_, name + " " + std::to_string(v) + " is not one of 0 to " + std::to_string(rows) + " - 1");
+    if (!(v >= 0.0 && v < static_cast<double>(rows)) || v != std::floor(v))
+      throw InputError(place_, name + " " + std::to_string(v) + " is not one of 0 to " + std::to_string(rows) + " - 1");
     return static_cast<std::size_t>(v);
   }
 
@@ -77,7 +81,8 @@ Snapshot empty_frame(double time, const InitialState& initial, std::size_t bodie
   s.body = initial.body;
   s.material = initial.material;
   s.id.assign(initial.size(), -1);
-  s.bodies.assign(bodies, BodyState{nan, nan, nan, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, {}, {}});
+  s.bodies.assign(bodies,
+                  BodyState{nan, nan, nan, {not_a_number, not_a_number, not_a_number, not_a_number}, not_a_number, {}, {}});
   return s;
 }
 
@@ -169,12 +174,15 @@ void read_gauges_csv(const std::string& path, const std::vector<std::string>& na
     row.line(text, number);
     const double time = row["time"];
     const std::string& name = names.at(row.row("gauge", names.size()));
-    if (!std::isfinite(time) || !std::isfinite(row["value"])) throw InputError({path, number, 0}, "the gauge `" + name + "` is not finite");
+    if (!std::isfinite(time) || !std::isfinite(row["value"]))
+      throw InputError({path, number, 0}, "the gauge `" + name + "` is not finite");
     Snapshot& frame = frames[time];
     frame.time = time;
-    if (!frame.gauges.emplace(name, row["value"]).second) throw InputError({path, number, 0}, "the gauge `" + name + "` has two values at this time");
+    if (!frame.gauges.emplace(name, row["value"]).second)
+      throw InputError({path, number, 0}, "the gauge `" + name + "` has two values at this time");
     if (!row.has("standard_error")) continue;
-    if (!(row["standard_error"] >= 0.0) || !std::isfinite(row["standard_error"])) throw InputError({path, number, 0}, "the standard error of the gauge `" + name + "` is no number from 0 on");
+    if (!(row["standard_error"] >= 0.0) || !std::isfinite(row["standard_error"]))
+      throw InputError({path, number, 0}, "the standard error of the gauge `" + name + "` is no number from 0 on");
     frame.gauges[gauge_error_key(name)] = row["standard_error"];
   }
   trajectory.frames.clear();

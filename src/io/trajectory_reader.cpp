@@ -18,7 +18,8 @@ class Reader {
     time_ = h5::read_real(file_.get(), "/particles/all/position/time", path, true).real;
     step_ = h5::read_whole(file_.get(), "/particles/all/position/step", path, true).whole;
     frames_ = std::min(time_.size(), step_.size());
-    while (frames_ > 0 && std::isnan(time_[frames_ - 1])) --frames_;  // the writer was killed before it wrote the time, its last act
+    while (frames_ > 0 && std::isnan(time_[frames_ - 1]))
+      --frames_;  // the writer was killed before it wrote the time, its last act
     whole_ = frames_;
     for (const char* group : {"particles/all", "particles/bodies"}) look_over(group);
   }
@@ -57,12 +58,15 @@ class Reader {
  private:
   static std::size_t total(const h5::Block& block) { return block.shape[0] * block.shape[1] * block.shape[2]; }
 
-  /// Blocks that a killed writer left torn are filled up with what can never pass for a value; their frames are cut off at the end.
+  /// Blocks that a killed writer left torn are filled up with what can never pass for a value; their frames are cut off at the
+  /// end.
   void expect(h5::Block& block, std::size_t width, const std::string& what) {
     if (block.shape.size() < 3) block.shape.resize(3, 1);
     whole_ = std::min(whole_, block.shape[0]);
     block.shape[0] = std::max(block.shape[0], frames_);
-    if (block.shape[2] != width) throw InputError(path_ + ": " + what + " has " + std::to_string(block.shape[2]) + " components, expected " + std::to_string(width));
+    if (block.shape[2] != width)
+      throw InputError(path_ + ": " + what + " has " + std::to_string(block.shape[2]) + " components, expected " +
+                       std::to_string(width));
   }
 
   /// How wide a group's columns are, and whether one of them holds more frames than there are times.
@@ -76,14 +80,16 @@ class Reader {
     }
   }
 
-  /// Where a writer was killed while it made the columns wider for what is born in its last frame, those that it had not come to are still narrow.
+  /// Where a writer was killed while it made the columns wider for what is born in its last frame, those that it had not come to
+  /// are still narrow.
   template <class T>
   void widen(const std::string& element, h5::Block& block, std::vector<T>& values, T nothing) {
     const std::size_t rows = rows_[element.substr(0, element.rfind('/'))], row = block.shape[2];
     if (!is_torn_ || block.shape[1] >= rows) return;
     std::vector<T> wide(block.shape[0] * rows * row, nothing);
     for (std::size_t f = 0; f < block.shape[0]; ++f)
-      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(f * block.shape[1] * row), block.shape[1] * row, wide.begin() + static_cast<std::ptrdiff_t>(f * rows * row));
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(f * block.shape[1] * row), block.shape[1] * row,
+                  wide.begin() + static_cast<std::ptrdiff_t>(f * rows * row));
     values = std::move(wide);
     block.shape[1] = rows;
   }
@@ -94,7 +100,9 @@ class Reader {
     if (!h5::has(file_.get(), name)) return;
     const std::vector<double> own = h5::read_real(file_.get(), name, path_, true).real;
     for (std::size_t f = 0; f < std::min(own.size(), frames_); ++f)
-      if (own[f] != time_[f]) throw InputError(path_ + ": " + element + " is of " + std::to_string(own[f]) + " s in frame " + std::to_string(f) + ", and position of " + std::to_string(time_[f]) + " s");
+      if (own[f] != time_[f])
+        throw InputError(path_ + ": " + element + " is of " + std::to_string(own[f]) + " s in frame " + std::to_string(f) +
+                         ", and position of " + std::to_string(time_[f]) + " s");
   }
 
   std::string path_;
@@ -102,23 +110,26 @@ class Reader {
   std::vector<double> time_;
   std::vector<int> step_;
   std::size_t frames_ = 0, whole_ = 0;
-  bool is_torn_ = false;                      ///< a column holds more frames than there are times
+  bool is_torn_ = false;                     ///< a column holds more frames than there are times
   std::map<std::string, std::size_t> rows_;  ///< of each group's widest column
 };
 
 using Frames = std::vector<Snapshot>;
 
-void read_vectors(Reader& in, const std::string& element, const std::string& unit, Frames& frames, std::vector<Vec3> Snapshot::*column) {
+void read_vectors(Reader& in, const std::string& element, const std::string& unit, Frames& frames,
+                  std::vector<Vec3> Snapshot::*column) {
   const h5::Block b = in.real(element, 3, unit);
   const std::size_t n = b.shape[1];
   for (std::size_t f = 0; f < frames.size(); ++f) {
     auto& out = frames[f].*column;
     out.resize(n);
-    for (std::size_t i = 0; i < n; ++i) out[i] = {b.real[(f * n + i) * 3], b.real[(f * n + i) * 3 + 1], b.real[(f * n + i) * 3 + 2]};
+    for (std::size_t i = 0; i < n; ++i)
+      out[i] = {b.real[(f * n + i) * 3], b.real[(f * n + i) * 3 + 1], b.real[(f * n + i) * 3 + 2]};
   }
 }
 
-void read_reals(Reader& in, const std::string& name, const std::string& unit, Frames& frames, std::vector<double> Snapshot::*column) {
+void read_reals(Reader& in, const std::string& name, const std::string& unit, Frames& frames,
+                std::vector<double> Snapshot::*column) {
   if (!in.has("particles/all/" + name)) return;
   const h5::Block b = in.real("particles/all/" + name, 1, unit);
   const auto n = static_cast<std::ptrdiff_t>(b.shape[1]);
@@ -177,13 +188,17 @@ void read_observables(Reader& in, Frames& frames) {
     if (b.shape[1] == 0) throw InputError("observables/" + name + " has no components");
     for (std::size_t f = 0; f < frames.size(); ++f) put(frames[f], &b.real[f * b.shape[1]], b.shape[1]);
   };
-  const auto three = [](const double* v, std::size_t n) { return n == 3 ? Vec3{v[0], v[1], v[2]} : Vec3{not_a_number, not_a_number, not_a_number}; };
+  const auto three = [](const double* v, std::size_t n) {
+    return n == 3 ? Vec3{v[0], v[1], v[2]} : Vec3{not_a_number, not_a_number, not_a_number};
+  };
   numbers("mass", "kg", [](Snapshot& s, const double* v, std::size_t) { s.total_mass = *v; });
   numbers("momentum", "kg m s-1", [&](Snapshot& s, const double* v, std::size_t n) { s.momentum = three(v, n); });
-  numbers("angular_momentum", "kg m2 s-1", [&](Snapshot& s, const double* v, std::size_t n) { s.angular_momentum = three(v, n); });
+  numbers("angular_momentum", "kg m2 s-1",
+          [&](Snapshot& s, const double* v, std::size_t n) { s.angular_momentum = three(v, n); });
   const auto family = [&](const std::string& prefix, const std::string& unit, std::map<std::string, double> Snapshot::*members) {
     for (const std::string& name : in.members("/observables"))
-      if (name.rfind(prefix, 0) == 0) numbers(name, unit, [&](Snapshot& s, const double* v, std::size_t) { (s.*members)[name.substr(prefix.size())] = *v; });
+      if (name.rfind(prefix, 0) == 0)
+        numbers(name, unit, [&](Snapshot& s, const double* v, std::size_t) { (s.*members)[name.substr(prefix.size())] = *v; });
   };
   family("energy_", "J", &Snapshot::energy);
   family("heat_", "J", &Snapshot::heat_given);
@@ -193,8 +208,9 @@ void read_observables(Reader& in, Frames& frames) {
 void expect_equal_lengths(const std::string& path, const Snapshot& s) {
   const std::size_t n = s.position.size();
   const auto fits = [&](std::size_t size) { return size == 0 || size == n; };
-  if (!fits(s.velocity.size()) || !fits(s.temperature.size()) || !fits(s.temperature_error.size()) || !fits(s.density.size()) || !fits(s.pressure.size()) ||
-      !fits(s.liquid_fraction.size()) || !fits(s.id.size()) || !fits(s.phase.size()) || !fits(s.body.size()) || !fits(s.material.size()) || !fits(s.mass.size()))
+  if (!fits(s.velocity.size()) || !fits(s.temperature.size()) || !fits(s.temperature_error.size()) || !fits(s.density.size()) ||
+      !fits(s.pressure.size()) || !fits(s.liquid_fraction.size()) || !fits(s.id.size()) || !fits(s.phase.size()) ||
+      !fits(s.body.size()) || !fits(s.material.size()) || !fits(s.mass.size()))
     throw InputError(path + ": columns of particles/all have unequal lengths");
 }
 

@@ -29,7 +29,8 @@ void write_box(hid_t file, const Domain& domain) {
   const h5::Handle box = h5::make_group(file, "particles/all/box");
   const int dimension = 3;
   const h5::Handle one(H5Screate(H5S_SCALAR), H5Sclose, "box");
-  const h5::Handle attribute(H5Acreate2(box.get(), "dimension", H5T_NATIVE_INT, one.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "box");
+  const h5::Handle attribute(H5Acreate2(box.get(), "dimension", H5T_NATIVE_INT, one.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                             "box");
   h5::check(H5Awrite(attribute.get(), H5T_NATIVE_INT, &dimension), "box");
   std::vector<std::string> boundary;
   for (const bool periodic : domain.periodic) boundary.emplace_back(periodic ? "periodic" : "none");
@@ -51,7 +52,8 @@ Vec3 edges_of(const Domain& domain, const std::vector<Vec3>& places) {
 }
 
 std::size_t expect(std::size_t rows, std::size_t n, const char* name) {
-  if (rows != n) throw EngineError(std::string(name) + " has " + std::to_string(rows) + " rows for " + std::to_string(n) + " particles");
+  if (rows != n)
+    throw EngineError(std::string(name) + " has " + std::to_string(rows) + " rows for " + std::to_string(n) + " particles");
   return n;
 }
 
@@ -59,12 +61,14 @@ std::size_t expect(std::size_t rows, std::size_t n, const char* name) {
 
 /// One H5MD file being written: elements of shape value/step/time that share one step and one time dataset.
 struct TrajectoryWriter::Impl {
-  Impl(const std::string& name, const Domain& domain_of_scene) : path(name), file(h5::create_file(name)), domain(domain_of_scene) {
+  Impl(const std::string& name, const Domain& domain_of_scene)
+      : path(name), file(h5::create_file(name)), domain(domain_of_scene) {
     write_h5md_group(file.get());
     write_box(file.get(), domain);
   }
 
-  void put(const std::string& element, h5::Type type, std::size_t rows, std::size_t width, const std::string& unit, const void* data) {
+  void put(const std::string& element, h5::Type type, std::size_t rows, std::size_t width, const std::string& unit,
+           const void* data) {
     auto at = columns.find(element);
     if (at == columns.end()) {
       if (frames > 0) throw EngineError(path + ": " + element + " appears after the first frame");
@@ -100,10 +104,12 @@ struct TrajectoryWriter::Impl {
 void TrajectoryWriter::Impl::put_particles(const Snapshot& s) {
   const std::size_t n = s.position.size();
   const auto real = [&](const char* name, const std::vector<double>& column, const char* unit) {
-    if (!column.empty()) put(std::string("particles/all/") + name, h5::Type::float64, expect(column.size(), n, name), 0, unit, column.data());
+    if (!column.empty())
+      put(std::string("particles/all/") + name, h5::Type::float64, expect(column.size(), n, name), 0, unit, column.data());
   };
   const auto whole = [&](const char* name, const std::vector<int>& column) {
-    if (!column.empty()) put(std::string("particles/all/") + name, h5::Type::int32, expect(column.size(), n, name), 0, "", column.data());
+    if (!column.empty())
+      put(std::string("particles/all/") + name, h5::Type::int32, expect(column.size(), n, name), 0, "", column.data());
   };
   put("particles/all/position", h5::Type::float64, n, 3, "m", s.position.data());
   put("particles/all/velocity", h5::Type::float64, n, 3, "m s-1", s.velocity.data());

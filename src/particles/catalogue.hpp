@@ -21,10 +21,13 @@ inline constexpr Field<double> density{"density", "kg/m3"};
 inline constexpr Field<double> number_density{"number_density", "1/m3"}, volume{"volume", "m3"}, pressure{"pressure", "Pa"};
 inline constexpr Field<double> pressure_share{"pressure_share", "Pa m6"};  ///< V^2 p over the kernel's lattice moment
 inline constexpr Field<double> force_x{"force.x", "N"}, force_y{"force.y", "N"}, force_z{"force.z", "N"};  ///< of pressure
-inline constexpr Field<double> viscous_force_x{"viscous_force.x", "N"}, viscous_force_y{"viscous_force.y", "N"}, viscous_force_z{"viscous_force.z", "N"};
-inline constexpr Field<double> number_density_before{"number_density_before", "1/m3"}, bulk_pressure{"bulk_pressure", "Pa"};  ///< of the last places; of the numerical bulk viscosity
+inline constexpr Field<double> viscous_force_x{"viscous_force.x", "N"}, viscous_force_y{"viscous_force.y", "N"},
+    viscous_force_z{"viscous_force.z", "N"};
+inline constexpr Field<double> number_density_before{"number_density_before", "1/m3"},
+    bulk_pressure{"bulk_pressure", "Pa"};  ///< of the last places; of the numerical bulk viscosity
 /// Velocity that viscous pairs see: predicted to the full step for liquids, mirrored for walls.
-inline constexpr Field<double> viscous_velocity_x{"viscous_velocity.x", "m/s"}, viscous_velocity_y{"viscous_velocity.y", "m/s"}, viscous_velocity_z{"viscous_velocity.z", "m/s"};
+inline constexpr Field<double> viscous_velocity_x{"viscous_velocity.x", "m/s"}, viscous_velocity_y{"viscous_velocity.y", "m/s"},
+    viscous_velocity_z{"viscous_velocity.z", "m/s"};
 inline constexpr Field<double> viscosity{"viscosity", "Pa s"}, rest_density{"rest_density", "kg/m3"};
 inline constexpr Field<double> solid{"solid", "1"};  ///< 1 for solids and walls, 0 for liquids
 inline constexpr Field<double> stick{"stick", "1"};  ///< 1 where a liquid sticks to this solid, 0 where it slips
@@ -32,11 +35,14 @@ inline constexpr Field<double> stick{"stick", "1"};  ///< 1 where a liquid stick
 inline constexpr Field<double> group{"group", "1"};
 /// What walls sum over the liquid near them: viscous weights, and velocities times these.
 inline constexpr Field<double> wall_weight{"wall.weight", "Pa s/m5"};
-inline constexpr Field<double> wall_velocity_x{"wall.velocity.x", "Pa/m4"}, wall_velocity_y{"wall.velocity.y", "Pa/m4"}, wall_velocity_z{"wall.velocity.z", "Pa/m4"};
+inline constexpr Field<double> wall_velocity_x{"wall.velocity.x", "Pa/m4"}, wall_velocity_y{"wall.velocity.y", "Pa/m4"},
+    wall_velocity_z{"wall.velocity.z", "Pa/m4"};
 /// Transport velocity less velocity; force of the background pressure; force of the stress that the difference carries.
 inline constexpr Field<double> shift_x{"shift.x", "m/s"}, shift_y{"shift.y", "m/s"}, shift_z{"shift.z", "m/s"};
-inline constexpr Field<double> background_x{"background.x", "N"}, background_y{"background.y", "N"}, background_z{"background.z", "N"};
-inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, transport_force_y{"transport_force.y", "N"}, transport_force_z{"transport_force.z", "N"};
+inline constexpr Field<double> background_x{"background.x", "N"}, background_y{"background.y", "N"},
+    background_z{"background.z", "N"};
+inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, transport_force_y{"transport_force.y", "N"},
+    transport_force_z{"transport_force.z", "N"};
 
 /// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density (model 8.2)
 inline constexpr Field<double> own_density{"own_density", "1/m3"};
@@ -46,12 +52,15 @@ inline constexpr Field<int> driven{"driven", "1"};
 inline constexpr Field<double> grip_x{"grip.x", "m"}, grip_y{"grip.y", "m"}, grip_z{"grip.z", "m"};
 
 // elastic solids (10)-(17): force on the particle by strain energy and hourglass energy
-inline constexpr Field<double> elastic_force_x{"elastic_force.x", "N"}, elastic_force_y{"elastic_force.y", "N"}, elastic_force_z{"elastic_force.z", "N"};
+inline constexpr Field<double> elastic_force_x{"elastic_force.x", "N"}, elastic_force_y{"elastic_force.y", "N"},
+    elastic_force_z{"elastic_force.z", "N"};
 
 /// A_i = pinv M_i of the reference list (model 8.7), symmetric; its rank: 3 solid (and members of rigid bodies that own no strain
 /// energy), 2 sheet, 1 chain, 0 without neighbours.
-inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"}, shape_inverse_yy{"shape_inverse.yy", "1"}, shape_inverse_zz{"shape_inverse.zz", "1"};
-inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"}, shape_inverse_xz{"shape_inverse.xz", "1"}, shape_inverse_xy{"shape_inverse.xy", "1"};
+inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"}, shape_inverse_yy{"shape_inverse.yy", "1"},
+    shape_inverse_zz{"shape_inverse.zz", "1"};
+inline constexpr Field<double> shape_inverse_yz{"shape_inverse.yz", "1"}, shape_inverse_xz{"shape_inverse.xz", "1"},
+    shape_inverse_xy{"shape_inverse.xy", "1"};
 inline constexpr Field<int> shape_rank{"shape_rank", "1"};
 inline constexpr Field<double> solid_volume{"solid_volume", "m3"};  ///< v_i: m/rho0, printed (11)
 /// Whose constants the strain energy of a particle has, and how many times: 0 where it owns none.
@@ -62,9 +71,12 @@ inline constexpr Field<int> regular_bonds{"regular_bonds", "1"};
 /// Square of the frequency that the bonds give this particle while its neighbours stay [1/s2]; 0 while its list is the first one.
 inline constexpr Field<double> bond_frequency{"bond_frequency", "1/s2"};
 /// Strain of the present time, total, within the range of M_i; and the part of it that has flowed (model 8.7, 8.8).
-inline constexpr Field<double> strain_xx{"strain.xx", "1"}, strain_yy{"strain.yy", "1"}, strain_zz{"strain.zz", "1"}, strain_yz{"strain.yz", "1"}, strain_xz{"strain.xz", "1"}, strain_xy{"strain.xy", "1"};
-inline constexpr Field<double> plastic_strain_xx{"plastic_strain.xx", "1"}, plastic_strain_yy{"plastic_strain.yy", "1"}, plastic_strain_zz{"plastic_strain.zz", "1"};
-inline constexpr Field<double> plastic_strain_yz{"plastic_strain.yz", "1"}, plastic_strain_xz{"plastic_strain.xz", "1"}, plastic_strain_xy{"plastic_strain.xy", "1"};
+inline constexpr Field<double> strain_xx{"strain.xx", "1"}, strain_yy{"strain.yy", "1"}, strain_zz{"strain.zz", "1"},
+    strain_yz{"strain.yz", "1"}, strain_xz{"strain.xz", "1"}, strain_xy{"strain.xy", "1"};
+inline constexpr Field<double> plastic_strain_xx{"plastic_strain.xx", "1"}, plastic_strain_yy{"plastic_strain.yy", "1"},
+    plastic_strain_zz{"plastic_strain.zz", "1"};
+inline constexpr Field<double> plastic_strain_yz{"plastic_strain.yz", "1"}, plastic_strain_xz{"plastic_strain.xz", "1"},
+    plastic_strain_xy{"plastic_strain.xy", "1"};
 
 // phase change, Fig. 5
 inline constexpr Field<double> liquid_fraction{"liquid_fraction", "1"};
@@ -74,7 +86,8 @@ inline constexpr Field<double> stiffness_share{"stiffness_share", "1"};
 // heat (21)
 inline constexpr Field<double> temperature{"temperature", "K"}, temperature_rate{"temperature_rate", "K/s"};
 inline constexpr Field<double> enthalpy{"enthalpy", "J"}, heat_rate{"heat_rate", "W"}, heat_rate_before{"heat_rate.before", "W"};
-inline constexpr Field<double> conductivity{"conductivity", "W/m/K"}, heat_capacity{"heat_capacity", "J/kg/K"},  ///< of the solid where something melts
+inline constexpr Field<double> conductivity{"conductivity", "W/m/K"},
+    heat_capacity{"heat_capacity", "J/kg/K"},  ///< of the solid where something melts
     diffusivity{"diffusivity", "m2/s"};
 inline constexpr Field<double> rest_volume{"rest_volume", "m3"};
 /// sum_j G_ij, the conductance of i to its neighbours: bounds the time step.
@@ -95,7 +108,8 @@ inline constexpr Field<double> reference_x{"reference.x", "m"}, reference_y{"ref
 inline constexpr Field<double> body_mass{"body.mass", "kg", Per::body};
 inline constexpr Field<Vec3> body_centre{"body.centre", "m", Per::body}, body_velocity{"body.velocity", "m/s", Per::body};
 /// Of the last kick: what it added to the velocities, over its length.
-inline constexpr Field<Vec3> body_acceleration{"body.acceleration", "m/s2", Per::body}, body_angular_acceleration{"body.angular_acceleration", "rad/s2", Per::body};
+inline constexpr Field<Vec3> body_acceleration{"body.acceleration", "m/s2", Per::body},
+    body_angular_acceleration{"body.angular_acceleration", "rad/s2", Per::body};
 inline constexpr Field<Vec3> body_angular_momentum{"body.angular_momentum", "kg m2/s", Per::body};
 inline constexpr Field<Vec3> body_angular_velocity{"body.angular_velocity", "rad/s", Per::body};
 inline constexpr Field<Vec3> body_inertia{"body.inertia", "kg m2", Per::body};  ///< principal, ascending; 0 where truncated
@@ -112,7 +126,8 @@ inline constexpr Field<int> body_phase{"body.phase", "1", Per::body};  ///< rigi
 inline constexpr Field<int> body_grip{"body.grip", "1", Per::body};
 inline constexpr Field<Vec3> body_grip_centre{"body.grip_centre", "m", Per::body};
 inline constexpr Field<Quaternion> body_grip_orientation{"body.grip_orientation", "1", Per::body};
-inline constexpr Field<double> body_heat{"body.heat", "J", Per::body};  ///< given to it so far by what holds the temperature of its particles
+inline constexpr Field<double> body_heat{"body.heat", "J",
+                                         Per::body};  ///< given to it so far by what holds the temperature of its particles
 inline constexpr Field<int> body_motion{"body.motion", "1", Per::body}, body_alive{"body.alive", "1", Per::body},
     body_source{"body.source", "1", Per::body};
 

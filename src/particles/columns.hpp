@@ -28,7 +28,8 @@ struct DeclaredFields {
 class UndeclaredField : public std::logic_error {
  public:
   UndeclaredField(std::string_view who, std::string_view field)
-      : std::logic_error("the effect " + std::string(who) + " asks for the field " + std::string(field) + ", which its `owns` and `reads` do not name") {}
+      : std::logic_error("the effect " + std::string(who) + " asks for the field " + std::string(field) +
+                         ", which its `owns` and `reads` do not name") {}
 };
 
 /// Structure of arrays: one column a field, rows common to all. Columns are 64-byte aligned and padded by one vector.
@@ -46,8 +47,8 @@ class Columns {
   }
   [[nodiscard]] std::vector<FieldInfo> fields() const;
 
-  /// Only these columns are given out until it is called anew; null: all. It is looked at where a column is fetched, not where a value is, and in the
-  /// test build alone: what users get pays nothing for it.
+  /// Only these columns are given out until it is called anew; null: all. It is looked at where a column is fetched, not where a
+  /// value is, and in the test build alone: what users get pays nothing for it.
   void show_only(const DeclaredFields* declared) const noexcept { declared_ = declared; }
 
   /// @throws MissingField by name when no effect of this scene owns it   @throws UndeclaredField where show_only() hides it
@@ -67,13 +68,15 @@ class Columns {
   }
   template <class Visit>
   void for_each(Visit visit) const {
-    for (const Column& c : columns_) std::visit([&](const auto& values) { visit(c.info, std::span(values.data(), rows_)); }, c.values);
+    for (const Column& c : columns_)
+      std::visit([&](const auto& values) { visit(c.info, std::span(values.data(), rows_)); }, c.values);
   }
 
   /// Row n becomes what was row order[n], in every column; spans taken before are no longer valid. @param order a permutation of
   /// 0..size()-1
   void permute(std::span<const std::uint32_t> order, int threads = 1);
-  /// Row to[k] becomes what was row from[k], in every column, for each k; other rows stay. @param from,to the same rows, each once
+  /// Row to[k] becomes what was row from[k], in every column, for each k; other rows stay. @param from,to the same rows, each
+  /// once
   void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, int threads = 1);
   /// Adds a row of zeros to every column; spans taken before are no longer valid.
   void append_row();
@@ -106,9 +109,10 @@ class Columns {
   std::size_t rows_ = 0;
   Per per_ = Per::particle;
   std::vector<Column> columns_;
-  static constexpr std::size_t places_of_keys = 512;     ///< more than twice as many as there are fields: few keys share a place
-  std::array<std::uint8_t, places_of_keys> number_{};    ///< open addressing: 1 + the column whose key has, or shares, this place
-  std::tuple<AlignedVector<double>, AlignedVector<int>, AlignedVector<Vec3>, AlignedVector<Quaternion>> moved_;  ///< memory of permute()
+  static constexpr std::size_t places_of_keys = 512;   ///< more than twice as many as there are fields: few keys share a place
+  std::array<std::uint8_t, places_of_keys> number_{};  ///< open addressing: 1 + the column whose key has, or shares, this place
+  std::tuple<AlignedVector<double>, AlignedVector<int>, AlignedVector<Vec3>, AlignedVector<Quaternion>>
+      moved_;  ///< memory of permute()
 };
 
 }  // namespace tripoint

@@ -5,13 +5,17 @@
 
 namespace tripoint {
 
-/// An entry of a neighbour list: the row of j in the low 26 bits and, from bit 27 on, the image of the box that j is seen in. Lists keep
-/// own pairs in a column beside (Clusters::own); RowEntries sets the bit between the two for who walks the entries of one row.
+/// An entry of a neighbour list: the row of j in the low 26 bits and, from bit 27 on, the image of the box that j is seen in.
+/// Lists keep own pairs in a column beside (Clusters::own); RowEntries sets the bit between the two for who walks the entries of
+/// one row.
 struct Entry {
   std::uint32_t bits;
-  static constexpr std::uint32_t row_bits = 26, row_mask = (1u << row_bits) - 1, own_bit = 1u << row_bits, image_shift = row_bits + 1;
+  static constexpr std::uint32_t row_bits = 26, row_mask = (1u << row_bits) - 1, own_bit = 1u << row_bits,
+                                 image_shift = row_bits + 1;
   static constexpr std::uint32_t box_itself = 13;  ///< the image that is not moved
-  [[nodiscard]] static constexpr Entry of(std::uint32_t row, std::uint32_t image) noexcept { return {row | image << image_shift}; }
+  [[nodiscard]] static constexpr Entry of(std::uint32_t row, std::uint32_t image) noexcept {
+    return {row | image << image_shift};
+  }
   [[nodiscard]] constexpr std::uint32_t row() const noexcept { return bits & row_mask; }
   [[nodiscard]] constexpr bool own() const noexcept { return (bits & own_bit) != 0; }  ///< members of one deformable body
   [[nodiscard]] constexpr std::uint32_t image() const noexcept { return bits >> image_shift; }  ///< 0..26
@@ -19,6 +23,8 @@ struct Entry {
 
 inline constexpr std::size_t within_bits = 64;  ///< of a word of Clusters::within
 /// Word of Clusters::within that a cluster begins with. @param start its first entry
-[[nodiscard]] constexpr std::size_t within_start(std::size_t start, std::size_t cluster) noexcept { return start / within_bits + cluster; }
+[[nodiscard]] constexpr std::size_t within_start(std::size_t start, std::size_t cluster) noexcept {
+  return start / within_bits + cluster;
+}
 
 }  // namespace tripoint

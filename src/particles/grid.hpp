@@ -15,14 +15,16 @@ namespace tripoint {
 struct Neighbours::Grid {
   static constexpr std::array<double, 3> cells_a_reach{6.0, 1.5, 1.5};
   static constexpr int cells_a_stretch = 6;  ///< see Neighbours::Still
-  static constexpr double slack = 1e-9;  ///< of the reach, far above the rounding of cell numbers
+  static constexpr double slack = 1e-9;      ///< of the reach, far above the rounding of cell numbers
 
   std::array<int, 3> count{1, 1, 1};
   Vec3 origin, width;
   std::vector<std::uint32_t> first;  // row that starts each cell, one more at the end
 
   [[nodiscard]] std::size_t index(const std::array<int, 3>& c) const {
-    return static_cast<std::size_t>(c[0]) + static_cast<std::size_t>(count[0]) * (static_cast<std::size_t>(c[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(c[2]));
+    return static_cast<std::size_t>(c[0]) +
+           static_cast<std::size_t>(count[0]) *
+               (static_cast<std::size_t>(c[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(c[2]));
   }
   [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(count[0]) * count[1] * count[2]; }
   [[nodiscard]] std::array<int, 3> place(const Vec3& r) const {
@@ -53,7 +55,8 @@ struct Neighbours::Grid {
     }
   }
 
-  /// Numbers of the cells that [low, high] along an axis touches; beyond 0..count-1 in periodic directions, where they mean images.
+  /// Numbers of the cells that [low, high] along an axis touches; beyond 0..count-1 in periodic directions, where they mean
+  /// images.
   [[nodiscard]] std::array<int, 2> touched(std::size_t a, double low, double high, bool periodic) const {
     const double from = std::floor((low - origin[a]) / width[a]), to = std::floor((high - origin[a]) / width[a]);
     const double least = periodic ? -count[a] : 0.0, most = periodic ? 2.0 * count[a] - 1.0 : count[a] - 1.0;
@@ -67,10 +70,12 @@ struct Neighbours::Grid {
   }
 
   /// The rows of cells within reach of a box, in the order of cells.
-  void candidates(const Vec3& low, const Vec3& high, double reach, const PeriodicBox& box, std::vector<CandidateRange>& ranges) const {
+  void candidates(const Vec3& low, const Vec3& high, double reach, const PeriodicBox& box,
+                  std::vector<CandidateRange>& ranges) const {
     ranges.clear();
     const double wide = reach * (1.0 + slack);
-    const auto zs = touched(2, low.z - wide, high.z + wide, box.periodic[2]), ys = touched(1, low.y - wide, high.y + wide, box.periodic[1]);
+    const auto zs = touched(2, low.z - wide, high.z + wide, box.periodic[2]),
+               ys = touched(1, low.y - wide, high.y + wide, box.periodic[1]);
     for (int z = zs[0]; z <= zs[1]; ++z) {
       const double dz = gap(2, z, low.z, high.z);
       for (int y = ys[0]; y <= ys[1]; ++y) {
@@ -90,7 +95,8 @@ struct Neighbours::Grid {
       const int from = std::max(xs[0] - ix * count[0], 0), to = std::min(xs[1] - ix * count[0], count[0] - 1);
       const std::array<int, 3> start{from, y - iy * count[1], z - iz * count[2]}, end{to, start[1], start[2]};
       const std::uint32_t first_row = first[index(start)], past = first[index(end) + 1];
-      if (first_row != past) ranges.push_back({first_row, past, Entry::box_itself + static_cast<std::uint32_t>(ix + 3 * iy + 9 * iz)});
+      if (first_row != past)
+        ranges.push_back({first_row, past, Entry::box_itself + static_cast<std::uint32_t>(ix + 3 * iy + 9 * iz)});
     }
   }
 };

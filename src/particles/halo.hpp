@@ -13,17 +13,18 @@ namespace tripoint {
 
 struct PeriodicBox;
 
-/// What a simulation asks of those that hold the rest of its scene, where this process holds a part of it (decision 021). Its rows are then its
-/// own particles and, after them, copies of those of others that are within reach of its own. What a step does to a particle by itself, all do
-/// that see it, with the same bits; its sums over pairs are complete at its owner alone, who hands them on. Every call is made by all
-/// processes, in the same order.
+/// What a simulation asks of those that hold the rest of its scene, where this process holds a part of it (decision 021). Its
+/// rows are then its own particles and, after them, copies of those of others that are within reach of its own. What a step does
+/// to a particle by itself, all do that see it, with the same bits; its sums over pairs are complete at its owner alone, who
+/// hands them on. Every call is made by all processes, in the same order.
 class Halo {
  public:
   virtual ~Halo() = default;
-  /// Who has a part of space now is handed what has moved there, and copies of what is within reach of it. Ids are 0..size()-1 anew, those of
-  /// own particles first; every column goes with its particle, and so do its bonds and own pairs (moving_lists.hpp): what one of its own has a bond with
-  /// is among the copies, however far it is. Nobody may change lists of a scene that is shared out. Of a direction that is split, what is seen across a periodic boundary is a copy at
-  /// its image's place.
+  /// Who has a part of space now is handed what has moved there, and copies of what is within reach of it. Ids are 0..size()-1
+  /// anew, those of own particles first; every column goes with its particle, and so do its bonds and own pairs
+  /// (moving_lists.hpp): what one of its own has a bond with is among the copies, however far it is. Nobody may change lists of a
+  /// scene that is shared out. Of a direction that is split, what is seen across a periodic boundary is a copy at its image's
+  /// place.
   virtual void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) = 0;
   /// Directions in which the scene is split. Across the others each process sees what is periodic by itself.
   [[nodiscard]] virtual std::array<bool, 3> splits() const = 0;

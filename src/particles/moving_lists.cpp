@@ -41,7 +41,8 @@ Bond bond_from(const double* n, std::uint32_t other) {
 }
 
 [[noreturn]] void refuse_lost(int number, int partner) {
-  throw InputError("particle " + std::to_string(number) + " of the scene has a bond with particle " + std::to_string(partner) + ", which is not among the copies of its process: their bond is longer than copies reach");
+  throw InputError("particle " + std::to_string(number) + " of the scene has a bond with particle " + std::to_string(partner) +
+                   ", which is not among the copies of its process: their bond is longer than copies reach");
 }
 
 std::vector<Bond> bonds_of(const Share& share, const Ids& ids, std::size_t id) {
@@ -77,7 +78,8 @@ void set_twins(Bonds& bonds, std::size_t count) {
     for (Bond& b : bonds.edit(id)) {
       const auto list = std::as_const(bonds).of(b.other);
       b.twin = static_cast<std::uint32_t>(std::ranges::find(list, id, &Bond::other) - list.begin());
-      if (b.twin == list.size()) throw InputError("a bond that went to another process is in the list of one of its particles alone");
+      if (b.twin == list.size())
+        throw InputError("a bond that went to another process is in the list of one of its particles alone");
     }
   }
 }
@@ -89,7 +91,9 @@ std::vector<double> lists_as_numbers(const Bonds& bonds, const OwnPairs& own, st
   const auto o = own.of(id);
   std::vector<double> numbers{static_cast<double>(b.size()), static_cast<double>(o.size())};
   numbers.reserve(of_counts + b.size() * of_bond + o.size() * of_own);
-  for (const Bond& one : b) numbers.insert(numbers.end(), {static_cast<double>(one.other), one.x.x, one.x.y, one.x.z, one.gradient.x, one.gradient.y, one.gradient.z, one.weight});
+  for (const Bond& one : b)
+    numbers.insert(numbers.end(), {static_cast<double>(one.other), one.x.x, one.x.y, one.x.z, one.gradient.x, one.gradient.y,
+                                   one.gradient.z, one.weight});
   for (const OwnPair& one : o) numbers.insert(numbers.end(), {static_cast<double>(one.other), one.weight});
   return numbers;
 }
@@ -97,7 +101,8 @@ std::vector<double> lists_as_numbers(const Bonds& bonds, const OwnPairs& own, st
 std::size_t most_list_numbers(const Bonds& bonds, const OwnPairs& own) {
   if (bonds.empty() && own.empty()) return 0;
   std::size_t most = 0;
-  for (std::size_t id = 0; id < std::max(bonds.particles(), own.particles()); ++id) most = std::max(most, bonds.of(id).size() * of_bond + own.of(id).size() * of_own);
+  for (std::size_t id = 0; id < std::max(bonds.particles(), own.particles()); ++id)
+    most = std::max(most, bonds.of(id).size() * of_bond + own.of(id).size() * of_own);
   return of_counts + most;
 }
 

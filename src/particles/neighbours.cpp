@@ -64,7 +64,8 @@ Neighbours::Neighbours(double support, double skin, const PeriodicBox& box, int 
 bool Neighbours::outdated(const Particles& particles) const {
   if (!are_made_ || built_.size() != particles.size() || rebuilds_ == 0) return true;
   const auto x = positions(particles);
-  const double limit = 0.25 * skin_ * skin_ * (1.0 - 1e-9);  // beyond rounding: what is within the support now was within reach then
+  const double limit =
+      0.25 * skin_ * skin_ * (1.0 - 1e-9);  // beyond rounding: what is within the support now was within reach then
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(max : greatest) if (particles.awake() > worth_threads)
   for (std::size_t i = 0; i < particles.awake(); ++i) {
@@ -90,7 +91,8 @@ void Neighbours::rebuild_from(Particles& particles, std::span<const Vec3> build_
     x.set(i, build_positions[i]);
   }
   refuse_not_finite(particles, time, built_.size());
-  sort_and_list(particles, {});  // not wrapped again: one a rounding error below the box was put on its upper edge, and stays there
+  sort_and_list(particles,
+                {});  // not wrapped again: one a rounding error below the box was put on its upper edge, and stays there
   rebuilds_ = rebuilds;
   const auto sorted = positions(particles);
   for (std::size_t k = 0; k < now.size(); ++k) sorted.set(particles.row(k), now[k]);
@@ -135,7 +137,8 @@ void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
     reach_to(still_.low), reach_to(still_.high);
   }
   Grid grid = Grid::over(low, high, support_ + skin_, box_, n);
-  const bool same_cells = grid.origin == still_.origin && grid.width == still_.width, same_bodies = !resting.bodies.empty() && resting.bodies == still_.bodies;
+  const bool same_cells = grid.origin == still_.origin && grid.width == still_.width,
+             same_bodies = !resting.bodies.empty() && resting.bodies == still_.bodies;
   listed_all_ = !(still_.known && same_cells && same_bodies);
   if (listed_all_) {
     sort_all(particles, grid);
@@ -188,14 +191,17 @@ void Neighbours::learn_still(const Particles& particles, const Grid& grid, const
   for (std::size_t i = 0; i < particles.size(); ++i) {
     if (body[i] < 0 || !resting.bodies[static_cast<std::size_t>(body[i])]) continue;
     if (still_.id.empty()) still_.low = still_.high = x.at(i);
-    for (std::size_t a = 0; a < 3; ++a) still_.low[a] = std::min(still_.low[a], x.at(i)[a]), still_.high[a] = std::max(still_.high[a], x.at(i)[a]);
+    for (std::size_t a = 0; a < 3; ++a)
+      still_.low[a] = std::min(still_.low[a], x.at(i)[a]), still_.high[a] = std::max(still_.high[a], x.at(i)[a]);
     still_.place[static_cast<std::size_t>(id[i])] = static_cast<std::uint32_t>(still_.id.size());
     still_.id.push_back(static_cast<std::uint32_t>(id[i]));
     stretch.push_back(Grid::stretch(grid.place(x.at(i))));
     for (std::size_t a = 0; a < 3; ++a) still_.count[a] = std::max(still_.count[a], stretch.back()[a] + 1);
   }
   for (std::size_t a = 0; a < 3; ++a)
-    if (box_.periodic[a]) still_.count[a] = std::max(still_.count[a], Grid::stretch({grid.count[0] - 1, grid.count[1] - 1, grid.count[2] - 1})[a] + 1);
+    if (box_.periodic[a])
+      still_.count[a] =
+          std::max(still_.count[a], Grid::stretch({grid.count[0] - 1, grid.count[1] - 1, grid.count[2] - 1})[a] + 1);
   still_.first.assign(static_cast<std::size_t>(still_.count[0]) * still_.count[1] * still_.count[2] + 1, 0);
   for (const auto& s : stretch) ++still_.first[still_.index(s) + 1];
   for (std::size_t s = 0; s + 1 < still_.first.size(); ++s) still_.first[s + 1] += still_.first[s];
@@ -208,7 +214,8 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
   const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(n[0]), static_cast<std::size_t>(n[0]) * n[1]};
   for (std::size_t a = 0; a < 3; ++a) {
     const double wide = still_.width[a] * (a == 0 ? Grid::cells_a_stretch : 1);
-    const int far = static_cast<int>(std::ceil(distance / wide * (1.0 - Grid::slack))) + (box_.periodic[a] ? 1 : 0);  // the last stretch of a period may be short
+    const int far = static_cast<int>(std::ceil(distance / wide * (1.0 - Grid::slack))) +
+                    (box_.periodic[a] ? 1 : 0);  // the last stretch of a period may be short
     const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
     std::vector<char> line(static_cast<std::size_t>(n[a]));
     for (int j = 0; j < n[b]; ++j) {
@@ -251,7 +258,8 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
   };
   wake(0, particles.awake());
   if (particles.awake() < n) wake(built_.size(), n);
-  const std::vector<char> meets = within(moving, support_ + skin_), awake = within(meets, std::max(resting.around, support_ + skin_));
+  const std::vector<char> meets = within(moving, support_ + skin_),
+                          awake = within(meets, std::max(resting.around, support_ + skin_));
   std::vector<RowKind> kind(rows.size(), RowKind::moves);
   for (std::size_t s = 0; s < awake.size(); ++s) {
     if (!awake[s]) continue;
@@ -327,7 +335,8 @@ std::vector<std::uint32_t> Neighbours::rows_in_order(const Particles& particles)
   };
   for (const Gap& g : gaps_) {
     up_to(g.before);
-    for (std::size_t k = still_.first[g.stretch]; k < still_.first[g.stretch + 1]; ++k) rows.push_back(static_cast<std::uint32_t>(particles.row(still_.id[k])));
+    for (std::size_t k = still_.first[g.stretch]; k < still_.first[g.stretch + 1]; ++k)
+      rows.push_back(static_cast<std::uint32_t>(particles.row(still_.id[k])));
   }
   up_to(particles.awake());
   return rows;
@@ -359,8 +368,8 @@ void Neighbours::count_still_pairs(const Particles& particles) {
   pairs_ += still_.all_pairs - listed;
 }
 
-/// Clusters end with a row of cells, so that what is near to their members has the same order for each of them, and where rows begin
-/// that need no list.
+/// Clusters end with a row of cells, so that what is near to their members has the same order for each of them, and where rows
+/// begin that need no list.
 void Neighbours::form_clusters(const Grid& grid, std::size_t rows) {
   Clusters& c = clusters_;
   c.first.clear();
@@ -369,7 +378,8 @@ void Neighbours::form_clusters(const Grid& grid, std::size_t rows) {
   for (std::size_t cell = 0; cell < grid.cells(); cell += along) {
     const std::uint32_t end = grid.first[cell + along];
     for (std::uint32_t i = grid.first[cell], from = end; i < end; ++i) {
-      const bool begins = from == end || i - from == static_cast<std::uint32_t>(c.lanes) || (!kinds_.empty() && has_list(i) != has_list(i - 1));
+      const bool begins =
+          from == end || i - from == static_cast<std::uint32_t>(c.lanes) || (!kinds_.empty() && has_list(i) != has_list(i - 1));
       if (begins) from = i, c.first.push_back(i);
     }
   }
@@ -406,7 +416,8 @@ void Neighbours::list(const Particles& particles, const Grid& grid) {
   for (std::size_t k = 0; k < c.size(); ++k) c.start[k + 1] += c.start[k];
 }
 
-/// @param rooms entries that each thread has room for, one after the other   @return false where one has more: they are counted all the same
+/// @param rooms entries that each thread has room for, one after the other   @return false where one has more: they are counted
+/// all the same
 bool Neighbours::list_into(const Particles& particles, const Grid& grid, std::span<const std::size_t> rooms) {
   Clusters& c = clusters_;
   const auto x = positions(particles);
@@ -433,11 +444,13 @@ bool Neighbours::list_into(const Particles& particles, const Grid& grid, std::sp
       for (const CandidateRange& r : ranges) candidates += r.to - r.from;
       if (entries.size() < candidates) entries.resize(candidates), near.resize(candidates);
       const unsigned members = (1u << (c.first[k + 1] - c.first[k])) - 1u;
-      const Scan task{x.x.data(), x.y.data(), x.z.data(), c.first[k], members, ranges.data(), ranges.size(), shift_.data(), reach * reach};
+      const Scan task{x.x.data(),    x.y.data(),    x.z.data(),    c.first[k],   members,
+                      ranges.data(), ranges.size(), shift_.data(), reach * reach};
       const Scanned found = scan_(task, entries.data(), near.data());
       if (size + found.entries <= rooms[part]) {
         const auto to = static_cast<std::ptrdiff_t>(first + size);
-        std::copy_n(entries.begin(), found.entries, c.entries.begin() + to), std::copy_n(near.begin(), found.entries, c.near.begin() + to);
+        std::copy_n(entries.begin(), found.entries, c.entries.begin() + to),
+            std::copy_n(near.begin(), found.entries, c.near.begin() + to);
       }
       c.start[k + 1] = found.entries;
       size += found.entries, pairs += found.pairs;
@@ -471,7 +484,8 @@ void Neighbours::mark_own(const Particles& particles, const OwnPairs& own) {
       for (std::size_t e = c.start[k]; e < c.start[k + 1]; ++e) {
         if ((c.near[e] >> lane & 1u) == 0) continue;
         const std::size_t j = Entry{c.entries[e]}.row();
-        if (are_own(own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j]))) c.own[e] = static_cast<std::uint8_t>(c.own[e] | 1u << lane);
+        if (are_own(own, static_cast<std::uint32_t>(id[i]), static_cast<std::uint32_t>(id[j])))
+          c.own[e] = static_cast<std::uint8_t>(c.own[e] | 1u << lane);
       }
     }
   }

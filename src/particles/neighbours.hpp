@@ -23,12 +23,12 @@ struct PeriodicBox {
   [[nodiscard]] bool any() const noexcept { return periodic[0] || periodic[1] || periodic[2]; }
 };
 
-/// Clusters of up to `lanes` consecutive rows, each with one list of the rows that are near to any of its members: what a vector of
-/// particles is worked on with.
+/// Clusters of up to `lanes` consecutive rows, each with one list of the rows that are near to any of its members: what a vector
+/// of particles is worked on with.
 struct Clusters {
   int lanes = 1;
-  std::vector<std::uint32_t> first;  ///< first row of each cluster, and one past the last row
-  std::vector<std::size_t> start;     ///< first entry of each cluster, and one past the last
+  std::vector<std::uint32_t> first;    ///< first row of each cluster, and one past the last row
+  std::vector<std::size_t> start;      ///< first entry of each cluster, and one past the last
   std::vector<std::uint32_t> entries;  ///< row and image, as in Entry
   std::vector<std::uint8_t> near;      ///< of each entry: bit l where it is near to member l; a particle is not near to itself
   std::vector<std::uint8_t> own;       ///< of each entry: bit l where it is an own pair of member l; empty where there is none
@@ -37,10 +37,13 @@ struct Clusters {
   std::vector<std::uint64_t> within;
   /// Of each entry a bit, as in `within`: whether it acts on a member at all. Found anew with each list; empty where all may.
   std::vector<std::uint64_t> acting;
-  std::vector<std::uint32_t> listed, unlisted;  ///< clusters with a list; without, since all they could meet is fixed as they are: ascending
+  std::vector<std::uint32_t> listed,
+      unlisted;  ///< clusters with a list; without, since all they could meet is fixed as they are: ascending
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
   /// The cluster that a row is a member of.
-  [[nodiscard]] std::uint32_t of(std::size_t row) const { return static_cast<std::uint32_t>(std::ranges::upper_bound(first, row) - first.begin() - 1); }
+  [[nodiscard]] std::uint32_t of(std::size_t row) const {
+    return static_cast<std::uint32_t>(std::ranges::upper_bound(first, row) - first.begin() - 1);
+  }
 };
 
 /// The entries of one row, in list order.
@@ -51,7 +54,10 @@ class RowEntries {
     using value_type = Entry;
     using difference_type = std::ptrdiff_t;
     iterator() = default;
-    iterator(const Clusters* list, std::size_t at, std::size_t end, unsigned lane) : list_(list), at_(at), end_(end), lane_(lane) { skip(); }
+    iterator(const Clusters* list, std::size_t at, std::size_t end, unsigned lane)
+        : list_(list), at_(at), end_(end), lane_(lane) {
+      skip();
+    }
     Entry operator*() const {
       const bool own = !list_->own.empty() && (list_->own[at_] >> lane_ & 1u) != 0;
       return {list_->entries[at_] | (own ? Entry::own_bit : 0u)};
@@ -76,7 +82,8 @@ class RowEntries {
     std::size_t at_ = 0, end_ = 0;
     unsigned lane_ = 0;
   };
-  RowEntries(const Clusters& list, std::size_t row) : list_(&list), cluster_(list.of(row)), lane_(static_cast<unsigned>(row - list.first[cluster_])) {}
+  RowEntries(const Clusters& list, std::size_t row)
+      : list_(&list), cluster_(list.of(row)), lane_(static_cast<unsigned>(row - list.first[cluster_])) {}
   [[nodiscard]] iterator begin() const { return {list_, list_->start[cluster_], list_->start[cluster_ + 1], lane_}; }
   [[nodiscard]] iterator end() const { return {list_, list_->start[cluster_ + 1], list_->start[cluster_ + 1], lane_}; }
 
@@ -89,7 +96,8 @@ class RowEntries {
 /// What can sleep: see Particles.
 struct Resting {
   std::vector<char> bodies;  ///< of each solid body, 1 where its members stay where they are; empty: nothing sleeps
-  double around = 0.0;       ///< distance within which they are awake around those that something can reach; where less, the reach of a list [m]
+  double around =
+      0.0;  ///< distance within which they are awake around those that something can reach; where less, the reach of a list [m]
 };
 
 /// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
@@ -105,8 +113,9 @@ class Neighbours {
 
   /// Sorts the particles and lists them anew when one has moved by more than skin/2 since the last time.
   /// @throws Diverged when a position is not finite
-  /// @param resting asked where lists are made. What sleeps is left out of them, and what is awake and can meet only what is fixed has none.
-  /// Members of fixed bodies must not have moved since the rebuild before the last. The first lists are whole: of all particles
+  /// @param resting asked where lists are made. What sleeps is left out of them, and what is awake and can meet only what is
+  /// fixed has none. Members of fixed bodies must not have moved since the rebuild before the last. The first lists are whole: of
+  /// all particles
   /// @return whether the rows have a new order
   bool update(Particles&, double time, const std::function<Resting()>& resting = {});
   /// Lists the particles anew from the positions of an earlier rebuild, as a restart must to continue the same bits.
@@ -137,15 +146,19 @@ class Neighbours {
   [[nodiscard]] const Vec3& shift(std::uint32_t image) const noexcept { return shift_[image]; }
   [[nodiscard]] const std::array<Vec3, 27>& shifts() const noexcept { return shift_; }
   [[nodiscard]] double support() const noexcept { return support_; }
-  [[nodiscard]] std::size_t entries() const noexcept { return pairs_; }  ///< directed pairs within support + skin, of what sleeps too
+  [[nodiscard]] std::size_t entries() const noexcept {
+    return pairs_;
+  }  ///< directed pairs within support + skin, of what sleeps too
   /// Lists of all particles that were made until now. What follows from fixed places alone is to be found with them.
   [[nodiscard]] long whole_lists() const noexcept { return whole_lists_; }
-  /// Whether the present lists are whole, and those after them need not be: who keeps what follows from fixed places alone finds it now.
+  /// Whether the present lists are whole, and those after them need not be: who keeps what follows from fixed places alone finds
+  /// it now.
   [[nodiscard]] bool may_rest_next() const noexcept { return still_.known && listed_all_; }
   /// Fixed particles by id, in an order that stays; the place of one in it. Only where may_rest_next() or something sleeps.
   [[nodiscard]] std::span<const std::uint32_t> still_ids() const noexcept { return still_.id; }
   [[nodiscard]] std::uint32_t still_place(std::size_t id) const noexcept { return still_.place[id]; }
-  /// First awake row of each block of 1024 rows, and one past the last: blocks are counted over all rows, as if what sleeps lay among them.
+  /// First awake row of each block of 1024 rows, and one past the last: blocks are counted over all rows, as if what sleeps lay
+  /// among them.
   [[nodiscard]] std::span<const std::uint32_t> row_blocks() const noexcept { return row_blocks_; }
   /// All rows in order of (cell, id), those that sleep too.
   [[nodiscard]] std::vector<std::uint32_t> rows_in_order(const Particles&) const;
@@ -180,13 +193,15 @@ class Neighbours {
   struct Still {
     bool known = false;
     std::vector<char> bodies;
-    Vec3 origin, width, low, high;         ///< of the grid's cells; corners of the particles [m]
-    std::array<int, 3> count{};            ///< stretches
-    std::vector<std::uint32_t> first, id;  ///< first of each stretch, and one past the last; ids in order of (cell, id)
+    Vec3 origin, width, low, high;            ///< of the grid's cells; corners of the particles [m]
+    std::array<int, 3> count{};               ///< stretches
+    std::vector<std::uint32_t> first, id;     ///< first of each stretch, and one past the last; ids in order of (cell, id)
     std::vector<std::uint32_t> place, pairs;  ///< of each id its place in `id`; of each place the directed pairs with fixed ones
     std::size_t all_pairs = 0;
     [[nodiscard]] std::size_t index(const std::array<int, 3>& s) const {
-      return static_cast<std::size_t>(s[0]) + static_cast<std::size_t>(count[0]) * (static_cast<std::size_t>(s[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(s[2]));
+      return static_cast<std::size_t>(s[0]) +
+             static_cast<std::size_t>(count[0]) *
+                 (static_cast<std::size_t>(s[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(s[2]));
     }
   } still_;
   /// What sleeps in a stretch comes before this awake row.
@@ -196,7 +211,7 @@ class Neighbours {
   std::vector<Gap> gaps_;
   std::vector<std::uint32_t> row_blocks_;
   enum class RowKind : char { moves, still, meets_nothing };
-  std::vector<RowKind> kinds_;           ///< of each awake row; empty: all move
+  std::vector<RowKind> kinds_;  ///< of each awake row; empty: all move
   long whole_lists_ = 0;
   bool listed_all_ = false;
   long rebuilds_ = 0;

@@ -4,7 +4,9 @@
 namespace tripoint {
 namespace {
 
-auto place_of(std::span<const OwnPair> list, std::uint32_t other) { return std::ranges::lower_bound(list, other, {}, &OwnPair::other); }
+auto place_of(std::span<const OwnPair> list, std::uint32_t other) {
+  return std::ranges::lower_bound(list, other, {}, &OwnPair::other);
+}
 
 void insert(OwnPairs& own, std::uint32_t i, const OwnPair& pair) {
   std::vector<OwnPair> list(own.of(i).begin(), own.of(i).end());

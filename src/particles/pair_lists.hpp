@@ -12,7 +12,8 @@
 namespace tripoint {
 
 /// Lists of partners by particle id, each a stretch of one pool in order of insertion: a change costs what it changes, and
-/// neither threads nor the order of rows touch the order of a list. Changes are counted, so that what is made from lists can follow.
+/// neither threads nor the order of rows touch the order of a list. Changes are counted, so that what is made from lists can
+/// follow.
 template <class Pair>
 class PairLists {
  public:
@@ -76,7 +77,8 @@ class PairLists {
     ++changes_;
     for (List& list : lists_) {
       const std::size_t start = packed.size();
-      packed.insert(packed.end(), pool_.begin() + static_cast<std::ptrdiff_t>(list.start), pool_.begin() + static_cast<std::ptrdiff_t>(list.start + list.count));
+      packed.insert(packed.end(), pool_.begin() + static_cast<std::ptrdiff_t>(list.start),
+                    pool_.begin() + static_cast<std::ptrdiff_t>(list.start + list.count));
       list = {start, list.count, list.count, changes_};
     }
     pool_.swap(packed);
@@ -99,8 +101,8 @@ struct Bond {
   std::uint32_t other = 0;  ///< id of j
   std::uint32_t twin = 0;   ///< place of i in the list of j
   Vec3 x;                   ///< reference vector x_ij = r_i - r_j, in the reference frame of i [m]
-  Vec3 gradient;            ///< grad W(x_ij) of the kernel (17) with respect to i, or what stands for it at a surface (model 8.7) [1/m4]
-  double weight = 0.0;      ///< W(x_ij) of the kernel (17) [1/m3]
+  Vec3 gradient;  ///< grad W(x_ij) of the kernel (17) with respect to i, or what stands for it at a surface (model 8.7) [1/m4]
+  double weight = 0.0;  ///< W(x_ij) of the kernel (17) [1/m3]
 };
 static_assert(sizeof(Bond) == 64);
 using Bonds = PairLists<Bond>;

@@ -28,7 +28,8 @@ void Particles::permute(std::span<const std::uint32_t> order, int threads) {
   awake_ = size();
 }
 
-void Particles::rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t awake, int threads) {
+void Particles::rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t awake,
+                          int threads) {
   Columns::rearrange(from, to, threads);
   const auto id = (*this)[field::id];
   for (const std::uint32_t row : to) row_of_id_[static_cast<std::size_t>(id[row])] = row;

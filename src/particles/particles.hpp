@@ -10,8 +10,8 @@
 
 namespace tripoint {
 
-/// The particles of a scene. Rows are in order of the neighbour grid's cells; ids are for ever. Members of fixed bodies that nothing
-/// that moves can reach sleep: they are the last rows, in any order, and no step looks at them (decision 020).
+/// The particles of a scene. Rows are in order of the neighbour grid's cells; ids are for ever. Members of fixed bodies that
+/// nothing that moves can reach sleep: they are the last rows, in any order, and no step looks at them (decision 020).
 class Particles : public Columns {
  public:
   Particles() = default;

@@ -46,7 +46,8 @@ template <int L, class ForUnit>
       const V dx = (s.x[j] - xi) + shift.x, dy = (s.y[j] - yi) + shift.y, dz = (s.z[j] - zi) + shift.z;
       const V r2 = dx * dx + dy * dy + dz * dz;
       unsigned bits = bits_of<L>(r2 < s.reach2) & s.members;
-      if (j - s.first < static_cast<std::size_t>(L) && range->image == Entry::box_itself) bits &= ~(1u << (j - s.first));  // itself
+      if (j - s.first < static_cast<std::size_t>(L) && range->image == Entry::box_itself)
+        bits &= ~(1u << (j - s.first));  // itself
       rows[n] = Entry::of(j, range->image).bits;
       near[n] = static_cast<std::uint8_t>(bits);
       n += bits != 0;

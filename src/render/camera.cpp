@@ -28,8 +28,8 @@ CameraAxes::CameraAxes(const Vec3& up, const View& view) noexcept {
   upward = cross(right, forward);
 }
 
-// A place at (x, y) across and f along the axes is in the picture where |x - X| <= w (f - E) and |y - Y| <= h (f - E), with the eye at
-// (X, Y, E): each side of the picture bounds one sum of two of them, and the greatest of all places counts.
+// A place at (x, y) across and f along the axes is in the picture where |x - X| <= w (f - E) and |y - Y| <= h (f - E), with the
+// eye at (X, Y, E): each side of the picture bounds one sum of two of them, and the greatest of all places counts.
 Camera::Camera(std::span<const Vec3> places, double room, const CameraAxes& axes, double aspect) noexcept
     : axes_(axes), half_width_(aspect * std::tan(radians(half_angle))), half_height_(std::tan(radians(half_angle))) {
   const double w = half_width_ / margin, h = half_height_ / margin, most = std::numeric_limits<double>::infinity();
@@ -44,7 +44,9 @@ Camera::Camera(std::span<const Vec3> places, double room, const CameraAxes& axes
   eye_ = along * axes.forward + 0.5 * (right - left) * axes.right + 0.5 * (top - bottom) * axes.upward;
 }
 
-Ray Camera::ray(double x, double y) const noexcept { return {eye_, unit(axes_.forward + x * half_width_ * axes_.right + y * half_height_ * axes_.upward)}; }
+Ray Camera::ray(double x, double y) const noexcept {
+  return {eye_, unit(axes_.forward + x * half_width_ * axes_.right + y * half_height_ * axes_.upward)};
+}
 
 Span inside(const Ray& ray, const Box& box) noexcept {
   Span s{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};

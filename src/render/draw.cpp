@@ -11,9 +11,9 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double ambient = 0.38, sun = 0.72, shine = 0.10, sharpness = 40.0;
 constexpr double fade_from = 1.5, fade_to = 6.0;  // of the ground, in sizes of what is shown
-constexpr double differs = 0.06;                   // light of two neighbours
-constexpr int tile = 16;                           // pixels
-constexpr int finer = 3;                           // rays a pixel along each axis, where neighbours differ
+constexpr double differs = 0.06;                  // light of two neighbours
+constexpr int tile = 16;                          // pixels
+constexpr int finer = 3;                          // rays a pixel along each axis, where neighbours differ
 
 const Colour ground_colour{0.62, 0.62, 0.60}, sky_low{0.90, 0.92, 0.94}, sky_high{0.70, 0.78, 0.88};
 
@@ -29,7 +29,10 @@ struct Seen {
 class Tracer {
  public:
   Tracer(const Display& display, const Camera& camera)
-      : display_(&display), sun_(unit(0.9 * display.up - 0.45 * camera.axes().right + 0.55 * camera.towards())), nudge_(1e-3 * display.size), middle_(box_middle(display)) {
+      : display_(&display),
+        sun_(unit(0.9 * display.up - 0.45 * camera.axes().right + 0.55 * camera.towards())),
+        nudge_(1e-3 * display.size),
+        middle_(box_middle(display)) {
     for (const auto& t : display.targets) gazes_.push_back(t->gaze()), boxes_.push_back(t->bounds());
   }
 
@@ -100,19 +103,24 @@ class Tracer {
 struct Frame {
   int width, height;
   std::vector<Seen> seen;
-  [[nodiscard]] const Seen& at(int x, int y) const { return seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+  [[nodiscard]] const Seen& at(int x, int y) const {
+    return seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
 };
 
-Ray ray_of(const Camera& camera, const Frame& f, double x, double y) { return camera.ray(2.0 * x / f.width - 1.0, 1.0 - 2.0 * y / f.height); }
+Ray ray_of(const Camera& camera, const Frame& f, double x, double y) {
+  return camera.ray(2.0 * x / f.width - 1.0, 1.0 - 2.0 * y / f.height);
+}
 
 bool unlike(const Seen& a, const Seen& b) {
-  return a.what != b.what || std::abs(a.light.x - b.light.x) > differs || std::abs(a.light.y - b.light.y) > differs || std::abs(a.light.z - b.light.z) > differs;
+  return a.what != b.what || std::abs(a.light.x - b.light.x) > differs || std::abs(a.light.y - b.light.y) > differs ||
+         std::abs(a.light.z - b.light.z) > differs;
 }
 
 bool differs_from_neighbours(const Frame& f, int x, int y) {
   const Seen& here = f.at(x, y);
-  return (x > 0 && unlike(here, f.at(x - 1, y))) || (x + 1 < f.width && unlike(here, f.at(x + 1, y))) || (y > 0 && unlike(here, f.at(x, y - 1))) ||
-         (y + 1 < f.height && unlike(here, f.at(x, y + 1)));
+  return (x > 0 && unlike(here, f.at(x - 1, y))) || (x + 1 < f.width && unlike(here, f.at(x + 1, y))) ||
+         (y > 0 && unlike(here, f.at(x, y - 1))) || (y + 1 < f.height && unlike(here, f.at(x, y + 1)));
 }
 
 Colour finer_light(Tracer& tracer, const Camera& camera, const Frame& f, int x, int y) {
@@ -145,7 +153,10 @@ Picture draw(const Display& display, const Camera& camera, int width, int height
     Tracer tracer(display, camera);
 #pragma omp for schedule(dynamic)
     for (int n = 0; n < tiles; ++n)
-      each_pixel(f, n, [&](int x, int y) { f.seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] = tracer.seen(ray_of(camera, f, x + 0.5, y + 0.5)); });
+      each_pixel(f, n, [&](int x, int y) {
+        f.seen[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] =
+            tracer.seen(ray_of(camera, f, x + 0.5, y + 0.5));
+      });
 #pragma omp for schedule(dynamic)
     for (int n = 0; n < tiles; ++n)
       each_pixel(f, n, [&](int x, int y) {

@@ -15,7 +15,8 @@ void write_png(const std::string& path, const Picture& picture) {
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(picture.width), image.height = static_cast<png_uint_32>(picture.height);
   image.format = PNG_FORMAT_RGB;
-  if (png_image_write_to_file(&image, path.c_str(), 0, picture.rgb.data(), 0, nullptr) == 0) throw EngineError(path + ": cannot be written: " + image.message);
+  if (png_image_write_to_file(&image, path.c_str(), 0, picture.rgb.data(), 0, nullptr) == 0)
+    throw EngineError(path + ": cannot be written: " + image.message);
 }
 
 Picture shrunk(const Picture& from, int width) {
@@ -45,7 +46,8 @@ Picture contact_sheet(std::span<const Picture> pictures, int columns) {
   std::ranges::fill(sheet.rgb, std::uint8_t{255});
   for (int n = 0; n < count; ++n)
     for (int y = 0; y < h; ++y)
-      std::copy_n(pictures[static_cast<std::size_t>(n)].at(0, y), 3 * w, sheet.at(n % across * (w + gap), n / across * (h + gap) + y));
+      std::copy_n(pictures[static_cast<std::size_t>(n)].at(0, y), 3 * w,
+                  sheet.at(n % across * (w + gap), n / across * (h + gap) + y));
   return sheet;
 }
 

@@ -9,9 +9,11 @@ namespace {
 
 class SphereGaze : public Gaze {
  public:
-  SphereGaze(const PointCells& cells, double radius, std::span<const Colour> colours) : cells_(&cells), cache_(cells, radius), radius_(radius), colours_(colours) {}
+  SphereGaze(const PointCells& cells, double radius, std::span<const Colour> colours)
+      : cells_(&cells), cache_(cells, radius), radius_(radius), colours_(colours) {}
 
-  /// Goes from cell to cell: a cell's list holds every ball that reaches into it, so that a ball met within the cell is the first.
+  /// Goes from cell to cell: a cell's list holds every ball that reaches into it, so that a ball met within the cell is the
+  /// first.
   std::optional<Hit> first(const Ray& ray, const Span& span) override {
     const Span box = inside(ray, grown(cells_->box(), radius_));
     const double nudge = 1e-6 * radius_;

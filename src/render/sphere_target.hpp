@@ -11,7 +11,8 @@ namespace tripoint {
 class SphereTarget : public Target {
  public:
   /// @param radius of each ball [m]   @param colours of the particles
-  SphereTarget(std::span<const Vec3> centres, double radius, std::vector<Colour> colours) : cells_(centres, 2.0 * radius), radius_(radius), colours_(std::move(colours)) {}
+  SphereTarget(std::span<const Vec3> centres, double radius, std::vector<Colour> colours)
+      : cells_(centres, 2.0 * radius), radius_(radius), colours_(std::move(colours)) {}
   [[nodiscard]] std::unique_ptr<Gaze> gaze() const override;
   [[nodiscard]] Box bounds() const override { return grown(cells_.box(), radius_); }
 

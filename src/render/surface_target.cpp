@@ -8,13 +8,14 @@ namespace tripoint {
 namespace {
 
 constexpr double shortest = 0.03, longest = 0.25, share = 0.7;  // of a step: over ir, over ir, of phi
-constexpr double tolerance = 1e-5;                               // over ir
+constexpr double tolerance = 1e-5;                              // over ir
 
 /// Root between an outer place (phi > 0) and an inner one, by the Illinois form of false position.
 double closed_in(SurfaceProbe& probe, const Ray& ray, double outer, double inner, double phi_outer, double phi_inner, double ir) {
   int kept = 0;
   for (int step = 0; step < 40 && inner - outer > tolerance * ir; ++step) {
-    const double t = std::clamp(outer + (inner - outer) * phi_outer / (phi_outer - phi_inner), outer + 0.02 * (inner - outer), inner - 0.02 * (inner - outer));
+    const double t = std::clamp(outer + (inner - outer) * phi_outer / (phi_outer - phi_inner), outer + 0.02 * (inner - outer),
+                                inner - 0.02 * (inner - outer));
     const double phi = probe.phi(ray.at(t));
     if (std::abs(phi) < tolerance * ir) return t;
     if (phi > 0.0) {
@@ -32,7 +33,8 @@ double closed_in(SurfaceProbe& probe, const Ray& ray, double outer, double inner
 
 class SurfaceGaze : public Gaze {
  public:
-  SurfaceGaze(const ImplicitSurface& surface, std::span<const Colour> colours) : surface_(&surface), colours_(colours), probe_(surface) {}
+  SurfaceGaze(const ImplicitSurface& surface, std::span<const Colour> colours)
+      : surface_(&surface), colours_(colours), probe_(surface) {}
 
   std::optional<Hit> first(const Ray& ray, const Span& span) override {
     const auto t = first_crossing(*surface_, probe_, ray, span);
@@ -69,7 +71,8 @@ std::optional<double> first_crossing(const ImplicitSurface& surface, SurfaceProb
       step = std::max(inside(ray, *empty).to - t, 0.0) + 1e-6 * ir;
     } else if (const SurfaceValue v = probe.value(r); !v.near) {
       const auto nearest = probe.nearest(r);
-      const double far = nearest ? *nearest - ir : inside(ray, surface.cells().box_of(surface.cells().cell_of(r))).to - t + 1e-6 * ir;
+      const double far =
+          nearest ? *nearest - ir : inside(ray, surface.cells().box_of(surface.cells().cell_of(r))).to - t + 1e-6 * ir;
       step = std::max(step, far);
     } else {
       phi = v.phi;

@@ -65,7 +65,9 @@ std::optional<DefaultStiffness> default_stiffness(const Scene& s) {
   if (calls_for(s, "fluid")) {
     k = {stiffness_of_liquids(s), "(10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 g depth of the liquids)"};
   } else if (const auto pairs = s.contact ? meetings(s) : std::vector<Meeting>{}; !pairs.empty()) {
-    k = {stiffness_of_solids(s, pairs), "solids can meet: (10 v)^2, v the greatest speed of approach with the fall by the scene's height, or the longitudinal modulus of an elastic body over the greatest density"};
+    k = {stiffness_of_solids(s, pairs),
+         "solids can meet: (10 v)^2, v the greatest speed of approach with the fall by the scene's height, or the longitudinal "
+         "modulus of an elastic body over the greatest density"};
   }
   if (!(k.value > 0.0) || !std::isfinite(k.value)) return {};
   return k;

@@ -15,17 +15,24 @@ std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') out += fmt::format("\\{}", c);
-    else if (c == '\n') out += "\\n";
-    else if (c == '\t') out += "\\t";
-    else if (byte < 32 || byte == 127) out += fmt::format("\\u{:04X}", byte);
-    else out += c;
+    if (c == '"' || c == '\\')
+      out += fmt::format("\\{}", c);
+    else if (c == '\n')
+      out += "\\n";
+    else if (c == '\t')
+      out += "\\t";
+    else if (byte < 32 || byte == 127)
+      out += fmt::format("\\u{:04X}", byte);
+    else
+      out += c;
   }
   return out + "\"";
 }
 
 std::string key_text(const std::string& key) {
-  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; });
+  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
   return bare ? key : quoted(key);
 }
 
@@ -38,21 +45,25 @@ std::string real_text(double value) {
 std::string value_text(const TomlNode& n) {
   std::string out;
   switch (n.kind) {
-    case Kind::text: return quoted(n.text);
-    case Kind::real: return real_text(n.real);
+    case Kind::text:
+      return quoted(n.text);
+    case Kind::real:
+      return real_text(n.real);
     case Kind::array:
       for (const auto& item : n.items) out += (out.empty() ? "" : ", ") + value_text(item);
       return "[" + out + "]";
     case Kind::table:
       for (const auto& [key, value] : n.members) out += (out.empty() ? "" : ", ") + key_text(key) + " = " + value_text(value);
       return out.empty() ? "{}" : "{ " + out + " }";
-    default: return to_toml(n);
+    default:
+      return to_toml(n);
   }
 }
 
 /// An array of arrays or tables has a line for each: a line is of bounded length.
 std::string line_text(const std::string& key, const TomlNode& value) {
-  const bool rows = value.kind == Kind::array && !value.items.empty() && (value.items.front().kind == Kind::table || value.items.front().kind == Kind::array);
+  const bool rows = value.kind == Kind::array && !value.items.empty() &&
+                    (value.items.front().kind == Kind::table || value.items.front().kind == Kind::array);
   if (!rows) return fmt::format("{} = {}\n", key_text(key), value_text(value));
   std::string out = key_text(key) + " = [\n";
   for (const auto& item : value.items) out += "  " + value_text(item) + ",\n";
@@ -66,7 +77,8 @@ std::string table_text(const std::string& header, const TomlNode& table) {
 }
 
 bool is_list_of_tables(const TomlNode& n) {
-  return n.kind == Kind::array && !n.items.empty() && std::all_of(n.items.begin(), n.items.end(), [](const auto& item) { return item.kind == Kind::table; });
+  return n.kind == Kind::array && !n.items.empty() &&
+         std::all_of(n.items.begin(), n.items.end(), [](const auto& item) { return item.kind == Kind::table; });
 }
 
 }  // namespace

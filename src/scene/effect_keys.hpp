@@ -9,8 +9,8 @@
 /// The keys that effects bring, wherever a scene is read or written: the case file, and JSON in both directions.
 namespace tripoint {
 
-/// Calls visit(row, value) for each key that effects have in this table and keep in an Owner, a Scene or a Material. Numbers that have no
-/// member of their own are a double of Owner::values.
+/// Calls visit(row, value) for each key that effects have in this table and keep in an Owner, a Scene or a Material. Numbers that
+/// have no member of their own are a double of Owner::values.
 template <class Owner, class Visit>
 void each_effect_key(Owner& owner, std::string_view table, Visit visit) {
   for (const EffectRule& rule : effect_rules()) {
@@ -19,8 +19,10 @@ void each_effect_key(Owner& owner, std::string_view table, Visit visit) {
       const auto kept = [&](const auto& member) {
         using Member = std::decay_t<decltype(member)>;
         if constexpr (std::is_same_v<Member, std::monostate>) {
-          if constexpr (std::is_const_v<Owner>) visit(key.row, kept_number(owner.values, key.row));
-          else visit(key.row, owner.values.try_emplace(std::string(key.row.name), kept_number(owner.values, key.row)).first->second);
+          if constexpr (std::is_const_v<Owner>)
+            visit(key.row, kept_number(owner.values, key.row));
+          else
+            visit(key.row, owner.values.try_emplace(std::string(key.row.name), kept_number(owner.values, key.row)).first->second);
         } else if constexpr (requires { owner.*member; }) {
           visit(key.row, owner.*member);
         }
@@ -34,10 +36,14 @@ void each_effect_key(Owner& owner, std::string_view table, Visit visit) {
 template <class Owner>
 void read_effect_keys(TableReader& in, std::string_view table, Owner& owner) {
   each_effect_key(owner, table, [&]<class T>(const Key& key, T& value) {
-    if constexpr (std::is_same_v<T, double>) value = in.number(key.name);
-    else if constexpr (std::is_same_v<T, bool>) value = in.flag(key.name);
-    else if constexpr (std::is_same_v<T, std::string>) value = in.text(key.name);
-    else value = in.maybe_number(key.name);
+    if constexpr (std::is_same_v<T, double>)
+      value = in.number(key.name);
+    else if constexpr (std::is_same_v<T, bool>)
+      value = in.flag(key.name);
+    else if constexpr (std::is_same_v<T, std::string>)
+      value = in.text(key.name);
+    else
+      value = in.maybe_number(key.name);
   });
 }
 

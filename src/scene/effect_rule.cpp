@@ -17,7 +17,8 @@ bool changes_phase(const Scene& s, const Body& b, const Material& m) {
   if (!has_heat(b, m) || !m.t_melt || b.temperature_held) return false;
   const TemperatureRange range = temperatures_of(s);
   if (b.phase == Phase::liquid) return range.least < *m.t_solid;
-  const bool band = (s.mode_of(Term::phase) == Mode::paper && b.phase == Phase::elastic) || turns_elastic(s, m);  // soft from t_solid on (Fig. 5)
+  const bool band = (s.mode_of(Term::phase) == Mode::paper && b.phase == Phase::elastic) ||
+                    turns_elastic(s, m);  // soft from t_solid on (Fig. 5)
   return range.greatest > (band ? *m.t_solid : *m.t_melt);
 }
 
@@ -26,7 +27,9 @@ bool freezes(const Scene& s, const Inflow& f) {
   return f.temperature && m.t_melt && m.conductivity && m.heat_capacity && temperatures_of(s).least < *m.t_solid;
 }
 
-bool is_elastic_when_frozen(const Scene& s, const Material& m) { return (m.solid == "elastic" && m.young_modulus) || turns_elastic(s, m); }
+bool is_elastic_when_frozen(const Scene& s, const Material& m) {
+  return (m.solid == "elastic" && m.young_modulus) || turns_elastic(s, m);
+}
 
 template <class Test>
 std::string names_where(const Scene& s, Test test) {
@@ -54,7 +57,8 @@ bool any_material(const Scene& s, bool (*test)(const Material&)) { return std::r
 
 bool moves(const Scene& s, const Body& b) {
   if (b.motion != Motion::fixed) return true;
-  return std::ranges::any_of(s.events, [](const Event& e) { return e.kind == Event::Kind::release || e.kind == Event::Kind::grip; });
+  return std::ranges::any_of(s.events,
+                             [](const Event& e) { return e.kind == Event::Kind::release || e.kind == Event::Kind::grip; });
 }
 
 std::string who_changes_phase(const Scene& s) {
@@ -64,14 +68,18 @@ std::string who_changes_phase(const Scene& s) {
 }
 
 std::string who_freezes_elastic(const Scene& s, bool (*limited)(const Material&)) {
-  std::string who = names_where(s, [&](const Body& b, const Material& m) { return changes_phase(s, b, m) && is_elastic_when_frozen(s, m) && limited(m); });
-  const auto pours = [&](const Inflow& f) { return freezes(s, f) && is_elastic_when_frozen(s, s.material(f.material)) && limited(s.material(f.material)); };
+  std::string who = names_where(
+      s, [&](const Body& b, const Material& m) { return changes_phase(s, b, m) && is_elastic_when_frozen(s, m) && limited(m); });
+  const auto pours = [&](const Inflow& f) {
+    return freezes(s, f) && is_elastic_when_frozen(s, s.material(f.material)) && limited(s.material(f.material));
+  };
   if (who.empty() && std::ranges::any_of(s.inflows, pours)) who = "an inflow";
   return who;
 }
 
 std::string limit_called_for(const Scene& s, bool (*limited)(const Material&), std::string_view limit, std::string_view can) {
-  const std::string who = names_where(s, [&](const Body& b, const Material& m) { return b.phase == Phase::elastic && moves(s, b) && limited(m); });
+  const std::string who =
+      names_where(s, [&](const Body& b, const Material& m) { return b.phase == Phase::elastic && moves(s, b) && limited(m); });
   if (!who.empty()) return because(who, fmt::format("elastic with {}: can {}", limit, can));
   return because(who_freezes_elastic(s, limited), fmt::format("what freezes can {}", can));
 }
@@ -85,14 +93,16 @@ std::string limit_left_out(const Scene& s, bool (*limited)(const Material&), std
 std::vector<CalledEffect> called_effects(const Scene& s) {
   std::vector<CalledEffect> list;
   for (const EffectRule& rule : effect_rules())
-    if (const std::string why = rule.called_for ? rule.called_for(s) : ""; !why.empty()) list.push_back({std::string(rule.name), why});
+    if (const std::string why = rule.called_for ? rule.called_for(s) : ""; !why.empty())
+      list.push_back({std::string(rule.name), why});
   return list;
 }
 
 std::vector<CalledEffect> idle_effects(const Scene& s) {
   std::vector<CalledEffect> list;
   for (const EffectRule& rule : effect_rules())
-    if (rule.called_for && rule.left_out && rule.called_for(s).empty()) list.push_back({std::string(rule.name), rule.left_out(s)});
+    if (rule.called_for && rule.left_out && rule.called_for(s).empty())
+      list.push_back({std::string(rule.name), rule.left_out(s)});
   return list;
 }
 

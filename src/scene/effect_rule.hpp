@@ -9,8 +9,8 @@
 #include "scene/key_table.hpp"
 #include "scene/read_case.hpp"
 
-/// What an effect says of itself to whoever reads scenes and runs nothing. Each effect's rule stands in its folder, in rule.cpp; a build
-/// without the effect has its rule all the same.
+/// What an effect says of itself to whoever reads scenes and runs nothing. Each effect's rule stands in its folder, in rule.cpp;
+/// a build without the effect has its rule all the same.
 namespace tripoint {
 
 /// Effects that a scene has called for so far.
@@ -31,10 +31,13 @@ class Called {
 /// Scene::values or Material::values, by the key's name; where no reader made them, it has the row's fallback.
 struct EffectKey {
   Key row;
-  std::variant<std::monostate, double Scene::*, bool Scene::*, std::string Scene::*, double Material::*, bool Material::*, std::optional<double> Material::*> kept_in{};
+  std::variant<std::monostate, double Scene::*, bool Scene::*, std::string Scene::*, double Material::*, bool Material::*,
+               std::optional<double> Material::*>
+      kept_in{};
   /// Why a value in this scene changes nothing although the effect is on; "" = it acts. None: it acts wherever the effect is on.
   std::string (*idle)(const Scene&) = nullptr;
-  bool ablated = false;  ///< of [scene], without a member: 0 leaves out a term that the paper does not have, which is a row of `tripoint ablate`
+  bool ablated = false;  ///< of [scene], without a member: 0 leaves out a term that the paper does not have, which is a row of
+                         ///< `tripoint ablate`
 };
 
 struct EffectRule {
@@ -81,8 +84,10 @@ using BodyTest = bool (*)(const Scene&, const Body&, const Material&);
 [[nodiscard]] std::string who_changes_phase(const Scene&);
 /// Who is elastic once it has frozen, of a material that passes the test.
 [[nodiscard]] std::string who_freezes_elastic(const Scene&, bool (*limited)(const Material&));
-/// For a limit of what is elastic, as of yield or fracture: who has it or freezes with it, and what it `can` do then. `limit` names it with its article.
-[[nodiscard]] std::string limit_called_for(const Scene&, bool (*limited)(const Material&), std::string_view limit, std::string_view can);
+/// For a limit of what is elastic, as of yield or fracture: who has it or freezes with it, and what it `can` do then. `limit`
+/// names it with its article.
+[[nodiscard]] std::string limit_called_for(const Scene&, bool (*limited)(const Material&), std::string_view limit,
+                                           std::string_view can);
 /// Why that limit never acts.
 [[nodiscard]] std::string limit_left_out(const Scene&, bool (*limited)(const Material&), std::string_view limit);
 

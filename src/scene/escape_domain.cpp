@@ -23,7 +23,8 @@ void include(Bounds& box, const Bounds& part, const Vec3& shift, double by) {
 /// Boxes around the particles of each body.
 std::vector<Bounds> boxes_of(const Scene& s, const InitialState& initial) {
   std::vector<Bounds> boxes(s.bodies.size(), nothing());
-  for (std::size_t i = 0; i < initial.size(); ++i) include(boxes.at(static_cast<std::size_t>(initial.source[i])), initial.position[i]);
+  for (std::size_t i = 0; i < initial.size(); ++i)
+    include(boxes.at(static_cast<std::size_t>(initial.source[i])), initial.position[i]);
   return boxes;
 }
 
@@ -31,7 +32,8 @@ std::vector<Bounds> boxes_of(const Scene& s, const InitialState& initial) {
 double depth(const Scene& s, const Bounds& box) {
   double most = -INFINITY;
   for (int n = 0; n < 8; ++n)
-    most = std::max(most, dot(s.gravity, Vec3{n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y, n & 4 ? box.max.z : box.min.z}));
+    most = std::max(
+        most, dot(s.gravity, Vec3{n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y, n & 4 ? box.max.z : box.min.z}));
   return most;
 }
 
@@ -73,10 +75,13 @@ Bounds escape_domain(const Scene& s, const InitialState& initial) {
     if (!(boxes[n].min.x <= boxes[n].max.x)) continue;
     include_driven(all, s, b, boxes[n]);
     if (b.motion == Motion::fixed && s.events.empty()) continue;
-    const bool uniform = b.velocity.kind == VelocityField::Kind::constant && (b.phase != Phase::liquid || b.angular_velocity == Vec3{});
-    include_flight(all, s, boxes[n], uniform ? b.velocity.value : Vec3{}, uniform ? 0.0 : greatest_speed(b), !has_wall_below(s, boxes, boxes[n]));
+    const bool uniform =
+        b.velocity.kind == VelocityField::Kind::constant && (b.phase != Phase::liquid || b.angular_velocity == Vec3{});
+    include_flight(all, s, boxes[n], uniform ? b.velocity.value : Vec3{}, uniform ? 0.0 : greatest_speed(b),
+                   !has_wall_below(s, boxes, boxes[n]));
   }
-  for (const Inflow& f : s.inflows) include_flight(all, s, bounds(f.shape), f.velocity, 0.0, !has_wall_below(s, boxes, bounds(f.shape)));
+  for (const Inflow& f : s.inflows)
+    include_flight(all, s, bounds(f.shape), f.velocity, 0.0, !has_wall_below(s, boxes, bounds(f.shape)));
   for (const Event& e : s.events)
     for (const Keyframe& k : e.keyframes) include(all, start, k.position - e.keyframes.front().position, 0.0);
   const Vec3 around{room, room, room};

@@ -23,25 +23,40 @@ struct Function {
   Op op;
   int arguments;
 };
-constexpr std::array functions{Function{"sin", Op::sine, 1},  Function{"cos", Op::cosine, 1},   Function{"tan", Op::tangent, 1},
-                               Function{"exp", Op::exponential, 1}, Function{"log", Op::logarithm, 1}, Function{"sqrt", Op::root, 1}, Function{"abs", Op::absolute, 1},
-                               Function{"erf", Op::error, 1}, Function{"erfc", Op::error_complement, 1}, Function{"sinh", Op::hyperbolic_sine, 1}, Function{"cosh", Op::hyperbolic_cosine, 1},
-                               Function{"tanh", Op::hyperbolic_tangent, 1}, Function{"min", Op::least, 2}, Function{"max", Op::greatest, 2}};
+constexpr std::array functions{Function{"sin", Op::sine, 1},
+                               Function{"cos", Op::cosine, 1},
+                               Function{"tan", Op::tangent, 1},
+                               Function{"exp", Op::exponential, 1},
+                               Function{"log", Op::logarithm, 1},
+                               Function{"sqrt", Op::root, 1},
+                               Function{"abs", Op::absolute, 1},
+                               Function{"erf", Op::error, 1},
+                               Function{"erfc", Op::error_complement, 1},
+                               Function{"sinh", Op::hyperbolic_sine, 1},
+                               Function{"cosh", Op::hyperbolic_cosine, 1},
+                               Function{"tanh", Op::hyperbolic_tangent, 1},
+                               Function{"min", Op::least, 2},
+                               Function{"max", Op::greatest, 2}};
 constexpr long most_terms = 10000;  ///< of a sum
 
 /// sum = product {(+|-) product}; product = signed {(*|/) signed}; signed = [-|+] signed | power; power = atom [^ signed].
 class Compiler {
  public:
-  Compiler(std::string_view text, Expression::Time time, std::vector<Expression::Step>& steps, std::vector<Expression::Sum>& sums) : text_(text), time_(time), steps_(&steps), sums_(sums) {}
+  Compiler(std::string_view text, Expression::Time time, std::vector<Expression::Step>& steps, std::vector<Expression::Sum>& sums)
+      : text_(text), time_(time), steps_(&steps), sums_(sums) {}
 
   void compile() {
     if (text_.size() > 1000) throw InputError("the expression is longer than 1000 bytes: shorten it");
     sum();
-    if (!ends()) refuse(fmt::format("`{}` does not belong here: remove it, or write an operator before it", printable(text_.substr(at_, 12))));
+    if (!ends())
+      refuse(
+          fmt::format("`{}` does not belong here: remove it, or write an operator before it", printable(text_.substr(at_, 12))));
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& what) const { throw InputError(fmt::format("column {} of the expression: {}", at_ + 1, what)); }
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw InputError(fmt::format("column {} of the expression: {}", at_ + 1, what));
+  }
   void spaces() {
     while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
   }
@@ -63,25 +78,34 @@ class Compiler {
     if (++depth_ > 50) refuse("nested deeper than 50 brackets: write it flatter");
     product();
     for (;;) {
-      if (take('+')) product(), emit(Op::add);
-      else if (take('-')) product(), emit(Op::subtract);
-      else break;
+      if (take('+'))
+        product(), emit(Op::add);
+      else if (take('-'))
+        product(), emit(Op::subtract);
+      else
+        break;
     }
     --depth_;
   }
   void product() {
     signed_power();
     for (;;) {
-      if (take('*')) signed_power(), emit(Op::multiply);
-      else if (take('/')) signed_power(), emit(Op::divide);
-      else break;
+      if (take('*'))
+        signed_power(), emit(Op::multiply);
+      else if (take('/'))
+        signed_power(), emit(Op::divide);
+      else
+        break;
     }
   }
   void signed_power() {
     if (++depth_ > 50) refuse("nested deeper than 50 signs and brackets: write it flatter");
-    if (take('-')) signed_power(), emit(Op::negate);
-    else if (take('+')) signed_power();
-    else power();
+    if (take('-'))
+      signed_power(), emit(Op::negate);
+    else if (take('+'))
+      signed_power();
+    else
+      power();
     --depth_;
   }
   void power() {
@@ -94,7 +118,8 @@ class Compiler {
     if (take('(')) return sum(), expect(')');
     if ((c >= '0' && c <= '9') || c == '.') return number();
     if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')) return name();
-    refuse(fmt::format("`{}` stands where a value belongs: write a number, x, y, z, a function or a bracket", printable(text_.substr(at_, 1))));
+    refuse(fmt::format("`{}` stands where a value belongs: write a number, x, y, z, a function or a bracket",
+                       printable(text_.substr(at_, 1))));
   }
   void number() {
     double value = 0.0;
@@ -123,8 +148,10 @@ class Compiler {
     }
     at_ = begin;
     std::vector<std::string> known{"x", "y", "z", "pi", "sum"};
-    if (time_ == Expression::Time::known) known.emplace_back("t");
-    else if (word == "t") refuse("`t` is unknown here: this is of the start, and a formula of x, y and z");
+    if (time_ == Expression::Time::known)
+      known.emplace_back("t");
+    else if (word == "t")
+      refuse("`t` is unknown here: this is of the start, and a formula of x, y and z");
     for (const auto& f : functions) known.emplace_back(f.name);
     refuse(fmt::format("`{}` is unknown{}", printable(word), suggestion(word, known)));
   }
@@ -132,7 +159,8 @@ class Compiler {
   void series(std::size_t begin) {
     if (!index_.empty()) at_ = begin, refuse("a sum stands in a sum: write the inner one out");
     expect('(');
-    if (ends() || !((text_[at_] >= 'a' && text_[at_] <= 'z') || (text_[at_] >= 'A' && text_[at_] <= 'Z'))) refuse("a sum begins with the name of its index: sum(n, 1, 40, ...)");
+    if (ends() || !((text_[at_] >= 'a' && text_[at_] <= 'z') || (text_[at_] >= 'A' && text_[at_] <= 'Z')))
+      refuse("a sum begins with the name of its index: sum(n, 1, 40, ...)");
     index_ = word();
     for (const std::string_view taken : {"x", "y", "z", "t", "pi", "sum"})
       if (index_ == taken) refuse(fmt::format("`{}` has a meaning already: give the index of the sum another name", taken));
@@ -140,7 +168,8 @@ class Compiler {
     Expression::Sum series{whole(), 0, {}};
     expect(',');
     series.last = whole();
-    if (series.last < series.first || series.last - series.first >= most_terms) refuse(fmt::format("the sum runs from {} to {}: at least 1 and at most {} terms", series.first, series.last, most_terms));
+    if (series.last < series.first || series.last - series.first >= most_terms)
+      refuse(fmt::format("the sum runs from {} to {}: at least 1 and at most {} terms", series.first, series.last, most_terms));
     expect(',');
     auto* outer = std::exchange(steps_, &series.steps);
     sum();
@@ -152,7 +181,9 @@ class Compiler {
   }
   std::string word() {
     const auto begin = at_;
-    while (at_ < text_.size() && ((text_[at_] >= 'a' && text_[at_] <= 'z') || (text_[at_] >= 'A' && text_[at_] <= 'Z') || (text_[at_] >= '0' && text_[at_] <= '9') || text_[at_] == '_')) ++at_;
+    while (at_ < text_.size() && ((text_[at_] >= 'a' && text_[at_] <= 'z') || (text_[at_] >= 'A' && text_[at_] <= 'Z') ||
+                                  (text_[at_] >= '0' && text_[at_] <= '9') || text_[at_] == '_'))
+      ++at_;
     return std::string(text_.substr(begin, at_ - begin));
   }
   long whole() {
@@ -175,31 +206,51 @@ class Compiler {
 
 double unary(Op op, double a) {
   switch (op) {
-    case Op::negate: return -a;
-    case Op::sine: return std::sin(a);
-    case Op::cosine: return std::cos(a);
-    case Op::tangent: return std::tan(a);
-    case Op::exponential: return std::exp(a);
-    case Op::logarithm: return std::log(a);
-    case Op::error: return std::erf(a);
-    case Op::error_complement: return std::erfc(a);
-    case Op::hyperbolic_sine: return std::sinh(a);
-    case Op::hyperbolic_cosine: return std::cosh(a);
-    case Op::hyperbolic_tangent: return std::tanh(a);
-    case Op::root: return std::sqrt(a);
-    default: return std::abs(a);
+    case Op::negate:
+      return -a;
+    case Op::sine:
+      return std::sin(a);
+    case Op::cosine:
+      return std::cos(a);
+    case Op::tangent:
+      return std::tan(a);
+    case Op::exponential:
+      return std::exp(a);
+    case Op::logarithm:
+      return std::log(a);
+    case Op::error:
+      return std::erf(a);
+    case Op::error_complement:
+      return std::erfc(a);
+    case Op::hyperbolic_sine:
+      return std::sinh(a);
+    case Op::hyperbolic_cosine:
+      return std::cosh(a);
+    case Op::hyperbolic_tangent:
+      return std::tanh(a);
+    case Op::root:
+      return std::sqrt(a);
+    default:
+      return std::abs(a);
   }
 }
 
 double binary(Op op, double a, double b) {
   switch (op) {
-    case Op::add: return a + b;
-    case Op::subtract: return a - b;
-    case Op::multiply: return a * b;
-    case Op::divide: return a / b;
-    case Op::power: return std::pow(a, b);
-    case Op::least: return std::min(a, b);
-    default: return std::max(a, b);
+    case Op::add:
+      return a + b;
+    case Op::subtract:
+      return a - b;
+    case Op::multiply:
+      return a * b;
+    case Op::divide:
+      return a / b;
+    case Op::power:
+      return std::pow(a, b);
+    case Op::least:
+      return std::min(a, b);
+    default:
+      return std::max(a, b);
   }
 }
 
@@ -216,16 +267,23 @@ double value_of(const std::vector<Expression::Step>& steps, const Point& at) {
   std::vector<double> stack;
   stack.reserve(steps.size());
   for (const auto& [op, value] : steps) {
-    if (op == Op::number) stack.push_back(value);
-    else if (op == Op::x) stack.push_back(at.r.x);
-    else if (op == Op::y) stack.push_back(at.r.y);
-    else if (op == Op::z) stack.push_back(at.r.z);
-    else if (op == Op::t) stack.push_back(at.t);
-    else if (op == Op::index) stack.push_back(at.index);
+    if (op == Op::number)
+      stack.push_back(value);
+    else if (op == Op::x)
+      stack.push_back(at.r.x);
+    else if (op == Op::y)
+      stack.push_back(at.r.y);
+    else if (op == Op::z)
+      stack.push_back(at.r.z);
+    else if (op == Op::t)
+      stack.push_back(at.t);
+    else if (op == Op::index)
+      stack.push_back(at.index);
     else if (op == Op::sum) {
       const Expression::Sum& series = at.sums[static_cast<std::size_t>(value)];
       double total = 0.0;
-      for (long n = series.first; n <= series.last; ++n) total += value_of(series.steps, {at.r, at.t, static_cast<double>(n), at.sums});
+      for (long n = series.first; n <= series.last; ++n)
+        total += value_of(series.steps, {at.r, at.t, static_cast<double>(n), at.sums});
       stack.push_back(total);
     } else if (is_binary(op)) {
       const double b = stack.back();

@@ -7,8 +7,9 @@
 
 namespace tripoint {
 
-/// A formula of x, y, z [m] from a case file: numbers, + - * / ^, brackets, the functions of one and two arguments of the page of the case file, pi, and
-/// sum(n, 1, 40, f) of f over whole n from 1 to 40. ^ binds tighter than a sign before it and groups to the right: -2^2 = -4, 2^3^2 = 512.
+/// A formula of x, y, z [m] from a case file: numbers, + - * / ^, brackets, the functions of one and two arguments of the page of
+/// the case file, pi, and sum(n, 1, 40, f) of f over whole n from 1 to 40. ^ binds tighter than a sign before it and groups to
+/// the right: -2^2 = -4, 2^3^2 = 512.
 class Expression {
  public:
   /// Whether t [s] may stand in it: a start is of one time.
@@ -18,8 +19,35 @@ class Expression {
   /// The value at r and t; may be inf or NaN (division by 0), which the caller refuses.
   [[nodiscard]] double operator()(const Vec3& r, double t = 0.0) const;
 
-  enum class Op : char { number, x, y, z, t, index, sum, add, subtract, multiply, divide, power, least, greatest,
-                         negate, sine, cosine, tangent, exponential, logarithm, root, absolute, error, error_complement, hyperbolic_sine, hyperbolic_cosine, hyperbolic_tangent };
+  enum class Op : char {
+    number,
+    x,
+    y,
+    z,
+    t,
+    index,
+    sum,
+    add,
+    subtract,
+    multiply,
+    divide,
+    power,
+    least,
+    greatest,
+    negate,
+    sine,
+    cosine,
+    tangent,
+    exponential,
+    logarithm,
+    root,
+    absolute,
+    error,
+    error_complement,
+    hyperbolic_sine,
+    hyperbolic_cosine,
+    hyperbolic_tangent
+  };
   struct Step {
     Op op;
     double value;  ///< number; of a sum its place in the list of sums

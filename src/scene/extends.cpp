@@ -20,7 +20,8 @@ using Kind = TomlNode::Kind;
 constexpr std::size_t most_files = 8;  ///< of a chain, the case itself counted
 
 [[noreturn]] void refuse(const TomlNode& extends, const std::string& what) {
-  const std::string given = extends.kind == Kind::text ? "\"" + printable(extends.text, 120) + "\"" : std::string(kind_name(extends.kind));
+  const std::string given =
+      extends.kind == Kind::text ? "\"" + printable(extends.text, 120) + "\"" : std::string(kind_name(extends.kind));
   throw InputError(extends.place, fmt::format("`extends` = {}: {}", given, what));
 }
 
@@ -46,8 +47,11 @@ fs::path real(const fs::path& path) {
 /// Tables of a case, and a scene or what has one: any other file is left unread, so that no message can quote it.
 void check_is_case(const TomlNode& document, const TomlNode& extends) {
   const auto known = key_names("");
-  const bool knows_all = std::all_of(document.members.begin(), document.members.end(), [&](const auto& m) { return std::find(known.begin(), known.end(), m.first) != known.end(); });
-  if (!knows_all || !(document.find("scene") || document.find("extends"))) refuse(extends, "that file is no case: give the path of a case file, or see what `tripoint check` says of it");
+  const bool knows_all = std::all_of(document.members.begin(), document.members.end(), [&](const auto& m) {
+    return std::find(known.begin(), known.end(), m.first) != known.end();
+  });
+  if (!knows_all || !(document.find("scene") || document.find("extends")))
+    refuse(extends, "that file is no case: give the path of a case file, or see what `tripoint check` says of it");
 }
 
 TomlNode read_extended(const std::string& file, const TomlNode& extends) {
@@ -55,7 +59,11 @@ TomlNode read_extended(const std::string& file, const TomlNode& extends) {
   try {
     document = read_toml(file);
   } catch (const InputError& e) {
-    throw InputError(e.place(), fmt::format("cannot be read as TOML, and {} extends it: give the path of a case file, or see what `tripoint check` says of it", to_string(extends.place)));
+    throw InputError(
+        e.place(),
+        fmt::format(
+            "cannot be read as TOML, and {} extends it: give the path of a case file, or see what `tripoint check` says of it",
+            to_string(extends.place)));
   }
   check_is_case(document, extends);
   return document;
@@ -66,7 +74,8 @@ void move_files(TomlNode& node, const fs::path& from, const fs::path& to) {
   for (auto& [key, value] : node.members) {
     if (key == "args" || key == "settings") continue;  // free keys
     std::error_code error;
-    if (key == "file" && value.kind == Kind::text && fs::is_regular_file(from / value.text, error)) value.text = (from / value.text).lexically_relative(to).string();
+    if (key == "file" && value.kind == Kind::text && fs::is_regular_file(from / value.text, error))
+      value.text = (from / value.text).lexically_relative(to).string();
     move_files(value, from, to);
   }
   for (auto& item : node.items) move_files(item, from, to);
@@ -86,7 +95,9 @@ TomlNode resolve(TomlNode document, const std::string& file, std::vector<std::st
   const auto extends = take(document, "extends");
   const auto remove = take(document, "remove");
   if (!extends) {
-    if (remove) throw InputError(remove->key_place, "`remove` takes keys out of what a case extends, and this one extends nothing: remove the key");
+    if (remove)
+      throw InputError(remove->key_place,
+                       "`remove` takes keys out of what a case extends, and this one extends nothing: remove the key");
     return document;
   }
   const std::string base_file = extended_file(*extends, file);
@@ -94,9 +105,11 @@ TomlNode resolve(TomlNode document, const std::string& file, std::vector<std::st
   if (std::find(chain.begin(), chain.end(), real(base_file).string()) != chain.end()) {
     std::string circle;
     for (const auto& link : chain) circle += fs::path(link).filename().string() + " -> ";
-    refuse(*extends, fmt::format("the files extend each other in a circle: {}{}; remove one of these links", circle, fs::path(base_file).filename().string()));
+    refuse(*extends, fmt::format("the files extend each other in a circle: {}{}; remove one of these links", circle,
+                                 fs::path(base_file).filename().string()));
   }
-  if (chain.size() >= most_files) refuse(*extends, fmt::format("a chain of more than {} files: extend one nearer to the start", most_files));
+  if (chain.size() >= most_files)
+    refuse(*extends, fmt::format("a chain of more than {} files: extend one nearer to the start", most_files));
   TomlNode base = resolve(read_extended(base_file, *extends), base_file, chain);
   const auto from = real(base_file).parent_path(), to = real(file).parent_path();
   if (from != to) move_files(base, from, to);
@@ -109,7 +122,8 @@ TomlNode resolve(TomlNode document, const std::string& file, std::vector<std::st
 }  // namespace
 
 std::string extended_file(const TomlNode& extends, const std::string& file) {
-  if (extends.kind != Kind::text || extends.text.empty()) refuse(extends, "write the path of a case file, \"other.toml\", or a case's name, \"rigid/ballistic\"");
+  if (extends.kind != Kind::text || extends.text.empty())
+    refuse(extends, "write the path of a case file, \"other.toml\", or a case's name, \"rigid/ballistic\"");
   const fs::path given = extends.text;
   const fs::path here = real(file), around = cases_around(here), shipped = real(fs::path(share_folder()) / "cases");
   std::vector<fs::path> places;
@@ -123,9 +137,12 @@ std::string extended_file(const TomlNode& extends, const std::string& file) {
     std::error_code error;
     const fs::path found = real(place);
     if (given.is_absolute() || found.empty() || found.extension() != ".toml" || !fs::is_regular_file(found, error)) continue;
-    if (found.parent_path() == here.parent_path() || is_below(found, around) || is_below(found, shipped)) return place.lexically_normal().string();
+    if (found.parent_path() == here.parent_path() || is_below(found, around) || is_below(found, shipped))
+      return place.lexically_normal().string();
   }
-  refuse(extends, "no case file of that name in the folder of this file, nor below a folder `cases` around it, nor among the shipped cases: give one of these");
+  refuse(extends,
+         "no case file of that name in the folder of this file, nor below a folder `cases` around it, nor among the shipped "
+         "cases: give one of these");
 }
 
 TomlNode read_case_document(const std::string& file) {

@@ -81,13 +81,20 @@ bool in_box(const Shape& s, const Vec3& r) {
 
 Bounds bounds(const Shape& s) {
   switch (s.kind) {
-    case Kind::box: return {s.min, s.max};
-    case Kind::sphere: return {s.centre - Vec3{s.radius, s.radius, s.radius}, s.centre + Vec3{s.radius, s.radius, s.radius}};
-    case Kind::cylinder: return of_cylinder(s);
-    case Kind::half_space: return of_half_space(s);
-    case Kind::unite: return of_union(s);
-    case Kind::difference: return of_difference(s);
-    case Kind::mesh: return of_points(read_mesh(s.file, s.scale).points);
+    case Kind::box:
+      return {s.min, s.max};
+    case Kind::sphere:
+      return {s.centre - Vec3{s.radius, s.radius, s.radius}, s.centre + Vec3{s.radius, s.radius, s.radius}};
+    case Kind::cylinder:
+      return of_cylinder(s);
+    case Kind::half_space:
+      return of_half_space(s);
+    case Kind::unite:
+      return of_union(s);
+    case Kind::difference:
+      return of_difference(s);
+    case Kind::mesh:
+      return of_points(read_mesh(s.file, s.scale).points);
   }
   return everything();
 }
@@ -101,10 +108,14 @@ std::optional<Vec3> symmetry_centre(const Shape& s) {
 
 std::function<bool(const Vec3&)> inside_of(const Shape& s, double spacing) {
   switch (s.kind) {
-    case Kind::box: return [s](const Vec3& r) { return in_box(s, r); };
-    case Kind::sphere: return [s](const Vec3& r) { return dot(r - s.centre, r - s.centre) <= s.radius * s.radius; };
-    case Kind::cylinder: return [s](const Vec3& r) { return in_cylinder(s, r); };
-    case Kind::half_space: return [s](const Vec3& r) { return dot(r - s.point, s.normal) <= 0.0; };
+    case Kind::box:
+      return [s](const Vec3& r) { return in_box(s, r); };
+    case Kind::sphere:
+      return [s](const Vec3& r) { return dot(r - s.centre, r - s.centre) <= s.radius * s.radius; };
+    case Kind::cylinder:
+      return [s](const Vec3& r) { return in_cylinder(s, r); };
+    case Kind::half_space:
+      return [s](const Vec3& r) { return dot(r - s.point, s.normal) <= 0.0; };
     case Kind::difference: {
       auto from = inside_of(s.of[0], spacing), minus = inside_of(s.of[1], spacing);
       return [from, minus](const Vec3& r) { return from(r) && !minus(r); };
@@ -125,13 +136,18 @@ std::function<bool(const Vec3&)> inside_of(const Shape& s, double spacing) {
 std::optional<double> volume(const Shape& s) {
   using std::numbers::pi;
   switch (s.kind) {
-    case Kind::box: return (s.max.x - s.min.x) * (s.max.y - s.min.y) * (s.max.z - s.min.z);
-    case Kind::sphere: return 4.0 / 3.0 * pi * s.radius * s.radius * s.radius;
-    case Kind::cylinder: return pi * s.radius * s.radius * s.length;
-    case Kind::mesh: return std::abs(volume(read_mesh(s.file, s.scale)));
+    case Kind::box:
+      return (s.max.x - s.min.x) * (s.max.y - s.min.y) * (s.max.z - s.min.z);
+    case Kind::sphere:
+      return 4.0 / 3.0 * pi * s.radius * s.radius * s.radius;
+    case Kind::cylinder:
+      return pi * s.radius * s.radius * s.length;
+    case Kind::mesh:
+      return std::abs(volume(read_mesh(s.file, s.scale)));
     case Kind::half_space:
     case Kind::unite:
-    case Kind::difference: return {};
+    case Kind::difference:
+      return {};
   }
   return {};
 }

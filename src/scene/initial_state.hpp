@@ -27,8 +27,8 @@ struct InitialState {
 /// Mass properties of one body from its particles.
 struct MassProperties {
   double mass = 0.0;
-  Vec3 centre;             ///< [m]
-  Vec3 principal_inertia;  ///< ascending [kg m2]
+  Vec3 centre;                ///< [m]
+  Vec3 principal_inertia;     ///< ascending [kg m2]
   Quaternion principal_axes;  ///< principal frame to body (= world at the start) frame
 };
 

@@ -9,22 +9,33 @@
 namespace tripoint {
 
 enum class ValueType {
-  number, integer, flag, text, word, vector, numbers, texts, number_or_auto,
-  text_or_texts,   ///< "a" or ["a", "b"]
-  words,           ///< array of words
-  table, tables,   ///< a sub-table of its own rows; an array of such
-  settings,        ///< a table of free keys
-  shape, temperature, velocity,
-  invariant,       ///< a limit, or a table of its metric and its gate
+  number,
+  integer,
+  flag,
+  text,
+  word,
+  vector,
+  numbers,
+  texts,
+  number_or_auto,
+  text_or_texts,  ///< "a" or ["a", "b"]
+  words,          ///< array of words
+  table,
+  tables,    ///< a sub-table of its own rows; an array of such
+  settings,  ///< a table of free keys
+  shape,
+  temperature,
+  velocity,
+  invariant,  ///< a limit, or a table of its metric and its gate
 };
 
 enum class Range { any, positive, not_negative, fraction, poisson, above_one };
 
 struct Key {
-  std::string_view table;     ///< "scene", "body", "shape.box" ...
+  std::string_view table;  ///< "scene", "body", "shape.box" ...
   std::string_view name;
   ValueType type;
-  std::string_view unit;      ///< SI; "" = plain number
+  std::string_view unit;  ///< SI; "" = plain number
   Range range;
   std::string_view fallback;  ///< "!" required, "" absent = not set, "=" by a rule of the reader, else the value as TOML text
   std::string_view note;      ///< reason of the fallback (or, where nothing is set, what that means)

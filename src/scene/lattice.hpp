@@ -10,7 +10,8 @@ namespace tripoint {
 
 /// Particle centres of one body: (k + 1/2) dx from an origin along each axis.
 /// Periodic directions share the domain's lattice. Else a body whose corner lies on the scene's lattice (multiples of dx) shares
-/// that, so that bodies which touch fit; any other body has a lattice of its own from its corner, or about its centre of symmetry.
+/// that, so that bodies which touch fit; any other body has a lattice of its own from its corner, or about its centre of
+/// symmetry.
 struct Lattice {
   Vec3 origin;
   double spacing = 0.0;
@@ -24,7 +25,8 @@ struct Lattice {
   [[nodiscard]] long across(std::size_t axis) const { return count[axis]; }
 };
 
-/// @throws InputError when the body has no finite bounds, would need more than 1e8 cells, or a periodic domain is no multiple of dx
+/// @throws InputError when the body has no finite bounds, would need more than 1e8 cells, or a periodic domain is no multiple of
+/// dx
 [[nodiscard]] Lattice lattice_of(const Scene&, const Body&);
 
 /// Centres of the particles that fill the body, x fastest; neither jittered nor wrapped. @throws InputError when there is none

@@ -53,10 +53,14 @@ std::vector<Finding> library_values(const CaseReading& reading) {
       const std::string key = d.key.substr(table.size());
       if (d.given && key == "name") place = d.place;
       is_table = is_table || (d.given && key != "name");
-      if (!d.given && d.reason.rfind(from, 0) == 0 && key != "source") taken += (taken.empty() ? "" : ", ") + key + " = " + d.value;
+      if (!d.given && d.reason.rfind(from, 0) == 0 && key != "source")
+        taken += (taken.empty() ? "" : ", ") + key + " = " + d.value;
     }
     if (is_table && !taken.empty())
-      found.push_back({false, "material \"" + m.name + "\" takes what it does not give from the library's material of that name: " + taken + "; name it otherwise to have none of these", place});
+      found.push_back({false,
+                       "material \"" + m.name + "\" takes what it does not give from the library's material of that name: " +
+                           taken + "; name it otherwise to have none of these",
+                       place});
   }
   return found;
 }

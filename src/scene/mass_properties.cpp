@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <Eigen/Dense>
 
 #include "scene/read_case.hpp"
 
@@ -14,7 +14,8 @@ Eigen::Matrix3d inertia(const std::vector<Vec3>& position, const std::vector<dou
   Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < position.size(); ++i) {
     const Vec3 d = position[i] - centre;
-    I(0, 0) += mass[i] * (d.y * d.y + d.z * d.z), I(1, 1) += mass[i] * (d.z * d.z + d.x * d.x), I(2, 2) += mass[i] * (d.x * d.x + d.y * d.y);
+    I(0, 0) += mass[i] * (d.y * d.y + d.z * d.z), I(1, 1) += mass[i] * (d.z * d.z + d.x * d.x),
+        I(2, 2) += mass[i] * (d.x * d.x + d.y * d.y);
     I(0, 1) -= mass[i] * d.x * d.y, I(0, 2) -= mass[i] * d.x * d.z, I(1, 2) -= mass[i] * d.y * d.z;
   }
   I(1, 0) = I(0, 1), I(2, 0) = I(0, 2), I(2, 1) = I(1, 2);
@@ -37,9 +38,11 @@ Eigen::Matrix3d axes_of_diagonal(const Eigen::Vector3d& moments, Eigen::Vector3d
   const double tie = 1e-12 * moments.maxCoeff();
   for (int pass = 0; pass < 2; ++pass)  // stable: equal moments keep x, y, z
     for (std::size_t i = 0; i < 2; ++i)
-      if (moments(order[static_cast<std::size_t>(i + 1)]) < moments(order[i]) - tie) std::swap(order[i], order[static_cast<std::size_t>(i + 1)]);
+      if (moments(order[static_cast<std::size_t>(i + 1)]) < moments(order[i]) - tie)
+        std::swap(order[i], order[static_cast<std::size_t>(i + 1)]);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
-  for (int k = 0; k < 3; ++k) axes(order[static_cast<std::size_t>(k)], k) = 1.0, ascending(k) = moments(order[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < 3; ++k)
+    axes(order[static_cast<std::size_t>(k)], k) = 1.0, ascending(k) = moments(order[static_cast<std::size_t>(k)]);
   return axes;
 }
 

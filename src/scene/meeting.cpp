@@ -28,7 +28,9 @@ Box point(const Vec3& v) { return {Range{v.x, v.x}, {v.y, v.y}, {v.z, v.z}}; }
 Box hull(const Box& a, const Box& b) { return {hull(a[0], b[0]), hull(a[1], b[1]), hull(a[2], b[2])}; }
 double size(const Box& a) { return norm(Vec3{size(a[0]), size(a[1]), size(a[2])}); }
 
-Vec3 corner(const Bounds& box, int n) { return {n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y, n & 4 ? box.max.z : box.min.z}; }
+Vec3 corner(const Bounds& box, int n) {
+  return {n & 1 ? box.max.x : box.min.x, n & 2 ? box.max.y : box.min.y, n & 4 ? box.max.z : box.min.z};
+}
 
 /// Greatest speed of a field in a box, at points between whose values no smooth field of a scene hides much [m/s].
 double expression_speed(const std::array<std::string, 3>& text, const Bounds& box) {
@@ -46,14 +48,14 @@ double expression_speed(const std::array<std::string, 3>& text, const Bounds& bo
 
 /// Where a body can be: its box at the start, moved by what is known of its motion.
 struct Path {
-  Bounds box;               ///< at the start; of a body that can turn, around the sphere about its box's centre
+  Bounds box;  ///< at the start; of a body that can turn, around the sphere about its box's centre
   Box velocity, acceleration;
   std::vector<Keyframe> keyframes;  ///< places relative to the first [m]
-  double spread = 0.0;      ///< speed at which its parts can leave its box [m/s]
-  double rim = 0.0;         ///< greatest speed that its spin gives a part of it [m/s]
+  double spread = 0.0;              ///< speed at which its parts can leave its box [m/s]
+  double rim = 0.0;                 ///< greatest speed that its spin gives a part of it [m/s]
   bool turns = false;
-  bool bends = false;       ///< what it is joined to turns its motion into any direction
-  double lost = INFINITY;   ///< time from which nothing is known of it [s]
+  bool bends = false;      ///< what it is joined to turns its motion into any direction
+  double lost = INFINITY;  ///< time from which nothing is known of it [s]
 };
 
 bool breaks(const Body& b, const Material& m) { return b.phase == Phase::elastic && (m.fracture_stretch || m.fracture_distance); }
@@ -83,7 +85,8 @@ Path own_path(const Scene& s, const Body& b) {
   if (b.motion == Motion::fixed) return p;
   const Material& m = s.material(b.material);
   const bool free = b.motion == Motion::free, driven = !b.keyframes.empty();
-  p.turns = b.angular_velocity != Vec3{} || std::ranges::any_of(b.keyframes, [](const Keyframe& k) { return k.rotation != Quaternion{}; });
+  p.turns = b.angular_velocity != Vec3{} ||
+            std::ranges::any_of(b.keyframes, [](const Keyframe& k) { return k.rotation != Quaternion{}; });
   p.rim = norm(b.angular_velocity) * 0.5 * norm(p.box.extent());
   if (driven) {
     p.keyframes = b.keyframes;
@@ -143,7 +146,8 @@ void bend_by_joints(const Scene& s, std::vector<Path>& paths) {
     paths[n].bends = true;
     for (std::size_t m = 0; m < paths.size(); ++m) {
       if (group[m] != group[n]) continue;
-      paths[n].velocity = hull(paths[n].velocity, velocity[m]), paths[n].acceleration = hull(paths[n].acceleration, acceleration[m]);
+      paths[n].velocity = hull(paths[n].velocity, velocity[m]),
+      paths[n].acceleration = hull(paths[n].acceleration, acceleration[m]);
       paths[n].spread = std::max(paths[n].spread, paths[m].spread), paths[n].lost = std::min(paths[n].lost, paths[m].lost);
     }
   }
@@ -184,14 +188,16 @@ bool meet(const Scene& s, const Path& a, const Path& b, double until) {
   Box v, g;
   for (std::size_t k = 0; k < 3; ++k) v[k] = a.velocity[k] - b.velocity[k], g[k] = a.acceleration[k] - b.acceleration[k];
   const double spread = a.spread + b.spread;
-  const bool still = size(v) == 0.0 && size(g) == 0.0 && spread == 0.0 && a.keyframes.empty() && b.keyframes.empty() && !a.turns && !b.turns;
+  const bool still =
+      size(v) == 0.0 && size(g) == 0.0 && spread == 0.0 && a.keyframes.empty() && b.keyframes.empty() && !a.turns && !b.turns;
   if (still || !(until > 0.0)) return false;
   const auto near_between = [&](double from, double to) {
     const Box by_a = led(a.keyframes, from, to), by_b = led(b.keyframes, from, to);
     const double bent = a.bends || b.bends ? size(v) * to + 0.5 * size(g) * to * to : 0.0;
     const double reach = s.spacing + spread * to + bent;
     bool all = true;
-    for (std::size_t k = 0; k < 3 && all; ++k) all = near(s, k, a.box, b.box, moved(v[k], g[k], from, to) + by_a[k] - by_b[k], reach);
+    for (std::size_t k = 0; k < 3 && all; ++k)
+      all = near(s, k, a.box, b.box, moved(v[k], g[k], from, to) + by_a[k] - by_b[k], reach);
     return all;
   };
   if (!near_between(0.0, until)) return false;  // most pairs of many bodies
@@ -201,7 +207,8 @@ bool meet(const Scene& s, const Path& a, const Path& b, double until) {
 }
 
 bool is_joined(const Body& a, const Body& b) {
-  return std::ranges::find(a.joined_to, b.name) != a.joined_to.end() || std::ranges::find(b.joined_to, a.name) != b.joined_to.end();
+  return std::ranges::find(a.joined_to, b.name) != a.joined_to.end() ||
+         std::ranges::find(b.joined_to, a.name) != b.joined_to.end();
 }
 
 /// From when on two bodies are one, or the end of the run [s].
@@ -227,9 +234,15 @@ double greatest_speed(const Body& b) {
   const VelocityField& f = b.velocity;
   double v = 0.0;
   switch (f.kind) {
-    case VelocityField::Kind::constant: v = norm(f.value); break;
-    case VelocityField::Kind::cosine: v = norm(f.mean) + norm(f.amplitude); break;
-    case VelocityField::Kind::taylor_green: v = f.speed; break;
+    case VelocityField::Kind::constant:
+      v = norm(f.value);
+      break;
+    case VelocityField::Kind::cosine:
+      v = norm(f.mean) + norm(f.amplitude);
+      break;
+    case VelocityField::Kind::taylor_green:
+      v = f.speed;
+      break;
     case VelocityField::Kind::linear: {
       const Bounds box = bounds(b.shape);
       for (int n = 0; n < 8; ++n) {
@@ -238,7 +251,9 @@ double greatest_speed(const Body& b) {
       }
       break;
     }
-    case VelocityField::Kind::expression: v = expression_speed(f.expression, bounds(b.shape)); break;
+    case VelocityField::Kind::expression:
+      v = expression_speed(f.expression, bounds(b.shape));
+      break;
   }
   if (b.angular_velocity != Vec3{}) v += norm(b.angular_velocity) * 0.5 * norm(bounds(b.shape).extent());
   for (std::size_t k = 1; k < b.keyframes.size(); ++k) {
@@ -258,7 +273,8 @@ std::vector<Meeting> meetings(const Scene& s) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     for (std::size_t j = i + 1; j < paths.size(); ++j) {
       const Body &a = s.bodies[i], &b = s.bodies[j];
-      if ((!can_be_free(s, a) && !can_be_free(s, b)) || is_joined(a, b) || !meet(s, paths[i], paths[j], apart_until(s, a, b))) continue;
+      if ((!can_be_free(s, a) && !can_be_free(s, b)) || is_joined(a, b) || !meet(s, paths[i], paths[j], apart_until(s, a, b)))
+        continue;
       Box v;
       for (std::size_t k = 0; k < 3; ++k) v[k] = velocities_of(paths[i])[k] - velocities_of(paths[j])[k];
       found.push_back({i, j, size(v) + paths[i].spread + paths[j].spread + paths[i].rim + paths[j].rim});

@@ -34,7 +34,8 @@ std::vector<std::string_view> identity_keys(std::string_view array) {
 
 std::string identity(const TomlNode& item, std::string_view array) {
   std::string text;
-  for (const auto key : identity_keys(array)) text += (text.empty() ? "" : ", ") + (item.find(key) ? fmt::format("{} = {}", key, word(item, key)) : "");
+  for (const auto key : identity_keys(array))
+    text += (text.empty() ? "" : ", ") + (item.find(key) ? fmt::format("{} = {}", key, word(item, key)) : "");
   return text;
 }
 
@@ -57,8 +58,10 @@ void merge_table(TomlNode& base, TomlNode own, const std::string& path) {
   if (path == "gate" || path.starts_with("invariants.")) forget_bounds(base, own);
   base.place = own.place, base.key_place = own.key_place;
   for (auto& [key, value] : own.members) {
-    if (auto* there = base.find(key)) merge_value(*there, std::move(value), path.empty() ? key : path + "." + key);
-    else base.members.emplace_back(key, std::move(value));
+    if (auto* there = base.find(key))
+      merge_value(*there, std::move(value), path.empty() ? key : path + "." + key);
+    else
+      base.members.emplace_back(key, std::move(value));
   }
 }
 
@@ -71,10 +74,15 @@ void merge_items(TomlNode& base, TomlNode own, const std::string& array) {
     const auto same = std::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(inherited), name);
     const bool again = std::find(seen.begin(), seen.end(), name) != seen.end();
     if (same > 1 || (same == 1 && again))
-      throw InputError(item.place, fmt::format("[[{}]] with {}: more than one such table meets, so that none tells which is meant: remove those of the extended case (key `remove`), and give all", array, printable(name, 120)));
+      throw InputError(item.place, fmt::format("[[{}]] with {}: more than one such table meets, so that none tells which is "
+                                               "meant: remove those of the extended case (key `remove`), and give all",
+                                               array, printable(name, 120)));
     seen.push_back(name);
-    if (same == 0) base.items.push_back(std::move(item));
-    else merge_table(base.items[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())], std::move(item), array);
+    if (same == 0)
+      base.items.push_back(std::move(item));
+    else
+      merge_table(base.items[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())],
+                  std::move(item), array);
   }
   base.place = own.place, base.key_place = own.key_place;
 }
@@ -85,12 +93,16 @@ bool is_other_kind(const TomlNode& own) { return own.find("kind") || own.find("f
 void merge_value(TomlNode& base, TomlNode own, const std::string& path) {
   const bool tables = base.kind == Kind::table && own.kind == Kind::table;
   if (tables && (path == "case" || !is_other_kind(own))) return merge_table(base, std::move(own), path);
-  if (base.kind == Kind::array && own.kind == Kind::array && !identity_keys(path).empty()) return merge_items(base, std::move(own), path);
+  if (base.kind == Kind::array && own.kind == Kind::array && !identity_keys(path).empty())
+    return merge_items(base, std::move(own), path);
   base = std::move(own);
 }
 
 [[noreturn]] void not_there(const TomlNode& path, const std::string& part) {
-  throw InputError(path.place, fmt::format("`remove`: the extended case has no `{}`: write a key, scene.jitter, a table by its name, engines.lammps or metric.overlap (and the gates on it), or all of a kind, study", printable(part)));
+  throw InputError(path.place,
+                   fmt::format("`remove`: the extended case has no `{}`: write a key, scene.jitter, a table by its name, "
+                               "engines.lammps or metric.overlap (and the gates on it), or all of a kind, study",
+                               printable(part)));
 }
 
 bool judges(const TomlNode& gate, const std::string& metric) {
@@ -99,7 +111,8 @@ bool judges(const TomlNode& gate, const std::string& metric) {
 }
 
 void remove_gates(TomlNode& document, const std::string& metric) {
-  if (auto* gates = document.find("gate"); gates && gates->kind == Kind::array) std::erase_if(gates->items, [&](const auto& gate) { return judges(gate, metric); });
+  if (auto* gates = document.find("gate"); gates && gates->kind == Kind::array)
+    std::erase_if(gates->items, [&](const auto& gate) { return judges(gate, metric); });
 }
 
 /// "NAME.key" of a table of the array; false where none has such a name and key.
@@ -134,9 +147,11 @@ void remove_item(TomlNode& document, const std::string& array, const std::string
 void merge_case(TomlNode& base, TomlNode own) { merge_table(base, std::move(own), ""); }
 
 void remove_keys(TomlNode& document, const TomlNode& remove) {
-  if (remove.kind != Kind::array) throw InputError(remove.place, "`remove` is an array of texts: write [\"scene.jitter\", \"engines.lammps\"]");
+  if (remove.kind != Kind::array)
+    throw InputError(remove.place, "`remove` is an array of texts: write [\"scene.jitter\", \"engines.lammps\"]");
   for (const auto& path : remove.items) {
-    if (path.kind != Kind::text || path.text.empty()) throw InputError(path.place, "`remove` is an array of texts: write [\"scene.jitter\", \"engines.lammps\"]");
+    if (path.kind != Kind::text || path.text.empty())
+      throw InputError(path.place, "`remove` is an array of texts: write [\"scene.jitter\", \"engines.lammps\"]");
     TomlNode* at = &document;
     std::string rest = path.text;
     for (auto dot = rest.find('.'); dot != std::string::npos && at->kind == Kind::table; dot = rest.find('.')) {

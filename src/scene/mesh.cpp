@@ -23,7 +23,8 @@ std::string read_bytes(const std::string& file) {
   const auto size = std::filesystem::file_size(file, error);
   if (error) throw InputError({file, 0, 0}, "the mesh cannot be read: " + error.message());
   if (size == 0) throw InputError({file, 0, 0}, "the mesh is empty");
-  if (size > max_bytes) throw InputError({file, 0, 0}, fmt::format("the mesh has {} bytes; at most {} are read: simplify it", size, max_bytes));
+  if (size > max_bytes)
+    throw InputError({file, 0, 0}, fmt::format("the mesh has {} bytes; at most {} are read: simplify it", size, max_bytes));
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
@@ -56,12 +57,16 @@ Mesh joined(const Mesh& from, double scale) {
 
 void check_numbers(const Mesh& mesh, const std::string& file) {
   if (mesh.triangles.empty()) throw InputError({file, 0, 0}, "the mesh has no triangle");
-  if (mesh.triangles.size() > max_triangles) throw InputError({file, 0, 0}, fmt::format("the mesh has {} triangles; at most {} are read: simplify it", mesh.triangles.size(), max_triangles));
+  if (mesh.triangles.size() > max_triangles)
+    throw InputError({file, 0, 0}, fmt::format("the mesh has {} triangles; at most {} are read: simplify it",
+                                               mesh.triangles.size(), max_triangles));
   for (const auto& p : mesh.points)
-    if (!finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1e9) throw InputError({file, 0, 0}, fmt::format("the mesh has a corner at ({}, {}, {}): corners must be finite", p.x, p.y, p.z));
+    if (!finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1e9)
+      throw InputError({file, 0, 0}, fmt::format("the mesh has a corner at ({}, {}, {}): corners must be finite", p.x, p.y, p.z));
   for (const auto& t : mesh.triangles)
     for (const auto corner : t)
-      if (corner >= mesh.points.size()) throw InputError({file, 0, 0}, fmt::format("a triangle names corner {}, but there are {}", corner, mesh.points.size()));
+      if (corner >= mesh.points.size())
+        throw InputError({file, 0, 0}, fmt::format("a triangle names corner {}, but there are {}", corner, mesh.points.size()));
 }
 
 }  // namespace
@@ -79,10 +84,13 @@ void check_closed(const Mesh& mesh, const std::string& file) {
     if (use[0] == 1 && use[1] == 1) continue;
     const auto& a = mesh.points[edge.first];
     const auto& b = mesh.points[edge.second];
-    if (++open <= 3) first += fmt::format("; ({}, {}, {}) to ({}, {}, {}) used {} and {} times", a.x, a.y, a.z, b.x, b.y, b.z, use[0], use[1]);
+    if (++open <= 3)
+      first += fmt::format("; ({}, {}, {}) to ({}, {}, {}) used {} and {} times", a.x, a.y, a.z, b.x, b.y, b.z, use[0], use[1]);
   }
   if (open > 0)
-    throw InputError({file, 0, 0}, fmt::format("the mesh is not closed: {} open edge{} (each must be used once in each direction){}; fill the holes and turn all faces outward", open, open == 1 ? "" : "s", first));
+    throw InputError({file, 0, 0}, fmt::format("the mesh is not closed: {} open edge{} (each must be used once in each "
+                                               "direction){}; fill the holes and turn all faces outward",
+                                               open, open == 1 ? "" : "s", first));
 }
 
 double volume(const Mesh& mesh) {
@@ -94,7 +102,8 @@ double volume(const Mesh& mesh) {
 
 Mesh read_mesh(const std::string& file, double scale) {
   auto ending = std::filesystem::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending != ".obj" && ending != ".stl") throw InputError({file, 0, 0}, "a mesh is a .obj or .stl file");
   const auto bytes = read_bytes(file);
   Mesh mesh = ending == ".obj" ? parse_obj(bytes, file) : parse_stl(bytes, file);

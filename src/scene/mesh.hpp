@@ -12,7 +12,7 @@ namespace tripoint {
 
 /// A triangle mesh with shared corners; its triangles turn counter-clockwise seen from outside.
 struct Mesh {
-  std::vector<Vec3> points;                            ///< [m]
+  std::vector<Vec3> points;  ///< [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

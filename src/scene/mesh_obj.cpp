@@ -50,9 +50,13 @@ void check_lines(const std::string& bytes, const std::string& file) {
     const bool corner = kind == "v";
     const bool good = std::all_of(rest.begin(), rest.end(), corner ? is_number : is_corner);
     if (!corner && good && rest.size() > most_corners)
-      throw InputError({file, n, 0}, fmt::format("a face of {} corners; at most {}: cut it into triangles", rest.size(), most_corners));
+      throw InputError({file, n, 0},
+                       fmt::format("a face of {} corners; at most {}: cut it into triangles", rest.size(), most_corners));
     if (rest.size() < 3 || !good)
-      throw InputError({file, n, 0}, fmt::format("\"{}\" is no {}", printable(line), corner ? "corner: write v and three finite numbers" : "face: write f and three or more numbers of corners, as 7, 7/2 or 7/2/3"));
+      throw InputError({file, n, 0},
+                       fmt::format("\"{}\" is no {}", printable(line),
+                                   corner ? "corner: write v and three finite numbers"
+                                          : "face: write f and three or more numbers of corners, as 7, 7/2 or 7/2/3"));
   }
 }
 
@@ -65,16 +69,19 @@ Mesh parse_obj(const std::string& bytes, const std::string& file) {
   std::vector<tinyobj::material_t> materials;
   std::string warning, error;
   std::istringstream in(bytes);
-  if (!tinyobj::LoadObj(&corners, &shapes, &materials, &warning, &error, &in, nullptr, true)) throw InputError({file, 0, 0}, fmt::format("no valid OBJ: {}", printable(error, 200)));
+  if (!tinyobj::LoadObj(&corners, &shapes, &materials, &warning, &error, &in, nullptr, true))
+    throw InputError({file, 0, 0}, fmt::format("no valid OBJ: {}", printable(error, 200)));
   Mesh mesh;
-  for (std::size_t i = 0; i + 2 < corners.vertices.size(); i += 3) mesh.points.push_back({corners.vertices[i], corners.vertices[i + 1], corners.vertices[i + 2]});
+  for (std::size_t i = 0; i + 2 < corners.vertices.size(); i += 3)
+    mesh.points.push_back({corners.vertices[i], corners.vertices[i + 1], corners.vertices[i + 2]});
   for (const auto& shape : shapes) {
     const auto& index = shape.mesh.indices;
     for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
       std::array<std::uint32_t, 3> t{};
       for (std::size_t c = 0; c < 3; ++c) {
         const int v = index[i + c].vertex_index;
-        if (v < 0 || static_cast<std::size_t>(v) >= mesh.points.size()) throw InputError({file, 0, 0}, fmt::format("a face names corner {}, but there are {}", v + 1, mesh.points.size()));
+        if (v < 0 || static_cast<std::size_t>(v) >= mesh.points.size())
+          throw InputError({file, 0, 0}, fmt::format("a face names corner {}, but there are {}", v + 1, mesh.points.size()));
         t[c] = static_cast<std::uint32_t>(v);
       }
       mesh.triangles.push_back(t);

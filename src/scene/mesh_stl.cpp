@@ -29,7 +29,9 @@ Mesh binary(const std::string& bytes, std::uint32_t count, const std::string& fi
     for (std::size_t corner = 0; corner < 3; ++corner) {
       float xyz[3];
       std::memcpy(xyz, bytes.data() + 84 + std::size_t{50} * t + 12 * (corner + 1), sizeof xyz);
-      if (!std::isfinite(xyz[0] + xyz[1] + xyz[2])) throw InputError({file, 0, 0}, fmt::format("corner {} of triangle {} is at ({}, {}, {}): write finite numbers", corner + 1, t + 1, xyz[0], xyz[1], xyz[2]));
+      if (!std::isfinite(xyz[0] + xyz[1] + xyz[2]))
+        throw InputError({file, 0, 0}, fmt::format("corner {} of triangle {} is at ({}, {}, {}): write finite numbers",
+                                                   corner + 1, t + 1, xyz[0], xyz[1], xyz[2]));
       add(mesh, {xyz[0], xyz[1], xyz[2]});
     }
   return mesh;
@@ -44,10 +46,12 @@ Mesh ascii(const std::string& bytes, const std::string& file) {
     if (!(words >> word) || word != "vertex") continue;
     Vec3 p;
     std::string rest;
-    if (!(words >> p.x >> p.y >> p.z) || !finite(p) || words >> rest) throw InputError({file, n, 0}, "a vertex needs three finite numbers and nothing else: \"" + printable(line) + "\"");
+    if (!(words >> p.x >> p.y >> p.z) || !finite(p) || words >> rest)
+      throw InputError({file, n, 0}, "a vertex needs three finite numbers and nothing else: \"" + printable(line) + "\"");
     add(mesh, p);
   }
-  if (mesh.points.size() % 3 != 0) throw InputError({file, 0, 0}, fmt::format("{} vertices make no whole triangles: the file is cut", mesh.points.size()));
+  if (mesh.points.size() % 3 != 0)
+    throw InputError({file, 0, 0}, fmt::format("{} vertices make no whole triangles: the file is cut", mesh.points.size()));
   return mesh;
 }
 
@@ -60,8 +64,10 @@ Mesh parse_stl(const std::string& bytes, const std::string& file) {
     if (bytes.size() == 84 + std::size_t{50} * count) return binary(bytes, count, file);
   }
   if (bytes.rfind("solid", 0) == 0 && bytes.find("facet") != std::string::npos) return ascii(bytes, file);
-  throw InputError({file, 0, 0}, bytes.size() < 84 ? std::string("no STL: shorter than its header")
-                                                   : fmt::format("no whole binary STL: {} triangles need {} bytes, the file has {}", count, 84 + std::size_t{50} * count, bytes.size()));
+  throw InputError({file, 0, 0}, bytes.size() < 84
+                                     ? std::string("no STL: shorter than its header")
+                                     : fmt::format("no whole binary STL: {} triangles need {} bytes, the file has {}", count,
+                                                   84 + std::size_t{50} * count, bytes.size()));
 }
 
 }  // namespace tripoint

@@ -18,8 +18,10 @@ Vec3 rotation_between(const Quaternion& a, const Quaternion& b) {
 
 }  // namespace
 
-PrescribedState prescribed_state(const std::vector<Keyframe>& frames, const Vec3& centre, const Vec3& velocity, const Vec3& angular_velocity, double time) {
-  if (frames.empty()) return {centre + time * velocity, velocity, angular_velocity, from_rotation_vector(time * angular_velocity)};
+PrescribedState prescribed_state(const std::vector<Keyframe>& frames, const Vec3& centre, const Vec3& velocity,
+                                 const Vec3& angular_velocity, double time) {
+  if (frames.empty())
+    return {centre + time * velocity, velocity, angular_velocity, from_rotation_vector(time * angular_velocity)};
   if (time < frames.front().time) return {frames.front().position, {}, {}, frames.front().rotation};
   if (time > frames.back().time || frames.size() == 1) return {frames.back().position, {}, {}, frames.back().rotation};
   // A keyframe's own time belongs to the piece that begins there, the last one's to the piece that ends there.
@@ -29,7 +31,8 @@ PrescribedState prescribed_state(const std::vector<Keyframe>& frames, const Vec3
   const auto& b = *next;
   const double length = b.time - a.time, s = (time - a.time) / length;
   const Vec3 turn = rotation_between(a.rotation, b.rotation);
-  return {a.position + s * (b.position - a.position), (b.position - a.position) / length, turn / length, normalised(from_rotation_vector(s * turn) * a.rotation)};
+  return {a.position + s * (b.position - a.position), (b.position - a.position) / length, turn / length,
+          normalised(from_rotation_vector(s * turn) * a.rotation)};
 }
 
 }  // namespace tripoint

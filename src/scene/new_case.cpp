@@ -6,7 +6,8 @@
 namespace tripoint {
 
 std::string new_case_text(const std::string& id) {
-  return fmt::format(R"(# A case of tripoint. `tripoint explain FILE` prints what each key and default means, `tripoint schema --page` all keys.
+  return fmt::format(
+      R"(# A case of tripoint. `tripoint explain FILE` prints what each key and default means, `tripoint schema --page` all keys.
 # Numbers are SI, or texts with a unit: "3 mm", "20 degC".
 format = 1
 
@@ -50,7 +51,7 @@ limit = 0.05
 reason = "a sound scheme of first order lags by g dt T/2 = 0.04905 m at this step"
 date = "2026-11-22" # it is loose for an engine that does better, and stays
 )",
-                     id);
+      id);
 }
 
 }  // namespace tripoint

@@ -29,7 +29,8 @@ class Cells {
 
   [[nodiscard]] Cell cell(const Vec3& r) const {
     Cell c{};
-    for (std::size_t a = 0; a < 3; ++a) c[a] = static_cast<long>(std::floor((r[a] - (scene_.min ? (*scene_.min)[a] : 0.0)) / side_[a]));
+    for (std::size_t a = 0; a < 3; ++a)
+      c[a] = static_cast<long>(std::floor((r[a] - (scene_.min ? (*scene_.min)[a] : 0.0)) / side_[a]));
     return c;
   }
 
@@ -43,7 +44,9 @@ class Cells {
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     for (const auto& n : cells)
-      for (auto it = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<Cell, std::size_t>{n, 0}); it != sorted_.end() && it->first == n; ++it) f(it->second);
+      for (auto it = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<Cell, std::size_t>{n, 0});
+           it != sorted_.end() && it->first == n; ++it)
+        f(it->second);
   }
 
  private:
@@ -76,7 +79,11 @@ std::vector<Overlap> find_overlaps(const Scene& s, const InitialState& state, do
       if (state.source[j] <= state.source[i]) return;  // each pair once
       const double r = distance(s, state.position[i] - state.position[j]);
       if (!(r < near)) return;
-      auto& o = found.try_emplace({state.source[i], state.source[j]}, Overlap{static_cast<std::size_t>(state.source[i]), static_cast<std::size_t>(state.source[j]), 0, INFINITY}).first->second;
+      auto& o =
+          found
+              .try_emplace({state.source[i], state.source[j]}, Overlap{static_cast<std::size_t>(state.source[i]),
+                                                                       static_cast<std::size_t>(state.source[j]), 0, INFINITY})
+              .first->second;
       ++o.pairs, o.nearest = std::min(o.nearest, r);
     });
   std::vector<Overlap> out;

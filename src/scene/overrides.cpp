@@ -20,9 +20,12 @@ std::vector<std::string> split_path(const std::string& path, const std::string& 
   std::vector<std::string> parts(1);
   bool quoted = false;
   for (const char c : path) {
-    if (c == '"') quoted = !quoted;
-    else if (c == '.' && !quoted) parts.emplace_back();
-    else parts.back() += c;
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == '.' && !quoted)
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   if (parts.size() > 8) refuse(set, "the key has more than 8 parts");
   for (const auto& p : parts)
@@ -47,7 +50,8 @@ TomlNode parse_value(const std::string& text, const std::string& set) {
     value = std::move(document.members.front().second);
   } catch (const InputError& e) {
     // The shell eats quotes: a bare word or "3 mm" is a text.
-    const bool bare = text.find_first_of("\"'[]{}=,#\\") == std::string::npos && std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; });
+    const bool bare = text.find_first_of("\"'[]{}=,#\\") == std::string::npos &&
+                      std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; });
     if (!bare) refuse(set, fmt::format("the value is no TOML value ({})", e.what()));
     value.kind = Kind::text, value.text = text;
   }
@@ -74,7 +78,9 @@ TomlNode& entry(TomlNode& array, const std::string& part, const std::string& tab
     array.items.push_back(std::move(fresh));
     return array.items.back();
   }
-  refuse(set, fmt::format("no {} is `{}`{}", table, printable(part), names.empty() ? fmt::format(": it has {} entries, counted from 1", array.items.size()) : suggestion(part, names)));
+  refuse(set, fmt::format("no {} is `{}`{}", table, printable(part),
+                          names.empty() ? fmt::format(": it has {} entries, counted from 1", array.items.size())
+                                        : suggestion(part, names)));
 }
 
 }  // namespace
@@ -94,7 +100,9 @@ void apply_override(TomlNode& document, const std::string& set) {
     if (!next) {
       TomlNode fresh;
       const auto rows = at == &document ? keys_of("") : std::vector<const Key*>{};
-      if (std::any_of(rows.begin(), rows.end(), [&](const Key* k) { return k->name == parts[i] && k->type == ValueType::tables; })) fresh.kind = Kind::array;
+      if (std::any_of(rows.begin(), rows.end(),
+                      [&](const Key* k) { return k->name == parts[i] && k->type == ValueType::tables; }))
+        fresh.kind = Kind::array;
       set_places(fresh, value.place);
       at->members.emplace_back(parts[i], std::move(fresh));
       next = &at->members.back().second;
@@ -104,11 +112,14 @@ void apply_override(TomlNode& document, const std::string& set) {
       ++i;
       if (i + 1 >= parts.size()) return static_cast<void>(*next = std::move(value));
     }
-    if (next->kind != Kind::table) refuse(set, fmt::format("`{}` is {} and has no keys: give the whole value", printable(parts[i]), kind_name(next->kind)));
+    if (next->kind != Kind::table)
+      refuse(set, fmt::format("`{}` is {} and has no keys: give the whole value", printable(parts[i]), kind_name(next->kind)));
     at = next;
   }
-  if (auto* there = at->find(parts.back())) *there = std::move(value);
-  else at->members.emplace_back(parts.back(), std::move(value));
+  if (auto* there = at->find(parts.back()))
+    *there = std::move(value);
+  else
+    at->members.emplace_back(parts.back(), std::move(value));
 }
 
 }  // namespace tripoint

@@ -44,26 +44,32 @@ class Preflight {
     for (const auto& o : find_overlaps(scene_, state_, near)) {
       const auto& a = scene_.bodies[o.a];
       const auto& b = scene_.bodies[o.b];
-      error(b.place, fmt::format("bodies \"{}\" and \"{}\" overlap: {} pairs of particles are nearer than {:.3g} m, the nearest {:.3g} m; move them apart or cut one by a difference", a.name, b.name, o.pairs, near, o.nearest));
+      error(b.place, fmt::format("bodies \"{}\" and \"{}\" overlap: {} pairs of particles are nearer than {:.3g} m, the nearest "
+                                 "{:.3g} m; move them apart or cut one by a difference",
+                                 a.name, b.name, o.pairs, near, o.nearest));
     }
   }
 
-  [[nodiscard]] bool presses() const {
-    return calls_for(scene_, "fluid");
-  }
+  [[nodiscard]] bool presses() const { return calls_for(scene_, "fluid"); }
 
   /// Rows of two bodies nearer than rows of one body are matter that is compressed from the start, and flies apart.
   void gaps() {
-    const double overlap = std::min(0.5, 0.99 * (1.0 - 2.0 * scene_.jitter)), near = std::min(0.8, 0.99 * (1.0 - 2.0 * scene_.jitter));
+    const double overlap = std::min(0.5, 0.99 * (1.0 - 2.0 * scene_.jitter)),
+                 near = std::min(0.8, 0.99 * (1.0 - 2.0 * scene_.jitter));
     if (!(near > overlap) || !presses()) return;
-    const auto joined = [](const Body& a, const Body& b) { return std::find(a.joined_to.begin(), a.joined_to.end(), b.name) != a.joined_to.end(); };
+    const auto joined = [](const Body& a, const Body& b) {
+      return std::find(a.joined_to.begin(), a.joined_to.end(), b.name) != a.joined_to.end();
+    };
     for (const auto& o : find_overlaps(scene_, state_, near * scene_.spacing)) {
       const auto& a = scene_.bodies[o.a];
       const auto& b = scene_.bodies[o.b];
-      const bool both_driven = a.motion != Motion::free && b.motion != Motion::free && a.phase != Phase::liquid && b.phase != Phase::liquid;
+      const bool both_driven =
+          a.motion != Motion::free && b.motion != Motion::free && a.phase != Phase::liquid && b.phase != Phase::liquid;
       if (o.nearest < overlap * scene_.spacing || both_driven || joined(a, b) || joined(b, a)) continue;
-      warn(b.place, fmt::format("bodies \"{}\" and \"{}\": their nearest particles are {:.3g} m apart, {:.2g} of a spacing ({} pairs below {:.2g}): as if compressed, and they fly apart at the start; "
-                                "put the faces where they touch on multiples of scene.spacing = {:g} m (a wall's thickness too), so that rows are one spacing apart",
+      warn(b.place, fmt::format("bodies \"{}\" and \"{}\": their nearest particles are {:.3g} m apart, {:.2g} of a spacing ({} "
+                                "pairs below {:.2g}): as if compressed, and they fly apart at the start; "
+                                "put the faces where they touch on multiples of scene.spacing = {:g} m (a wall's thickness too), "
+                                "so that rows are one spacing apart",
                                 a.name, b.name, o.nearest, o.nearest / scene_.spacing, o.pairs, near, scene_.spacing));
     }
   }
@@ -74,7 +80,9 @@ class Preflight {
     for (const auto& b : scene_.bodies) {
       const Material& m = scene_.material(b.material);
       if (b.phase != Phase::elastic || b.motion == Motion::fixed || !(m.fracture_stretch || m.fracture_distance)) continue;
-      warn(b.place, fmt::format("body \"{}\" can break, and its pieces would pass through each other: give material \"{}\" a sound_speed, or say so by scene.contact = \"none\"", b.name, m.name));
+      warn(b.place, fmt::format("body \"{}\" can break, and its pieces would pass through each other: give material \"{}\" a "
+                                "sound_speed, or say so by scene.contact = \"none\"",
+                                b.name, m.name));
     }
   }
 
@@ -83,12 +91,16 @@ class Preflight {
     Vec3 low{INFINITY, INFINITY, INFINITY}, high = -low;
     for (std::size_t i = 0; i < state_.size(); ++i) {
       if (state_.source[i] != static_cast<int>(n)) continue;
-      for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], state_.position[i][a]), high[a] = std::max(high[a], state_.position[i][a]);
+      for (std::size_t a = 0; a < 3; ++a)
+        low[a] = std::min(low[a], state_.position[i][a]), high[a] = std::max(high[a], state_.position[i][a]);
     }
     for (std::size_t a = 0; a < 3; ++a) {
       const long across = std::lround((high[a] - low[a]) / scene_.spacing) + 1;
-      if (scene_.periodic[a] && static_cast<double>(across) * scene_.spacing >= 0.999 * ((*scene_.max)[a] - (*scene_.min)[a])) continue;  // endless
-      if (across < 3) warn(b.place, fmt::format("body \"{}\" is {} particle{} across along {}: at least 3 resolve it; refine scene.spacing", b.name, across, across == 1 ? "" : "s", "xyz"[a]));
+      if (scene_.periodic[a] && static_cast<double>(across) * scene_.spacing >= 0.999 * ((*scene_.max)[a] - (*scene_.min)[a]))
+        continue;  // endless
+      if (across < 3)
+        warn(b.place, fmt::format("body \"{}\" is {} particle{} across along {}: at least 3 resolve it; refine scene.spacing",
+                                  b.name, across, across == 1 ? "" : "s", "xyz"[a]));
     }
   }
 
@@ -101,7 +113,9 @@ class Preflight {
       if (state_.source[i] == static_cast<int>(n)) sampled += state_.mass[i];
     const double exact = *v * scene_.material(b.material).density;
     if (std::abs(sampled - exact) > 0.1 * exact)
-      warn(b.place, fmt::format("body \"{}\": its particles weigh {:.4g} kg, its shape {:.4g} kg ({:+.0f} %): refine scene.spacing, or make its sides multiples of it", b.name, sampled, exact, 100.0 * (sampled / exact - 1.0)));
+      warn(b.place, fmt::format("body \"{}\": its particles weigh {:.4g} kg, its shape {:.4g} kg ({:+.0f} %): refine "
+                                "scene.spacing, or make its sides multiples of it",
+                                b.name, sampled, exact, 100.0 * (sampled / exact - 1.0)));
   }
 
   void keyframes(std::size_t n) {
@@ -114,17 +128,24 @@ class Preflight {
     centre = centre / count;
     const double jump = norm(b.keyframes.front().position - centre);
     if (jump > 1e-6 * scene_.spacing) {
-      auto what = fmt::format("body \"{}\": its first keyframe is at ({}, {}, {}) m, its centre of mass at ({}, {}, {}) m: it jumps there at the start", b.name, b.keyframes.front().position.x,
-                              b.keyframes.front().position.y, b.keyframes.front().position.z, centre.x, centre.y, centre.z);
+      auto what = fmt::format(
+          "body \"{}\": its first keyframe is at ({}, {}, {}) m, its centre of mass at ({}, {}, {}) m: it jumps there at the "
+          "start",
+          b.name, b.keyframes.front().position.x, b.keyframes.front().position.y, b.keyframes.front().position.z, centre.x,
+          centre.y, centre.z);
       findings_.push_back({jump > 0.5 * scene_.spacing, std::move(what), b.place});
     }
     if (const double turn = angle_between({}, b.keyframes.front().rotation); turn > 1e-9)
-      error(b.place, fmt::format("body \"{}\": its first keyframe is turned by {:.3g} rad, but its particles are laid unturned: begin with rotation = [1, 0, 0, 0], rotations count from the start", b.name, turn));
+      error(b.place, fmt::format("body \"{}\": its first keyframe is turned by {:.3g} rad, but its particles are laid unturned: "
+                                 "begin with rotation = [1, 0, 0, 0], rotations count from the start",
+                                 b.name, turn));
     for (std::size_t k = 1; k < b.keyframes.size(); ++k) {
       const auto& from = b.keyframes[k - 1].rotation;
       const auto& to = b.keyframes[k].rotation;
       if ((conjugate(from) * to).w > 1e-9) continue;
-      error(b.place, fmt::format("body \"{}\": keyframe {} is half a turn or more from the one before it, as written; the body takes the shorter way: add a keyframe between them (or flip the quaternion's sign)", b.name, k + 1));
+      error(b.place, fmt::format("body \"{}\": keyframe {} is half a turn or more from the one before it, as written; the body "
+                                 "takes the shorter way: add a keyframe between them (or flip the quaternion's sign)",
+                                 b.name, k + 1));
     }
   }
 
@@ -138,7 +159,9 @@ class Preflight {
           break;
         }
     for (const auto& [source, count] : lost)
-      warn(scene_.bodies[static_cast<std::size_t>(source)].place, fmt::format("{} particles of body \"{}\" lie outside scene.min and scene.max: enlarge the domain", count, scene_.bodies[static_cast<std::size_t>(source)].name));
+      warn(scene_.bodies[static_cast<std::size_t>(source)].place,
+           fmt::format("{} particles of body \"{}\" lie outside scene.min and scene.max: enlarge the domain", count,
+                       scene_.bodies[static_cast<std::size_t>(source)].name));
   }
 
   /// Stability bound of explicit conduction on the lattice [s]: 0.075 h^2/a corrected, 0.130 h^2/a paper (largest eigenvalue
@@ -149,7 +172,8 @@ class Preflight {
     for (const auto& b : scene_.bodies) {
       const Material& m = scene_.material(b.material);
       if (!b.temperature || !m.conductivity || !m.heat_capacity) continue;
-      const double capacity = std::min(heat_capacity_of(m, Phase::rigid), heat_capacity_of(m, Phase::liquid)), conductivity = std::max(conductivity_of(m, Phase::rigid), conductivity_of(m, Phase::liquid));
+      const double capacity = std::min(heat_capacity_of(m, Phase::rigid), heat_capacity_of(m, Phase::liquid)),
+                   conductivity = std::max(conductivity_of(m, Phase::rigid), conductivity_of(m, Phase::liquid));
       const double bound = c * h * h * m.density * capacity / conductivity;
       if (bound < least) least = bound, which = fmt::format("heat in body \"{}\"", b.name);
     }
@@ -165,14 +189,17 @@ class Preflight {
       if (turning < bound) bound = turning, which = fmt::format("rotation of body \"{}\", |angular_velocity| dt <= 0.5,", b.name);
     }
     if (scene_.time_step && *scene_.time_step > bound) {
-      auto what = fmt::format("time_step = {} s is above the bound of {} {:.4g} s: shorten it, or write \"auto\"", *scene_.time_step, which, bound);
+      auto what = fmt::format("time_step = {} s is above the bound of {} {:.4g} s: shorten it, or write \"auto\"",
+                              *scene_.time_step, which, bound);
       findings_.push_back({case_.expect != "diverges", std::move(what), {case_.file, 0, 0}});
     }
     for (const auto& study : case_.studies)
       if (study.axis == "time_step" && study.levels.front() > bound)
-        warn(study.place, fmt::format("the study's first time step {} s is above the bound of {} {:.4g} s: leave it out", study.levels.front(), which, bound));
+        warn(study.place, fmt::format("the study's first time step {} s is above the bound of {} {:.4g} s: leave it out",
+                                      study.levels.front(), which, bound));
     if (scene_.time_step && scene_.end_time / *scene_.time_step > 1e8)
-      warn({case_.file, 0, 0}, fmt::format("{:.3g} steps to end_time: lengthen scene.time_step", scene_.end_time / *scene_.time_step));
+      warn({case_.file, 0, 0},
+           fmt::format("{:.3g} steps to end_time: lengthen scene.time_step", scene_.end_time / *scene_.time_step));
   }
 
   const Case& case_;

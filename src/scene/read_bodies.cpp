@@ -18,7 +18,8 @@ std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<
   const bool constant = temperature && temperature->kind == TemperatureField::Kind::constant;
   if (m.t_melt && constant) {
     if (temperature->value > *m.t_melt) return {Phase::liquid, fmt::format("its temperature is above t_melt = {} K", *m.t_melt)};
-    return {solid, fmt::format("its temperature is not above t_melt = {} K, and its material is {} when solid", *m.t_melt, m.solid)};
+    return {solid,
+            fmt::format("its temperature is not above t_melt = {} K, and its material is {} when solid", *m.t_melt, m.solid)};
   }
   if (m.viscosity > 0.0 && !m.young_modulus) return {Phase::liquid, "its material has a viscosity and no young_modulus"};
   return {solid, fmt::format("its material is {} when solid", m.solid)};
@@ -26,18 +27,29 @@ std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<
 
 void check_solid_keys(TableReader& in, const Material& m) {
   if (m.young_modulus.has_value() != m.poisson_ratio.has_value())
-    in.refuse(m.young_modulus ? "young_modulus" : "poisson_ratio", "an elastic material needs both young_modulus and poisson_ratio: give the other too");
+    in.refuse(m.young_modulus ? "young_modulus" : "poisson_ratio",
+              "an elastic material needs both young_modulus and poisson_ratio: give the other too");
   if (m.t_solid && !m.t_melt) in.refuse("t_solid", "without t_melt the material does not melt: give t_melt too");
   if (m.latent_heat && !m.t_melt) in.refuse("latent_heat", "without t_melt the material does not melt: give t_melt too");
-  if (m.t_solid && *m.t_solid > *m.t_melt) in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt", *m.t_solid, *m.t_melt));
-  if (m.plastic_limit && !m.elastic_limit) in.refuse("plastic_limit", "without elastic_limit nothing flows: give elastic_limit too");
-  for (const auto& [key, both, given] : {std::tuple{"solid_conductivity", "conductivity", m.solid_conductivity && !m.conductivity}, std::tuple{"solid_heat_capacity", "heat_capacity", m.solid_heat_capacity && !m.heat_capacity}})
+  if (m.t_solid && *m.t_solid > *m.t_melt)
+    in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt",
+                                     *m.t_solid, *m.t_melt));
+  if (m.plastic_limit && !m.elastic_limit)
+    in.refuse("plastic_limit", "without elastic_limit nothing flows: give elastic_limit too");
+  for (const auto& [key, both, given] :
+       {std::tuple{"solid_conductivity", "conductivity", m.solid_conductivity && !m.conductivity},
+        std::tuple{"solid_heat_capacity", "heat_capacity", m.solid_heat_capacity && !m.heat_capacity}})
     if (given) in.refuse(key, fmt::format("{} is missing, which is the liquid's where the solid has its own: give it too", both));
   if (has_two_phases(m) && !m.t_melt)
-    in.refuse(m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity", "without t_melt the material has one phase: give t_melt too, or write the value without solid_");
+    in.refuse(m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity",
+              "without t_melt the material has one phase: give t_melt too, or write the value without solid_");
   if (has_two_phases(m) && m.t_solid && latent_heat_at(m, *m.t_solid) < 0.0)
-    in.refuse("solid_heat_capacity", fmt::format("freezing at t_solid = {} K would take up heat, {:.4g} J/kg: the heat of fusion changes with temperature as the heat capacities differ; raise latent_heat or t_solid", *m.t_solid, -latent_heat_at(m, *m.t_solid)));
-  if (m.softens && !m.t_melt) in.refuse("softens", "without t_melt the material does not melt: give t_melt too, or remove softens");
+    in.refuse("solid_heat_capacity",
+              fmt::format("freezing at t_solid = {} K would take up heat, {:.4g} J/kg: the heat of fusion changes with "
+                          "temperature as the heat capacities differ; raise latent_heat or t_solid",
+                          *m.t_solid, -latent_heat_at(m, *m.t_solid)));
+  if (m.softens && !m.t_melt)
+    in.refuse("softens", "without t_melt the material does not melt: give t_melt too, or remove softens");
 }
 
 /// A value of the solid alone. Where the case gives a value of both phases, the library's of the solid is none of its.
@@ -74,10 +86,12 @@ Material read_material(const TomlNode& node, Reading& reading) {
     m.stiffness = *c * *c;
     in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
   }
-  m.solid_conductivity = own_of_solid(in, "solid_conductivity", "conductivity"), m.solid_heat_capacity = own_of_solid(in, "solid_heat_capacity", "heat_capacity");
+  m.solid_conductivity = own_of_solid(in, "solid_conductivity", "conductivity"),
+  m.solid_heat_capacity = own_of_solid(in, "solid_heat_capacity", "heat_capacity");
   static_cast<void>(in.maybe_text("source"));
   check_solid_keys(in, m);
-  if (m.t_melt && !m.t_solid) m.t_solid = m.t_melt, in.ruled("t_solid", show(*m.t_solid), "t_melt: no soft band and no hysteresis");
+  if (m.t_melt && !m.t_solid)
+    m.t_solid = m.t_melt, in.ruled("t_solid", show(*m.t_solid), "t_melt: no soft band and no hysteresis");
   if (m.t_melt && !m.latent_heat) m.latent_heat = 0.0, in.ruled("latent_heat", "0", "melts at once");
   if (const auto solid = in.maybe_text("solid")) {
     m.solid = *solid;
@@ -85,7 +99,10 @@ Material read_material(const TomlNode& node, Reading& reading) {
     m.solid = m.young_modulus ? "elastic" : "rigid";
     // A liquid that never freezes is no solid; the word then only says what it would be.
     if (m.viscosity > 0.0 && !m.young_modulus && !m.t_melt) m.solid = "elastic";
-    in.ruled("solid", "\"" + m.solid + "\"", m.young_modulus ? "young_modulus is given" : m.solid == "elastic" ? "a liquid that does not freeze" : "no young_modulus is given");
+    in.ruled("solid", "\"" + m.solid + "\"",
+             m.young_modulus        ? "young_modulus is given"
+             : m.solid == "elastic" ? "a liquid that does not freeze"
+                                    : "no young_modulus is given");
   }
   return m;
 }
@@ -104,8 +121,10 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
     in.refuse("material", fmt::format("no material is named \"{}\"{}", printable(b.material), suggestion(b.material, known)));
   }
   b.shape = read_shape(*in.composite("shape"), in.path() + ".shape", reading);
-  if (const auto* t = in.composite("temperature")) b.temperature = read_temperature(*t, in.path() + ".temperature", reading);
-  else in.ruled("temperature", "none", std::string(key_row("body", "temperature").note));
+  if (const auto* t = in.composite("temperature"))
+    b.temperature = read_temperature(*t, in.path() + ".temperature", reading);
+  else
+    in.ruled("temperature", "none", std::string(key_row("body", "temperature").note));
   if (const auto phase = in.maybe_text("phase")) {
     b.phase = phase_from(*phase);
   } else {
@@ -114,19 +133,29 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
     in.ruled("phase", fmt::format("\"{}\"", to_string(found)), why);
   }
   if (b.phase == Phase::elastic && !material->young_modulus)
-    in.refuse(in.has("phase") ? "phase" : "material", fmt::format("an elastic body needs young_modulus and poisson_ratio of its material \"{}\": give them, or write phase = \"rigid\"", b.material));
-  if (const auto* v = in.composite("velocity")) b.velocity = read_velocity(*v, in.path() + ".velocity", reading);
-  else in.ruled("velocity", "[0, 0, 0]", std::string(key_row("body", "velocity").note));
+    in.refuse(
+        in.has("phase") ? "phase" : "material",
+        fmt::format(
+            "an elastic body needs young_modulus and poisson_ratio of its material \"{}\": give them, or write phase = \"rigid\"",
+            b.material));
+  if (const auto* v = in.composite("velocity"))
+    b.velocity = read_velocity(*v, in.path() + ".velocity", reading);
+  else
+    in.ruled("velocity", "[0, 0, 0]", std::string(key_row("body", "velocity").note));
   b.angular_velocity = in.vector("angular_velocity");
   b.temperature_held = in.flag("temperature_held");
-  if (b.temperature_held && !b.temperature) in.refuse("temperature_held", "no temperature is given to hold: give temperature too");
+  if (b.temperature_held && !b.temperature)
+    in.refuse("temperature_held", "no temperature is given to hold: give temperature too");
   b.motion = motion_from(in.text("motion"));
   b.keyframes = read_keyframes(in, "keyframes", reading);
   if (!b.keyframes.empty() && (in.has("velocity") || in.has("angular_velocity")))
-    in.refuse(in.has("velocity") ? "velocity" : "angular_velocity", "the keyframes of the body give its velocities: remove it, or the keyframes");
-  if (!b.keyframes.empty() && b.motion != Motion::prescribed) in.refuse("keyframes", "only a prescribed body follows keyframes: write motion = \"prescribed\"");
+    in.refuse(in.has("velocity") ? "velocity" : "angular_velocity",
+              "the keyframes of the body give its velocities: remove it, or the keyframes");
+  if (!b.keyframes.empty() && b.motion != Motion::prescribed)
+    in.refuse("keyframes", "only a prescribed body follows keyframes: write motion = \"prescribed\"");
   if (b.motion == Motion::fixed && (in.has("velocity") || in.has("angular_velocity")))
-    in.refuse(in.has("velocity") ? "velocity" : "angular_velocity", "a fixed body does not move: remove it, or write motion = \"prescribed\"");
+    in.refuse(in.has("velocity") ? "velocity" : "angular_velocity",
+              "a fixed body does not move: remove it, or write motion = \"prescribed\"");
   if (b.phase == Phase::rigid && b.velocity.kind != VelocityField::Kind::constant)
     in.refuse("velocity", "a rigid body has one velocity: write [x, y, z] and angular_velocity");
   b.free_slip = in.text("slip") == "free";
@@ -150,9 +179,13 @@ std::vector<Keyframe> read_keyframes(TableReader& owner, std::string_view key, R
     const auto q = in.numbers("rotation");
     if (q.size() != 4) in.refuse("rotation", "write the quaternion [w, x, y, z]");
     k.rotation = {q[0], q[1], q[2], q[3]};
-    if (!(std::abs(norm(k.rotation) - 1.0) < 1e-3)) in.refuse("rotation", fmt::format("the quaternion has length {}: write one of length 1 (w = cos(angle/2))", norm(k.rotation)));
+    if (!(std::abs(norm(k.rotation) - 1.0) < 1e-3))
+      in.refuse("rotation",
+                fmt::format("the quaternion has length {}: write one of length 1 (w = cos(angle/2))", norm(k.rotation)));
     k.rotation = normalised(k.rotation);
-    if (!frames.empty() && !(k.time > frames.back().time)) in.refuse("time", fmt::format("{} s is not after the keyframe before it ({} s): times must rise", k.time, frames.back().time));
+    if (!frames.empty() && !(k.time > frames.back().time))
+      in.refuse("time",
+                fmt::format("{} s is not after the keyframe before it ({} s): times must rise", k.time, frames.back().time));
     frames.push_back(k);
   }
   if (list.empty()) owner.ruled(key, "[]", std::string(key_row("body", "keyframes").note));
@@ -161,12 +194,16 @@ std::vector<Keyframe> read_keyframes(TableReader& owner, std::string_view key, R
 
 /// A key that this kind of event does not read would be lost without a word.
 static void refuse_keys_of_others(TableReader& in, const std::string& kind) {
-  const std::vector<std::pair<std::string_view, std::string_view>> readers{
-      {"bodies", "merge split release heat hold"}, {"region", "split heat grip"}, {"temperature", "heat"}, {"until", "heat hold grip"}, {"keyframes", "grip"}};
+  const std::vector<std::pair<std::string_view, std::string_view>> readers{{"bodies", "merge split release heat hold"},
+                                                                           {"region", "split heat grip"},
+                                                                           {"temperature", "heat"},
+                                                                           {"until", "heat hold grip"},
+                                                                           {"keyframes", "grip"}};
   for (const auto& [key, kinds] : readers) {
     const auto known = split_words(kinds);
     if (in.has(key) && std::find(known.begin(), known.end(), kind) == known.end())
-      in.refuse(key, fmt::format("a {} event does not read it ({} {}): remove it", kind, fmt::join(known, ", "), known.size() == 1 ? "does" : "do"));
+      in.refuse(key, fmt::format("a {} event does not read it ({} {}): remove it", kind, fmt::join(known, ", "),
+                                 known.size() == 1 ? "does" : "do"));
   }
 }
 
@@ -187,15 +224,19 @@ Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
   const auto needs = [&](bool there, std::string_view key) {
     if (!there) in.refuse("", fmt::format("a {} event needs the key `{}`", kind, key));
   };
-  if (e.kind == Event::Kind::merge && e.bodies.size() < 2) in.refuse("bodies", "a merge needs at least two bodies: name another one, which bodies[0] absorbs, or remove the event");
+  if (e.kind == Event::Kind::merge && e.bodies.size() < 2)
+    in.refuse("bodies", "a merge needs at least two bodies: name another one, which bodies[0] absorbs, or remove the event");
   if (e.kind == Event::Kind::split) needs(e.region.has_value(), "region"), needs(!e.name.empty(), "name");
-  if (e.kind == Event::Kind::heat) needs(e.temperature.has_value(), "temperature"), needs(e.region || !e.bodies.empty(), "region` or `bodies");
+  if (e.kind == Event::Kind::heat)
+    needs(e.temperature.has_value(), "temperature"), needs(e.region || !e.bodies.empty(), "region` or `bodies");
   if (e.kind == Event::Kind::grip) needs(e.region.has_value(), "region"), needs(!e.keyframes.empty(), "keyframes");
   if (e.kind == Event::Kind::hold) needs(!e.bodies.empty(), "bodies");
   if (e.kind == Event::Kind::release) needs(!e.bodies.empty(), "bodies");
   refuse_keys_of_others(in, kind);
   if (!e.keyframes.empty() && e.keyframes.front().time < e.time)
-    in.refuse("keyframes", fmt::format("the first is at {} s and the grip begins at {} s: what it takes would jump to where the grip is by then; begin with a keyframe at {} s", e.keyframes.front().time, e.time, e.time));
+    in.refuse("keyframes", fmt::format("the first is at {} s and the grip begins at {} s: what it takes would jump to where the "
+                                       "grip is by then; begin with a keyframe at {} s",
+                                       e.keyframes.front().time, e.time, e.time));
   return e;
 }
 
@@ -205,11 +246,14 @@ Inflow read_inflow(const TomlNode& node, std::size_t number, double end_time, Re
   f.material = in.text("material");
   f.shape = read_shape(*in.composite("shape"), in.path() + ".shape", reading);
   f.velocity = in.vector("velocity");
-  if (!(norm(f.velocity) > 0.0)) in.refuse("velocity", "nothing flows in at rest: give a velocity, its direction serves where rate is given");
+  if (!(norm(f.velocity) > 0.0))
+    in.refuse("velocity", "nothing flows in at rest: give a velocity, its direction serves where rate is given");
   f.temperature = in.maybe_number("temperature");
   f.start = in.number("start");
-  if (const auto stop = in.maybe_number("stop")) f.stop = *stop;
-  else f.stop = end_time, in.ruled("stop", show(end_time), "end_time");
+  if (const auto stop = in.maybe_number("stop"))
+    f.stop = *stop;
+  else
+    f.stop = end_time, in.ruled("stop", show(end_time), "end_time");
   if (!(f.stop > f.start)) in.refuse("stop", "it ends before it begins: stop must be greater than start");
   f.rate = in.maybe_number("rate");
   return f;

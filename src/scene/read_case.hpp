@@ -41,10 +41,10 @@ struct DefaultStiffness {
   double value = 0.0;
   std::string rule;
 };
-/// What flows takes k = (10 v)^2: v the greatest of initial and prescribed speeds and sqrt(2 |g| depth of the liquids), so that the speed
-/// of sound is ten times what is to be expected. Solids of which two can meet (meeting.hpp) take it from their speed of approach and the
-/// height of the scene, and from the moduli of elastic bodies. Empty where a material gives one, nothing flows or can meet, or no speed
-/// is known.
+/// What flows takes k = (10 v)^2: v the greatest of initial and prescribed speeds and sqrt(2 |g| depth of the liquids), so that
+/// the speed of sound is ten times what is to be expected. Solids of which two can meet (meeting.hpp) take it from their speed of
+/// approach and the height of the scene, and from the moduli of elastic bodies. Empty where a material gives one, nothing flows
+/// or can meet, or no speed is known.
 [[nodiscard]] std::optional<DefaultStiffness> default_stiffness(const Scene&);
 
 /// How near a freezing particle joins where the scene does not say [spacings]: as the paper has it, whatever its bonds reach
@@ -60,11 +60,13 @@ struct CalledEffect {
 /// The effects that a scene does without, and the proof that each can never act.
 [[nodiscard]] std::vector<CalledEffect> idle_effects(const Scene&);
 
-/// Particles of the scene, row = id, bodies in order: on its lattice, and then let down into equilibrium where the scene says `settle`.
+/// Particles of the scene, row = id, bodies in order: on its lattice, and then let down into equilibrium where the scene says
+/// `settle`.
 /// @throws InputError (no particles, mesh not closed, nothing to settle with, ...)
 [[nodiscard]] InitialState sample(const Scene&);
 
-/// How sample() lets liquids down. The program that has a solver sets it, once, before it samples: this room and the judge know none.
+/// How sample() lets liquids down. The program that has a solver sets it, once, before it samples: this room and the judge know
+/// none.
 using Settler = InitialState (*)(const Scene&, InitialState);
 void set_settler(Settler) noexcept;
 
@@ -80,7 +82,8 @@ struct Finding {
   std::string what;    ///< with what to do
   SourcePlace place;
 };
-/// Overlaps and gaps, bodies under-resolved or of wrong mass, spins that move nothing, a time step above a bound: without running anything.
+/// Overlaps and gaps, bodies under-resolved or of wrong mass, spins that move nothing, a time step above a bound: without running
+/// anything.
 [[nodiscard]] std::vector<Finding> preflight(const Case&, const Scene&, const InitialState&);
 
 /// One warning for each [[material]] of the case that bears the name of one of the library and takes values from it.
@@ -92,7 +95,8 @@ struct PrescribedState {
   Quaternion rotation;
 };
 /// @param centre the body's centre of mass at time 0 [m]
-[[nodiscard]] PrescribedState prescribed_state(const std::vector<Keyframe>&, const Vec3& centre, const Vec3& velocity, const Vec3& angular_velocity, double time);
+[[nodiscard]] PrescribedState prescribed_state(const std::vector<Keyframe>&, const Vec3& centre, const Vec3& velocity,
+                                               const Vec3& angular_velocity, double time);
 
 /// JSON Schema of the case file, and its reference page in Markdown: both from the one key table.
 [[nodiscard]] std::string case_schema();
@@ -103,7 +107,8 @@ struct PrescribedState {
 /// Folder of cases, material library and assets: share/tripoint beside the executable's folder.
 [[nodiscard]] std::string share_folder();
 
-/// Path of a case that is given as a path or as the id of a shipped case ("heat/cosine"); a path that is no file comes back as it is.
+/// Path of a case that is given as a path or as the id of a shipped case ("heat/cosine"); a path that is no file comes back as it
+/// is.
 [[nodiscard]] std::string case_path(const std::string& path_or_id);
 
 }  // namespace tripoint

@@ -18,20 +18,26 @@ using Kind = TomlNode::Kind;
 std::string read_kind(const TomlNode& node, std::string_view family, const std::string& path) {
   std::vector<std::string> kinds;
   for (const auto& t : table_infos())
-    if (t.name.starts_with(family) && t.name.size() > family.size() && t.name[family.size()] == '.') kinds.emplace_back(t.name.substr(family.size() + 1));
-  if (node.kind != Kind::table) throw InputError(node.place, fmt::format("`{}` must be a table {{kind = \"{}\", ...}}, not {} ({})", path, kinds.front(), kind_name(node.kind), printable(to_toml(node))));
+    if (t.name.starts_with(family) && t.name.size() > family.size() && t.name[family.size()] == '.')
+      kinds.emplace_back(t.name.substr(family.size() + 1));
+  if (node.kind != Kind::table)
+    throw InputError(node.place, fmt::format("`{}` must be a table {{kind = \"{}\", ...}}, not {} ({})", path, kinds.front(),
+                                             kind_name(node.kind), printable(to_toml(node))));
   const auto* kind = node.find("kind");
   if (!kind) throw InputError(node.place, fmt::format("`{}` lacks the key `kind` (one of: {})", path, fmt::join(kinds, ", ")));
   for (const auto& k : kinds)
     if (kind->kind == Kind::text && kind->text == k) return k;
-  throw InputError(kind->place, fmt::format("`{}.kind` = {} is none of: {}{}", path, printable(to_toml(*kind)), fmt::join(kinds, ", "),
-                                            kind->kind == Kind::text && !nearest(kind->text, kinds).empty() ? suggestion(kind->text, kinds) : ""));
+  throw InputError(
+      kind->place,
+      fmt::format("`{}.kind` = {} is none of: {}{}", path, printable(to_toml(*kind)), fmt::join(kinds, ", "),
+                  kind->kind == Kind::text && !nearest(kind->text, kinds).empty() ? suggestion(kind->text, kinds) : ""));
 }
 
 Vec3 direction(TableReader& in, std::string_view key) {
   const Vec3 v = in.vector(key);
   const double length = norm(v);
-  if (!(length > 0.0) || !std::isfinite(length)) in.refuse(key, "the direction has no finite length: write for example [0, 0, 1]");
+  if (!(length > 0.0) || !std::isfinite(length))
+    in.refuse(key, "the direction has no finite length: write for example [0, 0, 1]");
   return v / length;
 }
 
@@ -64,7 +70,8 @@ Shape read_shape(const TomlNode& node, const std::string& path, Reading& reading
   if (kind == "box") {
     s.kind = Shape::Kind::box, s.min = in.vector("min"), s.max = in.vector("max");
     for (std::size_t a = 0; a < 3; ++a)
-      if (!(s.max[a] > s.min[a])) in.refuse("max", fmt::format("the box has no extent along {}: max must be greater than min", "xyz"[a]));
+      if (!(s.max[a] > s.min[a]))
+        in.refuse("max", fmt::format("the box has no extent along {}: max must be greater than min", "xyz"[a]));
   } else if (kind == "sphere") {
     s.kind = Shape::Kind::sphere, s.centre = in.vector("centre"), s.radius = in.number("radius");
   } else if (kind == "cylinder") {
@@ -76,7 +83,8 @@ Shape read_shape(const TomlNode& node, const std::string& path, Reading& reading
     s.kind = Shape::Kind::unite;
     const auto parts = in.tables("of");
     if (parts.empty()) in.refuse("of", "a union has at least one shape");
-    for (std::size_t i = 0; i < parts.size(); ++i) s.of.push_back(read_shape(*parts[i], fmt::format("{}.of.{}", path, i + 1), reading, depth + 1));
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      s.of.push_back(read_shape(*parts[i], fmt::format("{}.of.{}", path, i + 1), reading, depth + 1));
   } else if (kind == "difference") {
     s.kind = Shape::Kind::difference;
     s.of.push_back(read_shape(*in.composite("from"), path + ".from", reading, depth + 1));
@@ -99,11 +107,14 @@ TemperatureField read_temperature(const TomlNode& node, const std::string& path,
   in.given("kind", "\"" + kind + "\"");
   if (kind == "cosine") {
     f.kind = TemperatureField::Kind::cosine;
-    f.mean = in.number("mean"), f.amplitude = in.number("amplitude"), f.wave_vector = in.vector("wave_vector"), f.phase = in.number("phase");
-    if (f.mean - std::abs(f.amplitude) <= 0.0) in.refuse("amplitude", "the wave falls below 0 K: raise the mean or lower the amplitude");
+    f.mean = in.number("mean"), f.amplitude = in.number("amplitude"), f.wave_vector = in.vector("wave_vector"),
+    f.phase = in.number("phase");
+    if (f.mean - std::abs(f.amplitude) <= 0.0)
+      in.refuse("amplitude", "the wave falls below 0 K: raise the mean or lower the amplitude");
   } else if (kind == "step") {
     f.kind = TemperatureField::Kind::step;
-    f.point = in.vector("point"), f.normal = direction(in, "normal"), f.behind = in.number("behind"), f.ahead = in.number("ahead");
+    f.point = in.vector("point"), f.normal = direction(in, "normal"), f.behind = in.number("behind"),
+    f.ahead = in.number("ahead");
   } else {
     f.kind = TemperatureField::Kind::expression, f.expression = in.text("value");
     expression_is_sound(*node.find("value"), f.expression, path + ".value");
@@ -123,12 +134,14 @@ VelocityField read_velocity(const TomlNode& node, const std::string& path, Readi
   in.given("kind", "\"" + kind + "\"");
   if (kind == "cosine") {
     f.kind = VelocityField::Kind::cosine;
-    f.mean = in.vector("mean"), f.amplitude = in.vector("amplitude"), f.wave_vector = in.vector("wave_vector"), f.phase = in.number("phase");
+    f.mean = in.vector("mean"), f.amplitude = in.vector("amplitude"), f.wave_vector = in.vector("wave_vector"),
+    f.phase = in.number("phase");
   } else if (kind == "linear") {
     f.kind = VelocityField::Kind::linear, f.centre = in.vector("centre");
     const auto rows = in.tables("gradient");
     if (rows.size() != 3) in.refuse("gradient", "write three rows of three numbers: [[0, 0, 0], [0, 0, 0], [0, 0, 0]]");
-    for (std::size_t i = 0; i < 3; ++i) f.gradient[i] = vector_of(*rows[i], key_row("velocity.linear", "gradient"), fmt::format("{}.gradient.{}", path, i + 1));
+    for (std::size_t i = 0; i < 3; ++i)
+      f.gradient[i] = vector_of(*rows[i], key_row("velocity.linear", "gradient"), fmt::format("{}.gradient.{}", path, i + 1));
     in.given("gradient", to_toml(*in.composite("gradient")));
   } else if (kind == "taylor_green") {
     f.kind = VelocityField::Kind::taylor_green, f.speed = in.number("speed"), f.wavelength = in.number("wavelength");

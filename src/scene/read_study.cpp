@@ -12,7 +12,8 @@
 namespace tripoint {
 void plain_name(TableReader& in, std::string_view key, const std::string& name) {
   const bool plain = !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' || c == ' ';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
+           c == ' ';
   });
   if (!plain) in.refuse(key, "write a name of 1 to 64 letters, digits, blanks, or any of _ - .");
 }
@@ -27,12 +28,14 @@ EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading&
   e.presets = in.texts("preset"), e.settings = in.settings("settings");
   if (const auto refuses = in.maybe_text("refuses")) {
     if (refuses->empty()) in.refuse("refuses", "write words of the engine's own reason");
-    if (e.required) in.refuse("refuses", "an engine that the case requires cannot be expected to refuse it: write required = false");
+    if (e.required)
+      in.refuse("refuses", "an engine that the case requires cannot be expected to refuse it: write required = false");
     e.settings["refuses"] = *refuses;  // stays with the harness, as wall_limit does
   }
   if (const auto limit = e.settings.find("wall_limit"); limit != e.settings.end()) {
     const auto* seconds = std::get_if<double>(&limit->second);
-    if (!seconds || !(*seconds > 0.0)) in.refuse("settings", "wall_limit must be a number of seconds above 0: a run that takes longer is stopped");
+    if (!seconds || !(*seconds > 0.0))
+      in.refuse("settings", "wall_limit must be a number of seconds above 0: a run that takes longer is stopped");
   }
   return e;
 }
@@ -56,17 +59,24 @@ ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Re
   r.kind = in.text("kind");
   r.function = in.maybe_text("function").value_or("");
   const bool formula = r.kind == "analytic" || r.kind == "discrete_exact" || r.kind == "mms";
-  if (formula && r.function.empty()) in.refuse(in.has("function") ? "function" : "kind", fmt::format("a reference of kind \"{}\" needs the key `function`: the exact solution's name", r.kind));
+  if (formula && r.function.empty())
+    in.refuse(in.has("function") ? "function" : "kind",
+              fmt::format("a reference of kind \"{}\" needs the key `function`: the exact solution's name", r.kind));
   r.args = in.settings("args");
   if (r.function == "expression") check_formulas(in, r.args);
   r.file = in.text("file");
-  if (r.kind == "experiment" && r.file.empty()) in.refuse("kind", "a reference of kind \"experiment\" needs the key `file`: the data beside the case");
-  if (r.function == "table" && r.file.empty()) in.refuse("function", "a reference by `table` needs the key `file`: the table beside the case");
-  if (!r.file.empty() && r.kind != "experiment" && r.function != "table") in.refuse("file", "data are read by kind = \"experiment\" and by function = \"table\": write one of them, or remove the file");
+  if (r.kind == "experiment" && r.file.empty())
+    in.refuse("kind", "a reference of kind \"experiment\" needs the key `file`: the data beside the case");
+  if (r.function == "table" && r.file.empty())
+    in.refuse("function", "a reference by `table` needs the key `file`: the table beside the case");
+  if (!r.file.empty() && r.kind != "experiment" && r.function != "table")
+    in.refuse("file",
+              "data are read by kind = \"experiment\" and by function = \"table\": write one of them, or remove the file");
   if (!r.file.empty()) {
     const auto full = std::filesystem::path(reading.folder) / r.file;
     std::error_code error;
-    if (!std::filesystem::is_regular_file(full, error)) in.refuse("file", fmt::format("no file `{}` beside the case", printable(r.file)));
+    if (!std::filesystem::is_regular_file(full, error))
+      in.refuse("file", fmt::format("no file `{}` beside the case", printable(r.file)));
     r.file = std::filesystem::absolute(full).lexically_normal().string();
   }
   r.source = in.text("source");
@@ -82,7 +92,8 @@ MetricChoice read_metric(const TomlNode& node, Reading& reading) {
   plain_name(in, "name", m.name);
   m.quantity = in.text("quantity"), m.norm = in.text("norm"), m.body = in.text("body"), m.at = in.text("at");
   const auto window = in.numbers("window");
-  if (window.size() != 2 || (in.has("window") && !(window[1] > window[0] && window[0] >= 0.0))) in.refuse("window", "write [from, to] in s, 0 <= from < to");
+  if (window.size() != 2 || (in.has("window") && !(window[1] > window[0] && window[0] >= 0.0)))
+    in.refuse("window", "write [from, to] in s, 0 <= from < to");
   m.window = {window[0], window[1]};
   m.scale = in.number("scale"), m.unit = in.text("unit");
   if (const auto* r = in.composite("reference")) m.reference = read_reference(*r, in.path() + ".reference", reading);
@@ -104,21 +115,29 @@ Study read_study(const TomlNode& node, std::size_t number, double end_time, Read
   Study s;
   s.place = node.place;
   s.axis = in.text("axis"), s.levels = in.numbers_in(s.axis == "spacing" ? "m" : s.axis == "time_step" ? "s" : "", "levels");
-  if (s.levels.size() < 2) in.refuse("levels", "a study has at least two levels, and at least three for an order with its interval");
+  if (s.levels.size() < 2)
+    in.refuse("levels", "a study has at least two levels, and at least three for an order with its interval");
   const bool refines_upward = s.axis == "walkers" || s.axis == "iterations" || s.axis == "support_ratio";
   for (std::size_t i = 0; i < s.levels.size(); ++i) {
-    if (!(s.levels[i] > 0.0)) in.refuse("levels", fmt::format("level {} is {}: write numbers greater than 0, in the axis's own unit", i + 1, s.levels[i]));
+    if (!(s.levels[i] > 0.0))
+      in.refuse("levels",
+                fmt::format("level {} is {}: write numbers greater than 0, in the axis's own unit", i + 1, s.levels[i]));
     if (i > 0 && (refines_upward ? s.levels[i] <= s.levels[i - 1] : s.levels[i] >= s.levels[i - 1]))
-      in.refuse("levels", fmt::format("write the levels from coarse to fine: for {} that is {}", s.axis, refines_upward ? "rising" : "falling"));
+      in.refuse("levels", fmt::format("write the levels from coarse to fine: for {} that is {}", s.axis,
+                                      refines_upward ? "rising" : "falling"));
   }
-  if (s.axis == "time_step" && end_time > most_steps * s.levels.back()) in.refuse("levels", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made", s.levels.back(), end_time / s.levels.back(), end_time, most_steps));
+  if (s.axis == "time_step" && end_time > most_steps * s.levels.back())
+    in.refuse("levels", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made",
+                                    s.levels.back(), end_time / s.levels.back(), end_time, most_steps));
   s.support_ratios = read_together(in, "support_ratios", s), s.time_steps = read_together(in, "time_steps", s);
   s.jitter = in.number("jitter");
   constexpr long most_seeds = 1000;
   const long seeds = in.integer("seeds");
-  if (seeds > most_seeds) in.refuse("seeds", fmt::format("{} runs for each level are more than the {} that can be planned", seeds, most_seeds));
+  if (seeds > most_seeds)
+    in.refuse("seeds", fmt::format("{} runs for each level are more than the {} that can be planned", seeds, most_seeds));
   s.seeds = static_cast<int>(seeds);
-  s.engine = in.text("engine"), s.mode = in.text("mode"), s.expect = in.text("expect"), s.order = in.maybe_number("order"), s.metric = in.text("metric");
+  s.engine = in.text("engine"), s.mode = in.text("mode"), s.expect = in.text("expect"), s.order = in.maybe_number("order"),
+  s.metric = in.text("metric");
   return s;
 }
 
@@ -132,11 +151,14 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
     if (band->size() != 2 || !((*band)[0] <= (*band)[1])) in.refuse("band", "write [low, high] with low <= high");
     g.band = std::array<double, 2>{(*band)[0], (*band)[1]};
   }
-  if (!g.limit && !g.at_least && !g.band) in.refuse("", fmt::format("the gate on \"{}\" has no limit and would pass anything: give limit, at_least or band", printable(g.metric)));
+  if (!g.limit && !g.at_least && !g.band)
+    in.refuse("", fmt::format("the gate on \"{}\" has no limit and would pass anything: give limit, at_least or band",
+                              printable(g.metric)));
   g.place = in.place(g.limit ? "limit" : g.at_least ? "at_least" : "band");  // the line that a red gate points at
   g.level = in.maybe_number("level"), g.drift = in.maybe_number("drift");
   g.reason = in.text("reason");
-  if (g.reason.find_first_not_of(" \t\n") == std::string::npos) in.refuse("reason", "a limit needs a reason: say where the number comes from");
+  if (g.reason.find_first_not_of(" \t\n") == std::string::npos)
+    in.refuse("reason", "a limit needs a reason: say where the number comes from");
   g.by = in.text("by"), g.date = in.text("date");
   return g;
 }
@@ -146,7 +168,8 @@ UncertainInput read_input(const TomlNode& node, std::size_t number, Reading& rea
   UncertainInput u;
   u.place = node.place;
   u.key = in.text("key"), u.low = in.text("low"), u.high = in.text("high");
-  if (u.key.find('.') == std::string::npos || u.key.find('=') != std::string::npos) in.refuse("key", "write a key as --set takes it: scene.viscosity_form, material.water.viscosity");
+  if (u.key.find('.') == std::string::npos || u.key.find('=') != std::string::npos)
+    in.refuse("key", "write a key as --set takes it: scene.viscosity_form, material.water.viscosity");
   if (u.low == u.high) in.refuse("high", "low and high are the same: that is an exact input");
   return u;
 }
@@ -155,7 +178,8 @@ Defect read_defect(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in(node, "defect", fmt::format("defect.{}", number), reading.decisions);
   Defect d;
   d.place = node.place;
-  d.name = in.text("name"), d.size = in.number("size"), d.smallest = in.maybe_number("smallest"), d.killed_by = in.texts("killed_by");
+  d.name = in.text("name"), d.size = in.number("size"), d.smallest = in.maybe_number("smallest"),
+  d.killed_by = in.texts("killed_by");
   return d;
 }
 

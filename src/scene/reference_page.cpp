@@ -36,8 +36,10 @@ std::string default_cell(const Key& k) {
 }
 
 std::string table_page(const TableInfo& t) {
-  std::string out = fmt::format("## `{}`\n\n{}\n\n| key | value | default, and why | meaning |\n|---|---|---|---|\n", t.written, t.meaning);
-  for (const auto* k : keys_of(t.name)) out += fmt::format("| `{}` | {} | {} | {} |\n", k->name, type_cell(*k), default_cell(*k), cell(k->meaning));
+  std::string out =
+      fmt::format("## `{}`\n\n{}\n\n| key | value | default, and why | meaning |\n|---|---|---|---|\n", t.written, t.meaning);
+  for (const auto* k : keys_of(t.name))
+    out += fmt::format("| `{}` | {} | {} | {} |\n", k->name, type_cell(*k), default_cell(*k), cell(k->meaning));
   return out + "\n";
 }
 
@@ -95,7 +97,8 @@ body_count = { value = 2, limit = 0, reason = "nothing breaks" }
 /// What the names of [invariants] stand for.
 std::string invariants_page() {
   std::string out = "| name | quantity | norm | meaning |\n|---|---|---|---|\n";
-  for (const Invariant& one : invariants()) out += fmt::format("| `{}` | `{}` | `{}` | {} |\n", one.name, one.quantity, one.norm, cell(one.meaning));
+  for (const Invariant& one : invariants())
+    out += fmt::format("| `{}` | `{}` | `{}` | {} |\n", one.name, one.quantity, one.norm, cell(one.meaning));
   return out + "\n";
 }
 
@@ -103,9 +106,12 @@ std::string invariants_page() {
 
 std::string case_reference_page() {
   std::string out = fmt::format(
-      "# The case file\n\nWritten by `tripoint schema --page` from the table that the reader checks by. TOML, format 1: `cases/<subject>/<case>.toml`. An unknown key, a wrong unit or a number out of range is refused with file, line, "
-      "column and the nearest known key.\n\nUnits known by name: {} (with the prefixes n u m c d h k M G where that is usual), combined as `kg/m3`, `W/m/K`, `J/(kg K)`, `m s^-2`.\n\n"
-      "On the command line `--set a.b=VALUE` replaces any key: `scene.spacing=0.01`, `body.NAME.velocity=[1,0,0]`, `material.NAME.density=900`, `study.1.levels=[0.1,0.05]`; tables without a name count from 1.\n\n",
+      "# The case file\n\nWritten by `tripoint schema --page` from the table that the reader checks by. TOML, format 1: "
+      "`cases/<subject>/<case>.toml`. An unknown key, a wrong unit or a number out of range is refused with file, line, "
+      "column and the nearest known key.\n\nUnits known by name: {} (with the prefixes n u m c d h k M G where that is usual), "
+      "combined as `kg/m3`, `W/m/K`, `J/(kg K)`, `m s^-2`.\n\n"
+      "On the command line `--set a.b=VALUE` replaces any key: `scene.spacing=0.01`, `body.NAME.velocity=[1,0,0]`, "
+      "`material.NAME.density=900`, `study.1.levels=[0.1,0.05]`; tables without a name count from 1.\n\n",
       known_units());
   out += short_forms;
   for (const auto& t : table_infos()) {

@@ -24,10 +24,14 @@ class TemperatureAt {
   }
   double operator()(const Vec3& r) const {
     switch (field_.kind) {
-      case TemperatureField::Kind::constant: return field_.value;
-      case TemperatureField::Kind::cosine: return field_.mean + field_.amplitude * std::cos(dot(field_.wave_vector, r) + field_.phase);
-      case TemperatureField::Kind::step: return dot(r - field_.point, field_.normal) < 0.0 ? field_.behind : field_.ahead;
-      case TemperatureField::Kind::expression: return (*expression_)(r);
+      case TemperatureField::Kind::constant:
+        return field_.value;
+      case TemperatureField::Kind::cosine:
+        return field_.mean + field_.amplitude * std::cos(dot(field_.wave_vector, r) + field_.phase);
+      case TemperatureField::Kind::step:
+        return dot(r - field_.point, field_.normal) < 0.0 ? field_.behind : field_.ahead;
+      case TemperatureField::Kind::expression:
+        return (*expression_)(r);
     }
     return not_a_number;
   }
@@ -45,8 +49,10 @@ class VelocityAt {
   }
   Vec3 operator()(const Vec3& r) const {
     switch (field_.kind) {
-      case VelocityField::Kind::constant: return field_.value;
-      case VelocityField::Kind::cosine: return field_.mean + std::cos(dot(field_.wave_vector, r) + field_.phase) * field_.amplitude;
+      case VelocityField::Kind::constant:
+        return field_.value;
+      case VelocityField::Kind::cosine:
+        return field_.mean + std::cos(dot(field_.wave_vector, r) + field_.phase) * field_.amplitude;
       case VelocityField::Kind::linear: {
         const Vec3 d = r - field_.centre;
         return {dot(field_.gradient[0], d), dot(field_.gradient[1], d), dot(field_.gradient[2], d)};
@@ -55,7 +61,8 @@ class VelocityAt {
         const double k = 2.0 * std::numbers::pi / field_.wavelength;
         return {-field_.speed * std::cos(k * r.x) * std::sin(k * r.y), field_.speed * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
       }
-      case VelocityField::Kind::expression: return {expressions_[0](r), expressions_[1](r), expressions_[2](r)};
+      case VelocityField::Kind::expression:
+        return {expressions_[0](r), expressions_[1](r), expressions_[2](r)};
     }
     return {};
   }
@@ -73,11 +80,14 @@ std::vector<Vec3> velocities(const Body& b, const std::vector<Vec3>& centres) {
   for (const auto& r : centres) centre += r;
   centre = centre / static_cast<double>(centres.size());  // equal masses
   const VelocityAt field(b.velocity);
-  const auto start = b.keyframes.empty() ? PrescribedState{centre, {}, b.angular_velocity, {}} : prescribed_state(b.keyframes, centre, {}, {}, 0.0);
+  const auto start = b.keyframes.empty() ? PrescribedState{centre, {}, b.angular_velocity, {}}
+                                         : prescribed_state(b.keyframes, centre, {}, {}, 0.0);
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const Vec3 own = b.keyframes.empty() ? field(centres[i]) : start.velocity;
     out[i] = own + cross(start.angular_velocity, centres[i] - centre);
-    if (!finite(out[i])) throw InputError(b.place, fmt::format("body \"{}\": its velocity is not finite at ({}, {}, {}) m", b.name, centres[i].x, centres[i].y, centres[i].z));
+    if (!finite(out[i]))
+      throw InputError(b.place, fmt::format("body \"{}\": its velocity is not finite at ({}, {}, {}) m", b.name, centres[i].x,
+                                            centres[i].y, centres[i].z));
   }
   return out;
 }
@@ -88,16 +98,27 @@ void refuse_lost_spin(const Scene& s, const Body& b, const std::vector<Vec3>& ce
   const double w = norm(b.angular_velocity);
   const Vec3 line = centres.back() - centres.front();
   const auto off_line = [&](const Vec3& r) { return norm(cross(r - centres.front(), line)) > 1e-6 * s.spacing * norm(line); };
-  if (norm(line) > 0.0 && (std::any_of(centres.begin(), centres.end(), off_line) || std::abs(dot(b.angular_velocity, line)) <= 1e-9 * w * norm(line))) return;
-  if (centres.size() == 1) throw InputError(b.place, fmt::format("body \"{}\" is one particle, which cannot spin: remove angular_velocity, or refine scene.spacing", b.name));
-  throw InputError(b.place, fmt::format("body \"{}\" is a line of {} particles, and a spin about its own axis moves none of them: leave out that part of angular_velocity, or make the body wider than one spacing", b.name, centres.size()));
+  if (norm(line) > 0.0 &&
+      (std::any_of(centres.begin(), centres.end(), off_line) || std::abs(dot(b.angular_velocity, line)) <= 1e-9 * w * norm(line)))
+    return;
+  if (centres.size() == 1)
+    throw InputError(
+        b.place,
+        fmt::format("body \"{}\" is one particle, which cannot spin: remove angular_velocity, or refine scene.spacing", b.name));
+  throw InputError(b.place, fmt::format("body \"{}\" is a line of {} particles, and a spin about its own axis moves none of "
+                                        "them: leave out that part of angular_velocity, or make the body wider than one spacing",
+                                        b.name, centres.size()));
 }
 
 void check_temperatures(const Scene& s) {
   const auto heated = std::find_if(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.temperature.has_value(); });
   if (heated == s.bodies.end()) return;
   for (const auto& b : s.bodies)
-    if (!b.temperature) throw InputError(b.place, fmt::format("body \"{}\" has no temperature, but \"{}\" has: give every body one, or none; a body that takes up no heat has a temperature too, and a material of conductivity 1e-12 W/m/K", b.name, heated->name));
+    if (!b.temperature)
+      throw InputError(b.place,
+                       fmt::format("body \"{}\" has no temperature, but \"{}\" has: give every body one, or none; a body that "
+                                   "takes up no heat has a temperature too, and a material of conductivity 1e-12 W/m/K",
+                                   b.name, heated->name));
 }
 
 /// Shifts each particle at random. A body that keyframes lead keeps its centre, which is where they begin: it would jump there.
@@ -122,10 +143,13 @@ InitialState laid(const Scene& s) {
   const auto rows = body_rows(s);
   for (std::size_t n = 0; n < s.bodies.size(); ++n) {
     const Body& b = s.bodies[n];
-    const auto material = std::find_if(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == b.material; });
+    const auto material =
+        std::find_if(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == b.material; });
     const double mass = s.material(b.material).density * s.spacing * s.spacing * s.spacing;
     auto centres = fill(s, b);
-    if (out.size() + centres.size() > max_particles) throw InputError(b.place, fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing", max_particles, b.name));
+    if (out.size() + centres.size() > max_particles)
+      throw InputError(b.place,
+                       fmt::format("more than {} particles by body \"{}\": coarsen scene.spacing", max_particles, b.name));
     refuse_lost_spin(s, b, centres);
     if (s.jitter > 0.0) disturb(s, b, out.size(), centres);
     const auto velocity = velocities(b, centres);
@@ -141,7 +165,9 @@ InitialState laid(const Scene& s) {
       out.source.push_back(static_cast<int>(n));
       if (!temperature) continue;
       const double T = (*temperature)(centres[i]);
-      if (!std::isfinite(T) || T <= 0.0) throw InputError(b.place, fmt::format("body \"{}\": its temperature is {} K at ({}, {}, {}) m: it must be above 0 K", b.name, T, centres[i].x, centres[i].y, centres[i].z));
+      if (!std::isfinite(T) || T <= 0.0)
+        throw InputError(b.place, fmt::format("body \"{}\": its temperature is {} K at ({}, {}, {}) m: it must be above 0 K",
+                                              b.name, T, centres[i].x, centres[i].y, centres[i].z));
       out.temperature.push_back(T);
     }
   }

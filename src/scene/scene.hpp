@@ -44,19 +44,20 @@ using EffectValues = std::map<std::string, double, std::less<>>;
 
 struct Material {
   std::string name;
-  double density = 0.0;                                     ///< rest density [kg/m3]
-  double viscosity = 0.0;                                   ///< dynamic [Pa s]
-  std::optional<double> stiffness;                          ///< k [m2/s2]
-  std::optional<double> young_modulus, poisson_ratio;       ///< [Pa], [1]
-  std::optional<double> conductivity, heat_capacity;        ///< of the liquid, and of the solid too where it has none of its own [W/m/K], [J/kg/K]
+  double density = 0.0;                                ///< rest density [kg/m3]
+  double viscosity = 0.0;                              ///< dynamic [Pa s]
+  std::optional<double> stiffness;                     ///< k [m2/s2]
+  std::optional<double> young_modulus, poisson_ratio;  ///< [Pa], [1]
+  std::optional<double> conductivity,
+      heat_capacity;  ///< of the liquid, and of the solid too where it has none of its own [W/m/K], [J/kg/K]
   std::optional<double> solid_conductivity, solid_heat_capacity;  ///< of the solid where they differ; not as printed
-  std::optional<double> t_melt, t_solid, latent_heat;       ///< [K], [K], [J/kg]
-  std::string solid = "elastic";                            ///< what it is when solid: elastic | rigid
+  std::optional<double> t_melt, t_solid, latent_heat;             ///< [K], [K], [J/kg]
+  std::string solid = "elastic";                                  ///< what it is when solid: elastic | rigid
   bool softens = false;
-  std::optional<double> elastic_limit, plastic_limit;       ///< strain [1]
-  std::optional<double> fracture_stretch;                   ///< corrected: |r|/|x| [1]
-  std::optional<double> fracture_distance;                  ///< paper: [spacings]
-  EffectValues values;                                      ///< of keys that effects bring (scene/effect_rule.hpp)
+  std::optional<double> elastic_limit, plastic_limit;  ///< strain [1]
+  std::optional<double> fracture_stretch;              ///< corrected: |r|/|x| [1]
+  std::optional<double> fracture_distance;             ///< paper: [spacings]
+  EffectValues values;                                 ///< of keys that effects bring (scene/effect_rule.hpp)
 };
 
 /// A region of space. Recursive kinds hold their parts in `of`: union (all), difference (of[0] minus of[1]).
@@ -69,29 +70,29 @@ struct Shape {
   double radius = 0.0;          ///< sphere, cylinder [m]
   Vec3 point, normal{0, 0, 1};  ///< half_space: inside where (r - point).normal <= 0
   std::vector<Shape> of;
-  std::string file;             ///< mesh: absolute path after reading
-  double scale = 1.0;           ///< mesh
+  std::string file;    ///< mesh: absolute path after reading
+  double scale = 1.0;  ///< mesh
 };
 
 /// Temperature as a function of place [K].
 struct TemperatureField {
   enum class Kind { constant, cosine, step, expression } kind = Kind::constant;
-  double value = 0.0;                             ///< constant
+  double value = 0.0;                               ///< constant
   double mean = 0.0, amplitude = 0.0, phase = 0.0;  ///< cosine: mean + amplitude cos(k.r + phase)
-  Vec3 wave_vector;                               ///< [rad/m]
-  Vec3 point, normal{1, 0, 0};                    ///< step: behind where (r - point).normal < 0
+  Vec3 wave_vector;                                 ///< [rad/m]
+  Vec3 point, normal{1, 0, 0};                      ///< step: behind where (r - point).normal < 0
   double behind = 0.0, ahead = 0.0;
-  std::string expression;                         ///< of x, y, z [m]
+  std::string expression;  ///< of x, y, z [m]
 };
 
 /// Velocity as a function of place [m/s].
 struct VelocityField {
   enum class Kind { constant, cosine, linear, taylor_green, expression } kind = Kind::constant;
-  Vec3 value;                          ///< constant
-  Vec3 mean, amplitude, wave_vector;   ///< cosine
+  Vec3 value;                         ///< constant
+  Vec3 mean, amplitude, wave_vector;  ///< cosine
   double phase = 0.0;
-  Vec3 centre;                         ///< linear: gradient (r - centre); row i = component i
-  std::array<Vec3, 3> gradient{};      ///< [1/s]
+  Vec3 centre;                           ///< linear: gradient (r - centre); row i = component i
+  std::array<Vec3, 3> gradient{};        ///< [1/s]
   double speed = 0.0, wavelength = 0.0;  ///< taylor_green in x, y
   std::array<std::string, 3> expression;
 };
@@ -139,28 +140,28 @@ struct Inflow {
 };
 
 struct Scene {
-  double end_time = 0.0;  ///< [s]
-  Vec3 gravity;           ///< [m/s2]
-  double spacing = 0.0;   ///< dx [m]
+  double end_time = 0.0;       ///< [s]
+  Vec3 gravity;                ///< [m/s2]
+  double spacing = 0.0;        ///< dx [m]
   double support_ratio = 2.6;  ///< h/dx
   Mode mode = Mode::corrected;
-  std::array<Mode, term_count> modes{};  ///< resolved for every term
+  std::array<Mode, term_count> modes{};                       ///< resolved for every term
   std::array<std::optional<Mode>, term_count> modes_given{};  ///< as the case file says, term by term
   bool support_ratio_given = false;
-  std::optional<double> time_step;       ///< empty = auto [s]
+  std::optional<double> time_step;  ///< empty = auto [s]
   std::uint64_t seed = 1;
-  double jitter = 0.0;  ///< [spacings]
+  double jitter = 0.0;           ///< [spacings]
   std::optional<Vec3> min, max;  ///< domain; needed where a direction is periodic [m]
   std::array<bool, 3> periodic{};
   double output_interval = 0.0;  ///< [s]
   std::string viscosity_form = "central";
   bool transport_velocity = false;
-  bool settle = false;  ///< liquids are let down into equilibrium before time 0
+  bool settle = false;          ///< liquids are let down into equilibrium before time 0
   double merge_distance = 1.5;  ///< [spacings]
   bool merge_distance_given = false;
   double hourglass = 1.0, contact_viscosity = 0.0;
-  bool contact = true;                  ///< false: solids pass through each other (contact = "none")
-  bool recovers = false;                ///< a guard that trips sends the run back to a good state, with half the step
+  bool contact = true;                 ///< false: solids pass through each other (contact = "none")
+  bool recovers = false;               ///< a guard that trips sends the run back to a good state, with half the step
   std::vector<std::string> unguarded;  ///< guards that are off
   EffectValues values;                 ///< of keys that effects bring (scene/effect_rule.hpp)
   std::vector<Material> materials;
@@ -200,16 +201,16 @@ struct ReferenceChoice {
 
 struct MetricChoice {
   std::string name, quantity, norm = "max", body, at = "end";
-  std::array<double, 2> window{0.0, 0.0};  ///< [s]; {0, 0} = all
-  double scale = 1.0;                      ///< error is divided by it
-  std::string unit;                        ///< of the scaled value, for people
+  std::array<double, 2> window{0.0, 0.0};    ///< [s]; {0, 0} = all
+  double scale = 1.0;                        ///< error is divided by it
+  std::string unit;                          ///< of the scaled value, for people
   std::optional<ReferenceChoice> reference;  ///< overrides the case's
   SourcePlace place;
 };
 
 struct Study {
-  std::string axis;             ///< spacing time_step support_ratio walkers iterations
-  std::vector<double> levels;   ///< coarse to fine
+  std::string axis;                                ///< spacing time_step support_ratio walkers iterations
+  std::vector<double> levels;                      ///< coarse to fine
   std::vector<double> support_ratios, time_steps;  ///< refined together with the levels, one for each; empty = the case's own
   double jitter = 0.0;
   int seeds = 1;
@@ -221,12 +222,13 @@ struct Study {
 };
 
 struct Gate {
-  std::string metric;  ///< a metric's name, or NAME.order
+  std::string metric;                ///< a metric's name, or NAME.order
   std::string engine, mode, preset;  ///< empty = all
   std::optional<double> limit, at_least;
   std::optional<std::array<double, 2>> band;
   std::optional<double> level;  ///< of the study's axis; empty = every run
-  std::optional<double> drift;  ///< share by which the value may move from its baseline before that turns red; empty = a tenth, and it warns
+  std::optional<double>
+      drift;  ///< share by which the value may move from its baseline before that turns red; empty = a tenth, and it warns
   std::string reason, by, date;
   SourcePlace place;
 };

@@ -17,12 +17,23 @@ json array_of(json items) { return {{"type", "array"}, {"items", std::move(items
 json number_schema(const Key& k) {
   json number{{"type", "number"}};
   switch (k.range) {
-    case Range::any: break;
-    case Range::positive: number["exclusiveMinimum"] = 0; break;
-    case Range::not_negative: number["minimum"] = 0; break;
-    case Range::fraction: number["minimum"] = 0, number["maximum"] = 1; break;
-    case Range::poisson: number["exclusiveMinimum"] = -1, number["exclusiveMaximum"] = 0.5; break;
-    case Range::above_one: number["exclusiveMinimum"] = 1; break;
+    case Range::any:
+      break;
+    case Range::positive:
+      number["exclusiveMinimum"] = 0;
+      break;
+    case Range::not_negative:
+      number["minimum"] = 0;
+      break;
+    case Range::fraction:
+      number["minimum"] = 0, number["maximum"] = 1;
+      break;
+    case Range::poisson:
+      number["exclusiveMinimum"] = -1, number["exclusiveMaximum"] = 0.5;
+      break;
+    case Range::above_one:
+      number["exclusiveMinimum"] = 1;
+      break;
   }
   // A text holds a number and a unit of the key's dimension; which units, the reader knows.
   return {{"anyOf", {number, {{"type", "string"}, {"pattern", "^\\s*[+-]?[0-9.]+([eE][+-]?[0-9]+)?.*$"}}}}};
@@ -49,17 +60,28 @@ json value_schema(const Key& k) {
     return s;
   };
   switch (k.type) {
-    case ValueType::number: return number_schema(k);
-    case ValueType::integer: return {{"type", "integer"}};
-    case ValueType::flag: return {{"type", "boolean"}};
-    case ValueType::text: return {{"type", "string"}};
-    case ValueType::word: return {{"enum", split_words(k.words)}};
-    case ValueType::vector: return vector_schema(k);
-    case ValueType::numbers: return array_of(number_schema(k));
-    case ValueType::texts: return array_of({{"type", "string"}});
-    case ValueType::number_or_auto: return {{"anyOf", {number_schema(k), {{"const", "auto"}}}}};
-    case ValueType::text_or_texts: return {{"anyOf", {{{"type", "string"}}, array_of({{"type", "string"}})}}};
-    case ValueType::words: return array_of({{"enum", split_words(k.words)}});
+    case ValueType::number:
+      return number_schema(k);
+    case ValueType::integer:
+      return {{"type", "integer"}};
+    case ValueType::flag:
+      return {{"type", "boolean"}};
+    case ValueType::text:
+      return {{"type", "string"}};
+    case ValueType::word:
+      return {{"enum", split_words(k.words)}};
+    case ValueType::vector:
+      return vector_schema(k);
+    case ValueType::numbers:
+      return array_of(number_schema(k));
+    case ValueType::texts:
+      return array_of({{"type", "string"}});
+    case ValueType::number_or_auto:
+      return {{"anyOf", {number_schema(k), {{"const", "auto"}}}}};
+    case ValueType::text_or_texts:
+      return {{"anyOf", {{{"type", "string"}}, array_of({{"type", "string"}})}}};
+    case ValueType::words:
+      return array_of({{"enum", split_words(k.words)}});
     case ValueType::table:
       if (k.words == "engines") return {{"type", "object"}, {"additionalProperties", reference_to("engines")}};
       return reference_to(k.words);
@@ -67,11 +89,16 @@ json value_schema(const Key& k) {
       if (k.words == "shape") return array_of(kinds_of("shape"));
       if (k.words.empty()) return array_of(vector_schema(k));
       return array_of(reference_to(k.words));
-    case ValueType::settings: return {{"type", "object"}};
-    case ValueType::shape: return kinds_of("shape");
-    case ValueType::temperature: return kind_or("temperature", number_schema(k));
-    case ValueType::velocity: return kind_or("velocity", vector_schema(k));
-    case ValueType::invariant: return {{"anyOf", {{{"type", "number"}}, reference_to("invariant")}}};
+    case ValueType::settings:
+      return {{"type", "object"}};
+    case ValueType::shape:
+      return kinds_of("shape");
+    case ValueType::temperature:
+      return kind_or("temperature", number_schema(k));
+    case ValueType::velocity:
+      return kind_or("velocity", vector_schema(k));
+    case ValueType::invariant:
+      return {{"anyOf", {{{"type", "number"}}, reference_to("invariant")}}};
   }
   return {};
 }
@@ -80,8 +107,11 @@ json key_schema(const Key& k) {
   json s = value_schema(k);
   std::string text(k.meaning);
   if (!k.unit.empty()) text += " [" + std::string(k.unit) + "]";
-  if (k.required()) text += "; required";
-  else if (!k.note.empty()) text += "; default: " + std::string(k.fallback.empty() || k.fallback == "=" ? "" : std::string(k.fallback) + ", ") + std::string(k.note);
+  if (k.required())
+    text += "; required";
+  else if (!k.note.empty())
+    text += "; default: " + std::string(k.fallback.empty() || k.fallback == "=" ? "" : std::string(k.fallback) + ", ") +
+            std::string(k.note);
   s["description"] = text;
   return s;
 }
@@ -112,7 +142,8 @@ json rule_of_whole_cases() {
 
 bool is_always_whole(std::string_view name) {
   const auto top = keys_of("");
-  const bool of_the_top = std::any_of(top.begin(), top.end(), [&](const Key* k) { return can_be_partial(*k) && k->words == name; });
+  const bool of_the_top =
+      std::any_of(top.begin(), top.end(), [&](const Key* k) { return can_be_partial(*k) && k->words == name; });
   return !name.empty() && !of_the_top && name != "gates" && name != "invariant";
 }
 
@@ -132,14 +163,18 @@ json table_schema(std::string_view name) {
 
 std::string case_schema() {
   json s = table_schema("");
-  json out{{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "tripoint case file, format 1"}, {"description", "Numbers are SI, or texts with a unit."}};
+  json out{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+           {"title", "tripoint case file, format 1"},
+           {"description", "Numbers are SI, or texts with a unit."}};
   out.update(s);
   out["if"] = {{"not", {{"required", {"extends"}}}}};
   out["then"] = rule_of_whole_cases();
   for (const auto& t : table_infos())
-    if (!t.name.empty()) out["$defs"][std::string(t.name)] = table_schema(t.name), out["$defs"][std::string(t.name)]["description"] = t.meaning;
+    if (!t.name.empty())
+      out["$defs"][std::string(t.name)] = table_schema(t.name), out["$defs"][std::string(t.name)]["description"] = t.meaning;
   json modes{{"type", "object"}, {"additionalProperties", false}, {"properties", json::object()}};
-  for (std::size_t t = 0; t < term_count; ++t) modes["properties"][std::string(to_string(static_cast<Term>(t)))] = {{"enum", {"corrected", "paper"}}};
+  for (std::size_t t = 0; t < term_count; ++t)
+    modes["properties"][std::string(to_string(static_cast<Term>(t)))] = {{"enum", {"corrected", "paper"}}};
   out["$defs"]["modes"] = modes;
   return out.dump(2) + "\n";
 }

@@ -48,7 +48,10 @@ void collect_levels(const TomlNode& limits, const std::string& head, std::vector
     level.kind = Kind::real, level.place = level.key_place = value.key_place;
     const auto end = name.data() + name.size();
     if (const auto read = std::from_chars(name.data(), end, level.real); read.ec != std::errc() || read.ptr != end)
-      throw InputError(value.key_place, fmt::format("`limits`: `{}` is no number: write {{ LEVEL = LIMIT, ... }}, LEVEL in the unit of the study's axis", printable(name)));
+      throw InputError(
+          value.key_place,
+          fmt::format("`limits`: `{}` is no number: write {{ LEVEL = LIMIT, ... }}, LEVEL in the unit of the study's axis",
+                      printable(name)));
     levels.emplace_back(std::move(level), value);
   }
 }
@@ -57,9 +60,12 @@ void collect_levels(const TomlNode& limits, const std::string& head, std::vector
 std::vector<TomlNode> by_level(TomlNode gate) {
   const auto limits = gate.kind == Kind::table ? take(gate, "limits") : std::nullopt;
   if (!limits) return {gate};
-  if (limits->kind != Kind::table || limits->members.empty()) throw InputError(limits->place, "`limits`: write { LEVEL = LIMIT, ... }, LEVEL in the unit of the study's axis");
+  if (limits->kind != Kind::table || limits->members.empty())
+    throw InputError(limits->place, "`limits`: write { LEVEL = LIMIT, ... }, LEVEL in the unit of the study's axis");
   for (const char* key : {"limit", "at_least", "band", "level"})
-    if (const auto* other = gate.find(key)) throw InputError(other->key_place, fmt::format("`{}` beside `limits`: each of its levels has a limit already; remove one of them", key));
+    if (const auto* other = gate.find(key))
+      throw InputError(other->key_place,
+                       fmt::format("`{}` beside `limits`: each of its levels has a limit already; remove one of them", key));
   std::vector<std::pair<TomlNode, TomlNode>> levels;
   collect_levels(*limits, "", levels);
   std::vector<TomlNode> gates;
@@ -73,14 +79,20 @@ std::vector<TomlNode> by_level(TomlNode gate) {
 
 /// The metric that a gate within a metric judges: that one, or its order or statistical part.
 void name_metric(TomlNode& gate, const std::string& metric, const SourcePlace& place) {
-  if (gate.kind != Kind::table) throw InputError(gate.place, fmt::format("a gate of metric \"{}\" must be a table, not {}: write {{ limit = 1e-3, reason = \"...\" }}", printable(metric), kind_name(gate.kind)));
+  if (gate.kind != Kind::table)
+    throw InputError(gate.place,
+                     fmt::format("a gate of metric \"{}\" must be a table, not {}: write {{ limit = 1e-3, reason = \"...\" }}",
+                                 printable(metric), kind_name(gate.kind)));
   const auto* given = gate.find("metric");
   if (!given) {
     gate.members.insert(gate.members.begin(), {"metric", text_node(metric, place)});
     return;
   }
-  if (given->kind != Kind::text || (given->text != metric && given->text != metric + ".order" && given->text != metric + ".statistical"))
-    throw InputError(given->place, fmt::format("a gate within metric \"{0}\" judges \"{0}\", \"{0}.order\" or \"{0}.statistical\": write one of these, or remove the key", printable(metric)));
+  if (given->kind != Kind::text ||
+      (given->text != metric && given->text != metric + ".order" && given->text != metric + ".statistical"))
+    throw InputError(given->place, fmt::format("a gate within metric \"{0}\" judges \"{0}\", \"{0}.order\" or "
+                                               "\"{0}.statistical\": write one of these, or remove the key",
+                                               printable(metric)));
 }
 
 /// The gates that a metric carries, taken out of it.
@@ -92,9 +104,16 @@ std::vector<TomlNode> gates_of(TomlNode& metric) {
   if (!gates && !limits && !reason) return list;
   const auto* name = metric.find("name");
   if (!name || name->kind != Kind::text) throw InputError(metric.place, "a metric with gates needs its `name` here: give it");
-  if (gates && gates->kind != Kind::array) throw InputError(gates->place, fmt::format("`gates` must be an array of tables, not {}: write [{{ limit = 1e-3, reason = \"...\" }}]", kind_name(gates->kind)));
+  if (gates && gates->kind != Kind::array)
+    throw InputError(gates->place,
+                     fmt::format("`gates` must be an array of tables, not {}: write [{{ limit = 1e-3, reason = \"...\" }}]",
+                                 kind_name(gates->kind)));
   if (limits.has_value() != reason.has_value())
-    throw InputError((limits ? limits : reason)->key_place, limits ? "`limits` of a metric need its key `reason`: write where the numbers come from" : "`reason` of a metric is that of its `limits`, and there are none: give `limits`, or write the reason into a gate");
+    throw InputError(
+        (limits ? limits : reason)->key_place,
+        limits
+            ? "`limits` of a metric need its key `reason`: write where the numbers come from"
+            : "`reason` of a metric is that of its `limits`, and there are none: give `limits`, or write the reason into a gate");
   if (limits) {
     TomlNode gate;
     gate.place = limits->place, gate.key_place = limits->key_place;
@@ -122,7 +141,8 @@ void append(TomlNode& document, std::vector<TomlNode> gates) {
 void spell_out(TomlNode& document) {
   auto* given = document.find("invariants");
   if (!given) return;
-  if (given->kind != Kind::table) throw InputError(given->place, "`invariants` is a table: write [invariants] with lines like ledger = 1e-9");
+  if (given->kind != Kind::table)
+    throw InputError(given->place, "`invariants` is a table: write [invariants] with lines like ledger = 1e-9");
   for (auto& [name, value] : given->members) {
     if (value.kind == Kind::table) continue;
     TomlNode entry;
@@ -155,9 +175,13 @@ TomlNode stated(TomlNode value) {
 
 void add_reference(TomlNode& metric, std::optional<TomlNode> value, const Invariant& what) {
   if (value && metric.find("reference")) throw InputError(value->key_place, "`value` beside `reference`: remove one of them");
-  if (value && what.value.empty()) throw InputError(value->key_place, fmt::format("`value`: `{}` is compared with the start of the run, not with a value: remove the key", what.name));
+  if (value && what.value.empty())
+    throw InputError(
+        value->key_place,
+        fmt::format("`value`: `{}` is compared with the start of the run, not with a value: remove the key", what.name));
   if (metric.find("reference") || what.value.empty()) return;
-  if (!value && what.value == "!") throw InputError(metric.place, fmt::format("`invariants.{}` lacks the key `value`: {}", what.name, what.meaning));
+  if (!value && what.value == "!")
+    throw InputError(metric.place, fmt::format("`invariants.{}` lacks the key `value`: {}", what.name, what.meaning));
   if (!value) {
     value.emplace();
     value->kind = Kind::real, value->place = value->key_place = metric.place;
@@ -171,7 +195,9 @@ TomlNode metric_of(const std::string& name, TomlNode entry) {
   const Invariant& what = invariant_named(name, entry.key_place);
   const SourcePlace place = entry.place;
   const auto metric_keys = key_names("metric"), gate_keys = key_names("gate");
-  const auto is_of = [](const auto& keys, const std::string& key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); };
+  const auto is_of = [](const auto& keys, const std::string& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
   TomlNode metric, gate;
   metric.place = gate.place = place, metric.key_place = gate.key_place = entry.key_place;
   auto value = take(entry, "value");
@@ -181,7 +207,8 @@ TomlNode metric_of(const std::string& name, TomlNode entry) {
       auto known = metric_keys;
       known.insert(known.end(), gate_keys.begin(), gate_keys.end());
       std::erase_if(known, [](const auto& k) { return k == "quantity" || k == "metric"; });
-      throw InputError(given.key_place, fmt::format("unknown key `{}` in `invariants.{}`{}", printable(key), name, suggestion(key, known)));
+      throw InputError(given.key_place,
+                       fmt::format("unknown key `{}` in `invariants.{}`{}", printable(key), name, suggestion(key, known)));
     }
     (of_gate ? gate : metric).members.emplace_back(key, std::move(given));
   }
@@ -190,7 +217,9 @@ TomlNode metric_of(const std::string& name, TomlNode entry) {
   if (!metric.find("norm")) metric.members.emplace_back("norm", text_node(what.norm, place));
   add_reference(metric, std::move(value), what);
   auto* gates = metric.find("gates");
-  if (gates && !gate.members.empty()) throw InputError(gate.members.front().second.key_place, fmt::format("`{}` beside `gates`: write it into one of them", gate.members.front().first));
+  if (gates && !gate.members.empty())
+    throw InputError(gate.members.front().second.key_place,
+                     fmt::format("`{}` beside `gates`: write it into one of them", gate.members.front().first));
   if (!gates) {
     TomlNode one;
     one.kind = Kind::array, one.place = place;
@@ -255,7 +284,9 @@ bool has_short_forms(const TomlNode& document) { return first_short_form(documen
 
 void check_written_out(const TomlNode& document) {
   if (const auto* found = first_short_form(document))
-    throw InputError(found->place, "that is a short form, and --set changes the whole case, in which it is written out: give metric.NAME or gate.NUMBER, as `tripoint explain --resolved` prints them");
+    throw InputError(found->place,
+                     "that is a short form, and --set changes the whole case, in which it is written out: give metric.NAME or "
+                     "gate.NUMBER, as `tripoint explain --resolved` prints them");
 }
 
 const std::vector<Invariant>& invariants() {

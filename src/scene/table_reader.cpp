@@ -31,8 +31,10 @@ TomlNode fallback_value(const Key& row) {
     std::replace(plain.begin(), plain.end(), ',', ' ');
     for (const auto& word : split_words(plain)) {
       TomlNode item;
-      if (word.starts_with('"')) item.kind = Kind::text, item.text = word.substr(1, word.size() - 2);
-      else item.kind = Kind::real, item.real = std::stod(word);
+      if (word.starts_with('"'))
+        item.kind = Kind::text, item.text = word.substr(1, word.size() - 2);
+      else
+        item.kind = Kind::real, item.real = std::stod(word);
       n.items.push_back(item);
     }
   } else if (text == "{}") {
@@ -49,10 +51,15 @@ TomlNode fallback_value(const Key& row) {
 std::string what_there_is_instead(std::string_view key) {
   const auto holds = [&](std::string_view word) { return key.find(word) != key.npos; };
   if (holds("friction"))
-    return "engines that have Coulomb's law take it from [engines.all] settings = { friction = ... }; in the particle solver solids meet by pressure and viscosity alone, there is no law of Coulomb; scene.contact_viscosity [Pa s] brakes solids that slide on each other, joined_to bonds them";
+    return "engines that have Coulomb's law take it from [engines.all] settings = { friction = ... }; in the particle solver "
+           "solids meet by pressure and viscosity alone, there is no law of Coulomb; scene.contact_viscosity [Pa s] brakes "
+           "solids that slide on each other, joined_to bonds them";
   if (holds("restitution"))
-    return "engines that have it take it from [engines.all] settings = { restitution = ... }; in the particle solver contact is elastic by its energy, and nothing sets what a hit gives back; scene.contact_viscosity [Pa s] takes energy from a contact";
-  if (holds("damping")) return "no term damps a motion; scene.contact_viscosity [Pa s] takes energy where solids touch, viscosity [Pa s] in a liquid";
+    return "engines that have it take it from [engines.all] settings = { restitution = ... }; in the particle solver contact is "
+           "elastic by its energy, and nothing sets what a hit gives back; scene.contact_viscosity [Pa s] takes energy from a "
+           "contact";
+  if (holds("damping"))
+    return "no term damps a motion; scene.contact_viscosity [Pa s] takes energy where solids touch, viscosity [Pa s] in a liquid";
   if (holds("surface_tension")) return "surface tension is not simulated";
   return {};
 }
@@ -60,7 +67,8 @@ std::string what_there_is_instead(std::string_view key) {
 std::string expected(const Key& row) {
   std::string what(type_text(row.type));
   if (!row.unit.empty()) what += fmt::format(" in {}", row.unit);
-  if (!row.words.empty() && (row.type == ValueType::word || row.type == ValueType::words)) what += fmt::format(" of: {}", row.words);
+  if (!row.words.empty() && (row.type == ValueType::word || row.type == ValueType::words))
+    what += fmt::format(" of: {}", row.words);
   return what;
 }
 
@@ -71,15 +79,19 @@ std::string show(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v
 std::string show(const std::vector<double>& v) { return fmt::format("[{}]", fmt::join(v, ", ")); }
 std::string show(const std::vector<std::string>& v) { return v.empty() ? "[]" : fmt::format("[\"{}\"]", fmt::join(v, "\", \"")); }
 
-TableReader::TableReader(const TomlNode& node, std::string_view table, std::string path, std::vector<Decision>& decisions, std::vector<std::string> extra)
+TableReader::TableReader(const TomlNode& node, std::string_view table, std::string path, std::vector<Decision>& decisions,
+                         std::vector<std::string> extra)
     : node_(node), table_(table), path_(std::move(path)), decisions_(decisions), first_(decisions.size()) {
-  if (node.kind != Kind::table) throw InputError(node.place, fmt::format("`{}` must be a table, not {}", path_, kind_name(node.kind)));
+  if (node.kind != Kind::table)
+    throw InputError(node.place, fmt::format("`{}` must be a table, not {}", path_, kind_name(node.kind)));
   auto known = key_names(table);
   known.insert(known.begin(), extra.begin(), extra.end());
   for (const auto& [key, value] : node.members)
     if (std::find(known.begin(), known.end(), key) == known.end()) {
       const auto taught = what_there_is_instead(key);
-      throw InputError(value.key_place, fmt::format("unknown key `{}`{}{}", printable(key), path_.empty() ? "" : fmt::format(" in `{}`", printable(path_)), taught.empty() ? suggestion(key, known) : ": " + taught));
+      throw InputError(value.key_place, fmt::format("unknown key `{}`{}{}", printable(key),
+                                                    path_.empty() ? "" : fmt::format(" in `{}`", printable(path_)),
+                                                    taught.empty() ? suggestion(key, known) : ": " + taught));
     }
 }
 
@@ -104,7 +116,8 @@ TableReader::Found TableReader::find(std::string_view key) const {
   f.from_case = f.value != nullptr;
   if (!f.value && library_) f.value = library_->find(key);
   if (!f.value && f.row->required()) {
-    const auto what = fmt::format("`{}` lacks the key `{}` ({}): {}", path_.empty() ? "the case" : printable(path_), key, expected(*f.row), f.row->meaning);
+    const auto what = fmt::format("`{}` lacks the key `{}` ({}): {}", path_.empty() ? "the case" : printable(path_), key,
+                                  expected(*f.row), f.row->meaning);
     throw InputError(node_.place, what);
   }
   return f;
@@ -112,9 +125,12 @@ TableReader::Found TableReader::find(std::string_view key) const {
 
 void TableReader::record(const Found& f, std::string value) {
   Decision d{path_of(f.row->name), std::move(value), "", f.from_case, {}};
-  if (f.from_case) d.reason = "given", d.place = f.value->place;
-  else if (f.value) d.reason = library_reason_, d.place = f.value->place;
-  else d.reason = f.row->note;
+  if (f.from_case)
+    d.reason = "given", d.place = f.value->place;
+  else if (f.value)
+    d.reason = library_reason_, d.place = f.value->place;
+  else
+    d.reason = f.row->note;
   decisions_.push_back(std::move(d));
 }
 
@@ -132,7 +148,8 @@ void TableReader::given(std::string_view key, std::string value) {
 namespace {
 
 [[noreturn]] void wrong_type(const TomlNode& v, const Key& row, const std::string& path) {
-  throw InputError(v.place, fmt::format("`{}` must be {}, not {} ({})", printable(path, 120), expected(row), kind_name(v.kind), printable(to_toml(v))));
+  throw InputError(v.place, fmt::format("`{}` must be {}, not {} ({})", printable(path, 120), expected(row), kind_name(v.kind),
+                                        printable(to_toml(v))));
 }
 
 double raw_number(const TomlNode& v, const Key& row, const std::string& path) {
@@ -150,12 +167,19 @@ double raw_number(const TomlNode& v, const Key& row, const std::string& path) {
 
 double number_of(const TomlNode& v, const Key& row, const std::string& path) {
   const double value = raw_number(v, row, path);
-  const auto refuse = [&](const std::string& why) { throw InputError(v.place, fmt::format("`{}` = {}{}", printable(path, 120), value, why)); };
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(v.place, fmt::format("`{}` = {}{}", printable(path, 120), value, why));
+  };
   if (!std::isfinite(value)) refuse(fmt::format(": write a finite number{}{}", row.unit.empty() ? "" : " in ", row.unit));
-  if (!row.unit.empty() && std::abs(value) > most_of_any_unit) refuse(fmt::format(" {}: products of such numbers are not finite; write a number of size up to {:.0e}", row.unit, most_of_any_unit));
+  if (!row.unit.empty() && std::abs(value) > most_of_any_unit)
+    refuse(fmt::format(" {}: products of such numbers are not finite; write a number of size up to {:.0e}", row.unit,
+                       most_of_any_unit));
   if (row.range == Range::poisson && value >= 0.5)
-    refuse(": at 0.5 the solid is incompressible and its stiffness infinite, so no time step is short enough; write less than 0.5 (0.45 serves for rubber)");
-  if (!in_range(row.range, value)) refuse(fmt::format(" must be {}{}{}", range_text(row.range), row.unit.empty() ? "" : " ", row.unit));
+    refuse(
+        ": at 0.5 the solid is incompressible and its stiffness infinite, so no time step is short enough; write less than 0.5 "
+        "(0.45 serves for rubber)");
+  if (!in_range(row.range, value))
+    refuse(fmt::format(" must be {}{}{}", range_text(row.range), row.unit.empty() ? "" : " ", row.unit));
   return value;
 }
 
@@ -168,15 +192,18 @@ std::vector<double> numbers_of(const TomlNode& v, const Key& row, const std::str
 
 Vec3 vector_of(const TomlNode& v, const Key& row, const std::string& path) {
   const auto c = numbers_of(v, row, path);
-  if (c.size() != 3) throw InputError(v.place, fmt::format("`{}` has {} components: write [x, y, z]", printable(path, 120), c.size()));
+  if (c.size() != 3)
+    throw InputError(v.place, fmt::format("`{}` has {} components: write [x, y, z]", printable(path, 120), c.size()));
   return {c[0], c[1], c[2]};
 }
 
 std::optional<double> TableReader::maybe_number(std::string_view key) {
   const Found f = find(key);
   if (!f.value) {
-    if (f.row->fallback.empty()) record(f, "none");
-    else if (f.row->fallback == "\"auto\"") record(f, "\"auto\"");
+    if (f.row->fallback.empty())
+      record(f, "none");
+    else if (f.row->fallback == "\"auto\"")
+      record(f, "\"auto\"");
     return {};
   }
   if (f.row->type == ValueType::number_or_auto && f.value->kind == Kind::text && f.value->text == "auto") {
@@ -190,7 +217,8 @@ std::optional<double> TableReader::maybe_number(std::string_view key) {
 
 double TableReader::number(std::string_view key) {
   const Found f = find(key);
-  const double value = f.value ? number_of(*f.value, *f.row, path_of(key)) : number_of(fallback_value(*f.row), *f.row, path_of(key));
+  const double value =
+      f.value ? number_of(*f.value, *f.row, path_of(key)) : number_of(fallback_value(*f.row), *f.row, path_of(key));
   record(f, show(value));
   return value;
 }
@@ -228,8 +256,9 @@ std::optional<std::string> TableReader::maybe_text(std::string_view key) {
   if (f.value && f.row->type == ValueType::word) {
     const auto known = split_words(f.row->words);
     if (std::find(known.begin(), known.end(), v.text) == known.end())
-      throw InputError(v.place, fmt::format("`{}` = \"{}\" is none of: {}{}", printable(path_of(key), 120), printable(v.text), fmt::join(known, ", "),
-                                            nearest(v.text, known).empty() ? "" : suggestion(v.text, known)));
+      throw InputError(v.place,
+                       fmt::format("`{}` = \"{}\" is none of: {}{}", printable(path_of(key), 120), printable(v.text),
+                                   fmt::join(known, ", "), nearest(v.text, known).empty() ? "" : suggestion(v.text, known)));
   }
   record(f, "\"" + v.text + "\"");
   return v.text;
@@ -286,7 +315,8 @@ std::vector<std::string> TableReader::texts(std::string_view key, Repeats repeat
       if (f.row->type == ValueType::words) {
         const auto known = split_words(f.row->words);
         if (std::find(known.begin(), known.end(), item.text) == known.end())
-          throw InputError(item.place, fmt::format("`{}`: \"{}\" is none of: {}", path_of(key), printable(item.text), fmt::join(known, ", ")));
+          throw InputError(
+              item.place, fmt::format("`{}`: \"{}\" is none of: {}", path_of(key), printable(item.text), fmt::join(known, ", ")));
       }
       if (repeats == Repeats::refused && std::find(out.begin(), out.end(), item.text) != out.end())
         throw InputError(item.place, fmt::format("`{}` names \"{}\" twice: remove one", path_of(key), printable(item.text)));
@@ -308,12 +338,22 @@ Settings TableReader::settings(std::string_view key) {
   const Key plain{table_, key, ValueType::number, "", Range::any, "", "", "", ""};
   for (const auto& [name, v] : f.value->members) {
     switch (v.kind) {
-      case Kind::boolean: out[name] = v.flag; break;
-      case Kind::text: out[name] = v.text; break;
+      case Kind::boolean:
+        out[name] = v.flag;
+        break;
+      case Kind::text:
+        out[name] = v.text;
+        break;
       case Kind::integer:
-      case Kind::real: out[name] = number_of(v, plain, path_of(key) + "." + name); break;
-      case Kind::array: out[name] = numbers_of(v, plain, path_of(key) + "." + name); break;
-      default: throw InputError(v.place, fmt::format("`{}.{}` must be a number, a text, true or false, or an array of numbers, not {}", path_of(key), printable(name), kind_name(v.kind)));
+      case Kind::real:
+        out[name] = number_of(v, plain, path_of(key) + "." + name);
+        break;
+      case Kind::array:
+        out[name] = numbers_of(v, plain, path_of(key) + "." + name);
+        break;
+      default:
+        throw InputError(v.place, fmt::format("`{}.{}` must be a number, a text, true or false, or an array of numbers, not {}",
+                                              path_of(key), printable(name), kind_name(v.kind)));
     }
     decisions_.push_back({path_of(key) + "." + name, to_toml(v), "given", true, v.place});
   }
@@ -327,7 +367,8 @@ std::vector<const TomlNode*> TableReader::tables(std::string_view key) const {
   std::vector<const TomlNode*> out;
   if (!f.value) return out;
   if (f.value->kind != Kind::array) wrong_type(*f.value, *f.row, path_of(key));
-  if (f.value->items.size() > 10000) throw InputError(f.value->place, fmt::format("`{}` has {} entries; at most 10000 are read", key, f.value->items.size()));
+  if (f.value->items.size() > 10000)
+    throw InputError(f.value->place, fmt::format("`{}` has {} entries; at most 10000 are read", key, f.value->items.size()));
   for (const auto& item : f.value->items) out.push_back(&item);
   return out;
 }

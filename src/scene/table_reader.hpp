@@ -29,7 +29,8 @@ class TableReader {
   void fall_back_on(const TomlNode& library, std::string reason);
 
   [[nodiscard]] double number(std::string_view key);
-  [[nodiscard]] std::optional<double> maybe_number(std::string_view key);  ///< empty when absent; for a key by rule no decision is left
+  [[nodiscard]] std::optional<double> maybe_number(
+      std::string_view key);  ///< empty when absent; for a key by rule no decision is left
   [[nodiscard]] long integer(std::string_view key);
   [[nodiscard]] bool flag(std::string_view key);
   [[nodiscard]] std::optional<bool> maybe_flag(std::string_view key);
@@ -38,9 +39,11 @@ class TableReader {
   [[nodiscard]] Vec3 vector(std::string_view key);
   [[nodiscard]] std::optional<Vec3> maybe_vector(std::string_view key);
   [[nodiscard]] std::vector<double> numbers(std::string_view key);
-  [[nodiscard]] std::vector<double> numbers_in(std::string_view unit, std::string_view key);  ///< where another key decides the unit
+  [[nodiscard]] std::vector<double> numbers_in(std::string_view unit,
+                                               std::string_view key);  ///< where another key decides the unit
   [[nodiscard]] std::optional<std::vector<double>> maybe_numbers(std::string_view key);
-  [[nodiscard]] std::vector<std::string> texts(std::string_view key, Repeats = Repeats::refused);  ///< array of texts or words; a single text where the row allows it
+  [[nodiscard]] std::vector<std::string> texts(
+      std::string_view key, Repeats = Repeats::refused);  ///< array of texts or words; a single text where the row allows it
   [[nodiscard]] Settings settings(std::string_view key);
   /// The raw value of a key of a composite type; null when absent. Leaves no decision.
   [[nodiscard]] const TomlNode* composite(std::string_view key) const;
@@ -66,7 +69,9 @@ class TableReader {
   };
   [[nodiscard]] Found find(std::string_view key) const;
   void record(const Found&, std::string value);
-  [[nodiscard]] std::string path_of(std::string_view key) const { return path_.empty() ? std::string(key) : path_ + "." + std::string(key); }
+  [[nodiscard]] std::string path_of(std::string_view key) const {
+    return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+  }
 
   const TomlNode& node_;
   const TomlNode* library_ = nullptr;

@@ -9,14 +9,20 @@
 namespace tripoint {
 namespace {
 
-void add(TemperatureRange& range, double T) { range.least = std::min(range.least, T), range.greatest = std::max(range.greatest, T); }
+void add(TemperatureRange& range, double T) {
+  range.least = std::min(range.least, T), range.greatest = std::max(range.greatest, T);
+}
 
 void add(TemperatureRange& range, const TemperatureField& f) {
   switch (f.kind) {
-    case TemperatureField::Kind::constant: return add(range, f.value);
-    case TemperatureField::Kind::cosine: return add(range, f.mean - std::abs(f.amplitude)), add(range, f.mean + std::abs(f.amplitude));
-    case TemperatureField::Kind::step: return add(range, f.behind), add(range, f.ahead);
-    case TemperatureField::Kind::expression: return add(range, 0.0), add(range, INFINITY);  // anything
+    case TemperatureField::Kind::constant:
+      return add(range, f.value);
+    case TemperatureField::Kind::cosine:
+      return add(range, f.mean - std::abs(f.amplitude)), add(range, f.mean + std::abs(f.amplitude));
+    case TemperatureField::Kind::step:
+      return add(range, f.behind), add(range, f.ahead);
+    case TemperatureField::Kind::expression:
+      return add(range, 0.0), add(range, INFINITY);  // anything
   }
 }
 
@@ -39,9 +45,11 @@ bool has_heat(const Body& b, const Material& m) { return b.temperature && conduc
 
 std::optional<double> equal_temperature(const Scene& s) {
   const TemperatureRange range = temperatures_of(s);
-  if (range.least != range.greatest || !(range.least > 0.0)) return {};  // 0 K and below: a scene built without a file, whose particles have their own
+  if (range.least != range.greatest || !(range.least > 0.0))
+    return {};  // 0 K and below: a scene built without a file, whose particles have their own
   const bool bodies = std::ranges::all_of(s.bodies, [&](const Body& b) { return has_heat(b, s.material(b.material)); });
-  const bool inflows = std::ranges::all_of(s.inflows, [&](const Inflow& f) { return f.temperature && conducts(s.material(f.material)); });
+  const bool inflows =
+      std::ranges::all_of(s.inflows, [&](const Inflow& f) { return f.temperature && conducts(s.material(f.material)); });
   if (!bodies || !inflows) return {};
   if (calls_for(s, "phase")) return {};
   return range.least;

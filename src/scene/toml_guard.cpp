@@ -43,20 +43,36 @@ class Scanner {
     const char c = text_[at_];
     control(c);
     switch (c) {
-      case '\n': newline(); break;
-      case '#': comment(); return;
-      case '"':
-      case '\'': string(c); return;
-      case '[':
-      case '{': open(c); break;
-      case ']':
-      case '}': close(c); break;
-      case ',': comma(); break;
-      case '.':
-        if (++dots_ > max_dots && open_.empty()) refuse(fmt::format("more than {} dots in one line: a dotted key is at most three names long", max_dots));
+      case '\n':
+        newline();
         break;
-      case '=': dots_ = 0; break;
-      default: break;
+      case '#':
+        comment();
+        return;
+      case '"':
+      case '\'':
+        string(c);
+        return;
+      case '[':
+      case '{':
+        open(c);
+        break;
+      case ']':
+      case '}':
+        close(c);
+        break;
+      case ',':
+        comma();
+        break;
+      case '.':
+        if (++dots_ > max_dots && open_.empty())
+          refuse(fmt::format("more than {} dots in one line: a dotted key is at most three names long", max_dots));
+        break;
+      case '=':
+        dots_ = 0;
+        break;
+      default:
+        break;
     }
     if (c != ' ' && c != '\t' && c != '\n' && c != '\r') last_ = c;
     ++at_;
@@ -72,7 +88,8 @@ class Scanner {
     const auto begin = line_;
     at_ += multi ? 3 : 1;
     for (;; ++at_) {
-      if (at_ >= text_.size() || (!multi && text_[at_] == '\n')) refuse(fmt::format("the text that begins on line {} is not closed: write its closing quote", begin));
+      if (at_ >= text_.size() || (!multi && text_[at_] == '\n'))
+        refuse(fmt::format("the text that begins on line {} is not closed: write its closing quote", begin));
       control(text_[at_]);
       if (text_[at_] == '\n') newline();
       if (quote == '"' && text_[at_] == '\\') {
@@ -100,7 +117,8 @@ class Scanner {
 
   void comma() const {
     if (open_.empty()) return;  // the parser says it better
-    if (last_ == '[' || last_ == '{' || last_ == ',' || last_ == '=') refuse("a comma where a value belongs: remove the comma, or write the value before it");
+    if (last_ == '[' || last_ == '{' || last_ == ',' || last_ == '=')
+      refuse("a comma where a value belongs: remove the comma, or write the value before it");
   }
 
   std::string_view text_;
@@ -114,7 +132,9 @@ class Scanner {
 }  // namespace
 
 void check_size(std::size_t bytes, const std::string& file) {
-  if (bytes > max_file) throw InputError({file, 0, 0}, fmt::format("{} bytes; a case file has at most {}: put data into a file of its own", bytes, max_file));
+  if (bytes > max_file)
+    throw InputError({file, 0, 0},
+                     fmt::format("{} bytes; a case file has at most {}: put data into a file of its own", bytes, max_file));
 }
 
 void check_text(std::string_view text, const std::string& file) {

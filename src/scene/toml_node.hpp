@@ -17,11 +17,11 @@ struct TomlNode {
   bool flag = false;
   std::int64_t integer = 0;
   double real = 0.0;
-  std::string text;                                         ///< of a string; of a date as written
-  std::vector<TomlNode> items;                              ///< array
-  std::vector<std::pair<std::string, TomlNode>> members;    ///< table, in the order of the file
-  SourcePlace place;                                        ///< of the value
-  SourcePlace key_place;                                    ///< of its key, where it has one
+  std::string text;                                       ///< of a string; of a date as written
+  std::vector<TomlNode> items;                            ///< array
+  std::vector<std::pair<std::string, TomlNode>> members;  ///< table, in the order of the file
+  SourcePlace place;                                      ///< of the value
+  SourcePlace key_place;                                  ///< of its key, where it has one
 
   // Defaulted below: clang asks what a pair of a node can do, and a node must be whole by then.
   TomlNode() noexcept;

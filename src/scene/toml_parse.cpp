@@ -43,23 +43,36 @@ TomlNode convert_table(const toml::table& table, const std::string& file) {
     member.key_place = place_of(key.source(), file);
     to.members.emplace_back(std::string(key.str()), std::move(member));
   }
-  std::stable_sort(to.members.begin(), to.members.end(), [](const auto& a, const auto& b) { return before(a.second.key_place, b.second.key_place); });
+  std::stable_sort(to.members.begin(), to.members.end(),
+                   [](const auto& a, const auto& b) { return before(a.second.key_place, b.second.key_place); });
   return to;
 }
 
 TomlNode convert(const toml::node& from, const std::string& file) {
   TomlNode to;
   switch (from.type()) {
-    case toml::node_type::table: to = convert_table(*from.as_table(), file); break;
+    case toml::node_type::table:
+      to = convert_table(*from.as_table(), file);
+      break;
     case toml::node_type::array:
       to.kind = TomlNode::Kind::array;
       for (const auto& item : *from.as_array()) to.items.push_back(convert(item, file));
       break;
-    case toml::node_type::string: to.kind = TomlNode::Kind::text, to.text = from.as_string()->get(); break;
-    case toml::node_type::integer: to.kind = TomlNode::Kind::integer, to.integer = from.as_integer()->get(); break;
-    case toml::node_type::floating_point: to.kind = TomlNode::Kind::real, to.real = from.as_floating_point()->get(); break;
-    case toml::node_type::boolean: to.kind = TomlNode::Kind::boolean, to.flag = from.as_boolean()->get(); break;
-    default: to.kind = TomlNode::Kind::date; break;
+    case toml::node_type::string:
+      to.kind = TomlNode::Kind::text, to.text = from.as_string()->get();
+      break;
+    case toml::node_type::integer:
+      to.kind = TomlNode::Kind::integer, to.integer = from.as_integer()->get();
+      break;
+    case toml::node_type::floating_point:
+      to.kind = TomlNode::Kind::real, to.real = from.as_floating_point()->get();
+      break;
+    case toml::node_type::boolean:
+      to.kind = TomlNode::Kind::boolean, to.flag = from.as_boolean()->get();
+      break;
+    default:
+      to.kind = TomlNode::Kind::date;
+      break;
   }
   to.place = place_of(from.source(), file);
   return to;
@@ -108,18 +121,24 @@ const TomlNode* TomlNode::find(std::string_view key) const {
 TomlNode* TomlNode::find(std::string_view key) { return const_cast<TomlNode*>(std::as_const(*this).find(key)); }
 
 std::string_view kind_name(TomlNode::Kind kind) {
-  static constexpr std::array<std::string_view, 7> names{"true or false", "an integer", "a number", "a text", "a date", "an array", "a table"};
+  static constexpr std::array<std::string_view, 7> names{"true or false", "an integer", "a number", "a text",
+                                                         "a date",        "an array",   "a table"};
   return names[static_cast<std::size_t>(kind)];
 }
 
 std::string to_toml(const TomlNode& n) {
   std::string out;
   switch (n.kind) {
-    case TomlNode::Kind::boolean: return n.flag ? "true" : "false";
-    case TomlNode::Kind::integer: return std::to_string(n.integer);
-    case TomlNode::Kind::real: return fmt::format("{}", n.real);
-    case TomlNode::Kind::text: return "\"" + n.text + "\"";
-    case TomlNode::Kind::date: return "a date";
+    case TomlNode::Kind::boolean:
+      return n.flag ? "true" : "false";
+    case TomlNode::Kind::integer:
+      return std::to_string(n.integer);
+    case TomlNode::Kind::real:
+      return fmt::format("{}", n.real);
+    case TomlNode::Kind::text:
+      return "\"" + n.text + "\"";
+    case TomlNode::Kind::date:
+      return "a date";
     case TomlNode::Kind::array:
       for (const auto& item : n.items) out += (out.empty() ? "" : ", ") + to_toml(item);
       return "[" + out + "]";
@@ -132,13 +151,17 @@ std::string to_toml(const TomlNode& n) {
 
 TomlNode parse_toml(const std::string& text, const std::string& file) {
   check_text(text, file);
-  if (!child_survives(text)) throw InputError({file, 0, 0}, "the TOML parser could not read this text and stopped: simplify its brackets and keys");
+  if (!child_survives(text))
+    throw InputError({file, 0, 0}, "the TOML parser could not read this text and stopped: simplify its brackets and keys");
   try {
     TomlNode root = convert_table(toml::parse(text), file);
-    root.place = {file, static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1, 0};  // what the file lacks is missing at its end
+    root.place = {file, static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1,
+                  0};  // what the file lacks is missing at its end
     return root;
   } catch (const toml::parse_error& error) {
-    throw InputError(place_of(error.source(), file), fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists", printable(error.description(), 300)));
+    throw InputError(place_of(error.source(), file),
+                     fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists",
+                                 printable(error.description(), 300)));
   } catch (const std::exception& error) {
     throw InputError({file, 0, 0}, fmt::format("no valid TOML: {}", error.what()));
   }

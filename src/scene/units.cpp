@@ -22,25 +22,35 @@ struct NamedUnit {
 
 constexpr double pi = std::numbers::pi;
 constexpr std::array named_units{
-    NamedUnit{"m", 1, 1, {1, 0, 0, 0}, true},          NamedUnit{"g", 1, 1000, {0, 1, 0, 0}, true},
-    NamedUnit{"s", 1, 1, {0, 0, 1, 0}, true},          NamedUnit{"K", 1, 1, {0, 0, 0, 1}, true},
-    NamedUnit{"t", 1000, 1, {0, 1, 0, 0}, false},      NamedUnit{"min", 60, 1, {0, 0, 1, 0}, false},
-    NamedUnit{"h", 3600, 1, {0, 0, 1, 0}, false},      NamedUnit{"Hz", 1, 1, {0, 0, -1, 0}, true},
-    NamedUnit{"N", 1, 1, {1, 1, -2, 0}, true},         NamedUnit{"Pa", 1, 1, {-1, 1, -2, 0}, true},
-    NamedUnit{"bar", 100000, 1, {-1, 1, -2, 0}, true}, NamedUnit{"J", 1, 1, {2, 1, -2, 0}, true},
-    NamedUnit{"W", 1, 1, {2, 1, -3, 0}, true},         NamedUnit{"L", 1, 1000, {3, 0, 0, 0}, true},
-    NamedUnit{"P", 1, 10, {-1, 1, -1, 0}, true},       NamedUnit{"rad", 1, 1, {}, true},
-    NamedUnit{"deg", pi, 180, {}, false},              NamedUnit{"turn", 2 * pi, 1, {}, false},
-    NamedUnit{"rpm", pi, 30, {0, 0, -1, 0}, false},    NamedUnit{"%", 1, 100, {}, false},
+    NamedUnit{"m", 1, 1, {1, 0, 0, 0}, true},
+    NamedUnit{"g", 1, 1000, {0, 1, 0, 0}, true},
+    NamedUnit{"s", 1, 1, {0, 0, 1, 0}, true},
+    NamedUnit{"K", 1, 1, {0, 0, 0, 1}, true},
+    NamedUnit{"t", 1000, 1, {0, 1, 0, 0}, false},
+    NamedUnit{"min", 60, 1, {0, 0, 1, 0}, false},
+    NamedUnit{"h", 3600, 1, {0, 0, 1, 0}, false},
+    NamedUnit{"Hz", 1, 1, {0, 0, -1, 0}, true},
+    NamedUnit{"N", 1, 1, {1, 1, -2, 0}, true},
+    NamedUnit{"Pa", 1, 1, {-1, 1, -2, 0}, true},
+    NamedUnit{"bar", 100000, 1, {-1, 1, -2, 0}, true},
+    NamedUnit{"J", 1, 1, {2, 1, -2, 0}, true},
+    NamedUnit{"W", 1, 1, {2, 1, -3, 0}, true},
+    NamedUnit{"L", 1, 1000, {3, 0, 0, 0}, true},
+    NamedUnit{"P", 1, 10, {-1, 1, -1, 0}, true},
+    NamedUnit{"rad", 1, 1, {}, true},
+    NamedUnit{"deg", pi, 180, {}, false},
+    NamedUnit{"turn", 2 * pi, 1, {}, false},
+    NamedUnit{"rpm", pi, 30, {0, 0, -1, 0}, false},
+    NamedUnit{"%", 1, 100, {}, false},
 };
 
 struct Prefix {
   std::string_view name;
   double numerator, denominator;
 };
-constexpr std::array prefixes{Prefix{"n", 1, 1e9},  Prefix{"u", 1, 1e6}, Prefix{"\u00b5", 1, 1e6}, Prefix{"m", 1, 1e3},
-                              Prefix{"c", 1, 1e2},  Prefix{"d", 1, 10},  Prefix{"h", 1e2, 1},      Prefix{"k", 1e3, 1},
-                              Prefix{"M", 1e6, 1},  Prefix{"G", 1e9, 1}};
+constexpr std::array prefixes{Prefix{"n", 1, 1e9}, Prefix{"u", 1, 1e6}, Prefix{"\u00b5", 1, 1e6}, Prefix{"m", 1, 1e3},
+                              Prefix{"c", 1, 1e2}, Prefix{"d", 1, 10},  Prefix{"h", 1e2, 1},      Prefix{"k", 1e3, 1},
+                              Prefix{"M", 1e6, 1}, Prefix{"G", 1e9, 1}};
 
 Unit named(std::string_view name) {
   for (const auto& u : named_units)
@@ -49,7 +59,8 @@ Unit named(std::string_view name) {
     for (const auto& u : named_units)
       if (u.prefixes && name.size() == p.name.size() + u.name.size() && name.starts_with(p.name) && name.ends_with(u.name))
         return {p.numerator * u.numerator, p.denominator * u.denominator, 0.0, u.dimension};
-  throw std::invalid_argument(fmt::format("`{}` is no known unit (known: {}; with prefixes n u m c d h k M G)", printable(name), known_units()));
+  throw std::invalid_argument(
+      fmt::format("`{}` is no known unit (known: {}; with prefixes n u m c d h k M G)", printable(name), known_units()));
 }
 
 void multiply(Unit& into, Unit factor, int power) {
@@ -65,7 +76,8 @@ class UnitReader {
 
   Unit read() {
     Unit unit = product(true);
-    if (at_ < text_.size()) throw std::invalid_argument(fmt::format("`{}` is no unit: write one like m, kg/m3, W/m/K", printable(text_)));
+    if (at_ < text_.size())
+      throw std::invalid_argument(fmt::format("`{}` is no unit: write one like m, kg/m3, W/m/K", printable(text_)));
     return unit;
   }
 
@@ -119,7 +131,8 @@ class UnitReader {
       const int digit = text_[at_++] - '0';
       return minus ? -digit : digit;
     }
-    if (caret || minus) throw std::invalid_argument(fmt::format("`{}` lacks an exponent: write one digit, as in s^-2", printable(text_)));
+    if (caret || minus)
+      throw std::invalid_argument(fmt::format("`{}` lacks an exponent: write one digit, as in s^-2", printable(text_)));
     return 1;
   }
 
@@ -141,7 +154,8 @@ std::string to_string(const Dimension& d) {
   for (std::size_t i : {1U, 0U, 2U, 3U}) {
     if (d[i] == 0) continue;
     auto& side = d[i] > 0 ? over : under;
-    side += (d[i] > 0 ? (side.empty() ? "" : " ") : "/") + std::string(names[i]) + (std::abs(d[i]) > 1 ? std::to_string(std::abs(d[i])) : "");
+    side += (d[i] > 0 ? (side.empty() ? "" : " ") : "/") + std::string(names[i]) +
+            (std::abs(d[i]) > 1 ? std::to_string(std::abs(d[i])) : "");
   }
   return over.empty() ? "1" + under : over + under;
 }
@@ -159,13 +173,17 @@ double parse_quantity(std::string_view text, std::string_view expected) {
   while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
   const Unit target = parse_unit(expected);
   if (name.empty())
-    throw std::invalid_argument(expected.empty() ? fmt::format("`{}` is a text: write the number without quotes", printable(text)) : fmt::format("`{}` is a text without a unit: write {} or \"{} {}\"", printable(text), printable(text), printable(text), expected));
+    throw std::invalid_argument(expected.empty() ? fmt::format("`{}` is a text: write the number without quotes", printable(text))
+                                                 : fmt::format("`{}` is a text without a unit: write {} or \"{} {}\"",
+                                                               printable(text), printable(text), printable(text), expected));
   const Unit unit = parse_unit(name);
   if (unit.dimension != target.dimension)
-    throw std::invalid_argument(fmt::format("`{}` is in {}, but {} is expected{}", printable(text), to_string(unit.dimension), want,
-                                            expected.empty() ? ": write it without unit and quotes" : fmt::format(" (write 3 or \"3 {}\")", expected)));
+    throw std::invalid_argument(
+        fmt::format("`{}` is in {}, but {} is expected{}", printable(text), to_string(unit.dimension), want,
+                    expected.empty() ? ": write it without unit and quotes" : fmt::format(" (write 3 or \"3 {}\")", expected)));
   const double si = value * unit.numerator / unit.denominator + unit.offset;
-  if (!std::isfinite(si)) throw std::invalid_argument(fmt::format("`{}` is too large for a number in SI: write a smaller one", printable(text)));
+  if (!std::isfinite(si))
+    throw std::invalid_argument(fmt::format("`{}` is too large for a number in SI: write a smaller one", printable(text)));
   return si;
 }
 

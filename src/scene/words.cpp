@@ -11,7 +11,8 @@ namespace {
 constexpr std::array phase_words{"liquid", "elastic", "rigid"};
 constexpr std::array motion_words{"free", "fixed", "prescribed"};
 constexpr std::array mode_words{"corrected", "paper"};
-constexpr std::array term_words{"kernel", "pressure", "density", "state", "clamp", "viscosity", "walls", "elastic", "hourglass", "heat", "phase", "rotation", "time"};
+constexpr std::array term_words{"kernel",  "pressure",  "density", "state", "clamp",    "viscosity", "walls",
+                                "elastic", "hourglass", "heat",    "phase", "rotation", "time"};
 static_assert(term_words.size() == term_count);
 
 template <class E, std::size_t n>

@@ -33,15 +33,23 @@ class Spiky {
   explicit Spiky(double h) noexcept : h_(h), c_(15.0 / (std::numbers::pi * std::pow(h, 6))) { assert(h > 0.0); }
   /// W(r) [1/m3]
   template <class V>
-  [[nodiscard]] V value(V r) const noexcept { return r < h_ ? c_ * (h_ - r) * (h_ - r) * (h_ - r) : 0.0; }
+  [[nodiscard]] V value(V r) const noexcept {
+    return r < h_ ? c_ * (h_ - r) * (h_ - r) * (h_ - r) : 0.0;
+  }
   /// W'(r) [1/m4]
   template <class V>
-  [[nodiscard]] V derivative(V r) const noexcept { return r < h_ ? derivative_inside(r) : 0.0; }
+  [[nodiscard]] V derivative(V r) const noexcept {
+    return r < h_ ? derivative_inside(r) : 0.0;
+  }
   template <class V>
-  [[nodiscard]] V derivative_inside(V r) const noexcept { return (-3.0 * c_) * ((h_ - r) * (h_ - r)); }
+  [[nodiscard]] V derivative_inside(V r) const noexcept {
+    return (-3.0 * c_) * ((h_ - r) * (h_ - r));
+  }
   /// W'(r)/r [1/m5]; 0 at r = 0, where the force has no direction
   template <class V>
-  [[nodiscard]] V derivative_over_r(V r) const noexcept { return r > 0.0 ? derivative(r) / r : 0.0; }
+  [[nodiscard]] V derivative_over_r(V r) const noexcept {
+    return r > 0.0 ? derivative(r) / r : 0.0;
+  }
 
  private:
   double h_, c_;
@@ -59,9 +67,13 @@ class ViscosityKernel {
   }
   /// lap W(r) = 45/(pi h^6) (h - r) [1/m5]
   template <class V>
-  [[nodiscard]] V laplacian(V r) const noexcept { return r < h_ ? laplacian_inside(r) : 0.0; }
+  [[nodiscard]] V laplacian(V r) const noexcept {
+    return r < h_ ? laplacian_inside(r) : 0.0;
+  }
   template <class V>
-  [[nodiscard]] V laplacian_inside(V r) const noexcept { return c_ * (h_ - r); }
+  [[nodiscard]] V laplacian_inside(V r) const noexcept {
+    return c_ * (h_ - r);
+  }
 
  private:
   double h_, c_;
@@ -101,7 +113,9 @@ class WendlandC2 {
   }
   /// W(r) [1/m3]
   template <class V>
-  [[nodiscard]] V value(V r) const noexcept { return r < h_ ? value_inside(r) : 0.0; }
+  [[nodiscard]] V value(V r) const noexcept {
+    return r < h_ ? value_inside(r) : 0.0;
+  }
   template <class V>
   [[nodiscard]] V value_inside(V r) const noexcept {
     const V q = r * per_h_, t2 = (1.0 - q) * (1.0 - q);
@@ -109,7 +123,9 @@ class WendlandC2 {
   }
   /// W'(r)/r = -210/(pi h^5) (1 - q)^3 [1/m5]: finite at r = 0, no division
   template <class V>
-  [[nodiscard]] V derivative_over_r(V r) const noexcept { return r < h_ ? derivative_over_r_inside(r) : 0.0; }
+  [[nodiscard]] V derivative_over_r(V r) const noexcept {
+    return r < h_ ? derivative_over_r_inside(r) : 0.0;
+  }
   template <class V>
   [[nodiscard]] V derivative_over_r_inside(V r) const noexcept {
     const V t = 1.0 - r * per_h_;
@@ -117,7 +133,9 @@ class WendlandC2 {
   }
   /// W'(r) [1/m4]
   template <class V>
-  [[nodiscard]] V derivative(V r) const noexcept { return r * derivative_over_r(r); }
+  [[nodiscard]] V derivative(V r) const noexcept {
+    return r * derivative_over_r(r);
+  }
 
  private:
   double h_, per_h_, c_, g_;

@@ -16,9 +16,9 @@
 #include "particles/entry.hpp"
 #include "sph/kernels.hpp"
 
-/// The fused pair pass. A pair term says which fields it reads of i and j, which it adds to i, and the formula; a pass fuses the terms
-/// of its slots at compile time, for whole vectors of particles i against one neighbour j at a time, and a scene picks one of the
-/// combinations at run time (effects/run_pass.hpp).
+/// The fused pair pass. A pair term says which fields it reads of i and j, which it adds to i, and the formula; a pass fuses the
+/// terms of its slots at compile time, for whole vectors of particles i against one neighbour j at a time, and a scene picks one
+/// of the combinations at run time (effects/run_pass.hpp).
 namespace tripoint {
 
 template <const auto&... fields>
@@ -30,10 +30,10 @@ struct Keys {
 /// What every term is told of a pair.
 template <class V>
 struct PairGeometry {
-  V dx, dy, dz;  ///< r_j - r_i [m]
-  V r2, r;       ///< its square [m2], |r_j - r_i| [m]; what no term asks for is not formed
-  V per_r2;      ///< 1/r^2; where r is 0, a number that keeps products with dx, dy, dz and r at 0 [1/m2]
-  V gradient;    ///< W'(r)/r of the Wendland kernel [1/m5]
+  V dx, dy, dz;     ///< r_j - r_i [m]
+  V r2, r;          ///< its square [m2], |r_j - r_i| [m]; what no term asks for is not formed
+  V per_r2;         ///< 1/r^2; where r is 0, a number that keeps products with dx, dy, dz and r at 0 [1/m2]
+  V gradient;       ///< W'(r)/r of the Wendland kernel [1/m5]
   MaskOf<V> apart;  ///< not an own pair, two members of one deformable body that meet through their bonds alone
   const PairKernels& kernels;
 };
@@ -49,8 +49,8 @@ template <class V>
   sum[5] += w * (g.dx * g.dy);
 }
 
-/// Clusters of particles and what they are to be summed over, as plain memory: what is compiled for one vector unit shares no code
-/// with the rest.
+/// Clusters of particles and what they are to be summed over, as plain memory: what is compiled for one vector unit shares no
+/// code with the rest.
 struct PassTask {
   const double *x, *y, *z;       ///< [m]
   double* const* columns;        ///< those that the terms read and add to, in the order of PassFunction::fields
@@ -72,10 +72,10 @@ struct PassTask {
 
 /// One combination of terms. Adds each term's sum to its columns.
 struct PassFunction {
-  void (*run)(const PassTask&) = nullptr;            ///< null where all slots are off
+  void (*run)(const PassTask&) = nullptr;          ///< null where all slots are off
   std::span<const Field<double>* const> fields{};  ///< whose columns it wants
-  bool finds = false;                                ///< whether it writes PassTask::within; else it reads it
-  std::size_t reads = 0;                             ///< fields that are read; it adds to those after them
+  bool finds = false;                              ///< whether it writes PassTask::within; else it reads it
+  std::size_t reads = 0;                           ///< fields that are read; it adds to those after them
   [[nodiscard]] std::span<const Field<double>* const> adds() const { return fields.subspan(reads); }
 };
 
@@ -119,12 +119,15 @@ struct FieldsOf {
 };
 
 /// Adds a term's part of a pair to its sums, for the members whose lane is in `acting`; the sums of the others keep their bits.
-/// @tparam mention first of the term's fields among those of all terms   @param i, j what all terms read, each field once   @param sum the term's first
+/// @tparam mention first of the term's fields among those of all terms   @param i, j what all terms read, each field once @param
+/// sum the term's first
 template <class Fields, class Term, std::size_t mention, class V, class Mask>
-void add_term(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j, V* sum) {
+void add_term(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j,
+              V* sum) {
   constexpr std::size_t reads = Term::reads::size, adds = Term::adds::size;
   std::array<V, reads> of_i, of_j;
-  for (std::size_t k = 0; k < reads; ++k) of_i[k] = i[Fields::unique.where[mention + k]], of_j[k] = j[Fields::unique.where[mention + k]];
+  for (std::size_t k = 0; k < reads; ++k)
+    of_i[k] = i[Fields::unique.where[mention + k]], of_j[k] = j[Fields::unique.where[mention + k]];
   std::array<V, adds> next;
   for (std::size_t k = 0; k < adds; ++k) next[k] = sum[k];
   Term::template pair<V>(g, std::span<const V, reads>(of_i), std::span<const V, reads>(of_j), std::span<V, adds>(next));
@@ -134,7 +137,8 @@ void add_term(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields:
 template <class Fields, class V, class Mask, std::size_t mention, std::size_t sums>
 void add_terms(const PairGeometry<V>&, Mask, const std::array<V, Fields::reads>&, const std::array<V, Fields::reads>&, V*) {}
 template <class Fields, class V, class Mask, std::size_t mention, std::size_t sums, class Term, class... More>
-void add_terms(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j, V* sum) {
+void add_terms(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i,
+               const std::array<V, Fields::reads>& j, V* sum) {
   add_term<Fields, Term, mention>(g, acting, i, j, sum + sums);
   add_terms<Fields, V, Mask, mention + Term::reads::size, sums + Term::adds::size, More...>(g, acting, i, j, sum);
 }
@@ -166,7 +170,9 @@ template <int L, class ForUnit, bool finds, class... Terms>
   const std::size_t row = t.first[cluster];
   V xi = load_lanes<L>(t.x + row);
   const V yi = load_lanes<L>(t.y + row), zi = load_lanes<L>(t.z + row);
-  if constexpr (L > 1) xi = mask_of<L>((1u << (t.first[cluster + 1] - row)) - 1u) ? xi : V{} + nowhere;  // lanes without a member are near to nothing
+  if constexpr (L > 1)
+    xi =
+        mask_of<L>((1u << (t.first[cluster + 1] - row)) - 1u) ? xi : V{} + nowhere;  // lanes without a member are near to nothing
   std::array<const double*, Fields::reads> column;
   std::array<V, Fields::reads> i, j;
   std::array<V, Fields::adds> sum{};
@@ -191,14 +197,20 @@ template <int L, class ForUnit, bool finds, class... Terms>
         dx += s.x, dy += s.y, dz += s.z;
       }
       const V r2 = dx * dx + dy * dy + dz * dz;
-      // What is within the support is near: nothing has moved by more than half the skin. But for a member, which is not near to itself.
+      // What is within the support is near: nothing has moved by more than half the skin. But for a member, which is not near to
+      // itself.
       Mask acting = r2 < t.support2;
-      if (entry.bits - members_bits < static_cast<std::uint32_t>(L)) [[unlikely]] acting &= mask_of<L>(t.near[e]);
+      if (entry.bits - members_bits < static_cast<std::uint32_t>(L)) [[unlikely]]
+        acting &= mask_of<L>(t.near[e]);
       const Mask apart = mask_of<L>(any_own ? ~t.own[e] : ~0u);
-      if (finds) found |= left & -left & -static_cast<std::uint64_t>(any_below(r2, t.support2));  // no branch, which would often be guessed wrong; a member itself does no harm
+      if (finds)
+        found |= left & -left &
+                 -static_cast<std::uint64_t>(
+                     any_below(r2, t.support2));  // no branch, which would often be guessed wrong; a member itself does no harm
       const V r = root(r2);
       for (std::size_t k = 0; k < Fields::reads; ++k) j[k] = every_lane<V>(column[k][row_j]);
-      const PairGeometry<V> g{dx, dy, dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r), apart, kernels};
+      const PairGeometry<V> g{dx,    dy,     dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r),
+                              apart, kernels};
       add_terms<Fields, V, Mask, 0, 0, Terms...>(g, acting, i, j, sum.data());
     }
     if (finds && within) *within++ = found;
@@ -241,18 +253,24 @@ struct Pick;
 template <int L, class ForUnit, bool finds, class... Terms>
 struct Pick<L, ForUnit, finds, Together<Terms...>> {
   static PassFunction get(const int*) {
-    if constexpr (sizeof...(Terms) == 0) return {};
-    else return {&fused<L, ForUnit, finds, Terms...>, FieldsOf<Terms...>::list, finds, FieldsOf<Terms...>::reads};
+    if constexpr (sizeof...(Terms) == 0)
+      return {};
+    else
+      return {&fused<L, ForUnit, finds, Terms...>, FieldsOf<Terms...>::list, finds, FieldsOf<Terms...>::reads};
   }
 };
 template <int L, class ForUnit, bool finds, class... Terms, class... Forms, class... Slots>
 struct Pick<L, ForUnit, finds, Together<Terms...>, Slot<Forms...>, Slots...> {
   template <class... More>
-  static PassFunction with(Together<More...>, const int* form) { return Pick<L, ForUnit, finds, Together<Terms..., More...>, Slots...>::get(form + 1); }
+  static PassFunction with(Together<More...>, const int* form) {
+    return Pick<L, ForUnit, finds, Together<Terms..., More...>, Slots...>::get(form + 1);
+  }
   template <class Form>
   static PassFunction take(const int* form) {
-    if constexpr (IsTogether<Form>::value) return with(Form{}, form);
-    else return with(Together<Form>{}, form);
+    if constexpr (IsTogether<Form>::value)
+      return with(Form{}, form);
+    else
+      return with(Together<Form>{}, form);
   }
   static PassFunction get(const int* form) {
     PassFunction f = {};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sph/solid.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
-#include <algorithm>
-#include <cmath>
 namespace tripoint::solid {
 namespace {
 

@@ -54,7 +54,9 @@ struct ElasticConstants {
 [[nodiscard]] Quaternion quaternion_of(const Matrix3& R);
 
 /// Hourglass residual of a bond, full rank: F x_ji - r_ji [m], 0 where F tells all that the pair does [Ganzenmueller 2015].
-[[nodiscard]] constexpr Vec3 hourglass_residual(const Matrix3& F, const Vec3& x_ji, const Vec3& r_ji) noexcept { return F * x_ji - r_ji; }
+[[nodiscard]] constexpr Vec3 hourglass_residual(const Matrix3& F, const Vec3& x_ji, const Vec3& r_ji) noexcept {
+  return F * x_ji - r_ji;
+}
 /// The same of a sheet or a chain, where that form sees rotations: (|r_ji|^2 - x_ji^T (I + 2 eps) x_ji)/(2 |x_ji|^2).
 [[nodiscard]] constexpr double hourglass_residual_flat(const Symmetric& strain, const Vec3& x_ji, const Vec3& r_ji) noexcept {
   return (dot(r_ji, r_ji) - dot(x_ji, x_ji) - 2.0 * dot(x_ji, strain * x_ji)) / (2.0 * dot(x_ji, x_ji));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sph/surface_gradient.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <Eigen/Eigenvalues>
 #include <numbers>
 
 #include "sph/solid.hpp"
@@ -30,7 +30,8 @@ bool at_surface(std::span<const GradientPoint> points) {
   for (const GradientPoint& p : points) inward += p.weight * p.x, size += p.weight * norm(p.x);
   const double length = norm(inward);
   if (length <= round_off * size) return false;
-  return std::ranges::none_of(points, [&](const GradientPoint& p) { return -dot(inward, p.x) > hides_surface * length * norm(p.x); });
+  return std::ranges::none_of(points,
+                              [&](const GradientPoint& p) { return -dot(inward, p.x) > hides_surface * length * norm(p.x); });
 }
 
 std::vector<Vec3> curvature_correction(std::span<const GradientPoint> points, const Symmetric& A) {
@@ -47,7 +48,8 @@ std::vector<Vec3> curvature_correction(std::span<const GradientPoint> points, co
   const Eigen::SelfAdjointEigenSolver<Moment6> eigen(known);
   Moment6 inverse = Moment6::Zero();
   for (int k = 0; k < 6; ++k)
-    if (eigen.eigenvalues()(k) > shape_cut * greatest) inverse += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose() / eigen.eigenvalues()(k);
+    if (eigen.eigenvalues()(k) > shape_cut * greatest)
+      inverse += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose() / eigen.eigenvalues()(k);
   const Eigen::Matrix<double, 3, 6> back = read.transpose() * inverse;
   std::vector<Vec3> correction;
   correction.reserve(points.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a line here; derived state (neighbour lists) is built again from what it was built from, never from the present.
+// What a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a line
+// here; derived state (neighbour lists) is built again from what it was built from, never from the present.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -43,8 +44,10 @@ void save(const Columns& columns, const std::string& group, Checkpoint& kept, st
     const std::string name = group + std::string(field.name);
     const std::vector<T> ordered = in_order(values, order);
     if (!order.empty()) values = ordered;
-    if constexpr (std::is_same_v<T, int>) kept.whole[name].assign(values.begin(), values.end());
-    else kept.real[name] = plain(values);
+    if constexpr (std::is_same_v<T, int>)
+      kept.whole[name].assign(values.begin(), values.end());
+    else
+      kept.real[name] = plain(values);
   });
 }
 
@@ -54,7 +57,8 @@ const Values& take(const std::map<std::string, Values>& arrays, const std::strin
   const auto at = arrays.find(name);
   if (at == arrays.end()) throw InputError("the checkpoint has no " + name);
   if (at->second.size() != length)
-    throw InputError("the checkpoint holds " + std::to_string(at->second.size()) + " numbers of " + name + ", expected " + std::to_string(length));
+    throw InputError("the checkpoint holds " + std::to_string(at->second.size()) + " numbers of " + name + ", expected " +
+                     std::to_string(length));
   return at->second;
 }
 
@@ -96,7 +100,8 @@ void restore_pairs(PairLists<Pair>& lists, const std::string& name, const Checkp
     if (n < 0) throw InputError("the checkpoint's " + name + " has a list of negative length");
     pairs += n;
   }
-  const std::vector<double>& flat = take(kept.real, name + "/list", static_cast<std::size_t>(pairs) * sizeof(Pair) / sizeof(double));
+  const std::vector<double>& flat =
+      take(kept.real, name + "/list", static_cast<std::size_t>(pairs) * sizeof(Pair) / sizeof(double));
   lists.grow(counts->second.size());
   std::size_t from = 0;
   for (std::size_t id = 0; id < counts->second.size(); ++id) {
@@ -130,13 +135,15 @@ void restore_lists(World& world, const Checkpoint& kept, const std::vector<std::
   world.neighbours->rebuild_from(world.particles, built, world.time, take(kept.whole, "neighbours/rebuilds", 1)[0]);
   const auto id = world.particles[field::id];
   for (std::size_t i = 0; i < n; ++i) {
-    if (static_cast<std::uint32_t>(id[i]) != order[i]) throw InputError("the checkpoint's rows are not those of its neighbour lists");
+    if (static_cast<std::uint32_t>(id[i]) != order[i])
+      throw InputError("the checkpoint's rows are not those of its neighbour lists");
   }
 }
 
 void restore_bodies(World& world, const Checkpoint& kept) {
   const auto names = kept.text.find("bodies/name");
-  if (names == kept.text.end() || names->second.size() < world.bodies.size()) throw InputError("the checkpoint has other bodies than the scene");
+  if (names == kept.text.end() || names->second.size() < world.bodies.size())
+    throw InputError("the checkpoint has other bodies than the scene");
   world.body_names = names->second;
   while (world.bodies.size() < world.body_names.size()) world.bodies.append_row();
   restore_columns(world.bodies, "bodies/", kept);
@@ -149,7 +156,8 @@ std::vector<std::string> Simulation::layout() const {
   std::vector<std::string> lines;
   const auto add = [&](const Columns& columns) {
     for (const FieldInfo& f : columns.fields())
-      lines.push_back(std::string(to_string(f.per)) + " " + std::string(f.name) + " [" + std::string(f.unit) + "] " + std::to_string(f.bytes) + " bytes");
+      lines.push_back(std::string(to_string(f.per)) + " " + std::string(f.name) + " [" + std::string(f.unit) + "] " +
+                      std::to_string(f.bytes) + " bytes");
   };
   add(world_.particles);
   add(world_.bodies);
@@ -168,7 +176,8 @@ Checkpoint Simulation::state() const {
   Checkpoint kept;
   kept.text["step/layout"] = layout();
   const bool sleeps = world_.particles.awake() < world_.particles.size();
-  const std::vector<std::uint32_t> order = sleeps ? world_.neighbours->rows_in_order(world_.particles) : std::vector<std::uint32_t>{};  // as if nothing slept
+  const std::vector<std::uint32_t> order =
+      sleeps ? world_.neighbours->rows_in_order(world_.particles) : std::vector<std::uint32_t>{};  // as if nothing slept
   save(world_.particles, "particles/", kept, order);
   save(world_.bodies, "bodies/", kept);
   kept.text["bodies/name"] = world_.body_names;
@@ -179,7 +188,8 @@ Checkpoint Simulation::state() const {
   kept.real["step/undelivered_spin"] = plain(world_.booked.undelivered_spin);
   kept.real["step/time"] = {world_.time, world_.next_time, dt_, pairs_, bound_.dt, stretch_.start, stretch_.end};
   kept.text["step/bound"] = {bound_.name};
-  kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(next_moment_), stretch_.count, stretch_.done, world_.moved ? 1 : 0};
+  kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(next_moment_), stretch_.count, stretch_.done,
+                              world_.moved ? 1 : 0};
   const Lagged& lagged = world_.lagged;
   kept.real["step/lagged"] = {lagged.half_step, lagged.viscous_step, static_cast<double>(lagged.viscous_age)};
   kept.real["step/guards"] = {guards_.turned_over, guards_.first_step};
@@ -196,16 +206,20 @@ void Simulation::restore(const Checkpoint& kept) {
   const std::vector<std::string> here = layout();
   const auto there = kept.text.find("step/layout");
   if (there == kept.text.end() || there->second != here) {
-    const auto differs = [&](std::size_t n) { return there == kept.text.end() || n >= there->second.size() || there->second[n] != here[n]; };
+    const auto differs = [&](std::size_t n) {
+      return there == kept.text.end() || n >= there->second.size() || there->second[n] != here[n];
+    };
     std::size_t n = 0;
     while (n + 1 < here.size() && !differs(n)) ++n;
     throw InputError("the checkpoint was written by a solver of another layout: it lacks or changes \"" + here[n] + "\"");
   }
   const std::vector<double>& t = take(kept.real, "step/time", 7);
-  world_.time = t[0], world_.next_time = t[1], dt_ = t[2], pairs_ = t[3], bound_.dt = t[4], stretch_.start = t[5], stretch_.end = t[6];
+  world_.time = t[0], world_.next_time = t[1], dt_ = t[2], pairs_ = t[3], bound_.dt = t[4], stretch_.start = t[5],
+  stretch_.end = t[6];
   bound_.name = take(kept.text, "step/bound", 1)[0];
   const std::vector<std::int64_t>& n = take(kept.whole, "step/count", 5);
-  steps_ = n[0], next_moment_ = static_cast<std::size_t>(n[1]), stretch_.count = n[2], stretch_.done = n[3], world_.moved = n[4] != 0;
+  steps_ = n[0], next_moment_ = static_cast<std::size_t>(n[1]), stretch_.count = n[2], stretch_.done = n[3],
+  world_.moved = n[4] != 0;
   if (next_moment_ > moments_.size()) throw InputError("the checkpoint has seen more events than the scene has");
   std::ranges::copy(take(kept.real, "step/booked", world_.booked.values().size()), world_.booked.values().begin());
   const std::vector<double>& spin = take(kept.real, "step/undelivered_spin", 3);

@@ -45,7 +45,8 @@ void refuse_not_positive(const World& world, const Guarded& g) {
   });
   if (positive) return;
   for (std::size_t id = 0; id < p.size(); ++id)
-    if (const std::size_t i = p.row(id); i < values.size() && !(values[i] > 0.0)) fail(world, g.name, i, g.name, to_string(g.written), fmt::format("is at {:.4g} {}", values[i], g.not_positive));
+    if (const std::size_t i = p.row(id); i < values.size() && !(values[i] > 0.0))
+      fail(world, g.name, i, g.name, to_string(g.written), fmt::format("is at {:.4g} {}", values[i], g.not_positive));
 }
 
 /// Whether forces move a particle: not a wall, not held, gripped or flowing in.
@@ -56,7 +57,8 @@ class Movable {
   }
   bool operator()(std::size_t row) const {
     if (!driven_.empty() && driven_[row] != 0) return false;
-    return body_[row] < 0 || world_.bodies[field::body_motion][static_cast<std::size_t>(body_[row])] == static_cast<int>(Motion::free);
+    return body_[row] < 0 ||
+           world_.bodies[field::body_motion][static_cast<std::size_t>(body_[row])] == static_cast<int>(Motion::free);
   }
 
  private:
@@ -80,9 +82,10 @@ double entry_of(const Ledger& ledger, const char* name) {
   return found == ledger.energy.end() ? 0.0 : found->second;
 }
 
-/// What the scheme has made, or where negative lost, and by what. The entries `viscous` and `pressure_work` are minus the work of their forces: below 0
-/// they are energy from nowhere, since who drives a wall pays for it in the entry `walls`. Of what the printed pressure makes in a scene that was still, that
-/// counts which viscosity has not taken again: it makes some in every column at rest, which is its known defect, and contacts store some in it.
+/// What the scheme has made, or where negative lost, and by what. The entries `viscous` and `pressure_work` are minus the work of
+/// their forces: below 0 they are energy from nowhere, since who drives a wall pays for it in the entry `walls`. Of what the
+/// printed pressure makes in a scene that was still, that counts which viscosity has not taken again: it makes some in every
+/// column at rest, which is its known defect, and contacts store some in it.
 struct Made {
   double energy = 0.0;
   const char* by = "";
@@ -92,7 +95,9 @@ Made made_by_scheme(const Ledger& ledger, bool still) {
   const auto look = [&](double energy, const char* by) {
     if (energy > std::abs(most.energy)) most = {energy, by};
   };
-  if (still) look(-entry_of(ledger, "pressure_work") - std::max(entry_of(ledger, "viscous"), 0.0), "the printed pressure, which no energy stands behind");
+  if (still)
+    look(-entry_of(ledger, "pressure_work") - std::max(entry_of(ledger, "viscous"), 0.0),
+         "the printed pressure, which no energy stands behind");
   look(-entry_of(ledger, "viscous"), "viscous forces, which may only take energy");
   return most;
 }
@@ -116,7 +121,8 @@ void check_finite(const World& world) {
     const auto values = p[g.field].first(p.awake());
     if (all_finite(values, world.threads)) continue;
     for (std::size_t id = 0; id < p.size(); ++id)
-      if (const std::size_t i = p.row(id); i < values.size() && !std::isfinite(values[i])) fail(world, "finite", i, g.name, to_string(g.written), fmt::format("has no finite {}", g.name));
+      if (const std::size_t i = p.row(id); i < values.size() && !std::isfinite(values[i]))
+        fail(world, "finite", i, g.name, to_string(g.written), fmt::format("has no finite {}", g.name));
   }
   for (const Guarded& g : world.guarded)
     if (!g.not_positive.empty()) refuse_not_positive(world, g);
@@ -143,8 +149,12 @@ void check_escape(const World& world, const Enclosure& domain) {
     for (std::size_t i = 0; i < world.particles.awake(); ++i) {
       if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
       const std::string where = domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
-                                             : fmt::format("{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and scene.max where it may, or unguarded = [\"escape\"]", low, high);
-      fail(world, "escape", i, "position", "drift", fmt::format("has left the domain: {} = {:.6g} m is outside {}", "xyz"[a], r[a][i], where));
+                                             : fmt::format(
+                                                   "{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and "
+                                                   "scene.max where it may, or unguarded = [\"escape\"]",
+                                                   low, high);
+      fail(world, "escape", i, "position", "drift",
+           fmt::format("has left the domain: {} = {:.6g} m is outside {}", "xyz"[a], r[a][i], where));
     }
   }
 }
@@ -157,30 +167,40 @@ void check_energy(const World& world, const Ledger& ledger, double start_potenti
   if (std::abs(made.energy) <= 0.5 * std::max(memory.turned_over, least)) return;
   const std::size_t i = fastest(world);
   fail(world, "ledger", i, "energy", "kick",
-       fmt::format("moves fastest ({:.4g} m/s) where the scheme itself has {} {:.4g} J by {}, {:.2g} of all the energy that the scene has turned over: {}", norm(world.particles.velocity(i)),
-                   made.energy > 0.0 ? "made" : "lost", std::abs(made.energy), made.by, std::abs(made.energy) / memory.turned_over,
-                   made.by == std::string_view("finite steps") ? "a smaller time step" : "the corrected forms, a smaller time step, or a greater speed of sound"));
+       fmt::format("moves fastest ({:.4g} m/s) where the scheme itself has {} {:.4g} J by {}, {:.2g} of all the energy that the "
+                   "scene has turned over: {}",
+                   norm(world.particles.velocity(i)), made.energy > 0.0 ? "made" : "lost", std::abs(made.energy), made.by,
+                   std::abs(made.energy) / memory.turned_over,
+                   made.by == std::string_view("finite steps")
+                       ? "a smaller time step"
+                       : "the corrected forms, a smaller time step, or a greater speed of sound"));
 }
 
 void check_step(const World& world, const TimeStepBound& bound, GuardMemory& memory) {
   if (memory.first_step == 0.0 && std::isfinite(bound.dt)) memory.first_step = bound.dt;
   if (bound.dt >= 1e-5 * memory.first_step || (is_off(world.scene, "time_step") && bound.dt > 0.0)) return;
   const std::size_t i = fastest(world);
-  fail(world, "time_step", i, "time_step", "bound",
-       fmt::format("moves fastest ({:.4g} m/s) where the bound of {} has shrunk the time step to {:.3g} s, from {:.3g} s at first", norm(world.particles.velocity(i)), bound.name, bound.dt, memory.first_step));
+  fail(
+      world, "time_step", i, "time_step", "bound",
+      fmt::format("moves fastest ({:.4g} m/s) where the bound of {} has shrunk the time step to {:.3g} s, from {:.3g} s at first",
+                  norm(world.particles.velocity(i)), bound.name, bound.dt, memory.first_step));
 }
 
 void refuse_small_step(const World& world, double dt, double length, const std::string& name) {
   const std::size_t i = fastest(world);
   fail(world, "time_step", i, "time_step", "bound",
-       fmt::format("moves fastest ({:.4g} m/s) where a time step of {:.3g} s, set by {}, would need {:.3g} steps to the next output", norm(world.particles.velocity(i)), dt, name, length / dt));
+       fmt::format(
+           "moves fastest ({:.4g} m/s) where a time step of {:.3g} s, set by {}, would need {:.3g} steps to the next output",
+           norm(world.particles.velocity(i)), dt, name, length / dt));
 }
 
 void refuse_step(const World& world, double dt, double bound, const std::string& name) {
   const std::size_t i = fastest(world);
   fail(world, "time_step", i, "time_step", "bound",
-       fmt::format("moves fastest ({:.4g} m/s) where the scene's time_step, {:.4g} s, has come to lie above the bound of {}, {:.4g} s: make it smaller, or run all the same with [engines.tripoint] settings = {{ force_time_step = true }}",
-                   norm(world.particles.velocity(i)), dt, name, bound));
+       fmt::format(
+           "moves fastest ({:.4g} m/s) where the scene's time_step, {:.4g} s, has come to lie above the bound of {}, {:.4g} s: "
+           "make it smaller, or run all the same with [engines.tripoint] settings = {{ force_time_step = true }}",
+           norm(world.particles.velocity(i)), dt, name, bound));
 }
 
 }  // namespace tripoint

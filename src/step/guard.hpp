@@ -5,12 +5,12 @@
 #include "effects/world.hpp"
 #include "scene/geometry.hpp"
 
-/// Guards that belong to no single effect; those of effects are in their check(). Each names particle, body, field, stage and time,
-/// and changes nothing.
+/// Guards that belong to no single effect; those of effects are in their check(). Each names particle, body, field, stage and
+/// time, and changes nothing.
 namespace tripoint {
 
-/// Looks for values that are not finite, in the order in which a step writes fields, so that the first that went wrong is named; and
-/// for temperatures at or below 0 K, which conduction never makes of a start above it.
+/// Looks for values that are not finite, in the order in which a step writes fields, so that the first that went wrong is named;
+/// and for temperatures at or below 0 K, which conduction never makes of a start above it.
 /// @throws Diverged
 void check_finite(const World&);
 
@@ -28,13 +28,14 @@ void check_escape(const World&, const Enclosure&);
 struct GuardMemory {
   double turned_over = 0.0;  ///< greatest sum of the sizes of all entries of the ledger so far [J]
   double first_step = 0.0;   ///< first finite bound [s]
-  bool still = false;        ///< the scene was laid at rest, of liquids and what is fixed alone: what moves then falls, or is made by the scheme
+  bool still =
+      false;  ///< the scene was laid at rest, of liquids and what is fixed alone: what moves then falls, or is made by the scheme
 };
 
-/// Energy that the scheme makes or loses, against all that the scene has turned over: more than half of that is no error of integration any more.
-/// It is the entry "time_integration"; what viscous forces have made, that of walls included, which may only take; and in a scene that was laid at
-/// rest what the printed pressure has made. Below a ten-billionth of the energy that the mass would have at one spacing a step
-/// nothing is told apart from round-off.
+/// Energy that the scheme makes or loses, against all that the scene has turned over: more than half of that is no error of
+/// integration any more. It is the entry "time_integration"; what viscous forces have made, that of walls included, which may
+/// only take; and in a scene that was laid at rest what the printed pressure has made. Below a ten-billionth of the energy that
+/// the mass would have at one spacing a step nothing is told apart from round-off.
 /// @throws Diverged naming the particle of the greatest kinetic energy
 void check_energy(const World&, const Ledger&, double start_potential, double dt, GuardMemory&);
 

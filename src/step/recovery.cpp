@@ -21,7 +21,8 @@ void put(const std::optional<Checkpoint>& state, const std::string& prefix, Chec
 std::optional<Checkpoint> take(const Checkpoint& kept, const std::string& prefix) {
   Checkpoint state;
   const auto pick = [&](const auto& from, auto& to) {
-    for (auto at = from.lower_bound(prefix); at != from.end() && at->first.starts_with(prefix); ++at) to[at->first.substr(prefix.size())] = at->second;
+    for (auto at = from.lower_bound(prefix); at != from.end() && at->first.starts_with(prefix); ++at)
+      to[at->first.substr(prefix.size())] = at->second;
   };
   pick(kept.real, state.real);
   pick(kept.whole, state.whole);
@@ -43,7 +44,9 @@ void Recovery::keep(Checkpoint state, double time) {
 const Checkpoint& Recovery::go_back(const Diverged& failure) {
   if (share_ <= std::ldexp(1.0, -most_halvings)) {
     throw Diverged(failure.particle, failure.body, failure.field, failure.stage, failure.time,
-                   std::string(failure.what()) + "; " + std::to_string(most_halvings) + " halvings of the step from the last good state did not help", failure.guard);
+                   std::string(failure.what()) + "; " + std::to_string(most_halvings) +
+                       " halvings of the step from the last good state did not help",
+                   failure.guard);
   }
   if (older_) newer_ = std::move(older_);
   older_.reset();
@@ -67,7 +70,8 @@ void Recovery::restore(const Checkpoint& kept) {
   const auto last = kept.text.find("good/last");
   if (step == kept.real.end() || step->second.size() != 4 || last == kept.text.end() || last->second.size() != 1)
     throw InputError("the checkpoint lacks the good states of a scene that recovers");
-  share_ = step->second[0], failed_at_ = step->second[1], count_ = static_cast<long>(step->second[2]), good_ = static_cast<long>(step->second[3]), last_ = last->second[0];
+  share_ = step->second[0], failed_at_ = step->second[1], count_ = static_cast<long>(step->second[2]),
+  good_ = static_cast<long>(step->second[3]), last_ = last->second[0];
   older_ = take(kept, older_prefix);
   newer_ = take(kept, newer_prefix);
 }

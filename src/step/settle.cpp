@@ -32,7 +32,9 @@ Scene still_scene(Scene s) {
   for (Body& b : s.bodies) {
     b.temperature.reset(), b.temperature_held = false;
     if (b.phase == Phase::liquid) continue;
-    if (b.motion == Motion::free) throw InputError(b.place, "settle = true needs solids that stand or are led, and body \"" + b.name + "\" is free: lay it into the liquid at rest, or leave settle out");
+    if (b.motion == Motion::free)
+      throw InputError(b.place, "settle = true needs solids that stand or are led, and body \"" + b.name +
+                                    "\" is free: lay it into the liquid at rest, or leave settle out");
     b.motion = Motion::fixed, b.keyframes.clear();
   }
   return s;
@@ -83,7 +85,8 @@ double swing(const Scene& scene, InitialState& at, long& steps) {
   });
   if (is_stopped()) throw SettlingStopped();
   for (std::size_t id = 0; id < at.size(); ++id)
-    if (at.body[id] < 0) at.position[id] = simulation.world().particles.position(simulation.world().particles.row(static_cast<std::uint32_t>(id)));
+    if (at.body[id] < 0)
+      at.position[id] = simulation.world().particles.position(simulation.world().particles.row(static_cast<std::uint32_t>(id)));
   return std::sqrt(peak);
 }
 
@@ -92,7 +95,8 @@ double swing(const Scene& scene, InitialState& at, long& steps) {
 void stop_settling_when(bool (*wanted)() noexcept) noexcept { stop_wanted = wanted; }
 
 InitialState settled(const Scene& scene, InitialState initial, Settling* how) {
-  if (scene.gravity == Vec3{}) throw InputError("settle = true needs something that pulls: give scene.gravity, or leave settle out");
+  if (scene.gravity == Vec3{})
+    throw InputError("settle = true needs something that pulls: give scene.gravity, or leave settle out");
   if (std::ranges::all_of(initial.body, [](int body) { return body >= 0; })) throw InputError("settle = true needs a liquid");
   Scene still = still_scene(scene);
   const double H = depth(scene, initial), pull = norm(scene.gravity);

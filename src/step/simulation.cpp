@@ -15,7 +15,7 @@
 namespace tripoint {
 namespace {
 
-constexpr double most_steps = 1e12;       ///< of a run: years on any machine, and still far below what a counter holds
+constexpr double most_steps = 1e12;        ///< of a run: years on any machine, and still far below what a counter holds
 constexpr long steps_between_bounds = 32;  ///< a step that changes more often would break the time symmetry of kick-drift-kick
 
 PeriodicBox box_of(const Scene& scene) {
@@ -32,7 +32,8 @@ PeriodicBox box_of(const Scene& scene) {
 bool is_static(const Scene& scene, const InitialState& initial) {
   const auto at_rest = [](const Vec3& v) { return v == Vec3{}; };
   if (!scene.inflows.empty()) return false;
-  if (std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid && b.motion != Motion::fixed; })) return false;
+  if (std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid && b.motion != Motion::fixed; }))
+    return false;
   if (calls_for(scene, "phase")) return false;
   const bool all_fixed = std::ranges::all_of(scene.bodies, [](const Body& b) { return b.motion == Motion::fixed; });
   if (all_fixed) return scene.events.empty();
@@ -43,7 +44,8 @@ bool is_static(const Scene& scene, const InitialState& initial) {
 /// Whether liquids and what is fixed are all that there is, laid at rest.
 bool is_still(const Scene& scene, const InitialState& initial) {
   const auto rests = [](const Body& b) { return b.phase == Phase::liquid || b.motion == Motion::fixed; };
-  return scene.inflows.empty() && scene.events.empty() && std::ranges::all_of(scene.bodies, rests) && std::ranges::all_of(initial.velocity, [](const Vec3& v) { return v == Vec3{}; });
+  return scene.inflows.empty() && scene.events.empty() && std::ranges::all_of(scene.bodies, rests) &&
+         std::ranges::all_of(initial.velocity, [](const Vec3& v) { return v == Vec3{}; });
 }
 
 std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& effects) {
@@ -67,13 +69,17 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
   bound_ = next_bound();
   refuse_large_step();
   if (const double first = scene.time_step.value_or(bound_.dt); scene.end_time > most_steps * first)
-    throw InputError(fmt::format("the run would take {:.3g} steps: its first step is {:.3g} s, set by {}, and it ends at {:.3g} s; at most {:.0e} can be made", scene.end_time / first, first, scene.time_step ? "the scene" : bound_.name, scene.end_time, most_steps));
+    throw InputError(
+        fmt::format("the run would take {:.3g} steps: its first step is {:.3g} s, set by {}, and it ends at {:.3g} s; at most "
+                    "{:.0e} can be made",
+                    scene.end_time / first, first, scene.time_step ? "the scene" : bound_.name, scene.end_time, most_steps));
   book_start(world_, own_ledger());
   happen_until_now();
   keep_good_state();
 }
 
-Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options, const Checkpoint& checkpoint)
+Simulation::Simulation(const Scene& scene, const InitialState& initial, const SimulationOptions& options,
+                       const Checkpoint& checkpoint)
     : options_(options), effects_(active_effects(scene)), passes_(scene, effects_, options.lanes, options.sums_all) {
   set_up(scene, initial);
   if (scene.recovers) start_ = initial, recovery_.restore(checkpoint);
@@ -93,7 +99,8 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   if (passes_.needed()) {
     PeriodicBox seen = world_.box;
     for (std::size_t a = 0; a < 3 && world_.halo; ++a) seen.periodic[a] = seen.periodic[a] && !world_.halo->splits()[a];
-    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), seen, options_.threads, passes_.lanes());
+    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), seen,
+                              options_.threads, passes_.lanes());
   }
   plan_events();
 }
@@ -230,7 +237,7 @@ void Simulation::step(double end) {
   const bool starts_late = steps_ == 0 && (no_first_kick || world_.scene.mode_of(Term::time) == Mode::paper);
   if (!starts_late) run(&Effect::kick, 0.5 * dt_);  // v of bodies; the paper's leapfrog starts without its half kick
   clock_.ends(Stage::kick);
-  run(&Effect::drift, dt_);                         // r; rotation (19)-(20); prescribed motion; T or H by its rate (21)
+  run(&Effect::drift, dt_);  // r; rotation (19)-(20); prescribed motion; T or H by its rate (21)
   clock_.ends(Stage::drift);
   world_.time = end;
   update_rates();
@@ -368,7 +375,10 @@ void Simulation::refuse_large_step() const {
   const auto& given = world_.scene.time_step;
   if (!given || options_.force_time_step || recovery_.share() * *given <= bound_.dt * (1.0 + 1e-9)) return;
   if (steps_ > 0) refuse_step(world_, recovery_.share() * *given, bound_.dt, bound_.name);
-  throw InputError(fmt::format("time_step {:.4g} s is above the bound of {}, {:.4g} s: make it smaller, or run all the same with [engines.tripoint] settings = {{ force_time_step = true }}", *given, bound_.name, bound_.dt));
+  throw InputError(
+      fmt::format("time_step {:.4g} s is above the bound of {}, {:.4g} s: make it smaller, or run all the same with "
+                  "[engines.tripoint] settings = {{ force_time_step = true }}",
+                  *given, bound_.name, bound_.dt));
 }
 
 std::string Simulation::time_step_set_by() const {

@@ -21,14 +21,14 @@ namespace tripoint {
 
 struct SimulationOptions {
   int threads = 1;
-  bool gives_way = false;                                  ///< takes one thread while other work fills the machine; it changes no bit
-  bool force_time_step = false;                            ///< run with the scene's time step though it is above a bound
-  double skin = 0.1;                                       ///< of the neighbour lists, in support radii; static scenes need none
-  int lanes = 0;  ///< particles that a pair pass works on at once, 1, 4 or 8; 0 = what is fastest here. It changes no bit
+  bool gives_way = false;        ///< takes one thread while other work fills the machine; it changes no bit
+  bool force_time_step = false;  ///< run with the scene's time step though it is above a bound
+  double skin = 0.1;             ///< of the neighbour lists, in support radii; static scenes need none
+  int lanes = 0;          ///< particles that a pair pass works on at once, 1, 4 or 8; 0 = what is fastest here. It changes no bit
   bool sums_all = false;  ///< pair passes sum also where nothing meets; it changes no bit
   std::optional<std::array<std::size_t, 3>> axis_order{};  ///< rotation by NO_SQUISH in this order instead of the better default
-  Halo* halo = nullptr;                                    ///< those that hold the rest of the scene; it must outlive the simulation
-  StageSeconds* stage_seconds = nullptr;                   ///< where to add what each stage takes; it must outlive the simulation
+  Halo* halo = nullptr;                   ///< those that hold the rest of the scene; it must outlive the simulation
+  StageSeconds* stage_seconds = nullptr;  ///< where to add what each stage takes; it must outlive the simulation
 };
 
 /// A scene in motion: kick, drift, kick, with the effects that it calls for.
@@ -72,7 +72,9 @@ class Simulation {
   struct Stretch {
     double start = 0.0, end = 0.0;  ///< [s]
     long count = 0, done = 0;
-    [[nodiscard]] double next_end(double dt) const { return done + 1 == count ? end : start + static_cast<double>(done + 1) * dt; }
+    [[nodiscard]] double next_end(double dt) const {
+      return done + 1 == count ? end : start + static_cast<double>(done + 1) * dt;
+    }
   };
   void set_up(const Scene&, const InitialState&);
   void load(const InitialState&);
@@ -125,7 +127,8 @@ class Simulation {
   GuardMemory guards_;
   Enclosure enclosure_;
   Recovery recovery_;
-  std::vector<Vec3> shared_at_;  ///< where particles were when they were last shared out, by row; of scenes without neighbour lists
+  std::vector<Vec3>
+      shared_at_;       ///< where particles were when they were last shared out, by row; of scenes without neighbour lists
   InitialState start_;  ///< what a run that recovers is set up from again; else empty
 };
 

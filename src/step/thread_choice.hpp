@@ -3,15 +3,16 @@
 
 namespace tripoint {
 
-/// How many threads the next step takes: all that are given, or one while other work fills the machine, for then threads wait for each
-/// other longer than they work. It measures: where threads are pushed aside it tries one, keeps what is faster, and looks again later.
-/// Threads do not change a bit of a run, so they can change between two steps.
+/// How many threads the next step takes: all that are given, or one while other work fills the machine, for then threads wait for
+/// each other longer than they work. It measures: where threads are pushed aside it tries one, keeps what is faster, and looks
+/// again later. Threads do not change a bit of a run, so they can change between two steps.
 class ThreadChoice {
  public:
   explicit ThreadChoice(int most) : most_(most), now_(most) {}
   [[nodiscard]] int now() const noexcept { return now_; }
   /// After a step.
-  /// @param seconds wall time that it took   @param pushed_aside how often a thread of this process lost its core to others meanwhile
+  /// @param seconds wall time that it took   @param pushed_aside how often a thread of this process lost its core to others
+  /// meanwhile
   void took(double seconds, long pushed_aside);
 
  private:
@@ -26,10 +27,10 @@ class ThreadChoice {
 
   int most_, now_;
   Look look_;
-  bool tries_ = false;      ///< this look is at the other choice
-  double other_ = 0.0;      ///< a step with the choice before, while trying [s]
-  double settled_ = 0.0;    ///< since the last comparison [s]
-  double patience_ = 0.0;   ///< from one comparison to the next; longer while nothing changes [s]
+  bool tries_ = false;     ///< this look is at the other choice
+  double other_ = 0.0;     ///< a step with the choice before, while trying [s]
+  double settled_ = 0.0;   ///< since the last comparison [s]
+  double patience_ = 0.0;  ///< from one comparison to the next; longer while nothing changes [s]
 };
 
 /// How often threads of this process lost their core to others until now.

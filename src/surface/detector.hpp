@@ -14,9 +14,9 @@ struct DetectorLimits {
 /// @param largest_eigenvalue of grad rbar [1]
 [[nodiscard]] double detector_factor(double largest_eigenvalue, const DetectorLimits& = {}) noexcept;
 
-/// EV_max of (25): the largest real part of the three eigenvalues. grad rbar is not symmetric, so two of them may be complex; the paper
-/// does not say what "largest" means then. By the closed form of the cubic: an iterative solver costs ten times the sums it is made from.
-/// Compared with Eigen's solver: tests/surface/detector_test.cpp.
+/// EV_max of (25): the largest real part of the three eigenvalues. grad rbar is not symmetric, so two of them may be complex; the
+/// paper does not say what "largest" means then. By the closed form of the cubic: an iterative solver costs ten times the sums it
+/// is made from. Compared with Eigen's solver: tests/surface/detector_test.cpp.
 [[nodiscard]] double largest_eigenvalue(const Matrix3&) noexcept;
 
 }  // namespace tripoint

@@ -22,12 +22,17 @@ const SurfaceOptions& checked(const SurfaceOptions& o) {
 }  // namespace
 
 ImplicitSurface::ImplicitSurface(std::span<const Vec3> centres, const SurfaceOptions& options)
-    : options_(checked(options)), cells_(centres, options_.influence_radius / cells_per_radius), origin_(bounds().low), near_(centres.size()) {
+    : options_(checked(options)),
+      cells_(centres, options_.influence_radius / cells_per_radius),
+      origin_(bounds().low),
+      near_(centres.size()) {
   // Cells that a ball of radius ir around a particle's cell may touch.
   const double ir = options_.influence_radius;
   for (const std::uint64_t key : cells_.occupied()) {
     const Box box = grown(cells_.box_of(CellTable::cell(key)), ir);
-    const auto along = [&](const Vec3& r, std::size_t a) { return static_cast<std::int32_t>(std::floor((r[a] - origin_[a]) / ir)); };
+    const auto along = [&](const Vec3& r, std::size_t a) {
+      return static_cast<std::int32_t>(std::floor((r[a] - origin_[a]) / ir));
+    };
     for (int i = along(box.low, 0); i <= along(box.high, 0); ++i)
       for (int j = along(box.low, 1); j <= along(box.high, 1); ++j)
         for (int k = along(box.low, 2); k <= along(box.high, 2); ++k) {
@@ -40,7 +45,9 @@ ImplicitSurface::ImplicitSurface(std::span<const Vec3> centres, const SurfaceOpt
 
 std::optional<Box> ImplicitSurface::empty_box(const Vec3& r) const noexcept {
   const double ir = options_.influence_radius;
-  const auto along = [&](std::size_t a) { return static_cast<std::int32_t>(std::floor(std::clamp((r[a] - origin_[a]) / ir, -1e6, 1e6))); };
+  const auto along = [&](std::size_t a) {
+    return static_cast<std::int32_t>(std::floor(std::clamp((r[a] - origin_[a]) / ir, -1e6, 1e6)));
+  };
   const CellIndex c{along(0), along(1), along(2)};
   if (near_.find(CellTable::key(c)) != CellTable::none) return {};
   const Vec3 low = origin_ + ir * Vec3{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};

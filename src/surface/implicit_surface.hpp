@@ -25,8 +25,9 @@ struct SurfaceOptions {
     o.distance = distance_per_influence_radius * o.influence_radius;
     return o;
   }
-  /// R/ir at which a flat surface lies half a layer outside the last layer of a cubic lattice: 0.284, 0.273, 0.267 on its planes (100),
-  /// (110), (111) at an ir of 2.4 spacings, 0.2598 in the continuum; a little more, as balls of ten spacings have their volume best so.
+  /// R/ir at which a flat surface lies half a layer outside the last layer of a cubic lattice: 0.284, 0.273, 0.267 on its planes
+  /// (100), (110), (111) at an ir of 2.4 spacings, 0.2598 in the continuum; a little more, as balls of ten spacings have their
+  /// volume best so.
   static constexpr double distance_per_influence_radius = 0.28;
 };
 
@@ -51,7 +52,8 @@ class ImplicitSurface {
   [[nodiscard]] Box bounds() const noexcept { return grown(cells_.box(), options_.influence_radius); }
   /// A box around a place in which no place is within ir of a particle; nothing where there is none such.
   [[nodiscard]] std::optional<Box> empty_box(const Vec3&) const noexcept;
-  /// Keys of the cubic cells of side ir, counted from the lower corner of bounds(), that may hold a place within ir of a particle; ascending.
+  /// Keys of the cubic cells of side ir, counted from the lower corner of bounds(), that may hold a place within ir of a
+  /// particle; ascending.
   [[nodiscard]] std::span<const std::uint64_t> near_cells() const noexcept { return near_keys_; }
 
  private:
@@ -62,11 +64,13 @@ class ImplicitSurface {
   std::vector<std::uint64_t> near_keys_;
 };
 
-/// One thread's view of a surface: keeps the lists of the places that it was asked about last. The values do not depend on what was asked before.
+/// One thread's view of a surface: keeps the lists of the places that it was asked about last. The values do not depend on what
+/// was asked before.
 class SurfaceProbe {
  public:
   /// @param surface must outlive it
-  explicit SurfaceProbe(const ImplicitSurface& surface) : surface_(&surface), cache_(surface.cells(), surface.options().influence_radius) {}
+  explicit SurfaceProbe(const ImplicitSurface& surface)
+      : surface_(&surface), cache_(surface.cells(), surface.options().influence_radius) {}
 
   [[nodiscard]] SurfaceValue value(const Vec3& r);
   /// (23) [m]

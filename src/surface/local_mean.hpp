@@ -7,7 +7,8 @@
 namespace tripoint {
 
 /// Weighted mean rbar(r) of the places of the particles around r, (24), seen from r.
-/// The weight is the density kernel (poly6) over its value at the centre, (1 - s^2)^3 with s = |r - r_j|/ir: constants cancel in (24).
+/// The weight is the density kernel (poly6) over its value at the centre, (1 - s^2)^3 with s = |r - r_j|/ir: constants cancel in
+/// (24).
 struct LocalMean {
   double weight = 0.0;  ///< sum of the weights [1]; 0 where no particle is within ir, and then the rest has no meaning
   Vec3 offset;          ///< rbar(r) - r [m]

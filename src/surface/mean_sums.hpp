@@ -31,7 +31,8 @@ template <class ForUnit>
   using V = Lanes<4>::Real;
   V w{}, wx{}, wy{}, wz{}, ux{}, uy{}, uz{}, uxx{}, uyy{}, uzz{}, uyz{}, uxz{}, uxy{};
   for (std::size_t k = 0; k < places.size; k += 4) {
-    const V x = (load_lanes<4>(places.x + k) - r.x) * per_ir, y = (load_lanes<4>(places.y + k) - r.y) * per_ir, z = (load_lanes<4>(places.z + k) - r.z) * per_ir;
+    const V x = (load_lanes<4>(places.x + k) - r.x) * per_ir, y = (load_lanes<4>(places.y + k) - r.y) * per_ir,
+            z = (load_lanes<4>(places.z + k) - r.z) * per_ir;
     const V inside = 1.0 - ((x * x + y * y) + z * z);
     const V t = where<V>(inside > 0.0, inside);
     const V u = t * t, w_j = u * t;

@@ -3,12 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Triangles where a field on a sparse grid changes its sign, by OpenVDB. A module of its own, as scene/mesh_field.hpp is: with OpenVDB
-/// come 40 libraries, which every start of every program would wait for. C names, and no exception leaves it.
+/// Triangles where a field on a sparse grid changes its sign, by OpenVDB. A module of its own, as scene/mesh_field.hpp is: with
+/// OpenVDB come 40 libraries, which every start of every program would wait for. C names, and no exception leaves it.
 extern "C" {
 inline constexpr int tripoint_mesher_block = 8;  ///< points of a block along each axis: a leaf of OpenVDB's tree
 
-/// Points [grid units], x y z of each, and triangles, three indices each, counter-clockwise seen from where the field is positive.
+/// Points [grid units], x y z of each, and triangles, three indices each, counter-clockwise seen from where the field is
+/// positive.
 struct TripointTriangles {
   double* points;
   std::size_t point_count;

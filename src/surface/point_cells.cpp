@@ -29,10 +29,12 @@ Box box_around(std::span<const Vec3> points) noexcept {
 }
 
 PointCells::PointCells(std::span<const Vec3> points, double side) : side_(side), box_(box_around(points)), table_(points.size()) {
-  if (!std::ranges::all_of(points, [](const Vec3& r) { return finite(r); })) throw InputError("a surface is asked of a particle whose place is not finite");
+  if (!std::ranges::all_of(points, [](const Vec3& r) { return finite(r); }))
+    throw InputError("a surface is asked of a particle whose place is not finite");
   origin_ = points.empty() ? Vec3{} : box_.low;
   for (std::size_t a = 0; a < 3; ++a)
-    if (!points.empty() && !((box_.high[a] - box_.low[a]) / side < CellTable::most - 8)) throw InputError("particles lie too far apart for a surface: leave out those that have flown away");
+    if (!points.empty() && !((box_.high[a] - box_.low[a]) / side < CellTable::most - 8))
+      throw InputError("particles lie too far apart for a surface: leave out those that have flown away");
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) order[i] = {CellTable::key(cell_of(points[i])), static_cast<std::uint32_t>(i)};
   std::ranges::sort(order);
@@ -47,7 +49,9 @@ PointCells::PointCells(std::span<const Vec3> points, double side) : side_(side),
 }
 
 CellIndex PointCells::cell_of(const Vec3& r) const noexcept {
-  const auto along = [&](std::size_t a) { return static_cast<std::int32_t>(std::floor(std::clamp((r[a] - origin_[a]) / side_, -1e6, 1e6))); };
+  const auto along = [&](std::size_t a) {
+    return static_cast<std::int32_t>(std::floor(std::clamp((r[a] - origin_[a]) / side_, -1e6, 1e6)));
+  };
   return {along(0), along(1), along(2)};
 }
 
@@ -66,7 +70,8 @@ void PointCells::gather(const CellIndex& c, double reach, NearPoints& out) const
         const std::uint32_t cell = table_.find(CellTable::key({c[0] + i, c[1] + j, c[2] + k}));
         if (cell == CellTable::none) continue;
         for (std::uint32_t n = first_[cell]; n < first_[cell + 1]; ++n) {
-          const double dx = outside(x_[n], b.low.x, b.high.x), dy = outside(y_[n], b.low.y, b.high.y), dz = outside(z_[n], b.low.z, b.high.z);
+          const double dx = outside(x_[n], b.low.x, b.high.x), dy = outside(y_[n], b.low.y, b.high.y),
+                       dz = outside(z_[n], b.low.z, b.high.z);
           if (dx * dx + dy * dy + dz * dz >= reach * reach) continue;
           out.x.push_back(x_[n]), out.y.push_back(y_[n]), out.z.push_back(z_[n]), out.row.push_back(row_[n]);
         }

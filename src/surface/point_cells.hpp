@@ -30,8 +30,8 @@ struct NearPoints {
   [[nodiscard]] bool empty() const noexcept { return row.empty(); }
 };
 
-/// Points sorted into cubic cells, to be asked about any place: unlike `Neighbours`, which lists pairs of particles that move, it is
-/// built once for points that stay, and takes places where no particle is.
+/// Points sorted into cubic cells, to be asked about any place: unlike `Neighbours`, which lists pairs of particles that move, it
+/// is built once for points that stay, and takes places where no particle is.
 class PointCells {
  public:
   /// @param side of a cell [m]

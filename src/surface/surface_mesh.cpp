@@ -34,7 +34,8 @@ Samples blocks_of(const ImplicitSurface& surface, double voxel) {
   CellTable known(surface.near_cells().size());
   const Box all = surface.bounds();
   for (std::size_t a = 0; a < 3; ++a)
-    if (!((all.high[a] - all.low[a]) / side < CellTable::most - 8)) throw InputError("the voxel of a mesh is too small for a surface of this size");
+    if (!((all.high[a] - all.low[a]) / side < CellTable::most - 8))
+      throw InputError("the voxel of a mesh is too small for a surface of this size");
   for (const std::uint64_t key : surface.near_cells()) {
     const CellIndex c = CellTable::cell(key);
     const auto first = [&](std::size_t a) { return static_cast<std::int32_t>(std::floor(c[a] * ir / side)); };
@@ -62,7 +63,9 @@ void fill(const ImplicitSurface& surface, Samples& s, int threads) {
       const std::int32_t* corner = &s.corners[3 * b];
       for (int i = 0; i < block; ++i)
         for (int j = 0; j < block; ++j)
-          for (int k = 0; k < block; ++k) *value++ = static_cast<float>(probe.phi(s.place(corner[0] + i, corner[1] + j, corner[2] + k)) / surface.options().influence_radius);
+          for (int k = 0; k < block; ++k)
+            *value++ = static_cast<float>(probe.phi(s.place(corner[0] + i, corner[1] + j, corner[2] + k)) /
+                                          surface.options().influence_radius);
     }
   }
 }
@@ -109,7 +112,8 @@ Mesh surface_mesh(const ImplicitSurface& surface, double voxel, int threads) {
   return mesh;
 }
 
-std::vector<double> mean_at(const ImplicitSurface& surface, std::span<const Vec3> places, std::span<const double> values, int threads) {
+std::vector<double> mean_at(const ImplicitSurface& surface, std::span<const Vec3> places, std::span<const double> values,
+                            int threads) {
   std::vector<double> out(places.size(), not_a_number);
 #pragma omp parallel num_threads(threads)
   {
@@ -126,7 +130,8 @@ std::vector<double> mean_at(const ImplicitSurface& surface, std::span<const Vec3
   return out;
 }
 
-std::vector<int> label_at(const ImplicitSurface& surface, std::span<const Vec3> places, std::span<const int> labels, int threads) {
+std::vector<int> label_at(const ImplicitSurface& surface, std::span<const Vec3> places, std::span<const int> labels,
+                          int threads) {
   std::vector<int> out(places.size(), -1);
 #pragma omp parallel num_threads(threads)
   {

@@ -17,16 +17,20 @@ namespace tripoint {
 [[nodiscard]] Mesh surface_mesh(const ImplicitSurface&, double voxel, int threads);
 
 /// Values of the particles around each corner of a mesh.
-/// @param values by particle; those that are not finite do not count   @return their mean weighted as in (24); NaN where none counts
-[[nodiscard]] std::vector<double> mean_at(const ImplicitSurface&, std::span<const Vec3> places, std::span<const double> values, int threads);
-/// @param labels by particle   @return the label with the greatest sum of weights, the smaller one of two that are equal; -1 where none is near
-[[nodiscard]] std::vector<int> label_at(const ImplicitSurface&, std::span<const Vec3> places, std::span<const int> labels, int threads);
+/// @param values by particle; those that are not finite do not count   @return their mean weighted as in (24); NaN where none
+/// counts
+[[nodiscard]] std::vector<double> mean_at(const ImplicitSurface&, std::span<const Vec3> places, std::span<const double> values,
+                                          int threads);
+/// @param labels by particle   @return the label with the greatest sum of weights, the smaller one of two that are equal; -1
+/// where none is near
+[[nodiscard]] std::vector<int> label_at(const ImplicitSurface&, std::span<const Vec3> places, std::span<const int> labels,
+                                        int threads);
 
 /// What of a mesh can be compared with an exact body. Its volume is that of scene/mesh.hpp.
 struct MeshMeasures {
-  double area = 0.0;   ///< [m2]
-  long euler = 0;      ///< corners - edges + triangles: 2 for each ball, 0 for each torus
-  std::size_t pieces = 0;  ///< parts that share no corner
+  double area = 0.0;           ///< [m2]
+  long euler = 0;              ///< corners - edges + triangles: 2 for each ball, 0 for each torus
+  std::size_t pieces = 0;      ///< parts that share no corner
   std::size_t open_edges = 0;  ///< edges that are not used once in each direction
 };
 [[nodiscard]] MeshMeasures measures_of(const Mesh&);

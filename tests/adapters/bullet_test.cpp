@@ -77,7 +77,8 @@ Prepared head_on(double restitution, double dt) {
   s.spacing = 0.05;
   s.materials = {test::material(1000.0), test::material(2000.0)};
   s.materials[1].name = "heavy";
-  s.bodies = {test::rigid("light", test::sphere({0, 0, 0}, 0.1), {{1.0, 0, 0}, {}}), test::rigid("heavy", test::sphere({0.41, 0, 0}, 0.1), {{-0.5, 0, 0}, {}})};
+  s.bodies = {test::rigid("light", test::sphere({0, 0, 0}, 0.1), {{1.0, 0, 0}, {}}),
+              test::rigid("heavy", test::sphere({0.41, 0, 0}, 0.1), {{-0.5, 0, 0}, {}})};
   s.bodies[1].material = "heavy";
   Prepared p = test::prepare(s, 0.5, 1);
   p.job.preset = "impact";
@@ -167,7 +168,8 @@ TEST(Bullet, KeepsACollinearBodyFinite) {
   s.bodies = {test::rigid("needle", test::box({0, 0, 0}, {0.5, 0.1, 0.1}), {{}, {0, 0, 1}})};
   const Prepared p = test::prepare(s, 2.0, 2);
   const Snapshot after = fly(p).back();
-  EXPECT_LT(norm(after.bodies[0].angular_velocity - Vec3{0, 0, 1}), 1e-9) << "a line turns about its short axis for ever, though its least moment is 0";
+  EXPECT_LT(norm(after.bodies[0].angular_velocity - Vec3{0, 0, 1}), 1e-9)
+      << "a line turns about its short axis for ever, though its least moment is 0";
 }
 
 /// A block of 4 x 4 x 2 on a floor.
@@ -175,7 +177,8 @@ Prepared on_floor(double friction, const Vec3& velocity, const Vec3& gravity) {
   Scene s;
   s.spacing = 0.1, s.gravity = gravity;
   s.materials = {test::material(1000.0)};
-  s.bodies = {test::rigid("block", test::box({0, -0.2, 0}, {0.4, 0.2, 0.2}), {velocity, {}}), test::rigid("floor", test::box({-1, -0.5, -0.2}, {3, 0.5, 0}), {}, Motion::fixed)};
+  s.bodies = {test::rigid("block", test::box({0, -0.2, 0}, {0.4, 0.2, 0.2}), {velocity, {}}),
+              test::rigid("floor", test::box({-1, -0.5, -0.2}, {3, 0.5, 0}), {}, Motion::fixed)};
   Prepared p = test::prepare(s, 0.5, 5);
   p.job.preset = "resting";
   p.job.settings["friction"] = friction;

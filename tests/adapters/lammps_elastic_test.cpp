@@ -48,9 +48,11 @@ TEST(LammpsElastic, SwingsLikeAThinBar) {
   }
   std::vector<double> zeros;
   for (std::size_t n = 1; n < amplitude.size(); ++n)
-    if (amplitude[n - 1] * amplitude[n] < 0.0) zeros.push_back(5e-4 * (static_cast<double>(n) - amplitude[n] / (amplitude[n] - amplitude[n - 1])));
+    if (amplitude[n - 1] * amplitude[n] < 0.0)
+      zeros.push_back(5e-4 * (static_cast<double>(n) - amplitude[n] / (amplitude[n] - amplitude[n - 1])));
   ASSERT_EQ(zeros.size(), 2U);
-  EXPECT_NEAR((zeros[1] - zeros[0]) / 0.01, 1.0, 0.01) << "L/sqrt(E/rho); 4 across it is 0.4 % slow, Rayleigh's lateral inertia being 0.2 %";
+  EXPECT_NEAR((zeros[1] - zeros[0]) / 0.01, 1.0, 0.01)
+      << "L/sqrt(E/rho); 4 across it is 0.4 % slow, Rayleigh's lateral inertia being 0.2 %";
 }
 
 TEST(LammpsElastic, RunsTheCommandsOfItsSettings) {
@@ -68,7 +70,8 @@ TEST(LammpsElastic, FliesFreelyWithItsSpin) {
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   const BodyState& end = out.trajectory.frames.back().bodies[0];
   const Vec3 fall = 0.05 * Vec3{1, 0, 2} + 0.5 * 0.05 * 0.05 * s.gravity;
-  EXPECT_LT(norm(end.position - p.job.bodies[0].properties.centre - fall), 1e-6) << "smd/tlsph keeps momentum in pairs; its kernels are stored in single precision";
+  EXPECT_LT(norm(end.position - p.job.bodies[0].properties.centre - fall), 1e-6)
+      << "smd/tlsph keeps momentum in pairs; its kernels are stored in single precision";
   EXPECT_NEAR(end.orientation.y, std::sin(0.5 * 0.5 * 0.05), 1e-4) << "a slow turn strains it by 1e-6 only";
   EXPECT_LT(norm(out.result.readback.gravity - s.gravity), 1e-12);
 }
@@ -88,7 +91,8 @@ TEST(LammpsElastic, FollowsDrivenEndsAndKeepsHeldOnes) {
   EXPECT_NEAR(frames[1].bodies[2].position.x, grip.x + 5e-4, 1e-9) << "round-off of thousands of steps";
   EXPECT_NEAR(frames[2].bodies[2].position.x, grip.x + 1e-3, 1e-9);
   EXPECT_NEAR(frames[4].bodies[2].position.x, grip.x + 1e-3, 1e-9);
-  EXPECT_NEAR(frames[4].bodies[0].position.x - frames[0].bodies[0].position.x, 5e-4, 5e-5) << "its middle goes half the way, but for what still swings";
+  EXPECT_NEAR(frames[4].bodies[0].position.x - frames[0].bodies[0].position.x, 5e-4, 5e-5)
+      << "its middle goes half the way, but for what still swings";
 }
 
 TEST(LammpsElastic, StandsForAllLayersOfABarInPlaneStrain) {
@@ -116,7 +120,8 @@ TEST(LammpsElastic, StandsForAllLayersOfABarInPlaneStrain) {
   }
   double reaction = 0.0;
   for (std::size_t n = 26; n <= 50; ++n) reaction += out.trajectory.frames[n].bodies[1].force.x / 25.0;
-  EXPECT_NEAR(reaction / (1e5 / (1.0 - 0.3 * 0.3) * 0.02 * 0.02 * 0.01), 1.0, 0.08) << "E/(1 - nu2) A at 1 %; the ends act as if longer, smd/tlsph is 2 % soft, and the bar still swings";
+  EXPECT_NEAR(reaction / (1e5 / (1.0 - 0.3 * 0.3) * 0.02 * 0.02 * 0.01), 1.0, 0.08)
+      << "E/(1 - nu2) A at 1 %; the ends act as if longer, smd/tlsph is 2 % soft, and the bar still swings";
 }
 
 TEST(LammpsElastic, SaysWhatItCannotRun) {
@@ -128,7 +133,11 @@ TEST(LammpsElastic, SaysWhatItCannotRun) {
     EXPECT_EQ(out.exit_code, 4);
     EXPECT_NE(out.result.message.find(why), std::string::npos) << out.result.message;
   };
-  refused([](Scene& s) { s.bodies.push_back(elastic("other", test::box({0.2, 0, 0}, {0.3, 0.02, 0.02}))); }, "contact in MACHDYN");
+  refused(
+      [](Scene& s) {
+        s.bodies.push_back(elastic("other", test::box({0.2, 0, 0}, {0.3, 0.02, 0.02})));
+      },
+      "contact in MACHDYN");
   refused([](Scene& s) { s.bodies[0].shape.max.z = 5e-3; }, "one particle thin");
   refused([](Scene& s) { s.materials[0].fracture_stretch = 1.1; }, "yields or breaks");
   refused([](Scene& s) { s.events.resize(1); }, "reference shape");

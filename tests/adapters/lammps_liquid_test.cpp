@@ -42,7 +42,8 @@ Prepared wave(double end) {
 
 double along(const std::vector<double>& column, const Prepared& p, double (*mode)(double)) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < column.size(); ++i) sum += 2.0 / static_cast<double>(column.size()) * column[i] * mode(2.0 * pi * p.initial.position[i].x);
+  for (std::size_t i = 0; i < column.size(); ++i)
+    sum += 2.0 / static_cast<double>(column.size()) * column[i] * mode(2.0 * pi * p.initial.position[i].x);
   return sum;
 }
 
@@ -54,8 +55,10 @@ TEST(LammpsLiquid, SwingsAtTheSpeedOfSoundOfTheScene) {
   const Snapshot &quarter = out.trajectory.frames.at(1), &half = out.trajectory.frames.at(2);
   std::vector<double> u;
   for (const Vec3& v : half.velocity) u.push_back(v.x);
-  EXPECT_NEAR(along(u, p, [](double a) { return std::cos(a); }), -0.01, 1e-4) << "fix sph lets sound grow at w2 dt/4: 0.5 %; half a percent off in c turns the phase by 0.02, 0.02 %";
-  EXPECT_NEAR(along(quarter.pressure, p, [](double a) { return std::sin(a); }) / (1000.0 * 10.0 * 0.01), 1.0, 0.02) << "rho c U; half of that growth, c, and the pressure of the neighbours that a kernel smooths";
+  EXPECT_NEAR(along(u, p, [](double a) { return std::cos(a); }), -0.01, 1e-4)
+      << "fix sph lets sound grow at w2 dt/4: 0.5 %; half a percent off in c turns the phase by 0.02, 0.02 %";
+  EXPECT_NEAR(along(quarter.pressure, p, [](double a) { return std::sin(a); }) / (1000.0 * 10.0 * 0.01), 1.0, 0.02)
+      << "rho c U; half of that growth, c, and the pressure of the neighbours that a kernel smooths";
   EXPECT_NEAR(out.result.extra.at("sound_speed"), 10.0, 1e-12);
 }
 
@@ -82,7 +85,8 @@ Scene column() {
   s.periodic = {true, true, false};
   s.materials = {test::material(1000.0)};
   s.materials[0].stiffness = 785.0, s.materials[0].viscosity = 300.0;
-  s.bodies = {liquid(test::box({}, {0.6, 0.6, 0.8})), test::rigid("floor", test::box({0, 0, -0.3}, {0.6, 0.6, 0}), {}, Motion::fixed)};
+  s.bodies = {liquid(test::box({}, {0.6, 0.6, 0.8})),
+              test::rigid("floor", test::box({0, 0, -0.3}, {0.6, 0.6, 0}), {}, Motion::fixed)};
   return s;
 }
 
@@ -93,7 +97,8 @@ TEST(LammpsLiquid, FloorCarriesTheWeightOfTheColumn) {
   double pressure = 0.0, count = 0.0;
   for (std::size_t n = 15; n <= 30; ++n)
     for (std::size_t i = 0; i < 36; ++i) pressure += out.trajectory.frames[n].pressure[i], count += 1.0;
-  EXPECT_NEAR(pressure / count / (1000.0 * 9.81 * 0.75), 1.0, 0.1) << "mean over the column's swings; the lowest layer begins at 0.75 m below the surface and sinks by some hundredths";
+  EXPECT_NEAR(pressure / count / (1000.0 * 9.81 * 0.75), 1.0, 0.1)
+      << "mean over the column's swings; the lowest layer begins at 0.75 m below the surface and sinks by some hundredths";
   EXPECT_LT(norm(out.result.readback.gravity - Vec3{0, 0, -9.81}), 1e-12) << "read from LAMMPS's forces";
 }
 
@@ -111,12 +116,14 @@ TEST(LammpsLiquid, SaysWhatItCannotRun) {
   refused([](Scene& s) { s.bodies[1].phase = Phase::elastic; }, "elastic");
   refused([](Scene& s) { s.inflows.resize(1); }, "inflow");
   refused([](Scene& s) { s.mode = Mode::paper; }, "paper");
-  refused([](Scene& s) {
-    s.materials.push_back(s.materials[0]);
-    s.materials[1].name = "oil", s.materials[1].density = 500.0;
-    s.bodies.push_back(liquid(test::box({0, 0, 0.8}, {0.6, 0.6, 1.0})));
-    s.bodies[2].name = s.bodies[2].material = "oil";
-  }, "smears the density");
+  refused(
+      [](Scene& s) {
+        s.materials.push_back(s.materials[0]);
+        s.materials[1].name = "oil", s.materials[1].density = 500.0;
+        s.bodies.push_back(liquid(test::box({0, 0, 0.8}, {0.6, 0.6, 1.0})));
+        s.bodies[2].name = s.bodies[2].material = "oil";
+      },
+      "smears the density");
 }
 
 TEST(LammpsLiquid, IsRefusedByABuildWithoutIt) {

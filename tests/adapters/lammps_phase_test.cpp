@@ -63,7 +63,8 @@ TEST(LammpsPhase, MeltsABlockOnAHotFloorAndFreezesItThere) {
   floor.name = "floor", floor.t_melt.reset(), floor.t_solid.reset(), floor.latent_heat.reset();
   s.materials.push_back(floor);
   for (Material& m : s.materials) m.conductivity = 1e4;
-  s.bodies = {wax("block", test::box({}, {0.04, 0.04, 0.03})), test::rigid("floor", test::box({0, 0, -0.02}, {0.04, 0.04, 0}), {}, Motion::fixed)};
+  s.bodies = {wax("block", test::box({}, {0.04, 0.04, 0.03})),
+              test::rigid("floor", test::box({0, 0, -0.02}, {0.04, 0.04, 0}), {}, Motion::fixed)};
   s.bodies[1].material = "floor", s.bodies[1].temperature = at(300.0);
   s.events = {heat("floor", 400.0, 0.0, 0.15), heat("floor", 250.0, 0.15, 0.3)};
   const Outcome out = test::run(wheel, test::prepare(s, 0.3, 12));
@@ -72,19 +73,22 @@ TEST(LammpsPhase, MeltsABlockOnAHotFloorAndFreezesItThere) {
   EXPECT_EQ(count(frames.front(), Phase::elastic), 48);
   EXPECT_EQ(count(frames[6], Phase::liquid), 48) << "three layers, h2/D = 0.09 s";
   EXPECT_EQ(count(frames.back(), Phase::liquid), 0);
-  for (std::size_t n = 1; n <= 6; ++n) EXPECT_GE(count(frames[n], Phase::liquid), count(frames[n - 1], Phase::liquid)) << "nothing freezes while the floor is hot";
+  for (std::size_t n = 1; n <= 6; ++n)
+    EXPECT_GE(count(frames[n], Phase::liquid), count(frames[n - 1], Phase::liquid)) << "nothing freezes while the floor is hot";
   EXPECT_EQ(bodies_alive(frames[6]), 1U) << "the floor";
   EXPECT_EQ(bodies_alive(frames.back()), 2U) << "a new body lies on it: deformable on rigid";
   EXPECT_EQ(frames.back().body[0], 2) << "born after block and floor";
   EXPECT_FALSE(finite(frames.back().bodies[0].position)) << "the row of the block stays dead";
-  for (std::size_t i = 48; i < 80; ++i) EXPECT_LT(norm(frames.back().position[i] - frames.front().position[i]), 1e-12) << "the floor does not move";
+  for (std::size_t i = 48; i < 80; ++i)
+    EXPECT_LT(norm(frames.back().position[i] - frames.front().position[i]), 1e-12) << "the floor does not move";
 }
 
 /// Two blocks of 3 x 4 x 4 that touch, without gravity, both at a temperature for a while.
 Outcome two_blocks(double kelvin) {
   Scene s = scene();
   s.bodies = {wax("left", test::box({}, {0.03, 0.04, 0.04})), wax("right", test::box({0.03, 0, 0}, {0.06, 0.04, 0.04}))};
-  s.events = {heat("left", kelvin, 0.0, 0.02), heat("right", kelvin, 0.0, 0.02), heat("left", 300.0, 0.02, 0.04), heat("right", 300.0, 0.02, 0.04)};
+  s.events = {heat("left", kelvin, 0.0, 0.02), heat("right", kelvin, 0.0, 0.02), heat("left", 300.0, 0.02, 0.04),
+              heat("right", 300.0, 0.02, 0.04)};
   return test::run(wheel, test::prepare(s, 0.04, 4));
 }
 
@@ -126,7 +130,8 @@ TEST(LammpsPhase, SplitsABarWhoseMiddleMelts) {
   NEEDS_THE_WHEEL();
   Scene s = scene();
   s.materials[0].conductivity = 1.0;
-  s.bodies = {wax("bar", test::box({}, {0.03, 0.03, 0.03})), wax("middle", test::box({0.03, 0, 0}, {0.05, 0.03, 0.03})), wax("end", test::box({0.05, 0, 0}, {0.08, 0.03, 0.03}))};
+  s.bodies = {wax("bar", test::box({}, {0.03, 0.03, 0.03})), wax("middle", test::box({0.03, 0, 0}, {0.05, 0.03, 0.03})),
+              wax("end", test::box({0.05, 0, 0}, {0.08, 0.03, 0.03}))};
   s.bodies[1].joined_to = {"bar", "end"};
   s.events = {heat("middle", 360.0, 0.01, 0.02)};
   const Outcome out = test::run(wheel, test::prepare(s, 0.02, 2));
@@ -147,7 +152,8 @@ TEST(LammpsPhase, KeepsHeatWhileAHeldBarMelts) {
   const Outcome out = test::run(wheel, test::prepare(s, 0.5, 2));
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   const Snapshot &first = out.trajectory.frames.front(), &last = out.trajectory.frames.back();
-  const double before = first.energy.at("thermal") + first.energy.at("latent"), after = last.energy.at("thermal") + last.energy.at("latent");
+  const double before = first.energy.at("thermal") + first.energy.at("latent"),
+               after = last.energy.at("thermal") + last.energy.at("latent");
   EXPECT_NEAR(after / before, 1.0, 1e-12) << "pairs exchange what they lose; round-off";
   EXPECT_GT(count(last, Phase::liquid), count(first, Phase::liquid)) << "27 particles at 400 K melt some of those at 329 K";
   EXPECT_EQ(last.position, first.position) << "held";
@@ -166,10 +172,12 @@ TEST(LammpsPhase, SaysWhatItCannotRun) {
   };
   refused([](Scene& s) { s.materials[0].solid = "rigid"; }, "rigid_modulus");
   refused([](Scene& s) { s.materials[0].t_solid = 320.0; }, "one temperature for both");
-  refused([](Scene& s) {
-    s.events[0].region = Shape{};
-    s.events[0].region->kind = Shape::Kind::cylinder;
-  }, "boxes and spheres");
+  refused(
+      [](Scene& s) {
+        s.events[0].region = Shape{};
+        s.events[0].region->kind = Shape::Kind::cylinder;
+      },
+      "boxes and spheres");
   refused([](Scene& s) { s.events.push_back(s.events[0]), s.events[1].kind = Event::Kind::grip; }, "heating only");
   refused([](Scene& s) { s.materials[0].plastic_limit = s.materials[0].elastic_limit = 0.1; }, "yields or breaks");
 }

@@ -24,7 +24,8 @@ TEST(Lammps, FallsExactly) {
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   ASSERT_EQ(out.trajectory.frames.size(), 4U);
   for (const Snapshot& s : out.trajectory.frames)
-    EXPECT_LT(norm(s.bodies[0].position - p.job.bodies[0].properties.centre - s.time * v - (0.5 * s.time * s.time) * g), 1e-12) << "velocity Verlet; round-off";
+    EXPECT_LT(norm(s.bodies[0].position - p.job.bodies[0].properties.centre - s.time * v - (0.5 * s.time * s.time) * g), 1e-12)
+        << "velocity Verlet; round-off";
   EXPECT_LT(norm(out.result.readback.gravity - g), 1e-12) << "read from LAMMPS's forces";
 }
 
@@ -33,7 +34,8 @@ double torque_free_error(double dt) {
   const Prepared p = test::block({{}, w}, {}, 2.0, 1, dt);
   const auto& m = p.job.bodies[0].properties;
   const Outcome out = test::run(debian, p);
-  return angle_between(out.trajectory.frames.back().bodies[0].orientation, TorqueFree(m.principal_inertia, m.principal_axes, w).rotation(2.0));
+  return angle_between(out.trajectory.frames.back().bodies[0].orientation,
+                       TorqueFree(m.principal_inertia, m.principal_axes, w).rotation(2.0));
 }
 
 TEST(Lammps, TurnsAnAsymmetricBodyToSecondOrder) {
@@ -51,12 +53,14 @@ TEST(Lammps, PutsItsErrorIntoTheResult) {
   EXPECT_NE(out.result.message.find("nosuch"), std::string::npos) << out.result.message;
 }
 
-/// A dump by MPI-IO keeps its file open until LAMMPS is closed. MPI is ended as soon as a run fails: closed after that, LAMMPS would be ended by MPI.
-/// The force is 0 times infinity from the first step on.
+/// A dump by MPI-IO keeps its file open until LAMMPS is closed. MPI is ended as soon as a run fails: closed after that, LAMMPS
+/// would be ended by MPI. The force is 0 times infinity from the first step on.
 TEST(Lammps, IsLeftOpenWhereItDivergesAndMpiHasEnded) {
   const test::Folder folder;
   Prepared p = test::block({}, {}, 1.0, 1, 0.01);
-  p.job.settings["commands"] = "variable push equal 0*exp(1e6*step)\nfix push all addforce v_push 0 0\ndump open all atom/mpiio 1 " + folder.at("dump.mpiio");
+  p.job.settings["commands"] =
+      "variable push equal 0*exp(1e6*step)\nfix push all addforce v_push 0 0\ndump open all atom/mpiio 1 " +
+      folder.at("dump.mpiio");
   const Outcome out = test::run(debian, p);
   EXPECT_EQ(out.exit_code, 7) << out.log;
   EXPECT_EQ(out.result.status, "diverged");
@@ -68,7 +72,8 @@ Outcome passing(double aside) {
   Scene s;
   s.spacing = 0.1;
   s.materials = {test::material(1000.0)};
-  s.bodies = {test::rigid("left", test::box({0, 0, 0}, {0.2, 0.2, 0.2}), {{1, 0, 0}, {}}), test::rigid("right", test::box({0.6, aside, aside}, {0.8, 0.2 + aside, 0.2 + aside}))};
+  s.bodies = {test::rigid("left", test::box({0, 0, 0}, {0.2, 0.2, 0.2}), {{1, 0, 0}, {}}),
+              test::rigid("right", test::box({0.6, aside, aside}, {0.8, 0.2 + aside, 0.2 + aside}))};
   return test::run(debian, test::prepare(s, 1.0, 20));
 }
 
@@ -139,7 +144,7 @@ double layer_mean(double x, double dx, double time) {
 
 struct Fit {
   double error = 0.0, standard_error = 0.0;  ///< rms [K]
-  double chi2 = 0.0;                         ///< mean square of error over the deviation of the exact count, where that is 10 or more
+  double chi2 = 0.0;  ///< mean square of error over the deviation of the exact count, where that is 10 or more
 };
 
 Fit fit(const Outcome& out, const Prepared& p) {
@@ -149,7 +154,8 @@ Fit fit(const Outcome& out, const Prepared& p) {
   Fit f;
   double judged = 0.0;
   for (std::size_t i = 0; i < p.initial.size(); ++i) {
-    const double exact = layer_mean(s.position[i].x, p.job.scene.spacing, s.time), e = s.temperature[i] - exact, expected = (exact - 300.0) / unit;
+    const double exact = layer_mean(s.position[i].x, p.job.scene.spacing, s.time), e = s.temperature[i] - exact,
+                 expected = (exact - 300.0) / unit;
     f.error += e * e / n;
     f.standard_error += s.temperature_error[i] * s.temperature_error[i] / n;
     if (expected >= 10.0) f.chi2 += e * e / (unit * unit * expected), judged += 1.0;
@@ -221,24 +227,30 @@ double amplitude(const Outcome& out, const Prepared& p, double k) {
   const Snapshot& s = out.trajectory.frames.back();
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < p.initial.size(); ++i)
-    if (p.initial.source[i] == 0) sum += (s.temperature[i] - 300.0) * std::sin(k * s.position[i].x), squares += std::pow(std::sin(k * s.position[i].x), 2);
+    if (p.initial.source[i] == 0)
+      sum += (s.temperature[i] - 300.0) * std::sin(k * s.position[i].x), squares += std::pow(std::sin(k * s.position[i].x), 2);
   return sum / squares;
 }
 
-/// Four standard deviations of 2e5 walkers are 2.5 % of the amplitude: a diffusivity 5 % off is seen. Their mean squared displacement tells 1 %.
+/// Four standard deviations of 2e5 walkers are 2.5 % of the amplitude: a diffusivity 5 % off is seen. Their mean squared
+/// displacement tells 1 %.
 void expect_sine_between_plates(const std::string& engine, const std::string& conduction) {
-  Prepared both = between_plates(sine(pi / length), 300.0, 300.0, 10.0), low = between_plates(sine(0.5 * pi / length), 300.0, std::nullopt, 40.0);
+  Prepared both = between_plates(sine(pi / length), 300.0, 300.0, 10.0),
+           low = between_plates(sine(0.5 * pi / length), 300.0, std::nullopt, 40.0);
   TemperatureField mirrored = sine(0.5 * pi / length);
   mirrored.phase = 0.0;
   Prepared high = between_plates(mirrored, std::nullopt, 300.0, 40.0);
   for (auto* p : {&both, &low, &high}) p->job.settings["conduction"] = conduction;
-  both.job.gauges = {{"of x", "diffusivity", "", {{"axis", std::string("x")}}}, {"free", "diffusivity", "", {}}, {"other", "temperature_at", "", {}}};
+  both.job.gauges = {{"of x", "diffusivity", "", {{"axis", std::string("x")}}},
+                     {"free", "diffusivity", "", {}},
+                     {"other", "temperature_at", "", {}}};
   const Outcome a = test::run(engine, both), b = test::run(engine, low), c = test::run(engine, high);
   for (const auto* out : {&a, &b, &c}) ASSERT_EQ(out->exit_code, 0) << out->result.message;
   EXPECT_NEAR(amplitude(a, both, pi / length) / (10.0 * std::exp(-D * std::pow(pi / length, 2) * 10.0)), 1.0, 0.025);
   EXPECT_NEAR(amplitude(b, low, 0.5 * pi / length) / (10.0 * std::exp(-D * std::pow(0.5 * pi / length, 2) * 40.0)), 1.0, 0.025);
   double mean_low = 0.0, mean_high = 0.0;
-  for (std::size_t i = 0; i < low.initial.size(); ++i) mean_low += b.trajectory.frames.back().temperature[i], mean_high += c.trajectory.frames.back().temperature[i];
+  for (std::size_t i = 0; i < low.initial.size(); ++i)
+    mean_low += b.trajectory.frames.back().temperature[i], mean_high += c.trajectory.frames.back().temperature[i];
   EXPECT_NEAR(mean_low / mean_high, 1.0, 2e-4) << "mirrored: 0.06 K of 300";
   const double measured = a.result.extra.at("diffusivity"), error = a.result.extra.at("diffusivity_error");
   EXPECT_LT(error, 0.0025 * D);
@@ -273,7 +285,8 @@ TEST(LammpsWalkers, BetweenEndsOfTwoTemperaturesSignedWalkersFindTheSeries) {
       continue;
     }
     double exact = 290.0 + 20.0 * s.position[i].x / length;
-    for (int n = 2; n <= 40; n += 2) exact += 40.0 / (n * pi) * std::exp(-D * std::pow(n * pi / length, 2) * 2.0) * std::sin(n * pi * s.position[i].x / length);
+    for (int n = 2; n <= 40; n += 2)
+      exact += 40.0 / (n * pi) * std::exp(-D * std::pow(n * pi / length, 2) * 2.0) * std::sin(n * pi * s.position[i].x / length);
     squares += std::pow(s.temperature[i] - exact, 2), stated += std::pow(s.temperature_error[i], 2);
   }
   EXPECT_LT(squares, 2.5 * stated) << "20 layers: the mean of 20 squares of normal deviates lies below 1.9 in 99 of 100 cases";
@@ -316,7 +329,8 @@ TEST(LammpsSph, DecaysACosineWithinOnePercentAtTwentyAWavelength) {
   const Snapshot& end = out.trajectory.frames.back();
   double amplitude = 0.0;
   for (std::size_t i = 0; i < p.initial.size(); ++i)
-    amplitude += 2.0 / static_cast<double>(p.initial.size()) * (end.temperature[i] - 300.0) * std::cos(k * end.position[i].x + 0.7);
+    amplitude +=
+        2.0 / static_cast<double>(p.initial.size()) * (end.temperature[i] - 300.0) * std::cos(k * end.position[i].x + 0.7);
   EXPECT_NEAR(amplitude / (10.0 * std::exp(-1e-6 * k * k * 1.4)), 1.0, 0.01) << "0.55 of a decay time at a rate 1.1 % low: 0.6 %";
 }
 

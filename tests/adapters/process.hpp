@@ -11,8 +11,8 @@
 #include <string>
 
 #include "adapters/job.hpp"
-#include "io/trajectory.hpp"
 #include "adapters/scenes.hpp"
+#include "io/trajectory.hpp"
 
 /// Engines as the harness runs them: a process, a folder, an exit code.
 namespace tripoint::test {
@@ -93,7 +93,8 @@ inline Outcome run(const std::string& engine, const Prepared& p, const std::stri
   out.result = read_result(folder.at("result.json"));
   out.log = text_of(folder.at("log.lammps"));
   if (std::filesystem::exists(folder.at("trajectory.h5"))) out.trajectory = read_trajectory(folder.at("trajectory.h5"));
-  if (std::filesystem::exists(folder.at("trajectory.csv"))) out.trajectory = read_trajectory_csv(folder.at("trajectory.csv"), p.initial, p.job.bodies.size());
+  if (std::filesystem::exists(folder.at("trajectory.csv")))
+    out.trajectory = read_trajectory_csv(folder.at("trajectory.csv"), p.initial, p.job.bodies.size());
   std::vector<std::string> gauges;
   for (const JobGauge& gauge : p.job.gauges) gauges.push_back(gauge.metric);
   if (std::filesystem::exists(folder.at("gauges.csv"))) read_gauges_csv(folder.at("gauges.csv"), gauges, out.trajectory);

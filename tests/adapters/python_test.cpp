@@ -16,7 +16,8 @@ double position_error(const std::string& program) {
   const test::Prepared p = test::block({v, {}}, g, 1.0, 4, 0.01);
   double worst = 0.0;
   for (const Snapshot& s : test::run(program, p).trajectory.frames)
-    worst = std::max(worst, norm(s.bodies[0].position - p.job.bodies[0].properties.centre - s.time * v - (0.5 * s.time * s.time) * g));
+    worst = std::max(worst,
+                     norm(s.bodies[0].position - p.job.bodies[0].properties.centre - s.time * v - (0.5 * s.time * s.time) * g));
   return worst;
 }
 
@@ -25,7 +26,9 @@ TEST(PythonEngine, FollowsTheParabola) { EXPECT_LT(position_error(engine), 1e-13
 TEST(PythonEngine, WithGravityWrongByOnePercentMissesByOnePercent) {
   const test::Folder folder;
   const std::string copy = folder.at("engine-wrong");
-  ASSERT_EQ(test::shell("sed 's/^GRAVITY_FACTOR = 1.0 /GRAVITY_FACTOR = 1.01 /' '" + engine + "' > '" + copy + "' && chmod +x '" + copy + "'"), 0);
+  ASSERT_EQ(test::shell("sed 's/^GRAVITY_FACTOR = 1.0 /GRAVITY_FACTOR = 1.01 /' '" + engine + "' > '" + copy + "' && chmod +x '" +
+                        copy + "'"),
+            0);
   EXPECT_NEAR(position_error(copy), 0.01 * 0.5 * 9.81, 1e-12);
 }
 
@@ -35,7 +38,10 @@ TEST(PythonEngine, TurnsAnAsymmetricBody) {
   const auto& m = p.job.bodies[0].properties;
   const auto out = test::run(engine, p);
   ASSERT_EQ(out.exit_code, 0);
-  EXPECT_LT(angle_between(out.trajectory.frames.back().bodies[0].orientation, TorqueFree(m.principal_inertia, m.principal_axes, w).rotation(2.0)), 1e-9) << "fourth order at 1 ms";
+  EXPECT_LT(angle_between(out.trajectory.frames.back().bodies[0].orientation,
+                          TorqueFree(m.principal_inertia, m.principal_axes, w).rotation(2.0)),
+            1e-9)
+      << "fourth order at 1 ms";
 }
 
 TEST(PythonEngine, RefusesHeatAndEndsOnABrokenJobAsTheContractSays) {

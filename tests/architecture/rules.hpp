@@ -41,7 +41,8 @@ struct Offence {
 /// headers that are dear to compile in a header of ours.
 [[nodiscard]] std::vector<Offence> strayed_libraries(const Source& source);
 
-/// A file without its SPDX line in the first three lines: GPL-2.0-only in adapters/lammps and adapters/ranks, BSD-3-Clause elsewhere.
+/// A file without its SPDX line in the first three lines: GPL-2.0-only in adapters/lammps and adapters/ranks, BSD-3-Clause
+/// elsewhere.
 [[nodiscard]] std::vector<Offence> missing_licence(const Source& source);
 
 /// A file of more than 500 lines.

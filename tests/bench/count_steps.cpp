@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
     Simulation simulation(scene, sample(scene));
     run_steps(simulation, std::atol(argv[3]));
     counted_steps(simulation, std::atol(argv[4]));
-    std::printf("%zu particles, %s, %zu bytes\n", simulation.world().particles.size(), __VERSION__, plan(scene).bytes_per_particle);
+    std::printf("%zu particles, %s, %zu bytes\n", simulation.world().particles.size(), __VERSION__,
+                plan(scene).bytes_per_particle);
   } catch (const std::exception& e) {
     return std::fprintf(stderr, "count-steps: %s\n", e.what()), 1;
   }

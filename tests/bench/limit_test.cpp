@@ -13,7 +13,9 @@ namespace {
 std::vector<Vec3> shaken_lattice(int across) {
   std::vector<Vec3> x;
   unsigned state = 1;
-  const auto shake = [&] { return 0.3 * (static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0 - 0.5); };
+  const auto shake = [&] {
+    return 0.3 * (static_cast<double>((state = state * 1664525u + 1013904223u) >> 8) / 16777216.0 - 0.5);
+  };
   for (int k = 0; k < across; ++k)
     for (int j = 0; j < across; ++j)
       for (int i = 0; i < across; ++i) x.push_back({i + shake(), j + shake(), k + shake()});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whether the effects of cases ask for no column that they have not declared: each case in all its modes, until its end or until a sum of particles
-/// and steps. The solver is that of the test build, which refuses other columns.
+/// Whether the effects of cases ask for no column that they have not declared: each case in all its modes, until its end or until
+/// a sum of particles and steps. The solver is that of the test build, which refuses other columns.
 ///   declared-reads [--work PARTICLE_STEPS] CASE.toml...
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ long run(const Case& read, Mode mode, double work) {
     Simulation s(scene, initial, {.force_time_step = true});
     s.advance_to(scene.end_time, [&] { return ++made < steps; });
     static_cast<void>(s.ledger());
-  } catch (const Diverged&) {  // a case that is meant to
+  } catch (const Diverged&) {    // a case that is meant to
   } catch (const InputError&) {  // a scene that the solver does not take
   }
   return made;

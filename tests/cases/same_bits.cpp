@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whether cases have the same bits on any number of threads and at every vector width: a few steps of each, all columns, bonds, bookings
-/// and the order of rows compared with those of one thread that works a particle at a time, and on every pair.
+/// Whether cases have the same bits on any number of threads and at every vector width: a few steps of each, all columns, bonds,
+/// bookings and the order of rows compared with those of one thread that works a particle at a time, and on every pair.
 ///   same-bits [--steps MOST] [--budget PARTICLE-STEPS] CASE.toml...
 #include <fmt/format.h>
 
@@ -30,7 +30,8 @@ std::vector<Way> ways() {
 }
 
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::ranges::equal(a, b, [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
+  return std::ranges::equal(
+      a, b, [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
 }
 
 /// Name of the first array in which two states differ; "" where none does.
@@ -64,11 +65,12 @@ bool agrees(const std::string& file, Mode mode, long most, double budget) {
     std::string what = oracle.failure == other.failure ? difference(oracle.kept, other.kept) : "how it fails";
     if (what.empty() && oracle.pairs != other.pairs) what = "the number of pairs";
     if (what.empty()) continue;
-    fmt::print("{} {}: {} threads, {} lanes differ from 1 thread, 1 lane in {} after {} steps\n", reading.value.id, to_string(mode), way.threads, way.lanes, what, steps);
+    fmt::print("{} {}: {} threads, {} lanes differ from 1 thread, 1 lane in {} after {} steps\n", reading.value.id,
+               to_string(mode), way.threads, way.lanes, what, steps);
     return false;
   }
-  fmt::print("{} {}: {} particles, {} steps, {:.0f} pairs{}\n", reading.value.id, to_string(mode), initial.size(), oracle.steps, oracle.pairs,
-             oracle.failure.empty() ? "" : ", fails alike");
+  fmt::print("{} {}: {} particles, {} steps, {:.0f} pairs{}\n", reading.value.id, to_string(mode), initial.size(), oracle.steps,
+             oracle.pairs, oracle.failure.empty() ? "" : ", fails alike");
   return true;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whether cases that are cut and go on have the bits of one unbroken run: cut at the first steps, at steps in which particles melt, freeze,
-/// join, part, tear or flow in, and between; gone on with on 1, 2 and 3 threads, and from the cut of a cut.
+/// Whether cases that are cut and go on have the bits of one unbroken run: cut at the first steps, at steps in which particles
+/// melt, freeze, join, part, tear or flow in, and between; gone on with on 1, 2 and 3 threads, and from the cut of a cut.
 ///   same-restarts [--budget PARTICLE-STEPS] [--every-step N] CASE.toml...
-/// --every-step N: cut after every step from 1 to N, and after every one of N steps about the first of each kind of change; a row a state says how many
-/// cuts lie in a step that melts, freezes, changes bodies, changes bonds, lets particles flow in or meets an event.
+/// --every-step N: cut after every step from 1 to N, and after every one of N steps about the first of each kind of change; a row
+/// a state says how many cuts lie in a step that melts, freezes, changes bodies, changes bonds, lets particles flow in or meets
+/// an event.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,11 +27,12 @@ using namespace tripoint;
 
 namespace {
 
-constexpr long goes_on = 8;              ///< steps after a cut
+constexpr long goes_on = 8;             ///< steps after a cut
 constexpr std::size_t most_turns = 12;  ///< cuts at a change, of each state
 
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::ranges::equal(a, b, [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
+  return std::ranges::equal(
+      a, b, [](double x, double y) { return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y); });
 }
 
 /// Name of the first array in which two states differ; "" where none does.
@@ -77,8 +79,10 @@ void go(Simulation& s, const Scene& scene, const std::function<bool()>& go_on) {
 /// Which kinds of change the last step brought, between `before` [s] and now.
 std::array<bool, kinds.size()> changes_of(const World& world, const Scene& scene, double before) {
   const Change& change = world.change;
-  const bool meets_event = std::ranges::any_of(scene.events, [&](const Event& e) { return before < e.time && e.time <= world.time; });
-  return {!change.melted.empty(), !change.frozen.empty(), !change.bodies.empty(), !change.relisted.empty(), !change.born.empty(), meets_event};
+  const bool meets_event =
+      std::ranges::any_of(scene.events, [&](const Event& e) { return before < e.time && e.time <= world.time; });
+  return {!change.melted.empty(),   !change.frozen.empty(), !change.bodies.empty(),
+          !change.relisted.empty(), !change.born.empty(),   meets_event};
 }
 
 /// Steps of an unbroken run in which something changed, and how many it had.
@@ -151,7 +155,8 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
       const std::string what = difference(at.at(goal), after(state, at.at(cut), threads, halfway));
       ++counts.restarts;
       if (what.empty()) continue;
-      fmt::print("{}: cut after step {} and gone on with on {} threads{}, {} differs at step {}\n", name, cut, threads, halfway ? ", cut again," : "", what, goal);
+      fmt::print("{}: cut after step {} and gone on with on {} threads{}, {} differs at step {}\n", name, cut, threads,
+                 halfway ? ", cut again," : "", what, goal);
       return false;
     }
   }
@@ -175,7 +180,8 @@ bool agrees(const std::string& file, Mode mode, double budget, Counts& counts) {
   const std::string name = fmt::format("{} {}", reading.value.id, to_string(mode));
   State state{scene_for(reading.value, choice), {}};
   state.initial = sample(state.scene);
-  const auto most = static_cast<long>(std::clamp(budget / static_cast<double>(std::max<std::size_t>(1, state.initial.size())), 20.0, 5000.0));
+  const auto most =
+      static_cast<long>(std::clamp(budget / static_cast<double>(std::max<std::size_t>(1, state.initial.size())), 20.0, 5000.0));
   try {
     return agrees(name, state, most, counts);
   } catch (const InputError& e) {  // a scene that the solver does not take
@@ -212,6 +218,7 @@ int main(int argc, char** argv) {
     return fmt::print(stderr, "same-restarts: {}\n", e.what()), 2;
   }
   for (std::size_t k = 0; k < kinds.size() && counts.every_step > 0; ++k) fmt::print("{} cuts: {}\n", kinds[k], counts.of[k]);
-  fmt::print("{} states, {} cuts, {} of them at a change, {} restarts\n", counts.states, counts.cuts, counts.turns, counts.restarts);
+  fmt::print("{} states, {} cuts, {} of them at a change, {} restarts\n", counts.states, counts.cuts, counts.turns,
+             counts.restarts);
   return all && counts.states > 0 ? 0 : 1;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Prints one hash a case and mode, of the whole state after some steps: of all columns, bonds, bookings and the order of rows. Two builds, two
-/// processors and two numbers of lanes must print the same text.
+/// Prints one hash a case and mode, of the whole state after some steps: of all columns, bonds, bookings and the order of rows.
+/// Two builds, two processors and two numbers of lanes must print the same text.
 ///   state-hashes [--steps N] [--lanes N] [--threads N] [--traps] CASE.toml...
 /// --traps: what is not a number, infinite or divided by zero ends the program by SIGFPE.
 #include <fmt/format.h>
@@ -41,8 +41,10 @@ std::uint64_t hash_of(const State& state) {
     for (const auto& [name, values] : arrays) {
       hash.add(name);
       for (const auto& value : values) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) hash.add(value);
-        else hash.add_bits(value);
+        if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
+          hash.add(value);
+        else
+          hash.add_bits(value);
       }
     }
   };

@@ -11,7 +11,9 @@ int main(int argc, char** argv) {
   for (std::size_t f = 0; f < a.frames.size() && f < b.frames.size(); ++f) {
     FramesHash x, y;
     x.add(a.frames[f]), y.add(b.frames[f]);
-    if (x.text() == y.text() && a.frames[f].bodies.size() == b.frames[f].bodies.size() && a.frames[f].energy.size() == b.frames[f].energy.size()) continue;
+    if (x.text() == y.text() && a.frames[f].bodies.size() == b.frames[f].bodies.size() &&
+        a.frames[f].energy.size() == b.frames[f].energy.size())
+      continue;
     std::printf("frame %zu differs\n", f);
     return 1;
   }

@@ -117,7 +117,8 @@ double energy_in_bending(int across, double bending) {
   body.place(PureBending{curvature, 0.3, middle, middle});
   double energy = 0.0;
   for (std::uint32_t id = 0; id < body.size(); ++id)
-    if (std::abs(body.world().particles.position(body.world().particles.row(id)).x - 4.0 * dx) < 0.1 * dx) energy += solid::deformation_energy(body.world(), id).total();
+    if (std::abs(body.world().particles.position(body.world().particles.row(id)).x - 4.0 * dx) < 0.1 * dx)
+      energy += solid::deformation_energy(body.world(), id).total();
   const double inertia = std::pow(across * dx, 4) / 12.0;
   return energy / (0.5 * curvature * curvature * inertia * dx);  // of one layer, E = 1
 }

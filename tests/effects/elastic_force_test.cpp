@@ -74,7 +74,8 @@ TEST(ElasticForce, WithoutHourglassIsTheGradientToo) {
 }
 
 TEST(ElasticForce, ReachesAsFarAsTheSceneSays) {
-  for (const auto& [reach, within] : {std::pair{1.2, 6U}, {1.6, 18U}, {2.12, 32U}, {2.5, 80U}}) {  // vectors of the cubic lattice that are shorter
+  for (const auto& [reach, within] :
+       {std::pair{1.2, 6U}, {1.6, 18U}, {2.12, 32U}, {2.5, 80U}}) {  // vectors of the cubic lattice that are shorter
     lab::Lab lab = block({7, 7, 7}, Mode::corrected, 0.0);
     lab.scene.values["bond_reach"] = reach;
     const Simulation simulation(lab.scene, lab.initial, {.threads = 1});
@@ -136,7 +137,8 @@ TEST(ElasticForce, AcrossTheSeamOfAPeriodicBoxIsThatOfTheSameBarElsewhere) {
 
 TEST(ElasticForce, OnTheMembersOfARigidBodyIsWhatTheirElasticPartnersGive) {
   lab::Lab lab = block({4, 4, 4});
-  lab.add({.name = "clamp", .corner = {-2.0 * dx, 0.0, 0.0}, .count = {2, 4, 4}, .phase = Phase::elastic, .motion = Motion::fixed});
+  lab.add(
+      {.name = "clamp", .corner = {-2.0 * dx, 0.0, 0.0}, .count = {2, 4, 4}, .phase = Phase::elastic, .motion = Motion::fixed});
   lab.scene.bodies[0].joined_to = {"clamp"};
   lab::Deformable body(lab);
   body.place(bent);

@@ -51,7 +51,8 @@ lab::Deformable made(const std::vector<Vec3>& points, Mode mode = Mode::correcte
 TEST(ElasticStrain, IsNothingUnderAnyRigidMotionAndSoAreForceAndHourglass) {
   for (const Layout& layout : layouts()) {
     lab::Deformable body = made(layout.points);
-    for (const Vec3 angle : {Vec3{0.1, 0.0, 0.0}, Vec3{0.0, std::numbers::pi / 2.0, 0.0}, Vec3{1.0, -2.0, 0.5}, Vec3{0.0, 0.0, std::numbers::pi}}) {
+    for (const Vec3 angle :
+         {Vec3{0.1, 0.0, 0.0}, Vec3{0.0, std::numbers::pi / 2.0, 0.0}, Vec3{1.0, -2.0, 0.5}, Vec3{0.0, 0.0, std::numbers::pi}}) {
       const Quaternion q = from_rotation_vector(angle);
       body.place([&](const Vec3& r) { return rotate(q, r) + Vec3{0.3, -0.2, 0.5}; });
       // Places are rounded to 1e-16 of 1 m: 1e-15 of a bond, over some 30 bonds of the list.
@@ -72,7 +73,11 @@ TEST(ElasticStrain, OfAHomogeneousDeformationIsItselfInEverySolid) {
       const Symmetric off = body.strain(id) - expected;
       EXPECT_LT(std::sqrt(contraction(off, off)), 1e-12);  // the patch test: corners, faces and inside alike
     }
-    EXPECT_LT(body.energy() / (0.5 * 125 * dx * dx * dx * contraction(expected, solid::stress(expected, {1, 1, 1, 0, 0, 0}, 3, solid::elastic_constants(1.0, 0.3)))) - 1.0, 1e-12);
+    EXPECT_LT(body.energy() / (0.5 * 125 * dx * dx * dx *
+                               contraction(expected,
+                                           solid::stress(expected, {1, 1, 1, 0, 0, 0}, 3, solid::elastic_constants(1.0, 0.3)))) -
+                  1.0,
+              1e-12);
   }
 }
 
@@ -96,7 +101,7 @@ TEST(ElasticStrain, OfAStretchedChainOrSheetIsThatOfItsOwnDirectionsAlone) {
     }
   }
   const double v = dx * dx * dx;
-  EXPECT_NEAR(chain.energy(), 9 * 0.5 * v * green * green, 1e-12 * v);  // E eps^2/2: a chain has no sides to hold
+  EXPECT_NEAR(chain.energy(), 9 * 0.5 * v * green * green, 1e-12 * v);                  // E eps^2/2: a chain has no sides to hold
   EXPECT_NEAR(sheet.energy(), 36 * 0.5 * v * green * green / (1.0 - 0.09), 1e-12 * v);  // held in y, free across: E/(1 - nu^2)
 }
 

@@ -52,7 +52,10 @@ std::map<std::string, std::set<std::string>> owners() {
     if (entry.path().extension() != ".toml" || entry.path().parent_path().filename() == "materials") continue;
     const Case value = read_case(entry.path().string()).value;
     for (const Mode mode : value.modes)
-      for (const PlannedField& field : plan(scene_for(value, {.mode = mode, .spacing = {}, .time_step = {}, .support_ratio = {}, .jitter = {}, .seed = {}})).fields) found[field.name].insert(field.owner);
+      for (const PlannedField& field :
+           plan(scene_for(value, {.mode = mode, .spacing = {}, .time_step = {}, .support_ratio = {}, .jitter = {}, .seed = {}}))
+               .fields)
+        found[field.name].insert(field.owner);
   }
   return found;
 }
@@ -69,7 +72,8 @@ Dictionary catalogue() {
       const std::string name = (*field)[1];
       const auto [group, component] = split(name);
       const auto owner = owned_by.find(name);
-      const Entry entry{component == "1" && (type == "Vec3" || type == "Quaternion") ? type : component, (*field)[4].matched ? (*field)[4].str() : "particle", (*field)[2],
+      const Entry entry{component == "1" && (type == "Vec3" || type == "Quaternion") ? type : component,
+                        (*field)[4].matched ? (*field)[4].str() : "particle", (*field)[2],
                         owner == owned_by.end() ? "nobody" : joined(owner->second)};
       const auto [at, first] = all.try_emplace(group, entry);
       if (first) continue;
@@ -112,11 +116,13 @@ TEST(FieldDictionary, SaysOfEveryFieldWhatTheCatalogueAndTheEffectsSay) {
   ASSERT_GT(code.size(), 50U);
   for (const auto& [name, entry] : code) {
     const auto row = page.find(name);
-    const std::string right = "| `" + name + "` | " + entry.components + " | " + entry.per + " | SYMBOL | " + entry.unit + " | " + entry.owners + " | MEANING |";
+    const std::string right = "| `" + name + "` | " + entry.components + " | " + entry.per + " | SYMBOL | " + entry.unit + " | " +
+                              entry.owners + " | MEANING |";
     EXPECT_TRUE(row != page.end() && row->second == entry) << "docs/model.md, chapter 13, should have the row\n" << right;
     EXPECT_NE(entry.owners, "nobody") << "no effect of any case owns " << name << ": delete it";
   }
-  for (const auto& [name, entry] : page) EXPECT_TRUE(code.contains(name)) << "docs/model.md, chapter 13, has the row " << name << ", which is no field: delete it";
+  for (const auto& [name, entry] : page)
+    EXPECT_TRUE(code.contains(name)) << "docs/model.md, chapter 13, has the row " << name << ", which is no field: delete it";
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ double poiseuille_error(int across) {
   constexpr double nu = 0.1;
   lab::Lab lab = channel(across, nu, "laplacian");
   const double dx = lab.scene.spacing;
-  lab.add({.name = "lid", .corner = {0.0, 0.0, 1.0 + 0.5 * dx}, .count = {4, 4, 3}, .phase = Phase::rigid, .motion = Motion::fixed});
+  lab.add(
+      {.name = "lid", .corner = {0.0, 0.0, 1.0 + 0.5 * dx}, .count = {4, 4, 3}, .phase = Phase::rigid, .motion = Motion::fixed});
   lab.scene.gravity = {8.0 * nu, 0.0, 0.0};
   const auto exact = [](double z) { return 4.0 * z * (1.0 - z); };
   lab::jitter(lab, 0.1);
@@ -56,7 +57,12 @@ TEST(Poiseuille, FlowBetweenPlatesIsParabolicWithinTwoPercentAtTwentyAcross) { E
 TEST(Couette, FlowUnderASlidingLidIsLinear) {
   lab::Lab lab = channel(10, 0.1, "laplacian");
   const double dx = lab.scene.spacing;
-  lab.add({.name = "lid", .corner = {0.0, 0.0, 1.0 + 0.5 * dx}, .count = {4, 4, 3}, .phase = Phase::rigid, .motion = Motion::prescribed, .velocity = {1.0, 0.0, 0.0}});
+  lab.add({.name = "lid",
+           .corner = {0.0, 0.0, 1.0 + 0.5 * dx},
+           .count = {4, 4, 3},
+           .phase = Phase::rigid,
+           .motion = Motion::prescribed,
+           .velocity = {1.0, 0.0, 0.0}});
   Simulation s = lab.run(25.0);
   const double error = profile_error(lab, s, [](double z) { return z; });
   EXPECT_LT(error, 0.03);
@@ -74,7 +80,9 @@ double taylor_green_error(int n, bool transport) {
   lab.add({.name = "water", .corner = {0.5 * dx, 0.5 * dx, 0.0}, .count = {n, n, thick}, .phase = Phase::liquid});
   lab.make_periodic({true, true, true}, {0.5 * dx, 0.5 * dx, 0.0}, {n, n, thick});
   lab::jitter(lab, 0.4);  // an undisturbed lattice breaks up on the way, and takes a third of the motion with it
-  const auto exact = [&](const Vec3& r) { return Vec3{-std::cos(wave * r.x) * std::sin(wave * r.y), std::sin(wave * r.x) * std::cos(wave * r.y), 0.0}; };
+  const auto exact = [&](const Vec3& r) {
+    return Vec3{-std::cos(wave * r.x) * std::sin(wave * r.y), std::sin(wave * r.x) * std::cos(wave * r.y), 0.0};
+  };
   lab::set_velocity(lab, exact);
   Simulation s = lab.run(time);
   const double decay = std::exp(-2.0 * wave * wave * nu * time);

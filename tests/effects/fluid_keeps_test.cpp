@@ -20,7 +20,12 @@ lab::Lab two_liquids(double light, Mode mode) {
   lab::Lab lab = lab::liquid_lab(0.1, 1000.0, 5.0, 100.0, mode);
   const std::size_t oil = lab::add_material_like(lab, light, 1.0);
   lab.add({.name = "water", .corner = {0.0, 0.0, 0.0}, .count = {6, 6, 3}, .phase = Phase::liquid});
-  lab.add({.name = "oil", .material = oil, .corner = {0.02, 0.01, 0.28}, .count = {6, 6, 3}, .phase = Phase::liquid, .velocity = {0.1, 0.2, -1.0}});
+  lab.add({.name = "oil",
+           .material = oil,
+           .corner = {0.02, 0.01, 0.28},
+           .count = {6, 6, 3},
+           .phase = Phase::liquid,
+           .velocity = {0.1, 0.2, -1.0}});
   lab::jitter(lab, 0.1);
   return lab;
 }
@@ -40,7 +45,9 @@ TEST_P(TwoLiquids, KeepMomentumToRoundOffAtAnyDensityRatio) {
   EXPECT_GT(s.steps(), 10);
   EXPECT_LT(norm(s.ledger().momentum - before), 1e-13 * motion_of(s));
 }
-INSTANTIATE_TEST_SUITE_P(Drops, TwoLiquids, testing::Values(Drop{200.0, Mode::corrected}, Drop{1.0, Mode::corrected}, Drop{200.0, Mode::paper}, Drop{1.0, Mode::paper}));
+INSTANTIATE_TEST_SUITE_P(Drops, TwoLiquids,
+                         testing::Values(Drop{200.0, Mode::corrected}, Drop{1.0, Mode::corrected}, Drop{200.0, Mode::paper},
+                                         Drop{1.0, Mode::paper}));
 
 /// A free ball of liquid, radius 5 spacings = 0.5 m, in rigid rotation about an axis that is none of the lattice's.
 lab::Lab turning_ball(Mode mode, const char* form) {
@@ -107,7 +114,8 @@ TEST(Threads, LeaveTheBitsOfLiquidBodiesAndHeatAlone) {
   for (const int threads : {2, 3}) {
     const Simulation more = lab.run(0.1, threads);
     EXPECT_EQ(one.steps(), more.steps());
-    for (const Field<double>* f : {&field::position_x, &field::velocity_z, &field::pressure, &field::temperature, &field::viscous_force_x})
+    for (const Field<double>* f :
+         {&field::position_x, &field::velocity_z, &field::pressure, &field::temperature, &field::viscous_force_x})
       EXPECT_EQ(lab::by_id(one, *f), lab::by_id(more, *f)) << f->name << " with " << threads;
     EXPECT_EQ(one.ledger().energy, more.ledger().energy);
   }

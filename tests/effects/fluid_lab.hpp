@@ -34,7 +34,11 @@ inline Lab column(int depth, int width, double viscosity, double stiffness, doub
   lab.scene.gravity = {0.0, 0.0, -gravity};
   lab.scene.viscosity_form = "laplacian";
   lab.add({.name = "water", .corner = {0.0, 0.0, 0.5 * dx}, .count = {width, width, depth}, .phase = Phase::liquid});
-  lab.add({.name = "floor", .corner = {0.0, 0.0, -2.5 * dx}, .count = {width, width, 3}, .phase = Phase::rigid, .motion = Motion::fixed});
+  lab.add({.name = "floor",
+           .corner = {0.0, 0.0, -2.5 * dx},
+           .count = {width, width, 3},
+           .phase = Phase::rigid,
+           .motion = Motion::fixed});
   lab.make_periodic({true, true, false}, {0.0, 0.0, -5.5 * dx}, {width, width, 3 * depth});
   return lab;
 }
@@ -60,12 +64,15 @@ inline std::vector<Vec3> positions_by_id(const Simulation& s) {
   for (std::size_t id = 0; id < p.size(); ++id) values[id] = s.world().unwrapped(p.row(id));
   return values;
 }
-inline std::vector<Vec3> vectors_by_id(const Simulation& s, const Field<double>& x, const Field<double>& y, const Field<double>& z) {
+inline std::vector<Vec3> vectors_by_id(const Simulation& s, const Field<double>& x, const Field<double>& y,
+                                       const Field<double>& z) {
   const Particles& p = s.world().particles;
   std::vector<Vec3> values(p.size());
   for (std::size_t id = 0; id < p.size(); ++id) values[id] = p.vector(p.row(id), x, y, z);
   return values;
 }
-inline std::vector<Vec3> velocities_by_id(const Simulation& s) { return vectors_by_id(s, field::velocity_x, field::velocity_y, field::velocity_z); }
+inline std::vector<Vec3> velocities_by_id(const Simulation& s) {
+  return vectors_by_id(s, field::velocity_x, field::velocity_y, field::velocity_z);
+}
 
 }  // namespace tripoint::lab

@@ -39,11 +39,10 @@ double hydrostatic_error(int depth, double time, double disturbed = 0.05, double
 
 TEST(Hydrostatics, PressureIsThatOfTheWeightAboveWithinTenPercentAtTenDeep) { EXPECT_LT(hydrostatic_error(10, 2.0), 0.10); }
 
-TEST(Hydrostatics, PressureErrorFallsWithTheSpacingAtFirstOrder) {
-  EXPECT_LT(hydrostatic_error(20, 2.0), 0.04);
-}
+TEST(Hydrostatics, PressureErrorFallsWithTheSpacingAtFirstOrder) { EXPECT_LT(hydrostatic_error(20, 2.0), 0.04); }
 
-/// Without it the layers alternate by half a layer's weight, 0.05 rho g H at 10 deep. What is left is the fall of the surface, g H/(2 k) = 0.005 H, of which the truth knows nothing.
+/// Without it the layers alternate by half a layer's weight, 0.05 rho g H at 10 deep. What is left is the fall of the surface, g
+/// H/(2 k) = 0.005 H, of which the truth knows nothing.
 TEST(Hydrostatics, OnALatticeHasNoPatternOfLayersWhereTheTopmostBearsHalfOfItsWeight) {
   EXPECT_LT(hydrostatic_error(10, 2.0, 0.0), 0.01);
   EXPECT_GT(hydrostatic_error(10, 2.0, 0.0, 0.0), 0.04);
@@ -55,9 +54,12 @@ TEST(FreeSurface, HasTheEnergyWhoseSlopeIsItsPressure) {
   const double mass = 1.5, rest_volume = mass / e.rest_density;
   for (double s = 0.405; s < 1.2; s += 0.01) {
     const double step = 1e-6, volume = std::min(rest_volume, rest_volume / s);
-    const double slope = (compression_energy(e, mass, (s + step) * e.rest_density) - compression_energy(e, mass, (s - step) * e.rest_density)) / (2.0 * step / rest_volume);
+    const double slope =
+        (compression_energy(e, mass, (s + step) * e.rest_density) - compression_energy(e, mass, (s - step) * e.rest_density)) /
+        (2.0 * step / rest_volume);
     const double expected = e.work * pressure_corrected(e, s * e.rest_density) * volume * volume;
-    EXPECT_NEAR(slope, expected, 1e-5 * e.work * e.surface * rest_volume * rest_volume + 1e-7 * expected) << s;  // a corner of p is rounded by 5e-6
+    EXPECT_NEAR(slope, expected, 1e-5 * e.work * e.surface * rest_volume * rest_volume + 1e-7 * expected)
+        << s;  // a corner of p is rounded by 5e-6
   }
   EXPECT_EQ(compression_energy(e, mass, e.rest_density), 0.0);
 }
@@ -85,7 +87,8 @@ TEST(FreeSurface, IsPressedByTheGradientOfTheEnergyThatTheLedgerHolds) {
       const double step = 1e-5 * lab.scene.spacing;
       lab::Lab ahead = lab, behind = lab;
       ahead.initial.position[id][axis] += step, behind.initial.position[id][axis] -= step;
-      EXPECT_NEAR(F.at(p.row(id))[axis], -(compression(ahead) - compression(behind)) / (2.0 * step), 1e-4 * norm(F.at(p.row(id)))) << "particle " << id << ", axis " << axis;  // round-off of energies over a step of 1e-5
+      EXPECT_NEAR(F.at(p.row(id))[axis], -(compression(ahead) - compression(behind)) / (2.0 * step), 1e-4 * norm(F.at(p.row(id))))
+          << "particle " << id << ", axis " << axis;  // round-off of energies over a step of 1e-5
     }
   }
   EXPECT_GT(looked_at, 5);
@@ -169,7 +172,8 @@ Squeezed squeezed(double ratio) {
 TEST(Pressure, IsTheForceOnAnAreaOfALattice) {
   constexpr double ratio = 0.999, step = 1e-5;
   const Squeezed less = squeezed(ratio + step), more = squeezed(ratio - step);
-  EXPECT_NEAR((more.energy - less.energy) / (less.volume - more.volume) / squeezed(ratio).pressure, 1.0, 2e-3);  // the moment changes with the spacing
+  EXPECT_NEAR((more.energy - less.energy) / (less.volume - more.volume) / squeezed(ratio).pressure, 1.0,
+              2e-3);  // the moment changes with the spacing
 }
 
 TEST(Sound, OfThePrintedEquationsHasHalfTheStiffness) {
@@ -191,7 +195,8 @@ Interface interface_of(Mode mode) {
   lab.scene.gravity = {0.0, 0.0, -g};
   lab.scene.viscosity_form = "laplacian";
   lab.add({.name = "water", .corner = {0.0, 0.0, 0.5 * dx}, .count = {4, 4, layers}, .phase = Phase::liquid});
-  lab.add({.name = "oil", .material = oil, .corner = {0.0, 0.0, 1.0 + 0.5 * dx}, .count = {4, 4, layers}, .phase = Phase::liquid});
+  lab.add(
+      {.name = "oil", .material = oil, .corner = {0.0, 0.0, 1.0 + 0.5 * dx}, .count = {4, 4, layers}, .phase = Phase::liquid});
   lab.add({.name = "floor", .corner = {0.0, 0.0, -2.5 * dx}, .count = {4, 4, 3}, .phase = Phase::rigid, .motion = Motion::fixed});
   lab.make_periodic({true, true, false}, {0.0, 0.0, -5.5 * dx}, {4, 4, 5 * layers});
   lab::jitter(lab, 0.02);

@@ -95,7 +95,8 @@ std::vector<Symmetric> elastic_strains(const World& w) {
   return list;
 }
 
-/// Without this a bar that has flowed would see its plastic strain as elastic strain of the other sign, and gain energy by tearing.
+/// Without this a bar that has flowed would see its plastic strain as elastic strain of the other sign, and gain energy by
+/// tearing.
 TEST(Fracture, LeavesTheStressOfWhatHasFlowedAsItWas) {
   lab::Lab lab = bar_pulled_apart();
   lab.scene.materials[0].elastic_limit = 0.01;

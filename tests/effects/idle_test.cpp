@@ -13,7 +13,9 @@
 namespace tripoint {
 namespace {
 
-bool lists(const Plan& p, std::string_view field) { return std::ranges::find(p.fields, field, &PlannedField::name) != p.fields.end(); }
+bool lists(const Plan& p, std::string_view field) {
+  return std::ranges::find(p.fields, field, &PlannedField::name) != p.fields.end();
+}
 
 std::string why_without(const Plan& p, std::string_view effect) {
   const auto at = std::ranges::find(p.idle, effect, &PlannedEffect::name);
@@ -29,8 +31,18 @@ lab::Lab splash(Mode mode) {
   const auto warm = [](const Vec3&) { return 300.0; };
   lab.add_material(2500.0, 1.0, 800.0);
   lab.scene.materials[1].stiffness = 100.0;
-  lab.add({.name = "water", .corner = {0.0, 0.0, 0.05}, .count = {5, 5, 6}, .phase = Phase::liquid, .velocity = {0.1, 0.0, -0.5}, .temperature = warm});
-  lab.add({.name = "floor", .material = 1, .corner = {-0.1, -0.1, -0.1}, .count = {9, 9, 3}, .motion = Motion::fixed, .temperature = warm});
+  lab.add({.name = "water",
+           .corner = {0.0, 0.0, 0.05},
+           .count = {5, 5, 6},
+           .phase = Phase::liquid,
+           .velocity = {0.1, 0.0, -0.5},
+           .temperature = warm});
+  lab.add({.name = "floor",
+           .material = 1,
+           .corner = {-0.1, -0.1, -0.1},
+           .count = {9, 9, 3},
+           .motion = Motion::fixed,
+           .temperature = warm});
   for (Body& b : lab.scene.bodies) b.temperature->value = 300.0;
   lab.scene.time_step = 1e-3;
   return lab;
@@ -49,7 +61,8 @@ lab::Lab with_event(lab::Lab lab, double time, double temperature) {
 }
 
 void expect_same_motion(const Simulation& a, const Simulation& b) {
-  for (const auto* f : {&field::position_x, &field::position_y, &field::position_z, &field::velocity_x, &field::velocity_y, &field::velocity_z, &field::density, &field::pressure})
+  for (const auto* f : {&field::position_x, &field::position_y, &field::position_z, &field::velocity_x, &field::velocity_y,
+                        &field::velocity_z, &field::density, &field::pressure})
     EXPECT_EQ(lab::by_id(a, *f), lab::by_id(b, *f)) << f->name;
 }
 
@@ -62,7 +75,8 @@ TEST(OnlyWhatIsCalledFor, EqualTemperaturesCostNoColumnAndNoPairTermAndChangeNot
     EXPECT_GT(plan(armed.scene).bytes_per_particle, plan(equal.scene).bytes_per_particle);
     const Simulation without = equal.run(0.05), with = armed.run(0.05);
     EXPECT_FALSE(without.world().particles.has(field::temperature));
-    for (const double T : lab::by_id(with, field::temperature)) EXPECT_NEAR(T, 300.0, 300.0 * 4e-15) << "one rounding of H = m c_p T and back, and of each step";
+    for (const double T : lab::by_id(with, field::temperature))
+      EXPECT_NEAR(T, 300.0, 300.0 * 4e-15) << "one rounding of H = m c_p T and back, and of each step";
     expect_same_motion(without, with);
     const double thermal = with.ledger().energy.at("thermal");
     EXPECT_NEAR(without.ledger().energy.at("thermal"), thermal, 1e-12 * thermal);
@@ -97,9 +111,11 @@ TEST(OnlyWhatIsCalledFor, OneOtherTemperatureOfBodyInflowOrEventMakesThemUnequal
 }
 
 TEST(OnlyWhatIsCalledFor, WhatStaysWarmerThanItFreezesHasNoPhaseCheckAndWhatIsCooledLaterHas) {
-  const lab::Lab warm = with_event(splash(Mode::corrected), 100.0, 251.0), cooled = with_event(splash(Mode::corrected), 100.0, 240.0);
+  const lab::Lab warm = with_event(splash(Mode::corrected), 100.0, 251.0),
+                 cooled = with_event(splash(Mode::corrected), 100.0, 240.0);
   EXPECT_FALSE(lists(plan(warm.scene), "liquid_fraction"));
-  EXPECT_NE(why_without(plan(warm.scene), "phase").find("251 to 300 K"), std::string::npos) << why_without(plan(warm.scene), "phase");
+  EXPECT_NE(why_without(plan(warm.scene), "phase").find("251 to 300 K"), std::string::npos)
+      << why_without(plan(warm.scene), "phase");
   EXPECT_TRUE(lists(plan(cooled.scene), "liquid_fraction"));
   EXPECT_EQ(why_without(plan(cooled.scene), "phase"), "");
 }
@@ -132,8 +148,10 @@ TEST(UnbrokenProof, NeverHoldsWhereABondIsBeyondItsLimitAndMostlyHoldsWhereNoneI
   EXPECT_FALSE(unbroken.holds(world));
   int held = 0, looked = 0, steps = 0;
   for (; least_room() > 0.0 && steps < 100'000; ++steps) {
-    if (unbroken.holds(world)) ++held;
-    else ++looked, unbroken.set(world, least_room());
+    if (unbroken.holds(world))
+      ++held;
+    else
+      ++looked, unbroken.set(world, least_room());
     for (std::size_t i = 0; i < n; ++i) x.set(i, x.at(i) + Vec3{0.3, 0.0, 0.0} + Vec3{kick(random), kick(random), kick(random)});
   }
   EXPECT_LT(steps, 100'000) << "a bond must have broken";

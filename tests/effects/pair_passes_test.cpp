@@ -23,7 +23,8 @@ std::vector<int> widths_of_this_machine() {
 /// Every pass at every choice of forms, by name.
 std::vector<std::pair<std::string, PassFunction>> all_passes(int lanes) {
   const PairPasses p = pair_passes(lanes);
-  std::vector<std::pair<std::string, PassFunction>> list{{"wall_extrapolation", p.wall_extrapolation}, {"transport", p.transport}};
+  std::vector<std::pair<std::string, PassFunction>> list{{"wall_extrapolation", p.wall_extrapolation},
+                                                         {"transport", p.transport}};
   for (int a = 0; a <= 2; ++a)
     for (int b = 0; b <= 1; ++b) list.emplace_back("density " + std::to_string(a) + std::to_string(b), p.density({a, b}));
   for (int a = 1; a <= 3; ++a) list.emplace_back("spread " + std::to_string(a), p.spread({a}));
@@ -42,7 +43,7 @@ Particles mixture(const std::set<std::string_view>& names, const std::vector<Fie
     if constexpr (std::is_same_v<typename decltype(values)::value_type, double>) {
       if (!names.count(info.name)) return;
       for (double& v : values) {
-        v = info.name == field::group.name                                        ? std::floor(5.0 * uniform(random)) - 2.0
+        v = info.name == field::group.name                                     ? std::floor(5.0 * uniform(random)) - 2.0
             : info.name == field::solid.name || info.name == field::stick.name ? std::floor(2.0 * uniform(random))
                                                                                : 0.5 + uniform(random);
       }

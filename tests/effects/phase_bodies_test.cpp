@@ -6,7 +6,8 @@
 namespace tripoint {
 namespace {
 
-constexpr double hot = 400.0, cold = 300.0;  // far on either side of t_melt = t_solid = 350 K; without latent heat it melts at once
+constexpr double hot = 400.0,
+                 cold = 300.0;  // far on either side of t_melt = t_solid = 350 K; without latent heat it melts at once
 
 /// With liquids from the start, which press on each other, if next to nothing.
 lab::Lab wet_lab() {
@@ -28,7 +29,11 @@ void expect_kept(const Ledger& a, const Ledger& b, double size_P, double size_L)
 lab::Lab cut_bar() {
   lab::Lab lab = lab::melting_lab(0.1);
   lab.scene.time_step = 1e-3;
-  lab.add({.name = "bar", .corner = {-0.4, -0.1, -0.1}, .count = {9, 3, 3}, .velocity = {0.3, -0.2, 0.1}, .angular_velocity = {0.5, 1.0, 2.0},
+  lab.add({.name = "bar",
+           .corner = {-0.4, -0.1, -0.1},
+           .count = {9, 3, 3},
+           .velocity = {0.3, -0.2, 0.1},
+           .angular_velocity = {0.5, 1.0, 2.0},
            .temperature = [](const Vec3& r) { return std::abs(r.x) < 0.01 ? hot : cold; }});
   lab.scene.bodies[0].temperature->value = hot;  // what the scene is asked by
   return lab;
@@ -59,8 +64,10 @@ TEST(Splitting, LetsPiecesLeaveAsTheyMoved) {
   s.advance_to(2e-3);
   ASSERT_EQ(lab::living_bodies(s), 2u);
   const Columns& t = s.world().bodies;
-  // Each piece turns as the whole did, and its centre moves with v + omega x r of the whole: no force acts, v and omega stay within dt^2.
-  for (const std::size_t b : {0u, 1u}) EXPECT_NEAR(norm(t[field::body_angular_velocity][b] - t[field::body_angular_velocity][0]), 0.0, 1e-12);
+  // Each piece turns as the whole did, and its centre moves with v + omega x r of the whole: no force acts, v and omega stay
+  // within dt^2.
+  for (const std::size_t b : {0u, 1u})
+    EXPECT_NEAR(norm(t[field::body_angular_velocity][b] - t[field::body_angular_velocity][0]), 0.0, 1e-12);
   const std::vector<Vec3> parted = lab::speeds(s);
   for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_NEAR(norm(parted[i] - whole[i]), 0.0, 4e-3);  // omega^2 r dt = 2.6e-3 m/s
 }
@@ -70,7 +77,9 @@ TEST(Splitting, DownToNearlyStraightPiecesAndSingleParticlesKeepsEverything) {
   lab.scene.time_step = 1e-3;
   std::vector<Vec3> points;
   for (int k = 0; k < 9; ++k) points.push_back({0.1 * k, k % 2 ? 1e-3 : 0.0, k % 3 ? 0.0 : 5e-4});
-  lab.add_points({.name = "line", .velocity = {0.0, 1.0, 0.0}, .angular_velocity = {30.0, 0.5, 1.0}, .temperature = constant(cold)}, points, 0.1);
+  lab.add_points(
+      {.name = "line", .velocity = {0.0, 1.0, 0.0}, .angular_velocity = {30.0, 0.5, 1.0}, .temperature = constant(cold)}, points,
+      0.1);
   lab.scene.bodies[0].temperature->value = hot;
   for (const std::size_t melts : {1u, 4u}) lab.initial.temperature[melts] = hot;  // pieces of 1, 2 and 4 particles
   const Simulation start(lab.scene, lab.initial);
@@ -101,9 +110,24 @@ TEST(Splitting, LeavesWhatNeverMeltsTogether) {
 lab::Lab two_blocks_and_a_drop() {
   lab::Lab lab = wet_lab();
   lab.scene.time_step = 1e-4;
-  lab.add({.name = "left", .corner = {-0.3, -0.1, -0.1}, .count = {3, 3, 3}, .velocity = {0.1, 0.2, 0.0}, .angular_velocity = {1.0, 0.0, 2.0}, .temperature = constant(cold)});
-  lab.add({.name = "right", .corner = {0.1, -0.1, 0.0}, .count = {2, 3, 4}, .velocity = {-0.1, 0.0, 0.3}, .angular_velocity = {0.0, -1.0, 0.5}, .temperature = constant(cold)});
-  lab.add({.name = "drop", .corner = {0.0, 0.0, 0.05}, .count = {1, 1, 1}, .phase = Phase::liquid, .velocity = {0.0, 0.0, -0.5}, .temperature = constant(cold)});
+  lab.add({.name = "left",
+           .corner = {-0.3, -0.1, -0.1},
+           .count = {3, 3, 3},
+           .velocity = {0.1, 0.2, 0.0},
+           .angular_velocity = {1.0, 0.0, 2.0},
+           .temperature = constant(cold)});
+  lab.add({.name = "right",
+           .corner = {0.1, -0.1, 0.0},
+           .count = {2, 3, 4},
+           .velocity = {-0.1, 0.0, 0.3},
+           .angular_velocity = {0.0, -1.0, 0.5},
+           .temperature = constant(cold)});
+  lab.add({.name = "drop",
+           .corner = {0.0, 0.0, 0.05},
+           .count = {1, 1, 1},
+           .phase = Phase::liquid,
+           .velocity = {0.0, 0.0, -0.5},
+           .temperature = constant(cold)});
   lab.scene.bodies[0].temperature->value = hot;
   return lab;
 }
@@ -127,8 +151,18 @@ TEST(Merging, OfTwoBodiesByOneFreezingParticleKeepsWhatIsKept) {
 TEST(Merging, DoesNotDependOnTheOrderOfParticlesOrOnThreads) {
   lab::Lab lab = two_blocks_and_a_drop();
   // two more that freeze in the same step, one on the first drop and one on the right block
-  lab.add({.name = "second", .corner = {0.0, 0.1, 0.05}, .count = {1, 1, 1}, .phase = Phase::liquid, .velocity = {0.2, 0.0, 0.0}, .temperature = constant(cold)});
-  lab.add({.name = "third", .corner = {0.3, 0.0, 0.15}, .count = {1, 1, 1}, .phase = Phase::liquid, .velocity = {0.2, 0.1, 0.0}, .temperature = constant(cold)});
+  lab.add({.name = "second",
+           .corner = {0.0, 0.1, 0.05},
+           .count = {1, 1, 1},
+           .phase = Phase::liquid,
+           .velocity = {0.2, 0.0, 0.0},
+           .temperature = constant(cold)});
+  lab.add({.name = "third",
+           .corner = {0.3, 0.0, 0.15},
+           .count = {1, 1, 1},
+           .phase = Phase::liquid,
+           .velocity = {0.2, 0.1, 0.0},
+           .temperature = constant(cold)});
   lab.initial.temperature[3] = hot;
   const Simulation s = lab.run(2e-3), threaded = lab.run(2e-3, 2);
   const std::vector<Vec3> x = lab::places(s), y = lab::places(threaded);
@@ -155,7 +189,8 @@ TEST(Merging, JoinsOnlyThroughWhatFreezes) {
   lab.scene.time_step = 1e-3;
   lab.add({.name = "left", .corner = {-0.3, 0.0, 0.0}, .count = {3, 3, 3}, .temperature = constant(cold)});
   lab.add({.name = "right", .corner = {0.0, 0.0, 0.0}, .count = {3, 3, 3}, .temperature = constant(cold)});  // they touch
-  lab.add({.name = "far drop", .corner = {2.0, 0.0, 0.0}, .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(cold)});
+  lab.add(
+      {.name = "far drop", .corner = {2.0, 0.0, 0.0}, .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(cold)});
   lab.scene.bodies[0].temperature->value = hot;
   const Simulation s = lab.run(0.01);
   EXPECT_EQ(lab::living_bodies(s), 3u);  // the drop is a body of one
@@ -188,7 +223,8 @@ TEST(Merging, NeedsMatterThatMeltsOrABodyThatJoins) {
     lab.scene.time_step = 1e-3;
     lab.add_material(1000.0, 1e-12, 1000.0);
     lab.add({.name = "steel", .material = 1, .count = {3, 3, 1}, .temperature = constant(cold)});
-    lab.add({.name = "drop", .corner = {0.1, 0.1, 0.1}, .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(cold)});
+    lab.add(
+        {.name = "drop", .corner = {0.1, 0.1, 0.1}, .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(cold)});
     lab.scene.bodies[0].joins = joins;
     const Simulation s = lab.run(0.01);
     EXPECT_EQ(lab::living_bodies(s), joins ? 1u : 2u);
@@ -199,8 +235,17 @@ TEST(Merging, WithADrivenBodyTakesItsMotionAndHeatsByTheRelativeSpeed) {
   for (const Motion motion : {Motion::fixed, Motion::prescribed}) {
     lab::Lab lab = wet_lab();
     lab.scene.time_step = 1e-3;
-    lab.add({.name = "floor", .count = {3, 3, 1}, .motion = motion, .velocity = {motion == Motion::fixed ? 0.0 : 1.0, 0.0, 0.0}, .temperature = constant(cold)});
-    lab.add({.name = "drop", .corner = {0.1, 0.1, 0.1}, .count = {1, 1, 1}, .phase = Phase::liquid, .velocity = {0.0, 3.0, 0.0}, .temperature = constant(cold)});
+    lab.add({.name = "floor",
+             .count = {3, 3, 1},
+             .motion = motion,
+             .velocity = {motion == Motion::fixed ? 0.0 : 1.0, 0.0, 0.0},
+             .temperature = constant(cold)});
+    lab.add({.name = "drop",
+             .corner = {0.1, 0.1, 0.1},
+             .count = {1, 1, 1},
+             .phase = Phase::liquid,
+             .velocity = {0.0, 3.0, 0.0},
+             .temperature = constant(cold)});
     lab.scene.bodies[0].temperature->value = hot;
     const Simulation start(lab.scene, lab.initial), s = lab.run(0.01);
     EXPECT_EQ(lab::living_bodies(s), 1u);
@@ -215,8 +260,9 @@ TEST(Merging, WithADrivenBodyTakesItsMotionAndHeatsByTheRelativeSpeed) {
 TEST(Merging, OfALineBodyHandsOnTheSpinThatItCouldNotTurnWith) {
   lab::Lab lab = wet_lab();
   lab.scene.time_step = 1e-4;
-  lab.add_points({.name = "line", .velocity = {0.1, 0.0, 0.0}, .angular_velocity = {20.0, 0.0, 0.0}, .temperature = constant(cold)},
-                 {{-0.3, 1e-3, 0.0}, {-0.2, -1e-3, 0.0}, {-0.1, 1e-3, 0.0}}, 1.0);
+  lab.add_points(
+      {.name = "line", .velocity = {0.1, 0.0, 0.0}, .angular_velocity = {20.0, 0.0, 0.0}, .temperature = constant(cold)},
+      {{-0.3, 1e-3, 0.0}, {-0.2, -1e-3, 0.0}, {-0.1, 1e-3, 0.0}}, 1.0);
   lab.add({.name = "block", .corner = {0.1, -0.1, -0.1}, .count = {3, 3, 3}, .temperature = constant(cold)});
   lab.add({.name = "drop", .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(cold)});
   lab.scene.bodies[0].temperature->value = hot;
@@ -233,7 +279,8 @@ TEST(Phase, GoesOnFromACheckpointBitForBit) {
     lab.scene.materials[0].conductivity = 5e3;
     lab.scene.materials[0].stiffness = 100.0;
     lab.scene.materials[0].latent_heat = 2e4;
-    lab.add({.name = "drop", .corner = {0.0, 0.3, 0.0}, .count = {2, 2, 2}, .phase = Phase::liquid, .temperature = constant(cold)});
+    lab.add(
+        {.name = "drop", .corner = {0.0, 0.3, 0.0}, .count = {2, 2, 2}, .phase = Phase::liquid, .temperature = constant(cold)});
     Simulation whole(lab.scene, lab.initial), first(lab.scene, lab.initial);
     whole.advance_to(cut), whole.advance_to(1e-2);
     first.advance_to(cut);

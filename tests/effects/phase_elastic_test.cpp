@@ -82,7 +82,8 @@ TEST(Freezing, BesideATurnedAndStretchedSolidMakesNothingJump) {
 }
 
 TEST(Freezing, BesideTurnedChainsAndSheetsMakesNothingJump) {
-  for (const auto& [count, drop] : {std::pair{std::array{6, 1, 1}, Vec3{0.6, 0.0, 0.0}}, std::pair{std::array{5, 5, 1}, Vec3{0.5, 0.2, 0.0}}}) {
+  for (const auto& [count, drop] :
+       {std::pair{std::array{6, 1, 1}, Vec3{0.6, 0.0, 0.0}}, std::pair{std::array{5, 5, 1}, Vec3{0.5, 0.2, 0.0}}}) {
     World block = block_and_drop(count, drop);
     turn_and_stretch(block, 0.0);
     EXPECT_NEAR(jump(block), 0.0, 1e-12 * young * dx * dx * dx);
@@ -95,8 +96,17 @@ TEST(Freezing, OfElasticMatterBesideATurnedRigidBodyMakesNothingJump) {
   lab.scene.materials.push_back(lab.scene.materials[0]);
   lab.scene.materials[1].name = "rigid wax", lab.scene.materials[1].solid = "rigid";
   lab.scene.time_step = 2e-4;
-  lab.add({.name = "rigid", .material = 1, .corner = {-0.1, -0.1, -0.1}, .count = {3, 3, 3}, .angular_velocity = {5.0, 0.0, 5.0}, .temperature = constant(cold)});
-  lab.add({.name = "drops", .corner = {-0.1, -0.1, 0.25}, .count = {3, 3, 2}, .phase = Phase::liquid, .temperature = constant(345.0)});
+  lab.add({.name = "rigid",
+           .material = 1,
+           .corner = {-0.1, -0.1, -0.1},
+           .count = {3, 3, 3},
+           .angular_velocity = {5.0, 0.0, 5.0},
+           .temperature = constant(cold)});
+  lab.add({.name = "drops",
+           .corner = {-0.1, -0.1, 0.25},
+           .count = {3, 3, 2},
+           .phase = Phase::liquid,
+           .temperature = constant(345.0)});
   Event cool = heat(0.2, 300.0);
   lab.scene.events = {cool};
   Simulation s(lab.scene, lab.initial);
@@ -116,7 +126,8 @@ lab::Lab swinging_bar(double latent_heat = 2e4) {
   lab.scene.time_step = 5e-4;
   lab.add({.name = "bar", .count = {8, 3, 3}, .phase = Phase::elastic, .temperature = constant(cold)});
   lab.scene.bodies[0].temperature->value = hot;
-  for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i] = {2.0 * (lab.initial.position[i].x - 0.35), 0.0, 0.0};
+  for (std::size_t i = 0; i < lab.initial.size(); ++i)
+    lab.initial.velocity[i] = {2.0 * (lab.initial.position[i].x - 0.35), 0.0, 0.0};
   return lab;
 }
 
@@ -200,8 +211,10 @@ TEST(Softening, TakesStiffnessWithTheLiquidFractionAndClosesTheLedger) {
     lab::Lab lab = swinging_bar();
     Material& m = lab.scene.materials[0];
     m.t_solid = 320.0, m.t_melt = 360.0;
-    if (printed) lab.scene.modes[static_cast<std::size_t>(Term::phase)] = Mode::paper;
-    else m.softens = true;
+    if (printed)
+      lab.scene.modes[static_cast<std::size_t>(Term::phase)] = Mode::paper;
+    else
+      m.softens = true;
     // printed: held half way through the band; else heat for a quarter of the fusion, 20 K worth of L
     lab.scene.events = {heat(0.03, 340.0)};
     lab.initial.temperature.assign(lab.initial.size(), printed ? 300.0 : 365.0);
@@ -246,7 +259,8 @@ TEST(PrintedHeat, ALiquidThatIsSetToATemperatureTakesHeatAndNoFusion) {
   EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(before), 1.0, 1e-12);
 }
 
-/// Two rigid particles 0.1 m apart that spin by 2 rad/s, of a material of 1e5 Pa that is elastic between 320 and 360 K, at these temperatures.
+/// Two rigid particles 0.1 m apart that spin by 2 rad/s, of a material of 1e5 Pa that is elastic between 320 and 360 K, at these
+/// temperatures.
 Simulation spinning_pair(double first, double second, bool softens = true) {
   lab::Lab lab = lab::melting_lab(0.1, {.t_melt = 360.0, .t_solid = 320.0, .conductivity = 1e-12});
   lab.scene.modes[static_cast<std::size_t>(Term::phase)] = Mode::paper;
@@ -254,7 +268,8 @@ Simulation spinning_pair(double first, double second, bool softens = true) {
   Material& m = lab.scene.materials[0];
   m.young_modulus = 1e5, m.poisson_ratio = 0.3, m.softens = softens;
   const auto temperature = [=](const Vec3& r) { return r.x < 0.05 ? first : second; };
-  lab.add_points({.name = "pair", .phase = Phase::rigid, .angular_velocity = {0.0, 0.0, 2.0}, .temperature = temperature}, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}}, 1.0);
+  lab.add_points({.name = "pair", .phase = Phase::rigid, .angular_velocity = {0.0, 0.0, 2.0}, .temperature = temperature},
+                 {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}}, 1.0);
   TemperatureField& field = *lab.scene.bodies[0].temperature;
   field.kind = TemperatureField::Kind::step, field.behind = first, field.ahead = second;
   lab.scene.time_step = 1e-6;
@@ -269,7 +284,8 @@ TEST(PrintedStage, ARigidMaterialThatSoftensIsElasticBetweenItsTwoTemperatures) 
   EXPECT_EQ(kinds(spinning_pair(330.0, 319.0)), (std::vector{elastic, rigid}));
   EXPECT_EQ(kinds(spinning_pair(330.0, 350.0)), (std::vector{elastic, elastic}));
   EXPECT_EQ(kinds(spinning_pair(361.0, 350.0)), (std::vector{liquid, elastic}));
-  EXPECT_EQ(kinds(spinning_pair(330.0, 350.0, false)), (std::vector{rigid, rigid}));  // what does not soften is rigid up to t_melt
+  EXPECT_EQ(kinds(spinning_pair(330.0, 350.0, false)),
+            (std::vector{rigid, rigid}));  // what does not soften is rigid up to t_melt
 }
 
 TEST(PrintedStage, WhatTurnsKeepsItsBondsItsMotionAndItsShareOfTheModulus) {

@@ -117,8 +117,16 @@ lab::Lab melting_bar(Mode mode = Mode::corrected) {
   lab.set_mode(mode);
   lab.scene.support_ratio = 2.6;
   lab.add_material(1000.0, 1000.0, 1000.0);
-  lab.add({.name = "bar", .corner = {}, .count = {12, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 348.0; }});
-  lab.add({.name = "hot", .material = 1, .corner = {-0.3, 0.0, 0.0}, .count = {3, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 380.0; }, .temperature_held = true});
+  lab.add({.name = "bar", .corner = {}, .count = {12, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) {
+             return 348.0;
+           }});
+  lab.add({.name = "hot",
+           .material = 1,
+           .corner = {-0.3, 0.0, 0.0},
+           .count = {3, 3, 3},
+           .motion = Motion::fixed,
+           .temperature = [](const Vec3&) { return 380.0; },
+           .temperature_held = true});
   lab.scene.bodies[0].temperature->value = 380.0;  // what the scene is asked by
   lab.make_periodic({false, true, true}, {-0.3, 0.0, 0.0}, {15, 3, 3});
   return lab;
@@ -157,9 +165,10 @@ TEST(Melting, OfUnlikePhasesConductsByThePhaseAndLosesNoHeat) {
   Simulation s(lab.scene, lab.initial);
   const double start = lab::total_energy(s.ledger());
   for (int n = 1; n <= 20; ++n) s.advance_to(5.0 * n);
-  const auto f = lab::by_id(s, field::liquid_fraction), k = lab::by_id(s, field::conductivity), T = lab::by_id(s, field::temperature), H = lab::by_id(s, field::enthalpy);
+  const auto f = lab::by_id(s, field::liquid_fraction), k = lab::by_id(s, field::conductivity),
+             T = lab::by_id(s, field::temperature), H = lab::by_id(s, field::enthalpy);
   double between = 0.0, melted = 0.0;
-  for (std::size_t i = 0; i < 108; ++i) {  // the bar, 1 kg a particle
+  for (std::size_t i = 0; i < 108; ++i) {           // the bar, 1 kg a particle
     EXPECT_EQ(k[i], f[i] > 0.0 ? 1000.0 : 3000.0);  // what melts conducts as the liquid that it becomes
     EXPECT_NEAR(H[i], (1.0 - f[i]) * 500.0 * T[i] + f[i] * (500.0 * 350.0 + 2e4 + 1000.0 * (T[i] - 350.0)), 1e-9 * H[i]);
     between += f[i] > 0.0 && f[i] < 1.0 ? 1.0 : 0.0, melted += f[i];
@@ -184,9 +193,21 @@ TEST(Heat, OfWhatHoldsABodyIsCountedBodyByBody) {
   for (const Mode mode : {Mode::corrected, Mode::paper}) {
     lab::Lab lab(0.1, mode);
     lab.make_periodic({false, true, true}, {-0.3, 0.0, 0.0}, {12, 3, 3});
-    lab.add({.name = "hot", .corner = {-0.3, 0.0, 0.0}, .count = {3, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 380.0; }, .temperature_held = true});
-    lab.add({.name = "bar", .corner = {}, .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 340.0; }});
-    lab.add({.name = "cold", .corner = {0.6, 0.0, 0.0}, .count = {3, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 300.0; }, .temperature_held = true});
+    lab.add({.name = "hot",
+             .corner = {-0.3, 0.0, 0.0},
+             .count = {3, 3, 3},
+             .motion = Motion::fixed,
+             .temperature = [](const Vec3&) { return 380.0; },
+             .temperature_held = true});
+    lab.add({.name = "bar", .corner = {}, .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) {
+               return 340.0;
+             }});
+    lab.add({.name = "cold",
+             .corner = {0.6, 0.0, 0.0},
+             .count = {3, 3, 3},
+             .motion = Motion::fixed,
+             .temperature = [](const Vec3&) { return 300.0; },
+             .temperature_held = true});
     lab.scene.bodies[0].temperature->value = 380.0;
     Simulation s(lab.scene, lab.initial);
     const double start = s.ledger().energy.at("thermal");
@@ -203,11 +224,20 @@ TEST(Heat, OfWhatHoldsABodyIsCountedBodyByBody) {
 TEST(Melting, GoesBackOverTheHysteresisAndClosesTheLedger) {
   lab::Lab lab = lab::melting_lab(0.1, {.t_melt = 350.0, .t_solid = 340.0, .latent_heat = 2e4, .conductivity = 1000.0});
   lab.scene.end_time = 400.0;
-  lab.add({.name = "bar", .corner = {}, .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 330.0; }});
+  lab.add({.name = "bar", .corner = {}, .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) {
+             return 330.0;
+           }});
   lab.add_material(1000.0, 1000.0, 1000.0);
-  lab.add({.name = "plate", .material = 1, .corner = {-0.3, 0.0, 0.0}, .count = {3, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 330.0; }, .temperature_held = true});
+  lab.add({.name = "plate",
+           .material = 1,
+           .corner = {-0.3, 0.0, 0.0},
+           .count = {3, 3, 3},
+           .motion = Motion::fixed,
+           .temperature = [](const Vec3&) { return 330.0; },
+           .temperature_held = true});
   lab.make_periodic({false, true, true}, {-0.3, 0.0, 0.0}, {9, 3, 3});
-  for (const auto& [time, T] : {std::pair{0.0, 400.0}, std::pair{600.0, 345.0}, std::pair{1200.0, 300.0}, std::pair{1800.0, 345.0}}) {
+  for (const auto& [time, T] :
+       {std::pair{0.0, 400.0}, std::pair{600.0, 345.0}, std::pair{1200.0, 300.0}, std::pair{1800.0, 345.0}}) {
     Event e;
     e.kind = Event::Kind::heat;
     e.time = time;

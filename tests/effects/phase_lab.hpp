@@ -37,12 +37,14 @@ inline std::vector<int> integers_by_id(const Simulation& s, const Field<int>& f)
 }
 inline std::vector<Vec3> places(const Simulation& s) {
   std::vector<Vec3> values;
-  for (std::size_t id = 0; id < s.world().particles.size(); ++id) values.push_back(s.world().unwrapped(s.world().particles.row(id)));
+  for (std::size_t id = 0; id < s.world().particles.size(); ++id)
+    values.push_back(s.world().unwrapped(s.world().particles.row(id)));
   return values;
 }
 inline std::vector<Vec3> speeds(const Simulation& s) {
   std::vector<Vec3> values;
-  for (std::size_t id = 0; id < s.world().particles.size(); ++id) values.push_back(s.world().particles.velocity(s.world().particles.row(id)));
+  for (std::size_t id = 0; id < s.world().particles.size(); ++id)
+    values.push_back(s.world().particles.velocity(s.world().particles.row(id)));
   return values;
 }
 inline std::size_t living_bodies(const Simulation& s) {

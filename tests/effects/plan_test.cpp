@@ -36,8 +36,10 @@ TEST(Plan, OfASceneWithoutDeformableSolidsHasNoneOfTheirColumnsAndNoBonds) {
   lab.scene.materials[0].stiffness = 100.0;
   lab.add({.name = "pool", .corner = {1.0, 0.0, 0.0}, .count = {4, 4, 4}, .phase = Phase::liquid});
   const Plan p = plan(lab.scene);
-  for (const char* f : {"elastic_force.x", "shape_rank", "strain.xx", "own_density", "plastic_strain.xx", "liquid_fraction"}) EXPECT_FALSE(lists(p, f)) << f;
-  for (const PlannedEffect& e : p.effects) EXPECT_TRUE(e.name != "elastic" && e.name != "plastic" && e.name != "fracture" && e.name != "phase") << e.name;
+  for (const char* f : {"elastic_force.x", "shape_rank", "strain.xx", "own_density", "plastic_strain.xx", "liquid_fraction"})
+    EXPECT_FALSE(lists(p, f)) << f;
+  for (const PlannedEffect& e : p.effects)
+    EXPECT_TRUE(e.name != "elastic" && e.name != "plastic" && e.name != "fracture" && e.name != "phase") << e.name;
   const Simulation s = lab.run(0.01);
   EXPECT_EQ(s.world().bonds.particles(), 0u);
   EXPECT_EQ(s.world().own.particles(), 0u);

@@ -61,7 +61,8 @@ TEST(PlasticFlow, NeverGivesEnergyAndBooksWhatTheStoredEnergyLoses) {
     const Symmetric strain = random_strain(engine, 0.1), next = flowed(strain, plastic, limits), flow = next - plastic;
     const double lost = dissipated(stress_of(strain - next), flow);
     EXPECT_GE(lost, 0.0);
-    EXPECT_NEAR(lost + material().mu * contraction(flow, flow), stored(strain - plastic) - stored(strain - next), 1e-12 * stored(strain - plastic));
+    EXPECT_NEAR(lost + material().mu * contraction(flow, flow), stored(strain - plastic) - stored(strain - next),
+                1e-12 * stored(strain - plastic));
     plastic = next;
   }
 }

@@ -28,7 +28,8 @@ lab::Lab yielding_bar() {
   lab.scene.time_step = 5e-4;
   lab.add({.name = "bar", .count = {8, 3, 3}, .phase = Phase::elastic, .temperature = [](const Vec3&) { return cold; }});
   lab.scene.bodies[0].temperature->value = hot;
-  for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i] = {4.0 * (lab.initial.position[i].x - 0.35), 0.0, 0.0};
+  for (std::size_t i = 0; i < lab.initial.size(); ++i)
+    lab.initial.velocity[i] = {4.0 * (lab.initial.position[i].x - 0.35), 0.0, 0.0};
   return lab;
 }
 

@@ -54,7 +54,8 @@ TEST(Inflow, SetsTheStepOfSoundWhereItIsLighterThanEveryBody) {
   const double denser = jet().scene.materials[0].density;
   EXPECT_EQ(bound(0.1 * denser).name, "sound");
   EXPECT_NEAR(bound(denser).dt / bound(0.1 * denser).dt, std::sqrt(10.0), 1e-6);
-  EXPECT_NEAR(bound(denser).dt / bound(10.0 * denser).dt, std::sqrt(10.0), 1e-6);  // the heavy liquid has the stated speed of sound, the light one more
+  EXPECT_NEAR(bound(denser).dt / bound(10.0 * denser).dt, std::sqrt(10.0),
+              1e-6);  // the heavy liquid has the stated speed of sound, the light one more
 }
 
 TEST(Inflow, IsALatticeWhereItEnters) {
@@ -111,7 +112,9 @@ TEST(Grip, CarriesARigidBodyAsItsKeyframesSayAndLetsItFlyOn) {
   lab.scene.events.push_back(grip);
   const auto centre_at = [&](double t) { return lab.run(t).world().bodies[field::body_centre][0]; };
   const Vec3 start{0.11, 0.01, 0.01};
-  const auto turned = [&](double a) { return Vec3{start.x * std::cos(a) - start.y * std::sin(a), start.x * std::sin(a) + start.y * std::cos(a), start.z}; };
+  const auto turned = [&](double a) {
+    return Vec3{start.x * std::cos(a) - start.y * std::sin(a), start.x * std::sin(a) + start.y * std::cos(a), start.z};
+  };
   EXPECT_LT(norm(centre_at(0.2) - start), 1e-12);
   EXPECT_LT(norm(centre_at(0.4) - (turned(0.25) + Vec3{0.0, 0.0, 0.1})), 1e-12);
   const Vec3 end = turned(angle) + Vec3{0.0, 0.0, 0.2};
@@ -135,9 +138,9 @@ TEST(Hold, StopsALiquidWhereItIsAndLetsItGo) {
     return sum;
   };
   const double held = height(0.1);
-  EXPECT_NEAR(held, 0.01 - 0.05, 1e-9);             // falls freely for 0.1 s
-  EXPECT_EQ(height(0.3), held);                     // not a bit
-  EXPECT_NEAR(height(0.4), held - 0.05, 1e-9);      // and falls again from rest
+  EXPECT_NEAR(held, 0.01 - 0.05, 1e-9);         // falls freely for 0.1 s
+  EXPECT_EQ(height(0.3), held);                 // not a bit
+  EXPECT_NEAR(height(0.4), held - 0.05, 1e-9);  // and falls again from rest
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The printed equations on two, three and four particles, with numbers worked out on paper. The support radius is 2 m and neighbours are 1 m apart:
-// poly6 is 315/(512 pi) at 0, 8505/(32768 pi) at 1 and 2520/(32768 pi) at sqrt 2; spiky' is -45/(64 pi) at 1; the viscosity kernel's Laplacian 45/(64 pi).
+// The printed equations on two, three and four particles, with numbers worked out on paper. The support radius is 2 m and
+// neighbours are 1 m apart: poly6 is 315/(512 pi) at 0, 8505/(32768 pi) at 1 and 2520/(32768 pi) at sqrt 2; spiky' is -45/(64 pi)
+// at 1; the viscosity kernel's Laplacian 45/(64 pi).
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -39,12 +40,12 @@ TEST(PrintedNumbers, TwoParticlesHaveTheDensityPressureAndForcesOfPaper) {
   lab::Lab lab = printed({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
   lab.initial.velocity[1] = {0.0, 4.0, 0.0};
   lab.scene.time_step = 1e-9;
-  const Simulation s = lab.run(1e-9);  // nothing has moved yet, and viscosity has its first velocities
-  const double rho = mass * (at_0 + at_1);         // (4), 0.5569
-  const double p = k * (rho - 2.0);                // (9), -144.3: no clamp
-  const double V = mass / rho;                     // 3.591
-  const double pull = -V * V * p * slope;          // (7), 416.56 N: negative pressure pulls
-  const double drag = V * V * mu * 4.0 * slope;    // (8), 34.64 N
+  const Simulation s = lab.run(1e-9);            // nothing has moved yet, and viscosity has its first velocities
+  const double rho = mass * (at_0 + at_1);       // (4), 0.5569
+  const double p = k * (rho - 2.0);              // (9), -144.3: no clamp
+  const double V = mass / rho;                   // 3.591
+  const double pull = -V * V * p * slope;        // (7), 416.56 N: negative pressure pulls
+  const double drag = V * V * mu * 4.0 * slope;  // (8), 34.64 N
   EXPECT_NEAR(rho, 0.55691, 1e-5);
   EXPECT_NEAR(p, -144.309, 1e-3);
   EXPECT_NEAR(pull, 416.556, 1e-3);
@@ -99,7 +100,8 @@ TEST(PrintedNumbers, HeatFlowsByTheConstantOfTheMaterialAndByTheOneOfTheScene) {
   }
 }
 
-/// A liquid particle of 3 Pa s at the origin, which moves by 4 m/s across, and a held solid one of solid_viscosity 12 Pa s beside it, at this temperature.
+/// A liquid particle of 3 Pa s at the origin, which moves by 4 m/s across, and a held solid one of solid_viscosity 12 Pa s beside
+/// it, at this temperature.
 double drag_at_solid(double temperature, double contact_viscosity) {
   lab::Lab lab = printed({});
   lab.scene.contact_viscosity = contact_viscosity;
@@ -110,7 +112,8 @@ double drag_at_solid(double temperature, double contact_viscosity) {
   if (contact_viscosity == 0.0) solid.values["solid_viscosity"] = 12.0;
   const auto at = [=](const Vec3&) { return temperature; };
   lab.add_points({.name = "drop", .phase = Phase::liquid, .temperature = at}, {{0.0, 0.0, 0.0}}, mass);
-  lab.add_points({.name = "wall", .material = 1, .phase = Phase::elastic, .motion = Motion::fixed, .temperature = at}, {{1.0, 0.0, 0.0}}, mass);
+  lab.add_points({.name = "wall", .material = 1, .phase = Phase::elastic, .motion = Motion::fixed, .temperature = at},
+                 {{1.0, 0.0, 0.0}}, mass);
   for (Body& body : lab.scene.bodies) body.temperature->value = temperature;
   lab.initial.velocity[0] = {0.0, 4.0, 0.0};
   lab.scene.materials[0].conductivity = 1e-12, solid.conductivity = 1e-12;
@@ -119,17 +122,20 @@ double drag_at_solid(double temperature, double contact_viscosity) {
 }
 
 TEST(PrintedNumbers, ASolidsOwnViscosityActsAndGoesLinearlyToThatOfTheLiquid) {
-  // V = 2/0.55691 = 3.5912 m3; V^2 (mu_i + mu_j)/2 4 m/s 45/(64 pi) = 34.6385 N at a mean of 3 Pa s, so 11.5462 N for each Pa s of it.
+  // V = 2/0.55691 = 3.5912 m3; V^2 (mu_i + mu_j)/2 4 m/s 45/(64 pi) = 34.6385 N at a mean of 3 Pa s, so 11.5462 N for each Pa s
+  // of it.
   constexpr double per_mean = 11.54617;
   EXPECT_NEAR(drag_at_solid(300.0, 0.0), 7.5 * per_mean, 1e-3);   // (3 + 12)/2
   EXPECT_NEAR(drag_at_solid(330.0, 0.0), 6.75 * per_mean, 1e-3);  // a quarter of the way from 12 to 6 is 10.5: (3 + 10.5)/2
   EXPECT_NEAR(drag_at_solid(340.0, 0.0), 6.0 * per_mean, 1e-3);   // half way: (3 + 9)/2
-  EXPECT_NEAR(drag_at_solid(340.0, 5.0), 4.0 * per_mean, 1e-3);   // without the key: the scene's contact viscosity, at any temperature
+  EXPECT_NEAR(drag_at_solid(340.0, 5.0), 4.0 * per_mean,
+              1e-3);  // without the key: the scene's contact viscosity, at any temperature
 }
 
 TEST(PrintedNumbers, AForceTurnsABodyOfFourByItsLever) {
   lab::Lab lab = printed({});
-  lab.add_points({.name = "frame", .phase = Phase::rigid, .angular_velocity = {0.0, 0.0, 0.5}}, {{1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}}, mass);
+  lab.add_points({.name = "frame", .phase = Phase::rigid, .angular_velocity = {0.0, 0.0, 0.5}},
+                 {{1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}}, mass);
   lab.scene.time_step = 0.01;
   const Simulation s = lab.run(0.01);
   // I_z = 4 m r^2 = 8 kg m2, so L = 4 kg m2/s; the body turns by omega dt = 0.005 rad (19), (20).

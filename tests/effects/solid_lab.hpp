@@ -32,11 +32,15 @@ inline void jitter_all(Lab& lab, double amplitude, const Vec3& along = {1.0, 1.0
 /// The solids of a scene, put where a test wants them: strain, forces and energy as the solver finds them there.
 class Deformable {
  public:
-  explicit Deformable(const Lab& lab, int threads = 1) : world_(Simulation(lab.scene, lab.initial, {.threads = threads}).world()), effect_(elastic::make(lab.scene)), start_(lab.initial.position) {
+  explicit Deformable(const Lab& lab, int threads = 1)
+      : world_(Simulation(lab.scene, lab.initial, {.threads = threads}).world()),
+        effect_(elastic::make(lab.scene)),
+        start_(lab.initial.position) {
     place([](const Vec3& r) { return r; });
   }
   /// The solids of a run of this scene, as they are now.
-  Deformable(const Lab& lab, const Simulation& now) : world_(now.world()), effect_(elastic::make(lab.scene)), start_(lab.initial.position) {
+  Deformable(const Lab& lab, const Simulation& now)
+      : world_(now.world()), effect_(elastic::make(lab.scene)), start_(lab.initial.position) {
     place([](const Vec3& r) { return r; });
   }
   /// Each particle at to(its place at the start).
@@ -51,11 +55,13 @@ class Deformable {
     update();
   }
   [[nodiscard]] Vec3 force(std::size_t id) const {
-    return world_.particles.vector(world_.particles.row(id), field::elastic_force_x, field::elastic_force_y, field::elastic_force_z);
+    return world_.particles.vector(world_.particles.row(id), field::elastic_force_x, field::elastic_force_y,
+                                   field::elastic_force_z);
   }
   [[nodiscard]] double energy() const {
     double sum = 0.0;
-    for (std::size_t id = 0; id < start_.size(); ++id) sum += solid::deformation_energy(world_, static_cast<std::uint32_t>(id)).total();
+    for (std::size_t id = 0; id < start_.size(); ++id)
+      sum += solid::deformation_energy(world_, static_cast<std::uint32_t>(id)).total();
     return sum;
   }
   /// Greatest Frobenius norm of the strains.
@@ -75,7 +81,8 @@ class Deformable {
   [[nodiscard]] Symmetric strain(std::size_t id) const {
     const Particles& p = world_.particles;
     const std::size_t i = p.row(id);
-    return {p[field::strain_xx][i], p[field::strain_yy][i], p[field::strain_zz][i], p[field::strain_yz][i], p[field::strain_xz][i], p[field::strain_xy][i]};
+    return {p[field::strain_xx][i], p[field::strain_yy][i], p[field::strain_zz][i],
+            p[field::strain_yz][i], p[field::strain_xz][i], p[field::strain_xy][i]};
   }
   [[nodiscard]] std::size_t size() const { return start_.size(); }
   [[nodiscard]] World& world() { return world_; }

@@ -39,7 +39,8 @@ void expect_gradient(const lab::Lab& lab) {
       lab::Lab ahead = lab, behind = lab;
       ahead.initial.position[id][axis] += step, behind.initial.position[id][axis] -= step;
       const double slope = (compression(ahead) - compression(behind)) / (2.0 * step);
-      EXPECT_NEAR(F.at(p.row(id))[axis], -slope, 1e-5 * norm(F.at(p.row(id)))) << "particle " << id << ", axis " << axis;  // round-off of energies over a step of 1e-5
+      EXPECT_NEAR(F.at(p.row(id))[axis], -slope, 1e-5 * norm(F.at(p.row(id))))
+          << "particle " << id << ", axis " << axis;  // round-off of energies over a step of 1e-5
     }
   }
   EXPECT_GT(looked_at, 5);
@@ -65,10 +66,12 @@ TEST(Walls, HaveTheMeanDensityOfTheirFaceAndTheRestDensityBehindIt) {
     least_own = std::min(least_own, own(id)), most_own = std::max(most_own, own(id));
   }
   EXPECT_GT(least, 1.0) << "the liquid is pressed on the floor";
-  EXPECT_LT(most - least, 0.5 * (most_own - least_own)) << "the mean of 9 particles whose scatter is independent would have a third";
+  EXPECT_LT(most - least, 0.5 * (most_own - least_own))
+      << "the mean of 9 particles whose scatter is independent would have a third";
 }
 
-/// Jitter moves the layers behind a face, which press on nothing, nearer to it and farther from it. Fixed walls of a jittered scene read their lattice.
+/// Jitter moves the layers behind a face, which press on nothing, nearer to it and farther from it. Fixed walls of a jittered
+/// scene read their lattice.
 TEST(Walls, OfAJitteredSceneDoNotLookAtWhereTheJitterPutTheLayersBehindTheirFace) {
   const auto face = [](double scene_jitter, double moved, double every_second) {
     lab::Lab lab = lab::column(4, 6, 1.0, 1000.0, 10.0);
@@ -88,8 +91,8 @@ TEST(Walls, OfAJitteredSceneDoNotLookAtWhereTheJitterPutTheLayersBehindTheirFace
   EXPECT_NEAR(face(0.1, 0.0, 0.0), face(0.0, 0.0, 0.0), 1e-12);
 }
 
-/// Jitter puts a fixed wall off its lattice, and nothing evens that out. Liquid feels the same wall all the same: its densities and forces are those over a wall
-/// on the lattice, but for pairs about the support apart and a millionth of a spacing.
+/// Jitter puts a fixed wall off its lattice, and nothing evens that out. Liquid feels the same wall all the same: its densities
+/// and forces are those over a wall on the lattice, but for pairs about the support apart and a millionth of a spacing.
 TEST(Walls, OfAJitteredSceneAreFeltFromTheirLattice) {
   const auto over = [](double scene_jitter, double amplitude) {
     lab::Lab lab = lab::column(4, 6, 0.0, 1000.0, 10.0);
@@ -109,7 +112,8 @@ TEST(Walls, OfAJitteredSceneAreFeltFromTheirLattice) {
     const auto rho = lab::by_id(s, field::density), f = lab::by_id(s, field::force_z);
     std::array<std::vector<double>, 2> lowest;
     for (std::size_t id = 0; id < rho.size(); ++id)
-      if (const double z = lab.initial.position[id].z; lab.initial.body[id] < 0 && z < lab.scene.spacing) lowest[0].push_back(rho[id] / 1000.0), lowest[1].push_back(f[id]);
+      if (const double z = lab.initial.position[id].z; lab.initial.body[id] < 0 && z < lab.scene.spacing)
+        lowest[0].push_back(rho[id] / 1000.0), lowest[1].push_back(f[id]);
     return lowest;
   };
   const auto farthest = [](const std::vector<double>& a, const std::vector<double>& b) {
@@ -120,7 +124,8 @@ TEST(Walls, OfAJitteredSceneAreFeltFromTheirLattice) {
   const auto lattice = over(0.1, 0.0), jittered = over(0.1, 0.05), as_it_is = over(0.0, 0.05);  // no pair has a core
   ASSERT_EQ(lattice[0].size(), 36U);
   for (std::size_t column = 0; column < 2; ++column)
-    EXPECT_LT(farthest(jittered[column], lattice[column]), 1e-3 * farthest(as_it_is[column], lattice[column])) << (column == 0 ? "density" : "force");
+    EXPECT_LT(farthest(jittered[column], lattice[column]), 1e-3 * farthest(as_it_is[column], lattice[column]))
+        << (column == 0 ? "density" : "force");
 }
 
 /// Of viscous forces on liquid at random velocities beside a wall at rest.

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stands between a program and the C library (LD_PRELOAD), and lets some of its calls fail: the n-th that changes a file below a folder, or the
-// n-th that asks for memory. Programs are tested as they are shipped; nothing of this is in them.
+// Stands between a program and the C library (LD_PRELOAD), and lets some of its calls fail: the n-th that changes a file below a
+// folder, or the n-th that asks for memory. Programs are tested as they are shipped; nothing of this is in them.
 //
 //   FAULT_PROCESS   beginning of the name of the process that is meant; others are left alone
 //   FAULT_FOLDER    calls on files below it count
 //   FAULT_AT        which call fails, from 1; 0 = none, calls are counted only. Several: "7,30", each with its kind
 //   FAULT_KIND      eio, enospc, erofs, edquot, eintr: the call fails so; short: half of it is done, as may be;
 //                   before, half, after: the process is killed before the call, half way through it, after it;
-//                   lost: it is killed, and what no fsync has made durable is undone, but for a beginning whose length FAULT_SEED draws;
-//                   clock: from then on the date jumps by years at every look;
-//                   memory: the n-th call for memory gives none. With "+sticky" all later calls fail too
-//   FAULT_LOG       a line a call that counts, or the one that failed: number, operation, path; of calls for memory their number at the end
+//                   lost: it is killed, and what no fsync has made durable is undone, but for a beginning whose length FAULT_SEED
+//                   draws; clock: from then on the date jumps by years at every look; memory: the n-th call for memory gives
+//                   none. With "+sticky" all later calls fail too
+//   FAULT_LOG       a line a call that counts, or the one that failed: number, operation, path; of calls for memory their number
+//   at the end
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -64,11 +65,11 @@ bool is_meant() {
 /// What a loss of power would undo: a file that came to be, bytes that were written or cut off, another name.
 struct Unsynced {
   enum class What { made, bytes, renamed } what;
-  std::string path, old_path;  ///< old_path: of a renamed file
-  off_t at = 0, size = 0;      ///< where bytes were written; size of the file before
-  std::string bytes;           ///< that were there
-  bool existed = false;        ///< what a renamed file replaced
-  long rename = 0;             ///< number of this change, where it is a rename
+  std::string path, old_path;                        ///< old_path: of a renamed file
+  off_t at = 0, size = 0;                            ///< where bytes were written; size of the file before
+  std::string bytes;                                 ///< that were there
+  bool existed = false;                              ///< what a renamed file replaced
+  long rename = 0;                                   ///< number of this change, where it is a rename
   std::vector<std::pair<long, std::string>> former;  ///< renames that moved the file since, each with the name that it had before
 };
 
@@ -85,8 +86,10 @@ struct Fault {
 std::vector<std::string> parts_of(const std::string& text) {
   std::vector<std::string> parts{""};
   for (const char c : text) {
-    if (c == ',') parts.emplace_back();
-    else parts.back() += c;
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
@@ -139,7 +142,8 @@ std::string folder_of(const std::string& path) { return path.substr(0, path.rfin
 void note(const char* operation, const std::string& path) {
   if (plan().log.empty()) return;
   const std::string line = std::to_string(plan().calls) + " " + operation + " " + path + "\n";
-  const int f = static_cast<int>(syscall(SYS_openat, AT_FDCWD, plan().log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  const int f =
+      static_cast<int>(syscall(SYS_openat, AT_FDCWD, plan().log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
   if (f < 0) return;
   syscall(SYS_write, f, line.data(), line.size());
   syscall(SYS_close, f);
@@ -155,7 +159,7 @@ std::string bytes_at(const std::string& path, off_t at, size_t count) {
 }
 
 off_t size_of(const std::string& path) {
-  struct stat about{};
+  struct stat about {};
   return stat(path.c_str(), &about) == 0 ? about.st_size : -1;
 }
 
@@ -173,7 +177,8 @@ void undo(const Unsynced& u) {
   syscall(SYS_close, f);
 }
 
-/// What a rename that is undone had moved has its former name again: else the making of a file that took another's place would be undone on that other one.
+/// What a rename that is undone had moved has its former name again: else the making of a file that took another's place would be
+/// undone on that other one.
 void call_as_before(long rename) {
   for (Unsynced& u : plan().unsynced) {
     if (u.former.empty() || u.former.back().first != rename) continue;
@@ -199,7 +204,8 @@ void remember_bytes(const std::string& path, off_t at, size_t count) {
 
 /// After an fsync of a file its bytes are durable, after that of a folder the names in it.
 void made_durable(const std::string& path) {
-  std::erase_if(plan().unsynced, [&](const Unsynced& u) { return u.what == Unsynced::What::bytes ? u.path == path : folder_of(u.path) == path; });
+  std::erase_if(plan().unsynced,
+                [&](const Unsynced& u) { return u.what == Unsynced::What::bytes ? u.path == path : folder_of(u.path) == path; });
 }
 
 enum class Fate { passes, fails, half_and_on, half_and_dies, done_and_dies };
@@ -208,7 +214,8 @@ enum class Fate { passes, fails, half_and_on, half_and_dies, done_and_dies };
 Fate fate_of(const std::string& kind, const char* operation) {
   if (kind == "clock") plan().jumps = true;
   if (kind == "clock") return Fate::passes;
-  if ((kind == "eintr" || kind == "short") && std::strcmp(operation, "write") != 0) return Fate::passes;  // only a write to a disk may be cut short
+  if ((kind == "eintr" || kind == "short") && std::strcmp(operation, "write") != 0)
+    return Fate::passes;  // only a write to a disk may be cut short
   if (kind == "lost") lose();
   if (kind == "lost" || kind == "before") die();
   if (kind == "half") return Fate::half_and_dies;
@@ -346,7 +353,8 @@ void* realloc(void* old, size_t n) { return memory_is_out() ? nullptr : __libc_r
 
 ssize_t write(int fd, const void* data, size_t n) {
   NEXT(write);
-  return write_by(fd, static_cast<off_t>(syscall(SYS_lseek, fd, 0, SEEK_CUR)), n, [&](size_t some) { return next(fd, data, some); });
+  return write_by(fd, static_cast<off_t>(syscall(SYS_lseek, fd, 0, SEEK_CUR)), n,
+                  [&](size_t some) { return next(fd, data, some); });
 }
 
 ssize_t pwrite(int fd, const void* data, size_t n, off_t at) {
@@ -363,7 +371,8 @@ ssize_t writev(int fd, const iovec* parts, int n) {
   NEXT(write);
   std::string all;
   for (int k = 0; k < n; ++k) all.append(static_cast<const char*>(parts[k].iov_base), parts[k].iov_len);
-  return write_by(fd, static_cast<off_t>(syscall(SYS_lseek, fd, 0, SEEK_CUR)), all.size(), [&](size_t some) { return next(fd, all.data(), some); });
+  return write_by(fd, static_cast<off_t>(syscall(SYS_lseek, fd, 0, SEEK_CUR)), all.size(),
+                  [&](size_t some) { return next(fd, all.data(), some); });
 }
 
 int ftruncate(int fd, off_t size) {
@@ -372,8 +381,10 @@ int ftruncate(int fd, off_t size) {
   const std::string path = path_of(fd);
   return whole("cut", path, [&] {
     const off_t before = size_of(path);
-    if (before > size) remember_bytes(path, size, static_cast<size_t>(before - size));
-    else remember_bytes(path, before, 0);
+    if (before > size)
+      remember_bytes(path, size, static_cast<size_t>(before - size));
+    else
+      remember_bytes(path, before, 0);
     return next(fd, size);
   });
 }
@@ -398,7 +409,15 @@ int rename(const char* from, const char* to) {
   const std::string old_name = absolute(from), name = absolute(to);
   return whole("rename", name, [&] {
     const off_t size = size_of(name);
-    Unsynced u{Unsynced::What::renamed, name, old_name, 0, size, plan().loses && size > 0 ? bytes_at(name, 0, static_cast<size_t>(size)) : "", size >= 0, ++plan().renames, {}};
+    Unsynced u{Unsynced::What::renamed,
+               name,
+               old_name,
+               0,
+               size,
+               plan().loses && size > 0 ? bytes_at(name, 0, static_cast<size_t>(size)) : "",
+               size >= 0,
+               ++plan().renames,
+               {}};
     const int result = next(from, to);
     if (!plan().loses || result != 0) return result;
     for (Unsynced& earlier : plan().unsynced) {

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs of the engine under faults that a seed draws: one to three calls that fail, each in a kind of its own, an interval of checkpoints, and up to
-// three attempts, of which the later ones go on from the last announced checkpoint. A process is forked a run, so that hundreds of thousands can be made.
+// Runs of the engine under faults that a seed draws: one to three calls that fail, each in a kind of its own, an interval of
+// checkpoints, and up to three attempts, of which the later ones go on from the last announced checkpoint. A process is forked a
+// run, so that hundreds of thousands can be made.
 //   seeded-faults BUILD CASE.toml... [--count N | --runs N] [--seed S] [--jobs N]
-// What was announced is read from the run's stderr, which is kept apart from its files. After each attempt announced frames are read back; after the
-// last one of a seed, and for every eighth seed after each, a run without faults goes on from the last announced checkpoint to its end: a checkpoint
-// that an attempt has spoilt stays spoilt, since no later attempt can go on from it and write another.
-// --runs: as many seeds as it takes for so many runs with faults. Ctrl-C ends it after the seeds that are under way, with the table of those done.
-// Exit: 0 every promise of docs/promises.md held, 1 one did not, with the seed that shows it again (--seed S --count 1).
+// What was announced is read from the run's stderr, which is kept apart from its files. After each attempt announced frames are
+// read back; after the last one of a seed, and for every eighth seed after each, a run without faults goes on from the last
+// announced checkpoint to its end: a checkpoint that an attempt has spoilt stays spoilt, since no later attempt can go on from it
+// and write another.
+// --runs: as many seeds as it takes for so many runs with faults. Ctrl-C ends it after the seeds that are under way, with the
+// table of those done. Exit: 0 every promise of docs/promises.md held, 1 one did not, with the seed that shows it again (--seed S
+// --count 1).
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -41,18 +44,21 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int patience = 60'000;  ///< [ms] for a run of some tens
-constexpr std::array kinds{"before", "half", "after", "lost", "short", "eintr", "eio", "enospc", "erofs", "edquot", "clock", "eio+sticky", "enospc+sticky", "erofs+sticky"};
+constexpr std::array kinds{"before", "half",  "after",  "lost",  "short",      "eintr",         "eio",
+                           "enospc", "erofs", "edquot", "clock", "eio+sticky", "enospc+sticky", "erofs+sticky"};
 constexpr std::array codes{0, 1, 2, 4, 7, 130};  ///< that the contracts know of an engine
 constexpr int most_attempts = 3;
 constexpr std::array outcomes{"whole", "died", "refused", "LOST", "WRONG", "HANG", "other"};  ///< the first three are good
-constexpr std::array draws{1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 3, 3, 3, 11};                     ///< checkpoints of a run; eleven are one a step of the smallest scene
+constexpr std::array draws{1, 1, 1, 1, 1, 1, 2, 2,
+                           2, 2, 2, 2, 3, 3, 3, 11};  ///< checkpoints of a run; eleven are one a step of the smallest scene
 
 /// What all workers have done together: it lies in memory that they share.
 struct Table {
   std::atomic<unsigned long> next_seed, seeds, runs, faults;
   std::atomic<bool> stop;
   std::array<std::atomic<unsigned long>, outcomes.size()> runs_of;
-  std::array<std::array<std::atomic<unsigned long>, outcomes.size()>, kinds.size()> faults_of;  ///< a run with three faults counts three times
+  std::array<std::array<std::atomic<unsigned long>, outcomes.size()>, kinds.size()>
+      faults_of;  ///< a run with three faults counts three times
 };
 
 Table* table = nullptr;
@@ -116,8 +122,8 @@ struct Reference {
   std::string particles;
   InitialState initial;
   double end_time = 0.0;
-  std::vector<std::string> hashes;   ///< [n]: of the first n frames
-  std::array<long, 12> calls{};      ///< [n]: that change a file in a run with n checkpoints
+  std::vector<std::string> hashes;  ///< [n]: of the first n frames
+  std::array<long, 12> calls{};     ///< [n]: that change a file in a run with n checkpoints
   [[nodiscard]] double interval(int checkpoints) const { return end_time / (checkpoints + 0.5); }
 };
 
@@ -144,7 +150,8 @@ std::string write_job_file(const Reference& of, const fs::path& folder, double i
   return path.string();
 }
 
-void set_plan(const std::string& folder, const std::string& at, const std::string& kind, unsigned seed, const std::string& log = "") {
+void set_plan(const std::string& folder, const std::string& at, const std::string& kind, unsigned seed,
+              const std::string& log = "") {
   setenv("FAULT_PROCESS", program_invocation_short_name, 1);
   setenv("FAULT_FOLDER", folder.c_str(), 1);
   setenv("FAULT_AT", at.c_str(), 1);
@@ -159,7 +166,9 @@ std::string status_of(const fs::path& folder) {
   return in ? nlohmann::json::parse(in).value("status", "") : "";
 }
 
-bool is_whole(const Reference& of, const fs::path& folder) { return hashes_of(read_trajectory((folder / "trajectory.h5").string())) == of.hashes; }
+bool is_whole(const Reference& of, const fs::path& folder) {
+  return hashes_of(read_trajectory((folder / "trajectory.h5").string())) == of.hashes;
+}
 
 /// @return "", or what is wrong with a run that says it is whole
 std::string fault_of_whole(const Reference& of, const fs::path& folder) {
@@ -202,8 +211,10 @@ std::string last_checkpoint(const std::string& said) {
   return all.empty() ? "" : all.back();
 }
 
-/// What is left behind, looked at without faults. @param goes_on whether a run is to go on from the checkpoint   @return "", or which promise does not hold
-std::string broken_promise(const Reference& of, const fs::path& folder, const Attempt& attempt, const std::string& checkpoint, bool goes_on) {
+/// What is left behind, looked at without faults. @param goes_on whether a run is to go on from the checkpoint   @return "", or
+/// which promise does not hold
+std::string broken_promise(const Reference& of, const fs::path& folder, const Attempt& attempt, const std::string& checkpoint,
+                           bool goes_on) {
   if (attempt.end.code == 0) return fault_of_whole(of, folder);
   if (status_of(folder) == "ok") {  // the last act: who dies after it has left all that it says
     if (attempt.end.code > 0) return "WRONG: the run did not end well, and its result says ok";
@@ -217,32 +228,38 @@ std::string broken_promise(const Reference& of, const fs::path& folder, const At
   if (checkpoint.empty() || !goes_on) return "";
   const fs::path again = folder.string() + ".again";
   fs::copy(folder, again, fs::copy_options::recursive);
-  if (serve_job(write_job_file(of, again, 0.0, (again / fs::path(checkpoint).filename()).string())) != 0) return "LOST: the announced " + checkpoint + " is refused";
+  if (serve_job(write_job_file(of, again, 0.0, (again / fs::path(checkpoint).filename()).string())) != 0)
+    return "LOST: the announced " + checkpoint + " is refused";
   return fault_of_whole(of, again);
 }
 
 /// In capitals what must not be; whole, died, refused what may.
-std::string judged(const Reference& of, const fs::path& folder, const Attempt& attempt, const std::string& checkpoint, bool goes_on) {
+std::string judged(const Reference& of, const fs::path& folder, const Attempt& attempt, const std::string& checkpoint,
+                   bool goes_on) {
   const Ended& end = attempt.end;
   if (end.hung) return "HANG";
   if (end.code < 0 && !(end.code == -SIGKILL && attempt.may_be_killed())) return fmt::format("CRASH by signal {}", -end.code);
   if (end.code > 0 && attempt.is_harmless()) return "REFUSED what may be made again: " + end.said;
-  if (end.code > 0 && std::ranges::find(codes, end.code) == codes.end()) return fmt::format("CODE: exit {} means nothing", end.code);
+  if (end.code > 0 && std::ranges::find(codes, end.code) == codes.end())
+    return fmt::format("CODE: exit {} means nothing", end.code);
   if (end.code > 0 && end.said.empty()) return fmt::format("SILENT: exit {} without a word", end.code);
-  const Ended look = in_child([&] {
-    std::string found;
-    try {
-      found = broken_promise(of, folder, attempt, checkpoint, goes_on);
-    } catch (const std::exception& e) {
-      found = std::string("LOST: cannot be read: ") + e.what();
-    }
-    if (found.empty()) return 0;
-    fmt::print(stderr, "\n\t{}", found);
-    return 1;
-  }, true);
+  const Ended look = in_child(
+      [&] {
+        std::string found;
+        try {
+          found = broken_promise(of, folder, attempt, checkpoint, goes_on);
+        } catch (const std::exception& e) {
+          found = std::string("LOST: cannot be read: ") + e.what();
+        }
+        if (found.empty()) return 0;
+        fmt::print(stderr, "\n\t{}", found);
+        return 1;
+      },
+      true);
   if (look.code == 0) return end.code == 0 ? "whole" : end.code < 0 ? "died" : "refused";
   const std::size_t tab = look.said.rfind('\t');
-  return tab == std::string::npos ? fmt::format("CRASH while it is looked at: {}, {}", look.code, look.said) : look.said.substr(tab + 1);
+  return tab == std::string::npos ? fmt::format("CRASH while it is looked at: {}, {}", look.code, look.said)
+                                  : look.said.substr(tab + 1);
 }
 
 /// Books one run with its faults.
@@ -256,7 +273,8 @@ void book(const Attempt& attempt, const std::string& what) {
   }
 }
 
-/// One seed: attempts until one ends well, or as many as there may be. @return whether every promise held; the story is of all attempts
+/// One seed: attempts until one ends well, or as many as there may be. @return whether every promise held; the story is of all
+/// attempts
 bool try_seed(std::vector<Reference>& references, unsigned long seed, const fs::path& scratch, std::string& story) {
   std::mt19937_64 dice(seed);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(dice() % n); };
@@ -271,7 +289,8 @@ bool try_seed(std::vector<Reference>& references, unsigned long seed, const fs::
     std::string at, kind;
     for (std::size_t k = 1 + below(3); k-- > 0;) {
       attempt.kinds.emplace_back(kinds[below(kinds.size())]);
-      at += (at.empty() ? "" : ",") + std::to_string(1 + below(static_cast<std::size_t>(of.calls[static_cast<std::size_t>(checkpoints)])));
+      at += (at.empty() ? "" : ",") +
+            std::to_string(1 + below(static_cast<std::size_t>(of.calls[static_cast<std::size_t>(checkpoints)])));
       kind += (kind.empty() ? "" : ",") + attempt.kinds.back();
     }
     fs::create_directories(folder);
@@ -297,7 +316,9 @@ bool try_seed(std::vector<Reference>& references, unsigned long seed, const fs::
 /// @param program that writes the job of a case; @param file of the case
 Reference reference_of(const fs::path& program, const fs::path& file, const fs::path& scratch) {
   const fs::path from = scratch / file.stem();
-  if (std::system(fmt::format("{} run {} --quiet --out {} >/dev/null", program.string(), file.string(), from.string()).c_str()) != 0) throw std::runtime_error(file.string() + " does not run");
+  if (std::system(fmt::format("{} run {} --quiet --out {} >/dev/null", program.string(), file.string(), from.string()).c_str()) !=
+      0)
+    throw std::runtime_error(file.string() + " does not run");
   Reference of;
   std::ifstream in(from / "job.json");
   of.job = nlohmann::json::parse(in);
@@ -355,22 +376,33 @@ void print_table() {
 
 }  // namespace
 
-// The linker hands calls of read_particles to this one (--wrap): the file of particles lies outside the folder in which calls fail, and reading eight
-// particles took as long as all steps and frames of a run. Who reads it is the parent, once.
-tripoint::InitialState particles_kept(const std::string& path) asm("__wrap__ZN8tripoint14read_particlesERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE");
-tripoint::InitialState particles_from_file(const std::string& path) asm("__real__ZN8tripoint14read_particlesERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE");
-tripoint::InitialState particles_kept(const std::string& path) { return particles_read ? *particles_read : particles_from_file(path); }
+// The linker hands calls of read_particles to this one (--wrap): the file of particles lies outside the folder in which calls
+// fail, and reading eight particles took as long as all steps and frames of a run. Who reads it is the parent, once.
+tripoint::InitialState particles_kept(const std::string& path) asm(
+    "__wrap__ZN8tripoint14read_particlesERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE");
+tripoint::InitialState particles_from_file(const std::string& path) asm(
+    "__real__ZN8tripoint14read_particlesERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE");
+tripoint::InitialState particles_kept(const std::string& path) {
+  return particles_read ? *particles_read : particles_from_file(path);
+}
 
 int main(int argc, char** argv) {
   unsigned long count = 200, first = 1, jobs = 2, runs = 0;
   std::vector<fs::path> paths;
   for (int n = 1; n < argc; ++n) {
     const std::string word = argv[n];
-    unsigned long* const number = word == "--count" ? &count : word == "--seed" ? &first : word == "--jobs" ? &jobs : word == "--runs" ? &runs : nullptr;
-    if (number && n + 1 < argc) *number = std::strtoul(argv[++n], nullptr, 10);
-    else paths.emplace_back(word);
+    unsigned long* const number = word == "--count"  ? &count
+                                  : word == "--seed" ? &first
+                                  : word == "--jobs" ? &jobs
+                                  : word == "--runs" ? &runs
+                                                     : nullptr;
+    if (number && n + 1 < argc)
+      *number = std::strtoul(argv[++n], nullptr, 10);
+    else
+      paths.emplace_back(word);
   }
-  if (paths.size() < 2) return fmt::print(stderr, "usage: seeded-faults BUILD CASE.toml... [--count N | --runs N] [--seed S] [--jobs N]\n"), 2;
+  if (paths.size() < 2)
+    return fmt::print(stderr, "usage: seeded-faults BUILD CASE.toml... [--count N | --runs N] [--seed S] [--jobs N]\n"), 2;
   const fs::path scratch = fs::path(fs::exists("/dev/shm") ? "/dev/shm" : "/tmp") / fmt::format("tripoint-seeded-{}", getpid());
   fs::create_directories(scratch);
   table = new (mmap(nullptr, sizeof(Table), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) Table{};
@@ -401,7 +433,8 @@ int main(int argc, char** argv) {
   }
   fs::remove_all(scratch);
   print_table();
-  fmt::print("{} runs with {} faults, of {} seeds from {} on: {}; --seed {} goes on\n", table->runs.load(), table->faults.load(), table->seeds.load(), first,
-             good ? "every promise held" : "a promise was broken", std::min(table->next_seed.load(), end));
+  fmt::print("{} runs with {} faults, of {} seeds from {} on: {}; --seed {} goes on\n", table->runs.load(), table->faults.load(),
+             table->seeds.load(), first, good ? "every promise held" : "a promise was broken",
+             std::min(table->next_seed.load(), end));
   return good ? 0 : 1;
 }

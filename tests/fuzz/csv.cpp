@@ -26,9 +26,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string path = folder.write("table.csv", fuzz::text_of(data + 1, size - 1));
   try {
     Trajectory trajectory;
-    if (data[0] & 1) read_gauges_csv(path, {"height", "force"}, trajectory);
-    else trajectory = read_trajectory_csv(path, initial, 2);
-    for (std::size_t k = 1; k < trajectory.frames.size(); ++k) fuzz::expect(trajectory.frames[k - 1].time < trajectory.frames[k].time, "frames are in order of time");
+    if (data[0] & 1)
+      read_gauges_csv(path, {"height", "force"}, trajectory);
+    else
+      trajectory = read_trajectory_csv(path, initial, 2);
+    for (std::size_t k = 1; k < trajectory.frames.size(); ++k)
+      fuzz::expect(trajectory.frames[k - 1].time < trajectory.frames[k].time, "frames are in order of time");
   } catch (const InputError&) {
   }
   return 0;

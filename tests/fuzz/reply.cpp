@@ -13,7 +13,9 @@ using namespace tripoint;
 namespace {
 
 bool is_plain(const std::string& name) {
-  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_' || c == '.'; });
+  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '-' || c == '_' || c == '.';
+  });
 }
 
 void read_info(const std::string& text) {
@@ -21,7 +23,8 @@ void read_info(const std::string& text) {
   entry.name = "stranger", entry.executable = "engine-stranger";
   entry = with_info(entry, text);
   fuzz::expect(is_plain(entry.name), "an engine's name is plain, whatever it calls itself");
-  fuzz::expect(!entry.available || std::all_of(entry.presets.begin(), entry.presets.end(), is_plain), "presets of an engine that is available are plain");
+  fuzz::expect(!entry.available || std::all_of(entry.presets.begin(), entry.presets.end(), is_plain),
+               "presets of an engine that is available are plain");
   fuzz::expect(entry.available || !entry.reason.empty(), "an engine that is not available has a reason");
   static_cast<void>(engines_json({entry}));
 }
@@ -33,8 +36,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::string text = fuzz::text_of(data + 1, size - 1);
   switch (data[0] % 3) {
-    case 0: read_info(text); break;
-    case 1: static_cast<void>(refusal_in(text)); break;
+    case 0:
+      read_info(text);
+      break;
+    case 1:
+      static_cast<void>(refusal_in(text));
+      break;
     default:
       try {
         write_result(folder / "again.json", read_result(folder.write("result.json", text)));

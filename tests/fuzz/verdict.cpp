@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The judge, on a case of any runs, values and gates: PASS only where an independent reading of the gates, written again here, says so; and what
-// gets worse is never judged better.
+// The judge, on a case of any runs, values and gates: PASS only where an independent reading of the gates, written again here,
+// says so; and what gets worse is never judged better.
 #include <cmath>
 #include <optional>
 
@@ -66,11 +66,14 @@ void check_one_value(fuzz::Bytes& bytes) {
   const Gate gate = made_gate(bytes);
   const double value = bytes.real(), u = bytes.real();
   const Verdict verdict = verdict_of(gate, value, u);
-  fuzz::expect((verdict == Verdict::pass) == holds(gate, value, u), "a value passes where the gate's words say so, and there alone");
+  fuzz::expect((verdict == Verdict::pass) == holds(gate, value, u),
+               "a value passes where the gate's words say so, and there alone");
   if (!gate.limit || gate.at_least || gate.band || !std::isfinite(u) || u < 0.0) return;
   const double farther = value * (1.0 + bytes.byte() / 16.0);
-  if (std::isfinite(farther)) fuzz::expect(badness(verdict_of(gate, farther, u)) >= badness(verdict), "a greater error is judged no better");
-  fuzz::expect(verdict != Verdict::fail || verdict_of(gate, value, 0.0) == Verdict::fail, "what fails with its uncertainty fails without");
+  if (std::isfinite(farther))
+    fuzz::expect(badness(verdict_of(gate, farther, u)) >= badness(verdict), "a greater error is judged no better");
+  fuzz::expect(verdict != Verdict::fail || verdict_of(gate, value, 0.0) == Verdict::fail,
+               "what fails with its uncertainty fails without");
 }
 
 /// Every gate has a value of the engine that it names, and every value that it looks at holds.
@@ -84,7 +87,9 @@ bool all_hold(const CaseResult& c) {
   return judged > 0;
 }
 
-bool is_broken(const RunRow& run) { return run.status == "killed" || run.status == "timeout" || run.status == "error" || run.status.empty() || !run.comparable; }
+bool is_broken(const RunRow& run) {
+  return run.status == "killed" || run.status == "timeout" || run.status == "error" || run.status.empty() || !run.comparable;
+}
 
 void check_case(fuzz::Bytes& bytes) {
   CaseResult c = made_case(bytes);
@@ -104,13 +109,15 @@ void check_case(fuzz::Bytes& bytes) {
     for (auto& run : engine.runs)
       if (!engine.gates.empty() && run.metrics.count("error")) {
         CaseResult worse = c;
-        auto& changed = worse.engines[static_cast<std::size_t>(&engine - c.engines.data())].runs[static_cast<std::size_t>(&run - engine.runs.data())];
+        auto& changed = worse.engines[static_cast<std::size_t>(&engine - c.engines.data())]
+                            .runs[static_cast<std::size_t>(&run - engine.runs.data())];
         changed.metrics["error"].value = std::nan("");
         judge(worse, false);
         const bool looked_at = std::any_of(c.gates.begin(), c.gates.end(), [&](const Gate& g) {
           return g.metric == "error" && (g.engine.empty() || g.engine == engine.name) && fits_mode(g, run.knobs.mode);
         });
-        fuzz::expect(!looked_at || is_broken(run) || run.status != "ok" || worse.verdict != "PASS", "a value that is not finite does not pass");
+        fuzz::expect(!looked_at || is_broken(run) || run.status != "ok" || worse.verdict != "PASS",
+                     "a value that is not finite does not pass");
       }
 }
 
@@ -118,7 +125,9 @@ void check_case(fuzz::Bytes& bytes) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Bytes bytes(data, size);
-  if (bytes.flag()) check_case(bytes);
-  else check_one_value(bytes);
+  if (bytes.flag())
+    check_case(bytes);
+  else
+    check_one_value(bytes);
   return 0;
 }

@@ -105,9 +105,11 @@ EngineEntry stone() {
 
 TEST(Adopt, TheWrittenCaseIsTheSourceWithoutOtherEngines) {
   const auto text = adopted_text(source, adopted(), stone());
-  for (const char* kept : {"# A throw.", "id = \"rigid/throw\"", "[scene]", "end_time = 1.0", "name = \"position\"", "# Of all.", "[engines.\"stone\"]", "required = true", "level = 0.01", "band = [0.0266667, 0.06]"})
+  for (const char* kept : {"# A throw.", "id = \"rigid/throw\"", "[scene]", "end_time = 1.0", "name = \"position\"", "# Of all.",
+                           "[engines.\"stone\"]", "required = true", "level = 0.01", "band = [0.0266667, 0.06]"})
     EXPECT_NE(text.find(kept), std::string::npos) << kept << "\n" << text;
-  for (const char* gone : {"bullet", "modes", "ours is exact", "rigid.gravity", "of any", "# Of ours.", "name = \"heat\"", "not paper", "acceptance"})
+  for (const char* gone : {"bullet", "modes", "ours is exact", "rigid.gravity", "of any", "# Of ours.", "name = \"heat\"",
+                           "not paper", "acceptance"})
     EXPECT_EQ(text.find(gone), std::string::npos) << gone << "\n" << text;
 }
 

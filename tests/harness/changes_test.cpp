@@ -105,7 +105,8 @@ TEST(Changes, WorseWithinTheLimitIsSaidAndRedOnlyWhenAsked) {
   EXPECT_TRUE(change_remarks(all, true)[0].error);
   EXPECT_NE(change_remarks(all, false)[0].text.find("+0.3"), std::string::npos);
   EXPECT_TRUE(change_remarks(compare_results(measured_as({0.05}), measured_as({0.02}), "base"), true).empty());
-  EXPECT_TRUE(change_remarks(compare_results(measured_as({0.05}), measured_as({0.5}), "base"), false).empty()) << "a red gate is the judge's";
+  EXPECT_TRUE(change_remarks(compare_results(measured_as({0.05}), measured_as({0.5}), "base"), false).empty())
+      << "a red gate is the judge's";
 }
 
 TEST(Changes, NameWhatIsNewAndWhatIsGone) {
@@ -156,7 +157,9 @@ TEST(Comment, BeginsWithItsMarkAndHoldsTheTenMostChanged) {
   const auto all = compare_results(base, head, "base");
   const auto text = comment_markdown(head, verdict_of(head), &all, {});
   EXPECT_TRUE(text.starts_with("<!-- tripoint: accuracy -->\n## Accuracy: PASS\n")) << text;
-  EXPECT_NE(text.find("| **worse** | +0.14 | test/one | tripoint m14 | 0.1 -> 0.24 | 0.1 -> 0.24 of limit 1 | none known |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| **worse** | +0.14 | test/one | tripoint m14 | 0.1 -> 0.24 | 0.1 -> 0.24 of limit 1 | none known |"),
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("m5 "), std::string::npos);
   EXPECT_EQ(text.find("m4 "), std::string::npos) << "the eleventh";
 }
@@ -168,7 +171,8 @@ TEST(Comment, LinksCaseFilesWithTheirLine) {
   CommentOptions o;
   o.links = "https://host/o/p/blob/abc";
   const auto all = compare_results(base, head, "base");
-  EXPECT_NE(comment_markdown(head, verdict_of(head), &all, o).find("[test/one](https://host/o/p/blob/abc/cases/a%20b.toml#L12)"), std::string::npos);
+  EXPECT_NE(comment_markdown(head, verdict_of(head), &all, o).find("[test/one](https://host/o/p/blob/abc/cases/a%20b.toml#L12)"),
+            std::string::npos);
   head.cases[0].gates[0].place = {"../../etc/passwd", 12, 0};
   judge(head);
   EXPECT_EQ(comment_markdown(head, verdict_of(head), &all, o).find("passwd"), std::string::npos);

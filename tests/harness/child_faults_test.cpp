@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What can happen to a child process, as its parent sees it: each becomes a row with its reason, and none a pass (docs/promises.md, "Faults of a child").
+// What can happen to a child process, as its parent sees it: each becomes a row with its reason, and none a pass
+// (docs/promises.md, "Faults of a child").
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -39,7 +40,8 @@ F* next(const char* name) {
 
 // These stand before the C library's own in this program.
 extern "C" {
-int posix_spawn(pid_t* pid, const char* path, const posix_spawn_file_actions_t* actions, const posix_spawnattr_t* attributes, char* const* argv, char* const* environment) {
+int posix_spawn(pid_t* pid, const char* path, const posix_spawn_file_actions_t* actions, const posix_spawnattr_t* attributes,
+                char* const* argv, char* const* environment) {
   if (spawns.fails()) return spawns.error;
   return next<decltype(posix_spawn)>("posix_spawn")(pid, path, actions, attributes, argv, environment);
 }
@@ -82,23 +84,35 @@ TEST_P(ChildFaults, AreARowThatSaysWhyAndNeverAPass) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ends, ChildFaults,
-                         ::testing::Values(ChildFault{"dies at info", "missing", "--info was killed by signal 9"}, ChildFault{"dies at check", "error", "--check was killed by signal 9"},
-                                           ChildFault{"dies at once", "killed", "was killed by signal 9"}, ChildFault{"leaves half a result", "error", "result.json"},
+                         ::testing::Values(ChildFault{"dies at info", "missing", "--info was killed by signal 9"},
+                                           ChildFault{"dies at check", "error", "--check was killed by signal 9"},
+                                           ChildFault{"dies at once", "killed", "was killed by signal 9"},
+                                           ChildFault{"leaves half a result", "error", "result.json"},
                                            ChildFault{"dies after its result", "error", "says ok but was killed by signal 9"},
                                            ChildFault{"stops itself", "timeout", "was stopped after 1 s", 1.0},
-                                           ChildFault{"hides among its parents and hangs", "timeout", "was stopped after 1 s", 1.0}));
+                                           ChildFault{"hides among its parents and hangs", "timeout", "was stopped after 1 s",
+                                                      1.0}));
 
-INSTANTIATE_TEST_SUITE_P(Lies, ChildFaults,
-                         ::testing::Values(ChildFault{"says OK", "error", "OK"}, ChildFault{"speaks contract 2", "error", "is not of contract 1"}, ChildFault{"ends at no time", "error", "result.json"},
-                                           ChildFault{"says that it diverged", "diverged", "it gives no place", 60.0, exit_diverged}, ChildFault{"floods its answer", "refused", "--check did not print {can, reason}"}));
+INSTANTIATE_TEST_SUITE_P(
+    Lies, ChildFaults,
+    ::testing::Values(ChildFault{"says OK", "error", "OK"}, ChildFault{"speaks contract 2", "error", "is not of contract 1"},
+                      ChildFault{"ends at no time", "error", "result.json"},
+                      ChildFault{"says that it diverged", "diverged", "it gives no place", 60.0, exit_diverged},
+                      ChildFault{"floods its answer", "refused", "--check did not print {can, reason}"}));
 
 INSTANTIATE_TEST_SUITE_P(Files, ChildFaults,
-                         ::testing::Values(ChildFault{"leaves half a line", "error", "cells, the header has"}, ChildFault{"leaves half of an H5MD file", "error", "trajectory.h5"},
-                                           ChildFault{"leaves a folder as result", "error", "no regular file"}, ChildFault{"leaves a result alone", "error", "trajectory.csv: cannot be read"},
-                                           ChildFault{"leaves a frame out", "error", "no frame at t = 0.25"}, ChildFault{"one value is not a number", "error", "not finite"},
-                                           ChildFault{"one value is infinite", "error", "not finite"}, ChildFault{"a time is not a number", "error", "the time is not finite"},
-                                           ChildFault{"names a body that is not there", "error", "is not one of"}, ChildFault{"names a body below the first", "error", "is not one of"},
-                                           ChildFault{"names half a body", "error", "is not one of"}, ChildFault{"numbers its particles past the last", "error", "is not one of"}));
+                         ::testing::Values(ChildFault{"leaves half a line", "error", "cells, the header has"},
+                                           ChildFault{"leaves half of an H5MD file", "error", "trajectory.h5"},
+                                           ChildFault{"leaves a folder as result", "error", "no regular file"},
+                                           ChildFault{"leaves a result alone", "error", "trajectory.csv: cannot be read"},
+                                           ChildFault{"leaves a frame out", "error", "no frame at t = 0.25"},
+                                           ChildFault{"one value is not a number", "error", "not finite"},
+                                           ChildFault{"one value is infinite", "error", "not finite"},
+                                           ChildFault{"a time is not a number", "error", "the time is not finite"},
+                                           ChildFault{"names a body that is not there", "error", "is not one of"},
+                                           ChildFault{"names a body below the first", "error", "is not one of"},
+                                           ChildFault{"names half a body", "error", "is not one of"},
+                                           ChildFault{"numbers its particles past the last", "error", "is not one of"}));
 
 /// What is no fault of the engine's result does not cost it its pass.
 TEST(HarmlessChildEvents, LeaveAGoodResultGood) {
@@ -134,7 +148,8 @@ TEST(Starts, AChildThatCannotBeStartedIsARowWithTheSystemsWords) {
       spawns.plan(0, 0);
       EXPECT_EQ(c.exit_code, exit_missing) << start;
       EXPECT_EQ(c.engines.at(0).status, status) << start;
-      EXPECT_NE(c.engines.at(0).reason.find(std::string("could not be started: ") + std::strerror(error)), std::string::npos) << c.engines.at(0).reason;
+      EXPECT_NE(c.engines.at(0).reason.find(std::string("could not be started: ") + std::strerror(error)), std::string::npos)
+          << c.engines.at(0).reason;
     }
 }
 

@@ -96,7 +96,11 @@ TEST(Engines, OneEngineThatFailsDoesNotStopTheOthers) {
   options.out = folder / "out";
   options.jobs = 2;
   options.selection.engines = {"good", "bad"};
-  const auto c = run_suite({value}, {ask_engine(fake_engine(folder, "is killed", "bad")), ask_engine(fake_engine(folder, "nothing", "good"))}, options).cases.at(0);
+  const auto c =
+      run_suite({value},
+                {ask_engine(fake_engine(folder, "is killed", "bad")), ask_engine(fake_engine(folder, "nothing", "good"))},
+                options)
+          .cases.at(0);
   ASSERT_EQ(c.engines.size(), 2u);
   EXPECT_EQ(c.engines[0].name + " " + c.engines[0].status, "good ok");
   EXPECT_EQ(c.engines[1].name + " " + c.engines[1].status, "bad killed");
@@ -105,7 +109,8 @@ TEST(Engines, OneEngineThatFailsDoesNotStopTheOthers) {
 }
 
 TEST(Engines, AnEngineThatHoldsAnotherSceneIsNotComparable) {
-  for (const auto& [wrong, word] : {std::pair{"holds another gravity", "gravity"}, std::pair{"holds another mass", "mass of cube"}}) {
+  for (const auto& [wrong, word] :
+       {std::pair{"holds another gravity", "gravity"}, std::pair{"holds another mass", "mass of cube"}}) {
     const TestFolder folder;
     const auto c = fly(folder, wrong);
     EXPECT_EQ(c.exit_code, exit_missing);

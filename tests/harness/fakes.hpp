@@ -38,7 +38,8 @@ inline void write_text(const std::string& path, const std::string& text) {
 /// An executable that runs tests/harness/fake/engine.py with this fault.
 inline std::string fake_engine(const TestFolder& folder, const std::string& wrong, const std::string& name = "fake") {
   const auto path = folder / ("engine-" + name);
-  write_text(path, "#!/bin/sh\nFAKE='" + wrong + "' FAKE_NAME='" + name + "' exec /usr/bin/python3 " TRIPOINT_FAKE_ENGINE " \"$@\"\n");
+  write_text(path,
+             "#!/bin/sh\nFAKE='" + wrong + "' FAKE_NAME='" + name + "' exec /usr/bin/python3 " TRIPOINT_FAKE_ENGINE " \"$@\"\n");
   std::filesystem::permissions(path, std::filesystem::perms::owner_all);
   return path;
 }
@@ -56,7 +57,8 @@ inline Case read_flight_case(const TestFolder& folder, const std::string& more =
 }
 
 /// The flight, run on one fake engine alone.
-inline CaseResult fly(const TestFolder& folder, const std::string& wrong, const std::string& more = "", double wall_limit = 60.0) {
+inline CaseResult fly(const TestFolder& folder, const std::string& wrong, const std::string& more = "",
+                      double wall_limit = 60.0) {
   const auto value = read_flight_case(folder, more);
   SuiteOptions options;
   options.out = folder / "out";

@@ -14,7 +14,9 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* hostile = "x\n::error file=a.toml::forged\r\nverdict PASS exit 0\n| a | b |\n<script>alert(1)</script>\x1b[2J ##[error]old @team #1 [t](https://e) `c`";
+constexpr const char* hostile =
+    "x\n::error file=a.toml::forged\r\nverdict PASS exit 0\n| a | b |\n<script>alert(1)</script>\x1b[2J ##[error]old @team #1 "
+    "[t](https://e) `c`";
 
 /// Results in which every name and reason that others write is hostile; red, so that all of them are printed.
 Results hostile_results() {
@@ -44,18 +46,26 @@ std::vector<std::string> forged(const std::string& text) {
   for (std::string line; std::getline(lines, line);) {
     const auto first = line.find_first_not_of(" \t\r");
     const bool command = first != std::string::npos && line.compare(first, 2, "::") == 0;
-    if (command || line.find("##[") != std::string::npos || line.starts_with("verdict PASS") || line.find('\x1b') != std::string::npos || line.find('\r') != std::string::npos) found.push_back(line);
+    if (command || line.find("##[") != std::string::npos || line.starts_with("verdict PASS") ||
+        line.find('\x1b') != std::string::npos || line.find('\r') != std::string::npos)
+      found.push_back(line);
   }
   return found;
 }
 
 TEST(ForeignText, OnOneLineNothingBeginsALineTurnsOrHides) {
   EXPECT_EQ(one_line("plain \xc3\xbc \xe2\x82\xac \xf0\x9f\x99\x82"), "plain \xc3\xbc \xe2\x82\xac \xf0\x9f\x99\x82");
-  EXPECT_EQ(one_line("a\r\nb\tc\vd\xe2\x80\xa8""e\xc2\x85""f"), "a  b c d e f");          // U+2028 and U+0085 break lines too
-  EXPECT_EQ(one_line("\x1b[31m\x07\x7f\xc2\x9b"), "?[31m???");                            // U+009B begins a sequence as ESC [ does
-  EXPECT_EQ(one_line("a\xe2\x80\xae" "b\xe2\x80\x8b"), "a?b?");                           // right to left, no width
-  EXPECT_EQ(one_line("\xff\xc3(\xe2\x82"), "?\?(??");                                      // no UTF-8
-  EXPECT_EQ(one_line("\xed\xa0\x80\xf5\x80\x80\x80\xc0\x8a"), "?????????");               // surrogate, beyond the last letter, line feed in two bytes
+  EXPECT_EQ(one_line("a\r\nb\tc\vd\xe2\x80\xa8"
+                     "e\xc2\x85"
+                     "f"),
+            "a  b c d e f");                                    // U+2028 and U+0085 break lines too
+  EXPECT_EQ(one_line("\x1b[31m\x07\x7f\xc2\x9b"), "?[31m???");  // U+009B begins a sequence as ESC [ does
+  EXPECT_EQ(one_line("a\xe2\x80\xae"
+                     "b\xe2\x80\x8b"),
+            "a?b?");                                   // right to left, no width
+  EXPECT_EQ(one_line("\xff\xc3(\xe2\x82"), "?\?(??");  // no UTF-8
+  EXPECT_EQ(one_line("\xed\xa0\x80\xf5\x80\x80\x80\xc0\x8a"),
+            "?????????");  // surrogate, beyond the last letter, line feed in two bytes
 }
 
 TEST(ForeignText, InMarkdownNothingIsMarkup) {
@@ -75,7 +85,8 @@ TEST(ForeignText, InXmlAndUrlsNothingEndsAnything) {
 }
 
 TEST(ForeignText, ALogHoldsNoCommandOfOthers) {
-  EXPECT_EQ(without_commands("a\n::error::b\n  ::set-output::c\nstd::bad ##[error]d\n"), "a\n: :error::b\n  : :set-output::c\nstd::bad # #[error]d\n");
+  EXPECT_EQ(without_commands("a\n::error::b\n  ::set-output::c\nstd::bad ##[error]d\n"),
+            "a\n: :error::b\n  : :set-output::c\nstd::bad # #[error]d\n");
 }
 
 TEST(ForeignText, NoNameForgesALineOnTheTerminal) {
@@ -83,7 +94,8 @@ TEST(ForeignText, NoNameForgesALineOnTheTerminal) {
   ASSERT_NE(r.exit_code, exit_pass);
   const auto remarks = verdict_remarks(r);
   ASSERT_GE(remarks.size(), 3U);
-  for (const auto& text : {case_line(r.cases[0]), notes_text(r), remarks_text(remarks), last_line(r, hostile), verdict_word(r.exit_code, r, remarks)}) {
+  for (const auto& text : {case_line(r.cases[0]), notes_text(r), remarks_text(remarks), last_line(r, hostile),
+                           verdict_word(r.exit_code, r, remarks)}) {
     EXPECT_TRUE(forged(without_commands(text)).empty()) << text;
   }
 }
@@ -92,7 +104,8 @@ TEST(ForeignText, AnAnnotationIsOneCommand) {
   const auto remarks = verdict_remarks(hostile_results());
   std::istringstream lines(annotations_text(remarks));
   std::size_t count = 0;
-  for (std::string line; std::getline(lines, line); ++count) EXPECT_TRUE(line.starts_with("::error ") || line.starts_with("::warning ")) << line;
+  for (std::string line; std::getline(lines, line); ++count)
+    EXPECT_TRUE(line.starts_with("::error ") || line.starts_with("::warning ")) << line;
   EXPECT_EQ(count, std::min<std::size_t>(remarks.size(), 10));
 }
 
@@ -104,7 +117,8 @@ TEST(ForeignText, TheSummaryHoldsNoTagAndNoRowOfOthers) {
   EXPECT_EQ(text.find('\x1b'), text.npos) << text;
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {
-    EXPECT_TRUE(line.empty() || line[0] == '#' || line[0] == '|' || line.starts_with("- ") || line.starts_with("1 case, ")) << line;
+    EXPECT_TRUE(line.empty() || line[0] == '#' || line[0] == '|' || line.starts_with("- ") || line.starts_with("1 case, "))
+        << line;
     const auto bars = std::count(line.begin(), line.end(), '|');
     EXPECT_EQ(bars, line.starts_with("|") ? 5 : 0) << line;
   }

@@ -43,7 +43,8 @@ TEST(Front, TheRecommendedSpacingDividesTheScene) {
   ASSERT_TRUE(r);
   EXPECT_NEAR(1.0 / r->level, std::round(1.0 / r->level), 1e-9);
   EXPECT_LE(r->error.value, 5e-3);
-  EXPECT_GT(predicted_error(ladders[0], 1.0 / (std::round(1.0 / r->level) - 2.0)).value, 4.7e-3);  // and is not finer than it must be
+  EXPECT_GT(predicted_error(ladders[0], 1.0 / (std::round(1.0 / r->level) - 2.0)).value,
+            4.7e-3);  // and is not finer than it must be
 }
 
 TEST(Front, TheCheapestOfTwoEnginesIsTaken) {
@@ -86,7 +87,7 @@ TEST(Uncertainty, OfTheGridCountsAgainstAnExperimentAndNotAgainstTheTruth) {
   c.reference.kind = "experiment";
   judge(r);
   EXPECT_NEAR(engine(r).gates.back().budget.numerical, 0.5 * 1.25 * 2.5e-3, 1e-8);  // second order to a limit of 0
-  c.gates[0].limit = 3.0e-3;  // the finest is 2.5e-3 + 2 * 1.56e-3
+  c.gates[0].limit = 3.0e-3;                                                        // the finest is 2.5e-3 + 2 * 1.56e-3
   judge(r);
   EXPECT_EQ(engine(r).gates.back().verdict, "inconclusive");
 }
@@ -109,7 +110,8 @@ TEST(Uncertainty, OfAnInputIsHalfOfWhatItsEndsMove) {
 
 TEST(Uncertainty, OfAnInputOfACaseIsMeasuredByTwoMoreRuns) {
   const TestFolder folder;
-  const auto value = read_flight_case(folder, "[[input]]\nkey = \"body.cube.velocity\"\nlow = \"[0.99, 0.0, 2.0]\"\nhigh = \"[1.01, 0.0, 2.0]\"\n");
+  const auto value = read_flight_case(
+      folder, "[[input]]\nkey = \"body.cube.velocity\"\nlow = \"[0.99, 0.0, 2.0]\"\nhigh = \"[1.01, 0.0, 2.0]\"\n");
   SuiteOptions options;
   options.out = folder / "out", options.selection.engines = {"fake"};
   const auto result = run_suite({value}, {ask_engine(fake_engine(folder, "nothing"))}, options).cases.at(0);

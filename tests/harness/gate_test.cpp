@@ -134,7 +134,8 @@ TEST(GateVerdict, SaysWhereTheResultsAreOfAnotherCommit) {
     r.cases[0].file = folder / "cases/test/one.toml";
     r.tool.commit = commit;
     const auto remarks = gate_verdict(judged(r)).remarks;
-    return std::any_of(remarks.begin(), remarks.end(), [](const Remark& remark) { return remark.text.find("were made by commit") != std::string::npos; });
+    return std::any_of(remarks.begin(), remarks.end(),
+                       [](const Remark& remark) { return remark.text.find("were made by commit") != std::string::npos; });
   };
   EXPECT_TRUE(says("another"));
   EXPECT_FALSE(says(this_tool().commit));
@@ -161,7 +162,8 @@ struct Kept {
     write_text(folder / "cases/test/one.toml", "format = 1\n");
     std::filesystem::create_directories(folder / "baselines");
     r.cases[0].file = folder / "cases/test/one.toml";
-    engine(r).runs[0].cost.pairs = 1000.0, engine(r).runs[0].cost.steps = 10.0, engine(r).runs[0].folder = "runs/test/one/tripoint/corrected";
+    engine(r).runs[0].cost.pairs = 1000.0, engine(r).runs[0].cost.steps = 10.0,
+    engine(r).runs[0].folder = "runs/test/one/tripoint/corrected";
     judge(r);
   }
   std::string accept_all() { return accept(r, {}, {"2026-11-21", "abc", "a test"}); }
@@ -230,7 +232,8 @@ TEST(Baselines, WhatIsAcceptedIsReadBackAsItWas) {
   Kept kept;
   (void)kept.accept_all();
   const auto b = read_baseline(kept.folder / "baselines/test/one.toml");
-  EXPECT_EQ(baseline_text(b), baseline_text(accepted_from(kept.r.cases[0], kept.r.tool, kept.r.seed, nullptr, {"2026-11-21", "abc", "a test"})));
+  EXPECT_EQ(baseline_text(b),
+            baseline_text(accepted_from(kept.r.cases[0], kept.r.tool, kept.r.seed, nullptr, {"2026-11-21", "abc", "a test"})));
   EXPECT_TRUE(baseline_remarks(kept.r).empty());
 }
 
@@ -268,8 +271,10 @@ steps = 10.0
 )");
   const auto old = read_baseline(folder / "tables.toml");
   const auto rows = baseline_text(old);
-  EXPECT_NE(rows.find(R"({ metric = "position", engine = "tripoint", mode = "corrected", level = 0.5, band = [-0.1, 0.3], value = 0.05, uncertainty = 0.01, first_room = 0.15, first_value = 0.04, loosened = 0.2876820724517809, measures = "bb" })"),
-            std::string::npos)
+  EXPECT_NE(
+      rows.find(
+          R"({ metric = "position", engine = "tripoint", mode = "corrected", level = 0.5, band = [-0.1, 0.3], value = 0.05, uncertainty = 0.01, first_room = 0.15, first_value = 0.04, loosened = 0.2876820724517809, measures = "bb" })"),
+      std::string::npos)
       << rows;
   write_text(folder / "rows.toml", rows);
   const auto now = read_baseline(folder / "rows.toml");

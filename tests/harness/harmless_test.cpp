@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes that physics does not feel: each is undone exactly, is refused where it is no symmetry, and is felt by a solver that has an axis, an order or a unit of its own.
+// Changes that physics does not feel: each is undone exactly, is refused where it is no symmetry, and is felt by a solver that
+// has an axis, an order or a unit of its own.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -26,7 +27,8 @@ ChangedScene lopsided() {
     c.initial.position.push_back({0.1 * n, 0.3 - 0.01 * n * n, 1.0 / (1.0 + n)});
     c.initial.velocity.push_back({1.0 - n, 0.5 * n, 0.125 * n * n});
     c.initial.mass.push_back(1.0 + n);
-    c.initial.phase.push_back(2), c.initial.body.push_back(i % 2), c.initial.material.push_back(0), c.initial.source.push_back(i % 2);
+    c.initial.phase.push_back(2), c.initial.body.push_back(i % 2), c.initial.material.push_back(0),
+        c.initial.source.push_back(i % 2);
   }
   return c;
 }
@@ -101,7 +103,8 @@ TEST(Harmless, ASpinIsAnAxialVector) {
   Trajectory run{{s}};
   harmless_change("mirror").take_back(before, run);
   EXPECT_EQ(run.frames[0].bodies[0].angular_velocity, (Vec3{1.0, -2.0, -3.0}));
-  const Vec3 r{0.3, -0.4, 0.5}, turned = rotate(s.bodies[0].orientation, r);  // mirror, turn by the mirrored rotation, mirror: the turn itself
+  const Vec3 r{0.3, -0.4, 0.5},
+      turned = rotate(s.bodies[0].orientation, r);  // mirror, turn by the mirrored rotation, mirror: the turn itself
   const Vec3 way_round = rotate(run.frames[0].bodies[0].orientation, {-r.x, r.y, r.z});
   EXPECT_LE(difference({-way_round.x, way_round.y, way_round.z}, turned), 1e-15);
 }
@@ -125,7 +128,8 @@ TEST(Harmless, AnUnknownChangeIsRefusedAsTheFileIsReadWithTheAllowedWords) {
     (void)read_flight_case(folder, "[[harmless]]\nname = \"shuffle\"\n");
     FAIL() << "the name was taken";
   } catch (const InputError& e) {
-    for (const auto& change : harmless_changes()) EXPECT_NE(std::string(e.what()).find(change.name), std::string::npos) << e.what();
+    for (const auto& change : harmless_changes())
+      EXPECT_NE(std::string(e.what()).find(change.name), std::string::npos) << e.what();
   }
 }
 
@@ -150,7 +154,8 @@ CaseResult judged_case(double measured, const std::string& hash = "a") {
 TEST(Harmless, AMetricThatChangesByMoreThanRoundOffIsFelt) {
   const auto& order = harmless_change("order");
   EXPECT_TRUE(judge_harmless(order, judged_case(0.05), judged_case(0.05 + 0.5 * order.tolerance)).borne);
-  EXPECT_FALSE(judge_harmless(order, judged_case(0.05), judged_case(0.05 + 2.0 * order.tolerance)).borne);  // green, and yet another answer
+  EXPECT_FALSE(judge_harmless(order, judged_case(0.05), judged_case(0.05 + 2.0 * order.tolerance))
+                   .borne);  // green, and yet another answer
   EXPECT_FALSE(judge_harmless(order, judged_case(0.05), judged_case(not_a_number)).borne);
 }
 
@@ -184,7 +189,8 @@ TEST(Harmless, AFlightBearsWhatItsSceneAllowsAndTheBoostOfWhatFallsIsRefused) {
   for (const auto& change : harmless_changes()) names += "[[harmless]]\nname = \"" + std::string(change.name) + "\"\n";
   SelftestOptions options;
   options.out = folder / "out";
-  for (const auto& row : try_harmless(read_flight_case(folder, names), engine, options)) EXPECT_EQ(row.borne, row.change != "boost") << row.change << ": " << row.found;
+  for (const auto& row : try_harmless(read_flight_case(folder, names), engine, options))
+    EXPECT_EQ(row.borne, row.change != "boost") << row.change << ": " << row.found;
 }
 
 TEST(Harmless, ASolverWithAnAxisOfItsOwnFeelsTheRotation) {
@@ -201,7 +207,9 @@ TEST(Harmless, ASolverWithAnAxisOfItsOwnFeelsTheRotation) {
 
 TEST(Harmless, RunsOfOneStartHaveFilesOfTheirOwn) {
   const TestFolder folder;
-  const auto value = read_flight_case(folder, "[[study]]\naxis = \"time_step\"\nlevels = [0.02, 0.01, 0.005]\nmetric = \"position\"\n");  // other steps, one start
+  const auto value = read_flight_case(
+      folder,
+      "[[study]]\naxis = \"time_step\"\nlevels = [0.02, 0.01, 0.005]\nmetric = \"position\"\n");  // other steps, one start
   EngineEntry ours;
   ours.name = "tripoint";
   ours.available = true;

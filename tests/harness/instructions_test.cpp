@@ -21,7 +21,8 @@ TEST(Instructions, OfEveryProcessUnderCallgrindAreAddedUp) {
 }
 
 TEST(Instructions, AreTheSameInEveryRunUnderCallgrindAndGrowWithTheWork) {
-  const auto once = callgrind_instructions(counting(2000)), again = callgrind_instructions(counting(2000)), twice = callgrind_instructions(counting(4000));
+  const auto once = callgrind_instructions(counting(2000)), again = callgrind_instructions(counting(2000)),
+             twice = callgrind_instructions(counting(4000));
   if (!once) GTEST_SKIP() << "valgrind is not here";
   EXPECT_NEAR(*again / *once, 1.0, 1e-3);  // the shell's own start depends a little on the environment
   EXPECT_GT(*twice, 1.3 * *once);

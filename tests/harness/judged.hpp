@@ -55,7 +55,8 @@ inline Results study_of(const std::vector<double>& errors) {
   double spacing = 0.1;
   for (const double e : errors) {
     auto run = run_with({{"error", value(e)}});
-    run.base = false, run.knobs.spacing = spacing, run.levels = {{"spacing", spacing}}, run.group = "spacing=" + std::to_string(spacing);
+    run.base = false, run.knobs.spacing = spacing, run.levels = {{"spacing", spacing}},
+    run.group = "spacing=" + std::to_string(spacing);
     engine(r).runs.push_back(run);
     s.levels.push_back(spacing);
     spacing /= 2.0;

@@ -133,7 +133,8 @@ TEST(GateEdges, AnOrderPassesWithItsWholeInterval) {
 }
 
 TEST(GateEdges, AnIntervalThatIsNoneFails) {
-  for (const auto& order : {interval(2.5, 2.0, 3.0), interval(1.0, 2.0, 1.5), interval(nan, 2.0, 3.0), interval(1.0, nan, 3.0), interval(1.9, 2.0, infinity), interval(-infinity, 2.0, 2.5)})
+  for (const auto& order : {interval(2.5, 2.0, 3.0), interval(1.0, 2.0, 1.5), interval(nan, 2.0, 3.0), interval(1.0, nan, 3.0),
+                            interval(1.9, 2.0, infinity), interval(-infinity, 2.0, 2.5)})
     EXPECT_EQ(verdict_of(gate_of({}, -100.0, {}), order), Verdict::fail) << order.low << " " << order.value << " " << order.high;
   EXPECT_EQ(verdict_of(gate_of(100.0, {}, {}), interval(-infinity, 2.0, 2.5)), Verdict::fail);
 }
@@ -182,11 +183,20 @@ TEST(GateEdges, RoomIsOneNumberForEachKindOfGate) {
 }
 
 TEST(ExitCodes, EachHasItsWord) {
-  const std::vector<std::pair<int, std::string>> words{{exit_pass, "PASS"}, {exit_fail, "FAIL"}, {exit_bad_input, "BAD INPUT"}, {exit_inconclusive, "INCONCLUSIVE"}, {exit_missing, "MISSING"},
-                                                       {exit_selftest, "SELF-TEST FAILED"}, {exit_cost, "COST REGRESSION"}, {exit_diverged, "DIVERGED"}, {exit_interrupted, "INTERRUPTED"}};
+  const std::vector<std::pair<int, std::string>> words{{exit_pass, "PASS"},
+                                                       {exit_fail, "FAIL"},
+                                                       {exit_bad_input, "BAD INPUT"},
+                                                       {exit_inconclusive, "INCONCLUSIVE"},
+                                                       {exit_missing, "MISSING"},
+                                                       {exit_selftest, "SELF-TEST FAILED"},
+                                                       {exit_cost, "COST REGRESSION"},
+                                                       {exit_diverged, "DIVERGED"},
+                                                       {exit_interrupted, "INTERRUPTED"}};
   for (const auto& [code, word] : words) EXPECT_EQ(verdict_word(code), word);
   EXPECT_EQ(first_of({1, 2, 3, 4, 5, 6, 7, exit_interrupted}), exit_interrupted);
-  for (const auto& [verdict, word] : {std::pair{Verdict::pass, "pass"}, std::pair{Verdict::fail, "fail"}, std::pair{Verdict::inconclusive, "inconclusive"}, std::pair{Verdict::missing, "missing"}, std::pair{Verdict::diverged, "diverged"}})
+  for (const auto& [verdict, word] :
+       {std::pair{Verdict::pass, "pass"}, std::pair{Verdict::fail, "fail"}, std::pair{Verdict::inconclusive, "inconclusive"},
+        std::pair{Verdict::missing, "missing"}, std::pair{Verdict::diverged, "diverged"}})
     EXPECT_STREQ(to_string(verdict), word);
 }
 
@@ -230,7 +240,8 @@ TEST(SlackEdges, ACountUsesAHalfAtLeastUnlessItIsScaled) {
   EXPECT_EQ(slack_of(c, row), infinity);
 }
 
-AcceptedGate accepted(std::optional<double> limit, std::optional<double> at_least, std::optional<std::array<double, 2>> band, std::optional<double> drift = {}) {
+AcceptedGate accepted(std::optional<double> limit, std::optional<double> at_least, std::optional<std::array<double, 2>> band,
+                      std::optional<double> drift = {}) {
   AcceptedGate g;
   g.limit = limit, g.at_least = at_least, g.band = band, g.drift = drift;
   return g;
@@ -249,12 +260,16 @@ TEST(LooserEdges, AreNamedWithBothFigures) {
   EXPECT_EQ(looser_edge(accepted({}, 1.0, {}), accepted(0.25, {}, {})), "its upper edge, 0.25, is gone");
   EXPECT_EQ(looser_edge(accepted({}, 1.0, {}), accepted({}, 1.5, {})), "its lower edge has moved from 1.5 to 1");
   EXPECT_EQ(looser_edge(accepted({}, 2.0, {}), accepted({}, 1.5, {})), "");
-  EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-1.0, 2.0}), accepted({}, {}, std::array{-0.5, 2.0})), "its lower edge has moved from -0.5 to -1");
+  EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-1.0, 2.0}), accepted({}, {}, std::array{-0.5, 2.0})),
+            "its lower edge has moved from -0.5 to -1");
   EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-0.25, 1.0}), accepted({}, {}, std::array{-0.5, 2.0})), "");
-  EXPECT_EQ(looser_edge(accepted(2.0, {}, {}), accepted({}, {}, std::array{-0.5, 2.0})), "its lower edge has moved from -0.5 to -2");
-  EXPECT_EQ(looser_edge(accepted(1.0, -2.0, {}), accepted(1.0, {}, {})), "");  // a limit is a lower edge too, and the nearer one counts
+  EXPECT_EQ(looser_edge(accepted(2.0, {}, {}), accepted({}, {}, std::array{-0.5, 2.0})),
+            "its lower edge has moved from -0.5 to -2");
+  EXPECT_EQ(looser_edge(accepted(1.0, -2.0, {}), accepted(1.0, {}, {})),
+            "");  // a limit is a lower edge too, and the nearer one counts
   EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), accepted(1.0, -0.5, {})), "its lower edge has moved from -0.5 to -1");
-  EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), accepted(1.0, {}, std::array{-3.0, 0.5})), "its upper edge has moved from 0.5 to 1");
+  EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), accepted(1.0, {}, std::array{-3.0, 0.5})),
+            "its upper edge has moved from 0.5 to 1");
   EXPECT_EQ(looser_edge(accepted(1.0 + 0.9e-9, {}, {}), accepted(1.0, {}, {})), "");
   EXPECT_NE(looser_edge(accepted(1.0 + 1.1e-9, {}, {}), accepted(1.0, {}, {})), "");
 }
@@ -262,16 +277,19 @@ TEST(LooserEdges, AreNamedWithBothFigures) {
 TEST(LooserEdges, ADriftThatGrowsOrIsGoneIsLooser) {
   EXPECT_EQ(looser_edge(accepted(1.0, {}, {}, 0.5), accepted(1.0, {}, {}, 0.5)), "");
   EXPECT_EQ(looser_edge(accepted(1.0, {}, {}, 0.5), accepted(1.0, {}, {}, 0.25)), "the drift that it allows was 0.25 and is 0.5");
-  EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), accepted(1.0, {}, {}, 0.25)), "the drift that it allows was 0.25 and is not bounded");
+  EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), accepted(1.0, {}, {}, 0.25)),
+            "the drift that it allows was 0.25 and is not bounded");
   EXPECT_EQ(looser_edge(accepted(1.0, {}, {}, 0.25), accepted(1.0, {}, {})), "");
 }
 
 TEST(LooserEdges, OfWordsAreReadFromThem) {
   EXPECT_EQ(looser_edge(accepted(0.5, {}, {}), in_words("limit 0.25")), "its upper edge has moved from 0.25 to 0.5");
   EXPECT_EQ(looser_edge(accepted({}, 1.0, {}), in_words("at least 1.5")), "its lower edge has moved from 1.5 to 1");
-  EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-1.0, 2.0}), in_words("limit 9, band -0.5 to 2")), "its lower edge has moved from -0.5 to -1");
+  EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-1.0, 2.0}), in_words("limit 9, band -0.5 to 2")),
+            "its lower edge has moved from -0.5 to -1");
   EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-0.5, 2.0}), in_words("limit 9, band -0.5 to 2")), "");
-  EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-0.5, 2.5}), in_words("limit 9, band -0.5 to 2")), "its upper edge has moved from 2 to 2.5");
+  EXPECT_EQ(looser_edge(accepted({}, {}, std::array{-0.5, 2.5}), in_words("limit 9, band -0.5 to 2")),
+            "its upper edge has moved from 2 to 2.5");
   EXPECT_EQ(looser_edge(accepted(1.000009, {}, {}), in_words("limit 1")), "");  // six digits
   EXPECT_NE(looser_edge(accepted(1.000011, {}, {}), in_words("limit 1")), "");
   EXPECT_EQ(looser_edge(accepted(1.0, {}, {}), in_words("class asymptotic")), "");

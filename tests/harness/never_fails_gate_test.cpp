@@ -55,18 +55,22 @@ class Accepted {
 };
 
 bool says(const std::vector<Remark>& list, const std::string& text, const std::string& word) {
-  return std::any_of(list.begin(), list.end(), [&](const Remark& m) { return m.error && m.code == exit_missing && m.word == word && m.text.find(text) != std::string::npos; });
+  return std::any_of(list.begin(), list.end(), [&](const Remark& m) {
+    return m.error && m.code == exit_missing && m.word == word && m.text.find(text) != std::string::npos;
+  });
 }
 
 std::string all_of(const std::vector<Remark>& list) { return remarks_text(list); }
 
-constexpr const char* two_sided = "[[gate]]\nmetric = \"travelled\"\nband = [0.1, 2.0]\nreason = \"it flies\"\n"
-                                  "[[metric]]\nname = \"travelled\"\nquantity = \"position\"\nnorm = \"drift\"\nunit = \"m\"\n";
+constexpr const char* two_sided =
+    "[[gate]]\nmetric = \"travelled\"\nband = [0.1, 2.0]\nreason = \"it flies\"\n"
+    "[[metric]]\nname = \"travelled\"\nquantity = \"position\"\nnorm = \"drift\"\nunit = \"m\"\n";
 
 TEST(NeverFailsGate, IsGreenAsItWasAccepted) {
   Accepted suite(two_sided);
   EXPECT_EQ(suite.r.exit_code, exit_pass) << case_line(suite.r.cases.at(0));
-  for (const auto& list : {baseline_remarks(suite.r), lost_case_remarks(suite.r), recheck_remarks(suite.r)}) EXPECT_TRUE(list.empty()) << all_of(list);
+  for (const auto& list : {baseline_remarks(suite.r), lost_case_remarks(suite.r), recheck_remarks(suite.r)})
+    EXPECT_TRUE(list.empty()) << all_of(list);
 }
 
 TEST(NeverFailsGate, Way21ABandThatIsShiftedAtEqualWidthIsLoosened) {
@@ -88,8 +92,10 @@ TEST(NeverFailsGate, Way22ABandOfAnOlderBaselineIsReadFromItsWords) {
 }
 
 TEST(NeverFailsGate, Way23AMetricThatMeasuresSomethingElseIsChanged) {
-  for (const auto& [from, to] : {std::pair{"unit = \"m\"\n[[gate]]\nmetric = \"position\"", "unit = \"m\"\nscale = 100.0\n[[gate]]\nmetric = \"position\""},
-                                 std::pair{"norm = \"max\"", "norm = \"final\""}, std::pair{"norm = \"max\"", "norm = \"max\"\nwindow = [0.0, 0.1]"}}) {
+  for (const auto& [from, to] :
+       {std::pair{"unit = \"m\"\n[[gate]]\nmetric = \"position\"",
+                  "unit = \"m\"\nscale = 100.0\n[[gate]]\nmetric = \"position\""},
+        std::pair{"norm = \"max\"", "norm = \"final\""}, std::pair{"norm = \"max\"", "norm = \"max\"\nwindow = [0.0, 0.1]"}}) {
     Accepted suite;
     const auto list = suite.after(from, to);
     EXPECT_TRUE(says(list, "its metric has changed", "CHANGED")) << to << "\n" << all_of(list);
@@ -99,7 +105,8 @@ TEST(NeverFailsGate, Way23AMetricThatMeasuresSomethingElseIsChanged) {
 TEST(NeverFailsGate, Way24AnotherSceneOrReferenceIsChangedAndTextForPeopleIsNot) {
   Accepted suite;
   EXPECT_TRUE(says(suite.after("end_time = 0.5", "end_time = 0.05"), "its scene", "CHANGED"));
-  EXPECT_TRUE(says(suite.after("source = \"the parabola\"", "source = \"the parabola\"\nuncertainty = 1.0"), "its reference", "CHANGED"));
+  EXPECT_TRUE(
+      says(suite.after("source = \"the parabola\"", "source = \"the parabola\"\nuncertainty = 1.0"), "its reference", "CHANGED"));
   EXPECT_TRUE(suite.after("claims = \"it flies\"", "claims = \"it flies as ever\" # a comment").empty());
   EXPECT_TRUE(suite.after("end_time = 0.5", "end_time = \"500 ms\"").empty());
 }
@@ -149,11 +156,14 @@ TEST(NeverFailsGate, Way27AnotherCopyOfTheBaselinesJudgesAChangeThatBringsItsOwn
   const auto r = suite.run("nothing");
   (void)accept(r, {}, {"2026-11-22", "abc", "their own reason"});
   EXPECT_TRUE(baseline_remarks(r).empty());
-  EXPECT_TRUE(says(baseline_remarks(r, false, suite.folder / "theirs"), "its upper edge has moved from 1e-10 to 0.001", "LOOSENED"));
+  EXPECT_TRUE(
+      says(baseline_remarks(r, false, suite.folder / "theirs"), "its upper edge has moved from 1e-10 to 0.001", "LOOSENED"));
 }
 
 TEST(NeverFailsGate, Way28AnOptionalEngineThatCrashesOrRefusesWhatItOnceRanIsRed) {
-  const std::string optional = "[engines.tripoint]\nrequired = false\n[[gate]]\nmetric = \"position\"\nengine = \"tripoint\"\nlimit = 1e-10\nreason = \"round-off\"\n";
+  const std::string optional =
+      "[engines.tripoint]\nrequired = false\n[[gate]]\nmetric = \"position\"\nengine = \"tripoint\"\nlimit = 1e-10\nreason = "
+      "\"round-off\"\n";
   for (const char* wrong : {"is killed", "leaves no result", "stops early"}) {
     Accepted suite(optional);
     EXPECT_EQ(suite.run(wrong).exit_code, exit_missing) << wrong;
@@ -163,7 +173,8 @@ TEST(NeverFailsGate, Way28AnOptionalEngineThatCrashesOrRefusesWhatItOnceRanIsRed
   refused.cases[0].exit_code = exit_pass;  // another engine's gates are green
   EXPECT_TRUE(says(baseline_remarks(refused), "judges nothing any more", "GONE"));
   auto missing = suite.run("nothing");
-  missing.cases[0].engines[0].status = "missing", missing.cases[0].engines[0].runs.clear(), missing.cases[0].engines[0].gates.clear();
+  missing.cases[0].engines[0].status = "missing", missing.cases[0].engines[0].runs.clear(),
+  missing.cases[0].engines[0].gates.clear();
   missing.cases[0].exit_code = exit_pass;
   EXPECT_TRUE(baseline_remarks(missing).empty());
   EXPECT_EQ(accepted_but_absent(missing).at("tripoint"), 2);
@@ -224,19 +235,24 @@ TEST(NeverFailsGate, Way37OtherDataBehindAReferenceIsAnotherReference) {
 
 /// Edited to be easier, validated and put back: limits, metrics and values are then those of the case.
 TEST(NeverFailsGate, Way53ASceneThatWasEasierWhenItRanIsSeenThoughItIsPutBack) {
-  for (const auto& [from, to] : {std::pair{"end_time = 0.5", "end_time = 0.05"}, std::pair{"velocity = [1.0, 0.0, 2.0]", "velocity = [0.0, 0.0, 0.0]"}, std::pair{"density = 1000.0", "density = 1.0"}}) {
+  for (const auto& [from, to] :
+       {std::pair{"end_time = 0.5", "end_time = 0.05"}, std::pair{"velocity = [1.0, 0.0, 2.0]", "velocity = [0.0, 0.0, 0.0]"},
+        std::pair{"density = 1000.0", "density = 1.0"}}) {
     Accepted suite;
     suite.write("", from, to);
     write_text(suite.folder / "results.json", results_text(suite.run("nothing")));
     const auto easier = read_results(suite.folder / "results.json");
     EXPECT_TRUE(recheck_remarks(easier).empty()) << all_of(recheck_remarks(easier));
     suite.write("");
-    EXPECT_TRUE(says(recheck_remarks(easier), "the scene was another", "CHANGED")) << to << "\n" << all_of(recheck_remarks(easier));
+    EXPECT_TRUE(says(recheck_remarks(easier), "the scene was another", "CHANGED")) << to << "\n"
+                                                                                   << all_of(recheck_remarks(easier));
   }
 }
 
 TEST(NeverFailsGate, Way54AMetricWhoseOwnReferenceWasAnotherIsSeenThoughItIsPutBack) {
-  const std::string own = "[[metric]]\nname = \"late\"\nquantity = \"position\"\nnorm = \"final\"\nunit = \"m\"\nreference = { kind = \"analytic\", function = \"ballistic\", source = \"the parabola\", uncertainty = 0.0 }\n";
+  const std::string own =
+      "[[metric]]\nname = \"late\"\nquantity = \"position\"\nnorm = \"final\"\nunit = \"m\"\nreference = { kind = \"analytic\", "
+      "function = \"ballistic\", source = \"the parabola\", uncertainty = 0.0 }\n";
   Accepted suite(own);
   suite.write(own, "uncertainty = 0.0", "uncertainty = 1.0");
   write_text(suite.folder / "results.json", results_text(suite.run("nothing")));

@@ -20,7 +20,8 @@ CaseResult fly_as(const std::string& from, const std::string& to, const std::str
   write_text(folder / "cases/test/flight.toml", text);
   SuiteOptions options;
   options.out = folder / "out", options.selection.engines = {"fake"};
-  return run_suite({read_case(folder / "cases/test/flight.toml").value}, {ask_engine(fake_engine(folder, wrong))}, options).cases.at(0);
+  return run_suite({read_case(folder / "cases/test/flight.toml").value}, {ask_engine(fake_engine(folder, wrong))}, options)
+      .cases.at(0);
 }
 
 std::string why_of(const CaseResult& c) { return c.engines.at(0).gates.empty() ? "" : c.engines.at(0).gates.at(0).why; }
@@ -47,7 +48,10 @@ TEST(NeverFailsLies, Way47ATrajectoryThatIsALinkIsNotTheEnginesOwn) {
     const auto value = read_flight_case(folder, "[engines.a-good]\nrequired = true\n[engines.mine]\nrequired = true\n");
     SuiteOptions options;
     options.out = folder / "out", options.selection.engines = {"a-good", "mine"};
-    const auto c = run_suite({value}, {ask_engine(fake_engine(folder, "nothing", "a-good")), ask_engine(fake_engine(folder, wrong, "mine"))}, options).cases.at(0);
+    const auto c =
+        run_suite({value}, {ask_engine(fake_engine(folder, "nothing", "a-good")), ask_engine(fake_engine(folder, wrong, "mine"))},
+                  options)
+            .cases.at(0);
     EXPECT_EQ(c.exit_code, exit_missing) << wrong;
     EXPECT_NE(c.engines.at(1).reason.find("is a link to another file"), std::string::npos) << c.engines.at(1).reason;
     EXPECT_EQ(c.engines.at(0).status, "ok") << c.engines.at(0).reason;

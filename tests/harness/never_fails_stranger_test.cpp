@@ -24,7 +24,8 @@ TEST(NeverFailsStranger, Way30TheReportOfAnEarlierCallIsSetAsideBeforeAnythingIs
   const TestFolder folder;
   for (const char* name : {"results.json", "junit.xml", "summary.md", "index.html"}) write_text(folder / name, "old");
   set_aside_report(folder / ".");
-  for (const char* name : {"results.json", "junit.xml", "summary.md", "index.html"}) EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+  for (const char* name : {"results.json", "junit.xml", "summary.md", "index.html"})
+    EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
   EXPECT_TRUE(std::filesystem::exists(folder / "results.previous.json"));
 }
 
@@ -50,9 +51,14 @@ TEST(NeverFailsStranger, Way32AnEngineThatWritesIntoTheSharedParticlesIsAnErrorA
   const auto value = read_flight_case(folder, "[engines.a-bad]\nrequired = true\n[engines.good]\nrequired = true\n");
   SuiteOptions options;
   options.out = folder / "out", options.selection.engines = {"a-bad", "good"};
-  const auto c = run_suite({value}, {ask_engine(fake_engine(folder, "writes into the particles", "a-bad")), ask_engine(fake_engine(folder, "nothing", "good"))}, options).cases.at(0);
+  const auto c = run_suite({value},
+                           {ask_engine(fake_engine(folder, "writes into the particles", "a-bad")),
+                            ask_engine(fake_engine(folder, "nothing", "good"))},
+                           options)
+                     .cases.at(0);
   EXPECT_EQ(c.exit_code, exit_missing);
-  EXPECT_NE(c.engines.at(0).reason.find("the particles that all engines start from were changed"), std::string::npos) << c.engines.at(0).reason;
+  EXPECT_NE(c.engines.at(0).reason.find("the particles that all engines start from were changed"), std::string::npos)
+      << c.engines.at(0).reason;
   EXPECT_EQ(c.engines.at(1).status, "ok") << c.engines.at(1).reason;
 }
 

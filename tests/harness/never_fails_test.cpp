@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "core/errors.hpp"
 #include "validation/harness/report_files.hpp"
 
 namespace tripoint {
@@ -198,8 +198,10 @@ TEST(NeverFails, Way18AnEngineThatWasAskedForAndIsNotThereOrDidNotRunDoesNotPass
     auto r = with_stranger("");
     auto& mine = r.cases[0].engines[1];
     mine.status = status, mine.reason = "why";
-    if (mine.status == "missing") mine.runs.clear();
-    else mine.runs[0].status = status, mine.runs[0].reason = "why";
+    if (mine.status == "missing")
+      mine.runs.clear();
+    else
+      mine.runs[0].status = status, mine.runs[0].reason = "why";
     judge(r);
     EXPECT_EQ(r.exit_code, exit_missing) << status;
     ASSERT_FALSE(r.problems.empty()) << status;

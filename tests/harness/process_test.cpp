@@ -44,7 +44,8 @@ TEST(Process, MemoryIsTheChildsAndNotThatOfWhoStartedIt) {
   EXPECT_GT(small.peak_bytes, 2e5);
   EXPECT_LT(small.peak_bytes, 5e7);
   ours = {};
-  const auto large = run_process(shell("exec /usr/bin/python3 -c 'import time; x = bytearray(b\"1\") * 60000000; time.sleep(0.5)'"));
+  const auto large =
+      run_process(shell("exec /usr/bin/python3 -c 'import time; x = bytearray(b\"1\") * 60000000; time.sleep(0.5)'"));
   EXPECT_GT(large.peak_bytes, 6e7);
   EXPECT_LT(large.peak_bytes, 2e8);
 }
@@ -75,7 +76,8 @@ TEST(Process, ADaemonInASessionOfItsOwnEndsWithItsRun) {
 TEST(Process, WhatAHarnessInsideARunStartedEndsWithThatRun) {
   const TestFolder folder;
   const auto file = folder / "pid";
-  const auto end = run_process(shell("TRIPOINT_RUN=$TRIPOINT_RUN/7.7/0 setsid sleep 300 & echo $! > " + file));  // marked as such a harness marks its engines
+  const auto end = run_process(shell("TRIPOINT_RUN=$TRIPOINT_RUN/7.7/0 setsid sleep 300 & echo $! > " +
+                                     file));  // marked as such a harness marks its engines
   EXPECT_EQ(end.how, ProcessEnd::How::exited);
   pid_t engine = 0;
   std::ifstream(file) >> engine;
@@ -98,7 +100,8 @@ TEST(Process, AnOrphanThatHoldsThePipesDoesNotHoldUs) {
 }
 
 TEST(Process, ProgressLinesAreReported) {
-  auto spec = shell("echo progress 0.25 >&2; echo noise >&2; echo progress nan >&2; echo progress -1e999 >&2; echo progress 7 >&2");
+  auto spec =
+      shell("echo progress 0.25 >&2; echo noise >&2; echo progress nan >&2; echo progress -1e999 >&2; echo progress 7 >&2");
   std::vector<double> seen;
   spec.progress = [&](double done) { seen.push_back(done); };
   (void)run_process(spec);
@@ -106,7 +109,9 @@ TEST(Process, ProgressLinesAreReported) {
 }
 
 TEST(Process, StatusLinesAreReportedWithoutTheirWord) {
-  auto spec = shell("echo 'status {\"time\": 1}' >&2; echo statuses >&2; { printf 'status '; head -c 5000 /dev/zero | tr '\\0' x; echo; echo status 2; } >&2");
+  auto spec = shell(
+      "echo 'status {\"time\": 1}' >&2; echo statuses >&2; { printf 'status '; head -c 5000 /dev/zero | tr '\\0' x; echo; echo "
+      "status 2; } >&2");
   std::vector<std::string> seen;
   spec.status = [&](const std::string& status) { seen.push_back(status); };
   (void)run_process(spec);

@@ -15,15 +15,17 @@
 namespace tripoint {
 namespace {
 
-constexpr const char* more = "[[metric]]\nname = \"late\"\nquantity = \"velocity\"\nnorm = \"final\"\nunit = \"m/s\"\n"
-                             "[[gate]]\nmetric = \"late\"\nband = [0.5, 2.0]\nmode = \"corrected\"\ndrift = 0.1\nreason = \"it flies\"\n"
-                             "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\nexpect = \"plateau\"\norder = 2.0\nmetric = \"position\"\n"
-                             "[engines.other]\npreset = [\"default\", \"tuned\"]\n";
+constexpr const char* more =
+    "[[metric]]\nname = \"late\"\nquantity = \"velocity\"\nnorm = \"final\"\nunit = \"m/s\"\n"
+    "[[gate]]\nmetric = \"late\"\nband = [0.5, 2.0]\nmode = \"corrected\"\ndrift = 0.1\nreason = \"it flies\"\n"
+    "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\nexpect = \"plateau\"\norder = 2.0\nmetric = \"position\"\n"
+    "[engines.other]\npreset = [\"default\", \"tuned\"]\n";
 
 /// Results as the suite writes them: a row for each engine that is planned, a run for each that it plans.
 Results results_of(const Case& file) {
   CaseResult c;
-  c.id = file.id, c.file = file.file, c.expect = file.expect, c.reference = with_source_of_file(file.reference), c.metrics = file.metrics, c.gates = file.gates;
+  c.id = file.id, c.file = file.file, c.expect = file.expect, c.reference = with_source_of_file(file.reference),
+  c.metrics = file.metrics, c.gates = file.gates;
   c.studies = file.studies;
   for (auto& s : c.studies) s.axis = study_axis(s);
   c.hashes = case_hashes(file.file);
@@ -32,7 +34,8 @@ Results results_of(const Case& file) {
     e.name = plan.name, e.preset = plan.preset, e.required = plan.required;
     for (const auto& p : plan.runs) {
       RunRow run;
-      run.group = p.group, run.folder = "runs/test/flight/" + plan.name + "/" + (plan.preset == "default" ? "" : plan.preset + "-") + p.label;
+      run.group = p.group,
+      run.folder = "runs/test/flight/" + plan.name + "/" + (plan.preset == "default" ? "" : plan.preset + "-") + p.label;
       for (const auto& m : file.metrics) run.metrics[m.name] = {2.0, {}, {}, {0.0, 0.5}, {1.0, 2.0}};
       e.runs.push_back(run);
     }
@@ -61,8 +64,9 @@ TEST(RecheckParts, ResultsOfTheirOwnCaseSayNothing) {
 }
 
 TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
-  const std::string another = "the metric position has another quantity, norm, body, place, window, scale or unit", gate = "the gate on position, limit 1e-10, is not in them",
-                    held = "they hold a gate on ", study = "the study over spacing is not in them", reference = "the reference is another";
+  const std::string another = "the metric position has another quantity, norm, body, place, window, scale or unit",
+                    gate = "the gate on position, limit 1e-10, is not in them", held = "they hold a gate on ",
+                    study = "the study over spacing is not in them", reference = "the reference is another";
   const std::vector<std::pair<std::vector<std::string>, Change>> table{
       {{"expects \"diverges\", and the file says \"pass\""}, [](CaseResult& c) { c.expect = "diverges"; }},
       {{"the scene was another when it was run"}, [](CaseResult& c) { c.hashes->scene += "x"; }},
@@ -81,7 +85,10 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
       {{another}, [](CaseResult& c) { c.metrics[0].at = "all"; }},
       {{another}, [](CaseResult& c) { c.metrics[0].scale = 2.0; }},
       {{another}, [](CaseResult& c) { c.metrics[0].unit = "mm"; }},
-      {{another}, [](CaseResult& c) { c.metrics[0].window = {0.0, 0.1}; }},
+      {{another},
+       [](CaseResult& c) {
+         c.metrics[0].window = {0.0, 0.1};
+       }},
       {{"the metric late is not in them"}, [](CaseResult& c) { c.metrics.pop_back(); }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].metric = "late"; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].engine = "other"; }},
@@ -92,7 +99,10 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
       {{gate, held}, [](CaseResult& c) { c.gates[0].level = 0.1; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].drift = 0.1; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].date = "2026-11-22"; }},
-      {{"the gate on late, band 0.5 to 2, is not in them", held}, [](CaseResult& c) { c.gates[1].band = {0.5, 2.5}; }},
+      {{"the gate on late, band 0.5 to 2, is not in them", held},
+       [](CaseResult& c) {
+         c.gates[1].band = {0.5, 2.5};
+       }},
       {{held + "late, band 0.5 to 2, that"}, [](CaseResult& c) { c.gates.push_back(c.gates[1]); }},
       {{"the gate on late"}, [](CaseResult& c) { c.gates.pop_back(); }},
       {{study}, [](CaseResult& c) { c.studies.clear(); }},
@@ -114,7 +124,8 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
     ASSERT_EQ(list.size(), texts.size()) << k << "\n" << remarks_text(list);
     for (std::size_t n = 0; n < texts.size(); ++n) {
       EXPECT_EQ(list[n].text.find("the results are not of this case: " + texts[n]), 0u) << k << " " << list[n].text;
-      EXPECT_TRUE(list[n].error && list[n].code == exit_missing && list[n].word == "CHANGED" && list[n].title == "test/flight") << k;
+      EXPECT_TRUE(list[n].error && list[n].code == exit_missing && list[n].word == "CHANGED" && list[n].title == "test/flight")
+          << k;
     }
     ++k;
   }
@@ -150,8 +161,14 @@ TEST(RecheckParts, EnginesAndRunsThatAreNotThereAreNamed) {
     }
   };
   only("exact has no row in them", [](Flown& f) { f.row("exact").name = "stranger"; });
-  only("other (tuned) has no row in them", [](Flown& f) { f.r.cases[0].engines.erase(std::find_if(f.r.cases[0].engines.begin(), f.r.cases[0].engines.end(), [](const auto& e) { return e.preset == "tuned"; })); });
-  only("", [](Flown& f) { f.row("exact").preset = "its own"; f.row("exact").status = "missing"; });  // the case names no preset of it
+  only("other (tuned) has no row in them", [](Flown& f) {
+    f.r.cases[0].engines.erase(std::find_if(f.r.cases[0].engines.begin(), f.r.cases[0].engines.end(),
+                                            [](const auto& e) { return e.preset == "tuned"; }));
+  });
+  only("", [](Flown& f) {
+    f.row("exact").preset = "its own";
+    f.row("exact").status = "missing";
+  });  // the case names no preset of it
   only("tripoint is required, and they say that it is not", [](Flown& f) { f.row("tripoint").required = false; });
   only("", [](Flown& f) { f.row("exact").required = true; });
   only("the run corrected-spacing=0.05 of tripoint is not in them", [](Flown& f) { f.row("tripoint").runs.pop_back(); });
@@ -182,7 +199,9 @@ TEST(RecheckParts, AValueIsTheNormOfItsSeriesToRoundOff) {
     EXPECT_LE(list.size(), 1u) << remarks_text(list);
     return list.empty() ? std::string() : list[0].text.substr(34);
   };
-  const auto with = [](const std::string& metric, double value) { return [=](RunRow& run) { run.metrics.at(metric).value = value; }; };
+  const auto with = [](const std::string& metric, double value) {
+    return [=](RunRow& run) { run.metrics.at(metric).value = value; };
+  };
   EXPECT_EQ(remark(with("position", 2.0)), "");
   EXPECT_EQ(remark(with("position", 2.0 + 1.9e-9)), "");  // 1e-9 of the value
   EXPECT_EQ(remark(with("position", 2.0 - 1.9e-9)), "");
@@ -194,7 +213,8 @@ TEST(RecheckParts, AValueIsTheNormOfItsSeriesToRoundOff) {
   EXPECT_EQ(remark(with("position", std::nan(""))), "");  // fails by itself
   EXPECT_EQ(remark([](RunRow& run) { run.metrics.erase("late"); }), "tripoint has no value of late in its run corrected");
   EXPECT_EQ(remark([](RunRow& run) { run.metrics.erase("late"), run.status = "killed"; }), "");
-  EXPECT_EQ(remark([](RunRow& run) { run.metrics.at("late").series.clear(), run.metrics.at("late").value = 9.0; }), "");  // nothing to compare with
+  EXPECT_EQ(remark([](RunRow& run) { run.metrics.at("late").series.clear(), run.metrics.at("late").value = 9.0; }),
+            "");  // nothing to compare with
 }
 
 TEST(RecheckSelection, OnlyAWholeRunOfAFolderOwesItsOtherCases) {
@@ -242,7 +262,8 @@ TEST(GateVerdictParts, AFolderOfBaselinesMustHoldOne) {
 TEST(GateVerdictParts, PartsAndChosenCasesAreSaidAndTurnNothingRed) {
   const auto said = [](const Results& r, const std::string& text) {
     const auto list = gate_verdict(r).remarks;
-    return std::count_if(list.begin(), list.end(), [&](const Remark& m) { return m.text.find(text) != std::string::npos && !m.error && m.code == 0; });
+    return std::count_if(list.begin(), list.end(),
+                         [&](const Remark& m) { return m.text.find(text) != std::string::npos && !m.error && m.code == 0; });
   };
   Flown f;
   auto& r = f.r;

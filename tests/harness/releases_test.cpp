@@ -9,7 +9,8 @@
 namespace tripoint {
 namespace {
 
-Release release(const std::string& version, double error, double order, const std::string& gate_verdict = "pass", const std::string& build = "double precision") {
+Release release(const std::string& version, double error, double order, const std::string& gate_verdict = "pass",
+                const std::string& build = "double precision") {
   Release r;
   r.engine.name = "stone", r.engine.version = version, r.engine.build = build;
   EngineRow e;
@@ -31,7 +32,9 @@ Release release(const std::string& version, double error, double order, const st
   return r;
 }
 
-ReleaseTable table(std::vector<Release> releases) { return {"rigid/top", "A top", "tripoint releases stone", 1.5, std::move(releases)}; }
+ReleaseTable table(std::vector<Release> releases) {
+  return {"rigid/top", "A top", "tripoint releases stone", 1.5, std::move(releases)};
+}
 
 TEST(Releases, AChangeNamesErrorOrderAndDirection) {
   const auto found = changes_between(release("1", 2.2e-4, 2.0), release("2", 6.5e-9, 4.0), 1.5);
@@ -48,7 +51,9 @@ TEST(Releases, WithinTheMarginAndWithinRoundOffNothingChanged) {
   EXPECT_EQ(changes_between(release("1", 1.0e-3, 2.0), release("2", 1.51e-3, 2.0), 1.5).size(), 1U);
   EXPECT_TRUE(changes_between(release("1", 1e-16, 2.0), release("2", 9e-12, 2.0), 1.5).empty());
   EXPECT_EQ(changes_between(release("1", 1e-7, 1.0), release("2", 8e-6, 1.0), 1.5).size(), 1U);
-  EXPECT_TRUE(changes_between(release("1", 1e-7, 1.0, "pass", "single precision"), release("2", 8e-6, 1.0, "pass", "single precision"), 1.5).empty());
+  EXPECT_TRUE(changes_between(release("1", 1e-7, 1.0, "pass", "single precision"),
+                              release("2", 8e-6, 1.0, "pass", "single precision"), 1.5)
+                  .empty());
 }
 
 TEST(Releases, AMetricAgainstAnotherSchemeIsNoError) {
@@ -75,7 +80,8 @@ TEST(Releases, TheLastIsComparedWithTheFirst) {
 
 TEST(Releases, TheMarkdownShowsErrorAndOrderOfEachReleaseAndWhatChanged) {
   const auto text = releases_markdown(table({release("1", 2.2e-4, 2.0), release("2", 6.5e-9, 4.0, "fail")}));
-  for (const auto* wanted : {"| stone 1 | 0.00022 (2.0) |", "| stone 2 | 6.5e-09 (4.0) |", "1 -> 2, RK4 angle: 0.00022 -> 6.5e-09, 3.38e+04 times better; order 2.0 -> 4.0",
+  for (const auto* wanted : {"| stone 1 | 0.00022 (2.0) |", "| stone 2 | 6.5e-09 (4.0) |",
+                             "1 -> 2, RK4 angle: 0.00022 -> 6.5e-09, 3.38e+04 times better; order 2.0 -> 4.0",
                              "| stone 2 | 0 of 1 | RK4 angle: 0.2 is above limit 0.1 |"})
     EXPECT_NE(text.find(wanted), std::string::npos) << wanted << "\n" << text;
 }

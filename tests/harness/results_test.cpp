@@ -72,7 +72,9 @@ TEST(ResultsFile, ARowWithoutStatusOrWithAWordForANumberDoesNotPass) {
     EXPECT_NE(at, std::string::npos) << from;
     return s.replace(at, from.size(), to);
   };
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\"value\": 0.05", "\"value\": \"0.05\""}, {"\"numerical\": 0.0", "\"numerical\": null"}, {"\"status\": \"ok\"", "\"status\": 1"}}) {
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\"value\": 0.05", "\"value\": \"0.05\""},
+                                 {"\"numerical\": 0.0", "\"numerical\": null"},
+                                 {"\"status\": \"ok\"", "\"status\": 1"}}) {
     write_text(folder / "r/results.json", swap(text, from, to));
     auto r = read_results(folder / "r/results.json");
     judge(r);

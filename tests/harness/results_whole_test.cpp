@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each field of results.json is written and read back: no two fields of this one hold the same, and none holds what an absent one is taken for.
+// Each field of results.json is written and read back: no two fields of this one hold the same, and none holds what an absent one
+// is taken for.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,24 +29,36 @@ RunRow whole_run() {
 Results whole_results() {
   auto r = green();
   r.tool = {"1.2", "abc", "g++", "-O2", "a cpu", 34};
-  r.command = "tripoint validate", r.profile = "commit", r.date = "2026-11-22", r.seed = 35, r.history = "history.jsonl", r.shard = "2/3", r.tag = "table1";
-  r.filter_known = true, r.seed_given = true, r.what = {"cases/a", "cases/b"}, r.only_engines = {"tripoint", "exact"}, r.asked = {"bullet"}, r.planned = {"test/one", "test/two"};
+  r.command = "tripoint validate", r.profile = "commit", r.date = "2026-11-22", r.seed = 35, r.history = "history.jsonl",
+  r.shard = "2/3", r.tag = "table1";
+  r.filter_known = true, r.seed_given = true, r.what = {"cases/a", "cases/b"}, r.only_engines = {"tripoint", "exact"},
+  r.asked = {"bullet"}, r.planned = {"test/one", "test/two"};
   auto& c = r.cases[0];
-  c.kind = "validation", c.requirement = "R1", c.claims = "it holds", c.file = "cases/test/one.toml", c.repeat = "tripoint validate one", c.expect = "defect", c.tags = {"x", "y"};
-  c.reference = {"discrete_exact", "beam", "beam.csv", "a book", {{"a", 36.0}, {"b", true}, {"c", std::string("word")}, {"d", std::vector<double>{37.0, 38.0}}}, 39.0};
+  c.kind = "validation", c.requirement = "R1", c.claims = "it holds", c.file = "cases/test/one.toml",
+  c.repeat = "tripoint validate one", c.expect = "defect", c.tags = {"x", "y"};
+  c.reference = {"discrete_exact",
+                 "beam",
+                 "beam.csv",
+                 "a book",
+                 {{"a", 36.0}, {"b", true}, {"c", std::string("word")}, {"d", std::vector<double>{37.0, 38.0}}},
+                 39.0};
   c.metrics = {{"error", "position", "L2", "cube", "all", {0.40, 0.41}, 42.0, "mm", {}, {}}};
   Study s;
-  s.axis = "spacing", s.levels = {0.2, 0.1}, s.jitter = 0.43, s.seeds = 44, s.engine = "tripoint", s.mode = "corrected", s.expect = "asymptotic", s.order = 2.0, s.metric = "error", s.place = {"one.toml", 45, 0};
+  s.axis = "spacing", s.levels = {0.2, 0.1}, s.jitter = 0.43, s.seeds = 44, s.engine = "tripoint", s.mode = "corrected",
+  s.expect = "asymptotic", s.order = 2.0, s.metric = "error", s.place = {"one.toml", 45, 0};
   c.studies = {s};
   Gate g;
-  g.metric = "error", g.engine = "tripoint", g.mode = "not paper", g.preset = "tuned", g.limit = 46.0, g.at_least = 47.0, g.band = {48.0, 49.0}, g.level = 50.0, g.drift = 51.0;
+  g.metric = "error", g.engine = "tripoint", g.mode = "not paper", g.preset = "tuned", g.limit = 46.0, g.at_least = 47.0,
+  g.band = {48.0, 49.0}, g.level = 50.0, g.drift = 51.0;
   g.reason = "a reason", g.by = "somebody", g.date = "2026-11-21", g.place = {"one.toml", 52, 0};
   c.gates = {g};
   EngineRow e;
-  e.name = "tripoint", e.version = "1.3", e.preset = "tuned", e.library_path = "/lib/x.so", e.library_hash = "the hash", e.required = true, e.refuses = "no gas", e.reason = "the engine's reason";
+  e.name = "tripoint", e.version = "1.3", e.preset = "tuned", e.library_path = "/lib/x.so", e.library_hash = "the hash",
+  e.required = true, e.refuses = "no gas", e.reason = "the engine's reason";
   e.runs = {whole_run()};
   c.engines = {e};
-  c.equivalence = {{"a1", "b1", "error", 53.0, 54.0, 55.0, 56.0, 57.0, "equivalent"}, {"a2", "b2", "error", 58.0, 59.0, {}, 60.0, 61.0, "no margin is set"}};
+  c.equivalence = {{"a1", "b1", "error", 53.0, 54.0, 55.0, 56.0, 57.0, "equivalent"},
+                   {"a2", "b2", "error", 58.0, 59.0, {}, 60.0, 61.0, "no margin is set"}};
   c.ledger = {{"kinetic", 62.0}, {"heat", not_a_number}};
   c.timing_rounds = 63, c.timing_floor = 1.64;
   c.hashes = CaseHashes{"the scene", "the reference", {{"error", "its hash"}}, {}, {}};
@@ -87,7 +100,8 @@ Results read_text(const std::string& text) {
 }
 
 TEST(WholeResults, WhatIsAbsentIsTakenForTheLeastThatItCanMean) {
-  const auto r = read_text(R"({"format": 1, "only_engines": ["tripoint", 3], "cases": [{"engines": [{"runs": [{"metrics": {"error": {}}}]}], "metrics": [{}], "studies": [{}], "gates": [{}], "equivalence": [{}]}]})");
+  const auto r = read_text(
+      R"({"format": 1, "only_engines": ["tripoint", 3], "cases": [{"engines": [{"runs": [{"metrics": {"error": {}}}]}], "metrics": [{}], "studies": [{}], "gates": [{}], "equivalence": [{}]}]})");
   EXPECT_EQ(r.seed, 1u);
   EXPECT_EQ(r.exit_code, exit_missing);
   EXPECT_EQ(r.asked, (std::vector<std::string>{"tripoint"}));  // an older file does not say who was asked for
@@ -121,14 +135,17 @@ TEST(WholeResults, WhatIsAbsentIsTakenForTheLeastThatItCanMean) {
   EXPECT_EQ(run.knobs.spacing + run.knobs.time_step + run.knobs.support_ratio + run.knobs.jitter, 0.0);
   EXPECT_FALSE(run.knobs.walkers || run.knobs.iterations);
   const auto& cost = run.cost;
-  EXPECT_EQ(cost.cpu_s + cost.wall_s + cost.setup_cpu_s + cost.peak_bytes + cost.pairs + cost.steps + cost.iterations + cost.simulated_s + cost.particles + cost.instructions, 0.0);
+  EXPECT_EQ(cost.cpu_s + cost.wall_s + cost.setup_cpu_s + cost.peak_bytes + cost.pairs + cost.steps + cost.iterations +
+                cost.simulated_s + cost.particles + cost.instructions,
+            0.0);
   const auto& m = run.metrics.at("error");
   EXPECT_TRUE(std::isnan(m.value));
   EXPECT_EQ(m.uncertainty.combined(), 0.0);
 }
 
 TEST(WholeResults, PartsOfAnotherKindAreNoValues) {
-  const auto r = read_text(R"({"format": 1, "interrupted": true, "cases": [{"tags": ["a", 1], "hashes": {"scene": "s", "metrics": {"m": 5}}, "gates": [{"band": [1, 2, 3], "limit": "x"}, {"band": [1]}],
+  const auto r = read_text(
+      R"({"format": 1, "interrupted": true, "cases": [{"tags": ["a", 1], "hashes": {"scene": "s", "metrics": {"m": 5}}, "gates": [{"band": [1, 2, 3], "limit": "x"}, {"band": [1]}],
     "metrics": [{"window": [1]}], "reference": {"args": {"a": null}}, "engines": [{"status": "ok", "runs": [{"status": "ok", "metrics": {"a": {"value": 3, "finite": false}, "b": {"value": 3, "uncertainty": 7, "series": [1, "x"]}}}]}]}]})");
   EXPECT_TRUE(r.interrupted);
   const auto& c = r.cases.at(0);

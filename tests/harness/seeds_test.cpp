@@ -36,7 +36,8 @@ TEST(Seeds, AreAskedOfJitterAndWalkersAndOfEnginesThatDrawLots) {
 TEST(Seeds, AGateThatTurnsWithOneOfThemIsAFalseAlarm) {
   SeedsOutcome all;
   all.seeds = 3;
-  for (const auto& [seed, v] : {std::pair{1001u, 0.05}, std::pair{2001u, 0.06}, std::pair{3001u, 0.11}}) add_seed(with_value(v), seed, all);
+  for (const auto& [seed, v] : {std::pair{1001u, 0.05}, std::pair{2001u, 0.06}, std::pair{3001u, 0.11}})
+    add_seed(with_value(v), seed, all);
   settle(all);
   ASSERT_EQ(all.gates.size(), 1u);
   EXPECT_EQ(all.gates[0].alarms, std::vector<std::uint64_t>{3001});
@@ -77,9 +78,9 @@ TEST(Seeds, TheRoomLeftIsCountedInStandardDeviations) {
   SeedsOutcome all;
   for (const double v : {0.04, 0.05, 0.06}) add_seed(with_value(v), 1, all);
   settle(all);
-  EXPECT_NEAR(all.gates.at(0).mean, 0.05, 1e-15);       // round-off
+  EXPECT_NEAR(all.gates.at(0).mean, 0.05, 1e-15);  // round-off
   EXPECT_NEAR(all.gates[0].deviation, 0.01, 1e-15);
-  EXPECT_NEAR(all.gates[0].distance, 5.0, 1e-12);       // (0.1 - 0.05)/0.01
+  EXPECT_NEAR(all.gates[0].distance, 5.0, 1e-12);  // (0.1 - 0.05)/0.01
   EXPECT_EQ(all.exit_code, exit_pass);
 }
 

@@ -31,7 +31,9 @@ TEST(SmallestDefect, IsNotSoughtBeyondTheDeclaredSize) {
   EXPECT_FALSE(found.found);
 }
 
-TEST(SmallestDefect, AGateThatIsAlwaysRedHasNone) { EXPECT_FALSE(smallest_visible(0.5, 1.0, [](double) { return true; }).found); }
+TEST(SmallestDefect, AGateThatIsAlwaysRedHasNone) {
+  EXPECT_FALSE(smallest_visible(0.5, 1.0, [](double) { return true; }).found);
+}
 
 TEST(SmallestDefect, AnIntervalIsNotLeftByANumberThatIsNotFinite) {
   EXPECT_FALSE(smallest_visible(0.5, 1.0, [](double size) { return size > std::numeric_limits<double>::infinity(); }).found);
@@ -46,7 +48,8 @@ TEST(SmallestDefect, HasGrownWhenALimitIsLoosenedByMoreThanAQuarter) {
 TEST(SmallestDefect, IsInTheTableAndTheDocumentOfTheSelfTest) {
   SelftestOutcome outcome;
   SmallestOutcome s;
-  s.defect = "heat.conductivity", s.case_id = "heat/cosine-mode", s.metric = "rate", s.size = 0.0052, s.hidden = 0.005, s.stored = 0.004, s.verdict = "GREW", s.place = {"cases/heat/cosine-mode.toml", 7, 1};
+  s.defect = "heat.conductivity", s.case_id = "heat/cosine-mode", s.metric = "rate", s.size = 0.0052, s.hidden = 0.005,
+  s.stored = 0.004, s.verdict = "GREW", s.place = {"cases/heat/cosine-mode.toml", 7, 1};
   outcome.smallest = {s};
   EXPECT_NE(selftest_table(outcome).find("GREW        heat.conductivity"), std::string::npos) << selftest_table(outcome);
   EXPECT_NE(selftest_table(outcome).find("cosine-mode.toml:7"), std::string::npos);

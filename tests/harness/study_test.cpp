@@ -45,8 +45,11 @@ TEST(Studies, WhatIsRefinedTogetherIsALadderOfItsOwn) {
 
 TEST(Studies, WithAnotherNumberOfCompanionsThanLevelsAreRefused) {
   const TestFolder folder;
-  EXPECT_THROW((void)read_flight_case(folder, "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\nsupport_ratios = [2.0]\n"), InputError);
-  EXPECT_THROW((void)read_flight_case(folder, "[[study]]\naxis = \"support_ratio\"\nlevels = [2.0, 3.0]\nsupport_ratios = [2.0, 3.0]\n"), InputError);
+  EXPECT_THROW((void)read_flight_case(folder, "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\nsupport_ratios = [2.0]\n"),
+               InputError);
+  EXPECT_THROW(
+      (void)read_flight_case(folder, "[[study]]\naxis = \"support_ratio\"\nlevels = [2.0, 3.0]\nsupport_ratios = [2.0, 3.0]\n"),
+      InputError);
 }
 
 TEST(Studies, AJointLadderIsFittedOverItsSpacing) {

@@ -34,7 +34,12 @@ TEST(TryInChild, WhatKillsTheCopyIsAnErrorOfTheFile) {
 }
 
 TEST(TryInChild, WhatHangsIsStoppedAtTheLimit) {
-  EXPECT_EQ(words_of([] { for (;;) ::pause(); }, 0.2), "a file could not be read within 0.2 s");
+  EXPECT_EQ(words_of(
+                [] {
+                  for (;;) ::pause();
+                },
+                0.2),
+            "a file could not be read within 0.2 s");
 }
 
 TEST(TryInChild, WhatTakesMoreThanTheMachineHasIsRefused) {

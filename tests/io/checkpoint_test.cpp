@@ -19,7 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CheckpointFile : ::testing::Test {
-  CheckpointFile() : folder(fs::temp_directory_path() / ("tripoint checkpoints " + std::to_string(::getpid()))) { fs::create_directories(folder); }
+  CheckpointFile() : folder(fs::temp_directory_path() / ("tripoint checkpoints " + std::to_string(::getpid()))) {
+    fs::create_directories(folder);
+  }
   ~CheckpointFile() override { fs::remove_all(folder); }
   [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
   fs::path folder;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A process may be killed between any two calls that change its trajectory: the calls are recorded here, and what the file held after each is looked at.
+// A process may be killed between any two calls that change its trajectory: the calls are recorded here, and what the file held
+// after each is looked at.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
@@ -80,15 +81,20 @@ Recorded recorded(const std::string& path, int frames) {
 }
 
 void apply(int file, const Change& change) {
-  if (change.is_length) ASSERT_EQ(syscall(SYS_ftruncate, file, change.at), 0);
-  else ASSERT_EQ(syscall(SYS_pwrite64, file, change.bytes.data(), change.bytes.size(), change.at), static_cast<ssize_t>(change.bytes.size()));
+  if (change.is_length)
+    ASSERT_EQ(syscall(SYS_ftruncate, file, change.at), 0);
+  else
+    ASSERT_EQ(syscall(SYS_pwrite64, file, change.bytes.data(), change.bytes.size(), change.at),
+              static_cast<ssize_t>(change.bytes.size()));
 }
 
 /// Announced frames that are there with their bits.
 std::size_t whole_frames(const std::string& path, std::size_t announced) {
   const Trajectory there = read_trajectory(path);
   std::size_t whole = 0;
-  while (whole < std::min(announced, there.frames.size()) && state_hash(there.frames[whole]) == state_hash(two_particles(static_cast<int>(whole)))) ++whole;
+  while (whole < std::min(announced, there.frames.size()) &&
+         state_hash(there.frames[whole]) == state_hash(two_particles(static_cast<int>(whole))))
+    ++whole;
   return whole;
 }
 
@@ -97,14 +103,18 @@ std::size_t whole_positions(const std::string& path, std::size_t announced) {
   const h5::Handle file = h5::open_for_reading(path);
   const std::vector<double> there = h5::read_real(file.get(), "/particles/all/position/value", path).real;
   std::size_t whole = 0;
-  while (whole < announced && 6 * whole + 4 < there.size() && there[6 * whole] == 1.0 * static_cast<double>(whole) && there[6 * whole + 4] == 0.25 * static_cast<double>(whole)) ++whole;
+  while (whole < announced && 6 * whole + 4 < there.size() && there[6 * whole] == 1.0 * static_cast<double>(whole) &&
+         there[6 * whole + 4] == 0.25 * static_cast<double>(whole))
+    ++whole;
   return whole;
 }
 
 using WholeFrames = std::size_t(const std::string& path, std::size_t announced);
 
-/// Looks at the file after each change of what it held before, from when `first` frames are announced until `last` are. @return how often it looked
-int look_after_each_change(const std::string& path, const Recorded& written, std::size_t first, std::size_t last, WholeFrames& whole) {
+/// Looks at the file after each change of what it held before, from when `first` frames are announced until `last` are. @return
+/// how often it looked
+int look_after_each_change(const std::string& path, const Recorded& written, std::size_t first, std::size_t last,
+                           WholeFrames& whole) {
   const int file = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
   std::size_t announced = 0;
   int looked = 0;
@@ -129,7 +139,9 @@ int look_after_each_change(const std::string& path, const Recorded& written, std
 }
 
 struct DeathInAWrite : ::testing::Test {
-  DeathInAWrite() : folder(std::filesystem::temp_directory_path() / ("tripoint death " + std::to_string(::getpid()))) { std::filesystem::create_directories(folder); }
+  DeathInAWrite() : folder(std::filesystem::temp_directory_path() / ("tripoint death " + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder);
+  }
   ~DeathInAWrite() override { std::filesystem::remove_all(folder); }
   std::filesystem::path folder;
 };

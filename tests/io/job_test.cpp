@@ -9,7 +9,9 @@
 namespace tripoint {
 namespace {
 
-std::string temporary(const std::string& name) { return (std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + name)).string(); }
+std::string temporary(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + name)).string();
+}
 
 Job example() {
   Job job;

@@ -15,7 +15,9 @@ namespace tripoint {
 namespace {
 
 struct Io : ::testing::Test {
-  Io() : folder(std::filesystem::temp_directory_path() / ("tripoint io " + std::to_string(::getpid()))) { std::filesystem::create_directories(folder); }
+  Io() : folder(std::filesystem::temp_directory_path() / ("tripoint io " + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder);
+  }
   ~Io() override { std::filesystem::remove_all(folder); }
   std::string path(const std::string& name) const { return (folder / name).string(); }
   std::filesystem::path folder;
@@ -35,7 +37,9 @@ Snapshot frame_at(double time, int particles, int bodies) {
     s.body.push_back(0);
     s.material.push_back(0);
   }
-  for (int b = 0; b < bodies; ++b) s.bodies.push_back({{time, 0, 0}, {0, 1, 0}, {0, 0, 2}, {std::cos(time), 0, 0, std::sin(time)}, 0.5 * particles, {}, {0, 0, 1}});
+  for (int b = 0; b < bodies; ++b)
+    s.bodies.push_back(
+        {{time, 0, 0}, {0, 1, 0}, {0, 0, 2}, {std::cos(time), 0, 0, std::sin(time)}, 0.5 * particles, {}, {0, 0, 1}});
   s.total_mass = 0.5 * particles;
   s.energy["kinetic"] = 1.0 + time;
   s.heat_given["hot plate"] = 7.0 * time;
@@ -44,7 +48,8 @@ Snapshot frame_at(double time, int particles, int bodies) {
 
 TEST_F(Io, FramesOfAPeriodicDomainAreReadBackAsOthersAre) {
   Domain domain;
-  domain.min = {0.0, -1.0, -std::numeric_limits<double>::infinity()}, domain.max = {3.0, 1.0, std::numeric_limits<double>::infinity()}, domain.periodic = {true, false, false};
+  domain.min = {0.0, -1.0, -std::numeric_limits<double>::infinity()},
+  domain.max = {3.0, 1.0, std::numeric_limits<double>::infinity()}, domain.periodic = {true, false, false};
   for (const auto& [name, of] : {std::pair{"open.h5", Domain{}}, std::pair{"periodic.h5", domain}}) {
     TrajectoryWriter writer(path(name), of);
     writer.append(frame_at(0.0, 5, 1)), writer.append(frame_at(1.0, 5, 1));
@@ -58,7 +63,8 @@ TEST_F(Io, FramesOfAPeriodicDomainAreReadBackAsOthersAre) {
 
 TEST_F(Io, ACsvWithTwoRowsForOneBodyOrParticleAtATimeIsRefused) {
   InitialState initial;
-  initial.position = {{0, 0, 0}, {1, 0, 0}}, initial.velocity = {{}, {}}, initial.mass = {1.0, 1.0}, initial.phase = {2, 2}, initial.body = {0, 0}, initial.material = {0, 0}, initial.source = {0, 0};
+  initial.position = {{0, 0, 0}, {1, 0, 0}}, initial.velocity = {{}, {}}, initial.mass = {1.0, 1.0}, initial.phase = {2, 2},
+  initial.body = {0, 0}, initial.material = {0, 0}, initial.source = {0, 0};
   const auto refusal = [&](const std::string& text) -> std::string {
     std::ofstream(path("trajectory.csv")) << text;
     try {
@@ -69,13 +75,17 @@ TEST_F(Io, ACsvWithTwoRowsForOneBodyOrParticleAtATimeIsRefused) {
     }
   };
   EXPECT_EQ(refusal("time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n1,0,0.5,0,0,0,0,0\n"), "");
-  EXPECT_NE(refusal("time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n0,0,9.5,0,0,0,0,0\n").find("trajectory.csv:3: body 0 has a row already"), std::string::npos);
-  EXPECT_NE(refusal("time,id,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n0,0,9.5,0,0,0,0,0\n").find("particle 0 has a row already"), std::string::npos);
+  EXPECT_NE(refusal("time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n0,0,9.5,0,0,0,0,0\n")
+                .find("trajectory.csv:3: body 0 has a row already"),
+            std::string::npos);
+  EXPECT_NE(refusal("time,id,x,y,z,vx,vy,vz\n0,0,0.5,0,0,0,0,0\n0,0,9.5,0,0,0,0,0\n").find("particle 0 has a row already"),
+            std::string::npos);
 }
 
 TEST_F(Io, ACsvOfBodiesWithoutTurningDoesNotTurn) {
   InitialState initial;
-  initial.position = {{0, 0, 0}, {1, 0, 0}}, initial.velocity = {{}, {}}, initial.mass = {1.0, 1.0}, initial.phase = {2, 2}, initial.body = {0, 0}, initial.material = {0, 0}, initial.source = {0, 0};
+  initial.position = {{0, 0, 0}, {1, 0, 0}}, initial.velocity = {{}, {}}, initial.mass = {1.0, 1.0}, initial.phase = {2, 2},
+  initial.body = {0, 0}, initial.material = {0, 0}, initial.source = {0, 0};
   std::ofstream(path("trajectory.csv")) << "time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,1,2,3\n";
   const auto frame = read_trajectory_csv(path("trajectory.csv"), initial, 1).frames.at(0);
   EXPECT_EQ(frame.bodies[0].angular_velocity, Vec3{});
@@ -103,7 +113,13 @@ TEST_F(Io, ATrajectoryReadsBackBitForBit) {
 TEST_F(Io, EveryNumberOfABodyReadsBackInItsPlace) {
   Snapshot wrote = frame_at(0.0, 2, 0);
   for (const double b : {0.0, 100.0})
-    wrote.bodies.push_back({{b + 1, b + 2, b + 3}, {b + 4, b + 5, b + 6}, {b + 7, b + 8, b + 9}, {b + 10, b + 11, b + 12, b + 13}, b + 14, {b + 15, b + 16, b + 17}, {b + 18, b + 19, b + 20}});
+    wrote.bodies.push_back({{b + 1, b + 2, b + 3},
+                            {b + 4, b + 5, b + 6},
+                            {b + 7, b + 8, b + 9},
+                            {b + 10, b + 11, b + 12, b + 13},
+                            b + 14,
+                            {b + 15, b + 16, b + 17},
+                            {b + 18, b + 19, b + 20}});
   wrote.momentum = {21, 22, 23}, wrote.angular_momentum = {24, 25, 26};
   TrajectoryWriter writer(path("trajectory.h5"));
   writer.append(wrote);
@@ -199,10 +215,10 @@ TEST_F(Io, RowsOfABodyPlaceItsParticles) {
   start.body = {0, 0};
   start.material = {0, 0};
   std::ofstream(path("trajectory.csv")) << "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz\n0,0,0,0,0,0,0,0,1,0,0,0,0,0,2\n"
-                                          "1,0,5,0,0,1,0,0,0.7071067811865476,0,0,0.7071067811865476,0,0,2\n";
+                                           "1,0,5,0,0,1,0,0,0.7071067811865476,0,0,0.7071067811865476,0,0,2\n";
   const Trajectory t = read_trajectory_csv(path("trajectory.csv"), start, 1);
   ASSERT_EQ(t.frames.size(), 2U);
-  EXPECT_NEAR(t.frames[1].position[1].y, 1.0, 1e-15);   // a quarter turn takes x to y
+  EXPECT_NEAR(t.frames[1].position[1].y, 1.0, 1e-15);        // a quarter turn takes x to y
   EXPECT_NEAR(t.frames[1].velocity[1].x, 1.0 - 2.0, 1e-15);  // v + omega x r
 }
 
@@ -253,7 +269,8 @@ TEST_F(Io, GaugesMakeFramesOfTheirOwnAndJoinThoseThatAreThere) {
   ASSERT_EQ(beside.frames.size(), 2U);
   EXPECT_TRUE(alone.frames[1].gauges_only());
   EXPECT_FALSE(beside.frames[1].gauges_only());
-  for (const Trajectory* t : {&alone, &beside}) EXPECT_EQ(t->frames[1].gauges, (std::map<std::string, double>{{"tip", 2.5}, {"middle", 310.0}}));
+  for (const Trajectory* t : {&alone, &beside})
+    EXPECT_EQ(t->frames[1].gauges, (std::map<std::string, double>{{"tip", 2.5}, {"middle", 310.0}}));
   EXPECT_NE(state_hash(beside.frames[1]), state_hash(frame_at(0.5, 4, 1)));
 }
 

@@ -58,7 +58,8 @@ TEST(Audit, LetsABodyLieThatKeepsARoundingOfItsSpeed) {
   }
 }
 
-/// A thrown block above a floor that it comes to rest on, or stops in the air of, after half the time; `speed` is what it says that it has then [m/s].
+/// A thrown block above a floor that it comes to rest on, or stops in the air of, after half the time; `speed` is what it says
+/// that it has then [m/s].
 Trial stopped(double floor_below, double speed, bool from_the_start = false) {
   auto s = thrown_block();
   const double lowest = std::ranges::min(s.initial.position, {}, [](const Vec3& x) { return x.z; }).z;
@@ -67,7 +68,8 @@ Trial stopped(double floor_below, double speed, bool from_the_start = false) {
   auto& frames = t.run.frames;
   const std::size_t begin = from_the_start ? 0 : frames.size() / 2, block = t.s.initial.source.size() - 400;
   for (std::size_t n = begin; n < frames.size(); ++n) {
-    for (std::size_t i = 0; i < block; ++i) frames[n].position[i] = t.s.initial.position[i];  // it lies where it began, above the floor
+    for (std::size_t i = 0; i < block; ++i)
+      frames[n].position[i] = t.s.initial.position[i];  // it lies where it began, above the floor
     if (n > 0)
       for (std::size_t i = 0; i < block; ++i) frames[n].velocity[i] = {speed * (1.0 + 1e-3 * static_cast<double>(n)), 0.0, 0.0};
   }
@@ -87,7 +89,8 @@ TEST(Audit, FindsABodyThatHangsInTheAirWhateverSpeedItSays) {
 
 /// All places are those of the start: other velocities do not make it a run.
 TEST(Audit, FindsARunWhosePlacesAreThoseOfTheStart) {
-  EXPECT_NE(stopped(0.1, 0.0, true).sound().find("nothing has moved by the end"), std::string::npos) << stopped(0.1, 0.0, true).sound();
+  EXPECT_NE(stopped(0.1, 0.0, true).sound().find("nothing has moved by the end"), std::string::npos)
+      << stopped(0.1, 0.0, true).sound();
 }
 
 /// Two frames at the same height, one on the way up and one on the way down.
@@ -110,7 +113,8 @@ TEST(Audit, LetsWhatItsOwnExactSolutionSaysComeBack) {
   s.job.bodies[0].angular_velocity = {3.0, 0.0, 4.0};  // no principal axis: no whole turn by itself
   s.job.reference = function("keyframes");
   s.job.bodies[0].motion = s.job.scene.bodies[0].motion = Motion::prescribed;
-  s.job.bodies[0].keyframes = {{0.0, {}, {}}, {0.5, {1.0, 0.0, 0.0}, {}}, {1.0, {}, {}}, {1.5, {1.0, 0.0, 0.0}, {}}, {2.0, {}, {}}};
+  s.job.bodies[0].keyframes = {
+      {0.0, {}, {}}, {0.5, {1.0, 0.0, 0.0}, {}}, {1.0, {}, {}}, {1.5, {1.0, 0.0, 0.0}, {}}, {2.0, {}, {}}};
   s.job.scene.bodies[0].keyframes = s.job.bodies[0].keyframes;
   set_times(s, 2.0, 2);
   for (auto& v : s.initial.velocity) v = {2.0, 0.0, 0.0};
@@ -135,7 +139,8 @@ TEST(Audit, LetsTwoKeyframesHoldABodyStill) {
 
 /// A hot and a cold block, apart by a gap of whole spacings.
 Prepared hot_and_cold(int gap) {
-  auto s = bar({4, 4, 4}, 0.1, [](const Vec3&) { return 400.0; }, 1000.0, 2, false);
+  auto s = bar(
+      {4, 4, 4}, 0.1, [](const Vec3&) { return 400.0; }, 1000.0, 2, false);
   add_body(s, "floor", {{4, 4, 4}, 0.1, {0.0, 0.0, -0.4 - 0.1 * gap}, 64.0}, {}, Motion::fixed);
   s.initial.temperature.resize(128, 300.0);
   return s;
@@ -144,7 +149,8 @@ Prepared hot_and_cold(int gap) {
 TEST(Audit, AsksForNoHeatBetweenBodiesThatDoNotTouch) {
   const auto kept = [](Prepared s) {
     Trial t(std::move(s), "invariant");
-    for (auto& f : t.run.frames) f.position = t.s.initial.position, f.velocity = t.s.initial.velocity, f.temperature = t.s.initial.temperature;
+    for (auto& f : t.run.frames)
+      f.position = t.s.initial.position, f.velocity = t.s.initial.velocity, f.temperature = t.s.initial.temperature;
     return t.sound();
   };
   EXPECT_EQ(kept(hot_and_cold(3)), "");

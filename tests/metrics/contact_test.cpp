@@ -15,7 +15,8 @@ TEST(ContactMetrics, MeasureTheDepthOfOneBodyInAnother) {
   for (const double depth : {0.03, 0.07, 0.13, 0.17}) {         // the last two are inside: least distances alone would not tell
     auto g = f;
     g.shift(g.run.frames.back(), 1, {-depth, 0, 0});
-    EXPECT_NEAR(g.stated(metric("overlap", "final")), depth / 0.1, depth > 0.1 ? 0.3 : 1e-12) << depth;  // past the layer the way out is seen to 25 degrees
+    EXPECT_NEAR(g.stated(metric("overlap", "final")), depth / 0.1, depth > 0.1 ? 0.3 : 1e-12)
+        << depth;  // past the layer the way out is seen to 25 degrees
   }
 }
 
@@ -47,8 +48,10 @@ TEST(ContactMetrics, CountNoOverlapWithinOneBody) {
 TEST(ContactMetrics, MeasureASeparation) {
   Still f(test::blocks());
   f.shift(f.run.frames.back(), 1, {0.3, 0.4, 0});
-  EXPECT_NEAR(f.stated(metric("separation", "final", "left"), {{"other", std::string("right")}, {"value", 0.4}}), std::hypot(0.7, 0.4) - 0.4, 1e-12);
-  EXPECT_TRUE(std::isnan(f.stated(metric("separation", "final", "left"), {{"other", std::string("right")}})));  // no value to compare with
+  EXPECT_NEAR(f.stated(metric("separation", "final", "left"), {{"other", std::string("right")}, {"value", 0.4}}),
+              std::hypot(0.7, 0.4) - 0.4, 1e-12);
+  EXPECT_TRUE(std::isnan(
+      f.stated(metric("separation", "final", "left"), {{"other", std::string("right")}})));  // no value to compare with
   EXPECT_THROW((void)f.stated(metric("separation", "final", "left"), {{"value", 0.4}}), InputError);
 }
 

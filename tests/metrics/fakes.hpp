@@ -52,7 +52,8 @@ inline Prepared thrown_block() {
 /// cos(k x + 0.7) in a periodic bar, 20 particles a wavelength.
 inline Prepared warm_bar() {
   const double dx = 0.005, k = 2 * pi / 0.1;
-  auto s = bar({20, 4, 4}, dx, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + 0.7); }, 60.0, 10, true);
+  auto s = bar(
+      {20, 4, 4}, dx, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + 0.7); }, 60.0, 10, true);
   TemperatureField field;
   field.kind = TemperatureField::Kind::cosine;
   field.mean = 300.0, field.amplitude = 10.0, field.phase = 0.7, field.wave_vector = {k, 0, 0};

@@ -27,7 +27,9 @@ struct Still {
   [[nodiscard]] MetricValue of(const MetricChoice& choice, const std::string& name, const Settings& args = {}) const {
     return evaluate(choice, s.job, s.initial, run, *make_reference(function(name, args), s.job, s.initial));
   }
-  [[nodiscard]] double stated(const MetricChoice& choice, const Settings& args = {}) const { return of(choice, "stated", args).value; }
+  [[nodiscard]] double stated(const MetricChoice& choice, const Settings& args = {}) const {
+    return of(choice, "stated", args).value;
+  }
   /// Moves a body's particles in a frame.
   void shift(Snapshot& frame, int body, const Vec3& by) const {
     for (std::size_t i = 0; i < s.initial.size(); ++i)

@@ -16,7 +16,8 @@ constexpr double dx = 0.1;
 /// A block of liquid, 0.4 m long, whose far end runs along x as the experiment of its name does, plus a lead.
 struct Dam {
   test::Prepared s;
-  DataFile file{test::sealed("# source: none\n# unit time: 0.1 s\n# unit front: 0.4 m\n# uncertainty front: 5 %\ntime,front\n1,1.1\n4,1.4\n8,2\n")};
+  DataFile file{test::sealed(
+      "# source: none\n# unit time: 0.1 s\n# unit front: 0.4 m\n# uncertainty front: 5 %\ntime,front\n1,1.1\n4,1.4\n8,2\n")};
   std::shared_ptr<const Reference> truth;
   Trajectory run;
 

@@ -34,7 +34,8 @@ TEST(ImpactMetrics, MeasureHowDeepASurfaceSinks) {
 
 TEST(ImpactMetrics, TurnTheSurfaceWithItsBody) {
   Still f = block_above_floor();
-  f.run.frames[3].bodies[0].orientation = from_rotation_vector({test::pi / 4.0, 0, 0});  // onto an edge: sqrt(2) times as deep below the centre
+  f.run.frames[3].bodies[0].orientation =
+      from_rotation_vector({test::pi / 4.0, 0, 0});  // onto an edge: sqrt(2) times as deep below the centre
   EXPECT_NEAR(f.stated(metric("sunk", "max", "block"), floor_at_0), 0.2 * (std::sqrt(2.0) - 1.0), 1e-14);
 }
 

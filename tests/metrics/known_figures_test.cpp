@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each quantity on a small run whose figure can be worked out by hand. Particles of the two blocks and of the pool weigh 1 kg each.
+// Each quantity on a small run whose figure can be worked out by hand. Particles of the two blocks and of the pool weigh 1 kg
+// each.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,31 +65,122 @@ struct Figure {
 
 const std::vector<Figure>& figures() {
   static const std::vector<Figure> list{
-      {"velocity", "left", 5.0, {}, [](Snapshot&, Snapshot& s) { s.bodies[0].velocity = {3, 0, -4}; }},
-      {"angular_velocity", "left", 7.0, {}, [](Snapshot&, Snapshot& s) { s.bodies[0].angular_velocity = {2, -3, 6}; }},
-      {"force", "right", 3.0, {}, [](Snapshot&, Snapshot& s) { s.bodies[1].force = {1, 2, -2}; }},
-      {"torque", "right", 9.0, {}, [](Snapshot&, Snapshot& s) { s.bodies[1].torque = {4, -4, 7}; }},
+      {"velocity",
+       "left",
+       5.0,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.bodies[0].velocity = {3, 0, -4};
+       }},
+      {"angular_velocity",
+       "left",
+       7.0,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.bodies[0].angular_velocity = {2, -3, 6};
+       }},
+      {"force",
+       "right",
+       3.0,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.bodies[1].force = {1, 2, -2};
+       }},
+      {"torque",
+       "right",
+       9.0,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.bodies[1].torque = {4, -4, 7};
+       }},
       {"mass", "", 2.5, {}, [](Snapshot&, Snapshot& s) { s.mass[0] += 2.5; }},
       {"mass", "", -1.0, {}, [](Snapshot&, Snapshot& s) { s.id[7] = -1; }},
-      {"momentum", "", 5.0, {}, [](Snapshot&, Snapshot& s) { s.velocity[3] = {0, 3, 4}; }},
-      {"momentum", "", 10.0, {}, [](Snapshot&, Snapshot& s) { s.velocity[3] = {0, 3, 4}, s.mass[3] = 2.0; }},
+      {"momentum",
+       "",
+       5.0,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.velocity[3] = {0, 3, 4};
+       }},
+      {"momentum",
+       "",
+       10.0,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.velocity[3] = {0, 3, 4}, s.mass[3] = 2.0;
+       }},
       // two particles 0.1 m apart along z with opposite velocities of 2 m/s along x: 1 kg x 0.1 m x 2 m/s
-      {"angular_momentum", "", 0.2, {}, [](Snapshot&, Snapshot& s) { s.velocity[0] = {2, 0, 0}, s.velocity[1] = {-2, 0, 0}; }},
+      {"angular_momentum",
+       "",
+       0.2,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.velocity[0] = {2, 0, 0}, s.velocity[1] = {-2, 0, 0};
+       }},
       // 1/2 x 1 kg x 25 m2/s2 + 1 kg x 10 m/s2 x 0.3 m
-      {"energy", "", 15.5, {}, [](Snapshot&, Snapshot& s) { s.velocity[3] = {0, 3, 4}, s.position[5].z += 0.3; }},
-      {"ledger.kinetic", "", 12.5, {}, [](Snapshot&, Snapshot& s) { s.velocity[3] = {0, 3, 4}, s.position[5].z += 0.3; }},
-      {"ledger.potential", "", 3.0, {}, [](Snapshot&, Snapshot& s) { s.velocity[3] = {0, 3, 4}, s.position[5].z += 0.3; }},
-      {"ledger.elastic", "", 3.0, {{"value", 2.0}}, [](Snapshot&, Snapshot& s) { s.energy = {{"elastic", 5.0}, {"walls", 1.0}}; }},
-      {"ledger.residual", "", 5.0, {}, [](Snapshot& first, Snapshot& s) { first.energy = {{"elastic", 2.0}, {"walls", -1.0}}, s.energy = {{"elastic", 5.0}, {"walls", 1.0}}; }},
-      {"energy_ratio", "", -0.25, {{"energy_ratio", 0.5}}, [](Snapshot& first, Snapshot& s) { first.velocity[3] = {0, 2, 0}, s.velocity[4] = {0, 0, 1}; }},
+      {"energy",
+       "",
+       15.5,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.velocity[3] = {0, 3, 4}, s.position[5].z += 0.3;
+       }},
+      {"ledger.kinetic",
+       "",
+       12.5,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.velocity[3] = {0, 3, 4}, s.position[5].z += 0.3;
+       }},
+      {"ledger.potential",
+       "",
+       3.0,
+       {},
+       [](Snapshot&, Snapshot& s) {
+         s.velocity[3] = {0, 3, 4}, s.position[5].z += 0.3;
+       }},
+      {"ledger.elastic",
+       "",
+       3.0,
+       {{"value", 2.0}},
+       [](Snapshot&, Snapshot& s) {
+         s.energy = {{"elastic", 5.0}, {"walls", 1.0}};
+       }},
+      {"ledger.residual",
+       "",
+       5.0,
+       {},
+       [](Snapshot& first, Snapshot& s) {
+         first.energy = {{"elastic", 2.0}, {"walls", -1.0}}, s.energy = {{"elastic", 5.0}, {"walls", 1.0}};
+       }},
+      {"energy_ratio",
+       "",
+       -0.25,
+       {{"energy_ratio", 0.5}},
+       [](Snapshot& first, Snapshot& s) {
+         first.velocity[3] = {0, 2, 0}, s.velocity[4] = {0, 0, 1};
+       }},
       {"bonded_objects", "", -2.0, {{"value", 5.0}}, [](Snapshot&, Snapshot& s) { s.counts["objects"] = 3.0; }},
       {"recoveries", "", 4.0, {}, [](Snapshot&, Snapshot& s) { s.counts["recoveries"] = 4.0; }},
       {"recoveries", "", 3.0, {{"value", 1.0}}, [](Snapshot&, Snapshot& s) { s.counts["recoveries"] = 4.0; }},
-      {"axial_torque", "right", 2.5, {{"torque", 4.5}, {"axis", 2.0}}, [](Snapshot&, Snapshot& s) { s.bodies[1].torque = {1, 2, 7}; }},
+      {"axial_torque",
+       "right",
+       2.5,
+       {{"torque", 4.5}, {"axis", 2.0}},
+       [](Snapshot&, Snapshot& s) {
+         s.bodies[1].torque = {1, 2, 7};
+       }},
       // four layers from -0.35 to -0.05 m and half a spacing at both ends: 0.2 m
       {"half_length", "left", -0.1, {{"half_length", 0.3}, {"axis", 0.0}}, [](Snapshot&, Snapshot&) {}},
-      {"half_length", "left", 0.25, {{"half_length", 0.2}, {"axis", 0.0}}, [](Snapshot&, Snapshot& s) { s.position[2].x = -0.85; }},
-      {"spin_ratio", "left", -1.5, {{"value", 1.0}},
+      {"half_length",
+       "left",
+       0.25,
+       {{"half_length", 0.2}, {"axis", 0.0}},
+       [](Snapshot&, Snapshot& s) { s.position[2].x = -0.85; }},
+      {"spin_ratio",
+       "left",
+       -1.5,
+       {{"value", 1.0}},
        [](Snapshot& first, Snapshot& s) {
          first.velocity[0] = {2, 0, 0}, first.velocity[1] = {-2, 0, 0};
          s.velocity[0] = {-1, 0, 0}, s.velocity[1] = {1, 0, 0};
@@ -124,7 +216,9 @@ TEST(KnownFigures, OfDensitiesAndPressuresAreByVolume) {
   auto& last = f.run.frames.back();
   last.density = truth.density, last.pressure = truth.pressure;
   last.density[0] -= 8.0, last.pressure[1] += 16.0;
-  const auto of = [&](const char* quantity, const char* norm) { return evaluate(metric(quantity, norm, "left"), f.s.job, f.s.initial, f.run, Known(truth, {})).value; };
+  const auto of = [&](const char* quantity, const char* norm) {
+    return evaluate(metric(quantity, norm, "left"), f.s.job, f.s.initial, f.run, Known(truth, {})).value;
+  };
   EXPECT_NEAR(of("density", "Linf"), 8.0, 1e-12);
   EXPECT_NEAR(of("density", "L2"), 1.0, 1e-12);  // one of 64 particles: 8/sqrt(64)
   EXPECT_NEAR(of("pressure", "L1"), 0.25, 1e-12);
@@ -139,7 +233,9 @@ TEST(KnownFigures, OfAProfileAndItsIsotherm) {
   for (auto& frame : f.run.frames) frame.temperature = s.initial.temperature;
   Snapshot truth = f.run.frames.front();
   auto& last = f.run.frames.back();
-  const auto of = [&](const char* quantity, const char* norm, const char* body) { return evaluate(metric(quantity, norm, body), f.s.job, f.s.initial, f.run, Known(truth, {{"axis", 0.0}})).value; };
+  const auto of = [&](const char* quantity, const char* norm, const char* body) {
+    return evaluate(metric(quantity, norm, body), f.s.job, f.s.initial, f.run, Known(truth, {{"axis", 0.0}})).value;
+  };
   for (double& T : last.temperature) T += 2.0;
   EXPECT_NEAR(of("front", "final", ""), -0.02, 1e-12);
   EXPECT_NEAR(of("temperature_profile", "Linf", "left"), 2.0, 1e-9);
@@ -158,7 +254,8 @@ Still counted(const std::vector<double>& objects) {
   return f;
 }
 
-double of_series(const Still& f, const std::string& norm, const std::string& at = "", const std::array<double, 2>& window = {0.0, 0.0}) {
+double of_series(const Still& f, const std::string& norm, const std::string& at = "",
+                 const std::array<double, 2>& window = {0.0, 0.0}) {
   auto choice = metric("bonded_objects", norm);
   choice.at = at, choice.window = window;
   return value(f, choice, {{"value", 0.0}}).value;
@@ -168,7 +265,7 @@ TEST(KnownFigures, OfEachNormInTime) {
   const auto f = counted({3, 2, -4, 2, 1});
   EXPECT_NEAR(of_series(f, "final"), 1.0, 1e-12);
   EXPECT_NEAR(of_series(f, "max"), 4.0, 1e-12);
-  EXPECT_NEAR(of_series(f, "mean"), 0.5, 1e-12);  // trapezia of (3 + 2)/2, (2 - 4)/2, (-4 + 2)/2 and (2 + 1)/2, over 4
+  EXPECT_NEAR(of_series(f, "mean"), 0.5, 1e-12);             // trapezia of (3 + 2)/2, (2 - 4)/2, (-4 + 2)/2 and (2 + 1)/2, over 4
   EXPECT_NEAR(of_series(f, "rms"), std::sqrt(7.25), 1e-12);  // trapezia of the squares: (13 + 20 + 20 + 5)/2/4
   EXPECT_NEAR(of_series(f, "mean", "", {0.25, 0.75}), -1.0, 1e-12);
   EXPECT_NEAR(of_series(f, "max", "", {0.75, 1.0}), 2.0, 1e-12);
@@ -190,7 +287,9 @@ TEST(KnownFigures, OfANormInSpaceAreOfTheTimeThatIsAskedFor) {
 TEST(KnownFigures, OfASwayAreOneForAnyAxisAndAnyStart) {
   auto f = still_blocks(100);
   for (auto& frame : f.run.frames) f.shift(frame, 1, {0.3, 0.02 + 0.01 * std::sin(2.0 * pi * 3.6 * frame.time), 0.0});
-  const auto of = [&](double stated) { return value(f, metric("sway_frequency", "final", "right"), {{"axis", 1.0}, {"value", stated}}).value; };
+  const auto of = [&](double stated) {
+    return value(f, metric("sway_frequency", "final", "right"), {{"axis", 1.0}, {"value", stated}}).value;
+  };
   EXPECT_NEAR(of(3.6), 0.0, 1e-7);  // golden section: square root of round-off
   EXPECT_NEAR(of(3.0), 0.2, 1e-7);
   EXPECT_NEAR(of(4.5), -0.2, 1e-7);
@@ -199,7 +298,8 @@ TEST(KnownFigures, OfASwayAreOneForAnyAxisAndAnyStart) {
 TEST(KnownFigures, OfASpinAreItsRateOfDecayWhateverTheDrift) {
   auto f = still_blocks();
   for (auto& frame : f.run.frames)
-    for (std::size_t i = 0; i < frame.position.size(); ++i) frame.velocity[i] = Vec3{5, -2, 1} + std::exp(-0.7 * frame.time) * cross({0, 0, 3.0}, frame.position[i]);
+    for (std::size_t i = 0; i < frame.position.size(); ++i)
+      frame.velocity[i] = Vec3{5, -2, 1} + std::exp(-0.7 * frame.time) * cross({0, 0, 3.0}, frame.position[i]);
   EXPECT_NEAR(value(f, metric("spin_rate", "final", "left"), {{"spin_rate", 0.5}}).value, 0.2, 1e-9);
 }
 
@@ -208,7 +308,15 @@ TEST(KnownFigures, OfASwingAreItsAmplitudeFrequencyAndSag) {
   for (auto& frame : f.run.frames)
     for (std::size_t i = 0; i < f.s.initial.size(); ++i)
       if (f.s.initial.source[i] == 0) frame.position[i].z -= 0.003 + 0.005 * std::sin(2.0 * pi * 6.0 * frame.time);
-  const Numbers numbers{{"bar", 0}, {"axis", 0}, {"end", 1}, {"direction.x", 0}, {"direction.y", 0}, {"direction.z", -1}, {"frequency", 2.0 * pi * 5.0}, {"amplitude", 0.004}, {"deflection", 0.002}};
+  const Numbers numbers{{"bar", 0},
+                        {"axis", 0},
+                        {"end", 1},
+                        {"direction.x", 0},
+                        {"direction.y", 0},
+                        {"direction.z", -1},
+                        {"frequency", 2.0 * pi * 5.0},
+                        {"amplitude", 0.004},
+                        {"deflection", 0.002}};
   EXPECT_NEAR(value(f, metric("swing_amplitude", "final"), numbers).value, 0.25, 1e-6);
   EXPECT_NEAR(value(f, metric("frequency", "final"), numbers).value, 0.2, 1e-6);
   EXPECT_NEAR(value(f, metric("sag", "final"), numbers).value, 0.5, 1e-6);
@@ -235,7 +343,8 @@ TEST(KnownFigures, OfAStationaryMeanAreTheBlocksOfPairs) {
   EXPECT_NEAR(even.uncertainty, std::sqrt(1.0 / 7.0), 1e-12);
   EXPECT_NEAR(even.effective, 16.0 * 7.0 / 15.0, 1e-9);
   EXPECT_FALSE(even.plateau);
-  x.push_back(0.0);  // an odd sample belongs to no pair: beyond it is memory of somebody else, which the build with the address sanitizer sees
+  x.push_back(0.0);  // an odd sample belongs to no pair: beyond it is memory of somebody else, which the build with the address
+                     // sanitizer sees
   const auto odd = stationary_mean(x);
   EXPECT_EQ(odd.burn_in, 0u);
   EXPECT_NEAR(odd.value, 0.0, 1e-15);

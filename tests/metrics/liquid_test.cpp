@@ -15,7 +15,8 @@ struct Flow {
   test::Prepared s;
   std::shared_ptr<const Reference> truth;
   Trajectory run;
-  Flow(test::Prepared prepared, const std::string& name) : s(std::move(prepared)), truth(make_reference(test::function(name), s.job, s.initial)) {
+  Flow(test::Prepared prepared, const std::string& name)
+      : s(std::move(prepared)), truth(make_reference(test::function(name), s.job, s.initial)) {
     for (const double t : s.job.times) {
       Snapshot frame = truth->at(t);
       frame.position = s.initial.position;
@@ -81,13 +82,16 @@ TEST(LiquidMetrics, FindTheFrequencyOfADampedWave) {
   const double w = 0.7 * 10 * 2 * pi;
   for (auto& frame : f.run.frames)
     for (std::size_t i = 0; i < frame.velocity.size(); ++i)
-      frame.velocity[i] = {0.01 * std::cos(2 * pi * f.s.initial.position[i].x + 0.7) * std::exp(-3 * frame.time) * std::cos(w * frame.time + 0.2), 0, 0};
+      frame.velocity[i] = {
+          0.01 * std::cos(2 * pi * f.s.initial.position[i].x + 0.7) * std::exp(-3 * frame.time) * std::cos(w * frame.time + 0.2),
+          0, 0};
   EXPECT_NEAR(f.value(metric("frequency_squared", "final")), 0.49 - 1.0, 1e-9);
 }
 
 TEST(LiquidMetrics, TimeATouchAndAnAcceleration) {
   Flow f(test::cubes(), "elastic_collision");
-  EXPECT_NEAR(f.value(metric("touch_time", "final", "left")), 0.0, 0.006);  // half a frame, 0.5 s/50/2, and the step between two frames
+  EXPECT_NEAR(f.value(metric("touch_time", "final", "left")), 0.0,
+              0.006);  // half a frame, 0.5 s/50/2, and the step between two frames
   auto s = test::pool(500.0);
   s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
   Flow g(s, "added_mass");
@@ -102,11 +106,13 @@ TEST(LiquidMetrics, AnAccelerationThatChangesWithinItsWindowIsNoSurerForMoreFram
     s.job.times.clear();
     for (int n = 0; n <= frames; ++n) s.job.times.push_back(1.0 * n / frames);
     Flow f(s, "added_mass");
-    for (auto& frame : f.run.frames) frame.bodies[0].velocity = {0, 0, 4.0 * frame.time + 0.5 * per_second * frame.time * frame.time};
+    for (auto& frame : f.run.frames)
+      frame.bodies[0].velocity = {0, 0, 4.0 * frame.time + 0.5 * per_second * frame.time * frame.time};
     return evaluate(metric("acceleration", "final", "block"), f.s.job, f.s.initial, f.run, *f.truth).uncertainty.numerical;
   };
   EXPECT_NEAR(uncertainty(20, 0.0), 0.0, 1e-9);
-  // A parabola 1/2 b t^2 is off its line by b/2 ((t - 1/2)^2 - 1/12): squares of b^2/720 on average, and two changes of sign, so that 4 - 2 are left over 1/12.
+  // A parabola 1/2 b t^2 is off its line by b/2 ((t - 1/2)^2 - 1/12): squares of b^2/720 on average, and two changes of sign, so
+  // that 4 - 2 are left over 1/12.
   EXPECT_NEAR(uncertainty(200, -3.0), 3.0 * std::sqrt(12.0 / 720.0 / 2.0), 0.02);
   EXPECT_NEAR(uncertainty(20, -3.0), uncertainty(200, -3.0), 0.05);
 }

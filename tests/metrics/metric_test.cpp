@@ -14,10 +14,13 @@ using test::Trial;
 
 TEST(Metric, IsNothingForThePerfectRun) {
   const Trial flight(test::thrown_block(), "torque_free"), heat(test::warm_bar(), "cosine_mode");
-  for (const char* q : {"position", "velocity", "orientation", "angular_velocity", "body_count", "phase_count", "momentum", "angular_momentum", "energy", "mass", "force", "ledger.kinetic"})
-    for (const char* norm : {"max", "rms", "final"}) EXPECT_LT(std::abs(flight.value(metric(q, norm)).value), 1e-15) << q << ' ' << norm;
+  for (const char* q : {"position", "velocity", "orientation", "angular_velocity", "body_count", "phase_count", "momentum",
+                        "angular_momentum", "energy", "mass", "force", "ledger.kinetic"})
+    for (const char* norm : {"max", "rms", "final"})
+      EXPECT_LT(std::abs(flight.value(metric(q, norm)).value), 1e-15) << q << ' ' << norm;
   for (const char* q : {"temperature", "temperature_profile"})
-    for (const char* norm : {"L1", "L2", "Linf", "L2raw", "max", "rms"}) EXPECT_EQ(heat.value(metric(q, norm)).value, 0.0) << q << ' ' << norm;
+    for (const char* norm : {"L1", "L2", "Linf", "L2raw", "max", "rms"})
+      EXPECT_EQ(heat.value(metric(q, norm)).value, 0.0) << q << ' ' << norm;
   EXPECT_LT(std::abs(heat.value(metric("decay_rate", "final")).value), 1e-12);
   EXPECT_LT(std::abs(heat.value(metric("front", "final")).value), 1e-12);
 }
@@ -98,7 +101,9 @@ TEST(Metric, MeasuresDriftFromTheRunsOwnStart) {
   auto s = test::block({1, 2, 3}, 1.0, 10);
   Trial t(s, "torque_free");
   const auto invariant = make_reference(test::function("invariant"), t.s.job, t.s.initial);
-  const auto drift = [&](const char* q, const char* body = "") { return evaluate(metric(q, "drift", body), t.s.job, t.s.initial, t.run, *invariant).value; };
+  const auto drift = [&](const char* q, const char* body = "") {
+    return evaluate(metric(q, "drift", body), t.s.job, t.s.initial, t.run, *invariant).value;
+  };
   EXPECT_LT(drift("angular_momentum"), 1e-14);
   EXPECT_LT(drift("ledger.kinetic"), 1e-14);
   EXPECT_LT(drift("momentum"), 1e-14);
@@ -152,7 +157,7 @@ TEST(Walkers, HaveTheirOwnScatterTakenOffTheL2Error) {
     corrected += e * e / runs;
     raw += std::pow(t.value(metric("temperature", "L2raw")).value, 2) / runs;
   }
-  EXPECT_NEAR(corrected, 0.09, 0.002);        // the true error alone: standard error 5e-4
+  EXPECT_NEAR(corrected, 0.09, 0.002);  // the true error alone: standard error 5e-4
   EXPECT_NEAR(raw, 0.09 + 0.04, 0.002);
 }
 
@@ -172,7 +177,8 @@ TEST(Walkers, StateAnUncertaintyThatCoversTheTruthForManyAndForPooledCounts) {
 TEST(Metric, GivesTheFirstParticleThatFlowsInNoVolumeOfTheStart) {
   auto s = test::thrown_block();
   const auto last = s.initial.size() - 1;
-  s.initial.mass.push_back(7.0), s.initial.mass.pop_back();  // what lies behind the last is memory that a careless look would take for a particle
+  s.initial.mass.push_back(7.0),
+      s.initial.mass.pop_back();  // what lies behind the last is memory that a careless look would take for a particle
   s.initial.material.push_back(0), s.initial.material.pop_back();
   const auto choice = metric("position", "max");
   const auto truth = make_reference(test::function("torque_free"), s.job, s.initial);

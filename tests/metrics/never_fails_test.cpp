@@ -71,7 +71,7 @@ TEST(GateThatNeverFails, AMissingResultIsNoZero) {
 
 TEST(GateThatNeverFails, AMissingReferenceIsNoLimit) {
   const auto t = flight();
-  EXPECT_FALSE(passes(t.value(metric("temperature", "L2")), 1e9));     // rigid flight knows no temperature
+  EXPECT_FALSE(passes(t.value(metric("temperature", "L2")), 1e9));  // rigid flight knows no temperature
   EXPECT_FALSE(passes(t.value(metric("event_time", "final")), 1e9));
   EXPECT_FALSE(passes(t.value(metric("ledger.elastic", "max")), 1e9));
   ReferenceChoice none;
@@ -93,7 +93,8 @@ TEST(GateThatNeverFails, EveryParticleAndEveryBodyIsCompared) {
 
 TEST(GateThatNeverFails, ADeadRunIsNotAgreement) {
   auto t = flight();  // both sides zero: a run that shows zeros everywhere
-  for (auto& f : t.run.frames) std::fill(f.position.begin(), f.position.end(), Vec3{}), std::fill(f.velocity.begin(), f.velocity.end(), Vec3{});
+  for (auto& f : t.run.frames)
+    std::fill(f.position.begin(), f.position.end(), Vec3{}), std::fill(f.velocity.begin(), f.velocity.end(), Vec3{});
   EXPECT_NE(t.sound(), "");
   EXPECT_FALSE(passes(t.value(metric("position", "max")), 0.01));
 }
@@ -174,7 +175,8 @@ TEST(GateThatNeverFails, AParticleThatIsLostIsFoundWhereverNoMetricLooksAtIt) {
   auto t = flight();
   for (auto& f : t.run.frames)
     if (f.time > 0.0)
-      for (std::size_t i = 1; i < f.id.size(); ++i) f.id[i] = -1, f.position[i] = f.velocity[i] = {not_a_number, not_a_number, not_a_number};
+      for (std::size_t i = 1; i < f.id.size(); ++i)
+        f.id[i] = -1, f.position[i] = f.velocity[i] = {not_a_number, not_a_number, not_a_number};
   EXPECT_NE(t.sound().find("particle 1 is lost"), std::string::npos) << t.sound();
 }
 

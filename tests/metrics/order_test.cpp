@@ -73,7 +73,8 @@ TEST(Order, DoesNotHideDivergenceBehindAMagnitude) {
   const auto fit = fit_order(h, errors(h, [](double x) { return 1e-3 / (x * x); }), {}, 2.0);
   EXPECT_NEAR(fit.value, -2.0, 1e-10);
   EXPECT_EQ(fit.fit_class, "diverging");
-  EXPECT_EQ(fit_order(levels(0.1, 6), {1e-4, 6e-4, 5e-4, 4e-3, 3e-2, 2e-1}, {}, 2.0).fit_class, "diverging");  // not monotone, yet below 0 at 95 %
+  EXPECT_EQ(fit_order(levels(0.1, 6), {1e-4, 6e-4, 5e-4, 4e-3, 3e-2, 2e-1}, {}, 2.0).fit_class,
+            "diverging");  // not monotone, yet below 0 at 95 %
   EXPECT_EQ(fit_order(h, {1e-2, 1e-3, nan, 1e-5}, {}, 2.0).fit_class, "diverging");
   EXPECT_TRUE(std::isnan(fit_order(h, {1e-2, 1e-3, nan, 1e-5}, {}, 2.0).value));
 }

@@ -45,8 +45,10 @@ TEST(PhaseMetrics, LetABoxMoveAndTurnWithABody) {
   last.bodies[0].position += Vec3{3, 0, 1};
   last.bodies[0].orientation = turn;
   for (std::size_t i = 0; i < last.position.size(); ++i)
-    if (f.s.initial.source[i] == 0) last.position[i] = last.bodies[0].position + rotate(turn, f.s.initial.position[i] - f.s.job.bodies[0].properties.centre);
-  Settings lower{{"min", std::vector<double>{-0.4, 0, 0}}, {"max", std::vector<double>{0, 0.4, 0.2}}, {"value", 32.0}, {"follows", true}};
+    if (f.s.initial.source[i] == 0)
+      last.position[i] = last.bodies[0].position + rotate(turn, f.s.initial.position[i] - f.s.job.bodies[0].properties.centre);
+  Settings lower{
+      {"min", std::vector<double>{-0.4, 0, 0}}, {"max", std::vector<double>{0, 0.4, 0.2}}, {"value", 32.0}, {"follows", true}};
   EXPECT_NEAR(f.stated(metric("mass_in_region", "final", "left"), lower), 0.0, 1e-12);
   lower["follows"] = false;
   EXPECT_NEAR(f.stated(metric("mass_in_region", "final", "left"), lower), -32.0, 1e-12);
@@ -65,7 +67,8 @@ TEST(PhaseMetrics, CountOnlyWhatTurnsBack) {
 TEST(PhaseMetrics, FindTheFrontFinerThanAParticle) {
   Still f(test::stefan_bar({}));
   const auto truth = make_reference(test::function("stefan"), f.s.job, f.s.initial);
-  for (auto& frame : f.run.frames) frame.liquid_fraction = truth->at(frame.time).liquid_fraction, frame.phase = truth->at(frame.time).phase;
+  for (auto& frame : f.run.frames)
+    frame.liquid_fraction = truth->at(frame.time).liquid_fraction, frame.phase = truth->at(frame.time).phase;
   EXPECT_NEAR(f.of(metric("front_position", "max"), "stefan").value, 0.0, 1e-12);
   EXPECT_NEAR(f.of(metric("phase_count", "max"), "stefan").value, 0.0, 1e-12);
   EXPECT_TRUE(std::isnan(f.of(metric("front_ratio", "max"), "stefan").value));  // nothing has melted at the start

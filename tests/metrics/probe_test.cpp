@@ -52,27 +52,37 @@ TEST(Probe, TakesTheNamedBodyAndTheStatedPhaseOnly) {
   EXPECT_NEAR(f.stated(metric("temperature_at", "final", "right"), at(0.0, 0.2, 0.2, 1299.0)), 0.0, 1e-9);
   auto liquid = at(0.0, 0.2, 0.2, 299.0);
   liquid["phase"] = std::string("liquid");
-  EXPECT_NE(f.of(metric("temperature_at", "final"), "stated", liquid).note.find("no particle that the metric takes"), std::string::npos);
+  EXPECT_NE(f.of(metric("temperature_at", "final"), "stated", liquid).note.find("no particle that the metric takes"),
+            std::string::npos);
 }
 
 TEST(Probe, IsComparedWithAFormulaAtItsPlaceAndItsTime) {
   const Still f = linear_fields();
   const Settings args{{"point", std::vector<double>{0.1, 0.2, 0.3}}, {"temperature", std::string("300 + 20*x - 5*z + 8*t")}};
   EXPECT_NEAR(f.of(metric("temperature_at", "final"), "expression", args).value, -8.0, 1e-9);
-  EXPECT_NEAR(f.of(metric("temperature", "L2"), "expression", {{"temperature", std::string("300 + 20*x - 5*z + 8*t")}}).value, 8.0, 1e-9);
-  EXPECT_NEAR(f.of(metric("mean_temperature", "final", "left"), "expression", {{"temperature", std::string("290 + 20*x - 5*z")}}).value, 10.0, 1e-9);
-  EXPECT_NEAR(f.of(metric("mean_temperature", "final", "left"), "expression", {{"value", std::string("290 + 2*t")}}).value, 300.0 - 4.0 - 1.0 - 292.0, 1e-9);
+  EXPECT_NEAR(f.of(metric("temperature", "L2"), "expression", {{"temperature", std::string("300 + 20*x - 5*z + 8*t")}}).value,
+              8.0, 1e-9);
+  EXPECT_NEAR(
+      f.of(metric("mean_temperature", "final", "left"), "expression", {{"temperature", std::string("290 + 20*x - 5*z")}}).value,
+      10.0, 1e-9);
+  EXPECT_NEAR(f.of(metric("mean_temperature", "final", "left"), "expression", {{"value", std::string("290 + 2*t")}}).value,
+              300.0 - 4.0 - 1.0 - 292.0, 1e-9);
 }
 
 TEST(Probe, SaysWhatItNeeds) {
   const Still f = linear_fields();
-  const auto note = [&](const char* quantity, const Settings& args) { return f.of(metric(quantity, "final"), "stated", args).note; };
+  const auto note = [&](const char* quantity, const Settings& args) {
+    return f.of(metric(quantity, "final"), "stated", args).note;
+  };
   EXPECT_NE(note("temperature_at", {{"value", 300.0}}).find("needs the probe's place"), std::string::npos);
   EXPECT_NE(note("velocity_at", at(0.2, 0.2, 0.2, 0.0)).find("needs its axis"), std::string::npos);
   EXPECT_NE(note("displacement", {{"value", 0.0}}).find("needs a place at the start and an axis"), std::string::npos);
   EXPECT_NE(note("centre", {{"value", 0.0}}).find("needs an axis"), std::string::npos);
   EXPECT_NE(note("temperature_at", {{"point", std::vector<double>{0.2, 0.2, 0.2}}}).find("states no value"), std::string::npos);
-  EXPECT_NE(Still(test::blocks()).of(metric("temperature_at", "final"), "stated", at(0.2, 0.2, 0.2, 0.0)).note.find("has no temperature"), std::string::npos);
+  EXPECT_NE(Still(test::blocks())
+                .of(metric("temperature_at", "final"), "stated", at(0.2, 0.2, 0.2, 0.0))
+                .note.find("has no temperature"),
+            std::string::npos);
 }
 
 TEST(Mean, IsOverTheStatedBoxByVolume) {
@@ -88,16 +98,21 @@ TEST(Mean, IsOverTheStatedBoxByVolume) {
   pressed["outside"] = true;
   EXPECT_NEAR(f.stated(metric("mean_velocity", "final", "right"), pressed), 0.4, 1e-9);
   const Settings nowhere{{"min", std::vector<double>{7, 7, 7}}, {"max", std::vector<double>{8, 8, 8}}, {"value", 0.0}};
-  EXPECT_NE(f.of(metric("mean_temperature", "final"), "stated", nowhere).note.find("no particle that the metric takes lies in the region"), std::string::npos);
+  EXPECT_NE(f.of(metric("mean_temperature", "final"), "stated", nowhere)
+                .note.find("no particle that the metric takes lies in the region"),
+            std::string::npos);
 }
 
 TEST(Displacement, FollowsAPointOfMatter) {
   Still f(test::blocks());
   auto& last = f.run.frames.back();
   for (std::size_t i = 0; i < last.position.size(); ++i) last.position[i] += Vec3{0.1 * f.s.initial.position[i].x, 0.0, 0.02};
-  EXPECT_NEAR(f.stated(metric("displacement", "final", "right"), at(0.4, 0.2, 0.2, 0.03, "x")), 0.01, 1e-12);  // the end face, half a spacing beyond the particles
+  EXPECT_NEAR(f.stated(metric("displacement", "final", "right"), at(0.4, 0.2, 0.2, 0.03, "x")), 0.01,
+              1e-12);  // the end face, half a spacing beyond the particles
   EXPECT_NEAR(f.stated(metric("displacement", "final", "right"), at(0.4, 0.2, 0.2, 0.0, "z")), 0.02, 1e-12);
-  EXPECT_NEAR(f.of(metric("centre", "final", "left"), "expression", {{"axis", std::string("x")}, {"value", std::string("-0.2*t")}}).value, -0.02, 1e-12);
+  EXPECT_NEAR(
+      f.of(metric("centre", "final", "left"), "expression", {{"axis", std::string("x")}, {"value", std::string("-0.2*t")}}).value,
+      -0.02, 1e-12);
 }
 
 TEST(Frequency, OfASeriesIsThatOfItsSine) {
@@ -141,7 +156,9 @@ TEST(Frequency, IsANormOfAnySingleNumber) {
   EXPECT_NEAR(v.value, 0.5, 1e-6) << v.note;
   EXPECT_LT(v.uncertainty.numerical, 1e-6);
   EXPECT_TRUE(std::isnan(f.of(metric("position", "frequency"), "stated", args).value));
-  EXPECT_NE(f.of(metric("centre", "frequency", "right"), "stated", {{"axis", std::string("z")}}).note.find("needs the true one in Hz"), std::string::npos);
+  EXPECT_NE(
+      f.of(metric("centre", "frequency", "right"), "stated", {{"axis", std::string("z")}}).note.find("needs the true one in Hz"),
+      std::string::npos);
   EXPECT_NE(f.of(metric("position", "frequency"), "stated", args).note.find("single number"), std::string::npos);
 }
 
@@ -152,13 +169,16 @@ Still warming() {
   s.job.bodies[1].temperature_held = true;
   Still f(std::move(s));
   for (auto& frame : f.run.frames)
-    for (const int source : f.s.initial.source) frame.temperature.push_back(source == 1 ? 400.0 : source == 0 ? 300.0 + 2.0 * frame.time : 300.0);
+    for (const int source : f.s.initial.source)
+      frame.temperature.push_back(source == 1 ? 400.0 : source == 0 ? 300.0 + 2.0 * frame.time : 300.0);
   return f;
 }
 
 TEST(HeatPower, IsThatOfTheLedgerOfTheEngineOrOfTheOnlyHeldBody) {
   Still f = warming();
-  const auto power = [&](const char* body, double value) { return f.of(metric("heat_power", "final", body), "stated", {{"value", value}}); };
+  const auto power = [&](const char* body, double value) {
+    return f.of(metric("heat_power", "final", body), "stated", {{"value", value}});
+  };
   EXPECT_NEAR(power("right", 60000.0).value, 4000.0, 1e-6);  // 64 kg, 500 J/kg/K, 2 K/s
   EXPECT_NE(power("left", 0.0).note.find("is not the only one that brings heat"), std::string::npos);
   for (auto& frame : f.run.frames) frame.heat_given["right"] = 7.0 * frame.time * frame.time;
@@ -172,7 +192,8 @@ TEST(Diffusivity, IsHalfOfWhatTheMeanSquareDistanceOfHeatGrowsASecond) {
   Still f(test::blocks());
   double low = 1e9, high = -1e9;
   for (std::size_t i = 0; i < f.s.initial.size(); ++i)
-    if (f.s.initial.source[i] == 0) low = std::min(low, f.s.initial.position[i].x), high = std::max(high, f.s.initial.position[i].x);
+    if (f.s.initial.source[i] == 0)
+      low = std::min(low, f.s.initial.position[i].x), high = std::max(high, f.s.initial.position[i].x);
   const auto heat = [&](Snapshot& frame, double share) {  // of the two ends; the rest at the two layers beside the middle
     frame.temperature.assign(frame.position.size(), 300.0);
     for (std::size_t i = 0; i < frame.position.size(); ++i) {
@@ -194,7 +215,8 @@ TEST(Diffusivity, IsHalfOfWhatTheMeanSquareDistanceOfHeatGrowsASecond) {
   EXPECT_EQ(value(D).uncertainty.statistical, 0.0);
   for (auto& frame : f.run.frames) frame.temperature_error.assign(frame.temperature.size(), 0.01);
   EXPECT_GT(value(D).uncertainty.statistical, 0.0);
-  EXPECT_NE(f.of(metric("diffusivity", "final", "left"), "stated", {{"value", 300.0}}).note.find("needs its axis"), std::string::npos);
+  EXPECT_NE(f.of(metric("diffusivity", "final", "left"), "stated", {{"value", 300.0}}).note.find("needs its axis"),
+            std::string::npos);
 }
 
 TEST(Gauge, TheEnginesOwnNumberGoesBeforeItsParticles) {
@@ -221,7 +243,8 @@ TEST(Gauge, ItsStandardErrorIsAnUncertaintyOfTheValue) {
   Still f = linear_fields();
   const auto choice = metric("temperature_at", "final");
   for (auto& frame : f.run.frames) frame.gauges[choice.name] = 300.0, frame.gauges[gauge_error_key(choice.name)] = 0.5;
-  const double largest = std::sqrt(2.0 * std::log(2.0));  // what the largest of two samples is off in the mean: the norm takes at least two
+  const double largest =
+      std::sqrt(2.0 * std::log(2.0));  // what the largest of two samples is off in the mean: the norm takes at least two
   EXPECT_NEAR(f.of(choice, "stated", at(0.2, 0.2, 0.2, 300.0)).uncertainty.statistical, 0.5 * largest, 1e-12);
 }
 

@@ -97,7 +97,8 @@ Still stretched_bar(const test::Prepared& s, const Settings& args = {}) {
     frame.bodies.resize(3);
     frame.bodies[1].force = frame.bodies[0].force;
     frame.bodies[2].force = -1.0 * frame.bodies[0].force;
-    frame.bodies[1].position = f.s.job.bodies[1].properties.centre, frame.bodies[2].position = f.s.job.bodies[2].properties.centre;
+    frame.bodies[1].position = f.s.job.bodies[1].properties.centre,
+    frame.bodies[2].position = f.s.job.bodies[2].properties.centre;
   }
   return f;
 }
@@ -123,7 +124,8 @@ TEST(SolidMetrics, FindTheResidualStretchOfACycle) {
   auto s = test::driven_bar(1.03);
   s.job.scene.materials[0].elastic_limit = 0.0106;
   const auto f = stretched_bar(s);
-  EXPECT_NEAR(f.of(metric("residual_stretch", "final", "held"), "tension").value, 0.0, 1e-6);  // straight between frames: half a step squared, 9e-8
+  EXPECT_NEAR(f.of(metric("residual_stretch", "final", "held"), "tension").value, 0.0,
+              1e-6);  // straight between frames: half a step squared, 9e-8
   auto g = f;
   for (auto& frame : g.run.frames) frame.bodies[1].force -= Vec3{100, 0, 0};
   EXPECT_GT(g.of(metric("residual_stretch", "final", "held"), "tension").value, 1e-3);
@@ -140,7 +142,8 @@ TEST(SolidMetrics, FindTheFrequencyOfAShearWave) {
   Still f(s);
   const double w = 0.9 * *make_reference(test::function("elastic_wave"), s.job, s.initial)->number("frequency");
   for (auto& frame : f.run.frames)
-    for (std::size_t i = 0; i < f.s.initial.size(); ++i) frame.velocity[i] = {0.5, 0, 0.01 * std::cos(10 * pi * f.s.initial.position[i].x) * std::cos(w * frame.time)};
+    for (std::size_t i = 0; i < f.s.initial.size(); ++i)
+      frame.velocity[i] = {0.5, 0, 0.01 * std::cos(10 * pi * f.s.initial.position[i].x) * std::cos(w * frame.time)};
   EXPECT_NEAR(f.of(metric("frequency_squared", "final", "beam"), "elastic_wave").value, 0.81 - 1.0, 1e-9);
 }
 

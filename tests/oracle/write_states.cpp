@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// States of a scene as the solver has them, for oracle.py to compute again: the particles that it starts with, then all columns, bonds,
-/// own pairs and the ledger before the first step and around a later one, as one JSON document.
+/// States of a scene as the solver has them, for oracle.py to compute again: the particles that it starts with, then all columns,
+/// bonds, own pairs and the ledger before the first step and around a later one, as one JSON document.
 ///   write-states CASE.toml MODE STEPS [KEY=VALUE...]
 #include <nlohmann/json.hpp>
 
@@ -23,7 +23,8 @@ Json lists_of_bonds(const World& world) {
   Json lists = Json::array();
   for (std::size_t id = 0; id < world.bonds.particles(); ++id)
     for (const Bond& b : world.bonds.of(id))
-      lists.push_back({id, b.other, b.x.x, b.x.y, b.x.z, b.gradient.x, b.gradient.y, b.gradient.z, b.weight, world.bonds.of(b.other)[b.twin].other});
+      lists.push_back({id, b.other, b.x.x, b.x.y, b.x.z, b.gradient.x, b.gradient.y, b.gradient.z, b.weight,
+                       world.bonds.of(b.other)[b.twin].other});
   return lists;
 }
 
@@ -51,9 +52,12 @@ Json columns_of(const Columns& bodies) {
   bodies.for_each([&]<class T>(const FieldInfo& field, std::span<const T> values) {
     Json& column = columns[std::string(field.name)] = Json::array();
     for (const T& value : values) {
-      if constexpr (std::is_same_v<T, Vec3>) column.push_back({value.x, value.y, value.z});
-      else if constexpr (std::is_same_v<T, Quaternion>) column.push_back({value.w, value.x, value.y, value.z});
-      else column.push_back(value);
+      if constexpr (std::is_same_v<T, Vec3>)
+        column.push_back({value.x, value.y, value.z});
+      else if constexpr (std::is_same_v<T, Quaternion>)
+        column.push_back({value.w, value.x, value.y, value.z});
+      else
+        column.push_back(value);
     }
   });
   return columns;

@@ -14,14 +14,16 @@ struct Chain {
   Chain() {
     for (std::uint32_t i = 0; i < 3; ++i) {
       const double n = i;
-      connect(bonds, i, i + 1, {0, 0, {-1.0, n, 0.5}, {2.0, n, 0.25}, 3.0 + n}, {0, 0, {1.0, -n, -0.5}, {-2.0, n, 0.125}, 3.0 + n});
+      connect(bonds, i, i + 1, {0, 0, {-1.0, n, 0.5}, {2.0, n, 0.25}, 3.0 + n},
+              {0, 0, {1.0, -n, -0.5}, {-2.0, n, 0.125}, 3.0 + n});
       make_own(own, i, i + 1, 7.0 + n);
     }
     for (std::size_t id = 0; id < 4; ++id) numbers.push_back(lists_as_numbers(bonds, own, id));
   }
   /// What a process has that holds these particles. @param owned of the first of them
   [[nodiscard]] Share share(std::size_t owned, const std::vector<int>& number) const {
-    return {owned, number, [this, number](std::size_t id) { return std::span<const double>(numbers[static_cast<std::size_t>(number[id])]); }};
+    return {owned, number,
+            [this, number](std::size_t id) { return std::span<const double>(numbers[static_cast<std::size_t>(number[id])]); }};
   }
   Bonds bonds;
   OwnPairs own;

@@ -227,10 +227,12 @@ Particles bar_with_movers() {
   std::ranges::fill(p[field::body], -1);
   for (std::size_t i = 0; i < fixed; ++i) {
     const auto n = static_cast<int>(i);
-    x.set(i, Vec3{0.1 * (n % along), 0.1 * (n / along % across), 0.1 * (n / along / across)} + Vec3{noise(random), noise(random), noise(random)});
+    x.set(i, Vec3{0.1 * (n % along), 0.1 * (n / along % across), 0.1 * (n / along / across)} +
+                 Vec3{noise(random), noise(random), noise(random)});
     p[field::body][i] = 0;
   }
-  for (std::size_t i = fixed; i < p.size(); ++i) x.set(i, {0.3 + 0.1 * static_cast<double>(i - fixed), 0.2 + noise(random), 0.55});
+  for (std::size_t i = fixed; i < p.size(); ++i)
+    x.set(i, {0.3 + 0.1 * static_cast<double>(i - fixed), 0.2 + noise(random), 0.55});
   return p;
 }
 
@@ -248,11 +250,13 @@ TEST(Neighbours, WhatSleepsChangesNoListNoCountAndNoOrder) {
     for (int round = 0; round < 8; ++round) {
       for (Particles* p : {&some, &all})
         for (std::size_t i = 0; i < p->size(); ++i)
-          if ((*p)[field::body][i] < 0) positions(*p).x[i] += round < 5 ? 0.9 : -1.4;  // far at once: what slept wakes, and what woke sleeps
+          if ((*p)[field::body][i] < 0)
+            positions(*p).x[i] += round < 5 ? 0.9 : -1.4;  // far at once: what slept wakes, and what woke sleeps
       ASSERT_TRUE(sleepy.update(some, 0.0, [] { return Resting{{1}, 0.5}; }));
       whole.update(all, 0.0);
       EXPECT_EQ(sleepy.entries(), whole.entries()) << "round " << round;
-      EXPECT_EQ(some.awake() < some.size(), round >= 2) << "the first lists are of all, and so are those in which fixed particles are found";
+      EXPECT_EQ(some.awake() < some.size(), round >= 2)
+          << "the first lists are of all, and so are those in which fixed particles are found";
       const std::vector<std::uint32_t> order = sleepy.rows_in_order(some);
       ASSERT_EQ(order.size(), all.size());
       for (std::size_t n = 0; n < order.size(); ++n) ASSERT_EQ(some[field::id][order[n]], all[field::id][n]);
@@ -262,7 +266,8 @@ TEST(Neighbours, WhatSleepsChangesNoListNoCountAndNoOrder) {
       for (std::size_t n = 0; n < order.size(); ++n) {
         const std::size_t row = order[n];
         const std::vector<int> ids = listed_ids(all, whole, n);
-        const bool meets_mover = std::ranges::any_of(ids, [&](int id) { return all[field::body][all.row(static_cast<std::size_t>(id))] < 0; });
+        const bool meets_mover =
+            std::ranges::any_of(ids, [&](int id) { return all[field::body][all.row(static_cast<std::size_t>(id))] < 0; });
         const bool listed = row < some.awake() && has_list[row] != 0;
         EXPECT_TRUE(listed || (all[field::body][n] >= 0 && !meets_mover)) << "round " << round << ", id " << all[field::id][n];
         EXPECT_TRUE(!listed || listed_ids(some, sleepy, row) == ids) << "round " << round << ", id " << all[field::id][n];

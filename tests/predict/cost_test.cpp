@@ -18,7 +18,8 @@ OneRank run(double particles, double pairs, double seconds, double bytes = 0.0) 
 
 TEST(Cost, ThreeRunsGiveThreeTerms) {
   const auto cost = [](double n, double p) { return 1e-5 + 2e-7 * n + 3e-9 * p; };
-  const WorkCost w = fit_work({run(1000, 50000, cost(1000, 50000)), run(8000, 450000, cost(8000, 450000)), run(8000, 900000, cost(8000, 900000))});
+  const WorkCost w = fit_work(
+      {run(1000, 50000, cost(1000, 50000)), run(8000, 450000, cost(8000, 450000)), run(8000, 900000, cost(8000, 900000))});
   EXPECT_NEAR(w.fixed, 1e-5, 1e-11);
   EXPECT_NEAR(w.particle, 2e-7, 1e-13);
   EXPECT_NEAR(w.pair, 3e-9, 1e-15);

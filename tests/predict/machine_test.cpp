@@ -12,7 +12,10 @@ namespace tripoint::predict {
 namespace {
 
 struct File {
-  std::string path = (std::filesystem::temp_directory_path() / ("tripoint-machine-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml")).string();
+  std::string path =
+      (std::filesystem::temp_directory_path() /
+       ("tripoint-machine-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".toml"))
+          .string();
   explicit File(const std::string& text) { std::ofstream(path) << text; }
   ~File() { std::remove(path.c_str()); }
 };
@@ -29,8 +32,10 @@ TEST(Machine, AFileSaysWhatDiffersFromTheUsual) {
 }
 
 TEST(Machine, AMistakeIsNamedWithItsPlace) {
-  for (const auto& [text, word] : std::vector<std::pair<std::string, std::string>>{{"cores_a_node = 64\nlatency = 2e-6\n", "bandwidth"}, {"cores_a_node = 64\nlatencyy = 2e-6\nbandwidth = 1e9\n", "did you mean"},
-                                                                                   {"cores_a_node = 64\nlatency = -1\nbandwidth = 1e9\n", "above 0"}}) {
+  for (const auto& [text, word] :
+       std::vector<std::pair<std::string, std::string>>{{"cores_a_node = 64\nlatency = 2e-6\n", "bandwidth"},
+                                                        {"cores_a_node = 64\nlatencyy = 2e-6\nbandwidth = 1e9\n", "did you mean"},
+                                                        {"cores_a_node = 64\nlatency = -1\nbandwidth = 1e9\n", "above 0"}}) {
     const File f(text);
     try {
       static_cast<void>(read_machine(f.path));
@@ -41,7 +46,8 @@ TEST(Machine, AMistakeIsNamedWithItsPlace) {
   }
 }
 
-constexpr const char* probed = R"({"ranks": 2, "mpi": "MPICH 5.0.2", "exchanges": [{"bytes": 8, "seconds": 1e-6}, {"bytes": 1048576, "seconds": 5.25288e-4}], "allreduce": [{"doubles": 1, "seconds": 2e-6}, {"doubles": 1024, "seconds": 6e-6}], "pack_rate": 3e9})";
+constexpr const char* probed =
+    R"({"ranks": 2, "mpi": "MPICH 5.0.2", "exchanges": [{"bytes": 8, "seconds": 1e-6}, {"bytes": 1048576, "seconds": 5.25288e-4}], "allreduce": [{"doubles": 1, "seconds": 2e-6}, {"doubles": 1024, "seconds": 6e-6}], "pack_rate": 3e9})";
 
 TEST(Machine, AProbeGivesLatencyAndBandwidth) {
   const Machine m = machine_of_probe(probed, 8);

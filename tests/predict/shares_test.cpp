@@ -40,7 +40,8 @@ TEST(Shares, AFreeBlockHasFewerPairsAtItsFaces) {
   EXPECT_EQ(s.ranks[0].pairs, 2.0 * (5 * 5 * 4 + 6 * 4 * 4 + 6 * 5 * 3));  // edges of the lattice, both ways
 }
 
-/// A slab of a periodic bar sees two layers on each side within 2.5, the cut lying half a cell from the next layer: 0.5, 1.5 and 2.5.
+/// A slab of a periodic bar sees two layers on each side within 2.5, the cut lying half a cell from the next layer: 0.5, 1.5
+/// and 2.5.
 TEST(Shares, ASlabHasTheLayersWithinReachOnBothSides) {
   Cloud bar = lattice(20, 4, 4, true);
   bar.reach = 2.4;  // 0.5 and 1.5 beyond the cut
@@ -93,7 +94,8 @@ TEST(Shares, ByVolumeTheShellIsThatOfTheFormula) {
 
 TEST(Shares, ByVolumeNothingIsLostHoweverManyRanks) {
   const Cloud c = lattice(12, 10, 8, false);
-  for (const int ranks : {1, 2, 6, 64, 500}) EXPECT_NEAR(total(share_volume(c, ranks, 1e7), &Share::own) / 1e7, 1.0, 1e-9) << ranks;
+  for (const int ranks : {1, 2, 6, 64, 500})
+    EXPECT_NEAR(total(share_volume(c, ranks, 1e7), &Share::own) / 1e7, 1.0, 1e-9) << ranks;
 }
 
 /// A reach of whole layers, so that both ways see the same copies.

@@ -11,7 +11,8 @@ namespace {
 
 EmitOptions options() {
   EmitOptions o;
-  o.program = "bin/tripoint", o.dir = "it's here", o.typed = "suite", o.shards = 9, o.numbers = {1, 2, 3, 5, 8, 9}, o.longest = 1000.0;
+  o.program = "bin/tripoint", o.dir = "it's here", o.typed = "suite", o.shards = 9, o.numbers = {1, 2, 3, 5, 8, 9},
+  o.longest = 1000.0;
   return o;
 }
 
@@ -30,9 +31,13 @@ TEST(Scripts, AllotFourTimesWhatIsPredicted) {
   EXPECT_NE(script_for("slurm", test::queue_of(3), o).find("#SBATCH --time=15\n"), std::string::npos);
 }
 
-TEST(Scripts, QuoteAFolderWhateverItIsCalled) { EXPECT_NE(script_for("parallel", test::queue_of(3), options()).find(R"(DIR='it'\''s here')"), std::string::npos); }
+TEST(Scripts, QuoteAFolderWhateverItIsCalled) {
+  EXPECT_NE(script_for("parallel", test::queue_of(3), options()).find(R"(DIR='it'\''s here')"), std::string::npos);
+}
 
-TEST(Scripts, AreWrittenForNamedSchedulersOnly) { EXPECT_THROW(static_cast<void>(script_for("cron", test::queue_of(3), options())), InputError); }
+TEST(Scripts, AreWrittenForNamedSchedulersOnly) {
+  EXPECT_THROW(static_cast<void>(script_for("cron", test::queue_of(3), options())), InputError);
+}
 
 }  // namespace
 }  // namespace tripoint

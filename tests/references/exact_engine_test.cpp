@@ -38,7 +38,8 @@ TEST_F(ExactEngineTest, ServesTheTruthAtEveryTime) {
     EXPECT_EQ(frame.time, t);
     EXPECT_EQ(frame.position, exact.position);
     EXPECT_EQ(frame.id.size(), s_.initial.size());
-    EXPECT_NEAR(frame.energy.at("kinetic"), 0.5 * (0.67 / 6.0 + 0.095 * 4 + 9.0 / 24.0), 1e-14);  // I = (0.11167, 0.095, 0.041667), w = (1, 2, 3)
+    EXPECT_NEAR(frame.energy.at("kinetic"), 0.5 * (0.67 / 6.0 + 0.095 * 4 + 9.0 / 24.0),
+                1e-14);  // I = (0.11167, 0.095, 0.041667), w = (1, 2, 3)
   }
   EXPECT_NEAR(engine.readback().bodies.at(0).mass, 1.0, 1e-14);
 }

@@ -11,7 +11,8 @@ using test::DataFile;
 using test::sealed;
 
 const std::string head =
-    "# Free text: nobody reads this: not even here\n# source: A. Author, Journal 1 (1952) 1\n# unit time: 0.5 s\n# unit front: 2 m\n# unit depth: 0.001 m\n"
+    "# Free text: nobody reads this: not even here\n# source: A. Author, Journal 1 (1952) 1\n# unit time: 0.5 s\n# unit front: 2 "
+    "m\n# unit depth: 0.001 m\n"
     "# uncertainty front: 2 %\n# uncertainty depth: 3\n";
 const std::string data = head + "time,front,depth\n1,1.5,400\n2.5, -3 ,1e2\n";
 
@@ -47,7 +48,8 @@ TEST(Experiment, IsTheSameFileWithTheLineEndsOfWindows) {
 }
 
 TEST(Experiment, SeesAnyChangeOfNumberUnitOrSource) {
-  for (const auto& [from, to] : {std::pair{"1.5", "1.6"}, {"0.5 s", "0.4 s"}, {"A. Author", "B. Author"}, {"2 %", "1 %"}, {"2.5", "2.50"}}) {
+  for (const auto& [from, to] :
+       {std::pair{"1.5", "1.6"}, {"0.5 s", "0.4 s"}, {"A. Author", "B. Author"}, {"2 %", "1 %"}, {"2.5", "2.50"}}) {
     auto text = sealed(data);
     text.replace(text.find(from), std::string(from).size(), to);
     EXPECT_NE(refusal(text).find("they changed since they were entered"), std::string::npos) << from;
@@ -87,7 +89,8 @@ TEST(Experiment, IsAReferenceThatKnowsWhatItsFileHoldsAndNoMore) {
   EXPECT_EQ(measured->number("axis"), 0.0);
   EXPECT_TRUE(measured->at(1.0).position.empty());
   EXPECT_THROW((void)make_reference(test::experiment(file, "w"), block.job, block.initial), InputError);
-  EXPECT_EQ(with_source_of_file(test::experiment(file)).source, "A. Author, Journal 1 (1952) 1; standard uncertainty of depth: 3; standard uncertainty of front: 2 %");
+  EXPECT_EQ(with_source_of_file(test::experiment(file)).source,
+            "A. Author, Journal 1 (1952) 1; standard uncertainty of depth: 3; standard uncertainty of front: 2 %");
 }
 
 TEST(Experiment, IsReadBeforeAnythingRunsAlsoWhereOnlyAMetricComparesWithIt) {

@@ -47,24 +47,35 @@ TEST(ExpressionReference, IsANumberInTimeOrTheFieldAtItsProbe) {
   const auto curve = made("expression", {{"value", std::string("3*t^2")}, {"axis", std::string("z")}});
   EXPECT_EQ(*curve->number_at("value", 2.0), 12.0);
   EXPECT_EQ(*curve->number("axis"), 2.0);
-  const auto probe = made("expression", {{"temperature", std::string("x*t")}, {"velocity_x", std::string("z")}, {"axis", std::string("x")}, {"point", std::vector<double>{4.0, 0.0, 7.0}}});
+  const auto probe = made("expression", {{"temperature", std::string("x*t")},
+                                         {"velocity_x", std::string("z")},
+                                         {"axis", std::string("x")},
+                                         {"point", std::vector<double>{4.0, 0.0, 7.0}}});
   EXPECT_EQ(*probe->number_at("temperature_at", 2.0), 8.0);
   EXPECT_EQ(*probe->number_at("velocity_at", 2.0), 7.0);
   EXPECT_FALSE(probe->number_at("pressure_at", 2.0));
 }
 
 TEST(ExpressionReference, RefusesWhatIsNoFormula) {
-  EXPECT_NE(refused("expression", {{"value", std::string("3*tt")}}).find("argument `value` of reference function expression, column 3"), std::string::npos);
+  EXPECT_NE(
+      refused("expression", {{"value", std::string("3*tt")}}).find("argument `value` of reference function expression, column 3"),
+      std::string::npos);
   EXPECT_NE(refused("expression", {{"axis", std::string("z")}}).find("needs a formula"), std::string::npos);
   EXPECT_NE(refused("expression", {{"temprature", std::string("300")}}).find("did you mean `temperature`"), std::string::npos);
   EXPECT_NE(refused("expression", {{"value", 3.0}}).find("must be a text"), std::string::npos);
-  EXPECT_NE(refused("expression", {{"value", std::string("1")}, {"axis", std::string("w")}}).find("argument `axis` of reference function expression"), std::string::npos);
+  EXPECT_NE(refused("expression", {{"value", std::string("1")}, {"axis", std::string("w")}})
+                .find("argument `axis` of reference function expression"),
+            std::string::npos);
   EXPECT_NE(refused("stated", {{"min", std::vector<double>{0, 0, 0}}}).find("needs both `min` and `max`"), std::string::npos);
   EXPECT_NE(refused("stated", {{"frequency", -1.0}}).find("must be greater than 0"), std::string::npos);
 }
 
-const std::string in_time = "# source: a page\n# unit time: 1 s\n# unit height: 0.01 m\n# uncertainty height: 2\n# unit width: 1 m\n# uncertainty width: 1 %\ntime,height,width\n0,100,5\n2,300,7\n";
-const std::string in_place = "# source: a page\n# unit z: 0.001 m\n# unit temperature: 1 K\n# uncertainty temperature: 0.5\nz,temperature\n0,300\n10,400\n20,350\n";
+const std::string in_time =
+    "# source: a page\n# unit time: 1 s\n# unit height: 0.01 m\n# uncertainty height: 2\n# unit width: 1 m\n# uncertainty width: "
+    "1 %\ntime,height,width\n0,100,5\n2,300,7\n";
+const std::string in_place =
+    "# source: a page\n# unit z: 0.001 m\n# unit temperature: 1 K\n# uncertainty temperature: "
+    "0.5\nz,temperature\n0,300\n10,400\n20,350\n";
 
 TEST(TableReference, IsANumberInTimeWithTheUncertaintyOfItsFile) {
   const DataFile file(sealed(in_time));
@@ -95,10 +106,13 @@ TEST(TableReference, RefusesWhatItCannotUse) {
   EXPECT_NE(refused("table", {}).find("needs the key `file`"), std::string::npos);
   EXPECT_NE(refused("table", {}, curves.path()).find("several columns"), std::string::npos);
   EXPECT_NE(refused("table", {{"column", std::string("hight")}}, curves.path()).find("did you mean `height`"), std::string::npos);
-  EXPECT_NE(refused("table", {{"column", std::string("temperature")}}, field.path()).find("is of a table in time"), std::string::npos);
-  EXPECT_NE(refused("table", {{"column", std::string("height")}}, changed.path()).find("they changed since they were entered"), std::string::npos);
+  EXPECT_NE(refused("table", {{"column", std::string("temperature")}}, field.path()).find("is of a table in time"),
+            std::string::npos);
+  EXPECT_NE(refused("table", {{"column", std::string("height")}}, changed.path()).find("they changed since they were entered"),
+            std::string::npos);
   std::string other = in_place;
-  for (std::size_t at = other.find("temperature"); at != other.npos; at = other.find("temperature", at + 7)) other.replace(at, 11, "warmth");
+  for (std::size_t at = other.find("temperature"); at != other.npos; at = other.find("temperature", at + 7))
+    other.replace(at, 11, "warmth");
   const DataFile unknown(sealed(other));
   EXPECT_NE(refused("table", {}, unknown.path()).find("no field is named `warmth`"), std::string::npos);
 }

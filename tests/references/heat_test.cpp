@@ -17,7 +17,8 @@ constexpr double D = 2e-6;  // of the bar's material [m2/s]
 
 test::Prepared cosine_bar(int n, bool periodic, double phase) {
   const double dx = 0.1 / n, k = (periodic ? 2.0 : 1.0) * pi / 0.1;
-  auto s = test::bar({n, 4, 4}, dx, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }, 100.0, 10, periodic);
+  auto s = test::bar(
+      {n, 4, 4}, dx, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }, 100.0, 10, periodic);
   TemperatureField field;
   field.kind = TemperatureField::Kind::cosine;
   field.mean = 300.0, field.amplitude = 10.0, field.phase = phase, field.wave_vector = {k, 0, 0};
@@ -49,9 +50,12 @@ TEST(CosineCarried, IsTheStillDecaySeenFromAMovingFrame) {
     EXPECT_EQ(a.temperature[i], b.temperature[i]);
     EXPECT_NEAR(b.position[i].x - s.initial.position[i].x, 0.12, 1e-12);
     // dT/dt + U dT/dx = D d2T/dx2 of the field at a fixed place, by differences in time: (D k^2 h)^2 and round-off below 1e-7.
-    const auto field = [&](double x, double t) { return 300.0 + 10.0 * std::exp(-D * k * k * t) * std::cos(k * (x - 0.003 * t) + 0.7); };
+    const auto field = [&](double x, double t) {
+      return 300.0 + 10.0 * std::exp(-D * k * k * t) * std::cos(k * (x - 0.003 * t) + 0.7);
+    };
     EXPECT_NEAR(field(b.position[i].x, 40.0), b.temperature[i], 1e-9);
-    const double x = b.position[i].x, rate = (field(x, 40 + h) - field(x, 40 - h)) / (2 * h), slope = (field(x + 1e-6, 40) - field(x - 1e-6, 40)) / 2e-6;
+    const double x = b.position[i].x, rate = (field(x, 40 + h) - field(x, 40 - h)) / (2 * h),
+                 slope = (field(x + 1e-6, 40) - field(x - 1e-6, 40)) / 2e-6;
     EXPECT_NEAR(rate + 0.003 * slope, -D * k * k * (b.temperature[i] - 300.0), 1e-6);
   }
 }
@@ -64,24 +68,30 @@ TEST(CosineSum, SolvesTheHeatEquationInAllDirectionsByItsOwnDifferences) {
   auto box = s;
   box.job.scene.min = Vec3{}, box.job.scene.max = Vec3{L, W, W}, box.job.scene.periodic = {true, true, true};
   const auto list = [](const Vec3& v) { return std::vector<double>{v.x, v.y, v.z}; };
-  Settings args{{"mean", 300.0}, {"amplitude_1", 10.0}, {"wave_vector_1", list(k1)}, {"phase_1", 0.7}, {"amplitude_2", 4.0}, {"wave_vector_2", list(k2)}, {"phase_2", -0.4}};
-  // Differences need points that lie close: eight particles are moved there. The reference reads places only after it has checked the start.
+  Settings args{{"mean", 300.0},  {"amplitude_1", 10.0}, {"wave_vector_1", list(k1)},
+                {"phase_1", 0.7}, {"amplitude_2", 4.0},  {"wave_vector_2", list(k2)},
+                {"phase_2", -0.4}};
+  // Differences need points that lie close: eight particles are moved there. The reference reads places only after it has checked
+  // the start.
   const Vec3 r{0.0123, 0.0071, 0.0045};
   const double h = 1e-5, tau = 1e-3, t = 3.0;
   auto near = box;
   const Vec3 around[] = {{}, {h, 0, 0}, {-h, 0, 0}, {0, h, 0}, {0, -h, 0}, {0, 0, h}, {0, 0, -h}};
-  for (std::size_t n = 0; n < 7; ++n) near.initial.position[n] = r + around[n], near.initial.temperature[n] = start(r + around[n]);
+  for (std::size_t n = 0; n < 7; ++n)
+    near.initial.position[n] = r + around[n], near.initial.temperature[n] = start(r + around[n]);
   const auto sum = make_reference(test::function("cosine_sum", args), near.job, near.initial);
   const auto T = sum->at(t).temperature;
   const double laplacian = (T[1] + T[2] + T[3] + T[4] + T[5] + T[6] - 6 * T[0]) / (h * h);
   const double rate = (sum->at(t + tau).temperature[0] - sum->at(t - tau).temperature[0]) / (2 * tau);
   EXPECT_NEAR(rate / (D * laplacian), 1.0, 1e-3);  // (k h)^2/12 and round-off of 300 K over h^2 k^2
   args["amplitude_2"] = 5.0;
-  EXPECT_THROW((void)make_reference(test::function("cosine_sum", args), box.job, box.initial), InputError) << "the scene starts with other waves";
+  EXPECT_THROW((void)make_reference(test::function("cosine_sum", args), box.job, box.initial), InputError)
+      << "the scene starts with other waves";
 }
 
 TEST(CosineMode, RefusesAWaveThatDoesNotFit) {
-  EXPECT_NO_THROW((void)make_reference(test::function("cosine_mode"), cosine_bar(20, false, 0.0).job, cosine_bar(20, false, 0.0).initial));
+  EXPECT_NO_THROW(
+      (void)make_reference(test::function("cosine_mode"), cosine_bar(20, false, 0.0).job, cosine_bar(20, false, 0.0).initial));
   const auto sloped = cosine_bar(20, false, 0.7);
   EXPECT_THROW((void)make_reference(test::function("cosine_mode"), sloped.job, sloped.initial), InputError);
   auto moving = cosine_bar(20, true, 0.7);
@@ -130,7 +140,9 @@ double measured_paper_damping(int n, double dx, double h) {
   };
   visit([&](double, double r) { rho += mass * 315.0 / (64.0 * pi * std::pow(h, 9)) * std::pow(h * h - r * r, 3); });
   const double x = 0.3 / k;
-  visit([&](double dxj, double r) { rate += mass / rho * (std::cos(k * (x + dxj)) - std::cos(k * x)) * 45.0 / (pi * std::pow(h, 6)) * (h - r); });
+  visit([&](double dxj, double r) {
+    rate += mass / rho * (std::cos(k * (x + dxj)) - std::cos(k * x)) * 45.0 / (pi * std::pow(h, 6)) * (h - r);
+  });
   return -rate / std::cos(k * x) / (k * k);
 }
 
@@ -170,13 +182,15 @@ TEST(CosineModeLattice, ServesThePeriodicLatticeOnlyAndTheFormOfTheRun) {
   const double k = 2 * pi / 0.1;
   const auto paper = make_reference(test::function("cosine_mode_lattice"), s.job, s.initial);
   EXPECT_NEAR(*paper->number("decay_rate") / (D * k * k), 0.919, 6e-4);
-  const auto corrected = make_reference(test::function("cosine_mode_lattice", {{"form", std::string("corrected")}, {"support_ratio", 2.6}}), s.job, s.initial);
+  const auto corrected = make_reference(
+      test::function("cosine_mode_lattice", {{"form", std::string("corrected")}, {"support_ratio", 2.6}}), s.job, s.initial);
   EXPECT_NEAR(*corrected->number("decay_rate") / (D * k * k), 0.989, 6e-4);
   s.job.scene.periodic[1] = false;
   EXPECT_THROW((void)make_reference(test::function("cosine_mode_lattice"), s.job, s.initial), InputError);
 }
 
-/// Cosine series of an insulated bar, or Fourier series of a periodic one: converges where images are many, and shares nothing with them.
+/// Cosine series of an insulated bar, or Fourier series of a periodic one: converges where images are many, and shares nothing
+/// with them.
 double series_of_step(const StepImages& s, double x, double time) {
   const double L = s.bar.length(), y = x - s.bar.low, a = s.place - s.bar.low;
   double sum = a / L;
@@ -209,7 +223,8 @@ TEST(StepInsulated, AveragesOverCellsAsAQuadratureDoes) {
 }
 
 TEST(StepInsulated, TurnsWithTheNormalOfTheStep) {
-  auto s = test::bar({20, 2, 2}, 0.005, [](const Vec3& r) { return r.x < 0.05 ? 400.0 : 300.0; }, 10.0, 2, false);
+  auto s = test::bar(
+      {20, 2, 2}, 0.005, [](const Vec3& r) { return r.x < 0.05 ? 400.0 : 300.0; }, 10.0, 2, false);
   TemperatureField field;
   field.kind = TemperatureField::Kind::step;
   field.point = {0.05, 0, 0}, field.normal = {-1, 0, 0}, field.behind = 300.0, field.ahead = 400.0;
@@ -217,7 +232,8 @@ TEST(StepInsulated, TurnsWithTheNormalOfTheStep) {
   const auto reference = make_reference(test::function("step_insulated"), s.job, s.initial);
   EXPECT_EQ(reference->at(0.0).temperature, s.initial.temperature);
   const auto slower = make_reference(test::function("step_insulated", {{"diffusivity", 0.25 * D}}), s.job, s.initial);
-  const auto early = reference->at(1.0).temperature, late = slower->at(4.0).temperature;  // the ends are not felt yet: the error function
+  const auto early = reference->at(1.0).temperature,
+             late = slower->at(4.0).temperature;  // the ends are not felt yet: the error function
   for (std::size_t i = 0; i < s.initial.size(); ++i) {
     const double expected = 350.0 - 50.0 * std::erf((s.initial.position[i].x - 0.05) / (2.0 * std::sqrt(D * 1.0)));
     EXPECT_NEAR(early[i], expected, 1e-6);
@@ -281,7 +297,8 @@ TEST(TwoConductivities, AgreesWithFiniteVolumesLongAfterTheFrontsReachTheEnds) {
 }
 
 TEST(TwoConductivities, TakesLayersFromTheBodies) {
-  auto s = test::bar({10, 2, 2}, 0.005, [](const Vec3&) { return 400.0; }, 20.0, 2, false);
+  auto s = test::bar(
+      {10, 2, 2}, 0.005, [](const Vec3&) { return 400.0; }, 20.0, 2, false);
   auto cold = s.job.scene.materials[0];
   cold.name = "cold";
   cold.conductivity = 0.2;
@@ -304,7 +321,8 @@ TEST(References, AreListedWithArgumentsForTheSchema) {
     EXPECT_FALSE(f.source.empty() || f.meaning.empty()) << f.name;
     EXPECT_TRUE(names.insert(f.name).second) << f.name << " is listed twice";
   }
-  for (const char* name : {"ballistic", "torque_free", "cosine_mode", "sine_held_ends", "invariant"}) EXPECT_TRUE(names.count(name)) << name;
+  for (const char* name : {"ballistic", "torque_free", "cosine_mode", "sine_held_ends", "invariant"})
+    EXPECT_TRUE(names.count(name)) << name;
 }
 
 TEST(Invariant, KnowsNoPositionsSoThatAFrozenRunCannotLookPerfect) {

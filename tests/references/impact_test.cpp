@@ -16,12 +16,14 @@ using test::Prepared;
 constexpr double g = 9.81;
 
 /// The motion again, by small steps of the laws themselves.
-CoulombMotion::State stepped(const CoulombMotion::Plane& plane, const CoulombMotion::Contact& contact, double v, double w, double time) {
+CoulombMotion::State stepped(const CoulombMotion::Plane& plane, const CoulombMotion::Contact& contact, double v, double w,
+                             double time) {
   const int steps = 200000;
   const double dt = time / steps;
   CoulombMotion::State s{0.0, v, 0.0, w};
   for (int n = 0; n < steps; ++n) {
-    const double slip = s.speed - (contact.share > 0.0 ? s.spin * contact.radius : 0.0), stop = -(slip / dt + plane.pull) / (1.0 + contact.share);  // friction that ends the slip in this step
+    const double slip = s.speed - (contact.share > 0.0 ? s.spin * contact.radius : 0.0),
+                 stop = -(slip / dt + plane.pull) / (1.0 + contact.share);  // friction that ends the slip in this step
     const double friction = std::clamp(stop, -plane.grip, plane.grip);
     s.speed += dt * (plane.pull + friction), s.spin -= dt * friction * contact.share / contact.radius;
     s.way += dt * s.speed, s.angle += dt * s.spin;
@@ -35,7 +37,8 @@ TEST(Coulomb, MovesAsTheLawsDoStepByStep) {
       for (const CoulombMotion::Contact contact : {CoulombMotion::Contact{}, CoulombMotion::Contact{2.5, 0.2}})
         for (const auto& [v, w] : {std::pair{0.0, 0.0}, {2.0, 0.0}, {-1.0, 0.0}, {0.5, contact.share > 0.0 ? 20.0 : 0.0}}) {
           const auto exact = CoulombMotion({pull, grip}, contact, v, w).at(1.3), seen = stepped({pull, grip}, contact, v, w, 1.3);
-          EXPECT_NEAR(exact.way, seen.way, 2e-4) << "first order in a step of 6.5 us; pull " << pull << ", grip " << grip << ", share " << contact.share << ", v " << v;
+          EXPECT_NEAR(exact.way, seen.way, 2e-4) << "first order in a step of 6.5 us; pull " << pull << ", grip " << grip
+                                                 << ", share " << contact.share << ", v " << v;
           EXPECT_NEAR(exact.speed, seen.speed, 2e-4);
           EXPECT_NEAR(exact.spin, seen.spin, 2e-3);
           EXPECT_NEAR(exact.angle, seen.angle, 2e-3);
@@ -71,7 +74,8 @@ TEST(Sliding, TakesSlopeAndFrictionFromTheJob) {
   const auto end = make_reference(test::function("sliding"), slips.job, slips.initial)->at(1.0);
   EXPECT_NEAR(end.bodies[0].velocity.x, g * (std::sin(angle) - 0.3 * std::cos(angle)), 1e-14);
   EXPECT_NEAR(end.bodies[0].position.x - 0.2, 0.5 * g * (std::sin(angle) - 0.3 * std::cos(angle)), 1e-14);
-  EXPECT_EQ(make_reference(test::function("sliding"), sticks.job, sticks.initial)->at(1.0).bodies[0].velocity.x, 0.0) << "tan 30 = 0.577 is below 0.6";
+  EXPECT_EQ(make_reference(test::function("sliding"), sticks.job, sticks.initial)->at(1.0).bodies[0].velocity.x, 0.0)
+      << "tan 30 = 0.577 is below 0.6";
 }
 
 TEST(Sliding, RefusesWhatItsLawDoesNotHold) {
@@ -106,7 +110,9 @@ Prepared tumbling(double restitution, const Vec3& spin) {
 double energy(const Prepared& s, const BodyState& b) {
   const auto& p = s.job.bodies[0].properties;
   const Vec3 w = rotate_back(b.orientation * p.principal_axes, b.angular_velocity);
-  return 0.5 * p.mass * dot(b.velocity, b.velocity) + 0.5 * (p.principal_inertia.x * w.x * w.x + p.principal_inertia.y * w.y * w.y + p.principal_inertia.z * w.z * w.z) + p.mass * g * b.position.z;
+  return 0.5 * p.mass * dot(b.velocity, b.velocity) +
+         0.5 * (p.principal_inertia.x * w.x * w.x + p.principal_inertia.y * w.y * w.y + p.principal_inertia.z * w.z * w.z) +
+         p.mass * g * b.position.z;
 }
 
 Vec3 spin_momentum(const Prepared& s, const BodyState& b) {
@@ -135,7 +141,8 @@ void expect_newtons_impact(double restitution, const Vec3& spin, std::size_t cor
   const auto before = reference->at(t - h).bodies[0], after = reference->at(t + h).bodies[0];
   const auto arms = touching(s, after);
   ASSERT_EQ(arms.size(), corners);
-  const Vec3 dp = s.job.bodies[0].properties.mass * (after.velocity - before.velocity), dL = spin_momentum(s, after) - spin_momentum(s, before);
+  const Vec3 dp = s.job.bodies[0].properties.mass * (after.velocity - before.velocity),
+             dL = spin_momentum(s, after) - spin_momentum(s, before);
   EXPECT_LT(std::hypot(dp.x, dp.y), 1e-6 * dp.z) << "no friction: no impulse along the floor";
   EXPECT_NEAR(dL.z, 0.0, 1e-6 * dp.z) << "no torque about the normal";
   Vec3 mean;
@@ -144,7 +151,8 @@ void expect_newtons_impact(double restitution, const Vec3& spin, std::size_t cor
     EXPECT_LT(norm(dL - cross(mean, dp)), 1e-6 * dp.z);
   }
   for (const Vec3& arm : arms) {
-    const double in = before.velocity.z + cross(before.angular_velocity, arm).z, out = after.velocity.z + cross(after.angular_velocity, arm).z;
+    const double in = before.velocity.z + cross(before.angular_velocity, arm).z,
+                 out = after.velocity.z + cross(after.angular_velocity, arm).z;
     EXPECT_LT(in, -1.0);
     EXPECT_NEAR(out, -restitution * in, 1e-6);
   }
@@ -152,7 +160,8 @@ void expect_newtons_impact(double restitution, const Vec3& spin, std::size_t cor
     EXPECT_NEAR(energy(s, after), energy(s, before), 1e-6 * energy(s, before));
   }
   EXPECT_LT(energy(s, after), energy(s, before) * (1.0 + 1e-6));
-  EXPECT_TRUE(std::isnan(reference->at(reference->number("next_touch").value() + 0.01).bodies[0].position.z)) << "nothing is known after the second touch";
+  EXPECT_TRUE(std::isnan(reference->at(reference->number("next_touch").value() + 0.01).bodies[0].position.z))
+      << "nothing is known after the second touch";
 }
 
 TEST(Landing, TurnsABoxByOneImpulseAtTheCorner) {

@@ -20,8 +20,10 @@ std::vector<double> differences(const ShearFlow& f, double time, int n, int step
   for (int k = 0; k < steps; ++k) {
     for (std::size_t i = 0; i < count; ++i) {
       const bool first = i == 0, last = i + 1 == count;  // walls half a cell away: twice the conductance
-      const double low = first ? 2 * a : a, high = last ? 2 * a : a, wall = (first ? low * f.low_speed : 0.0) + (last ? high * f.high_speed : 0.0);
-      const double rest = u[i] + dt * f.drive + wall, before = first ? 0.0 : low, pivot = 1 + low + high - (first ? 0.0 : before * c[i - 1]);
+      const double low = first ? 2 * a : a, high = last ? 2 * a : a,
+                   wall = (first ? low * f.low_speed : 0.0) + (last ? high * f.high_speed : 0.0);
+      const double rest = u[i] + dt * f.drive + wall, before = first ? 0.0 : low,
+                   pivot = 1 + low + high - (first ? 0.0 : before * c[i - 1]);
       c[i] = (last ? 0.0 : high) / pivot;
       d[i] = (rest + (first ? 0.0 : before * d[i - 1])) / pivot;
     }
@@ -31,20 +33,26 @@ std::vector<double> differences(const ShearFlow& f, double time, int n, int step
 }
 
 TEST(PlaneShear, IsWhatFiniteDifferencesSay) {
-  for (const ShearFlow& f : {ShearFlow{1.0, 0.01, 0.08, 0, 0}, ShearFlow{1.0, 0.01, 0.0, 0.0, 1.0}, ShearFlow{0.7, 0.02, 0.05, -0.3, 1.0}}) {
+  for (const ShearFlow& f :
+       {ShearFlow{1.0, 0.01, 0.08, 0, 0}, ShearFlow{1.0, 0.01, 0.0, 0.0, 1.0}, ShearFlow{0.7, 0.02, 0.05, -0.3, 1.0}}) {
     const auto u = differences(f, 10.0, 100, 4000);
-    for (const int i : {3, 40, 96}) EXPECT_NEAR(f.speed((i + 0.5) * f.width / 100, 10.0), u[static_cast<std::size_t>(i)], 3e-4);  // cells 1 %, steps 1/4000: both below 3e-4
+    for (const int i : {3, 40, 96})
+      EXPECT_NEAR(f.speed((i + 0.5) * f.width / 100, 10.0), u[static_cast<std::size_t>(i)],
+                  3e-4);  // cells 1 %, steps 1/4000: both below 3e-4
   }
 }
 
-/// The same flow by the method of images [Carslaw & Jaeger 1959, 2.4 and 2.9, where heat is what is momentum here]: it shares no term
-/// with the sine series.
+/// The same flow by the method of images [Carslaw & Jaeger 1959, 2.4 and 2.9, where heat is what is momentum here]: it shares no
+/// term with the sine series.
 double by_images(const ShearFlow& f, double distance, double time) {
   const double reach = 2.0 * std::sqrt(f.kinematic_viscosity * time);
-  const auto twice_integrated = [](double x) { return 0.25 * ((1.0 + 2.0 * x * x) * std::erfc(x) - 2.0 * x * std::exp(-x * x) / std::sqrt(pi)); };
+  const auto twice_integrated = [](double x) {
+    return 0.25 * ((1.0 + 2.0 * x * x) * std::erfc(x) - 2.0 * x * std::exp(-x * x) / std::sqrt(pi));
+  };
   double u = f.drive * time;
   for (int n = 0; n < 40; ++n) {
-    const double from_low = (n * f.width + distance) / reach, from_high = ((n + 1) * f.width - distance) / reach, sign = n % 2 == 0 ? 1.0 : -1.0;
+    const double from_low = (n * f.width + distance) / reach, from_high = ((n + 1) * f.width - distance) / reach,
+                 sign = n % 2 == 0 ? 1.0 : -1.0;
     u -= sign * 4.0 * f.drive * time * (twice_integrated(from_low) + twice_integrated(from_high));
     const double below = 2.0 * n * f.width, above = below + 2.0 * f.width;
     u += f.high_speed * (std::erfc((below + f.width - distance) / reach) - std::erfc((below + f.width + distance) / reach));
@@ -54,9 +62,11 @@ double by_images(const ShearFlow& f, double distance, double time) {
 }
 
 TEST(PlaneShear, IsTheSumOfImagesFromEarlyTimesOn) {
-  for (const ShearFlow& f : {ShearFlow{1.0, 0.01, 0.08, 0, 0}, ShearFlow{1.0, 0.01, 0.0, 0.0, 1.0}, ShearFlow{0.7, 0.02, 0.05, -0.3, 1.0}})
+  for (const ShearFlow& f :
+       {ShearFlow{1.0, 0.01, 0.08, 0, 0}, ShearFlow{1.0, 0.01, 0.0, 0.0, 1.0}, ShearFlow{0.7, 0.02, 0.05, -0.3, 1.0}})
     for (const double time : {0.1, 0.5, 2.0, 10.0, 40.0})
-      for (const double share : {0.02, 0.21, 0.5, 0.87}) EXPECT_NEAR(f.speed(share * f.width, time), by_images(f, share * f.width, time), 1e-13) << time;  // round-off of the sums
+      for (const double share : {0.02, 0.21, 0.5, 0.87})
+        EXPECT_NEAR(f.speed(share * f.width, time), by_images(f, share * f.width, time), 1e-13) << time;  // round-off of the sums
 }
 
 TEST(PlaneShear, TakesTheChannelFromTheScene) {
@@ -92,7 +102,8 @@ TEST(Hydrostatic, IsTheIntegralOfTheWeightAbove) {
     EXPECT_NEAR(p[i], weight, 0.2);  // a cell of the sum: 9810 x 1e-5
   }
   EXPECT_NEAR(*rest->number("interface_pressure"), 200 * 9.81 * 0.4, 1e-9);
-  EXPECT_NEAR(make_reference(test::function("hydrostatic", {{"factor", 2.0}}), s.job, s.initial)->at(0.0).pressure[0], 2 * p[0], 1e-9);
+  EXPECT_NEAR(make_reference(test::function("hydrostatic", {{"factor", 2.0}}), s.job, s.initial)->at(0.0).pressure[0], 2 * p[0],
+              1e-9);
 }
 
 TEST(Hydrostatic, OfACompressedLayerHasAllItsWeightAtTheFloorAndTheDensityOfItsPressure) {
@@ -156,8 +167,10 @@ double taylor_green_residual(const test::Prepared& s, const Settings& args) {
   const auto u = [&](double dx, double dy, double dt) { return at(x + dx, y + dy, t + dt).first; };
   const auto p = [&](double dx) { return at(x + dx, y, t).second.second; };
   const double w = at(x, y, t).second.first, u0 = u(0, 0, 0);
-  const double inertia = (u(0, 0, h) - u(0, 0, -h)) / (2 * h) + u0 * (u(h, 0, 0) - u(-h, 0, 0)) / (2 * h) + w * (u(0, h, 0) - u(0, -h, 0)) / (2 * h);
-  const double stress = nu * (u(h, 0, 0) + u(-h, 0, 0) + u(0, h, 0) + u(0, -h, 0) - 4 * u0) / (h * h) - (p(h) - p(-h)) / (2 * h) / 1000.0;
+  const double inertia =
+      (u(0, 0, h) - u(0, 0, -h)) / (2 * h) + u0 * (u(h, 0, 0) - u(-h, 0, 0)) / (2 * h) + w * (u(0, h, 0) - u(0, -h, 0)) / (2 * h);
+  const double stress =
+      nu * (u(h, 0, 0) + u(-h, 0, 0) + u(0, h, 0) + u(0, -h, 0) - 4 * u0) / (h * h) - (p(h) - p(-h)) / (2 * h) / 1000.0;
   return inertia - stress;
 }
 
@@ -183,7 +196,8 @@ TEST(TaylorGreen, SolvesNavierStokesAlsoShiftedAndCarriedAlong) {
   const Vec3 origin{0.13, 0.29, 0}, carried{0.7, -0.4, 0.2};
   const Settings args{{"origin", std::vector<double>{0.13, 0.29, 0}}, {"carried", std::vector<double>{0.7, -0.4, 0.2}}};
   EXPECT_NEAR(taylor_green_residual(vortices(origin, carried), args), 0.0, 1e-5);
-  EXPECT_THROW((void)taylor_green_residual(vortices(), args), InputError) << "the liquid starts with other vortices than the arguments name";
+  EXPECT_THROW((void)taylor_green_residual(vortices(), args), InputError)
+      << "the liquid starts with other vortices than the arguments name";
 }
 
 TEST(CouetteCylinders, BalancesTheTorqueBetweenAnyTwoRadiiAndSticksToBothWalls) {
@@ -192,7 +206,9 @@ TEST(CouetteCylinders, BalancesTheTorqueBetweenAnyTwoRadiiAndSticksToBothWalls) 
   s.job.bodies[1].motion = Motion::prescribed;
   s.job.bodies[1].angular_velocity = {0, 0, spin};
   s.job.scene.periodic = {false, false, true};
-  const auto flow = make_reference(test::function("couette_cylinders", {{"inner_radius", a}, {"outer_radius", b}, {"body", std::string("lower")}}), s.job, s.initial);
+  const auto flow = make_reference(
+      test::function("couette_cylinders", {{"inner_radius", a}, {"outer_radius", b}, {"body", std::string("lower")}}), s.job,
+      s.initial);
   const Vec3 centre = s.job.bodies[1].properties.centre;
   const auto speed = [&](double r) {
     Snapshot now;
@@ -212,7 +228,8 @@ TEST(EllipticDrop, KeepsItsEnergyAndVolume) {
   const double A = 100.0, R = 1.0;
   for (const double t : {0.002, 0.0076, 0.02}) {
     const auto s = elliptic_drop(A, R, t);
-    EXPECT_NEAR(s.rate * s.rate * (s.a * s.a + s.b * s.b), 2 * A * A * R * R, 1e-8 * A * A);  // no work is done: the surface is free
+    EXPECT_NEAR(s.rate * s.rate * (s.a * s.a + s.b * s.b), 2 * A * A * R * R,
+                1e-8 * A * A);  // no work is done: the surface is free
     EXPECT_NEAR(s.a * s.b, R * R, 1e-12);
   }
   EXPECT_NEAR(elliptic_drop(A, R, 0.0076).b, 1.95, 0.02);  // Monaghan 1994: b = 1.95 at t = 0.0076, two digits
@@ -244,7 +261,8 @@ TEST(AddedMass, TakesLiquidInLayersOfOneDensityOnly) {
   EXPECT_THROW((void)make_reference(test::function("added_mass"), other.job, other.initial), InputError);
 }
 
-/// Spheres in a square array move as each other's wall: the backflow of the dipoles beside one, -R^3/2 sum 1/r^3, raises its added mass by 3/2 of it.
+/// Spheres in a square array move as each other's wall: the backflow of the dipoles beside one, -R^3/2 sum 1/r^3, raises its
+/// added mass by 3/2 of it.
 TEST(AddedMass, OfASquareArrayIsThatOfAWallAtTheDistanceOfItsLatticeSum) {
   double sum = 0.0;  // the rest beyond n is 2 pi/n by an integral
   const int n = 400;
@@ -255,7 +273,8 @@ TEST(AddedMass, OfASquareArrayIsThatOfAWallAtTheDistanceOfItsLatticeSum) {
   const double spacing = 5.0, backflow = 0.5 * sum / std::pow(spacing, 3);  // of the speed, at 5 radii apart
   auto s = test::pool(500.0);
   s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
-  const double a = *make_reference(test::function("added_mass", {{"radius_over_wall", 0.3306}}), s.job, s.initial)->number("acceleration");
+  const double a =
+      *make_reference(test::function("added_mass", {{"radius_over_wall", 0.3306}}), s.job, s.initial)->number("acceleration");
   EXPECT_NEAR(a, 0.5 * 9.81 / (0.5 + 0.5 * (1.0 + 3.0 * backflow)), 1e-4 * 9.81);  // four digits of 0.3306
 }
 
@@ -302,7 +321,8 @@ TEST(Bouncing, IsTheFallStepByStepWithTheHitsTurnedRound) {
       z += v * dt - 0.5 * 9.81 * dt * dt, v -= 9.81 * dt, t += dt;
       if (z < 0.0 && v < 0.0) z = -e * z, v = -e * v;
       if (n % 20000 != 0 || (e < 1.0 && t > 0.8)) continue;
-      EXPECT_NEAR(bounce->at(t).bodies[1].position.x - rest, z, 5e-4) << e << " at " << t;  // three hits, each seen up to a step late: v dt of place, and 2 v dt of later times
+      EXPECT_NEAR(bounce->at(t).bodies[1].position.x - rest, z, 5e-4)
+          << e << " at " << t;  // three hits, each seen up to a step late: v dt of place, and 2 v dt of later times
     }
     EXPECT_NEAR(*bounce->number("touch_time"), std::sqrt(2 * gap / 9.81), 1e-12);
   }

@@ -6,7 +6,8 @@
 namespace tripoint::test {
 
 /// A body of its own material; a liquid has no row among the solid bodies.
-inline void add_matter(Prepared& s, const std::string& name, Phase phase, const Lattice& l, const Spin& spin, double density, double viscosity = 0.0, Motion motion = Motion::free) {
+inline void add_matter(Prepared& s, const std::string& name, Phase phase, const Lattice& l, const Spin& spin, double density,
+                       double viscosity = 0.0, Motion motion = Motion::free) {
   const auto first = s.initial.size();
   Lattice weighed = l;
   weighed.mass = density * std::pow(l.spacing, 3) * l.count[0] * l.count[1] * l.count[2];
@@ -23,7 +24,8 @@ inline void add_matter(Prepared& s, const std::string& name, Phase phase, const 
   body.material = s.job.scene.bodies.back().material = name;
   body.phase = s.job.scene.bodies.back().phase = phase;
   body.index = index;
-  for (std::size_t i = first; i < s.initial.size(); ++i) s.initial.phase[i] = static_cast<int>(phase), s.initial.body[i] = index, s.initial.material[i] = row;
+  for (std::size_t i = first; i < s.initial.size(); ++i)
+    s.initial.phase[i] = static_cast<int>(phase), s.initial.body[i] = index, s.initial.material[i] = row;
 }
 
 inline void close_box(Prepared& s, const Vec3& min, const Vec3& max, const std::array<bool, 3>& periodic) {
@@ -37,7 +39,8 @@ inline Prepared channel(const Vec3& gravity, const Vec3& upper_speed) {
   s.job.scene.gravity = gravity;
   add_matter(s, "liquid", Phase::liquid, {{4, 4, 10}, 0.1, {}, 1.0}, {}, 1000.0, 10.0);
   add_matter(s, "lower", Phase::rigid, {{4, 4, 3}, 0.1, {0, 0, -0.3}, 1.0}, {}, 1000.0, 0.0, Motion::fixed);
-  add_matter(s, "upper", Phase::rigid, {{4, 4, 3}, 0.1, {0, 0, 1.0}, 1.0}, {upper_speed, {}}, 1000.0, 0.0, norm(upper_speed) > 0.0 ? Motion::prescribed : Motion::fixed);
+  add_matter(s, "upper", Phase::rigid, {{4, 4, 3}, 0.1, {0, 0, 1.0}, 1.0}, {upper_speed, {}}, 1000.0, 0.0,
+             norm(upper_speed) > 0.0 ? Motion::prescribed : Motion::fixed);
   close_box(s, {0, 0, -1}, {0.4, 0.4, 2}, {true, true, false});
   set_times(s, 20.0, 20);
   return s;

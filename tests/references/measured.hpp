@@ -15,7 +15,8 @@ namespace tripoint::test {
 class DataFile {
  public:
   explicit DataFile(const std::string& text) {
-    path_ = std::filesystem::temp_directory_path() / ("measured_" + std::to_string(::getpid()) + "_" + std::to_string(count()++) + ".ref.csv");
+    path_ = std::filesystem::temp_directory_path() /
+            ("measured_" + std::to_string(::getpid()) + "_" + std::to_string(count()++) + ".ref.csv");
     std::ofstream(path_, std::ios::binary) << text;
   }
   ~DataFile() { std::filesystem::remove(path_); }

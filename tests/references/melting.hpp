@@ -16,7 +16,8 @@ inline Prepared stefan_bar(const Heating& h) {
   const double dx = 1e-3;
   s.job.scene.spacing = dx;
   add_matter(s, "bar", h.wall > h.bar ? Phase::rigid : Phase::liquid, {{40, 2, 2}, dx, {}, 1.0}, {}, 1000.0);
-  add_matter(s, "wall", Phase::rigid, {{3, 2, 2}, dx, {h.from_above ? 40 * dx : -3 * dx, 0, 0}, 1.0}, {}, 1000.0, 0.0, Motion::fixed);
+  add_matter(s, "wall", Phase::rigid, {{3, 2, 2}, dx, {h.from_above ? 40 * dx : -3 * dx, 0, 0}, 1.0}, {}, 1000.0, 0.0,
+             Motion::fixed);
   for (auto& m : s.job.scene.materials) m.conductivity = 2.0, m.heat_capacity = 1000.0;
   auto& m = s.job.scene.materials[0];
   m.t_melt = 300.0, m.t_solid = 290.0, m.latent_heat = 1e5, m.solid = "rigid";

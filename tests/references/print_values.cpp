@@ -22,8 +22,8 @@ void print_torque_free() {
     for (const double t : {0.7, 4.0, 10.0}) {
       const Quaternion q = motion.rotation(t);
       const Vec3 v = motion.angular_velocity(t);
-      std::printf("torque_free %.17g %.17g %.17g %.17g %.17g %.17g %.17g = %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", inertia.x, inertia.y, inertia.z,
-                  w.x, w.y, w.z, t, q.w, q.x, q.y, q.z, v.x, v.y, v.z);
+      std::printf("torque_free %.17g %.17g %.17g %.17g %.17g %.17g %.17g = %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n",
+                  inertia.x, inertia.y, inertia.z, w.x, w.y, w.z, t, q.w, q.x, q.y, q.z, v.x, v.y, v.z);
     }
   }
 }
@@ -33,7 +33,8 @@ void print_lattice() {
     for (const double n : {10.0, 20.0, 40.0})
       for (const Vec3& direction : {Vec3{1, 0, 0}, Vec3{1, 2, 0}}) {
         const Vec3 k = (6.283185307179586 / n) * direction;
-        std::printf("lattice %.17g %.17g %.17g %.17g = %.17g %.17g\n", ratio, k.x, k.y, k.z, paper_lattice_damping(k, 1.0, ratio), corrected_lattice_damping(k, 1.0, ratio));
+        std::printf("lattice %.17g %.17g %.17g %.17g = %.17g %.17g\n", ratio, k.x, k.y, k.z, paper_lattice_damping(k, 1.0, ratio),
+                    corrected_lattice_damping(k, 1.0, ratio));
       }
 }
 
@@ -42,7 +43,8 @@ void print_step() {
     for (const double t : {0.5, 20.0, 800.0})
       for (const double x : {0.001, 0.013, 0.042})
         for (const double cell : {0.0, 0.002})
-          std::printf("step %d %.17g %.17g %.17g = %.17g\n", periodic, t, x, cell, share_of_low_side({{0, 0.0, 0.05, periodic == 1}, 0.017, 2e-6}, x, cell, t));
+          std::printf("step %d %.17g %.17g %.17g = %.17g\n", periodic, t, x, cell,
+                      share_of_low_side({{0, 0.0, 0.05, periodic == 1}, 0.017, 2e-6}, x, cell, t));
 }
 
 void print_layers() {
@@ -56,12 +58,14 @@ void print_beams() {
     for (const double height : {0.02, 0.05}) {
       const Beam b = rectangular_beam(0.2, height, 0.03, 1000.0, 2e6, 0.3975, true, 0.86);
       const auto sag = beam_sag(b, tip, 9.81, b.length);
-      std::printf("beam %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g = %.17g %.17g %.17g\n", b.length, b.bending, b.shear, b.mass, b.rotary, tip.mass, tip.inertia, tip.offset, 9.81,
-                  sag.displacement, sag.rotation, beam_frequency(b, tip));
+      std::printf("beam %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g = %.17g %.17g %.17g\n", b.length, b.bending,
+                  b.shear, b.mass, b.rotary, tip.mass, tip.inertia, tip.offset, 9.81, sag.displacement, sag.rotation,
+                  beam_frequency(b, tip));
     }
   for (const double nu : {0.0, 0.3, 0.3975}) {
     const Beam b = rectangular_beam(10.0, 1.0, 1.0, 1.0, 1.0, nu, true, rectangular_shear_coefficient(nu, true));
-    std::printf("plane %.17g %.17g %.17g = %.17g %.17g\n", 10.0, 1.0, nu, beam_sag(b, {}, 1.0, b.length).displacement, beam_frequency(b, {}));
+    std::printf("plane %.17g %.17g %.17g = %.17g %.17g\n", 10.0, 1.0, nu, beam_sag(b, {}, 1.0, b.length).displacement,
+                beam_frequency(b, {}));
   }
 }
 
@@ -78,13 +82,15 @@ void print_bars() {
         BarState s;
         for (const double stretch : {1.03, 0.98, 1.02}) {
           s = stretched(law, s, stretch);
-          std::printf("bar %d %.17g %.17g %.17g %.17g %.17g = %.17g %.17g %.17g %.17g\n", sides == BarSides::free ? 0 : 1, cap, form, law.moment, law.volume, stretch, s.plastic, s.force, s.elastic, s.dissipated);
+          std::printf("bar %d %.17g %.17g %.17g %.17g %.17g = %.17g %.17g %.17g %.17g\n", sides == BarSides::free ? 0 : 1, cap,
+                      form, law.moment, law.volume, stretch, s.plastic, s.force, s.elastic, s.dissipated);
         }
       }
 }
 
 void print_fronts() {
-  for (const NeumannFront& f : {NeumannFront{1.0, 0.0, 0.0, 1.0, 1.0}, NeumannFront{1.0, 0.0, -0.5, 1.0, 0.5}, NeumannFront{-1.0, 0.0, 0.7, 1.0, 2.0}})
+  for (const NeumannFront& f :
+       {NeumannFront{1.0, 0.0, 0.0, 1.0, 1.0}, NeumannFront{1.0, 0.0, -0.5, 1.0, 0.5}, NeumannFront{-1.0, 0.0, 0.7, 1.0, 2.0}})
     std::printf("front %.17g %.17g %.17g = %.17g\n", f.surface, f.far, f.latent_over_capacity, f.lambda());
 }
 

@@ -48,7 +48,8 @@ inline void add_body(Prepared& s, const std::string& name, const Lattice& l, con
         s.initial.source.push_back(index);
       }
   const auto made = rigid_body(members, s.initial.position, s.initial.velocity, s.initial.mass);
-  for (const auto i : members) s.initial.velocity[i] = spin.velocity + cross(spin.angular_velocity, s.initial.position[i] - made.centre);
+  for (const auto i : members)
+    s.initial.velocity[i] = spin.velocity + cross(spin.angular_velocity, s.initial.position[i] - made.centre);
   JobBody body;
   body.name = name;
   body.material = "block";

@@ -13,7 +13,8 @@ using test::function;
 
 /// Frequency equation of the clamped-free Timoshenko beam [Huang 1961, J. Appl. Mech. 28]; zero at a root.
 double huang(const Beam& b, double w) {
-  const double L2 = b.length * b.length, b2 = b.mass * L2 * L2 * w * w / b.bending, r2 = b.rotary / (b.mass * L2), s2 = b.bending / (b.shear * L2), k = std::sqrt(b2);
+  const double L2 = b.length * b.length, b2 = b.mass * L2 * L2 * w * w / b.bending, r2 = b.rotary / (b.mass * L2),
+               s2 = b.bending / (b.shear * L2), k = std::sqrt(b2);
   const double root = std::sqrt((r2 - s2) * (r2 - s2) + 4.0 / b2);
   const double alpha = std::sqrt(0.5 * (root - (r2 + s2))), beta = std::sqrt(0.5 * (root + r2 + s2));
   return 2.0 + (b2 * (r2 - s2) * (r2 - s2) + 2.0) * std::cosh(k * alpha) * std::cos(k * beta) -
@@ -40,7 +41,8 @@ TEST(Beam, IsTheThinPlateOfGrayMonaghanAndSwift) {
 TEST(Beam, WithAHeavyTipIsASpring) {
   const auto b = rectangular_beam(0.2, 0.02, 0.02, 1e-3, 2e6, 0.3, false, 0.85);  // next to no mass of its own
   const double stiffness = 1.0 / beam_sag(b, {1.0, 0.0, 0.0}, 1.0, b.length).displacement;
-  EXPECT_NEAR(beam_frequency(b, {3.0, 0.0, 0.0}), std::sqrt(stiffness / 3.0), 1e-7 * std::sqrt(stiffness / 3.0));  // the beam weighs 8e-8 kg beside 3 kg
+  EXPECT_NEAR(beam_frequency(b, {3.0, 0.0, 0.0}), std::sqrt(stiffness / 3.0),
+              1e-7 * std::sqrt(stiffness / 3.0));  // the beam weighs 8e-8 kg beside 3 kg
 }
 
 TEST(Cantilever, TakesTheBeamFromTheScene) {
@@ -48,7 +50,8 @@ TEST(Cantilever, TakesTheBeamFromTheScene) {
   const auto truth = make_reference(function("cantilever"), s.job, s.initial);
   const double E = 2e6 / (1 - 0.3975 * 0.3975), EI = E * 0.02 * 8e-6 / 12, q = 1000 * 0.02 * 0.02 * 2.0, L = 0.2, x = 0.195;
   const double kGA = 10.0 / (12.0 - 0.3975) * 2e6 / (2 * 1.3975) * 4e-4;
-  EXPECT_NEAR(*truth->number("deflection"), q * x * x * (6 * L * L - 4 * L * x + x * x) / (24 * EI) + q * (L * x - x * x / 2) / kGA, 1e-12);
+  EXPECT_NEAR(*truth->number("deflection"),
+              q * x * x * (6 * L * L - 4 * L * x + x * x) / (24 * EI) + q * (L * x - x * x / 2) / kGA, 1e-12);
   EXPECT_EQ(*truth->number("end"), 1.0);
   EXPECT_EQ(*truth->number("direction.z"), -1.0);
   EXPECT_FALSE(truth->number("tip_deflection"));
@@ -61,12 +64,14 @@ TEST(Cantilever, TakesTheBeamFromTheScene) {
 
 TEST(Cantilever, TakesWhatIsPublishedOfThePlateBeforeTheTheoryOfBeams) {
   const auto s = test::beam(2.0);
-  const auto known = make_reference(function("cantilever", {{"frequency", 1.0995}, {"deflection", 0.063607}, {"amplitude", 0.06516}}), s.job, s.initial);
+  const auto known = make_reference(
+      function("cantilever", {{"frequency", 1.0995}, {"deflection", 0.063607}, {"amplitude", 0.06516}}), s.job, s.initial);
   EXPECT_NEAR(*known->number("frequency"), 2 * test::pi * 1.0995, 1e-12);
   const double inside = 1.0 - 4.0 / 3.0 * 0.005 / 0.2;  // slope at the end of a thin beam under its weight times half a spacing
   EXPECT_NEAR(*known->number("deflection"), 0.063607 * inside, 1e-3 * 0.063607);  // this one is as thick as a tenth of its length
   EXPECT_NEAR(*known->number("amplitude"), 0.06516 * inside, 1e-3 * 0.06516);
-  EXPECT_FALSE(make_reference(function("cantilever"), s.job, s.initial)->number("amplitude")) << "a load excites more than the lowest mode";
+  EXPECT_FALSE(make_reference(function("cantilever"), s.job, s.initial)->number("amplitude"))
+      << "a load excites more than the lowest mode";
 }
 
 TEST(Cantilever, KnowsTheAmplitudeOfABeamThatStartsInItsLowestMode) {
@@ -74,7 +79,8 @@ TEST(Cantilever, KnowsTheAmplitudeOfABeamThatStartsInItsLowestMode) {
   for (std::size_t i = 0; i < s.initial.size(); ++i)
     if (s.initial.source[i] == 0) s.initial.velocity[i] = {0, 0, 2.0 * s.initial.position[i].x};
   const auto beam = make_reference(function("cantilever"), s.job, s.initial);
-  EXPECT_NEAR(*beam->number("amplitude"), 2.0 * 0.195 / *beam->number("frequency"), 1e-12);  // the last layer lies half a spacing inside
+  EXPECT_NEAR(*beam->number("amplitude"), 2.0 * 0.195 / *beam->number("frequency"),
+              1e-12);  // the last layer lies half a spacing inside
 }
 
 TEST(Cantilever, CarriesARigidTip) {
@@ -98,7 +104,8 @@ TEST(BarLaw, IsTheGradientOfItsEnergy) {
 }
 
 TEST(BarLaw, KeepsTheResidualStretchOfTheClosedForm) {
-  // E = 1e7, yield at 1e5, stretch 1.03: sqrt(1 + 2 (E_G - sigma_y/E)) = 1.02025, dissipated sigma_y (E_G - sigma_y/E) per volume.
+  // E = 1e7, yield at 1e5, stretch 1.03: sqrt(1 + 2 (E_G - sigma_y/E)) = 1.02025, dissipated sigma_y (E_G - sigma_y/E) per
+  // volume.
   BarLaw law{1e7, 0.3};
   law.elastic_limit = 1e5 / (std::sqrt(6.0) * 1e7 / 2.6);
   EXPECT_NEAR(law.yield_stress(), 1e5, 1e-9);
@@ -137,12 +144,14 @@ TEST(Tension, PullsByTheKeyframes) {
   EXPECT_FALSE(bar->number("residual_stretch"));
   const auto held = test::driven_bar(1.02, {false, true, false}), confined = test::driven_bar(1.02, {false, true, true});
   EXPECT_NEAR(*make_reference(function("tension"), held.job, held.initial)->number("modulus"), 1e7 / 0.91, 1e-6);
-  EXPECT_NEAR(*make_reference(function("tension"), confined.job, confined.initial)->number("modulus"), 1e7 * 0.7 / (1.3 * 0.4), 1e-6);
+  EXPECT_NEAR(*make_reference(function("tension"), confined.job, confined.initial)->number("modulus"), 1e7 * 0.7 / (1.3 * 0.4),
+              1e-6);
 }
 
 TEST(Tension, PredictsThePrintedModulus) {
   const auto s = test::driven_bar(1.001);
-  const auto bar = make_reference(function("tension", {{"form", std::string("paper")}, {"support_ratio", 2.12}}), s.job, s.initial);
+  const auto bar =
+      make_reference(function("tension", {{"form", std::string("paper")}, {"support_ratio", 2.12}}), s.job, s.initial);
   const double M = 0.901, v = 0.947;  // numerics note, three digits
   EXPECT_NEAR(*bar->number("modulus") / (4 * M * M * v * 1e7), 1.0, 2e-3);
 }
@@ -177,7 +186,8 @@ TEST(ElasticWave, HasTheModulusLeftWhenFreeSidesGiveWay) {
       for (int i = held; i < 2; ++i) side[i] = -lambda * (1.0 + side[1 - i]) / (lambda + 2 * mu);
     const double modulus = lambda * (1.0 + side[0] + side[1]) + 2 * mu;
     s.job.scene.periodic = {true, held > 0, held > 1};
-    EXPECT_NEAR(*make_reference(function("elastic_wave"), s.job, s.initial)->number("frequency"), 10 * std::sqrt(modulus / 1000.0), 1e-6);
+    EXPECT_NEAR(*make_reference(function("elastic_wave"), s.job, s.initial)->number("frequency"),
+                10 * std::sqrt(modulus / 1000.0), 1e-6);
   }
 }
 

@@ -14,7 +14,8 @@ inline void make_elastic(Prepared& s, std::size_t material, const Elasticity& e)
   s.job.scene.materials.at(material).poisson_ratio = e.poisson_ratio;
 }
 
-/// A beam of 20 x 2 x 2 spacings of 0.01 m along x in plane strain (periodic in y), held at its low end, gravity along -z, a rigid tip if wished.
+/// A beam of 20 x 2 x 2 spacings of 0.01 m along x in plane strain (periodic in y), held at its low end, gravity along -z, a
+/// rigid tip if wished.
 inline Prepared beam(double gravity, bool tip = false) {
   Prepared s;
   const double dx = 0.01;

@@ -18,9 +18,9 @@ using State = std::array<Real, 7>;  // spin in the principal frame, quaternion p
 /// Euler's equations and the quaternion's rate: nothing in common with the elliptic solution.
 State rate(const std::array<Real, 3>& I, const State& s) {
   const auto [w1, w2, w3, q0, q1, q2, q3] = s;
-  return {(I[1] - I[2]) / I[0] * w2 * w3, (I[2] - I[0]) / I[1] * w3 * w1, (I[0] - I[1]) / I[2] * w1 * w2,
-          (-q1 * w1 - q2 * w2 - q3 * w3) / 2, (q0 * w1 + q2 * w3 - q3 * w2) / 2,
-          (q0 * w2 + q3 * w1 - q1 * w3) / 2, (q0 * w3 + q1 * w2 - q2 * w1) / 2};
+  return {(I[1] - I[2]) / I[0] * w2 * w3,     (I[2] - I[0]) / I[1] * w3 * w1,    (I[0] - I[1]) / I[2] * w1 * w2,
+          (-q1 * w1 - q2 * w2 - q3 * w3) / 2, (q0 * w1 + q2 * w3 - q3 * w2) / 2, (q0 * w2 + q3 * w1 - q1 * w3) / 2,
+          (q0 * w3 + q1 * w2 - q2 * w1) / 2};
 }
 
 State advanced(const State& s, const State& k, Real h) {
@@ -33,7 +33,8 @@ State advanced(const State& s, const State& k, Real h) {
 State integrate(const std::array<Real, 3>& I, State s, Real end, int steps) {
   const Real h = end / steps;
   for (int n = 0; n < steps; ++n) {
-    const State a = rate(I, s), b = rate(I, advanced(s, a, h / 2)), c = rate(I, advanced(s, b, h / 2)), d = rate(I, advanced(s, c, h));
+    const State a = rate(I, s), b = rate(I, advanced(s, a, h / 2)), c = rate(I, advanced(s, b, h / 2)),
+                d = rate(I, advanced(s, c, h));
     for (std::size_t i = 0; i < s.size(); ++i) s[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
   }
   return s;

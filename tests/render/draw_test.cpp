@@ -105,8 +105,10 @@ TEST(Balls, AreMetWhereABallIs) {
 Display display_of(std::vector<Vec3> places, bool balls) {
   Display display;
   std::vector<Colour> colours(places.size(), red);
-  if (balls) display.targets.push_back(std::make_unique<SphereTarget>(places, 0.5 * dx, colours));
-  else display.targets.push_back(std::make_unique<SurfaceTarget>(places, SurfaceOptions::for_spacing(dx), colours));
+  if (balls)
+    display.targets.push_back(std::make_unique<SphereTarget>(places, 0.5 * dx, colours));
+  else
+    display.targets.push_back(std::make_unique<SurfaceTarget>(places, SurfaceOptions::for_spacing(dx), colours));
   display.ground = 0.0, display.size = 20 * dx;
   return display;
 }
@@ -136,7 +138,8 @@ TEST(Picture, ShowsTheBodyItsShadowAndTheGround) {
       shadow += grey && c[1] < 150;
       lit += grey && c[1] > 180;
     }
-  EXPECT_NEAR(body, 3.14 / 4 * std::pow(120 * 10.0 / 16.0, 2), 1200);  // ten of the some sixteen spacings that the picture is high
+  EXPECT_NEAR(body, 3.14 / 4 * std::pow(120 * 10.0 / 16.0, 2),
+              1200);  // ten of the some sixteen spacings that the picture is high
   EXPECT_GT(shadow, 200);
   EXPECT_GT(lit, 3000);
 }
@@ -181,7 +184,8 @@ TEST(Sheet, ShrinksAndSetsPicturesSideBySide) {
 
 TEST(Colours, OfTemperatureBecomeLighter) {
   const auto light = [](const Colour& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; };
-  for (double share = 0.0; share < 0.99; share += 0.02) EXPECT_LT(light(temperature_colour(share)), light(temperature_colour(share + 0.02))) << share;
+  for (double share = 0.0; share < 0.99; share += 0.02)
+    EXPECT_LT(light(temperature_colour(share)), light(temperature_colour(share + 0.02))) << share;
   EXPECT_EQ(screen_byte(colour_of(17, 99, 200).y), 99);
 }
 

@@ -20,7 +20,9 @@ Scene tank() {
   return s;
 }
 
-TEST(DefaultStiffness, MakesSoundTenTimesAsFastAsTheLiquidCanFall) { EXPECT_NEAR(default_stiffness(tank())->value, 100.0 * 40.0, 1e-9); }
+TEST(DefaultStiffness, MakesSoundTenTimesAsFastAsTheLiquidCanFall) {
+  EXPECT_NEAR(default_stiffness(tank())->value, 100.0 * 40.0, 1e-9);
+}
 
 TEST(DefaultStiffness, FollowsTheFastestBodyWhereThatIsFaster) {
   Scene s = tank();

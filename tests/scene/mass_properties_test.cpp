@@ -28,7 +28,8 @@ double tensor_error(const std::vector<Vec3>& r, const MassProperties& p) {
     Vec3 L;
     for (const auto& x : r) L += cross(x - p.centre, cross(w, x - p.centre));
     const Vec3 b = rotate_back(p.principal_axes, w);
-    const Vec3 mine = rotate(p.principal_axes, {b.x * p.principal_inertia.x, b.y * p.principal_inertia.y, b.z * p.principal_inertia.z});
+    const Vec3 mine =
+        rotate(p.principal_axes, {b.x * p.principal_inertia.x, b.y * p.principal_inertia.y, b.z * p.principal_inertia.z});
     worst = std::max(worst, norm(mine - L));
   }
   return worst;
@@ -39,14 +40,16 @@ TEST(MassProperties, OfALatticeCubeAreThoseOfTheCubeTimesOneMinusOneOverNSquared
     const double dx = 0.4 / n;
     const auto p = of(lattice(n, n, n, dx), 1000.0 * dx * dx * dx);
     const double solid = p.mass * 0.4 * 0.4 / 6.0;
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(p.principal_inertia[k] / solid, 1.0 - 1.0 / (n * n), 1e-12) << n;  // round-off of n^3 sums
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(p.principal_inertia[k] / solid, 1.0 - 1.0 / (n * n), 1e-12) << n;  // round-off of n^3 sums
     EXPECT_EQ(p.principal_axes, Quaternion{}) << "no rotation is invented for a cube";
   }
 }
 
 TEST(MassProperties, AscendInAProperFrameThatGivesTheTensorBack) {
   const auto block = lattice(6, 4, 2, 0.1);
-  for (const auto& q : {Quaternion{}, normalised({0.3, -0.5, 0.7, 0.1}), normalised({-0.2, 0.9, 0.1, 0.4}), normalised({1, 1, 1, 1})}) {
+  for (const auto& q :
+       {Quaternion{}, normalised({0.3, -0.5, 0.7, 0.1}), normalised({-0.2, 0.9, 0.1, 0.4}), normalised({1, 1, 1, 1})}) {
     const auto r = turned(block, q, {3.0, -2.0, 0.5});
     const auto p = of(r);
     EXPECT_LT(p.principal_inertia.x, p.principal_inertia.y);

@@ -8,11 +8,14 @@
 namespace tripoint::test {
 namespace {
 
-constexpr const char* stone = "[[material]]\nname='stone'\ndensity=1000\n[[material]]\nname='gum'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.3\n";
+constexpr const char* stone =
+    "[[material]]\nname='stone'\ndensity=1000\n[[material]]\nname='gum'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.3\n";
 
 std::string scene(const std::string& keys) { return "[scene]\nend_time=1\nspacing=0.1\n" + keys + "\n" + stone; }
-std::string box(const std::string& name, const std::string& min, const std::string& max, const std::string& more = "", const std::string& material = "stone") {
-  return "[[body]]\nname='" + name + "'\nmaterial='" + material + "'\nshape={kind='box',min=" + min + ",max=" + max + "}\n" + more + "\n";
+std::string box(const std::string& name, const std::string& min, const std::string& max, const std::string& more = "",
+                const std::string& material = "stone") {
+  return "[[body]]\nname='" + name + "'\nmaterial='" + material + "'\nshape={kind='box',min=" + min + ",max=" + max + "}\n" +
+         more + "\n";
 }
 std::string cube(const std::string& name, const std::string& x, const std::string& more = "") {
   return box(name, "[" + x + ",0,0]", "[" + std::to_string(std::stod(x) + 0.5) + ",0.5,0.5]", more);
@@ -33,13 +36,16 @@ TEST(Meetings, AreOfWhatFallsOnAPlateInTime) {
   EXPECT_EQ(pairs(scene(falls) + plate + box("block", "[0,0,1]", "[0.3,0.3,1.3]")), "plate-block");
   EXPECT_EQ(pairs(scene(falls) + plate + box("block", "[0,0,8]", "[0.3,0.3,8.3]")), "") << "4.9 m in 1 s";
   EXPECT_EQ(pairs(scene(falls) + plate + box("block", "[3,0,1]", "[3.3,0.3,1.3]")), "") << "beside it";
-  EXPECT_EQ(pairs(scene(falls) + plate + box("block", "[3,0,1]", "[3.3,0.3,1.3]", "velocity=[-6,0,0]")), "plate-block") << "thrown there";
-  EXPECT_EQ(pairs(scene(falls) + plate + box("block", "[3,0,1]", "[3.3,0.3,1.3]", "velocity=[-3,0,0]")), "") << "it is below when it is there";
+  EXPECT_EQ(pairs(scene(falls) + plate + box("block", "[3,0,1]", "[3.3,0.3,1.3]", "velocity=[-6,0,0]")), "plate-block")
+      << "thrown there";
+  EXPECT_EQ(pairs(scene(falls) + plate + box("block", "[3,0,1]", "[3.3,0.3,1.3]", "velocity=[-3,0,0]")), "")
+      << "it is below when it is there";
   EXPECT_EQ(pairs(scene("gravity=[0,0,9.81]") + plate + box("block", "[0,0,1]", "[0.3,0.3,1.3]")), "") << "it falls upwards";
 }
 
 TEST(Meetings, AreNotOfBodiesThatFlySideBySide) {
-  EXPECT_EQ(pairs(scene(falls) + cube("a", "0", "velocity=[1,2,3]") + cube("b", "0.5", "velocity=[1,2,3]")), "") << "gravity moves both alike";
+  EXPECT_EQ(pairs(scene(falls) + cube("a", "0", "velocity=[1,2,3]") + cube("b", "0.5", "velocity=[1,2,3]")), "")
+      << "gravity moves both alike";
   EXPECT_EQ(pairs(scene(falls) + cube("a", "0", "velocity=[1,2,3]") + cube("b", "1", "velocity=[0,2,3]")), "a-b");
   EXPECT_EQ(pairs(scene(falls) + cube("a", "0", "velocity=[0,2,3]") + cube("b", "1", "velocity=[1,2,3]")), "") << "they part";
 }
@@ -50,7 +56,10 @@ TEST(Meetings, CountTheSphereOfWhatTurns) {
 }
 
 TEST(Meetings, FollowKeyframes) {
-  const auto ram = [](const std::string& to) { return cube("ram", "-2", "motion='prescribed'\nkeyframes=[{time=0,position=[-1.75,0.25,0.25]},{time=1,position=[" + to + ",0.25,0.25]}]"); };
+  const auto ram = [](const std::string& to) {
+    return cube("ram", "-2",
+                "motion='prescribed'\nkeyframes=[{time=0,position=[-1.75,0.25,0.25]},{time=1,position=[" + to + ",0.25,0.25]}]");
+  };
   EXPECT_EQ(pairs(scene("") + ram("-0.3") + cube("a", "0")), "ram-a");
   EXPECT_EQ(pairs(scene("") + ram("-1") + cube("a", "0")), "");
   EXPECT_EQ(pairs(scene("") + ram("-0.3") + cube("a", "0", "motion='fixed'")), "") << "nothing there is moved by forces";
@@ -61,14 +70,18 @@ TEST(Meetings, AreNotOfJoinedBodiesButOfWhatTheyCarry) {
   const std::string bar = box("bar", "[0,0,0]", "[0.5,0.5,0.5]", "joined_to=['clamp']", "gum");
   EXPECT_EQ(pairs(scene(falls) + clamp + bar), "");
   EXPECT_EQ(pairs(scene(falls) + clamp + bar + box("floor", "[-1,-1,-1]", "[2,2,-0.5]", "motion='fixed'")), "bar-floor");
-  EXPECT_NE(pairs(scene("") + cube("ram", "-0.5", "motion='prescribed'\nvelocity=[3,0,0]") + box("bar", "[0,0,0]", "[0.5,0.5,0.5]", "joined_to=['ram']", "gum") + cube("wall", "3", "motion='fixed'")).find("bar-wall"), std::string::npos)
+  EXPECT_NE(pairs(scene("") + cube("ram", "-0.5", "motion='prescribed'\nvelocity=[3,0,0]") +
+                  box("bar", "[0,0,0]", "[0.5,0.5,0.5]", "joined_to=['ram']", "gum") + cube("wall", "3", "motion='fixed'"))
+                .find("bar-wall"),
+            std::string::npos)
       << "it is pushed there";
 }
 
 TEST(Meetings, EndWithAMergerAndBeginWithARelease) {
   const std::string both = cube("a", "0", "velocity=[1,0,0]") + cube("b", "1.2", "velocity=[-1,0,0]");
   EXPECT_EQ(pairs(scene("") + both), "a-b");
-  EXPECT_EQ(pairs(scene("") + both + "[[event]]\nkind='merge'\ntime=0.2\nbodies=['a','b']\n"), "") << "0.3 m apart when they become one";
+  EXPECT_EQ(pairs(scene("") + both + "[[event]]\nkind='merge'\ntime=0.2\nbodies=['a','b']\n"), "")
+      << "0.3 m apart when they become one";
   const std::string held = plate + box("block", "[0,0,1]", "[0.3,0.3,1.3]", "motion='fixed'");
   EXPECT_EQ(pairs(scene(falls) + held), "");
   EXPECT_EQ(pairs(scene(falls) + held + "[[event]]\nkind='release'\ntime=0.2\nbodies=['block']\n"), "plate-block");
@@ -87,21 +100,28 @@ double stiffness(const std::string& text) {
 }
 
 TEST(DefaultStiffnessOfSolids, ComesFromTheFallAndTheSpeedOfApproach) {
-  EXPECT_NEAR(stiffness(scene(falls) + plate + box("block", "[0,0,1]", "[0.3,0.3,1.3]")), 100.0 * 2.0 * 9.81 * 1.6, 1e-9) << "height of the scene";
-  EXPECT_NEAR(stiffness(scene("") + cube("a", "0", "velocity=[1,0,0]") + cube("b", "1", "velocity=[-1,0,0]")), 400.0, 1e-9) << "2 m/s";
+  EXPECT_NEAR(stiffness(scene(falls) + plate + box("block", "[0,0,1]", "[0.3,0.3,1.3]")), 100.0 * 2.0 * 9.81 * 1.6, 1e-9)
+      << "height of the scene";
+  EXPECT_NEAR(stiffness(scene("") + cube("a", "0", "velocity=[1,0,0]") + cube("b", "1", "velocity=[-1,0,0]")), 400.0, 1e-9)
+      << "2 m/s";
   EXPECT_EQ(stiffness(scene("") + cube("a", "0", "velocity=[-1,0,0]") + cube("b", "1", "velocity=[1,0,0]")), 0.0) << "they part";
 }
 
 TEST(DefaultStiffnessOfSolids, IsThatOfAnElasticBodyWhereThatIsMore) {
   const double modulus = 1e6 * 0.7 / (1.3 * 0.4);
-  EXPECT_NEAR(stiffness(scene("") + box("ball", "[0,0,0]", "[0.5,0.5,0.5]", "velocity=[1,0,0]", "gum") + cube("wall", "1", "motion='fixed'")), modulus / 1000.0, 1e-9);
+  EXPECT_NEAR(stiffness(scene("") + box("ball", "[0,0,0]", "[0.5,0.5,0.5]", "velocity=[1,0,0]", "gum") +
+                        cube("wall", "1", "motion='fixed'")),
+              modulus / 1000.0, 1e-9);
 }
 
 TEST(DefaultStiffnessOfSolids, IsNoneWhereTheCaseSaysSo) {
   const std::string two = cube("a", "0", "velocity=[1,0,0]") + cube("b", "1");
   EXPECT_GT(stiffness(scene("") + two), 0.0);
   EXPECT_EQ(stiffness(scene("contact='none'") + two), 0.0);
-  EXPECT_NE(refusal("[scene]\nend_time=1\ncontact='none'\n[[body]]\nname='b'\nmaterial='water'\nshape={kind='box',min=[0,0,0],max=[1,1,1]}\n").find("scene.contact"), std::string::npos);
+  EXPECT_NE(refusal("[scene]\nend_time=1\ncontact='none'\n[[body]]\nname='b'\nmaterial='water'\nshape={kind='box',min=[0,0,0],"
+                    "max=[1,1,1]}\n")
+                .find("scene.contact"),
+            std::string::npos);
 }
 
 TEST(EscapeDomain, HoldsFreeFlightsButNoFallThroughAFloor) {

@@ -18,7 +18,8 @@ const char* const cube_faces = "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 
 /// Cube of side 1 from the origin; corners in the order of their bits zyx.
 std::string cube_obj(const std::string& faces = cube_faces) {
   std::string text;
-  for (int i = 0; i < 8; ++i) text += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " + std::to_string(i >> 2 & 1) + "\n";
+  for (int i = 0; i < 8; ++i)
+    text += "v " + std::to_string(i & 1) + " " + std::to_string(i >> 1 & 1) + " " + std::to_string(i >> 2 & 1) + "\n";
   return text + faces;
 }
 
@@ -28,12 +29,14 @@ std::string sphere_obj(int rings, int sectors) {
   for (int i = 1; i < rings; ++i)
     for (int j = 0; j < sectors; ++j) {
       const double a = pi * i / rings, b = 2 * pi * j / sectors;
-      text += "v " + std::to_string(std::sin(a) * std::cos(b)) + " " + std::to_string(std::sin(a) * std::sin(b)) + " " + std::to_string(std::cos(a)) + "\n";
+      text += "v " + std::to_string(std::sin(a) * std::cos(b)) + " " + std::to_string(std::sin(a) * std::sin(b)) + " " +
+              std::to_string(std::cos(a)) + "\n";
     }
   const auto at = [&](int i, int j) { return std::to_string(3 + (i - 1) * sectors + j % sectors); };
   for (int j = 0; j < sectors; ++j) {
     text += "f 1 " + at(1, j) + " " + at(1, j + 1) + "\nf 2 " + at(rings - 1, j + 1) + " " + at(rings - 1, j) + "\n";
-    for (int i = 1; i + 1 < rings; ++i) text += "f " + at(i, j) + " " + at(i + 1, j) + " " + at(i + 1, j + 1) + " " + at(i, j + 1) + "\n";
+    for (int i = 1; i + 1 < rings; ++i)
+      text += "f " + at(i, j) + " " + at(i + 1, j) + " " + at(i + 1, j + 1) + " " + at(i, j + 1) + "\n";
   }
   return text;
 }
@@ -48,11 +51,15 @@ std::string as_stl(const Mesh& m, bool binary) {
     for (const auto c : t) {
       const auto& p = m.points[c];
       const float xyz[3]{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-      if (binary) text.append(reinterpret_cast<const char*>(xyz), 12);
-      else text += "vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+      if (binary)
+        text.append(reinterpret_cast<const char*>(xyz), 12);
+      else
+        text += "vertex " + std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
     }
-    if (binary) text.append(2, '\0');
-    else text += "endloop\nendfacet\n";
+    if (binary)
+      text.append(2, '\0');
+    else
+      text += "endloop\nendfacet\n";
   }
   return binary ? text : text + "endsolid s\n";
 }
@@ -89,7 +96,9 @@ TEST(Mesh, ThatIsOpenIsRefusedWithItsOpenEdges) {
 
 TEST(Mesh, ThatTurnsInwardIsRefused) {
   const Folder folder;
-  EXPECT_NE(refused(folder, "in.obj", cube_obj("f 2 4 3 1\nf 7 8 6 5\nf 5 6 2 1\nf 4 8 7 3\nf 3 7 5 1\nf 6 8 4 2\n")).find("turn inward"), std::string::npos);
+  EXPECT_NE(refused(folder, "in.obj", cube_obj("f 2 4 3 1\nf 7 8 6 5\nf 5 6 2 1\nf 4 8 7 3\nf 3 7 5 1\nf 6 8 4 2\n"))
+                .find("turn inward"),
+            std::string::npos);
 }
 
 TEST(Mesh, OfAStrangerIsRefusedWithoutACrash) {
@@ -116,17 +125,23 @@ TEST(Mesh, WithACornerThatIsNoNumberIsRefusedByItsLine) {
     const auto third = text.find("v 0 1 0");
     return refused(folder, "cube.obj", text.replace(third, text.find('\n', third) - third, line));
   };
-  for (const char* line : {"v abc 1 1", "v nan 1 0", "v 0 1", "v inf 1 0", "v 0 1 1e999", "v 0 1x 0", "v"}) EXPECT_NE(broken(line).find("cube.obj:3: "), std::string::npos) << line << ": " << broken(line);
+  for (const char* line : {"v abc 1 1", "v nan 1 0", "v 0 1", "v inf 1 0", "v 0 1 1e999", "v 0 1x 0", "v"})
+    EXPECT_NE(broken(line).find("cube.obj:3: "), std::string::npos) << line << ": " << broken(line);
   EXPECT_EQ(broken("v 0 1 0 # corner"), "");
-  for (const char* faces : {"f 1 3 x 2\n", "f 1 3\n", "f 1 3 0 2\n", "f 1/a 3/2 4/2\n"}) EXPECT_NE(refused(folder, "face.obj", cube_obj(faces)).find("face.obj:9: "), std::string::npos) << faces;
-  EXPECT_EQ(refused(folder, "textured.obj", cube_obj("vt 0 0\nvn 0 0 1\nf 1/1 3/1 4/1 2/1\nf 5//1 6//1 8//1 7//1\nf 1/1/1 2/1/1 6/1/1 5/1/1\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")), "");
+  for (const char* faces : {"f 1 3 x 2\n", "f 1 3\n", "f 1 3 0 2\n", "f 1/a 3/2 4/2\n"})
+    EXPECT_NE(refused(folder, "face.obj", cube_obj(faces)).find("face.obj:9: "), std::string::npos) << faces;
+  EXPECT_EQ(refused(folder, "textured.obj",
+                    cube_obj("vt 0 0\nvn 0 0 1\nf 1/1 3/1 4/1 2/1\nf 5//1 6//1 8//1 7//1\nf 1/1/1 2/1/1 6/1/1 5/1/1\nf 3 7 8 "
+                             "4\nf 1 5 7 3\nf 2 4 8 6\n")),
+            "");
 }
 
 TEST(Mesh, WithAFaceOfVeryManyCornersIsRefused) {
   const Folder folder;
   std::string face = "f";
   for (int n = 0; n < 1001; ++n) face += " 1";
-  EXPECT_NE(refused(folder, "round.obj", cube_obj(face + "\n")).find("round.obj:9: a face of 1001 corners"), std::string::npos) << refused(folder, "round.obj", cube_obj(face + "\n"));
+  EXPECT_NE(refused(folder, "round.obj", cube_obj(face + "\n")).find("round.obj:9: a face of 1001 corners"), std::string::npos)
+      << refused(folder, "round.obj", cube_obj(face + "\n"));
 }
 
 TEST(Mesh, AsStlWithACornerThatIsNoNumberIsRefusedByItsPlace) {
@@ -136,7 +151,9 @@ TEST(Mesh, AsStlWithACornerThatIsNoNumberIsRefusedByItsPlace) {
   const auto first = text.find("vertex");
   for (const char* line : {"vertex nan 0 0", "vertex 0 0", "vertex 0 0 0x", "vertex 0 0 0 7"}) {
     std::string broken = text;
-    EXPECT_NE(refused(folder, "text.stl", broken.replace(first, text.find('\n', first) - first, line)).find("text.stl:4: "), std::string::npos) << line;
+    EXPECT_NE(refused(folder, "text.stl", broken.replace(first, text.find('\n', first) - first, line)).find("text.stl:4: "),
+              std::string::npos)
+        << line;
   }
   std::string bytes = as_stl(cube, true);
   const float nan = std::nanf("");
@@ -147,7 +164,9 @@ TEST(Mesh, AsStlWithACornerThatIsNoNumberIsRefusedByItsPlace) {
 TEST(MeshInterior, OfACubeHoldsJustItsLattice) {
   const Folder folder;
   static_cast<void>(folder.write("cube.obj", cube_obj()));
-  const auto file = folder.write("case.toml", "[scene]\nend_time=1\nspacing=0.2\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='mesh',file='cube.obj',scale=2}\n");
+  const auto file = folder.write(
+      "case.toml",
+      "[scene]\nend_time=1\nspacing=0.2\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='mesh',file='cube.obj',scale=2}\n");
   const auto scene = scene_for(read_case(file).value, {});
   const auto s = sample(scene);
   EXPECT_EQ(s.size(), 1000U);

@@ -24,9 +24,10 @@ TEST(PrescribedMotion, HasTheDerivativeOfItsPlaceAsVelocity) {
   const Quaternion tilted = normalised({0.9, 0.2, -0.3, 0.1});
   const std::vector<Keyframe> two{{0.5, {1, 2, 3}, tilted}, {2.5, {2, 0, 1}, normalised({0.5, 0.6, 0.1, -0.4})}};
   const double t = 1.3, e = 1e-5;
-  const auto a = prescribed_state(two, {}, {}, {}, t - e), b = prescribed_state(two, {}, {}, {}, t + e), p = prescribed_state(two, {}, {}, {}, t);
+  const auto a = prescribed_state(two, {}, {}, {}, t - e), b = prescribed_state(two, {}, {}, {}, t + e),
+             p = prescribed_state(two, {}, {}, {}, t);
   EXPECT_LT(norm((b.position - a.position) / (2 * e) - p.velocity), 1e-9);
-  const Quaternion d = b.rotation * conjugate(a.rotation);  // world frame
+  const Quaternion d = b.rotation * conjugate(a.rotation);              // world frame
   EXPECT_LT(norm(Vec3{d.x, d.y, d.z} / e - p.angular_velocity), 1e-8);  // central difference: error e^2 and round-off/e
 }
 
@@ -37,7 +38,8 @@ TEST(PrescribedMotion, RestsBeforeTheFirstAndAfterTheLastKeyframe) {
   const auto after = prescribed_state(frames, {}, {}, {}, 9.0);
   EXPECT_EQ(after.position, (Vec3{4, 1, 0}));
   EXPECT_EQ(after.velocity, (Vec3{}));
-  EXPECT_EQ(prescribed_state(frames, {}, {}, {}, 3.0).velocity, (Vec3{0, 1, 0})) << "the last keyframe's own time belongs to its piece";
+  EXPECT_EQ(prescribed_state(frames, {}, {}, {}, 3.0).velocity, (Vec3{0, 1, 0}))
+      << "the last keyframe's own time belongs to its piece";
 }
 
 TEST(PrescribedMotion, WithoutKeyframesGoesOnForEver) {

@@ -20,7 +20,8 @@ const std::vector<std::string> sources{full_case, cosine_case, torque_free_case,
 /// The document's meaning: tables sorted by key, numbers by value.
 std::string canonical(const TomlNode& n) {
   if (n.kind == TomlNode::Kind::integer) return to_toml(n) + ".";
-  if (n.kind == TomlNode::Kind::real && n.real == static_cast<double>(static_cast<long>(std::clamp(n.real, -1e15, 1e15)))) return std::to_string(static_cast<long>(n.real)) + ".";
+  if (n.kind == TomlNode::Kind::real && n.real == static_cast<double>(static_cast<long>(std::clamp(n.real, -1e15, 1e15))))
+    return std::to_string(static_cast<long>(n.real)) + ".";
   if (n.kind == TomlNode::Kind::text && !n.text.empty() && n.text[0] >= '0' && n.text[0] <= '9') {  // "3 mm" is "3mm"
     std::string text = n.text;
     text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
@@ -47,7 +48,9 @@ std::string shown(const CaseReading& r) {
 }
 
 bool has_remedy(const std::string& what) {
-  static const std::regex remedy("did you mean|\\(known|one of|none of: |write |give |remove|rename|close |must |lacks the key|lower |raise |shorten|lengthen|choose|flatten|break |at most|needs |start from|plain UTF-8|enlarge|in s\\b");
+  static const std::regex remedy(
+      "did you mean|\\(known|one of|none of: |write |give |remove|rename|close |must |lacks the key|lower |raise "
+      "|shorten|lengthen|choose|flatten|break |at most|needs |start from|plain UTF-8|enlarge|in s\\b");
   return std::regex_search(what, remedy);
 }
 
@@ -73,7 +76,9 @@ void judge(const Mutant& m, const std::string& source, Tally& tally) {
     ++tally.refused;
     const std::string what = e.what();
     EXPECT_NE(what.find("mutant.toml"), std::string::npos) << m.what << "\n" << what;
-    const bool of_the_whole_file = what.find("the case` lacks") != std::string::npos || what.find("the file is empty") != std::string::npos || what.find("bytes; a case file has") != std::string::npos;
+    const bool of_the_whole_file = what.find("the case` lacks") != std::string::npos ||
+                                   what.find("the file is empty") != std::string::npos ||
+                                   what.find("bytes; a case file has") != std::string::npos;
     EXPECT_TRUE(e.place().line > 0 || of_the_whole_file) << m.what << "\n" << what;
     EXPECT_TRUE(has_remedy(what)) << m.what << "\n" << what;
     EXPECT_LT(what.size(), 1500U) << m.what << "\n" << what;

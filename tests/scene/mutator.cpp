@@ -31,8 +31,10 @@ class Dice {
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines(1);
   for (const char c : text) {
-    if (c == '\n') lines.emplace_back();
-    else lines.back() += c;
+    if (c == '\n')
+      lines.emplace_back();
+    else
+      lines.back() += c;
   }
   return lines;
 }
@@ -71,7 +73,8 @@ Mutant twice(std::string text, Dice& dice) {
 }
 
 Mutant insert(std::string text, Dice& dice) {
-  static constexpr std::array<std::string_view, 14> bits{"[", "]", "{", "}", ",", "=", "\"", "'", "\\", "\x01", "\xff", "[,]", "{,}", "\"\"\""};
+  static constexpr std::array<std::string_view, 14> bits{"[", "]",  "{",    "}",    ",",   "=",   "\"",
+                                                         "'", "\\", "\x01", "\xff", "[,]", "{,}", "\"\"\""};
   const auto i = dice.below(text.size());
   const auto bit = dice.of(bits);
   return {text.insert(i, bit), "inserted " + std::string(bit) + " at byte " + std::to_string(i)};
@@ -128,17 +131,54 @@ Mutant misspell(const std::string& text, Dice& dice) {
   auto& line = lines[i];
   const auto at = dice.below(std::max<std::size_t>(1, line.find_last_not_of(' ', equals - 1) + 1));
   switch (dice.below(3)) {
-    case 0: line.erase(at, 1); break;
-    case 1: line.insert(at, 1, 'q'); break;
-    default: line[at] = line[at] == 'x' ? 'y' : 'x'; break;
+    case 0:
+      line.erase(at, 1);
+      break;
+    case 1:
+      line.insert(at, 1, 'q');
+      break;
+    default:
+      line[at] = line[at] == 'x' ? 'y' : 'x';
+      break;
   }
   return {joined(lines), "key on line " + std::to_string(i + 1) + ": " + before + " -> " + line};
 }
 
 Mutant other_value(const std::string& text, Dice& dice) {
-  static constexpr std::array<std::string_view, 34> values{
-      "nan", "inf", "-inf", "-1.0", "0", "-0.0", "1e308", "1e999", "5e-324", "9223372036854775807", "9223372036854775808", "3.25", "true", "\"\"", "\"nonsense\"", "\"3 kg\"", "\"3 furlong\"",
-      "\"nan m\"", "[]", "[1]", "[1, 2]", "[1, 2, 3, 4]", "[nan, 0, 0]", "[\"a\", 1, 2]", "{}", "{kind = \"box\"}", "{kind = \"torus\"}", "[[1, 2], [3]]", "1979-05-27", "0x10", "1_000", "{a = 1, a = 2}", "\"\\u0000\"", "-7"};
+  static constexpr std::array<std::string_view, 34> values{"nan",
+                                                           "inf",
+                                                           "-inf",
+                                                           "-1.0",
+                                                           "0",
+                                                           "-0.0",
+                                                           "1e308",
+                                                           "1e999",
+                                                           "5e-324",
+                                                           "9223372036854775807",
+                                                           "9223372036854775808",
+                                                           "3.25",
+                                                           "true",
+                                                           "\"\"",
+                                                           "\"nonsense\"",
+                                                           "\"3 kg\"",
+                                                           "\"3 furlong\"",
+                                                           "\"nan m\"",
+                                                           "[]",
+                                                           "[1]",
+                                                           "[1, 2]",
+                                                           "[1, 2, 3, 4]",
+                                                           "[nan, 0, 0]",
+                                                           "[\"a\", 1, 2]",
+                                                           "{}",
+                                                           "{kind = \"box\"}",
+                                                           "{kind = \"torus\"}",
+                                                           "[[1, 2], [3]]",
+                                                           "1979-05-27",
+                                                           "0x10",
+                                                           "1_000",
+                                                           "{a = 1, a = 2}",
+                                                           "\"\\u0000\"",
+                                                           "-7"};
   auto lines = lines_of(text);
   std::size_t i = 0, equals = 0;
   if (!pick(lines, dice, i, equals)) return cut(text, dice);
@@ -149,7 +189,8 @@ Mutant other_value(const std::string& text, Dice& dice) {
 
 /// One number of the file becomes another.
 Mutant other_number(std::string text, Dice& dice) {
-  static constexpr std::array<std::string_view, 12> numbers{"nan", "inf", "-3.5", "0.0", "1e29", "1e-300", "7", "-1e-9", "1e9", "0.4999", "0.5", "1..2"};
+  static constexpr std::array<std::string_view, 12> numbers{"nan", "inf",   "-3.5", "0.0",    "1e29", "1e-300",
+                                                            "7",   "-1e-9", "1e9",  "0.4999", "0.5",  "1..2"};
   std::vector<std::pair<std::size_t, std::size_t>> found;
   const auto digits = places(text, "0123456789");
   for (std::size_t k = 0; k < digits.size(); ++k) {
@@ -172,8 +213,10 @@ Mutant other_word(std::string text, Dice& dice) {
   const auto begin = quotes[k] + 1, length = quotes[k + 1] - begin;
   auto word = text.substr(begin, length);
   const auto before = word;
-  if (word.empty() || dice.below(3) == 0) word += "zz";
-  else word.erase(dice.below(word.size()), 1);
+  if (word.empty() || dice.below(3) == 0)
+    word += "zz";
+  else
+    word.erase(dice.below(word.size()), 1);
   return {text.replace(begin, length, word), "word at byte " + std::to_string(begin) + ": " + before + " -> " + word};
 }
 

@@ -91,61 +91,82 @@ TEST(ReadCase, RefusesWhatIsNoNumberOrOutOfRangeSayingWhy) {
   expect_refused("[scene]\nend_time = -1.0\n", {"greater than 0"});
   expect_refused("[scene]\nend_time = \"3 kg\"\n", {"case.toml:2:12", "in kg, but a number in s is expected"});
   expect_refused("[[material]]\nname='a'\ndensity=-1\n", {"case.toml:3:9", "greater than 0"});
-  expect_refused("[[material]]\nname='a'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.5\n", {"case.toml:5:15", "stiffness infinite"});
+  expect_refused("[[material]]\nname='a'\ndensity=1000\nyoung_modulus=1e6\npoisson_ratio=0.5\n",
+                 {"case.toml:5:15", "stiffness infinite"});
   expect_refused("[scene]\nend_time = true\n", {"must be number in s, not true or false"});
   expect_refused(six_lines + "velocity = [1, 2]\n", {"2 components", "[x, y, z]"});
   expect_refused(six_lines + "motion = \"fxed\"\n", {"none of: free, fixed, prescribed", "did you mean `fixed`"});
 }
 
 TEST(ReadCase, RefusesNamesThatReferToNothing) {
-  expect_refused("[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steal'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"case.toml:5:10", "did you mean `steel`"});
+  expect_refused("[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steal'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n",
+                 {"case.toml:5:10", "did you mean `steel`"});
   expect_refused(six_lines + "joined_to = [\"blok\"]\n", {"case.toml:7", "did you mean `block`"});
   const std::string metric = six_lines + "[[metric]]\nname='speed'\nquantity='velocity'\n";
   EXPECT_EQ(refusal(metric), "");
-  expect_refused(metric + "[[gate]]\nmetric='sped'\nlimit=1\nreason='r'\n", {"case.toml:11:8", "no [[metric]] is named \"sped\"", "did you mean `speed`"});
+  expect_refused(metric + "[[gate]]\nmetric='sped'\nlimit=1\nreason='r'\n",
+                 {"case.toml:11:8", "no [[metric]] is named \"sped\"", "did you mean `speed`"});
   EXPECT_EQ(refusal(metric + "[[gate]]\nmetric='speed.statistical'\nlimit=1\nreason='r'\n"), "");
-  expect_refused(metric + "[[gate]]\nmetric='sped.statistical'\nlimit=1\nreason='r'\n", {"case.toml:11:8", "no [[metric]] is named"});
+  expect_refused(metric + "[[gate]]\nmetric='sped.statistical'\nlimit=1\nreason='r'\n",
+                 {"case.toml:11:8", "no [[metric]] is named"});
   expect_refused(metric + "[[gate]]\nmetric='speed'\nreason='r'\n", {"case.toml:10", "no limit and would pass anything"});
   expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\n", {"lacks the key `reason`"});
   expect_refused(metric + "[[gate]]\nmetric='speed.order'\nlimit=1\nreason='r'\n", {"needs a [[study]]"});
   expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\nlevel=0.1\nreason='r'\n", {"no [[study]] has this level"});
   expect_refused(metric + "[[gate]]\nmetric='speed'\nlimit=1\nmode='paper'\nreason='r'\n", {"does not run mode \"paper\""});
-  expect_refused(metric + "[engines.bullet]\n[[gate]]\nmetric='speed'\nlimit=1\nengine='bulet'\nreason='r'\n", {"did you mean `bullet`"});
-  expect_refused(six_lines + "[[body]]\nname='block'\nmaterial='steel'\nshape={kind='sphere',centre=[9,0,0],radius=1}\n", {"two tables [[body]] are named \"block\""});
+  expect_refused(metric + "[engines.bullet]\n[[gate]]\nmetric='speed'\nlimit=1\nengine='bulet'\nreason='r'\n",
+                 {"did you mean `bullet`"});
+  expect_refused(six_lines + "[[body]]\nname='block'\nmaterial='steel'\nshape={kind='sphere',centre=[9,0,0],radius=1}\n",
+                 {"two tables [[body]] are named \"block\""});
 }
 
 TEST(ReadCase, RefusesWhatCannotBeMeant) {
-  expect_refused(six_lines + "temperature = \"20 degC\"\ntemperature_held = true\nmotion = \"fixed\"\nvelocity = [1,0,0]\n", {"a fixed body does not move"});
+  expect_refused(six_lines + "temperature = \"20 degC\"\ntemperature_held = true\nmotion = \"fixed\"\nvelocity = [1,0,0]\n",
+                 {"a fixed body does not move"});
   expect_refused(six_lines + "keyframes = [{time = 0, position = [0,0,0]}]\n", {"only a prescribed body follows keyframes"});
   expect_refused(six_lines + "temperature = -3.0\n", {"case.toml:7", "greater than 0"});
-  expect_refused("[scene]\nend_time=1\nperiodic=['x']\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"case.toml:3", "give scene.min and scene.max"});
-  expect_refused("[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='box',min=[0,0,0],max=[1,0,1]}\n", {"no extent along y"});
+  expect_refused(
+      "[scene]\nend_time=1\nperiodic=['x']\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=[0,0,0],radius=1}"
+      "\n",
+      {"case.toml:3", "give scene.min and scene.max"});
+  expect_refused("[scene]\nend_time=1\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='box',min=[0,0,0],max=[1,0,1]}\n",
+                 {"no extent along y"});
   expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nt_melt=300\nt_solid=310\n", {"above t_melt"});
-  expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\n[[body]]\nname='b'\nmaterial='m'\ntemperature=300\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"lacks conductivity"});
+  expect_refused(
+      "[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\n[[body]]\nname='b'\nmaterial='m'\ntemperature=300\nshape={kind='"
+      "sphere',centre=[0,0,0],radius=1}\n",
+      {"lacks conductivity"});
 }
 
 TEST(ReadCase, RefusesATruthThatIsNoFormulaAndATableWithoutAFile) {
   const std::string metric = six_lines + "[[metric]]\nname='speed'\nquantity='velocity_at'\n";
   EXPECT_EQ(refusal(metric + "reference={function='expression',args={value='3*t',axis='x',point=[0,0,0]}}\n"), "");
-  expect_refused(metric + "reference={function='expression',args={value='3*tt',axis='x'}}\n", {"case.toml:10", "column 3 of the expression", "`tt` is unknown"});
+  expect_refused(metric + "reference={function='expression',args={value='3*tt',axis='x'}}\n",
+                 {"case.toml:10", "column 3 of the expression", "`tt` is unknown"});
   expect_refused(metric + "reference={function='table'}\n", {"case.toml:10", "needs the key `file`"});
   expect_refused(metric + "reference={function='table',file='no.csv'}\n", {"case.toml:10", "no file `no.csv` beside the case"});
 }
 
 TEST(ReadCase, RefusesPhasesThatCannotDiffer) {
   const std::string melts = "[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nconductivity=1\nheat_capacity=1000\n";
-  const std::string body = "[[body]]\nname='b'\nmaterial='m'\nphase='rigid'\ntemperature=280\nshape={kind='sphere',centre=[0,0,0],radius=1}\n";
+  const std::string body =
+      "[[body]]\nname='b'\nmaterial='m'\nphase='rigid'\ntemperature=280\nshape={kind='sphere',centre=[0,0,0],radius=1}\n";
   EXPECT_EQ(refusal(melts + "t_melt=300\nlatent_heat=1000\nsolid_conductivity=2\nsolid_heat_capacity=500\n" + body), "");
   expect_refused(melts + "solid_conductivity=2\n" + body, {"case.toml:8", "without t_melt the material has one phase"});
-  expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nt_melt=300\nsolid_heat_capacity=2\n", {"case.toml:7", "heat_capacity is missing"});
-  expect_refused(melts + "t_melt=300\nt_solid=290\nlatent_heat=1000\nsolid_heat_capacity=500\n" + body, {"case.toml:11", "would take up heat, 4000 J/kg"});
+  expect_refused("[scene]\nend_time=1\n[[material]]\nname='m'\ndensity=1\nt_melt=300\nsolid_heat_capacity=2\n",
+                 {"case.toml:7", "heat_capacity is missing"});
+  expect_refused(melts + "t_melt=300\nt_solid=290\nlatent_heat=1000\nsolid_heat_capacity=500\n" + body,
+                 {"case.toml:11", "would take up heat, 4000 J/kg"});
   const std::string unlike = melts + "t_melt=300\nlatent_heat=1000\nsolid_conductivity=2\n" + body;
-  expect_refused("[case]\nmodes=['corrected','paper']\n" + unlike, {"case.toml:12", "heat as printed knows one conductivity", "modes.heat"});
+  expect_refused("[case]\nmodes=['corrected','paper']\n" + unlike,
+                 {"case.toml:12", "heat as printed knows one conductivity", "modes.heat"});
   EXPECT_NE(refusal(unlike, {"scene.modes.phase='paper'"}).find("modes.phase"), std::string::npos);
 }
 
 TEST(ReadCase, TakesNoSolidOfTheLibraryBesideAValueOfItsOwn) {
-  const std::string ice = "[scene]\nend_time=1\n[[material]]\nname='ice'\n%s[[body]]\nname='b'\nmaterial='ice'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n";
+  const std::string ice =
+      "[scene]\nend_time=1\n[[material]]\nname='ice'\n%s[[body]]\nname='b'\nmaterial='ice'\nshape={kind='sphere',centre=[0,0,0],"
+      "radius=1}\n";
   const auto with = [&](const std::string& line) {
     auto text = ice;
     return read_text(text.replace(text.find("%s"), 2, line)).value.scene.materials[0];
@@ -157,7 +178,11 @@ TEST(ReadCase, TakesNoSolidOfTheLibraryBesideAValueOfItsOwn) {
   EXPECT_EQ(with("conductivity = 2.0\nsolid_conductivity = 3.0\n").solid_conductivity, 3.0);
 }
 
-TEST(ReadCase, RefusesHalfADomain) { expect_refused("[scene]\nend_time=1\nmin=[0,0,0]\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n", {"case.toml:3", "give scene.max too"}); }
+TEST(ReadCase, RefusesHalfADomain) {
+  expect_refused(
+      "[scene]\nend_time=1\nmin=[0,0,0]\n[[body]]\nname='b'\nmaterial='steel'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n",
+      {"case.toml:3", "give scene.max too"});
+}
 
 TEST(ReadCase, SurvivesFilesThatBreakParsers) {
   std::string key;
@@ -184,7 +209,8 @@ TEST(ReadCase, SurvivesFilesThatBreakParsers) {
 }
 
 TEST(Overrides, ReplaceAnyKeyByTheSameChecks) {
-  const auto r = read_text(six_lines, {"scene.spacing=0.1", "body.block.velocity=[1, 2, 3]", "material.steel.density=8000", "scene.gravity=[0,0,-9.81]", "scene.modes.heat='paper'"});
+  const auto r = read_text(six_lines, {"scene.spacing=0.1", "body.block.velocity=[1, 2, 3]", "material.steel.density=8000",
+                                       "scene.gravity=[0,0,-9.81]", "scene.modes.heat='paper'"});
   EXPECT_EQ(r.value.scene.spacing, 0.1);
   EXPECT_EQ(r.value.scene.bodies[0].velocity.value, (Vec3{1, 2, 3}));
   EXPECT_EQ(r.value.scene.material("steel").density, 8000.0);
@@ -209,12 +235,15 @@ TEST(Overrides, RefuseWhatTheyCannotPlace) {
   EXPECT_NE(refused("body.blok.velocity=[1,2,3]").find("did you mean `block`"), std::string::npos);
   EXPECT_NE(refused("scene.end_time=nan").find("finite"), std::string::npos);
   EXPECT_NE(refused("scene.end_time=-1").find("greater than 0"), std::string::npos);
-  for (const char* set : {"", "=", "scene.spacing", "scene.spacing=", "=1", "scene.spacing=[1,}", "scene.spacing=1\nx=2", "scene..spacing=1", "a.b.c.d.e.f.g.h.i=1", "scene.end_time.x=1", "gate.1.limit=3"})
+  for (const char* set : {"", "=", "scene.spacing", "scene.spacing=", "=1", "scene.spacing=[1,}", "scene.spacing=1\nx=2",
+                          "scene..spacing=1", "a.b.c.d.e.f.g.h.i=1", "scene.end_time.x=1", "gate.1.limit=3"})
     EXPECT_NE(refused(set), "") << set;
 }
 
 TEST(Library, GivesSourcesAndYieldsToTheCase) {
-  const auto r = read_text("[scene]\nend_time=1\n[[material]]\nname='water'\ndensity=1025\n[[body]]\nname='b'\nmaterial='water'\nshape={kind='sphere',centre=[0,0,0],radius=1}\n");
+  const auto r = read_text(
+      "[scene]\nend_time=1\n[[material]]\nname='water'\ndensity=1025\n[[body]]\nname='b'\nmaterial='water'\nshape={kind='sphere',"
+      "centre=[0,0,0],radius=1}\n");
   EXPECT_EQ(r.value.scene.material("water").density, 1025.0);
   EXPECT_DOUBLE_EQ(r.value.scene.material("water").viscosity, 1.0016e-3);
   EXPECT_TRUE(decision(r, "material.water.density")->given);
@@ -236,7 +265,8 @@ TEST(SceneFor, WhatFreezesJoinsAllThatItsBondsReachWherePhaseIsPrintedAndNearest
   const auto printed = read_text(six_lines, {"scene.modes.phase=paper"});
   EXPECT_EQ(printed.value.scene.merge_distance, 2.12);
   EXPECT_FALSE(decision(printed, "scene.merge_distance")->given);
-  EXPECT_EQ(scene_for(read_text(six_lines, {"scene.merge_distance=1.2"}).value, paper).merge_distance, 1.2) << "what the case says stays";
+  EXPECT_EQ(scene_for(read_text(six_lines, {"scene.merge_distance=1.2"}).value, paper).merge_distance, 1.2)
+      << "what the case says stays";
 }
 
 TEST(SceneFor, ResolvesModesAndSupportRatioForEachRun) {

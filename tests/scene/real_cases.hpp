@@ -5,7 +5,8 @@
 /// Cases as users write them, to be mutated: kept here as they were, so that the mutants stay the same when the cases change.
 namespace tripoint::test {
 
-inline const std::string cosine_case = R"toml(# One cosine of temperature in a periodic block, shifted in phase: a symmetric start would hide a fault at the seam.
+inline const std::string cosine_case =
+    R"toml(# One cosine of temperature in a periodic block, shifted in phase: a symmetric start would hide a fault at the seam.
 format = 1
 
 [case]
@@ -186,7 +187,8 @@ size = 1.0
 killed_by = ["rate"]
 )toml";
 
-inline const std::string torque_free_case = R"toml(# The asymmetric free top: 4 x 6 x 10 particles, I = (0.0416667, 0.095, 0.1116667) kg m2. First-order schemes lose it.
+inline const std::string torque_free_case =
+    R"toml(# The asymmetric free top: 4 x 6 x 10 particles, I = (0.0416667, 0.095, 0.1116667) kg m2. First-order schemes lose it.
 format = 1
 
 [case]
@@ -336,7 +338,8 @@ size = 1.0
 killed_by = ["angle"]
 )toml";
 
-inline const std::string board_case = R"toml(# A board moved by keyframes, as paddles and moulds are: position linear, rotation by slerp, the velocity their derivative.
+inline const std::string board_case =
+    R"toml(# A board moved by keyframes, as paddles and moulds are: position linear, rotation by slerp, the velocity their derivative.
 format = 1
 
 [case]

@@ -22,7 +22,8 @@ std::string shown(const CaseReading& r) {
 }
 
 bool is_case(const fs::path& file) {
-  return file.extension() == ".toml" && file.filename().string().find(".ref.") == std::string::npos && file.parent_path().filename() != "materials";
+  return file.extension() == ".toml" && file.filename().string().find(".ref.") == std::string::npos &&
+         file.parent_path().filename() != "materials";
 }
 
 TEST(ResolvedCases, AreTheSameCasesAndExtendNothing) {

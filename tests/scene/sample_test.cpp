@@ -14,12 +14,18 @@ namespace {
 using std::numbers::pi;
 
 Scene scene_of(const std::string& body, const std::string& scene = "") {
-  return scene_for(read_text("[scene]\nend_time = 1\nspacing = 0.1\n" + scene + "\n[[material]]\nname='m'\ndensity=1000\nconductivity=1\nheat_capacity=1\n[[body]]\nname='b'\nmaterial='m'\n" + body).value, {});
+  return scene_for(
+      read_text("[scene]\nend_time = 1\nspacing = 0.1\n" + scene +
+                "\n[[material]]\nname='m'\ndensity=1000\nconductivity=1\nheat_capacity=1\n[[body]]\nname='b'\nmaterial='m'\n" +
+                body)
+          .value,
+      {});
 }
 
 TEST(Sample, FillsABoxWithParticlesHalfASpacingInside) {
   for (const double corner : {0.0, 0.3, -0.7, 0.0123, 1e-3, 100.05}) {
-    const auto s = sample(scene_of("shape={kind='box',min=[" + std::to_string(corner) + ",0,0],max=[" + std::to_string(corner + 0.4) + ",0.3,0.2]}"));
+    const auto s = sample(scene_of("shape={kind='box',min=[" + std::to_string(corner) + ",0,0],max=[" +
+                                   std::to_string(corner + 0.4) + ",0.3,0.2]}"));
     ASSERT_EQ(s.size(), 24U) << corner;
     EXPECT_NEAR(s.position[0].x, corner + 0.05, 1e-12) << corner;
     EXPECT_NEAR(s.position[3].x, corner + 0.35, 1e-12) << corner;
@@ -37,7 +43,8 @@ TEST(Sample, LaysNothingWhereRoundOffIsMoreThanThePlaceOfAParticle) {
     }
   };
   EXPECT_EQ(at("90000000"), "24");  // 9e8 spacings
-  EXPECT_NE(at("110000000").find("1.1e+09 spacings from x = 0 m, where a number cannot tell"), std::string::npos) << at("110000000");
+  EXPECT_NE(at("110000000").find("1.1e+09 spacings from x = 0 m, where a number cannot tell"), std::string::npos)
+      << at("110000000");
   const auto wide = at("0", "min=[-1e20,0,0]\nmax=[0.5,1,1]\nperiodic=['x']");
   EXPECT_NE(wide.find("1e+21 spacings from x = -1e+20 m"), std::string::npos) << wide;
 }
@@ -64,11 +71,14 @@ TEST(Sample, OfASphereTendsToItsVolume) {
   auto scene = scene_of("shape={kind='sphere',centre=[0,0,0],radius=1}");
   scene.spacing = 0.04;
   const double volume = static_cast<double>(sample(scene).size()) * std::pow(scene.spacing, 3);
-  EXPECT_NEAR(volume / (4.0 / 3.0 * pi), 1.0, 5e-3);  // the lattice point discrepancy of a ball of 25 spacings is below dx/R^(3/2)
+  EXPECT_NEAR(volume / (4.0 / 3.0 * pi), 1.0,
+              5e-3);  // the lattice point discrepancy of a ball of 25 spacings is below dx/R^(3/2)
 }
 
 TEST(Sample, OfTouchingBodiesShareOneLattice) {
-  const auto s = sample(scene_of("shape={kind='box',min=[0.2,0,0],max=[0.5,0.1,0.1]}\n[[body]]\nname='c'\nmaterial='m'\nshape={kind='box',min=[0.5,0,0],max=[0.9,0.1,0.1]}"));
+  const auto s =
+      sample(scene_of("shape={kind='box',min=[0.2,0,0],max=[0.5,0.1,0.1]}\n[[body]]\nname='c'\nmaterial='m'\nshape={kind='box',"
+                      "min=[0.5,0,0],max=[0.9,0.1,0.1]}"));
   ASSERT_EQ(s.size(), 7U);
   for (std::size_t i = 1; i < 7; ++i) EXPECT_NEAR(s.position[i].x - s.position[i - 1].x, 0.1, 1e-15);
   EXPECT_EQ(s.source[2], 0);
@@ -80,12 +90,16 @@ TEST(Sample, OfAPeriodicDirectionFitsTheDomain) {
   const auto s = sample(scene_of("shape={kind='box',min=[-0.33,0,0],max=[0.67,0.1,0.1]}", domain));
   ASSERT_EQ(s.size(), 10U);
   EXPECT_NEAR(s.position[0].x - (-0.33), 0.67 - s.position[9].x, 1e-15);
-  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='box',min=[0,0,0],max=[0.55,0.1,0.1]}", "min=[0,0,0]\nmax=[0.55,1,1]\nperiodic=['x']"))), InputError);
+  EXPECT_THROW(static_cast<void>(sample(
+                   scene_of("shape={kind='box',min=[0,0,0],max=[0.55,0.1,0.1]}", "min=[0,0,0]\nmax=[0.55,1,1]\nperiodic=['x']"))),
+               InputError);
 }
 
 TEST(Sample, JitterLeavesABodyThatIsLedWhereItsKeyframesBegin) {
-  const auto s = sample(scene_of("phase='rigid'\nmotion='prescribed'\nkeyframes=[{time=0,position=[0.2,0.1,0.3]},{time=1,position=[0.3,0.1,0.3]}]\n"
-                                 "shape={kind='box',min=[0,0,0],max=[0.4,0.2,0.6]}", "jitter=0.2"));
+  const auto s = sample(
+      scene_of("phase='rigid'\nmotion='prescribed'\nkeyframes=[{time=0,position=[0.2,0.1,0.3]},{time=1,position=[0.3,0.1,0.3]}]\n"
+               "shape={kind='box',min=[0,0,0],max=[0.4,0.2,0.6]}",
+               "jitter=0.2"));
   Vec3 mean;
   for (const auto& r : s.position) mean += r / static_cast<double>(s.size());
   EXPECT_LT(norm(mean - Vec3{0.2, 0.1, 0.3}), 1e-15);
@@ -93,7 +107,8 @@ TEST(Sample, JitterLeavesABodyThatIsLedWhereItsKeyframesBegin) {
 
 TEST(Sample, JitterIsBoundedHasNoDriftAndFollowsTheSeed) {
   const std::string box = "shape={kind='box',min=[0,0,0],max=[2,2,2]}";
-  const auto a = sample(scene_of(box)), b = sample(scene_of(box, "jitter=0.2")), same = sample(scene_of(box, "jitter=0.2")), other = sample(scene_of(box, "jitter=0.2\nseed=2"));
+  const auto a = sample(scene_of(box)), b = sample(scene_of(box, "jitter=0.2")), same = sample(scene_of(box, "jitter=0.2")),
+             other = sample(scene_of(box, "jitter=0.2\nseed=2"));
   EXPECT_EQ(b.position, same.position);
   EXPECT_NE(b.position, other.position);
   Vec3 mean;
@@ -104,8 +119,9 @@ TEST(Sample, JitterIsBoundedHasNoDriftAndFollowsTheSeed) {
     mean += d, square += dot(d, d) / 3.0;
   }
   const double n = static_cast<double>(a.size()), sigma = 0.02 / std::sqrt(3.0);
-  EXPECT_LT(norm(mean / n), 4.0 * sigma * std::sqrt(3.0 / n));                 // 4 standard errors
-  EXPECT_NEAR(square / n / (sigma * sigma), 1.0, 4.0 * std::sqrt(0.8 / (3 * n)));  // variance of u^2 of a uniform u is 0.8 sigma^4
+  EXPECT_LT(norm(mean / n), 4.0 * sigma * std::sqrt(3.0 / n));  // 4 standard errors
+  EXPECT_NEAR(square / n / (sigma * sigma), 1.0,
+              4.0 * std::sqrt(0.8 / (3 * n)));  // variance of u^2 of a uniform u is 0.8 sigma^4
 }
 
 TEST(Sample, SpinsABodyAboutItsCentreOfMassAndKeepsFixedOnesStill) {
@@ -114,12 +130,14 @@ TEST(Sample, SpinsABodyAboutItsCentreOfMassAndKeepsFixedOnesStill) {
     const Vec3 v = Vec3{1, 0, 0} + cross({0, 0, 2}, s.position[i] - Vec3{5.2, 5.1, 5.1});
     EXPECT_LT(norm(s.velocity[i] - v), 1e-13);
   }
-  for (const auto& v : sample(scene_of("motion='fixed'\nshape={kind='box',min=[0,0,0],max=[0.4,0.2,0.2]}")).velocity) EXPECT_EQ(v, (Vec3{}));
+  for (const auto& v : sample(scene_of("motion='fixed'\nshape={kind='box',min=[0,0,0],max=[0.4,0.2,0.2]}")).velocity)
+    EXPECT_EQ(v, (Vec3{}));
 }
 
 TEST(Sample, EvaluatesTemperatureFields) {
   const std::string box = "shape={kind='box',min=[0,0,0],max=[1,0.1,0.1]}\n";
-  const auto cosine = sample(scene_of(box + "temperature={kind='cosine',mean=300,amplitude=10,wave_vector=[6.283185307179586,0,0],phase=0.5}"));
+  const auto cosine =
+      sample(scene_of(box + "temperature={kind='cosine',mean=300,amplitude=10,wave_vector=[6.283185307179586,0,0],phase=0.5}"));
   const auto formula = sample(scene_of(box + "temperature={kind='expression',value='300 + 10*cos(2*pi*x + 0.5)'}"));
   const auto step = sample(scene_of(box + "temperature={kind='step',point=[0.5,0,0],normal=[2,0,0],behind=300,ahead=400}"));
   for (std::size_t i = 0; i < 10; ++i) {
@@ -128,8 +146,10 @@ TEST(Sample, EvaluatesTemperatureFields) {
     EXPECT_EQ(step.temperature[i], i < 5 ? 300.0 : 400.0);
   }
   EXPECT_TRUE(sample(scene_of(box)).temperature.empty());
-  EXPECT_THROW(static_cast<void>(sample(scene_of(box + "temperature={kind='expression',value='300/(x-0.05)'}"))), InputError) << "not finite at the first particle";
-  EXPECT_THROW(static_cast<void>(sample(scene_of(box + "temperature={kind='expression',value='1-x*10'}"))), InputError) << "below 0 K";
+  EXPECT_THROW(static_cast<void>(sample(scene_of(box + "temperature={kind='expression',value='300/(x-0.05)'}"))), InputError)
+      << "not finite at the first particle";
+  EXPECT_THROW(static_cast<void>(sample(scene_of(box + "temperature={kind='expression',value='1-x*10'}"))), InputError)
+      << "below 0 K";
 }
 
 TEST(Sample, EvaluatesVelocityFields) {
@@ -144,14 +164,20 @@ TEST(Sample, EvaluatesVelocityFields) {
 }
 
 TEST(Sample, RefusesBodiesWithoutParticlesOrWithoutEnd) {
-  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='sphere',centre=[0.05,0.05,0.05],radius=0.001}\n[[body]]\nname='c'\nmaterial='m'\nshape={kind='box',min=[0,0,0],max=[0.01,1,1]}"))), InputError);
+  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='sphere',centre=[0.05,0.05,0.05],radius=0.001}\n[[body]]\nname='c'"
+                                                 "\nmaterial='m'\nshape={kind='box',min=[0,0,0],max=[0.01,1,1]}"))),
+               InputError);
   EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='half_space',point=[0,0,0],normal=[0,0,1]}"))), InputError);
-  EXPECT_EQ(sample(scene_of("shape={kind='half_space',point=[0,0,0.2],normal=[0,0,1]}", "min=[0,0,0]\nmax=[1,1,1]")).size(), 200U) << "a half space fills the domain";
-  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='box',min=[0,0,0],max=[1000,1000,1000]}"))), InputError) << "1e12 cells";
+  EXPECT_EQ(sample(scene_of("shape={kind='half_space',point=[0,0,0.2],normal=[0,0,1]}", "min=[0,0,0]\nmax=[1,1,1]")).size(), 200U)
+      << "a half space fills the domain";
+  EXPECT_THROW(static_cast<void>(sample(scene_of("shape={kind='box',min=[0,0,0],max=[1000,1000,1000]}"))), InputError)
+      << "1e12 cells";
 }
 
 TEST(Sample, NumbersSolidBodiesInTheOrderOfTheFile) {
-  const auto scene = scene_of("phase='liquid'\nshape={kind='box',min=[0,0,0],max=[0.1,0.1,0.1]}\n[[body]]\nname='c'\nmaterial='m'\nphase='rigid'\nshape={kind='box',min=[1,0,0],max=[1.1,0.1,0.1]}");
+  const auto scene = scene_of(
+      "phase='liquid'\nshape={kind='box',min=[0,0,0],max=[0.1,0.1,0.1]}\n[[body]]\nname='c'\nmaterial='m'\nphase='rigid'\nshape={"
+      "kind='box',min=[1,0,0],max=[1.1,0.1,0.1]}");
   EXPECT_EQ(body_rows(scene), (std::vector<int>{-1, 0}));
   const auto s = sample(scene);
   EXPECT_EQ(s.body, (std::vector<int>{-1, 0}));

@@ -20,14 +20,23 @@ std::string shown(const CaseReading& r) {
 }
 
 TEST(ShortForms, GatesWithinAMetricAreGates) {
-  const auto within = read_text(metric + "gates = [\n{ engine = \"tripoint\", limit = 1e-3, reason = \"r\" },\n{ metric = \"place.order\", band = [1, 2], reason = \"q\" },\n]\n" + study);
-  const auto apart = read_text(metric + "[[gate]]\nmetric = \"place\"\nengine = \"tripoint\"\nlimit = 1e-3\nreason = \"r\"\n[[gate]]\nmetric = \"place.order\"\nband = [1, 2]\nreason = \"q\"\n" + study);
+  const auto within = read_text(metric +
+                                "gates = [\n{ engine = \"tripoint\", limit = 1e-3, reason = \"r\" },\n{ metric = "
+                                "\"place.order\", band = [1, 2], reason = \"q\" },\n]\n" +
+                                study);
+  const auto apart = read_text(metric +
+                               "[[gate]]\nmetric = \"place\"\nengine = \"tripoint\"\nlimit = 1e-3\nreason = "
+                               "\"r\"\n[[gate]]\nmetric = \"place.order\"\nband = [1, 2]\nreason = \"q\"\n" +
+                               study);
   EXPECT_EQ(shown(within), shown(apart));
   EXPECT_EQ(within.value.gates[1].place.line, 12);
 }
 
 TEST(ShortForms, LimitsAreOneGateALevel) {
-  const auto r = read_text(metric + "limits = { 1e-3 = 0.05, 0.0005 = 0.02 }\nreason = \"first order\"\ngates = [{ engine = \"bullet\", limits = { \"0.25\" = 3 }, reason = \"its own\" }]\n" + study);
+  const auto r = read_text(metric +
+                           "limits = { 1e-3 = 0.05, 0.0005 = 0.02 }\nreason = \"first order\"\ngates = [{ engine = \"bullet\", "
+                           "limits = { \"0.25\" = 3 }, reason = \"its own\" }]\n" +
+                           study);
   ASSERT_EQ(r.value.gates.size(), 3U);
   EXPECT_EQ(r.value.gates[0].level, 1e-3);
   EXPECT_EQ(r.value.gates[0].limit, 0.05);
@@ -39,10 +48,14 @@ TEST(ShortForms, LimitsAreOneGateALevel) {
 
 TEST(ShortForms, InvariantsAreAMetricAndItsGate) {
   const std::string both = "[case]\nmodes = [\"corrected\", \"paper\"]\n" + six_lines;
-  const auto brief = read_text(both + "[invariants]\nledger = 1e-11\nbody_count = { name = \"bodies\", value = 2, engine = \"tripoint\", limit = 0, reason = \"r\" }\n[invariants.momentum]\nscale = 2.5\ngates = [\n{ mode = \"corrected\", limit = 1e-12 },\n{ mode = \"paper\", band = [0, 1], reason = \"q\" },\n]\n");
+  const auto brief = read_text(both +
+                               "[invariants]\nledger = 1e-11\nbody_count = { name = \"bodies\", value = 2, engine = "
+                               "\"tripoint\", limit = 0, reason = \"r\" }\n[invariants.momentum]\nscale = 2.5\ngates = [\n{ mode "
+                               "= \"corrected\", limit = 1e-12 },\n{ mode = \"paper\", band = [0, 1], reason = \"q\" },\n]\n");
   const auto whole = read_text(both +
                                "[[metric]]\nname = \"ledger\"\nquantity = \"ledger.residual\"\nnorm = \"drift\"\n"
-                               "[[metric]]\nname = \"bodies\"\nquantity = \"body_count\"\nnorm = \"final\"\nreference = { kind = \"bound\", function = \"stated\", args = { value = 2 } }\n"
+                               "[[metric]]\nname = \"bodies\"\nquantity = \"body_count\"\nnorm = \"final\"\nreference = { kind = "
+                               "\"bound\", function = \"stated\", args = { value = 2 } }\n"
                                "[[metric]]\nname = \"momentum\"\nquantity = \"momentum\"\nnorm = \"drift\"\nscale = 2.5\n"
                                "[[gate]]\nmetric = \"ledger\"\nlimit = 1e-11\nreason = \"round-off\"\n"
                                "[[gate]]\nmetric = \"bodies\"\nengine = \"tripoint\"\nlimit = 0\nreason = \"r\"\n"
@@ -53,7 +66,8 @@ TEST(ShortForms, InvariantsAreAMetricAndItsGate) {
 
 TEST(ShortForms, EveryInvariantIsAQuantityThatTheReaderTakes) {
   for (const auto& one : invariants()) {
-    const auto r = read_text(six_lines + "[invariants]\n" + std::string(one.name) + " = { limit = 1, reason = \"r\"" + (one.value == "!" ? ", value = 1" : "") + " }\n");
+    const auto r = read_text(six_lines + "[invariants]\n" + std::string(one.name) + " = { limit = 1, reason = \"r\"" +
+                             (one.value == "!" ? ", value = 1" : "") + " }\n");
     ASSERT_EQ(r.value.metrics.size(), 1U);
     EXPECT_EQ(r.value.metrics[0].quantity, one.quantity);
     EXPECT_EQ(r.value.metrics[0].norm, one.norm);
@@ -89,8 +103,12 @@ TEST(ShortForms, AreRefusedWithTheirPlaceWhereTheyAreWrong) {
   expect_refused(six_lines + "[invariants]\nledger = \"little\"\n", "8", "limit");
   expect_refused(six_lines + "[invariants]\nbody_count = { limit = 1, reason = \"r\" }\n", "8", "lacks the key `value`");
   expect_refused(six_lines + "[invariants]\noverlap = 1\n", "8", "reason");
-  expect_refused(six_lines + "[invariants]\noverlap = { value = 1, reference = { kind = \"bound\", function = \"stated\" }, limit = 1, reason = \"r\" }\n", "8", "beside `reference`");
-  expect_refused(six_lines + "[invariants]\nledger = { engine = \"tripoint\", gates = [{ limit = 1 }] }\n", "8", "beside `gates`");
+  expect_refused(six_lines +
+                     "[invariants]\noverlap = { value = 1, reference = { kind = \"bound\", function = \"stated\" }, limit = 1, "
+                     "reason = \"r\" }\n",
+                 "8", "beside `reference`");
+  expect_refused(six_lines + "[invariants]\nledger = { engine = \"tripoint\", gates = [{ limit = 1 }] }\n", "8",
+                 "beside `gates`");
   expect_refused(metric + "[invariants]\nledger = { name = \"place\", limit = 1 }\n", "11", "two tables");
 }
 

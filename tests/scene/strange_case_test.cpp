@@ -8,7 +8,10 @@ namespace tripoint::test {
 namespace {
 
 std::string with(const std::string& scene, const std::string& more = "") {
-  return "[scene]\nend_time = 1.0\nspacing = 0.1\n" + scene + "\n[[material]]\nname='stone'\ndensity=1000\n[[body]]\nname='block'\nmaterial='stone'\nshape={kind='box',min=[0,0,0],max=[0.4,0.4,0.4]}\n" + more;
+  return "[scene]\nend_time = 1.0\nspacing = 0.1\n" + scene +
+         "\n[[material]]\nname='stone'\ndensity=1000\n[[body]]\nname='block'\nmaterial='stone'\nshape={kind='box',min=[0,0,0],"
+         "max=[0.4,0.4,0.4]}\n" +
+         more;
 }
 
 void expect_refused(const std::string& text, const std::vector<std::string>& parts) {
@@ -39,7 +42,8 @@ TEST(StrangeCase, WithNumbersWhoseProductsAreNotFiniteIsRefused) {
 
 TEST(StrangeCase, WithAWallLimitThatIsNoNumberIsRefused) {
   for (const char* limit : {"'x'", "0", "-3", "true"})
-    expect_refused(with("", "[engines.tripoint]\nsettings={wall_limit=" + std::string(limit) + "}\n"), {"wall_limit must be a number of seconds above 0"});
+    expect_refused(with("", "[engines.tripoint]\nsettings={wall_limit=" + std::string(limit) + "}\n"),
+                   {"wall_limit must be a number of seconds above 0"});
   EXPECT_EQ(refusal(with("", "[engines.tripoint]\nsettings={wall_limit=5}\n")), "");
 }
 
@@ -49,9 +53,15 @@ TEST(StrangeCase, AskingForFrictionLearnsWhatThereIs) {
 }
 
 TEST(StrangeCase, WithSomeTemperaturesLearnsOfAnInsulatingBody) {
-  const std::string head = "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='iron'\ndensity=1000\nconductivity=1\nheat_capacity=1\n[[material]]\nname='cork'\ndensity=1000\n";
-  const std::string hot = "[[body]]\nname='hot'\nmaterial='iron'\nmotion='fixed'\ntemperature=400\nshape={kind='box',min=[0,0,0],max=[0.4,0.4,0.4]}\n";
-  const auto cork = [](const std::string& more) { return "[[body]]\nname='cork'\nmaterial='cork'\nmotion='fixed'\nshape={kind='box',min=[0.4,0,0],max=[0.8,0.4,0.4]}\n" + more; };
+  const std::string head =
+      "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='iron'\ndensity=1000\nconductivity=1\nheat_capacity=1\n[[material]]"
+      "\nname='cork'\ndensity=1000\n";
+  const std::string hot =
+      "[[body]]\nname='hot'\nmaterial='iron'\nmotion='fixed'\ntemperature=400\nshape={kind='box',min=[0,0,0],max=[0.4,0.4,0.4]}"
+      "\n";
+  const auto cork = [](const std::string& more) {
+    return "[[body]]\nname='cork'\nmaterial='cork'\nmotion='fixed'\nshape={kind='box',min=[0.4,0,0],max=[0.8,0.4,0.4]}\n" + more;
+  };
   EXPECT_NE(refused_sample(head + hot + cork("")).find("conductivity 1e-12"), std::string::npos);
   expect_refused(head + hot + cork("temperature=300\n"), {"lacks conductivity", "1e-12 W/m/K insulates"});
   const std::string insulating = head + "conductivity=1e-12\nheat_capacity=1000\n";
@@ -60,17 +70,26 @@ TEST(StrangeCase, WithSomeTemperaturesLearnsOfAnInsulatingBody) {
 
 TEST(StrangeCase, WithAnEventThatCannotHappenIsRefused) {
   const auto two = [](const std::string& later) {
-    return with("", "[[body]]\nname='other'\nmaterial='stone'\nshape={kind='box',min=[1,0,0],max=[1.4,0.4,0.4]}\n[[event]]\nkind='merge'\ntime=0.1\nbodies=['block','other']\n" + later);
+    return with("",
+                "[[body]]\nname='other'\nmaterial='stone'\nshape={kind='box',min=[1,0,0],max=[1.4,0.4,0.4]}\n[[event]]\nkind='"
+                "merge'\ntime=0.1\nbodies=['block','other']\n" +
+                    later);
   };
   EXPECT_EQ(refusal(two("")), "");
   expect_refused(two("[[event]]\nkind='hold'\ntime=0.2\nbodies=['other']\n"), {"body \"other\" is absorbed by a merge at 0.1 s"});
-  expect_refused(with("", "[[event]]\nkind='heat'\ntime=0.1\ntemperature=400\nbodies=['block']\n"), {"no body has a temperature"});
-  expect_refused(with("", "[[inflow]]\nmaterial='stone'\nvelocity=[1,0,0]\nstart=5\nstop=6\nshape={kind='box',min=[1,0,0],max=[1.1,0.4,0.4]}\n"), {"nothing flows in before end_time"});
+  expect_refused(with("", "[[event]]\nkind='heat'\ntime=0.1\ntemperature=400\nbodies=['block']\n"),
+                 {"no body has a temperature"});
+  expect_refused(
+      with("",
+           "[[inflow]]\nmaterial='stone'\nvelocity=[1,0,0]\nstart=5\nstop=6\nshape={kind='box',min=[1,0,0],max=[1.1,0.4,0.4]}\n"),
+      {"nothing flows in before end_time"});
 }
 
 TEST(StrangeCase, WithASpinThatMovesNoParticleIsRefused) {
   const auto chain = [](const std::string& max, const std::string& spin) {
-    return "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='stone'\ndensity=1000\n[[body]]\nname='chain'\nmaterial='stone'\nangular_velocity=" + spin + "\nshape={kind='box',min=[0,0,0],max=" + max + "}\n";
+    return "[scene]\nend_time=1\nspacing=0.1\n[[material]]\nname='stone'\ndensity=1000\n[[body]]\nname='chain'\nmaterial='stone'"
+           "\nangular_velocity=" +
+           spin + "\nshape={kind='box',min=[0,0,0],max=" + max + "}\n";
   };
   EXPECT_NE(refused_sample(chain("[0.5,0.1,0.1]", "[1,0,2]")).find("spin about its own axis"), std::string::npos);
   EXPECT_EQ(refused_sample(chain("[0.5,0.1,0.1]", "[0,1,2]")), "");

@@ -46,7 +46,8 @@ TEST(Units, RefuseAnotherDimensionSayingWhichIsExpected) {
 }
 
 TEST(Units, RefuseWhatIsNoFiniteNumberWithAUnit) {
-  for (const char* text : {"", "12", "m", "3 parsec", "nan m", "inf", "1e400 m", "3 m^", "3 (m", "3 m)", "3 m//s", "3 m 4", "1e308 km", "--3 m", "3 ((m))"})
+  for (const char* text : {"", "12", "m", "3 parsec", "nan m", "inf", "1e400 m", "3 m^", "3 (m", "3 m)", "3 m//s", "3 m 4",
+                           "1e308 km", "--3 m", "3 ((m))"})
     EXPECT_THROW(static_cast<void>(parse_quantity(text, "m")), std::invalid_argument) << text;
 }
 

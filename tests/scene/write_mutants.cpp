@@ -16,7 +16,9 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::string folder = argv[1];
-  const auto write = [&](const char* kind, std::size_t n, const std::string& text) { std::ofstream(folder + "/" + kind + "-" + std::to_string(n) + ".toml", std::ios::binary) << text; };
+  const auto write = [&](const char* kind, std::size_t n, const std::string& text) {
+    std::ofstream(folder + "/" + kind + "-" + std::to_string(n) + ".toml", std::ios::binary) << text;
+  };
   const std::vector<std::string> sources{full_case, cosine_case, torque_free_case, board_case};
   const auto all = mutants(sources, std::strtoul(argv[2], nullptr, 10), std::strtoull(argv[3], nullptr, 10));
   for (std::size_t n = 0; n < all.size(); ++n) {

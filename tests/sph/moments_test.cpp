@@ -25,7 +25,8 @@ TEST(PseudoInverse, IsTheInverseOfARegularMatrix) {
 
 TEST(PseudoInverse, OfAFullMatrixTimesItIsOne) {
   const Symmetric m{1.1, 0.9, 1.0, 0.05, -0.1, 0.07}, a = pseudo_inverse(m, 0.05);
-  for (const Vec3& e : {Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}}) EXPECT_NEAR(norm(m * (a * e) - e), 0.0, round_off);
+  for (const Vec3& e : {Vec3{1.0, 0.0, 0.0}, Vec3{0.0, 1.0, 0.0}, Vec3{0.0, 0.0, 1.0}})
+    EXPECT_NEAR(norm(m * (a * e) - e), 0.0, round_off);
 }
 
 TEST(PseudoInverse, LeavesOutDirectionsBelowTheCut) {

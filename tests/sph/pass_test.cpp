@@ -33,10 +33,14 @@ using Both = Pass<Slot<First>, Slot<Second>>;
 
 PassFunction of(int lanes, const std::array<int, 2>& forms) {
   switch (lanes) {
-    case 2: return Both::choose<2, Any>(forms);
-    case 4: return Both::choose<4, Any>(forms);
-    case 8: return Both::choose<8, Any>(forms);
-    default: return Both::choose<1, Any>(forms);
+    case 2:
+      return Both::choose<2, Any>(forms);
+    case 4:
+      return Both::choose<4, Any>(forms);
+    case 8:
+      return Both::choose<8, Any>(forms);
+    default:
+      return Both::choose<1, Any>(forms);
   }
 }
 
@@ -109,7 +113,8 @@ TEST_F(PassTest, ForSomeRowsLeavesTheOthersAsTheyWere) {
     const std::vector<std::uint32_t> rows{3, 4, 17, 250, 599};
     run_pass_over(of(lanes, {1, 1}), particles, neighbours, kernels, 2, clusters_of(neighbours.clusters(), rows));
     const auto some = sums();
-    for (std::uint32_t i = 0; i < 600; ++i) EXPECT_EQ(some[i], std::ranges::count(rows, i) ? all[i] : 0.0) << lanes << " lanes, row " << i;
+    for (std::uint32_t i = 0; i < 600; ++i)
+      EXPECT_EQ(some[i], std::ranges::count(rows, i) ? all[i] : 0.0) << lanes << " lanes, row " << i;
   }
 }
 

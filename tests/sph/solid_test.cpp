@@ -27,7 +27,8 @@ const Vec3 angle{0.4, -1.1, 0.7};
 
 TEST(ShapeInverse, CutsWhatIsBelowAFifthOfTheLargestAndInvertsTheRest) {
   const Matrix3 R = rotation(angle);
-  const ShapeInverse solid = shape_inverse(turned(R, {1.0, 0.6, 0.21, 0, 0, 0})), sheet = shape_inverse(turned(R, {1.0, 0.6, 0.19, 0, 0, 0}));
+  const ShapeInverse solid = shape_inverse(turned(R, {1.0, 0.6, 0.21, 0, 0, 0})),
+                     sheet = shape_inverse(turned(R, {1.0, 0.6, 0.19, 0, 0, 0}));
   EXPECT_EQ(solid.rank, 3);
   EXPECT_LT(size(solid.inverse - turned(R, {1.0, 1.0 / 0.6, 1.0 / 0.21, 0, 0, 0})), 1e-14);
   EXPECT_EQ(sheet.rank, 2);

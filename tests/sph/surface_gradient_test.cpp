@@ -46,7 +46,8 @@ Vec3 gradient_of(const std::vector<GradientPoint>& points, bool corrected, const
   const Symmetric A = shape_inverse(moment_of(points)).inverse;
   const std::vector<Vec3> c = curvature_correction(points, A);
   Vec3 sum;
-  for (std::size_t n = 0; n < points.size(); ++n) sum += u(points[n].x) * (points[n].weight * (A * points[n].x) + (corrected ? c[n] : Vec3{}));
+  for (std::size_t n = 0; n < points.size(); ++n)
+    sum += u(points[n].x) * (points[n].weight * (A * points[n].x) + (corrected ? c[n] : Vec3{}));
   return sum;
 }
 
@@ -73,7 +74,7 @@ TEST(SurfaceGradient, SeesALinearDisplacementAsBefore) {
 
 TEST(SurfaceGradient, IsBlindToTheCurvaturesOfABentBar) {
   const std::vector<GradientPoint> points = lattice(below);
-  const auto along = [](const Vec3& r) { return r.x * r.y; };                           // what bends stretches along x in proportion to y
+  const auto along = [](const Vec3& r) { return r.x * r.y; };  // what bends stretches along x in proportion to y
   const auto across = [](const Vec3& r) { return 0.5 * (r.x * r.x - 0.3 * r.z * r.z); };  // and moves across, anticlastic
   EXPECT_LT(norm(gradient_of(points, true, along)), 1e-14);
   EXPECT_LT(norm(gradient_of(points, true, [](const Vec3& r) { return r.y * r.z; })), 1e-14);
@@ -87,7 +88,8 @@ TEST(SurfaceGradient, TurnsWithTheBody) {
   const std::vector<GradientPoint> points = lattice(in_an_edge, 0.1);
   std::vector<GradientPoint> turned = points;
   for (GradientPoint& p : turned) p.x = rotate(q, p.x);
-  const std::vector<Vec3> c = curvature_correction(points, shape_inverse(moment_of(points)).inverse), d = curvature_correction(turned, shape_inverse(moment_of(turned)).inverse);
+  const std::vector<Vec3> c = curvature_correction(points, shape_inverse(moment_of(points)).inverse),
+                          d = curvature_correction(turned, shape_inverse(moment_of(turned)).inverse);
   for (std::size_t n = 0; n < c.size(); ++n) EXPECT_LT(norm(rotate(q, c[n]) - d[n]), 1e-13);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bounds that guard accuracy, not stability, from both sides: rotation and acceleration (model 8.10). Those of sound, viscosity, heat
-// and elastic waves, which guard stability, have their frontiers in stability_map_test.cpp.
+// The bounds that guard accuracy, not stability, from both sides: rotation and acceleration (model 8.10). Those of sound,
+// viscosity, heat and elastic waves, which guard stability, have their frontiers in stability_map_test.cpp.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -84,7 +84,9 @@ TEST(AccelerationBound, SetsTheStepOfAHeavyFallAndKeepsTheEnergyThatFourTimesThe
   EXPECT_GT(beyond.error, 5.0 * at.error);
 }
 
-TEST(AccelerationBound, WithinItTheErrorFallsWithTheSquareOfTheStep) { EXPECT_NEAR(heavy_fall(0.5).error / heavy_fall(0.25).error, 4.0, 1.5); }
+TEST(AccelerationBound, WithinItTheErrorFallsWithTheSquareOfTheStep) {
+  EXPECT_NEAR(heavy_fall(0.5).error / heavy_fall(0.25).error, 4.0, 1.5);
+}
 
 }  // namespace
 }  // namespace tripoint

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact has no limit of the step of its own. What it has is an accuracy: of a head-on hit of two equal cubes, whose exact end is that
-// they have changed velocities, over the step and the speed. validation/stability/contact.csv is what was accepted;
+// Contact has no limit of the step of its own. What it has is an accuracy: of a head-on hit of two equal cubes, whose exact end
+// is that they have changed velocities, over the step and the speed. validation/stability/contact.csv is what was accepted;
 // TRIPOINT_CONTACT_MAP=PATH writes it anew.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ namespace {
 constexpr double gap = 1.5;  // between the outer layers at the start [spacings]; they press on each other from 1 on
 
 struct Hit {
-  double speed;        ///< of approach, over that of sound
-  double step;         ///< over the step that the solver takes by itself
+  double speed;          ///< of approach, over that of sound
+  double step;           ///< over the step that the solver takes by itself
   double energy = 0.0;   ///< |kinetic energy at the end/at the start - 1|
   double overlap = 0.0;  ///< most that the outer layers come nearer than one spacing [spacings]
 };
@@ -73,12 +73,15 @@ TEST(ContactMap, AHitErrsNoMoreThanItDidOverStepsAndSpeeds) {
       ++count;
       if (path) continue;
       ASSERT_TRUE(stored.contains(name_of(h))) << name_of(h);
-      EXPECT_LE(h.energy, 1.05 * stored.at(name_of(h)).energy + 1e-10) << name_of(h);  // stored to four digits, summed over many steps
+      EXPECT_LE(h.energy, 1.05 * stored.at(name_of(h)).energy + 1e-10)
+          << name_of(h);  // stored to four digits, summed over many steps
       EXPECT_LE(h.overlap, 1.02 * stored.at(name_of(h)).overlap) << name_of(h);
     }
   }
-  if (path) std::ofstream(path) << text;
-  else EXPECT_EQ(stored.size(), count);
+  if (path)
+    std::ofstream(path) << text;
+  else
+    EXPECT_EQ(stored.size(), count);
 }
 
 /// What a contact is made for: a tenth of the speed of sound, at the solver's own step.

@@ -71,8 +71,8 @@ TEST(Guard, NamesTheParticleThatIsColderThanAbsoluteZero) {
   EXPECT_EQ(e.particle, 17);
 }
 
-/// A cube of 5 that each step turns inside out along x about its middle plane, but for particle 62, the middle one, in which F is least:
-/// it is the only one whose neighbours on both sides all change places in full.
+/// A cube of 5 that each step turns inside out along x about its middle plane, but for particle 62, the middle one, in which F is
+/// least: it is the only one whose neighbours on both sides all change places in full.
 TEST(Guard, NamesASolidThatIsTurnedInsideOut) {
   lab::Lab lab = lab::elastic_lab(1.0);
   lab.add({.corner = {-2.0, -2.0, -2.0}, .count = {5, 5, 5}, .phase = Phase::elastic});
@@ -142,7 +142,8 @@ TEST(Guard, NamesEnergyThatTheSchemeMakes) {
   EXPECT_EQ(e.guard, "ledger");
   EXPECT_EQ(e.particle, 21) << "the fastest";
   ledger.energy["thermal"] = 1e9;
-  EXPECT_THROW(check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory), Diverged) << "heat hides no energy of motion";
+  EXPECT_THROW(check_energy(s.world(), ledger, s.world().booked[account::start_potential], dt, memory), Diverged)
+      << "heat hides no energy of motion";
 }
 
 /// A column between fixed walls whose ledger says that forces have made what moves.

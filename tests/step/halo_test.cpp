@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene that is shared out: simulations that each hold a slab of it, as threads of one process, against the simulation that holds all.
+// A scene that is shared out: simulations that each hold a slab of it, as threads of one process, against the simulation that
+// holds all.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,12 +36,15 @@ class Meeting {
 /// Slabs along x between given planes. Every number goes to everybody; who needs it picks it out.
 class SlabHalo : public Halo {
  public:
-  /// @param forgets a column that neither copies are handed nor a particle keeps on its way, or bonds, or deformation, as a defect; empty: none
-  SlabHalo(Meeting& meeting, std::size_t rank, std::vector<double> planes, double reach, std::string forgets) : meeting_(meeting), rank_(rank), planes_(std::move(planes)), reach_(reach), forgets_(std::move(forgets)) {}
+  /// @param forgets a column that neither copies are handed nor a particle keeps on its way, or bonds, or deformation, as a
+  /// defect; empty: none
+  SlabHalo(Meeting& meeting, std::size_t rank, std::vector<double> planes, double reach, std::string forgets)
+      : meeting_(meeting), rank_(rank), planes_(std::move(planes)), reach_(reach), forgets_(std::move(forgets)) {}
 
   void migrate(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox&) override {
     if (numbers_.empty()) {
-      for (int n = 0; n < static_cast<int>(p.size()); ++n) numbers_.push_back(n), lists_.push_back(lists_as_numbers(bonds, pairs, static_cast<std::size_t>(n)));
+      for (int n = 0; n < static_cast<int>(p.size()); ++n)
+        numbers_.push_back(n), lists_.push_back(lists_as_numbers(bonds, pairs, static_cast<std::size_t>(n)));
       owned_ = rank_ == 0 ? p.size() : 0;
       longest_list_ = most_list_numbers(bonds, pairs);
     }
@@ -48,7 +52,9 @@ class SlabHalo : public Halo {
     std::vector<double> sent;
     for (std::size_t id = 0; id < owned_; ++id) {
       sent.insert(sent.end(), {static_cast<double>(numbers_[id]), p.position(p.row(id)).x});
-      each_column(p, [&](const std::string& name, auto values) { sent.push_back(name == forgets_ ? 0.0 : static_cast<double>(values[p.row(id)])); });
+      each_column(p, [&](const std::string& name, auto values) {
+        sent.push_back(name == forgets_ ? 0.0 : static_cast<double>(values[p.row(id)]));
+      });
       std::vector<double> lists = lists_[id];
       lists.resize(longest_list_);
       if (forgets_ == "bonds") std::ranges::fill(lists, 0.0);
@@ -63,7 +69,8 @@ class SlabHalo : public Halo {
       for (std::size_t at = 0; at < of.size(); at += width) {
         const double x = of[at + 1];
         if (x < planes_[rank_] - reach || x >= planes_[rank_ + 1] + reach) continue;
-        (x >= planes_[rank_] && x < planes_[rank_ + 1] ? own : near).emplace_back(of.begin() + static_cast<std::ptrdiff_t>(at), of.begin() + static_cast<std::ptrdiff_t>(at + width));
+        (x >= planes_[rank_] && x < planes_[rank_ + 1] ? own : near)
+            .emplace_back(of.begin() + static_cast<std::ptrdiff_t>(at), of.begin() + static_cast<std::ptrdiff_t>(at + width));
       }
     }
     owned_ = own.size();
@@ -74,10 +81,13 @@ class SlabHalo : public Halo {
       numbers_.push_back(static_cast<int>(own[id][0]));
       lists_.emplace_back(own[id].begin() + static_cast<std::ptrdiff_t>(columns), own[id].end());
       std::size_t column = 2;
-      each_column(p, [&](const std::string&, auto values) { values[id] = static_cast<typename decltype(values)::value_type>(own[id][column++]); });
+      each_column(p, [&](const std::string&, auto values) {
+        values[id] = static_cast<typename decltype(values)::value_type>(own[id][column++]);
+      });
       p[field::id][id] = static_cast<int>(id);
     }
-    if (longest_list_ > 0) take_lists({owned_, numbers_, [this](std::size_t id) { return std::span<const double>(lists_[id]); }}, bonds, pairs);
+    if (longest_list_ > 0)
+      take_lists({owned_, numbers_, [this](std::size_t id) { return std::span<const double>(lists_[id]); }}, bonds, pairs);
     ++migrations;
   }
   [[nodiscard]] std::array<bool, 3> splits() const override { return {true, false, false}; }
@@ -147,7 +157,8 @@ test::Prepared splash() {
   water.name = "water", water.viscosity = 1e-3, water.stiffness = 400.0, wood.name = "wood";
   s.materials = {water, test::material(1000.0), wood};
   Body column;
-  column.name = "water", column.material = "water", column.phase = Phase::liquid, column.shape = test::box({0, 0, 0}, {0.07, 0.03, 0.06});
+  column.name = "water", column.material = "water", column.phase = Phase::liquid,
+  column.shape = test::box({0, 0, 0}, {0.07, 0.03, 0.06});
   Shape tank;
   tank.kind = Shape::Kind::difference;
   tank.of = {test::box({-0.03, 0, -0.03}, {0.18, 0.03, 0.1}), test::box({0, 0, 0}, {0.15, 0.03, 0.2})};
@@ -211,11 +222,13 @@ constexpr double far = 1e9;
 TEST(Halo, ASharedSceneMovesAsTheWholeDoes) {
   const test::Prepared p = splash();
   const Seen whole = seen_whole(p);
-  for (const std::vector<double>& planes : {std::vector<double>{-far, far}, {-far, 0.055, far}, {-far, 0.021, 0.0634, 0.1, far}}) {
+  for (const std::vector<double>& planes :
+       {std::vector<double>{-far, far}, {-far, 0.055, far}, {-far, 0.021, 0.0634, 0.1, far}}) {
     SCOPED_TRACE(std::to_string(planes.size() - 1) + " slabs");
     const Seen shared = seen_shared(p, planes);
     EXPECT_GT(shared.migrations, 3);
-    EXPECT_LT(greatest_difference(whole.position, shared.position), 1e-12) << "rounding of sums in another order, over some dozen steps";
+    EXPECT_LT(greatest_difference(whole.position, shared.position), 1e-12)
+        << "rounding of sums in another order, over some dozen steps";
     EXPECT_LT(greatest_difference(whole.velocity, shared.velocity), 1e-10);
     ASSERT_EQ(whole.ledger.energy.size(), shared.ledger.energy.size());
     for (const auto& [entry, joule] : whole.ledger.energy) EXPECT_NEAR(joule, shared.ledger.energy.at(entry), 1e-11) << entry;
@@ -232,7 +245,8 @@ TEST(Halo, AColumnThatIsNotHandedOnIsSeen) {
   }
 }
 
-/// A soft bar that is thrown along x and swings, of elastic or of ductile matter, and a block of the same that it meets, if there is to be one.
+/// A soft bar that is thrown along x and swings, of elastic or of ductile matter, and a block of the same that it meets, if there
+/// is to be one.
 test::Prepared thrown_bar(bool flows, bool meets, double spin, double bending) {
   Scene s;
   s.spacing = 0.01, s.jitter = 0.1;
@@ -246,8 +260,10 @@ test::Prepared thrown_bar(bool flows, bool meets, double spin, double bending) {
   Body block = test::rigid("block", test::box({0.124, 0, 0}, {0.184, 0.05, 0.03}), {{-0.5, 0, 0}, {}});
   block.phase = Phase::elastic;
   s.bodies = {bar};
-  if (meets) s.bodies.push_back(block);
-  else s.unguarded = {"inversion", "finite"};
+  if (meets)
+    s.bodies.push_back(block);
+  else
+    s.unguarded = {"inversion", "finite"};
   return test::prepare(s, meets ? 0.01 : 0.02, 1);
 }
 
@@ -259,7 +275,8 @@ TEST(Halo, ElasticBodiesThatAreSharedMoveAsTheWholeDoes) {
       SCOPED_TRACE(std::to_string(planes.size() - 1) + " slabs" + (flows ? ", plastic" : ""));
       const Seen shared = seen_shared(p, planes);
       EXPECT_GT(shared.migrations, 3);
-      EXPECT_LT(greatest_difference(whole.position, shared.position), 1e-12) << "rounding of sums in another order, over some hundred steps";
+      EXPECT_LT(greatest_difference(whole.position, shared.position), 1e-12)
+          << "rounding of sums in another order, over some hundred steps";
       EXPECT_LT(greatest_difference(whole.velocity, shared.velocity), 1e-10);
       ASSERT_EQ(whole.ledger.energy.size(), shared.ledger.energy.size());
       for (const auto& [entry, joule] : whole.ledger.energy) EXPECT_NEAR(joule, shared.ledger.energy.at(entry), 1e-11) << entry;
@@ -278,7 +295,8 @@ TEST(Halo, WhatAnElasticParticleDoesNotBringAlongIsSeen) {
   const Seen right = seen_shared(p, planes);
   EXPECT_GT(right.migrations, 3);
   EXPECT_LT(greatest_difference(whole.velocity, right.velocity), 1e-10);
-  for (const char* column : {"bonds", "deformation", "elastic_force.x", "shape_inverse.xy", "solid_volume", "plastic_strain.xx"}) {
+  for (const char* column :
+       {"bonds", "deformation", "elastic_force.x", "shape_inverse.xy", "solid_volume", "plastic_strain.xx"}) {
     const Seen shared = seen_shared(p, planes, column);
     EXPECT_GT(greatest_difference(whole.velocity, shared.velocity), 1e-9) << column;
   }

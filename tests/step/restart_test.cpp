@@ -63,7 +63,8 @@ std::string differences(const Checkpoint& a, const Checkpoint& b) {
   std::string names;
   const auto compare = [&](const auto& x, const auto& y) {
     for (const auto& [name, values] : x)
-      if (!y.count(name) || std::memcmp(values.data(), y.at(name).data(), values.size() * sizeof(values[0])) != 0) names += name + " ";
+      if (!y.count(name) || std::memcmp(values.data(), y.at(name).data(), values.size() * sizeof(values[0])) != 0)
+        names += name + " ";
   };
   compare(a.real, b.real);
   compare(a.whole, b.whole);
@@ -76,8 +77,17 @@ Journey flight_with_events(Mode mode) {
   lab.scene.gravity = {0.0, 0.0, -1e-3};
   lab.make_periodic({true, true, false}, {0.0, 0.0, 0.0}, {16, 12, 8});
   lab.add_material(300.0, 5.0, 800.0);
-  lab.add({.name = "a", .count = {6, 6, 6}, .velocity = {0.02, 0.001, 0.0}, .angular_velocity = {0.5, 1.0, 2.0}, .temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; }});
-  lab.add({.name = "b", .material = 1, .corner = {8e-3, 0.0, 0.0}, .count = {5, 6, 6}, .velocity = {-0.02, 0.0, 0.001}, .temperature = [](const Vec3&) { return 350.0; }});
+  lab.add({.name = "a",
+           .count = {6, 6, 6},
+           .velocity = {0.02, 0.001, 0.0},
+           .angular_velocity = {0.5, 1.0, 2.0},
+           .temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; }});
+  lab.add({.name = "b",
+           .material = 1,
+           .corner = {8e-3, 0.0, 0.0},
+           .count = {5, 6, 6},
+           .velocity = {-0.02, 0.0, 0.001},
+           .temperature = [](const Vec3&) { return 350.0; }});
   Event heat;
   heat.kind = Event::Kind::heat, heat.time = 0.05, heat.until = 0.21, heat.bodies = {"a"}, heat.temperature = 400.0;
   Event merge;
@@ -118,7 +128,8 @@ Journey liquid_with_body(const std::string& form = "central", bool with_body = t
   lab.make_periodic({true, true, false}, {0.0, 0.0, 0.0}, {6, 6, 20});
   lab.add({.name = "water", .count = {6, 6, 8}, .phase = Phase::liquid, .velocity = {0.6, 0.0, 0.0}});
   lab.add({.name = "floor", .corner = {0.0, 0.0, -0.15}, .count = {6, 6, 3}, .motion = Motion::fixed});
-  if (with_body) lab.add({.name = "float", .material = 1, .corner = {0.1, 0.1, 0.45}, .count = {2, 2, 2}, .velocity = {0.0, 0.0, -0.5}});
+  if (with_body)
+    lab.add({.name = "float", .material = 1, .corner = {0.1, 0.1, 0.45}, .count = {2, 2, 2}, .velocity = {0.0, 0.0, -0.5}});
   return {lab, {0.03, 0.1, 0.16}};
 }
 
@@ -126,10 +137,17 @@ Journey liquid_with_body(const std::string& form = "central", bool with_body = t
 Journey melting_of_unlike_phases() {
   lab::Lab lab(0.1);
   Material& m = lab.scene.materials[0];
-  m.conductivity = 1000.0, m.solid_conductivity = 3000.0, m.solid_heat_capacity = 500.0, m.t_melt = m.t_solid = 350.0, m.latent_heat = 2e4;
+  m.conductivity = 1000.0, m.solid_conductivity = 3000.0, m.solid_heat_capacity = 500.0, m.t_melt = m.t_solid = 350.0,
+  m.latent_heat = 2e4;
   lab.add_material(1000.0, 1000.0, 1000.0);
   lab.add({.name = "bar", .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 345.0; }});
-  lab.add({.name = "hot", .material = 1, .corner = {-0.3, 0.0, 0.0}, .count = {3, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 380.0; }, .temperature_held = true});
+  lab.add({.name = "hot",
+           .material = 1,
+           .corner = {-0.3, 0.0, 0.0},
+           .count = {3, 3, 3},
+           .motion = Motion::fixed,
+           .temperature = [](const Vec3&) { return 380.0; },
+           .temperature_held = true});
   lab.scene.bodies[0].temperature->value = 380.0;
   lab.make_periodic({false, true, true}, {-0.3, 0.0, 0.0}, {9, 3, 3});
   return {lab, {20.0, 40.0, 60.0}};
@@ -143,10 +161,12 @@ void expect_same_bits(const Journey& j, unsigned seed) {
   for (const int threads : {1, 2}) {
     const Course watched = unbroken(j, threads, cuts);
     ASSERT_EQ(watched.cuts.size(), cuts.size());
-    EXPECT_TRUE(same_bits(watched.end, whole.end)) << "taking checkpoints, on " << threads << " threads: " << differences(whole.end, watched.end);
+    EXPECT_TRUE(same_bits(watched.end, whole.end))
+        << "taking checkpoints, on " << threads << " threads: " << differences(whole.end, watched.end);
     for (const auto& [step, checkpoint] : watched.cuts) {
       const Course rest = continued(j, 3 - threads, checkpoint);
-      EXPECT_TRUE(same_bits(rest.end, whole.end)) << "cut at step " << step << " of " << whole.steps << ": " << differences(whole.end, rest.end);
+      EXPECT_TRUE(same_bits(rest.end, whole.end))
+          << "cut at step " << step << " of " << whole.steps << ": " << differences(whole.end, rest.end);
     }
   }
 }
@@ -164,7 +184,8 @@ TEST(Restart, OfBodiesThatConductWhileTheyMoveMergeAndSplitIsTheUnbrokenRun) {
 
 TEST(Restart, OfALiquidWithAFreeBodyIsTheUnbrokenRun) {
   const Journey j = liquid_with_body();
-  EXPECT_GT(unbroken(j, 1).end.whole.at("neighbours/rebuilds")[0], 2) << "the lists must have been built anew for this to prove anything";
+  EXPECT_GT(unbroken(j, 1).end.whole.at("neighbours/rebuilds")[0], 2)
+      << "the lists must have been built anew for this to prove anything";
   expect_same_bits(j, 3);
 }
 
@@ -183,7 +204,8 @@ TEST(Restart, OfARestartIsTheUnbrokenRun) {
     std::vector<long> cuts = random_steps(whole.steps, 5, 4);
     std::ranges::sort(cuts);
     Checkpoint last = unbroken(j, 1, {cuts[0]}).cuts.at(cuts[0]);
-    for (std::size_t n = 1; n < cuts.size(); ++n) last = continued(j, 1 + static_cast<int>(n) % 2, last, {cuts[n]}).cuts.at(cuts[n]);
+    for (std::size_t n = 1; n < cuts.size(); ++n)
+      last = continued(j, 1 + static_cast<int>(n) % 2, last, {cuts[n]}).cuts.at(cuts[n]);
     const Course rest = continued(j, 1, last);
     EXPECT_TRUE(same_bits(rest.end, whole.end)) << differences(whole.end, rest.end);
   }
@@ -203,7 +225,9 @@ TEST(Restart, AtEveryStepOfAShortRunIsTheUnbrokenRun) {
 TEST(Restart, KeepsAParticleThatARoundingErrorPutOnTheUpperEdgeOfThePeriodicBox) {
   lab::Lab lab(1e-3);
   lab.make_periodic({true, false, false}, {0.5e-3, 0.0, 0.0}, {8, 8, 8});  // the box begins at x = 0
-  lab.add({.name = "a", .count = {4, 4, 4}, .velocity = {0.02, 0.0, 0.0}, .temperature = [](const Vec3& r) { return 300.0 + 1e4 * r.x; }});
+  lab.add({.name = "a", .count = {4, 4, 4}, .velocity = {0.02, 0.0, 0.0}, .temperature = [](const Vec3& r) {
+             return 300.0 + 1e4 * r.x;
+           }});
   for (Vec3& r : lab.initial.position)
     if (r.x == 0.0) r.x = -1e-20;
   lab.scene.time_step = 2e-4;  // the first lists last for 32 steps

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The numerical bulk viscosity acts on velocities of half a step before: it narrows what is stable, and must leave the step to sound (model 8.10).
+// The numerical bulk viscosity acts on velocities of half a step before: it narrows what is stable, and must leave the step to
+// sound (model 8.10).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,12 +17,17 @@ using lab::Lab;
 
 enum class Place { layers, mixed };
 
-/// A periodic sea, pressed by 0.6 %, of a light liquid and one `ratio` times as dense, in two layers or particle by particle at random.
+/// A periodic sea, pressed by 0.6 %, of a light liquid and one `ratio` times as dense, in two layers or particle by particle at
+/// random.
 Lab pressed_sea(double ratio, Place place) {
   Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
   const std::size_t heavy = lab::add_material_like(lab, ratio, 0.0);
   lab.add({.name = "light", .count = {side, side, side}, .phase = Phase::liquid});
-  lab.add({.name = "heavy", .material = heavy, .corner = {0.0, 0.0, double(side)}, .count = {side, side, side}, .phase = Phase::liquid});
+  lab.add({.name = "heavy",
+           .material = heavy,
+           .corner = {0.0, 0.0, double(side)},
+           .count = {side, side, side},
+           .phase = Phase::liquid});
   if (place == Place::mixed) {
     InitialState& s = lab.initial;
     std::mt19937_64 random(4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light beside heavy. What a contact swings with follows from the lighter body, and so does the speed of sound that sets the step:
-// mass ratio brings no limit of its own.
+// Light beside heavy. What a contact swings with follows from the lighter body, and so does the speed of sound that sets the
+// step: mass ratio brings no limit of its own.
 #include "step/stability_lab.hpp"
 
 #include <algorithm>
@@ -14,7 +14,8 @@ using lab::Lab;
 
 Lab quiet() {
   Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;  // a contact that also pulls is a spring: its frontier is 2/omega
+  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] =
+      Mode::paper;  // a contact that also pulls is a spring: its frontier is 2/omega
   return lab;
 }
 
@@ -25,11 +26,20 @@ Point cubes(double density) {
   const double speed = 1e-7 * std::sqrt(density);
   for (int n = 0; n < 8; ++n) {
     const int x = n % 2, y = n / 2 % 2, z = n / 4;
-    lab.add({.name = "cube " + std::to_string(n), .material = (x + y + z) % 2 ? heavy : 0, .corner = {2.0 * x, 2.0 * y, 2.0 * z}, .count = {2, 2, 2},
+    lab.add({.name = "cube " + std::to_string(n),
+             .material = (x + y + z) % 2 ? heavy : 0,
+             .corner = {2.0 * x, 2.0 * y, 2.0 * z},
+             .count = {2, 2, 2},
              .velocity = speed * Vec3{std::sin(1.0 + n), std::sin(5.0 + 3.0 * n), std::sin(2.0 + 7.0 * n)}});
   }
   lab.make_periodic({true, true, true}, {}, {side, side, side});
-  return {"contact", "corrected", "density ratio", density, oscillation_limit(lab, true), own_step(lab), stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, lab.initial)))};
+  return {"contact",
+          "corrected",
+          "density ratio",
+          density,
+          oscillation_limit(lab, true),
+          own_step(lab),
+          stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, lab.initial)))};
 }
 
 /// A cube of 2 x 2 x 2 particles in liquid, `density` times as dense.
@@ -51,8 +61,15 @@ Point cube(double density) {
   const double limit = oscillation_limit(lab, true);
   const double speed = 1e-7 / std::sqrt(std::min(1.0, density));
   for (std::size_t i = 0; i < s.size(); ++i)
-    if (s.body[i] < 0) s.velocity[i] = speed * Vec3{std::sin(7.0 * double(i)), std::sin(11.0 * double(i)), std::sin(13.0 * double(i))};
-  return {"afloat", "corrected", "density ratio", density, limit, own_step(lab), stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, s)))};
+    if (s.body[i] < 0)
+      s.velocity[i] = speed * Vec3{std::sin(7.0 * double(i)), std::sin(11.0 * double(i)), std::sin(13.0 * double(i))};
+  return {"afloat",
+          "corrected",
+          "density ratio",
+          density,
+          limit,
+          own_step(lab),
+          stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, s)))};
 }
 
 }  // namespace

@@ -111,27 +111,28 @@ double oscillation_limit(const Lab& lab, bool turns) {
 double conduction_limit(const Lab& lab) {
   std::vector<Vec3> start = random_vectors(lab.initial.size(), 9);
   return 2.0 / greatest_value(start, 80, [&](const std::vector<Vec3>& u) {  // three fields of temperature at once
-    std::vector<Vec3> rate(u.size());
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      InitialState warmed = lab.initial;
-      for (std::size_t i = 0; i < u.size(); ++i) warmed.temperature[i] = 1000.0 + u[i][axis];
-      const Simulation s(lab.scene, warmed);
-      const bool printed = lab.scene.mode_of(Term::heat) == Mode::paper;  // [K/s]; corrected [W], of particles of 1 J/K
-      const std::vector<double> rates = lab::by_id(s, printed ? field::temperature_rate : field::heat_rate);
-      for (std::size_t i = 0; i < u.size(); ++i) rate[i][axis] = -rates[i];
-    }
-    return rate;
-  });
+           std::vector<Vec3> rate(u.size());
+           for (std::size_t axis = 0; axis < 3; ++axis) {
+             InitialState warmed = lab.initial;
+             for (std::size_t i = 0; i < u.size(); ++i) warmed.temperature[i] = 1000.0 + u[i][axis];
+             const Simulation s(lab.scene, warmed);
+             const bool printed = lab.scene.mode_of(Term::heat) == Mode::paper;  // [K/s]; corrected [W], of particles of 1 J/K
+             const std::vector<double> rates = lab::by_id(s, printed ? field::temperature_rate : field::heat_rate);
+             for (std::size_t i = 0; i < u.size(); ++i) rate[i][axis] = -rates[i];
+           }
+           return rate;
+         });
 }
 
 double friction_limit(const Lab& lab) {
   return 2.0 / greatest_value(random_vectors(lab.initial.size(), 9), 80, [&](const std::vector<Vec3>& u) {
-    InitialState pushed = lab.initial;
-    pushed.velocity = u;
-    std::vector<Vec3> a = lab::vectors_by_id(Simulation(lab.scene, pushed), field::viscous_force_x, field::viscous_force_y, field::viscous_force_z);
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] = (-1.0 / lab.initial.mass[i]) * a[i];
-    return a;
-  });
+           InitialState pushed = lab.initial;
+           pushed.velocity = u;
+           std::vector<Vec3> a = lab::vectors_by_id(Simulation(lab.scene, pushed), field::viscous_force_x, field::viscous_force_y,
+                                                    field::viscous_force_z);
+           for (std::size_t i = 0; i < a.size(); ++i) a[i] = (-1.0 / lab.initial.mass[i]) * a[i];
+           return a;
+         });
 }
 
 double elastic_limit(const Lab& lab, lab::Deformable d) {

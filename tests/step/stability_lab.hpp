@@ -5,7 +5,8 @@
 #include "effects/solid_lab.hpp"
 #include "step/stability_map.hpp"
 
-/// What the points of the maps share: disturbances, what is watched of a run, and the fastest modes of a scene's own forces and rates.
+/// What the points of the maps share: disturbances, what is watched of a run, and the fastest modes of a scene's own forces and
+/// rates.
 namespace tripoint::stability {
 
 inline constexpr int side = 4;      ///< particles of a periodic box: its shortest waves are those of the endless lattice
@@ -19,8 +20,8 @@ void disturb(lab::Lab&, double speed);
 /// Whether `measure` of a run at this step stays below `most`.
 [[nodiscard]] std::function<bool(double)> stays(lab::Lab, std::function<double(const Simulation&)> measure, double most);
 
-/// 2/omega of the fastest small oscillation of a scene's liquid particles and rigid bodies about their start [s], by power iteration
-/// on their own forces. @param turns whether bodies turn too; they are then cubes, alike about all axes
+/// 2/omega of the fastest small oscillation of a scene's liquid particles and rigid bodies about their start [s], by power
+/// iteration on their own forces. @param turns whether bodies turn too; they are then cubes, alike about all axes
 [[nodiscard]] double oscillation_limit(const lab::Lab&, bool turns);
 /// 2/lambda of the fastest decay of temperatures [s], by power iteration on their rates.
 [[nodiscard]] double conduction_limit(const lab::Lab&);

@@ -38,7 +38,8 @@ TEST(StabilityMap, TheFrontierIsThePredictedOneTheStoredOneAndTwiceTheStepThatTh
     const double measured = frontier(p);
     text += fmt::format("{},{:.5g},{:.5g},{:.5g}\n", name_of(p), measured, p.predicted, p.own);
     EXPECT_NEAR(measured / p.predicted, 1.0, 0.2) << name_of(p);
-    // Bodies swing as slowly as they are heavy: their step is that of sound. The bound of stiffer hourglass forces is too careful.
+    // Bodies swing as slowly as they are heavy: their step is that of sound. The bound of stiffer hourglass forces is too
+    // careful.
     const bool careful = p.map == "contact" || p.map == "afloat" || name_of(p).ends_with("hourglass stiffness,4");
     EXPECT_GE(p.own / measured, careful ? 0.2 : 0.4) << name_of(p) << ": the solver's own step wastes what is stable";
     EXPECT_LE(p.own / measured, 0.8) << name_of(p) << ": the solver's own step is too near to the frontier";
@@ -46,8 +47,10 @@ TEST(StabilityMap, TheFrontierIsThePredictedOneTheStoredOneAndTwiceTheStepThatTh
     ASSERT_TRUE(stored.contains(name_of(p))) << name_of(p);
     EXPECT_GE(measured, 0.98 * stored.at(name_of(p))) << name_of(p) << ": a stable region has shrunk";  // bisected to 0.5 %
   }
-  if (path) std::ofstream(path) << text;
-  else EXPECT_EQ(stored.size(), points.size());
+  if (path)
+    std::ofstream(path) << text;
+  else
+    EXPECT_EQ(stored.size(), points.size());
 }
 
 }  // namespace

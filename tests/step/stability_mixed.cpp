@@ -46,13 +46,25 @@ Point viscosity(const char* form, double ratio) {
   lab::jitter_all(lab, 0.1);
   const double limit = 0.5 * friction_limit(lab);  // lambda dt < 1, as velocities are predicted to the full step
   disturb(lab, 1e-5);
-  return {std::string("viscosity ") + form, "corrected", "viscosity ratio", ratio, limit, own_step(lab), stays(lab, kinetic, kinetic(Simulation(lab.scene, lab.initial)))};
+  return {std::string("viscosity ") + form,
+          "corrected",
+          "viscosity ratio",
+          ratio,
+          limit,
+          own_step(lab),
+          stays(lab, kinetic, kinetic(Simulation(lab.scene, lab.initial)))};
 }
 
 Point elastic(const char* parameter, double value, Lab lab) {
   const double limit = elastic_limit(lab, lab::Deformable(lab));
   disturb(lab, 1e-8);
-  return {"elastic", "corrected", parameter, value, limit, own_step(lab), stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, lab.initial)))};
+  return {"elastic",
+          "corrected",
+          parameter,
+          value,
+          limit,
+          own_step(lab),
+          stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, lab.initial)))};
 }
 
 Point hourglass(double stiffness) {
@@ -69,7 +81,8 @@ Point joined(double ratio) {
   stiff.name = "stiff", stiff.young_modulus = ratio;
   lab.scene.materials.push_back(stiff);
   lab.add({.name = "soft", .count = {side, side, side}, .phase = Phase::elastic});
-  lab.add({.name = "stiff", .material = 1, .corner = {0.0, 0.0, double(side)}, .count = {side, side, side}, .phase = Phase::elastic});
+  lab.add(
+      {.name = "stiff", .material = 1, .corner = {0.0, 0.0, double(side)}, .count = {side, side, side}, .phase = Phase::elastic});
   lab.scene.bodies[1].joined_to = {"soft"};
   return elastic("stiffness ratio in one object", ratio, lab);
 }
@@ -90,7 +103,13 @@ Point frozen(double jitter) {
   cold.advance_to(2e-4);
   const double limit = elastic_limit(lab, lab::Deformable(lab, cold)), own = cold.bound().dt;
   disturb(lab, 1e-8);
-  return {"elastic", "corrected", "jitter of frozen matter", jitter, limit, own, stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, lab.initial)))};
+  return {"elastic",
+          "corrected",
+          "jitter of frozen matter",
+          jitter,
+          limit,
+          own,
+          stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, lab.initial)))};
 }
 
 }  // namespace

@@ -30,14 +30,17 @@ double greatest(F f) {
   double most = 0.0;
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) most = std::max(most, f((2.0 * std::numbers::pi / side) * Vec3{double(x), double(y), double(z)}));
+      for (int x = 0; x < side; ++x)
+        most = std::max(most, f((2.0 * std::numbers::pi / side) * Vec3{double(x), double(y), double(z)}));
   return most;
 }
 
 /// W' of poly6, which the solver needs nowhere.
 struct Poly6Slope {
   double h;
-  [[nodiscard]] double derivative(double r) const { return -6.0 * 315.0 / (64.0 * std::numbers::pi * std::pow(h, 9)) * r * (h * h - r * r) * (h * h - r * r); }
+  [[nodiscard]] double derivative(double r) const {
+    return -6.0 * 315.0 / (64.0 * std::numbers::pi * std::pow(h, 9)) * r * (h * h - r * r) * (h * h - r * r);
+  }
 };
 
 /// sum W'(r) r/|r| sin(k.r)
@@ -48,7 +51,8 @@ Vec3 slope(const Kernel& w, double q, const Vec3& k) {
   return sum;
 }
 
-/// The fastest wave of sound that the box holds, spacing 1: omega^2 = k G^2/(S0 M) corrected, k V^2 G_poly6 . G_spiky/2 as printed.
+/// The fastest wave of sound that the box holds, spacing 1: omega^2 = k G^2/(S0 M) corrected, k V^2 G_poly6 . G_spiky/2 as
+/// printed.
 struct Wave {
   Vec3 k, along;
   double limit = 0.0;  ///< 2/omega [s]
@@ -60,7 +64,8 @@ Wave fastest_wave(Mode mode, double q, double stiffness) {
     const LatticeMoments m = wendland_moments(q);
     const double volume = 1.0 / poly6_moments(q).density;
     const Vec3 g = mode == Mode::paper ? slope(Spiky(q), q, k) : slope(WendlandC2(q), q, k);
-    const double w2 = mode == Mode::paper ? stiffness * volume * volume * 0.5 * dot(slope(Poly6Slope{q}, q, k), g) : stiffness * dot(g, g) / (m.density * m.gradient);
+    const double w2 = mode == Mode::paper ? stiffness * volume * volume * 0.5 * dot(slope(Poly6Slope{q}, q, k), g)
+                                          : stiffness * dot(g, g) / (m.density * m.gradient);
     if (w2 > most) most = w2, wave = {k, g / norm(g), 2.0 / std::sqrt(w2)};
     return w2;
   });
@@ -71,21 +76,21 @@ Wave fastest_wave(Mode mode, double q, double stiffness) {
 double decay_limit(double q, double weight, bool along) {
   const WendlandC2 w(q);
   return 2.0 / greatest([&](const Vec3& k) {
-    Symmetric sum;
-    around(q, k, [&](const Vec3& r, double kr) {
-      const double g = weight * -w.derivative(norm(r)) / norm(r) * (1.0 - std::cos(kr));
-      sum = sum + (along ? g / dot(r, r) * square(r) : Symmetric{g, g, g, 0.0, 0.0, 0.0});
-    });
-    Vec3 v{0.6, 0.5, 0.4};
-    double value = 0.0;
-    for (int n = 0; n < 60; ++n) {
-      const Vec3 next = sum * v;
-      value = norm(next);
-      if (value == 0.0) break;
-      v = next / value;
-    }
-    return value;
-  });
+           Symmetric sum;
+           around(q, k, [&](const Vec3& r, double kr) {
+             const double g = weight * -w.derivative(norm(r)) / norm(r) * (1.0 - std::cos(kr));
+             sum = sum + (along ? g / dot(r, r) * square(r) : Symmetric{g, g, g, 0.0, 0.0, 0.0});
+           });
+           Vec3 v{0.6, 0.5, 0.4};
+           double value = 0.0;
+           for (int n = 0; n < 60; ++n) {
+             const Vec3 next = sum * v;
+             value = norm(next);
+             if (value == 0.0) break;
+             v = next / value;
+           }
+           return value;
+         });
 }
 
 Lab sea(Mode mode, double q, double stiffness, double viscosity, double ratio = 1.0) {
@@ -95,11 +100,16 @@ Lab sea(Mode mode, double q, double stiffness, double viscosity, double ratio = 
   lab.add({.name = "sea", .count = {side, side, side}, .phase = Phase::liquid});
   if (ratio != 1.0) {
     const std::size_t heavy = lab::add_material_like(lab, ratio, viscosity);
-    lab.add({.name = "heavy", .material = heavy, .corner = {0.0, 0.0, double(side)}, .count = {side, side, side}, .phase = Phase::liquid});
+    lab.add({.name = "heavy",
+             .material = heavy,
+             .corner = {0.0, 0.0, double(side)},
+             .count = {side, side, side},
+             .phase = Phase::liquid});
   }
   lab.make_periodic({true, true, true}, {}, {side, side, ratio != 1.0 ? 2 * side : side});
   if (mode == Mode::paper)
-    for (double& m : lab.initial.mass) m /= poly6_moments(q).density;  // (4) then reads the rest density on the lattice: no pressure
+    for (double& m : lab.initial.mass)
+      m /= poly6_moments(q).density;  // (4) then reads the rest density on the lattice: no pressure
   return lab;
 }
 
@@ -107,7 +117,8 @@ Point sound(Mode mode, const char* parameter, double value, double q, double sti
   Lab lab = sea(mode, q, stiffness, 0.0, ratio);
   // One wave alone: on an undisturbed lattice it stays so, and what else the printed form makes grow has no start.
   const Wave wave = fastest_wave(mode, q, stiffness * ratio);
-  for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i] = (1e-7 * std::sqrt(stiffness * ratio) * std::cos(dot(wave.k, lab.initial.position[i]))) * wave.along;
+  for (std::size_t i = 0; i < lab.initial.size(); ++i)
+    lab.initial.velocity[i] = (1e-7 * std::sqrt(stiffness * ratio) * std::cos(dot(wave.k, lab.initial.position[i]))) * wave.along;
   const double first = kinetic(Simulation(lab.scene, lab.initial));
   return {"sound", std::string(to_string(mode)), parameter, value, wave.limit, own_step(lab), stays(lab, kinetic, 1e3 * first)};
 }
@@ -118,8 +129,15 @@ Point viscosity(const char* form, double q) {
   disturb(lab, 1e-7);
   const bool central = std::string(form) == "central";
   const double weight = (central ? 10.0 : 2.0) / wendland_moments(q).gradient;
-  // The velocity that viscous pairs see is predicted to the full step by the last forces: then lambda dt < 1 is what is stable, not 2.
-  return {std::string("viscosity ") + form, "corrected", "h/dx", q, 0.5 * decay_limit(q, weight, central), own_step(lab), stays(lab, kinetic, kinetic(Simulation(lab.scene, lab.initial)))};
+  // The velocity that viscous pairs see is predicted to the full step by the last forces: then lambda dt < 1 is what is stable,
+  // not 2.
+  return {std::string("viscosity ") + form,
+          "corrected",
+          "h/dx",
+          q,
+          0.5 * decay_limit(q, weight, central),
+          own_step(lab),
+          stays(lab, kinetic, kinetic(Simulation(lab.scene, lab.initial)))};
 }
 
 Point heat(const char* parameter, double value, double q, double latent) {
@@ -132,14 +150,22 @@ Point heat(const char* parameter, double value, double q, double latent) {
   }
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  lab.add({.name = "block", .count = {side, side, side}, .motion = Motion::fixed, .temperature = [&](const Vec3&) { return 1000.0 + uniform(random); }});
+  lab.add({.name = "block", .count = {side, side, side}, .motion = Motion::fixed, .temperature = [&](const Vec3&) {
+             return 1000.0 + uniform(random);
+           }});
   lab.make_periodic({true, true, true}, {}, {side, side, side});
   const auto spread = [](const Simulation& s) {
     const auto T = s.world().particles[field::temperature];
     return *std::ranges::max_element(T) - *std::ranges::min_element(T);
   };
   // At the lattice the second moments are the gradient moment times the unit matrix: G = V^2 k K/M, K = -2 W'/r.
-  return {"heat", "corrected", parameter, value, decay_limit(q, 2.0 / wendland_moments(q).gradient, false), own_step(lab), stays(lab, spread, 3.0)};
+  return {"heat",
+          "corrected",
+          parameter,
+          value,
+          decay_limit(q, 2.0 / wendland_moments(q).gradient, false),
+          own_step(lab),
+          stays(lab, spread, 3.0)};
 }
 
 Point elastic(const char* parameter, double value, double young, double poisson) {
@@ -148,7 +174,13 @@ Point elastic(const char* parameter, double value, double young, double poisson)
   lab.add({.count = {4, 4, 4}, .phase = Phase::elastic});
   const double limit = elastic_limit(lab, lab::Deformable(lab));
   disturb(lab, 1e-8 * std::sqrt(young));
-  return {"elastic", "corrected", parameter, value, limit, own_step(lab), stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, lab.initial)))};
+  return {"elastic",
+          "corrected",
+          parameter,
+          value,
+          limit,
+          own_step(lab),
+          stays(lab, kinetic, 1e3 * kinetic(Simulation(lab.scene, lab.initial)))};
 }
 
 }  // namespace

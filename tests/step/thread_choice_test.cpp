@@ -27,8 +27,8 @@ double share_of_all(ThreadChoice& choice, int most, const Machine& machine, doub
 }
 
 const Machine quiet{[](int threads) { return 0.008 / threads; }, 0.0};
-const Machine crowded{[](int threads) { return threads == 1 ? 0.03 : 0.3; }, 200.0};          // threads wait for each other
-const Machine shared{[](int threads) { return threads == 1 ? 0.016 : 0.009; }, 200.0};        // busy, and two are still worth it
+const Machine crowded{[](int threads) { return threads == 1 ? 0.03 : 0.3; }, 200.0};    // threads wait for each other
+const Machine shared{[](int threads) { return threads == 1 ? 0.016 : 0.009; }, 200.0};  // busy, and two are still worth it
 
 TEST(ThreadChoice, TakesAllThreadsWhereNobodyElseWorks) {
   ThreadChoice choice(2);

@@ -39,8 +39,8 @@ TEST(ImplicitSurface, OfOneParticleIsABallOfTheRadiusR) {
   EXPECT_FALSE(probe.value({0.3, 0.2, 0.1 + 1.01 * options().influence_radius}).near);
 }
 
-/// A half space of particles, many to the influence radius: R/ir that puts phi = 0 at its face. For poly6 the mean of half a ball lies 63/256
-/// of its radius from the face, and f there is that of EV = 1.
+/// A half space of particles, many to the influence radius: R/ir that puts phi = 0 at its face. For poly6 the mean of half a ball
+/// lies 63/256 of its radius from the face, and f there is that of EV = 1.
 TEST(ImplicitSurface, OfAFlatFaceLiesWhereTheContinuumSays) {
   std::vector<Vec3> places;
   constexpr int n = 14, depth = 14;
@@ -53,7 +53,7 @@ TEST(ImplicitSurface, OfAFlatFaceLiesWhereTheContinuumSays) {
   SurfaceProbe probe(surface);
   const SurfaceValue at_face = probe.value({0.0, 0.0, 0.0});
   EXPECT_NEAR(at_face.phi / o.influence_radius, 0.0, 1.5e-3);  // the lattice: (dx/ir)^2 = 7e-3, of which a fifth
-  EXPECT_NEAR(at_face.eigenvalue, 1.0, 5e-3);  // along the face rbar moves as r does
+  EXPECT_NEAR(at_face.eigenvalue, 1.0, 5e-3);                  // along the face rbar moves as r does
 }
 
 TEST(ImplicitSurface, HasTheFlatFaceOfALatticeHalfASpacingOutsideOfIt) {
@@ -63,7 +63,8 @@ TEST(ImplicitSurface, HasTheFlatFaceOfALatticeHalfASpacingOutsideOfIt) {
       for (int k = 0; k < 6; ++k) places.push_back(dx * Vec3{static_cast<double>(i), static_cast<double>(j), -k - 0.5});
   const ImplicitSurface surface(places, options());
   SurfaceProbe probe(surface);
-  for (const Vec3& at : {Vec3{0, 0, -dx}, Vec3{0.5 * dx, 0, -dx}, Vec3{0.3 * dx, 0.4 * dx, -dx}}) EXPECT_NEAR(leaves(probe, at, {0, 0, 1}, 3 * dx) - dx, 0.0, 0.06 * dx);
+  for (const Vec3& at : {Vec3{0, 0, -dx}, Vec3{0.5 * dx, 0, -dx}, Vec3{0.3 * dx, 0.4 * dx, -dx}})
+    EXPECT_NEAR(leaves(probe, at, {0, 0, 1}, 3 * dx) - dx, 0.0, 0.06 * dx);
 }
 
 TEST(ImplicitSurface, HasTheGradientOfItsDifferences) {
@@ -97,7 +98,8 @@ TEST(ImplicitSurface, TurnsWithItsParticles) {
   EXPECT_GT(near, 1000);
 }
 
-/// Two balls, their surfaces a gap apart. The mean of what is near then jumps from one to the other between them, and (22) has a film there.
+/// Two balls, their surfaces a gap apart. The mean of what is near then jumps from one to the other between them, and (22) has a
+/// film there.
 struct Between {
   double least = 1.0;  ///< of phi on the plane between them, within a ball's radius of the axis [spacings]
   explicit Between(double gap, bool detector) {
@@ -115,7 +117,8 @@ struct Between {
 TEST(Detector, KeepsTwoNearBallsApartWhereTheUncorrectedSurfaceJoinsThem) {
   for (const double gap : {1.5, 2.0, 2.5}) {
     EXPECT_LT(Between(gap * dx, false).least, -0.1) << "without f a film lies between balls " << gap << " spacings apart";
-    EXPECT_GE(Between(gap * dx, true).least, 0.0) << "with f they are two, " << gap << " spacings apart";  // 0 where f is 0 and rbar is r: a point
+    EXPECT_GE(Between(gap * dx, true).least, 0.0)
+        << "with f they are two, " << gap << " spacings apart";  // 0 where f is 0 and rbar is r: a point
   }
   EXPECT_GT(Between(6.0 * dx, false).least, 0.5) << "beyond the influence radius nothing is near both";
 }
@@ -130,7 +133,8 @@ TEST(Detector, FillsAConcaveCornerLess) {
   const Vec3 corner{8 * dx, 4 * dx, 8 * dx}, out{std::sqrt(0.5), 0.0, std::sqrt(0.5)};
   const ImplicitSurface with(places, options(true)), without(places, options(false));
   SurfaceProbe one(with), other(without);
-  const double filled = leaves(one, corner - dx * out, out, 4 * dx) - dx, filled_before = leaves(other, corner - dx * out, out, 4 * dx) - dx;
+  const double filled = leaves(one, corner - dx * out, out, 4 * dx) - dx,
+               filled_before = leaves(other, corner - dx * out, out, 4 * dx) - dx;
   EXPECT_LT(filled, filled_before - 0.05 * dx);
   EXPECT_GT(filled, 0.0);
 }

@@ -84,7 +84,8 @@ TEST(LocalMean, HasTheSameBitsOnEveryVectorUnit) {
   if (!machine_has_avx2()) GTEST_SKIP() << "this machine has no AVX2";
   const NearPoints p = near_of(cloud(5, 61));
   const PlaceColumns columns{p.x.data(), p.y.data(), p.z.data(), p.x.size()};
-  const MeanSums a = mean_sums<Any>(columns, {0.1, 0.2, 0.3}, 1.0 / ir), b = mean_sums_for<Avx2>()(columns, {0.1, 0.2, 0.3}, 1.0 / ir);
+  const MeanSums a = mean_sums<Any>(columns, {0.1, 0.2, 0.3}, 1.0 / ir),
+                 b = mean_sums_for<Avx2>()(columns, {0.1, 0.2, 0.3}, 1.0 / ir);
   EXPECT_TRUE(a.w == b.w && a.wy == b.wy && a.uy == b.uy && a.uyy == b.uyy);
 }
 

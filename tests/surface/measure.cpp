@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tables of docs/surface.md: surface-measure [ball|torus|slab|times]; the plot of (25) in docs/gallery.md: surface-measure factor
+// The tables of docs/surface.md: surface-measure [ball|torus|slab|times]; the plot of (25) in docs/gallery.md: surface-measure
+// factor
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -15,14 +16,20 @@ using namespace tripoint;
 double cpu() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void ladder(const shapes::ExactBody& body, const std::vector<double>& counts, bool detector) {
-  std::printf("%s, %s\n| spacings | volume | order | area | order | Hausdorff / spacing | order of Hausdorff |\n|---|---|---|---|---|---|---|\n", body.name.c_str(), detector ? "f of (25)" : "f = 1");
+  std::printf(
+      "%s, %s\n| spacings | volume | order | area | order | Hausdorff / spacing | order of Hausdorff "
+      "|\n|---|---|---|---|---|---|---|\n",
+      body.name.c_str(), detector ? "f of (25)" : "f = 1");
   shapes::SurfaceErrors before;
   double spacing_before = 0.0;
   for (const double n : counts) {
     const double dx = body.size / n;
     const auto e = shapes::errors_at(body, dx, detector);
-    const auto order = [&](double a, double b) { return spacing_before > 0.0 ? std::log(a / b) / std::log(spacing_before / dx) : std::nan(""); };
-    std::printf("| %g | %.2g %% | %.2f | %.2g %% | %.2f | %.2f | %.2f |\n", n, 100 * e.volume, order(before.volume, e.volume), 100 * e.area, order(before.area, e.area), e.hausdorff / dx, order(before.hausdorff, e.hausdorff));
+    const auto order = [&](double a, double b) {
+      return spacing_before > 0.0 ? std::log(a / b) / std::log(spacing_before / dx) : std::nan("");
+    };
+    std::printf("| %g | %.2g %% | %.2f | %.2g %% | %.2f | %.2f | %.2f |\n", n, 100 * e.volume, order(before.volume, e.volume),
+                100 * e.area, order(before.area, e.area), e.hausdorff / dx, order(before.hausdorff, e.hausdorff));
     before = e, spacing_before = dx;
   }
 }
@@ -37,7 +44,8 @@ void times(int across) {
   const ImplicitSurface surface(places, SurfaceOptions::for_spacing(1.0));
   const double built = cpu();
   const Mesh mesh = surface_mesh(surface, 0.5, 2);
-  std::printf("%zu particles: cells %.2f CPU s, mesh %.2f CPU s, %zu triangles\n", places.size(), built - start, cpu() - built, mesh.triangles.size());
+  std::printf("%zu particles: cells %.2f CPU s, mesh %.2f CPU s, %zu triangles\n", places.size(), built - start, cpu() - built,
+              mesh.triangles.size());
 }
 
 }  // namespace

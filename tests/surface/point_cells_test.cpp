@@ -68,7 +68,8 @@ TEST(PointCells, RefuseWhatCannotBeNumbered) {
 
 TEST(CellTable, HoldsEachCellOnceAndGrows) {
   CellTable table(2);
-  for (std::uint32_t n = 0; n < 1000; ++n) EXPECT_TRUE(table.insert(CellTable::key({static_cast<int>(n), -static_cast<int>(n), 3}), n));
+  for (std::uint32_t n = 0; n < 1000; ++n)
+    EXPECT_TRUE(table.insert(CellTable::key({static_cast<int>(n), -static_cast<int>(n), 3}), n));
   EXPECT_FALSE(table.insert(CellTable::key({5, -5, 3}), 77));
   EXPECT_EQ(table.size(), 1000U);
   EXPECT_EQ(table.find(CellTable::key({5, -5, 3})), 5U);

@@ -35,7 +35,14 @@ std::vector<Vec3> places_on(const Mesh& mesh) {
 }  // namespace
 
 ExactBody ball(double radius) {
-  ExactBody b{"ball", 4.0 / 3.0 * pi * radius * radius * radius, 4.0 * pi * radius * radius, radius, {{-radius, -radius, -radius}, {radius, radius, radius}}, {}, {}, any_lattice};
+  ExactBody b{"ball",
+              4.0 / 3.0 * pi * radius * radius * radius,
+              4.0 * pi * radius * radius,
+              radius,
+              {{-radius, -radius, -radius}, {radius, radius, radius}},
+              {},
+              {},
+              any_lattice};
   b.distance = [radius](const Vec3& r) { return norm(r) - radius; };
   for (const Vec3& n : directions(4000)) b.surface.push_back(radius * n);
   return b;
@@ -43,7 +50,14 @@ ExactBody ball(double radius) {
 
 ExactBody torus(double ring, double tube) {
   const double out = ring + tube;
-  ExactBody b{"torus", 2.0 * pi * pi * ring * tube * tube, 4.0 * pi * pi * ring * tube, tube, {{-out, -out, -tube}, {out, out, tube}}, {}, {}, any_lattice};
+  ExactBody b{"torus",
+              2.0 * pi * pi * ring * tube * tube,
+              4.0 * pi * pi * ring * tube,
+              tube,
+              {{-out, -out, -tube}, {out, out, tube}},
+              {},
+              {},
+              any_lattice};
   b.distance = [ring, tube](const Vec3& r) { return std::hypot(std::hypot(r.x, r.y) - ring, r.z) - tube; };
   for (int i = 0; i < 120; ++i)
     for (int j = 0; j < 40; ++j) {
@@ -55,7 +69,8 @@ ExactBody torus(double ring, double tube) {
 
 ExactBody slab(double width, double height) {
   const Vec3 half{0.5 * width, 0.5 * width, 0.5 * height};
-  ExactBody b{"slab", width * width * height, 2.0 * width * width + 4.0 * width * height, height, {-half, half}, {}, {}, {{0.5, 0.5, 0.5}}};
+  ExactBody b{"slab", width * width * height, 2.0 * width * width + 4.0 * width * height, height, {-half, half}, {},
+              {},     {{0.5, 0.5, 0.5}}};
   b.distance = [half](const Vec3& r) {
     const Vec3 q{std::abs(r.x) - half.x, std::abs(r.y) - half.y, std::abs(r.z) - half.z};
     const Vec3 beyond{std::max(q.x, 0.0), std::max(q.y, 0.0), std::max(q.z, 0.0)};
@@ -67,7 +82,8 @@ ExactBody slab(double width, double height) {
       for (int j = 0; j <= n; ++j)
         for (const double side : {-1.0, 1.0}) {
           Vec3 r;
-          r[a] = side * half[a], r[(a + 1) % 3] = (2.0 * i / n - 1.0) * half[(a + 1) % 3], r[(a + 2) % 3] = (2.0 * j / n - 1.0) * half[(a + 2) % 3];
+          r[a] = side * half[a], r[(a + 1) % 3] = (2.0 * i / n - 1.0) * half[(a + 1) % 3],
+          r[(a + 2) % 3] = (2.0 * j / n - 1.0) * half[(a + 2) % 3];
           b.surface.push_back(r);
         }
   return b;
@@ -108,7 +124,8 @@ SurfaceErrors errors_at(const ExactBody& body, double spacing, bool detector) {
   for (const Vec3& offset : body.offsets) {
     SurfaceOptions o = SurfaceOptions::for_spacing(spacing);
     o.detector = detector;
-    const SurfaceErrors e = errors_of(surface_mesh(ImplicitSurface(lattice(body, spacing, offset), o), 0.5 * spacing, 2), body, spacing);
+    const SurfaceErrors e =
+        errors_of(surface_mesh(ImplicitSurface(lattice(body, spacing, offset), o), 0.5 * spacing, 2), body, spacing);
     sum.volume += e.volume * e.volume, sum.area += e.area * e.area, sum.hausdorff += e.hausdorff * e.hausdorff;
   }
   const auto n = static_cast<double>(body.offsets.size());

@@ -13,17 +13,18 @@ namespace tripoint::shapes {
 
 struct ExactBody {
   std::string name;
-  double volume = 0.0, area = 0.0, size = 0.0;    ///< [m3], [m2], length that spacings are counted in [m]
-  Box box;                                        ///< it lies inside [m]
-  std::function<double(const Vec3&)> distance;    ///< to its surface, below zero inside [m]
-  std::vector<Vec3> surface;                      ///< places all over the surface [m]
-  std::vector<Vec3> offsets;                      ///< of the lattices that are tried, in spacings
+  double volume = 0.0, area = 0.0, size = 0.0;  ///< [m3], [m2], length that spacings are counted in [m]
+  Box box;                                      ///< it lies inside [m]
+  std::function<double(const Vec3&)> distance;  ///< to its surface, below zero inside [m]
+  std::vector<Vec3> surface;                    ///< places all over the surface [m]
+  std::vector<Vec3> offsets;                    ///< of the lattices that are tried, in spacings
 };
 
 [[nodiscard]] ExactBody ball(double radius);
 /// About the z axis. @param ring radius of the circle in the middle   @param tube radius of the tube [m]
 [[nodiscard]] ExactBody torus(double ring, double tube);
-/// A box with its faces along the axes, whose lattice fits it: else the particles themselves would fill another one. @param width in x and y   @param height in z [m]
+/// A box with its faces along the axes, whose lattice fits it: else the particles themselves would fill another one. @param width
+/// in x and y   @param height in z [m]
 [[nodiscard]] ExactBody slab(double width, double height);
 
 /// Centres of the cubic lattice that lie inside. @param offset of the lattice in spacings

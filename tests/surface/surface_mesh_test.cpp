@@ -29,7 +29,8 @@ double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
 TEST(SurfaceMesh, OfABallConvergesInVolumeAndPlace) {
   const auto body = shapes::ball(1.0);
-  const auto five = shapes::errors_at(body, 1.0 / 5), ten = shapes::errors_at(body, 1.0 / 10), twenty = shapes::errors_at(body, 1.0 / 20);
+  const auto five = shapes::errors_at(body, 1.0 / 5), ten = shapes::errors_at(body, 1.0 / 10),
+             twenty = shapes::errors_at(body, 1.0 / 20);
   EXPECT_LT(ten.volume, 0.02);
   EXPECT_GT(order(five.volume, twenty.volume) / 2.0, 1.0);
   EXPECT_GT(order(five.hausdorff, twenty.hausdorff) / 2.0, 0.7);  // the lattice's own steps: half a spacing, order 1
@@ -99,7 +100,9 @@ TEST(SurfaceMesh, OfTwoNearBallsIsTwoPiecesAndWithoutTheDetectorIsNot) {
 TEST(SurfaceMesh, OfASplashIsClosed) {
   std::vector<Vec3> places;
   std::uint64_t state = 5;
-  const auto random = [&] { return static_cast<double>((state = state * 6364136223846793005ULL + 1442695040888963407ULL) >> 11) / 9007199254740992.0; };
+  const auto random = [&] {
+    return static_cast<double>((state = state * 6364136223846793005ULL + 1442695040888963407ULL) >> 11) / 9007199254740992.0;
+  };
   for (int n = 0; n < 1500; ++n) places.push_back(16 * dx * Vec3{random(), random(), random()});
   for (const bool detector : {true, false}) EXPECT_EQ(measures_of(mesh_of(places, detector)).open_edges, 0U) << detector;
 }
@@ -118,8 +121,10 @@ TEST(SurfaceMesh, KnowsWhatItsParticlesKnow) {
   T.front() = std::nan("");
   const ImplicitSurface surface(places, SurfaceOptions::for_spacing(dx));
   const Vec3 top{0.02, 0.01, 3 * dx};
-  EXPECT_NEAR(mean_at(surface, std::vector<Vec3>{top}, T, 1).front(), 320.0, 0.5);  // linear along the face: kept but for the lattice
-  EXPECT_EQ(label_at(surface, std::vector<Vec3>{top, {-0.02, 0.0, 3 * dx}, {5.0, 5.0, 5.0}}, body, 1), (std::vector<int>{7, 4, -1}));
+  EXPECT_NEAR(mean_at(surface, std::vector<Vec3>{top}, T, 1).front(), 320.0,
+              0.5);  // linear along the face: kept but for the lattice
+  EXPECT_EQ(label_at(surface, std::vector<Vec3>{top, {-0.02, 0.0, 3 * dx}, {5.0, 5.0, 5.0}}, body, 1),
+            (std::vector<int>{7, 4, -1}));
   EXPECT_TRUE(std::isnan(mean_at(surface, std::vector<Vec3>{{5.0, 5.0, 5.0}}, T, 1).front()));
 }
 
@@ -133,7 +138,8 @@ class MeshFiles : public testing::Test {
       std::vector<Vec3> places;
       for (const Vec3& r : shapes::lattice(shapes::ball(5 * dx), dx, {0.5, 0.5, 0.5})) places.push_back(r + Vec3{0, 0, z});
       SurfacePart part{z < 0 ? "body 0" : "liquid wax", mesh_of(places), {}, {}, {}};
-      part.temperature.assign(part.mesh.points.size(), 300.0), part.phase.assign(part.mesh.points.size(), 2), part.body.assign(part.mesh.points.size(), z < 0 ? 0 : -1);
+      part.temperature.assign(part.mesh.points.size(), 300.0), part.phase.assign(part.mesh.points.size(), 2),
+          part.body.assign(part.mesh.points.size(), z < 0 ? 0 : -1);
       parts.push_back(part);
     }
   }
@@ -145,7 +151,8 @@ TEST_F(MeshFiles, ObjIsReadBackClosedWithItsVolume) {
   write_obj(file, parts);
   const Mesh back = read_mesh(file, 1.0);  // checks that it is closed
   EXPECT_EQ(back.triangles.size(), parts[0].mesh.triangles.size() + parts[1].mesh.triangles.size());
-  EXPECT_NEAR(volume(back), volume(parts[0].mesh) + volume(parts[1].mesh), 1e-7 * volume(back));  // the reader of OBJ has seven digits
+  EXPECT_NEAR(volume(back), volume(parts[0].mesh) + volume(parts[1].mesh),
+              1e-7 * volume(back));  // the reader of OBJ has seven digits
 }
 
 TEST_F(MeshFiles, PlyHasARecordForEachCornerAndTriangle) {
@@ -154,7 +161,8 @@ TEST_F(MeshFiles, PlyHasARecordForEachCornerAndTriangle) {
   std::ifstream in(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   const auto head = bytes.find("end_header\n") + 11;
-  const std::size_t corners = parts[0].mesh.points.size() + parts[1].mesh.points.size(), triangles = parts[0].mesh.triangles.size() + parts[1].mesh.triangles.size();
+  const std::size_t corners = parts[0].mesh.points.size() + parts[1].mesh.points.size(),
+                    triangles = parts[0].mesh.triangles.size() + parts[1].mesh.triangles.size();
   EXPECT_NE(bytes.find("element vertex " + std::to_string(corners) + "\n"), std::string::npos);
   EXPECT_EQ(bytes.size() - head, corners * (3 * 8 + 4 + 3 * 4) + triangles * (1 + 3 * 4));
   double x = 0.0;
@@ -162,7 +170,9 @@ TEST_F(MeshFiles, PlyHasARecordForEachCornerAndTriangle) {
   EXPECT_EQ(x, parts[0].mesh.points[0].x);
 }
 
-TEST_F(MeshFiles, SayWhereTheyCannotBeWritten) { EXPECT_THROW(write_ply((folder / "none" / "a.ply").string(), parts), EngineError); }
+TEST_F(MeshFiles, SayWhereTheyCannotBeWritten) {
+  EXPECT_THROW(write_ply((folder / "none" / "a.ply").string(), parts), EngineError);
+}
 
 }  // namespace
 }  // namespace tripoint

@@ -21,7 +21,8 @@ namespace {
 /// A reference that knows rigid bodies only: their particles go with them.
 bool places_by_bodies(const Snapshot& truth, const InitialState& initial) {
   const auto has = [&](int row) { return row >= 0 && static_cast<std::size_t>(row) < truth.bodies.size(); };
-  return truth.position.empty() && std::ranges::all_of(initial.body, has) && std::ranges::all_of(initial.phase, [](int p) { return p == static_cast<int>(Phase::rigid); });
+  return truth.position.empty() && std::ranges::all_of(initial.body, has) &&
+         std::ranges::all_of(initial.phase, [](int p) { return p == static_cast<int>(Phase::rigid); });
 }
 
 void place_by_bodies(const Job& job, const InitialState& initial, Snapshot& frame) {
@@ -46,9 +47,12 @@ std::string ExactEngine::refusal(const Job& job) const {
     if (places_by_bodies(start, initial)) {
       place_by_bodies(job, initial, start);
       for (std::size_t i = 0; i < initial.size(); ++i)
-        if (!(norm(start.position[i] - initial.position[i]) <= 1e-6 * job.scene.spacing)) return "not applicable: the reference `" + job.reference.function + "` knows the end, not the way there";
+        if (!(norm(start.position[i] - initial.position[i]) <= 1e-6 * job.scene.spacing))
+          return "not applicable: the reference `" + job.reference.function + "` knows the end, not the way there";
     }
-    return start.position.empty() ? "not applicable: the reference `" + job.reference.function + "` gives scalar results, not particle positions" : "";
+    return start.position.empty()
+               ? "not applicable: the reference `" + job.reference.function + "` gives scalar results, not particle positions"
+               : "";
   } catch (const InputError& e) {
     return e.what();
   }
@@ -92,7 +96,9 @@ Readback ExactEngine::readback() const {
   held.gravity = job_.scene.gravity;
   held.precision = "exact";
   for (const auto& b : job_.bodies)
-    if (b.index >= 0) held.bodies.push_back({b.name, b.properties.mass, b.properties.centre, b.properties.principal_inertia, not_a_number, not_a_number});
+    if (b.index >= 0)
+      held.bodies.push_back(
+          {b.name, b.properties.mass, b.properties.centre, b.properties.principal_inertia, not_a_number, not_a_number});
   return held;
 }
 

@@ -18,10 +18,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double single_round_off = 1e-5, double_round_off = 1e-11;
-constexpr double least_limit = 1e-10;      // a limit of round-off, of which no slack is asked
-constexpr double round_off_room = 3.0;     // another machine rounds otherwise
-constexpr double noise_room = 4.0;         // standard deviations over repeats and seeds
-constexpr double order_room = 0.2;         // beyond the interval of a fitted order
+constexpr double least_limit = 1e-10;        // a limit of round-off, of which no slack is asked
+constexpr double round_off_room = 3.0;       // another machine rounds otherwise
+constexpr double noise_room = 4.0;           // standard deviations over repeats and seeds
+constexpr double order_room = 0.2;           // beyond the interval of a fitted order
 constexpr std::uint64_t seeds_apart = 1000;  // from the case's own, beyond those of its studies
 
 struct Spread {
@@ -38,7 +38,8 @@ Spread spread_of(const std::vector<double>& values) {
 }
 
 /// One run of the whole case with one seed; the trajectories are not kept.
-CaseResult run_once(const Case& value, const EngineEntry& engine, const AdoptOptions& o, const std::string& name, std::optional<std::uint64_t> seed) {
+CaseResult run_once(const Case& value, const EngineEntry& engine, const AdoptOptions& o, const std::string& name,
+                    std::optional<std::uint64_t> seed) {
   SuiteOptions suite;
   suite.selection.engines = {engine.name}, suite.selection.seed = seed;
   suite.jobs = o.jobs, suite.out = (fs::path(o.work) / name).string();
@@ -85,14 +86,18 @@ AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, c
       continue;
     }
     if (engine.deterministic && values.size() > 1 && values[0] != values[1])
-      row.notes.push_back(fmt::format("{} says that it is deterministic, and {} is {:.9g} in one run and {:.9g} in its repeat", engine.name, metric.name, values[0], values[1]));
+      row.notes.push_back(fmt::format("{} says that it is deterministic, and {} is {:.9g} in one run and {:.9g} in its repeat",
+                                      engine.name, metric.name, values[0], values[1]));
     auto gate = adopted_gate(metric.name, values, uncertainty, o.margin, round_off);
     if (!base->levels.empty()) gate.level = base->levels.begin()->second;
     row.gates.push_back(gate);
   }
   for (const auto& order : first.order)
-    if (std::isfinite(order.order.low) && std::isfinite(order.order.high) && order.order.fit_class != "roundoff" && order.order.fit_class != "noise-limited") row.gates.push_back(adopted_order_gate(order));
-  for (auto& gate : row.gates) gate.engine = engine.name, gate.preset = row.preset == "default" ? "" : row.preset, gate.date = o.date;
+    if (std::isfinite(order.order.low) && std::isfinite(order.order.high) && order.order.fit_class != "roundoff" &&
+        order.order.fit_class != "noise-limited")
+      row.gates.push_back(adopted_order_gate(order));
+  for (auto& gate : row.gates)
+    gate.engine = engine.name, gate.preset = row.preset == "default" ? "" : row.preset, gate.date = o.date;
   return row;
 }
 
@@ -102,14 +107,16 @@ bool AdoptedCase::judged() const {
   return std::any_of(rows.begin(), rows.end(), [](const auto& r) { return !r.gates.empty(); });
 }
 
-Gate adopted_gate(const std::string& metric, const std::vector<double>& values, double uncertainty, double margin, double round_off) {
+Gate adopted_gate(const std::string& metric, const std::vector<double>& values, double uncertainty, double margin,
+                  double round_off) {
   Gate gate;
   gate.metric = metric;
   const auto s = spread_of(values);
   const double noise = noise_room * s.deviation + 2.0 * uncertainty, size = std::abs(s.mean);
   const double apart = values.size() > 1 ? std::abs(values[1] - values[0]) : 0.0;
-  const std::string measured = fmt::format("adopted: {:.4g} measured, {:.2g} apart in a repeat{}", values.front(), apart,
-                                           values.size() > 2 ? fmt::format(", standard deviation {:.2g} over {} runs and seeds", s.deviation, values.size()) : "");
+  const std::string measured = fmt::format(
+      "adopted: {:.4g} measured, {:.2g} apart in a repeat{}", values.front(), apart,
+      values.size() > 2 ? fmt::format(", standard deviation {:.2g} over {} runs and seeds", s.deviation, values.size()) : "");
   if (size <= round_off) {
     gate.limit = std::max({least_limit, round_off_room * size, size + noise});
     gate.reason = measured + "; an error of round-off may be anything smaller";
@@ -117,7 +124,8 @@ Gate adopted_gate(const std::string& metric, const std::vector<double>& values, 
   }
   const double low = size / margin - noise, high = size * margin + noise;
   gate.band = s.mean > 0.0 ? std::array{low, high} : std::array{-high, -low};
-  gate.reason = fmt::format("{}; room by a factor of {:g} to either side{}", measured, margin, noise > 0.0 ? fmt::format(", and {:.2g} for the noise", noise) : "");
+  gate.reason = fmt::format("{}; room by a factor of {:g} to either side{}", measured, margin,
+                            noise > 0.0 ? fmt::format(", and {:.2g} for the noise", noise) : "");
   return gate;
 }
 
@@ -126,7 +134,8 @@ Gate adopted_order_gate(const OrderRow& order) {
   const auto& o = order.order;
   gate.metric = order.metric + ".order";
   gate.band = std::array{o.low - order_room, o.high + order_room};
-  gate.reason = fmt::format("adopted: observed order {:.3g}, 95 % interval {:.3g} to {:.3g}; room of {:g} beyond it", o.value, o.low, o.high, order_room);
+  gate.reason = fmt::format("adopted: observed order {:.3g}, 95 % interval {:.3g} to {:.3g}; room of {:g} beyond it", o.value,
+                            o.low, o.high, order_room);
   return gate;
 }
 
@@ -145,22 +154,26 @@ Case case_to_adopt(Case value, const EngineEntry& engine) {
   return value;
 }
 
-std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>& cases, const EngineEntry& engine, const AdoptOptions& o, void (*say)(const std::string&)) {
+std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>& cases, const EngineEntry& engine, const AdoptOptions& o,
+                                          void (*say)(const std::string&)) {
   std::vector<AdoptedCase> list;
   for (const auto& source : cases) {
     const auto value = case_to_adopt(source, engine);
     std::vector<CaseResult> runs{run_once(value, engine, o, "first", {})};
-    const bool ran = std::any_of(runs[0].engines.begin(), runs[0].engines.end(), [](const auto& e) { return base_run(e) && base_run(e)->status == "ok"; });
+    const bool ran = std::any_of(runs[0].engines.begin(), runs[0].engines.end(),
+                                 [](const auto& e) { return base_run(e) && base_run(e)->status == "ok"; });
     if (ran) {
       runs.push_back(run_once(value, engine, o, "repeat", {}));
       const int seeds = has_chance(value, engine) ? o.seeds : 0;
-      for (int k = 0; k < seeds; ++k) runs.push_back(run_once(value, engine, o, "seed", value.scene.seed + seeds_apart + static_cast<std::uint64_t>(k)));
+      for (int k = 0; k < seeds; ++k)
+        runs.push_back(run_once(value, engine, o, "seed", value.scene.seed + seeds_apart + static_cast<std::uint64_t>(k)));
     }
     AdoptedCase adopted{value.id, source.file, {}};
     for (const auto& e : runs[0].engines)
       if (e.name == engine.name) adopted.rows.push_back(row_of(runs, e, engine, o));
     for (const auto& row : adopted.rows) {
-      say(fmt::format("{} {}: {}", value.id, label_of(engine.name, row.preset), row.status == "ok" ? fmt::format("{} gates", row.gates.size()) : row.status + ", " + row.reason));
+      say(fmt::format("{} {}: {}", value.id, label_of(engine.name, row.preset),
+                      row.status == "ok" ? fmt::format("{} gates", row.gates.size()) : row.status + ", " + row.reason));
       for (const auto& note : row.notes) say("  " + note);
     }
     list.push_back(std::move(adopted));

@@ -7,7 +7,8 @@
 #include "validation/harness/plan_runs.hpp"
 #include "validation/harness/results.hpp"
 
-/// Adopting an engine: what it is now is measured, and gates are written that turn red where it drifts, to the worse or to the better.
+/// Adopting an engine: what it is now is measured, and gates are written that turn red where it drifts, to the worse or to the
+/// better.
 namespace tripoint {
 
 struct AdoptOptions {
@@ -21,7 +22,7 @@ struct AdoptOptions {
 /// One preset of the engine in one case: everything that was measured, by repeats and seeds.
 struct AdoptedRow {
   std::string preset;
-  std::string status, reason;    ///< of the case's own run
+  std::string status, reason;  ///< of the case's own run
   std::vector<Gate> gates;
   std::vector<std::string> lost;   ///< metrics without a finite value: they are left out of the written case
   std::vector<std::string> notes;  ///< what the repeat showed
@@ -37,7 +38,8 @@ struct AdoptedCase {
 /// @param uncertainty the largest statistical standard uncertainty that was stated
 /// @param round_off below this an error is one of round-off, and may be anything smaller
 /// @return a band by the margin and the noise, or a limit where the value is of round-off; its reason says what was measured
-[[nodiscard]] Gate adopted_gate(const std::string& metric, const std::vector<double>& values, double uncertainty, double margin, double round_off);
+[[nodiscard]] Gate adopted_gate(const std::string& metric, const std::vector<double>& values, double uncertainty, double margin,
+                                double round_off);
 
 /// A band around a fitted order that holds its 95 % interval with room.
 [[nodiscard]] Gate adopted_order_gate(const OrderRow&);
@@ -46,9 +48,11 @@ struct AdoptedCase {
 [[nodiscard]] Case case_to_adopt(Case, const EngineEntry&);
 
 /// Runs the cases on the engine, repeats them, and forms the gates. @param say progress, one line a call
-[[nodiscard]] std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>&, const EngineEntry&, const AdoptOptions&, void (*say)(const std::string&));
+[[nodiscard]] std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>&, const EngineEntry&, const AdoptOptions&,
+                                                        void (*say)(const std::string&));
 
-/// Text of the adopted case: scene, reference, metrics and common studies of the source, word by word, with the engine and its gates.
+/// Text of the adopted case: scene, reference, metrics and common studies of the source, word by word, with the engine and its
+/// gates.
 /// @throws InputError for a case that leans on files beside it, or declares a defect or a divergence
 [[nodiscard]] std::string adopted_text(const std::string& source_text, const AdoptedCase&, const EngineEntry&);
 

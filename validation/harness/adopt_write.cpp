@@ -32,7 +32,8 @@ std::vector<Block> blocks_of(const std::string& text) {
       Block next;
       next.header = line.substr(0, line.rfind(']') + 1);
       auto& before = blocks.back().lines;
-      while (!before.empty() && before.back().starts_with("#") && !(blocks.size() == 1 && before.size() == 1)) next.lines.insert(next.lines.begin(), before.back()), before.pop_back();
+      while (!before.empty() && before.back().starts_with("#") && !(blocks.size() == 1 && before.size() == 1))
+        next.lines.insert(next.lines.begin(), before.back()), before.pop_back();
       next.lines.push_back(line);
       blocks.push_back(next);
     } else {
@@ -61,7 +62,8 @@ std::string quoted(const std::string& text) {
 bool is_dropped(const Block& b) {
   for (const char* word : {"[engines", "[[gate", "[[defect", "[[harmless"})
     if (b.header.starts_with(word)) return true;
-  return b.header == "[[study]]" && (!written(b, "engine").empty() || (!written(b, "mode").empty() && written(b, "mode") != "\"not paper\""));
+  return b.header == "[[study]]" &&
+         (!written(b, "engine").empty() || (!written(b, "mode").empty() && written(b, "mode") != "\"not paper\""));
 }
 
 /// [case] without the words that are of this suite: profiles, tags, modes, and what its own engines prove.
@@ -69,11 +71,14 @@ std::string case_text(const Block& b, const std::string& id, const EngineEntry& 
   static constexpr std::array<const char*, 6> own{"id", "profiles", "tags", "modes", "claims", "expect"};
   std::string text;
   for (const auto& line : b.lines) {
-    const bool left_out = std::any_of(own.begin(), own.end(), [&](const char* key) { return std::regex_match(line, std::regex("^" + std::string(key) + R"(\s*=.*)")); });
+    const bool left_out = std::any_of(own.begin(), own.end(), [&](const char* key) {
+      return std::regex_match(line, std::regex("^" + std::string(key) + R"(\s*=.*)"));
+    });
     if (!left_out) text += line + "\n";
     if (line == b.header) text += fmt::format("id = {}\n", quoted(id));
   }
-  return text + fmt::format("claims = {}\nprofiles = [\"commit\"]\n", quoted(fmt::format("{} {} is as accurate as when it was adopted", engine.name, engine.version)));
+  return text + fmt::format("claims = {}\nprofiles = [\"commit\"]\n",
+                            quoted(fmt::format("{} {} is as accurate as when it was adopted", engine.name, engine.version)));
 }
 
 std::string study_text(const Block& b) {
@@ -89,7 +94,9 @@ std::string engine_text(const AdoptedCase& c, const EngineEntry& engine) {
     if (!row.gates.empty() && row.preset != "default") presets.push_back(quoted(row.preset));
   std::string text = fmt::format("[engines.{}]\nrequired = true\n", quoted(engine.name));
   if (!presets.empty()) text += fmt::format("preset = [{}]\n", fmt::join(presets, ", "));
-  return engine.name == "tripoint" ? text : text + "\n[engines.tripoint]\nrequired = false # it may run beside, and no gate here judges it\n";
+  return engine.name == "tripoint"
+             ? text
+             : text + "\n[engines.tripoint]\nrequired = false # it may run beside, and no gate here judges it\n";
 }
 
 std::string gate_text(const Gate& g) {
@@ -102,7 +109,9 @@ std::string gate_text(const Gate& g) {
 }
 
 bool is_lost(const AdoptedCase& c, const std::string& metric) {
-  return std::all_of(c.rows.begin(), c.rows.end(), [&](const auto& r) { return std::none_of(r.gates.begin(), r.gates.end(), [&](const Gate& g) { return quoted(g.metric) == metric; }); });
+  return std::all_of(c.rows.begin(), c.rows.end(), [&](const auto& r) {
+    return std::none_of(r.gates.begin(), r.gates.end(), [&](const Gate& g) { return quoted(g.metric) == metric; });
+  });
 }
 
 }  // namespace
@@ -112,13 +121,20 @@ std::string adopted_text(const std::string& source_text, const AdoptedCase& adop
   for (const auto& b : blocks_of(source_text)) {
     if (is_dropped(b) || (b.header == "[[metric]]" && is_lost(adopted, written(b, "name")))) continue;
     if (!written(b, "file").empty() || (b.header == "[case]" && !written(b, "expect").empty()))
-      throw InputError({adopted.source, 0, 0}, "leans on a file beside it, or declares a defect or a divergence: such a case is not adopted");
-    if (b.header == "[case]") text += case_text(b, adopted.id, engine);
-    else if (b.header == "[[study]]") text += study_text(b);
+      throw InputError({adopted.source, 0, 0},
+                       "leans on a file beside it, or declares a defect or a divergence: such a case is not adopted");
+    if (b.header == "[case]")
+      text += case_text(b, adopted.id, engine);
+    else if (b.header == "[[study]]")
+      text += study_text(b);
     else
       for (const auto& line : b.lines) text += line + "\n";
     text += "\n";
-    if (b.header.empty()) text += fmt::format("# Adopted: `tripoint gate adopt` measured {} {} on this scene. The gates turn red where it drifts, to the worse or to the better.\n\n", engine.name, engine.version);
+    if (b.header.empty())
+      text += fmt::format(
+          "# Adopted: `tripoint gate adopt` measured {} {} on this scene. The gates turn red where it drifts, to the worse or to "
+          "the better.\n\n",
+          engine.name, engine.version);
   }
   text += engine_text(adopted, engine);
   for (const auto& row : adopted.rows)

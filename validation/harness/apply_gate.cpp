@@ -22,12 +22,15 @@ bool limits_something(const Gate& gate) { return gate.limit || gate.at_least || 
 
 /// Verdict of an interval against [lowest, highest].
 Verdict interval_within(const Order& order, double lowest, double highest) {
-  if (!(order.low <= order.value && order.value <= order.high) || !std::isfinite(order.low) || !std::isfinite(order.high)) return Verdict::fail;
+  if (!(order.low <= order.value && order.value <= order.high) || !std::isfinite(order.low) || !std::isfinite(order.high))
+    return Verdict::fail;
   if (order.low >= lowest && order.high <= highest) return Verdict::pass;
   return order.high < lowest || order.low > highest ? Verdict::fail : Verdict::inconclusive;
 }
 
-std::string name_of_order(const std::string& metric) { return metric.ends_with(".order") ? metric.substr(0, metric.size() - 6) : std::string(); }
+std::string name_of_order(const std::string& metric) {
+  return metric.ends_with(".order") ? metric.substr(0, metric.size() - 6) : std::string();
+}
 
 bool is_at_level(const RunRow& run, const std::optional<double>& level) {
   return !level || std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *level); });
@@ -44,10 +47,14 @@ std::vector<Group> groups_for(const Gate& gate, const EngineRow& engine) {
   std::vector<Group> groups;
   for (const auto& run : engine.runs) {
     if (!run.input.empty() || !fits_mode(gate, run.knobs.mode) || !is_at_level(run, gate.level)) continue;
-    const auto same = [&](const Group& g) { return !run.group.empty() && g.mode == run.knobs.mode && g.runs.front()->group == run.group; };
+    const auto same = [&](const Group& g) {
+      return !run.group.empty() && g.mode == run.knobs.mode && g.runs.front()->group == run.group;
+    };
     const auto at = std::find_if(groups.begin(), groups.end(), same);
-    if (at == groups.end()) groups.push_back({run.knobs.mode, run.levels, {&run}});
-    else at->runs.push_back(&run);
+    if (at == groups.end())
+      groups.push_back({run.knobs.mode, run.levels, {&run}});
+    else
+      at->runs.push_back(&run);
   }
   return groups;
 }
@@ -72,8 +79,10 @@ void judge_value(GateRow& row, const MetricValue& metric) {
   const auto verdict = verdict_of(row.gate, row.value, row.uncertainty);
   row.verdict = to_string(verdict);
   if (verdict == Verdict::pass) return;
-  if (!std::isfinite(row.value)) row.why = "not finite" + (metric.note.empty() ? std::string() : ": " + metric.note);
-  else row.why = fmt::format("{:.4g} with standard uncertainty {:.2g}, {}", row.value, row.uncertainty, describe(row.gate));
+  if (!std::isfinite(row.value))
+    row.why = "not finite" + (metric.note.empty() ? std::string() : ": " + metric.note);
+  else
+    row.why = fmt::format("{:.4g} with standard uncertainty {:.2g}, {}", row.value, row.uncertainty, describe(row.gate));
 }
 
 /// An engine may refuse a run, but not one seed of it: what the other seeds gave would be judged by nobody.
@@ -100,7 +109,8 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
       engine.gates.push_back(row);
       return true;
     }
-    value->uncertainty.numerical = std::max(value->uncertainty.numerical, numerical_uncertainty(result, engine, *run, gate.metric));
+    value->uncertainty.numerical =
+        std::max(value->uncertainty.numerical, numerical_uncertainty(result, engine, *run, gate.metric));
     value->uncertainty.input = std::max(value->uncertainty.input, input_uncertainty(engine, *run, gate.metric));
     values.push_back(*value);
   }
@@ -110,7 +120,8 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
 }
 
 bool has_mode(const EngineRow& engine, const Gate& gate) {
-  return gate.mode.empty() || std::any_of(engine.runs.begin(), engine.runs.end(), [&](const auto& r) { return fits_mode(gate, r.knobs.mode); });
+  return gate.mode.empty() ||
+         std::any_of(engine.runs.begin(), engine.runs.end(), [&](const auto& r) { return fits_mode(gate, r.knobs.mode); });
 }
 
 /// Runs that the engine refused, and none that it broke off: then it owes no order.
@@ -139,7 +150,8 @@ Applied judge_order(const CaseResult& result, const Gate& gate, EngineRow& engin
     const auto verdict = exact ? Verdict::pass : verdict_of(gate, order.order);
     row.verdict = to_string(verdict);
     if (verdict != Verdict::pass)
-      row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low, *row.high, row.fit_class, describe(gate));
+      row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low, *row.high, row.fit_class,
+                            describe(gate));
     engine.gates.push_back(row);
     judged = true;
   }
@@ -208,7 +220,9 @@ Applied apply_gate(const CaseResult& result, const Gate& gate, EngineRow& engine
 }
 
 Applied apply_expected_class(const CaseResult& result, const Study& study, EngineRow& engine) {
-  const std::string metric = !study.metric.empty() ? study.metric : result.metrics.empty() ? std::string() : result.metrics.front().name;
+  const std::string metric = !study.metric.empty()    ? study.metric
+                             : result.metrics.empty() ? std::string()
+                                                      : result.metrics.front().name;
   Gate gate;
   gate.metric = metric + ".order", gate.engine = engine.name, gate.mode = study.mode, gate.place = study.place;
   gate.reason = fmt::format("the study over {} declares the class {}", study.axis, study.expect);

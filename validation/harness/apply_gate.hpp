@@ -23,7 +23,8 @@ Applied apply_expected_class(const CaseResult&, const Study&, EngineRow&);
 [[nodiscard]] Verdict verdict_of(const Gate&, double value, double uncertainty);
 [[nodiscard]] Verdict verdict_of(const Gate&, const Order&);
 
-/// Whether a gate looks at runs of a form of the model. "not paper" is every engine's, other engines' too, but not our printed form.
+/// Whether a gate looks at runs of a form of the model. "not paper" is every engine's, other engines' too, but not our printed
+/// form.
 [[nodiscard]] bool fits_mode(const Gate&, const std::string& mode);
 
 /// "limit 1e-3", "at least 1.8", "band 0.9 to 1.1".

@@ -81,7 +81,8 @@ Gate edges_of(const AcceptedGate& accepted) {
   return gate;
 }
 
-/// What a row leaves out follows from the rest of it: the words and the room from the edges, the first baseline's figures from today's.
+/// What a row leaves out follows from the rest of it: the words and the room from the edges, the first baseline's figures from
+/// today's.
 AcceptedGate read_gate(const TomlNode& from) {
   AcceptedGate g;
   g.metric = text(from, "metric"), g.engine = text(from, "engine"), g.preset = text(from, "preset"), g.mode = text(from, "mode");
@@ -157,9 +158,13 @@ Baseline read_baseline(const std::string& file) {
   if (number(top, "format") != 1.0) throw InputError(file + ": has not format = 1");
   Baseline b;
   b.id = text(top, "case"), b.case_hash = text(top, "case_hash"), b.seed = whole_number<std::uint64_t>(number(top, "seed"));
-  b.accepted = tables<Acceptance>(top, "accepted", [](const TomlNode& n) { return Acceptance{text(n, "date"), text(n, "commit"), text(n, "reason")}; });
+  b.accepted = tables<Acceptance>(top, "accepted", [](const TomlNode& n) {
+    return Acceptance{text(n, "date"), text(n, "commit"), text(n, "reason")};
+  });
   b.gates = tables<AcceptedGate>(top, "gate", read_gate);
-  b.cost = tables<AcceptedCost>(top, "cost", [](const TomlNode& n) { return AcceptedCost{text(n, "run"), number(n, "pairs"), number(n, "steps"), number(n, "instructions"), text(n, "counted_on")}; });
+  b.cost = tables<AcceptedCost>(top, "cost", [](const TomlNode& n) {
+    return AcceptedCost{text(n, "run"), number(n, "pairs"), number(n, "steps"), number(n, "instructions"), text(n, "counted_on")};
+  });
   b.scene = text(top, "scene"), b.reference = text(top, "reference");
   b.profiles = texts(top, "profiles"), b.required = texts(top, "required");
   const auto seal = text(top, "seal");  // older versions wrote neither hashes nor seal
@@ -182,7 +187,9 @@ class Row {
   void say_unless(double known, std::string_view key, double value) {
     if (value != known) add(key, number(value));
   }
-  void add(std::string_view key, const std::string& value) { text_ += fmt::format("{}{} = {}", text_.empty() ? "" : ", ", key, value); }
+  void add(std::string_view key, const std::string& value) {
+    text_ += fmt::format("{}{} = {}", text_.empty() ? "" : ", ", key, value);
+  }
   [[nodiscard]] std::string text() const { return "  { " + text_ + " },\n"; }
 
  private:
@@ -237,7 +244,8 @@ std::string baseline_text(const Baseline& b) {
   std::string out = "# Accepted figures. `tripoint gate accept --reason TEXT` writes this file; nothing else does.\nformat = 1\n";
   out += fmt::format("case = {}\ncase_hash = {}\nseed = {}\n", quoted(b.id), quoted(b.case_hash), b.seed);
   if (!b.scene.empty())
-    out += fmt::format("scene = {}\nreference = {}\nprofiles = {}\nrequired = {}\n", quoted(b.scene), quoted(b.reference), quoted(b.profiles), quoted(b.required));
+    out += fmt::format("scene = {}\nreference = {}\nprofiles = {}\nrequired = {}\n", quoted(b.scene), quoted(b.reference),
+                       quoted(b.profiles), quoted(b.required));
   if (b.removed > 0) out += fmt::format("removed = {}\n", b.removed);
   out += list_of("accepted", b.accepted) + list_of("gate", b.gates) + list_of("cost", b.cost);
   const auto after = out.find("seed = ");

@@ -9,21 +9,22 @@
 #include "validation/harness/case_hash.hpp"
 #include "validation/harness/remarks.hpp"
 
-/// The last accepted figures of a case: `baselines/<subject>/<case>.toml` beside the folder `cases`. `tripoint gate accept` writes it, nothing else does.
+/// The last accepted figures of a case: `baselines/<subject>/<case>.toml` beside the folder `cases`. `tripoint gate accept`
+/// writes it, nothing else does.
 namespace tripoint {
 
 /// One gate as it was accepted: what it judges, what it allows, what was measured then.
 struct AcceptedGate {
   std::string metric, engine, preset, mode, allows;  ///< allows: "limit 0.01", as the gate describes itself
   std::optional<double> level;
-  double room = 0.0;  ///< how much it lets pass, one number: room_of()
-  double value = 0.0, uncertainty = 0.0;  ///< in the row that uses most of it
-  std::string fit_class;                  ///< of an order
+  double room = 0.0;                           ///< how much it lets pass, one number: room_of()
+  double value = 0.0, uncertainty = 0.0;       ///< in the row that uses most of it
+  std::string fit_class;                       ///< of an order
   double first_room = 0.0, first_value = 0.0;  ///< of the first baseline: against creep
-  double loosened = 0.0;  ///< sum of ln(new/old) of every loosening since then; tightening takes nothing off
+  double loosened = 0.0;                       ///< sum of ln(new/old) of every loosening since then; tightening takes nothing off
   std::optional<double> limit, at_least, drift;  ///< each edge as it was accepted; baselines of older versions have only `allows`
   std::optional<std::array<double, 2>> band;
-  std::string measures;   ///< hash of the metric: CaseHashes::metrics; empty = it was accepted by an older version
+  std::string measures;  ///< hash of the metric: CaseHashes::metrics; empty = it was accepted by an older version
 };
 
 /// What one run counted. Never seconds: they belong to the machine.
@@ -46,11 +47,12 @@ struct Baseline {
   std::string scene, reference;       ///< CaseHashes; empty = accepted by an older version
   std::vector<std::string> profiles;  ///< that the case belonged to
   std::vector<std::string> required;  ///< engines that it required
-  bool sealed = true;  ///< the file is as `gate accept` wrote it; false = it was edited by hand
-  int removed = 0;  ///< gates that were accepted once and that an acceptance has let go since
+  bool sealed = true;                 ///< the file is as `gate accept` wrote it; false = it was edited by hand
+  int removed = 0;                    ///< gates that were accepted once and that an acceptance has let go since
 };
 
-/// Where the baseline of a case file lies: below the folder `baselines` beside the nearest folder `cases` above it; else in `baselines` beside the file.
+/// Where the baseline of a case file lies: below the folder `baselines` beside the nearest folder `cases` above it; else in
+/// `baselines` beside the file.
 /// @param root a folder that stands for `baselines`: another copy of it, such as that of the branch that a change is to go into
 [[nodiscard]] std::string baseline_file(const std::string& case_file, const std::string& root = {});
 /// The folder `baselines` that a case file belongs to.
@@ -71,23 +73,27 @@ struct Baseline {
 [[nodiscard]] std::string looser_edge(const AcceptedGate& now, const AcceptedGate& old);
 
 /// The baseline that these results would be, after the one that was accepted before.
-[[nodiscard]] Baseline accepted_from(const CaseResult&, const Tool&, std::uint64_t seed, const Baseline* before, const Acceptance&, bool engines_were_chosen = false);
+[[nodiscard]] Baseline accepted_from(const CaseResult&, const Tool&, std::uint64_t seed, const Baseline* before,
+                                     const Acceptance&, bool engines_were_chosen = false);
 
-/// Results against their baselines. An edge looser than the accepted one, a gate that is gone, or one whose engine was there and refused or
-/// ended before its time: error, exit 4. So is another metric, scene, reference, or an engine that is required no more. A value that has moved by
-/// more than the `drift` that its gate states and its uncertainty: error, exit 1. More than 1 % more pairs or steps, or instructions where
-/// they were counted in the same way on the same machine, at the accepted seed: error, exit 6. Where no drift is stated, a value that has
-/// got worse than the accepted or the first one by more than a tenth; another class of convergence; another case file: warning.
-/// Cases of a suite that keeps baselines and that have none yet: one warning that names them; with `required` an error of each, exit 4.
+/// Results against their baselines. An edge looser than the accepted one, a gate that is gone, or one whose engine was there and
+/// refused or ended before its time: error, exit 4. So is another metric, scene, reference, or an engine that is required no
+/// more. A value that has moved by more than the `drift` that its gate states and its uncertainty: error, exit 1. More than 1 %
+/// more pairs or steps, or instructions where they were counted in the same way on the same machine, at the accepted seed: error,
+/// exit 6. Where no drift is stated, a value that has got worse than the accepted or the first one by more than a tenth; another
+/// class of convergence; another case file: warning. Cases of a suite that keeps baselines and that have none yet: one warning
+/// that names them; with `required` an error of each, exit 4.
 [[nodiscard]] std::vector<Remark> baseline_remarks(const Results&, bool required = false, const std::string& root = {});
 
-/// Baselines whose case is gone, or has left a profile that it was accepted in, in every suite that the results are of: error, exit 4.
+/// Baselines whose case is gone, or has left a profile that it was accepted in, in every suite that the results are of: error,
+/// exit 4.
 [[nodiscard]] std::vector<Remark> lost_case_remarks(const Results&, const std::string& root = {});
 
 /// Accepted gates that are not judged here, by engine: one that is missing on this machine, or that was left out by name.
 [[nodiscard]] std::map<std::string, int> accepted_but_absent(const Results&, const std::string& root = {});
 
-/// Accepts the cases with these ids (empty: all). @return what changed, old and new, and the sum of all loosenings since the first baseline
+/// Accepts the cases with these ids (empty: all). @return what changed, old and new, and the sum of all loosenings since the
+/// first baseline
 /// @throws InputError for an id that the results do not hold, and where a case is not green
 [[nodiscard]] std::string accept(const Results&, const std::vector<std::string>& ids, const Acceptance&);
 

@@ -18,7 +18,8 @@
 namespace tripoint {
 namespace fs = std::filesystem;
 
-Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed, const Baseline* before, const Acceptance& acceptance, bool engines_were_chosen) {
+Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed, const Baseline* before,
+                       const Acceptance& acceptance, bool engines_were_chosen) {
   Baseline b;
   b.id = c.id, b.case_hash = hash_of_file(c), b.seed = seed;
   const auto hashes = case_hashes(c.file);
@@ -54,7 +55,8 @@ std::string changes_of_cost(const Baseline& before, const Baseline& after) {
     const auto old = std::find_if(before.cost.begin(), before.cost.end(), [&](const auto& o) { return o.run == now.run; });
     if (old == before.cost.end()) continue;
     for (const auto& [what, is, was] : {std::tuple{"pairs", now.pairs, old->pairs}, std::tuple{"steps", now.steps, old->steps}})
-      if (std::abs(is - was) > seen * was) text += one_line(fmt::format("{} {}: {} {:.6g} -> {:.6g}", after.id, now.run, what, was, is)) + "\n";
+      if (std::abs(is - was) > seen * was)
+        text += one_line(fmt::format("{} {}: {} {:.6g} -> {:.6g}", after.id, now.run, what, was, is)) + "\n";
   }
   return text;
 }
@@ -68,7 +70,8 @@ std::string changes(const Baseline* before, const Baseline& after) {
   for (std::size_t k = 0; k < after.gates.size(); ++k) {
     const auto& now = after.gates[k];
     const auto* old = counterpart(after.gates, k, before->gates);
-    const std::string name = one_line(fmt::format("{} {}{}{} {}{}", after.id, now.engine, now.mode.empty() ? "" : " ", now.mode, now.metric, now.level ? fmt::format(" at {:g}", *now.level) : ""));
+    const std::string name = one_line(fmt::format("{} {}{}{} {}{}", after.id, now.engine, now.mode.empty() ? "" : " ", now.mode,
+                                                  now.metric, now.level ? fmt::format(" at {:g}", *now.level) : ""));
     if (!old) {
       text += fmt::format("{}: new, {}\n", name, now.allows);
       continue;
@@ -76,9 +79,12 @@ std::string changes(const Baseline* before, const Baseline& after) {
     if (!old->measures.empty() && old->measures != now.measures) text += name + ": another metric\n";
     const auto edge = looser_edge(now, *old);
     if (std::abs(now.room / old->room - 1.0) > 1e-9)
-      text += fmt::format("{}: {} -> {}, {} by a factor {:.3g}\n", name, old->allows, now.allows, now.room > old->room ? "LOOSER" : "tighter", std::max(now.room / old->room, old->room / now.room));
-    else if (!edge.empty()) text += fmt::format("{}: {} -> {}, LOOSER: {}\n", name, old->allows, now.allows, edge);
-    else if (std::abs(now.value - old->value) > 1e-3 * std::abs(old->value) + roundoff_limit) text += fmt::format("{}: value {:.4g} -> {:.4g}\n", name, old->value, now.value);
+      text += fmt::format("{}: {} -> {}, {} by a factor {:.3g}\n", name, old->allows, now.allows,
+                          now.room > old->room ? "LOOSER" : "tighter", std::max(now.room / old->room, old->room / now.room));
+    else if (!edge.empty())
+      text += fmt::format("{}: {} -> {}, LOOSER: {}\n", name, old->allows, now.allows, edge);
+    else if (std::abs(now.value - old->value) > 1e-3 * std::abs(old->value) + roundoff_limit)
+      text += fmt::format("{}: value {:.4g} -> {:.4g}\n", name, old->value, now.value);
   }
   return text + changes_of_cost(*before, after);
 }
@@ -95,11 +101,13 @@ std::string text_of_file(const std::string& file) {
 }
 
 void check_reason(const Acceptance& acceptance) {
-  if (acceptance.reason.find_first_not_of(" \t\n") == std::string::npos) throw InputError("gate accept: --reason says who decided what, and why");
+  if (acceptance.reason.find_first_not_of(" \t\n") == std::string::npos)
+    throw InputError("gate accept: --reason says who decided what, and why");
 }
 
 void check_acceptable(const CaseResult& c) {
-  if (c.exit_code != exit_pass) throw InputError(fmt::format("{}: is {} and cannot be accepted; what is measured must be green first", c.id, c.verdict));
+  if (c.exit_code != exit_pass)
+    throw InputError(fmt::format("{}: is {} and cannot be accepted; what is measured must be green first", c.id, c.verdict));
 }
 
 }  // namespace
@@ -111,7 +119,8 @@ std::vector<Proposal> proposals(const Results& results, const std::vector<std::s
   for (const auto& c : results.cases)
     if (ids.empty() || std::find(ids.begin(), ids.end(), c.id) != ids.end()) chosen.push_back(&c);
   for (const auto& id : ids)
-    if (std::none_of(chosen.begin(), chosen.end(), [&](const auto* c) { return c->id == id; })) throw InputError(id + ": the results hold no case of this id");
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const auto* c) { return c->id == id; }))
+      throw InputError(id + ": the results hold no case of this id");
   for (const auto* c : chosen) check_acceptable(*c);
   std::vector<Proposal> list;
   for (const auto* c : chosen) {
@@ -119,11 +128,13 @@ std::vector<Proposal> proposals(const Results& results, const std::vector<std::s
     p.id = c->id, p.file = baseline_file(c->file);
     std::optional<Baseline> before;
     if (fs::exists(p.file)) before = read_baseline(p.file), p.before = text_of_file(p.file);
-    const auto after = accepted_from(*c, results.tool, results.seed, before ? &*before : nullptr, acceptance, engines_were_chosen);
+    const auto after =
+        accepted_from(*c, results.tool, results.seed, before ? &*before : nullptr, acceptance, engines_were_chosen);
     p.after = baseline_text(after), p.changes = changes(before ? &*before : nullptr, after);
     if (before)
       for (const auto* g : gone(*c, gates_of(*c, {}), *before, engines_were_chosen))
-        p.removed += one_line(fmt::format("{} {} {} {}: REMOVED, it was {}", c->id, g->engine, g->mode, g->metric, g->allows)) + "\n";
+        p.removed +=
+            one_line(fmt::format("{} {} {} {}: REMOVED, it was {}", c->id, g->engine, g->mode, g->metric, g->allows)) + "\n";
     p.loosened = loosenings(after, p.limits_loosened), p.limits_removed = after.removed;
     list.push_back(std::move(p));
   }
@@ -141,7 +152,10 @@ std::string accept(const Results& results, const std::vector<std::string>& ids, 
     text += p.changes + p.removed;
     sum += p.loosened, count += p.limits_loosened, removed += p.limits_removed;
   }
-  return text + fmt::format("{} cases accepted; since the first baseline {} limits were loosened, in all by a factor {:.4g} (sum of ln new/old {:.3g}), and {} were removed\n", list.size(), count, std::exp(sum), sum, removed);
+  return text + fmt::format(
+                    "{} cases accepted; since the first baseline {} limits were loosened, in all by a factor {:.4g} (sum of ln "
+                    "new/old {:.3g}), and {} were removed\n",
+                    list.size(), count, std::exp(sum), sum, removed);
 }
 
 std::string accept_removal(const std::vector<std::string>& ids, const Acceptance& acceptance) {

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 double room_of(const Gate& gate) {
   double room = gate.limit.value_or(std::numeric_limits<double>::infinity());
   if (gate.band) room = std::min(room, 0.5 * ((*gate.band)[1] - (*gate.band)[0]));
-  if (!std::isfinite(room) && gate.at_least) room = *gate.at_least > 0.0 ? 1.0 / *gate.at_least : std::numeric_limits<double>::infinity();
+  if (!std::isfinite(room) && gate.at_least)
+    room = *gate.at_least > 0.0 ? 1.0 / *gate.at_least : std::numeric_limits<double>::infinity();
   return room;
 }
 
@@ -27,34 +28,60 @@ constexpr double change_seen = 0.1, cost_seen = 0.01;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* decide = ": tripoint gate accept --reason says who decided and why";
 
-std::string title_of(const CaseResult& c, const AcceptedGate& g) { return fmt::format("{} {}{}{} {}", c.id, g.engine, g.mode.empty() ? "" : " ", g.mode, g.metric); }
-
-/// What the gate allows and what it measures, against what was accepted.
-void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old, std::vector<Remark>& list) {
-  const auto title = title_of(c, now);
-  if (const auto edge = looser_edge(now, old); !edge.empty())
-    list.push_back({true, exit_missing, place, title, fmt::format("loosened: {} is looser than what was accepted, {} ({}){}", now.allows, old.allows, edge, decide),
-                    old.room > 0.0 ? now.room / old.room : infinity, "LOOSENED"});
-  if (!old.measures.empty() && now.measures != old.measures)
-    list.push_back({true, exit_missing, place, title, fmt::format("its metric has changed since it was accepted (quantity, norm, body, place, window, scale, unit or reference){}", decide), infinity, "CHANGED"});
-  if (now.fit_class != old.fit_class) list.push_back({false, 0, place, title, fmt::format("converges as {}, accepted was {}", now.fit_class, old.fit_class), 1.0, {}});
+std::string title_of(const CaseResult& c, const AcceptedGate& g) {
+  return fmt::format("{} {}{}{} {}", c.id, g.engine, g.mode.empty() ? "" : " ", g.mode, g.metric);
 }
 
-void compare_value(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old, std::vector<Remark>& list) {
+/// What the gate allows and what it measures, against what was accepted.
+void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
+                    std::vector<Remark>& list) {
+  const auto title = title_of(c, now);
+  if (const auto edge = looser_edge(now, old); !edge.empty())
+    list.push_back({true, exit_missing, place, title,
+                    fmt::format("loosened: {} is looser than what was accepted, {} ({}){}", now.allows, old.allows, edge, decide),
+                    old.room > 0.0 ? now.room / old.room : infinity, "LOOSENED"});
+  if (!old.measures.empty() && now.measures != old.measures)
+    list.push_back(
+        {true, exit_missing, place, title,
+         fmt::format(
+             "its metric has changed since it was accepted (quantity, norm, body, place, window, scale, unit or reference){}",
+             decide),
+         infinity, "CHANGED"});
+  if (now.fit_class != old.fit_class)
+    list.push_back(
+        {false, 0, place, title, fmt::format("converges as {}, accepted was {}", now.fit_class, old.fit_class), 1.0, {}});
+}
+
+void compare_value(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
+                   std::vector<Remark>& list) {
   if (now.metric.ends_with(".order") || !now.fit_class.empty()) return;
   const auto title = title_of(c, now);
   const double noise = 2.0 * (now.uncertainty + old.uncertainty) + roundoff_limit;
   if (now.drift) {
     if (std::abs(now.value - old.value) > *now.drift * std::abs(old.value) + noise)
-      list.push_back({true, exit_fail, place, title, fmt::format("{:.6g} has moved from the accepted value {:.6g} by more than the share of {:g} that the gate allows", now.value, old.value, *now.drift),
-                      std::abs(now.value / old.value), {}});
+      list.push_back(
+          {true,
+           exit_fail,
+           place,
+           title,
+           fmt::format("{:.6g} has moved from the accepted value {:.6g} by more than the share of {:g} that the gate allows",
+                       now.value, old.value, *now.drift),
+           std::abs(now.value / old.value),
+           {}});
     return;
   }
   for (const auto& [word, was] : {std::pair{"accepted", old.value}, std::pair{"first", old.first_value}}) {
     const bool one_sided = now.allows.starts_with("limit");
     const double change = one_sided ? std::abs(now.value) - std::abs(was) : std::abs(now.value - was);
     if (change <= change_seen * std::abs(was) + noise) continue;
-    list.push_back({false, 0, place, title, fmt::format("{:.4g} {} the {} value {:.4g}", now.value, one_sided ? "is worse than" : "has moved from", word, was), std::abs(now.value / was), {}});
+    list.push_back(
+        {false,
+         0,
+         place,
+         title,
+         fmt::format("{:.4g} {} the {} value {:.4g}", now.value, one_sided ? "is worse than" : "has moved from", word, was),
+         std::abs(now.value / was),
+         {}});
     return;
   }
 }
@@ -63,20 +90,32 @@ void compare_cost(const CaseResult& c, const Tool& tool, const Baseline& b, std:
   for (const auto& now : costs_of(c, tool)) {
     const auto old = std::find_if(b.cost.begin(), b.cost.end(), [&](const auto& o) { return o.run == now.run; });
     if (old == b.cost.end()) continue;
-    const double counted = now.counted_on == old->counted_on ? old->instructions : 0.0;  // another machine takes other vectors, and another count
-    for (const auto& [what, is, was] : {std::tuple{"pairs", now.pairs, old->pairs}, std::tuple{"steps", now.steps, old->steps}, std::tuple{"instructions", now.instructions, counted}})
+    const double counted =
+        now.counted_on == old->counted_on ? old->instructions : 0.0;  // another machine takes other vectors, and another count
+    for (const auto& [what, is, was] : {std::tuple{"pairs", now.pairs, old->pairs}, std::tuple{"steps", now.steps, old->steps},
+                                        std::tuple{"instructions", now.instructions, counted}})
       if (is > 0.0 && was > 0.0 && is > (1.0 + cost_seen) * was)
-        list.push_back({true, exit_cost, {c.file, 1, 0}, c.id + " " + now.run, fmt::format("{:.4g} {}, accepted were {:.4g} ({:+.1f} %)", is, what, was, 100.0 * (is / was - 1.0)), is / was, {}});
+        list.push_back({true,
+                        exit_cost,
+                        {c.file, 1, 0},
+                        c.id + " " + now.run,
+                        fmt::format("{:.4g} {}, accepted were {:.4g} ({:+.1f} %)", is, what, was, 100.0 * (is / was - 1.0)),
+                        is / was,
+                        {}});
   }
 }
 
 /// The scene, the reference and what is required, against what was accepted.
 void compare_question(const CaseResult& c, const Baseline& b, const std::optional<CaseHashes>& now, std::vector<Remark>& list) {
-  const auto say = [&](const std::string& what) { list.push_back({true, exit_missing, {c.file, 1, 0}, c.id, what + decide, infinity, "CHANGED"}); };
+  const auto say = [&](const std::string& what) {
+    list.push_back({true, exit_missing, {c.file, 1, 0}, c.id, what + decide, infinity, "CHANGED"});
+  };
   if (!b.sealed) say("its baseline was edited by hand, and `tripoint gate accept` is its only writer");
-  if (!b.accepted.empty() && b.accepted.back().reason == undecided_reason) say("its baseline was proposed, and nobody has accepted it");
+  if (!b.accepted.empty() && b.accepted.back().reason == undecided_reason)
+    say("its baseline was proposed, and nobody has accepted it");
   if (b.scene.empty()) {  // accepted by an older version, which kept a hash of the text alone
-    if (b.case_hash != hash_of_file(c)) list.push_back({false, 0, {c.file, 1, 0}, c.id, "the case file has changed since its figures were accepted", 1.0, {}});
+    if (b.case_hash != hash_of_file(c))
+      list.push_back({false, 0, {c.file, 1, 0}, c.id, "the case file has changed since its figures were accepted", 1.0, {}});
     return;
   }
   if (!now) return say("the case file cannot be read again, and what was accepted cannot be compared with it");
@@ -84,7 +123,8 @@ void compare_question(const CaseResult& c, const Baseline& b, const std::optiona
   if (now->reference != b.reference) say("its reference has changed since its figures were accepted");
   for (const auto& name : b.required) {
     const auto at = now->required.find(name);
-    if (at == now->required.end() ? name != "tripoint" : !at->second) say(name + " was required when its figures were accepted, and is not any more");
+    if (at == now->required.end() ? name != "tripoint" : !at->second)
+      say(name + " was required when its figures were accepted, and is not any more");
   }
 }
 
@@ -96,19 +136,27 @@ void compare_case(const Results& results, const CaseResult& c, const Baseline& b
   for (const auto& e : c.engines)
     for (const auto& row : e.gates)
       if (is_accepted(row)) {
-        if (const auto* old = counterpart(now, k, b.gates)) compare_limits(c, now[k], row.gate.place, *old, list), compare_value(c, now[k], row.gate.place, *old, list);
+        if (const auto* old = counterpart(now, k, b.gates))
+          compare_limits(c, now[k], row.gate.place, *old, list), compare_value(c, now[k], row.gate.place, *old, list);
         ++k;
       }
   if (c.exit_code == exit_pass)  // a red gate is no gate that is gone
     for (const auto* g : gone(c, now, b, !results.only_engines.empty()))
-      list.push_back({true, exit_missing, {c.file, 1, 0}, title_of(c, *g), fmt::format("was accepted with {} and judges nothing any more{}", g->allows, decide), infinity, "GONE"});
+      list.push_back({true,
+                      exit_missing,
+                      {c.file, 1, 0},
+                      title_of(c, *g),
+                      fmt::format("was accepted with {} and judges nothing any more{}", g->allows, decide),
+                      infinity,
+                      "GONE"});
   if (b.seed == results.seed) compare_cost(c, results.tool, b, list);
 }
 
 /// One sentence for all: a suite that begins to keep baselines is not told a hundred times.
 Remark none_yet(const std::vector<const CaseResult*>& cases) {
   constexpr std::size_t named = 5;
-  std::string text = fmt::format("{} cases have no baseline yet (tripoint gate accept --reason TEXT RESULTS.json ID): ", cases.size());
+  std::string text =
+      fmt::format("{} cases have no baseline yet (tripoint gate accept --reason TEXT RESULTS.json ID): ", cases.size());
   for (std::size_t k = 0; k < std::min(named, cases.size()); ++k) text += (k > 0 ? ", " : "") + cases[k]->id;
   if (cases.size() > named) text += fmt::format(" and {} more", cases.size() - named);
   return {false, 0, {}, "baselines", text, 1.0, {}};
@@ -122,9 +170,18 @@ std::vector<Remark> baseline_remarks(const Results& results, bool required, cons
   for (const auto& c : results.cases) {
     if (!required && root.empty() && !keeps_baselines(c.file)) continue;
     const auto file = baseline_file(c.file, root);
-    if (fs::exists(file)) compare_case(results, c, read_baseline(file), list);
-    else if (required) list.push_back({true, exit_missing, {c.file, 1, 0}, c.id, "has no baseline: tripoint gate accept --reason TEXT RESULTS.json " + c.id, infinity, {}});
-    else without.push_back(&c);
+    if (fs::exists(file))
+      compare_case(results, c, read_baseline(file), list);
+    else if (required)
+      list.push_back({true,
+                      exit_missing,
+                      {c.file, 1, 0},
+                      c.id,
+                      "has no baseline: tripoint gate accept --reason TEXT RESULTS.json " + c.id,
+                      infinity,
+                      {}});
+    else
+      without.push_back(&c);
   }
   if (!without.empty()) list.push_back(none_yet(without));
   return list;

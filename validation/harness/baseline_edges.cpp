@@ -25,9 +25,14 @@ Edges edges_of_words(const std::string& allows) {
   Edges e;
   e.precision = 1e-5;
   double a = 0.0, b = 0.0;
-  if (const auto at = allows.find("limit "); at != std::string::npos && std::sscanf(allows.c_str() + at, "limit %lf", &a) == 1) narrow(e, -a, a);
-  if (const auto at = allows.find("at least "); at != std::string::npos && std::sscanf(allows.c_str() + at, "at least %lf", &a) == 1) narrow(e, a, {});
-  if (const auto at = allows.find("band "); at != std::string::npos && std::sscanf(allows.c_str() + at, "band %lf to %lf", &a, &b) == 2) narrow(e, a, b);
+  if (const auto at = allows.find("limit "); at != std::string::npos && std::sscanf(allows.c_str() + at, "limit %lf", &a) == 1)
+    narrow(e, -a, a);
+  if (const auto at = allows.find("at least ");
+      at != std::string::npos && std::sscanf(allows.c_str() + at, "at least %lf", &a) == 1)
+    narrow(e, a, {});
+  if (const auto at = allows.find("band ");
+      at != std::string::npos && std::sscanf(allows.c_str() + at, "band %lf to %lf", &a, &b) == 2)
+    narrow(e, a, b);
   return e;
 }
 
@@ -40,7 +45,8 @@ Edges edges_of(const AcceptedGate& g) {
   return e;
 }
 
-std::string edge(const char* name, const std::optional<double>& now, const std::optional<double>& old, double sign, double precision) {
+std::string edge(const char* name, const std::optional<double>& now, const std::optional<double>& old, double sign,
+                 double precision) {
   if (!old) return {};
   if (!now) return fmt::format("its {} edge, {:g}, is gone", name, *old);
   if (sign * (*now - *old) <= precision * std::abs(*old)) return {};
@@ -55,7 +61,9 @@ std::string looser_edge(const AcceptedGate& now, const AcceptedGate& old) {
   if (const auto text = edge("upper", a.highest, b.highest, 1.0, precision); !text.empty()) return text;
   if (const auto text = edge("lower", a.lowest, b.lowest, -1.0, precision); !text.empty()) return text;
   const bool drifts = old.drift && (!now.drift || *now.drift > *old.drift * (1.0 + precision));
-  if (drifts) return fmt::format("the drift that it allows was {:g} and is {}", *old.drift, now.drift ? fmt::format("{:g}", *now.drift) : "not bounded");
+  if (drifts)
+    return fmt::format("the drift that it allows was {:g} and is {}", *old.drift,
+                       now.drift ? fmt::format("{:g}", *now.drift) : "not bounded");
   return {};
 }
 

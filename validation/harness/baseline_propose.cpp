@@ -31,13 +31,17 @@ std::vector<std::string> lines_of(const std::string& text) {
 std::vector<Line> aligned(const std::vector<std::string>& a, const std::vector<std::string>& b) {
   std::vector<std::vector<std::size_t>> common(a.size() + 1, std::vector<std::size_t>(b.size() + 1, 0));
   for (std::size_t i = a.size(); i-- > 0;)
-    for (std::size_t j = b.size(); j-- > 0;) common[i][j] = a[i] == b[j] ? common[i + 1][j + 1] + 1 : std::max(common[i + 1][j], common[i][j + 1]);
+    for (std::size_t j = b.size(); j-- > 0;)
+      common[i][j] = a[i] == b[j] ? common[i + 1][j + 1] + 1 : std::max(common[i + 1][j], common[i][j + 1]);
   std::vector<Line> list;
   std::size_t i = 0, j = 0;
   while (i < a.size() || j < b.size()) {
-    if (i < a.size() && j < b.size() && a[i] == b[j]) list.push_back({' ', a[i]}), ++i, ++j;
-    else if (i < a.size() && (j == b.size() || common[i + 1][j] >= common[i][j + 1])) list.push_back({'-', a[i++]});
-    else list.push_back({'+', b[j++]});
+    if (i < a.size() && j < b.size() && a[i] == b[j])
+      list.push_back({' ', a[i]}), ++i, ++j;
+    else if (i < a.size() && (j == b.size() || common[i + 1][j] >= common[i][j + 1]))
+      list.push_back({'-', a[i++]});
+    else
+      list.push_back({'+', b[j++]});
   }
   return list;
 }
@@ -46,9 +50,11 @@ std::string range(std::size_t first, std::size_t count) { return fmt::format("{}
 
 std::string hunk(const std::vector<Line>& list, std::size_t from, std::size_t to) {
   const auto count = [&](std::size_t begin, std::size_t end, char other) {
-    return static_cast<std::size_t>(std::count_if(list.begin() + static_cast<long>(begin), list.begin() + static_cast<long>(end), [&](const Line& l) { return l.sign != other; }));
+    return static_cast<std::size_t>(std::count_if(list.begin() + static_cast<long>(begin), list.begin() + static_cast<long>(end),
+                                                  [&](const Line& l) { return l.sign != other; }));
   };
-  std::string text = fmt::format("@@ -{} +{} @@\n", range(count(0, from, '+'), count(from, to, '+')), range(count(0, from, '-'), count(from, to, '-')));
+  std::string text = fmt::format("@@ -{} +{} @@\n", range(count(0, from, '+'), count(from, to, '+')),
+                                 range(count(0, from, '-'), count(from, to, '-')));
   for (std::size_t k = from; k < to; ++k) text += list[k].sign + list[k].text + "\n";
   return text;
 }
@@ -56,12 +62,15 @@ std::string hunk(const std::vector<Line>& list, std::size_t from, std::size_t to
 std::string file_patch(const Proposal& p, const std::string& root) {
   const auto path = fs::path(p.file).lexically_relative(root).generic_string();
   const std::string from = p.before.empty() ? "/dev/null" : "a/" + path;
-  return fmt::format("diff --git a/{0} b/{0}\n{1}--- {2}\n+++ b/{0}\n{3}", path, p.before.empty() ? "new file mode 100644\n" : "", from, unified_diff(p.before, p.after));
+  return fmt::format("diff --git a/{0} b/{0}\n{1}--- {2}\n+++ b/{0}\n{3}", path, p.before.empty() ? "new file mode 100644\n" : "",
+                     from, unified_diff(p.before, p.after));
 }
 
 /// A word of a shell's command line.
 std::string word(const std::string& text) {
-  const bool plain = !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./") == std::string::npos;
+  const bool plain =
+      !text.empty() &&
+      text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./") == std::string::npos;
   if (plain) return text;
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -104,16 +113,23 @@ std::string patch_root(const std::string& baseline) {
   return file.parent_path().string();
 }
 
-std::string patch_text(const std::vector<Proposal>& list, const std::string& results_file, const std::string& root, bool undecided) {
+std::string patch_text(const std::vector<Proposal>& list, const std::string& results_file, const std::string& root,
+                       bool undecided) {
   std::string ids, changes, patch;
   int count = 0;
   for (const auto& p : list) {
-    if (p.before == p.after || (p.changes.empty() && p.removed.empty())) continue;  // accepted as it stands: only the reason would be new
+    if (p.before == p.after || (p.changes.empty() && p.removed.empty()))
+      continue;  // accepted as it stands: only the reason would be new
     ++count, ids += " " + word(p.id), changes += p.changes + p.removed, patch += file_patch(p, root);
   }
   if (count == 0) return "# No baseline would change: nothing is proposed.\n";
-  std::string text = fmt::format("Proposed by tripoint gate propose: {} baseline{}. This file accepts nothing{}\nTo accept, decide and call:\ntripoint gate accept --reason 'who decided what, and why' {}{}\n", count,
-                                 count == 1 ? "" : "s", undecided ? ", and applied as it comes it is red: its reason says that nobody has decided." : "; whoever applies and commits it does.", word(results_file), ids);
+  std::string text = fmt::format(
+      "Proposed by tripoint gate propose: {} baseline{}. This file accepts nothing{}\nTo accept, decide and call:\ntripoint gate "
+      "accept --reason 'who decided what, and why' {}{}\n",
+      count, count == 1 ? "" : "s",
+      undecided ? ", and applied as it comes it is red: its reason says that nobody has decided."
+                : "; whoever applies and commits it does.",
+      word(results_file), ids);
   return commented(text + changes) + patch;
 }
 

@@ -14,7 +14,8 @@ namespace tripoint {
 namespace {
 
 bool same_gate(const AcceptedGate& a, const AcceptedGate& b) {
-  const bool same_place = a.level.has_value() == b.level.has_value() && (!a.level || std::abs(*a.level - *b.level) <= 1e-9 * std::abs(*b.level));
+  const bool same_place =
+      a.level.has_value() == b.level.has_value() && (!a.level || std::abs(*a.level - *b.level) <= 1e-9 * std::abs(*b.level));
   return a.metric == b.metric && a.engine == b.engine && a.preset == b.preset && a.mode == b.mode && same_place;
 }
 
@@ -44,7 +45,8 @@ std::string run_name(const EngineRow& e, const RunRow& r) {
 }
 
 std::string counted_on(const Tool& tool, const RunRow& r) {
-  return r.cost.instructions > 0.0 ? fmt::format("{}; {}; {}; {}", r.cost.counted_by, tool.cpu, tool.compiler, tool.flags) : std::string();
+  return r.cost.instructions > 0.0 ? fmt::format("{}; {}; {}; {}", r.cost.counted_by, tool.cpu, tool.compiler, tool.flags)
+                                   : std::string();
 }
 
 }  // namespace
@@ -82,14 +84,18 @@ const AcceptedGate* counterpart(const std::vector<AcceptedGate>& own, std::size_
 }
 
 bool is_absent(const CaseResult& c, const AcceptedGate& g, bool engines_were_chosen) {
-  const auto row = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) { return e.name == g.engine && (e.preset == "default" ? "" : e.preset) == g.preset; });
+  const auto row = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) {
+    return e.name == g.engine && (e.preset == "default" ? "" : e.preset) == g.preset;
+  });
   if (row != c.engines.end()) return row->status == "missing";
   const auto of_name = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) { return e.name == g.engine; });
-  if (of_name != c.engines.end()) return of_name->status == "missing";  // an engine that is not there has not said which presets it has
+  if (of_name != c.engines.end())
+    return of_name->status == "missing";  // an engine that is not there has not said which presets it has
   return engines_were_chosen;
 }
 
-std::vector<const AcceptedGate*> gone(const CaseResult& c, const std::vector<AcceptedGate>& now, const Baseline& b, bool engines_were_chosen) {
+std::vector<const AcceptedGate*> gone(const CaseResult& c, const std::vector<AcceptedGate>& now, const Baseline& b,
+                                      bool engines_were_chosen) {
   std::vector<const AcceptedGate*> list;
   for (std::size_t k = 0; k < b.gates.size(); ++k)
     if (!is_absent(c, b.gates[k], engines_were_chosen) && !counterpart(b.gates, k, now)) list.push_back(&b.gates[k]);

@@ -21,14 +21,16 @@ std::string text_of(const fs::path& file) {
 /// One key with its value, and with the contents of the file that it names.
 std::string line_of(const Decision& d, const fs::path& folder) {
   std::string line = d.key + "=" + d.value + "\n";
-  if (d.key.ends_with(".file") && d.value.size() > 2) line += text_hash(text_of(folder / d.value.substr(1, d.value.size() - 2))) + "\n";
+  if (d.key.ends_with(".file") && d.value.size() > 2)
+    line += text_hash(text_of(folder / d.value.substr(1, d.value.size() - 2))) + "\n";
   return line;
 }
 
 bool is_of_the_scene(const std::string& key) {
   static constexpr std::array<std::string_view, 7> rooms{"scene.", "material.", "body.", "event.", "inflow.", "study.", "input."};
   if (key == "case.modes" || key == "case.expect") return true;
-  if (key.starts_with("engines.")) return !key.ends_with(".required") && !key.ends_with(".refuses");  // how it is judged, not what is asked
+  if (key.starts_with("engines."))
+    return !key.ends_with(".required") && !key.ends_with(".refuses");  // how it is judged, not what is asked
   return !key.ends_with(".source") && std::any_of(rooms.begin(), rooms.end(), [&](auto room) { return key.starts_with(room); });
 }
 
@@ -59,7 +61,8 @@ std::optional<CaseHashes> case_hashes(const std::string& file) {
   hashes.scene = hash(is_of_the_scene);
   hashes.reference = hash([](const std::string& key) { return key.starts_with("reference.") && !key.ends_with(".source"); });
   for (const auto& m : reading.value.metrics)
-    hashes.metrics[m.name] = hash([&](const std::string& key) { return key.starts_with("metric." + m.name + ".") && !key.ends_with(".source"); });
+    hashes.metrics[m.name] =
+        hash([&](const std::string& key) { return key.starts_with("metric." + m.name + ".") && !key.ends_with(".source"); });
   for (const auto& e : reading.value.engines) hashes.required[e.name] = e.required;
   hashes.profiles = reading.value.profiles;
   return hashes;

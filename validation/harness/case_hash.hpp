@@ -8,10 +8,12 @@
 /// What a case asks, in a few hashes: a question that changes is seen, also where its limits stay.
 namespace tripoint {
 
-/// Of the keys that the file, its base and the library of materials give, resolved to SI: units, comments and the order of tables do not count, nor does text for people.
+/// Of the keys that the file, its base and the library of materials give, resolved to SI: units, comments and the order of tables
+/// do not count, nor does text for people.
 struct CaseHashes {
-  std::string scene;      ///< scene, materials, bodies, events, studies, modes, `expect`, settings of engines; with files that they name
-  std::string reference;  ///< of the case, with its data
+  std::string
+      scene;  ///< scene, materials, bodies, events, studies, modes, `expect`, settings of engines; with files that they name
+  std::string reference;                       ///< of the case, with its data
   std::map<std::string, std::string> metrics;  ///< by name: quantity, norm, body, place, window, scale, unit, own reference
   std::map<std::string, bool> required;        ///< by engine, as the case says
   std::vector<std::string> profiles;

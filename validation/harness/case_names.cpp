@@ -39,9 +39,11 @@ std::string nearest_case(std::string what) {
 std::vector<std::string> shipped_ids() {
   std::vector<std::string> ids;
   std::error_code none;
-  for (fs::recursive_directory_iterator at(shipped(), fs::directory_options::follow_directory_symlink, none), end; at != end; at.increment(none)) {
+  for (fs::recursive_directory_iterator at(shipped(), fs::directory_options::follow_directory_symlink, none), end; at != end;
+       at.increment(none)) {
     const auto id = fs::path(at->path()).replace_extension().lexically_relative(shipped()).string();
-    if (at->path().extension() == ".toml" && id.find(".ref") == std::string::npos && !id.starts_with("materials/")) ids.push_back(id);
+    if (at->path().extension() == ".toml" && id.find(".ref") == std::string::npos && !id.starts_with("materials/"))
+      ids.push_back(id);
   }
   std::sort(ids.begin(), ids.end());
   return ids;
@@ -53,20 +55,23 @@ std::string case_file(const std::string& path_or_id) {
   const auto by_id = shipped() / (path_or_id + ".toml");
   if (fs::is_regular_file(by_id, none)) return by_id.string();
   if (fs::is_regular_file(path_or_id + ".toml", none)) return path_or_id + ".toml";
-  if (fs::is_directory(path_or_id, none) || !subject_folder(path_or_id).empty()) throw InputError(path_or_id + ": is a folder of cases, and one case is wanted (tripoint list prints the ids)");
+  if (fs::is_directory(path_or_id, none) || !subject_folder(path_or_id).empty())
+    throw InputError(path_or_id + ": is a folder of cases, and one case is wanted (tripoint list prints the ids)");
   throw InputError(no_such_case(path_or_id));
 }
 
 std::string subject_folder(const std::string& subject) {
   std::error_code none;
-  const bool plain = !subject.empty() && subject.front() != '/' && subject.find("..") == std::string::npos && subject != "materials";
+  const bool plain =
+      !subject.empty() && subject.front() != '/' && subject.find("..") == std::string::npos && subject != "materials";
   const auto folder = shipped() / subject;
   return plain && fs::is_directory(folder, none) ? folder.string() : "";
 }
 
 std::string no_such_case(const std::string& what) {
   const auto near = nearest_case(what);
-  return fmt::format("{}: is no case file, no folder and no case id ({})", printable(what, 200), near.empty() ? "tripoint list prints the ids" : "did you mean `" + near + "`?");
+  return fmt::format("{}: is no case file, no folder and no case id ({})", printable(what, 200),
+                     near.empty() ? "tripoint list prints the ids" : "did you mean `" + near + "`?");
 }
 
 }  // namespace tripoint

@@ -46,21 +46,29 @@ class Sampler {
 
 double wall_limit(const EnginePlan& engine, const SuiteOptions& options) {
   const auto at = engine.settings.find("wall_limit");
-  return at != engine.settings.end() && std::holds_alternative<double>(at->second) ? std::get<double>(at->second) : options.wall_limit;
+  return at != engine.settings.end() && std::holds_alternative<double>(at->second) ? std::get<double>(at->second)
+                                                                                   : options.wall_limit;
 }
 
 Knobs knobs_of(const CaseRun& run, const Result& result) {
   const auto& r = run.job.resolution;
-  return {r.spacing, result.readback.time_step > 0.0 ? result.readback.time_step : r.time_step.value_or(0.0), r.support_ratio, r.walkers, r.iterations,
-          run.plan.mode, run.job.threads, run.job.seed, run.job.scene.jitter};
+  return {r.spacing,           result.readback.time_step > 0.0 ? result.readback.time_step : r.time_step.value_or(0.0),
+          r.support_ratio,     r.walkers,
+          r.iterations,        run.plan.mode,
+          run.job.threads,     run.job.seed,
+          run.job.scene.jitter};
 }
 
 EngineRow row_of(const EnginePlan& plan) {
   EngineRow row;
   row.name = plan.name, row.preset = plan.preset, row.required = plan.required, row.refuses = declared_refusal(plan.settings);
-  if (plan.entry) row.version = plan.entry->version, row.library_path = plan.entry->library_path, row.library_hash = plan.entry->library_hash;
-  if (!plan.entry) row.status = "missing", row.reason = fmt::format("there is no engine-{} beside the program or in TRIPOINT_ENGINE_PATH", plan.name);
-  else if (!plan.entry->available) row.status = "missing", row.reason = plan.entry->reason;
+  if (plan.entry)
+    row.version = plan.entry->version, row.library_path = plan.entry->library_path, row.library_hash = plan.entry->library_hash;
+  if (!plan.entry)
+    row.status = "missing",
+    row.reason = fmt::format("there is no engine-{} beside the program or in TRIPOINT_ENGINE_PATH", plan.name);
+  else if (!plan.entry->available)
+    row.status = "missing", row.reason = plan.entry->reason;
   return row;
 }
 
@@ -68,13 +76,15 @@ std::string repeat_command(const Case& value, const SuiteOptions& options) {
   std::string command = "tripoint validate " + value.file;
   if (!options.selection.engines.empty()) command += fmt::format(" --engines {}", fmt::join(options.selection.engines, ","));
   for (const auto& name : options.selection.asked)
-    if (std::find(options.selection.engines.begin(), options.selection.engines.end(), name) == options.selection.engines.end()) command += " --engine " + name;
+    if (std::find(options.selection.engines.begin(), options.selection.engines.end(), name) == options.selection.engines.end())
+      command += " --engine " + name;
   if (options.selection.seed) command += fmt::format(" --seed {}", *options.selection.seed);
   return command;
 }
 
 /// @param number of the run: runs of one start have files of their own, since HDF5 writes the second of the day into each
-std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePlan& engine, const CaseRun& run, const HarmlessChange& change, std::size_t number) {
+std::shared_ptr<const ChangedRun> changed_run(const Case& value, const EnginePlan& engine, const CaseRun& run,
+                                              const HarmlessChange& change, std::size_t number) {
   ChangedScene changed{run.job.scene, *run.initial, run.job.threads};
   change.apply(changed);
   auto made = std::make_shared<ChangedRun>();
@@ -96,7 +106,9 @@ std::shared_ptr<const Trajectory> taken_back(const CaseRun& run, const HarmlessC
   return back;
 }
 
-bool is_wanted(const EnginePlan& engine, const RunPlan& plan, const SuiteOptions& options) { return !options.wanted || options.wanted(engine, plan); }
+bool is_wanted(const EnginePlan& engine, const RunPlan& plan, const SuiteOptions& options) {
+  return !options.wanted || options.wanted(engine, plan);
+}
 
 }  // namespace
 
@@ -112,7 +124,9 @@ CaseRuns plan_case(const Case& value, const std::vector<EngineEntry>& found, con
 std::size_t number_of_runs(const CaseRuns& all, const SuiteOptions& options) {
   std::size_t n = 0;
   for (const auto& engine : all.engines)
-    if (engine.entry) n += static_cast<std::size_t>(std::ranges::count_if(engine.runs, [&](const RunPlan& plan) { return is_wanted(engine, plan, options); }));
+    if (engine.entry)
+      n += static_cast<std::size_t>(
+          std::ranges::count_if(engine.runs, [&](const RunPlan& plan) { return is_wanted(engine, plan, options); }));
   return n;
 }
 
@@ -151,7 +165,8 @@ RunRequest request_of(const CaseRuns& all, const CaseRun& run, const SuiteOption
   RunRequest request;
   request.engine = engine.entry, request.job = &run.job, request.initial = run.initial.get();
   if (run.changed) request.job = &run.changed->job, request.initial = &run.changed->initial;
-  request.folder = fs::absolute(run.folder).string(), request.particles = fs::absolute(run.changed ? run.changed->particles : run.particles).string();
+  request.folder = fs::absolute(run.folder).string(),
+  request.particles = fs::absolute(run.changed ? run.changed->particles : run.particles).string();
   request.particles_hash = run.changed ? run.changed->particles_hash : run.particles_hash;
   request.wall_limit = wall_limit(engine, options), request.environment = options.environment;
   request.keep_finished = options.resume, request.count_below = options.count_below;
@@ -208,7 +223,8 @@ CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   const auto& value = *all.value;
   CaseResult result;
   result.id = value.id, result.title = value.title, result.kind = value.kind, result.requirement = value.requirement;
-  result.claims = value.claims, result.file = value.file, result.expect = value.expect, result.reference = with_source_of_file(value.reference), result.tags = value.tags;
+  result.claims = value.claims, result.file = value.file, result.expect = value.expect,
+  result.reference = with_source_of_file(value.reference), result.tags = value.tags;
   result.metrics = value.metrics, result.studies = value.studies, result.gates = value.gates;
   for (auto& study : result.studies) study.axis = study_axis(study), study.support_ratios.clear(), study.time_steps.clear();
   result.hashes = all.hashes;
@@ -221,7 +237,8 @@ CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   }
   result.equivalence = compare_engines(all);
   for (const auto& run : all.runs)
-    if (run.trajectory && run.plan.base && all.engines[run.engine].name == "tripoint" && result.ledger.empty()) result.ledger = ledger_of(*run.trajectory);
+    if (run.trajectory && run.plan.base && all.engines[run.engine].name == "tripoint" && result.ledger.empty())
+      result.ledger = ledger_of(*run.trajectory);
   judge(result, !options.selection.engines.empty());
   return result;
 }

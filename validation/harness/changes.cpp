@@ -48,8 +48,11 @@ int seeds_of(const EngineRow& e, const GateRow& g) {
   std::map<std::string, int> groups;
   int most = 1;
   for (const auto& run : e.runs) {
-    const bool at_level = g.level ? std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *g.level); }) : run.levels.empty() || run.base;
-    if (run.knobs.mode == g.mode && run.input.empty() && at_level && !run.group.empty()) most = std::max(most, ++groups[run.group]);
+    const bool at_level =
+        g.level ? std::any_of(run.levels.begin(), run.levels.end(), [&](const auto& l) { return same_level(l.second, *g.level); })
+                : run.levels.empty() || run.base;
+    if (run.knobs.mode == g.mode && run.input.empty() && at_level && !run.group.empty())
+      most = std::max(most, ++groups[run.group]);
   }
   return most;
 }
@@ -62,7 +65,8 @@ Row row_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
   s.value = g.value, s.verdict = g.verdict, s.fit_class = g.fit_class, s.seeds = seeds_of(e, g);
   s.allows = g.expect.empty() ? describe(g.gate) : "class " + g.expect;
   s.used = g.expect.empty() ? used_of(g.gate, g.value) : not_a_number;
-  s.noise = g.low && g.high ? 0.25 * (*g.high - *g.low) : g.budget.statistical;  // a 95 % interval is four standard deviations wide
+  s.noise =
+      g.low && g.high ? 0.25 * (*g.high - *g.low) : g.budget.statistical;  // a 95 % interval is four standard deviations wide
   return row;
 }
 
@@ -71,7 +75,8 @@ void add_unjudged(const CaseResult& c, const EngineRow& e, std::vector<Row>& row
   for (const auto& run : e.runs) {
     if (!run.base || !run.input.empty() || run.status != "ok") continue;
     for (const auto& [name, value] : run.metrics) {
-      const bool judged = std::any_of(e.gates.begin(), e.gates.end(), [&](const auto& g) { return g.metric == name && g.mode == run.knobs.mode; });
+      const bool judged = std::any_of(e.gates.begin(), e.gates.end(),
+                                      [&](const auto& g) { return g.metric == name && g.mode == run.knobs.mode; });
       if (judged) continue;
       auto row = new_row(c, e, run.knobs.mode, name);
       row.standing.value = value.value, row.standing.used = not_a_number, row.standing.noise = value.uncertainty.statistical;
@@ -117,8 +122,11 @@ std::string source_of_noise(const Standing& base, const Standing& head, bool is_
   return seeds > 1 ? fmt::format("{} seeds", seeds) : "stated by the run";
 }
 
-/// Noise of head less base, in the metric's unit: two standard uncertainties by chance, or what the same code was seen to differ by, the larger one.
-double noise_between(const Standing& base, const Standing& head, double again) { return std::max(2.0 * std::hypot(base.noise, head.noise), again); }
+/// Noise of head less base, in the metric's unit: two standard uncertainties by chance, or what the same code was seen to differ
+/// by, the larger one.
+double noise_between(const Standing& base, const Standing& head, double again) {
+  return std::max(2.0 * std::hypot(base.noise, head.noise), again);
+}
 
 void settle_class(MetricChange& c) {
   if (c.base->fit_class == c.head->fit_class) return;
@@ -140,7 +148,8 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
   c.limit_changed = c.base->allows != c.head->allows;
   c.looser = c.limit_changed && (c.head->allows.empty() || room_of(head_gate) > room_of(base_gate) * (1.0 + 1e-9));
   if (!c.base->fit_class.empty() && std::isnan(c.base->used) && std::isnan(c.head->used)) return settle_class(c);
-  const Gate& gate = c.base->allows.empty() ? head_gate : base_gate;  // a change that loosens a limit is measured by the limit that was there
+  const Gate& gate =
+      c.base->allows.empty() ? head_gate : base_gate;  // a change that loosens a limit is measured by the limit that was there
   const double unit = unit_of(gate);
   if (std::isnan(unit)) return settle_unlimited(c, again);
   const double before = used_of(gate, c.base->value), now = used_of(gate, c.head->value);
@@ -157,7 +166,12 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
 
 /// Worse and better first, by their size; then what has not moved; then new, then gone.
 bool goes_before(const MetricChange& a, const MetricChange& b) {
-  const auto rank = [](const MetricChange& c) { return c.trend == Trend::worse || c.trend == Trend::better ? 0 : c.trend == Trend::same ? (std::isnan(c.base->used) ? 2 : 1) : c.trend == Trend::appeared ? 3 : 4; };
+  const auto rank = [](const MetricChange& c) {
+    return c.trend == Trend::worse || c.trend == Trend::better ? 0
+           : c.trend == Trend::same                            ? (std::isnan(c.base->used) ? 2 : 1)
+           : c.trend == Trend::appeared                        ? 3
+                                                               : 4;
+  };
   return rank(a) != rank(b) ? rank(a) < rank(b) : std::abs(a.change) > std::abs(b.change);
 }
 
@@ -206,7 +220,8 @@ Comparison compare_results(const Results& base, const Results& head, const std::
     double differs = 0.0;
     if (at != before.end()) {
       row.change.base = at->second.standing, base_gate = at->second.gate;
-      if (const auto twin = again.find(row.key); twin != again.end()) differs = std::abs(twin->second.standing.value - at->second.standing.value);
+      if (const auto twin = again.find(row.key); twin != again.end())
+        differs = std::abs(twin->second.standing.value - at->second.standing.value);
       before.erase(at);
     }
     settle(row.change, base_gate, row.gate, std::isfinite(differs) ? differs : 0.0);
@@ -224,15 +239,21 @@ Comparison compare_results(const Results& base, const Results& head, const std::
 std::vector<Remark> change_remarks(const Comparison& all, bool no_worse) {
   std::vector<Remark> list;
   const auto say = [&](const MetricChange& c, int code, const std::string& text, const char* word) {
-    list.push_back({no_worse, no_worse ? code : 0, c.place, c.case_id + " " + name_of(c), text, std::isfinite(c.change) ? 1.0 + std::abs(c.change) : infinity, no_worse ? word : ""});
+    list.push_back({no_worse, no_worse ? code : 0, c.place, c.case_id + " " + name_of(c), text,
+                    std::isfinite(c.change) ? 1.0 + std::abs(c.change) : infinity, no_worse ? word : ""});
   };
   for (const auto& c : all.changes) {
     if (c.trend == Trend::worse && c.head->verdict == "pass")
-      say(c, exit_fail, fmt::format("is worse than the base by {} of its limit, and within it: {}, {} of {}; noise {}", change_text(c), values_text(c), used_text(c), c.base->allows, noise_text(c)), "WORSE");
+      say(c, exit_fail,
+          fmt::format("is worse than the base by {} of its limit, and within it: {}, {} of {}; noise {}", change_text(c),
+                      values_text(c), used_text(c), c.base->allows, noise_text(c)),
+          "WORSE");
     if (c.trend == Trend::gone) say(c, exit_missing, fmt::format("is in the base ({}) and not here", values_text(c)), "GONE");
     if (c.limit_changed && !c.base->allows.empty())
       list.push_back({no_worse && c.looser, no_worse && c.looser ? exit_missing : 0, c.place, c.case_id + " " + name_of(c),
-                      fmt::format("its limit has changed: {} -> {}{}", c.base->allows, c.head->allows.empty() ? "none" : c.head->allows, c.looser ? ", looser" : ""), 1.0, no_worse && c.looser ? "LOOSENED" : ""});
+                      fmt::format("its limit has changed: {} -> {}{}", c.base->allows,
+                                  c.head->allows.empty() ? "none" : c.head->allows, c.looser ? ", looser" : ""),
+                      1.0, no_worse && c.looser ? "LOOSENED" : ""});
   }
   return list;
 }

@@ -7,7 +7,8 @@
 #include "validation/harness/remarks.hpp"
 #include "validation/harness/results.hpp"
 
-/// Results beside those of a base, metric by metric: what a change to an engine did, in units of each limit, and whether noise can explain it.
+/// Results beside those of a base, metric by metric: what a change to an engine did, in units of each limit, and whether noise
+/// can explain it.
 namespace tripoint {
 
 /// A change of less than this share of its limit is none, however small the noise: another compiler or processor does as much.
@@ -17,11 +18,11 @@ enum class Trend { better, worse, same, appeared, gone };
 
 /// One metric in one of the two results.
 struct Standing {
-  double value = 0.0;     ///< in the metric's unit; NaN where there is none
-  double used = 0.0;      ///< in units of the limit, see used_of(); NaN where no gate judges the metric
-  double noise = 0.0;     ///< standard uncertainty by chance, in the metric's unit
-  int seeds = 1;          ///< runs that the value is the mean of
-  std::string allows;     ///< "limit 0.01"; empty = no gate
+  double value = 0.0;  ///< in the metric's unit; NaN where there is none
+  double used = 0.0;   ///< in units of the limit, see used_of(); NaN where no gate judges the metric
+  double noise = 0.0;  ///< standard uncertainty by chance, in the metric's unit
+  int seeds = 1;       ///< runs that the value is the mean of
+  std::string allows;  ///< "limit 0.01"; empty = no gate
   std::string verdict, fit_class;
 };
 
@@ -29,28 +30,33 @@ struct Standing {
 struct MetricChange {
   std::string case_id, engine, mode, metric, unit;  ///< engine with its preset
   std::optional<double> level;
-  SourcePlace place;                    ///< of the limit; of the case file where there is none
+  SourcePlace place;  ///< of the limit; of the case file where there is none
   std::optional<Standing> base, head;
-  double change = 0.0;                  ///< head less base in units of the limit, above 0 = worse; without a limit as a share of the base, of no sign
-  double noise = 0.0;                   ///< two standard uncertainties of that difference, in the same unit
-  std::string noise_from;               ///< "5 seeds", "A/A", "stated by the run", "round-off", "interval of the fit", "none known"
+  double change =
+      0.0;  ///< head less base in units of the limit, above 0 = worse; without a limit as a share of the base, of no sign
+  double noise = 0.0;      ///< two standard uncertainties of that difference, in the same unit
+  std::string noise_from;  ///< "5 seeds", "A/A", "stated by the run", "round-off", "interval of the fit", "none known"
   Trend trend = Trend::same;
   bool limit_changed = false, looser = false;
 };
 
 struct Comparison {
   std::string base_name;
-  std::vector<MetricChange> changes;        ///< most changed first, then what is new and what is gone
-  std::vector<std::string> remarks;   ///< why the two may not be comparable: another profile, other seeds, another version of the program
+  std::vector<MetricChange> changes;  ///< most changed first, then what is new and what is gone
+  std::vector<std::string>
+      remarks;  ///< why the two may not be comparable: another profile, other seeds, another version of the program
   [[nodiscard]] int count(Trend) const;
 };
 
-/// How much of what a gate allows a value takes, 1 at the edge, less is better: |value| over the limit; distance from the middle of a band over half its
-/// width; 2 - value/at_least. Of several edges the largest. A limit of 0 has the metric's own unit. NaN for no value, and for a gate without an edge.
+/// How much of what a gate allows a value takes, 1 at the edge, less is better: |value| over the limit; distance from the middle
+/// of a band over half its width; 2 - value/at_least. Of several edges the largest. A limit of 0 has the metric's own unit. NaN
+/// for no value, and for a gate without an edge.
 [[nodiscard]] double used_of(const Gate&, double value);
 
-/// @param repeat the base once more (A/A): what differs between the two is noise of its own, the larger one counts   @pre both are judged
-[[nodiscard]] Comparison compare_results(const Results& base, const Results& head, const std::string& base_name, const Results* repeat = nullptr);
+/// @param repeat the base once more (A/A): what differs between the two is noise of its own, the larger one counts   @pre both
+/// are judged
+[[nodiscard]] Comparison compare_results(const Results& base, const Results& head, const std::string& base_name,
+                                         const Results* repeat = nullptr);
 
 /// What got worse by more than its noise and is within its limit, what is gone, and which limits changed: warnings.
 /// @param no_worse errors instead: worse is exit 1, gone or looser exit 4
@@ -58,7 +64,8 @@ struct Comparison {
 
 /// "2 better, 1 worse, 9 unchanged, 1 new, 0 gone"
 [[nodiscard]] std::string counts_text(const Comparison&);
-/// "0.0049 -> 0.0025 m", "0.82 -> 0.41", "0.004, 5 seeds": base beside head, the same in units of the limit, and the noise in that unit.
+/// "0.0049 -> 0.0025 m", "0.82 -> 0.41", "0.004, 5 seeds": base beside head, the same in units of the limit, and the noise in
+/// that unit.
 [[nodiscard]] std::string values_text(const MetricChange&);
 [[nodiscard]] std::string used_text(const MetricChange&);
 [[nodiscard]] std::string noise_text(const MetricChange&);

@@ -15,7 +15,8 @@ std::string share(double value) { return std::isnan(value) ? std::string("-") : 
 std::string value_of(const Standing& s) { return s.fit_class.empty() || std::isfinite(s.used) ? number(s.value) : s.fit_class; }
 
 /// Base beside head; one alone where the other has none; one where both read the same.
-std::string pair_of(const std::optional<Standing>& base, const std::optional<Standing>& head, std::string (*text)(const Standing&)) {
+std::string pair_of(const std::optional<Standing>& base, const std::optional<Standing>& head,
+                    std::string (*text)(const Standing&)) {
   if (!base) return text(*head);
   if (!head) return text(*base);
   return text(*base) + " -> " + text(*head);
@@ -25,17 +26,27 @@ std::string pair_of(const std::optional<Standing>& base, const std::optional<Sta
 
 std::string word_of(Trend trend) {
   switch (trend) {
-    case Trend::better: return "better";
-    case Trend::worse: return "worse";
-    case Trend::appeared: return "new";
-    case Trend::gone: return "gone";
-    default: return "same";
+    case Trend::better:
+      return "better";
+    case Trend::worse:
+      return "worse";
+    case Trend::appeared:
+      return "new";
+    case Trend::gone:
+      return "gone";
+    default:
+      return "same";
   }
 }
 
-std::string name_of(const MetricChange& c) { return fmt::format("{}{}{} {}{}", c.engine, c.mode.empty() ? "" : " ", c.mode, c.metric, c.level ? fmt::format(" at {:g}", *c.level) : ""); }
+std::string name_of(const MetricChange& c) {
+  return fmt::format("{}{}{} {}{}", c.engine, c.mode.empty() ? "" : " ", c.mode, c.metric,
+                     c.level ? fmt::format(" at {:g}", *c.level) : "");
+}
 
-std::string values_text(const MetricChange& c) { return pair_of(c.base, c.head, value_of) + (c.unit.empty() ? "" : " " + c.unit); }
+std::string values_text(const MetricChange& c) {
+  return pair_of(c.base, c.head, value_of) + (c.unit.empty() ? "" : " " + c.unit);
+}
 
 std::string used_text(const MetricChange& c) {
   return pair_of(c.base, c.head, [](const Standing& s) { return share(s.used); });
@@ -55,15 +66,22 @@ std::string noise_text(const MetricChange& c) {
 }
 
 std::string counts_text(const Comparison& all) {
-  return fmt::format("{} better, {} worse, {} unchanged, {} new, {} gone", all.count(Trend::better), all.count(Trend::worse), all.count(Trend::same), all.count(Trend::appeared), all.count(Trend::gone));
+  return fmt::format("{} better, {} worse, {} unchanged, {} new, {} gone", all.count(Trend::better), all.count(Trend::worse),
+                     all.count(Trend::same), all.count(Trend::appeared), all.count(Trend::gone));
 }
 
 std::string changes_table(const Comparison& all) {
-  std::string text = one_line(fmt::format("against {}: {}; changes in units of the limit, above 0 is worse", all.base_name, counts_text(all))) + "\n";
+  std::string text =
+      one_line(fmt::format("against {}: {}; changes in units of the limit, above 0 is worse", all.base_name, counts_text(all))) +
+      "\n";
   for (const auto& remark : all.remarks) text += "note: " + one_line(remark) + "\n";
   for (const auto& c : all.changes) {
-    const auto allows = c.base && !c.base->allows.empty() ? c.base->allows : c.head && !c.head->allows.empty() ? c.head->allows : "no limit";
-    text += one_line(fmt::format("{:7}{:>9}  {} {}: {}, {} of {}; noise {}", word_of(c.trend), change_text(c), c.case_id, name_of(c), values_text(c), used_text(c), allows, noise_text(c))) + "\n";
+    const auto allows = c.base && !c.base->allows.empty()   ? c.base->allows
+                        : c.head && !c.head->allows.empty() ? c.head->allows
+                                                            : "no limit";
+    text += one_line(fmt::format("{:7}{:>9}  {} {}: {}, {} of {}; noise {}", word_of(c.trend), change_text(c), c.case_id,
+                                 name_of(c), values_text(c), used_text(c), allows, noise_text(c))) +
+            "\n";
   }
   return text;
 }

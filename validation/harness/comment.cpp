@@ -16,8 +16,8 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t named = 20;         // rows of a list below the table; the rest is counted
-constexpr std::size_t longest = 60'000;   // a comment holds 65536 characters
+constexpr std::size_t named = 20;        // rows of a list below the table; the rest is counted
+constexpr std::size_t longest = 60'000;  // a comment holds 65536 characters
 
 struct Count {
   int green = 0, all = 0;
@@ -43,7 +43,8 @@ std::string path_in_repository(const std::string& file) {
 std::string linked(const std::string& text, const SourcePlace& place, const std::string& links) {
   const auto path = path_in_repository(place.file);
   if (links.empty() || path.empty()) return markdown(text);
-  return fmt::format("[{}]({}/{}{})", markdown(text), links, url_path(path), place.line > 1 ? fmt::format("#L{}", place.line) : "");
+  return fmt::format("[{}]({}/{}{})", markdown(text), links, url_path(path),
+                     place.line > 1 ? fmt::format("#L{}", place.line) : "");
 }
 
 std::string limit_of(const MetricChange& c) {
@@ -54,20 +55,24 @@ std::string limit_of(const MetricChange& c) {
 }
 
 std::string row_of(const MetricChange& c, const CommentOptions& o) {
-  return fmt::format("| {} | {} | {} | {} | {} | {} of {} | {} |\n", c.trend == Trend::same ? "same" : fmt::format("**{}**", word_of(c.trend)), change_text(c), linked(c.case_id, c.place, o.links), markdown(name_of(c)),
-                     markdown(values_text(c)), used_text(c), markdown(limit_of(c)), markdown(noise_text(c)));
+  return fmt::format("| {} | {} | {} | {} | {} | {} of {} | {} |\n",
+                     c.trend == Trend::same ? "same" : fmt::format("**{}**", word_of(c.trend)), change_text(c),
+                     linked(c.case_id, c.place, o.links), markdown(name_of(c)), markdown(values_text(c)), used_text(c),
+                     markdown(limit_of(c)), markdown(noise_text(c)));
 }
 
 std::string table_of(const Comparison& all, const CommentOptions& o) {
   std::string rows;
   std::size_t count = 0;
   for (const auto& c : all.changes) {
-    const bool moved = c.trend == Trend::better || c.trend == Trend::worse || (c.trend == Trend::same && std::abs(c.change) >= least_change);
+    const bool moved =
+        c.trend == Trend::better || c.trend == Trend::worse || (c.trend == Trend::same && std::abs(c.change) >= least_change);
     if (moved && count < o.most) ++count, rows += row_of(c, o);
   }
   if (rows.empty()) return "No metric of the base has changed by a thousandth of its limit or more.\n";
   return "| | change | case | metric | base -> head | of the limit | noise |\n|---|---:|---|---|---|---|---|\n" + rows +
-         "\nChanges and noise are in units of the limit; above 0 is worse, 1 is all that the limit allows. A change counts when it is larger than its noise.\n";
+         "\nChanges and noise are in units of the limit; above 0 is worse, 1 is all that the limit allows. A change counts when "
+         "it is larger than its noise.\n";
 }
 
 /// What is new and what is gone, by name.
@@ -76,7 +81,8 @@ std::string arrivals(const Comparison& all, Trend trend, const CommentOptions& o
   std::size_t count = 0;
   for (const auto& c : all.changes) {
     if (c.trend != trend || ++count > named) continue;
-    text += fmt::format("- {}: {} {}: {}, {} of {}\n", word_of(trend), linked(c.case_id, c.place, o.links), markdown(name_of(c)), markdown(values_text(c)), used_text(c), markdown(limit_of(c)));
+    text += fmt::format("- {}: {} {}: {}, {} of {}\n", word_of(trend), linked(c.case_id, c.place, o.links), markdown(name_of(c)),
+                        markdown(values_text(c)), used_text(c), markdown(limit_of(c)));
   }
   return count > named ? text + fmt::format("- and {} more\n", count - named) : text;
 }
@@ -86,8 +92,11 @@ std::string not_green(const GateVerdict& verdict, const CommentOptions& o) {
   std::string text;
   std::size_t errors = 0, warnings = 0;
   for (const auto& r : verdict.remarks) {
-    if (!r.error) ++warnings;
-    else if (++errors <= named) text += fmt::format("- {}: {}\n", r.place.file.empty() ? markdown(r.title) : linked(r.title, r.place, o.links), markdown(r.text));
+    if (!r.error)
+      ++warnings;
+    else if (++errors <= named)
+      text += fmt::format("- {}: {}\n", r.place.file.empty() ? markdown(r.title) : linked(r.title, r.place, o.links),
+                          markdown(r.text));
   }
   if (errors > named) text += fmt::format("- and {} more\n", errors - named);
   if (!text.empty()) text = "\n### Not green\n\n" + text;
@@ -98,13 +107,15 @@ std::string not_green(const GateVerdict& verdict, const CommentOptions& o) {
 std::string most_used(const Results& results, const CommentOptions& o) {
   auto all = compare_results(results, results, {});
   std::erase_if(all.changes, [](const auto& c) { return !std::isfinite(c.head->used); });
-  std::stable_sort(all.changes.begin(), all.changes.end(), [](const auto& a, const auto& b) { return a.head->used > b.head->used; });
+  std::stable_sort(all.changes.begin(), all.changes.end(),
+                   [](const auto& a, const auto& b) { return a.head->used > b.head->used; });
   if (all.changes.empty()) return "";
   std::string text = "| case | metric | value | of the limit |\n|---|---|---|---|\n";
   for (std::size_t k = 0; k < std::min(o.most, all.changes.size()); ++k) {
     auto c = all.changes[k];
     c.base.reset();
-    text += fmt::format("| {} | {} | {} | {} of {} |\n", linked(c.case_id, c.place, o.links), markdown(name_of(c)), markdown(values_text(c)), used_text(c), markdown(limit_of(c)));
+    text += fmt::format("| {} | {} | {} | {} of {} |\n", linked(c.case_id, c.place, o.links), markdown(name_of(c)),
+                        markdown(values_text(c)), used_text(c), markdown(limit_of(c)));
   }
   return text;
 }
@@ -127,14 +138,17 @@ std::string engines_of(const Results& results) {
 }
 
 std::string verdict_text(const GateVerdict& verdict, const CommentOptions& o) {
-  return o.informational && verdict.code != exit_pass ? fmt::format("{} (informational: nothing is blocked)", verdict.word) : verdict.word;
+  return o.informational && verdict.code != exit_pass ? fmt::format("{} (informational: nothing is blocked)", verdict.word)
+                                                      : verdict.word;
 }
 
 }  // namespace
 
-std::string comment_markdown(const Results& results, const GateVerdict& verdict, const Comparison* against, const CommentOptions& o) {
+std::string comment_markdown(const Results& results, const GateVerdict& verdict, const Comparison* against,
+                             const CommentOptions& o) {
   const auto gates = gates_of(results);
-  std::string text = fmt::format("{}\n## Accuracy: {}\n\n{} of {} gates pass in {} case{}; {}{}.\n", comment_mark, verdict_text(verdict, o), gates.green, gates.all, results.cases.size(),
+  std::string text = fmt::format("{}\n## Accuracy: {}\n\n{} of {} gates pass in {} case{}; {}{}.\n", comment_mark,
+                                 verdict_text(verdict, o), gates.green, gates.all, results.cases.size(),
                                  results.cases.size() == 1 ? "" : "s", markdown(engines_of(results)), markdown(names_of(o)));
   if (!o.note.empty()) text += "\n" + markdown(o.note) + "\n";
   if (against) {
@@ -152,7 +166,9 @@ std::string comment_markdown(const Results& results, const GateVerdict& verdict,
 
 std::string comment_text(const Results& results, const GateVerdict& verdict, const Comparison* against, const CommentOptions& o) {
   const auto gates = gates_of(results);
-  std::string text = one_line(fmt::format("accuracy {}: {} of {} gates pass in {} cases; {}{}", verdict_text(verdict, o), gates.green, gates.all, results.cases.size(), engines_of(results), names_of(o))) + "\n";
+  std::string text = one_line(fmt::format("accuracy {}: {} of {} gates pass in {} cases; {}{}", verdict_text(verdict, o),
+                                          gates.green, gates.all, results.cases.size(), engines_of(results), names_of(o))) +
+                     "\n";
   if (!o.note.empty()) text += one_line(o.note) + "\n";
   if (against) text += changes_table(*against);
   return text + remarks_text(verdict.remarks);

@@ -43,9 +43,15 @@ void compare_pair(const CaseRuns& all, const CaseRun& a, const CaseRun& b, std::
       continue;  // a metric of numbers that only a formula knows (rates, event times) compares no two states
     }
     if (!std::isfinite(difference.value)) continue;
-    EquivalenceRow row{label_of(all.engines[a.engine].name, all.engines[a.engine].preset), label_of(all.engines[b.engine].name, all.engines[b.engine].preset), metric.name, difference.value,
-                       std::hypot(error_a->second.uncertainty.combined(), error_b->second.uncertainty.combined()), margin_of(*all.value, metric.name),
-                       error_a->second.value, error_b->second.value, "no margin is set"};
+    EquivalenceRow row{label_of(all.engines[a.engine].name, all.engines[a.engine].preset),
+                       label_of(all.engines[b.engine].name, all.engines[b.engine].preset),
+                       metric.name,
+                       difference.value,
+                       std::hypot(error_a->second.uncertainty.combined(), error_b->second.uncertainty.combined()),
+                       margin_of(*all.value, metric.name),
+                       error_a->second.value,
+                       error_b->second.value,
+                       "no margin is set"};
     if (row.margin) row.verdict = equivalence(row.difference, row.uncertainty, *row.margin);
     rows.push_back(row);
   }
@@ -57,7 +63,8 @@ std::vector<EquivalenceRow> compare_engines(const CaseRuns& all) {
   std::vector<const CaseRun*> bases;  // one for each engine and preset; of tripoint the first mode
   for (const auto& run : all.runs) {
     const bool first = std::none_of(bases.begin(), bases.end(), [&](const auto* b) { return b->engine == run.engine; });
-    if (run.plan.base && run.trajectory && run.row.comparable && first && all.engines[run.engine].name != "exact") bases.push_back(&run);
+    if (run.plan.base && run.trajectory && run.row.comparable && first && all.engines[run.engine].name != "exact")
+      bases.push_back(&run);
   }
   std::vector<EquivalenceRow> rows;
   for (std::size_t i = 0; i < bases.size(); ++i)

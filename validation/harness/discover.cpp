@@ -47,7 +47,8 @@ std::vector<std::string> engines_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, none)) {
     const auto name = entry.path().filename().string();
     const bool part_of_one = entry.path().has_extension() && !is_program(entry.path());  // engine-mine.cpp beside engine-mine
-    if (name.rfind("engine-", 0) == 0 && entry.is_regular_file(none) && !part_of_one) found.push_back(fs::absolute(entry.path()).string());
+    if (name.rfind("engine-", 0) == 0 && entry.is_regular_file(none) && !part_of_one)
+      found.push_back(fs::absolute(entry.path()).string());
   }
   std::sort(found.begin(), found.end());
   return found;
@@ -63,11 +64,14 @@ std::vector<Candidate> candidates(const std::vector<std::string>& extra) {
   std::vector<Candidate> list;
   std::set<std::string> seen;
   const auto add = [&](const std::string& path, bool joins) {
-    if (seen.insert(fs::weakly_canonical(path).string()).second) list.push_back({fs::absolute(path).lexically_normal().string(), joins});
+    if (seen.insert(fs::weakly_canonical(path).string()).second)
+      list.push_back({fs::absolute(path).lexically_normal().string(), joins});
   };
   for (const auto& path : engines_in(fs::path(program_folder()) / "../libexec/tripoint")) add(path, false);
   for (const auto& path : extra) {
-    if (!is_program(path)) throw EngineError(path + ": was asked for as an engine and is no executable file (an engine is a program, see docs/engines.md)");
+    if (!is_program(path))
+      throw EngineError(path +
+                        ": was asked for as an engine and is no executable file (an engine is a program, see docs/engines.md)");
     add(path, true);
   }
   const char* folders = std::getenv("TRIPOINT_ENGINE_PATH");
@@ -75,7 +79,9 @@ std::vector<Candidate> candidates(const std::vector<std::string>& extra) {
   for (std::string folder; std::getline(path, folder, ':');)
     if (!folder.empty()) {
       const auto found = engines_in(folder);
-      if (found.empty()) throw EngineError("TRIPOINT_ENGINE_PATH: " + folder + " holds no engine-NAME: put the engine there, or take the folder off");
+      if (found.empty())
+        throw EngineError("TRIPOINT_ENGINE_PATH: " + folder +
+                          " holds no engine-NAME: put the engine there, or take the folder off");
       for (const auto& engine : found) add(engine, true);
     }
   return list;
@@ -90,7 +96,9 @@ std::vector<EngineEntry> ask_all(const std::vector<Candidate>& list) {
     auto entry = asked[k].get();
     entry.joins = list[k].joins;
     if (const auto* other = find_engine(engines, entry.name))  // neither may stand in the rows of the other without a word
-      throw EngineError(fmt::format("{}: calls itself {}, which is the name of {}: give it a name of its own, or take one of the two away", entry.executable, entry.name, other->executable));
+      throw EngineError(
+          fmt::format("{}: calls itself {}, which is the name of {}: give it a name of its own, or take one of the two away",
+                      entry.executable, entry.name, other->executable));
     engines.push_back(std::move(entry));
   }
   std::sort(engines.begin(), engines.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
@@ -121,7 +129,8 @@ std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra)
 
 std::vector<EngineEntry> discover_engines_named(const std::vector<std::string>& names) {
   auto list = candidates({});
-  std::erase_if(list, [&](const Candidate& c) { return std::find(names.begin(), names.end(), name_of_file(c.path)) == names.end(); });
+  std::erase_if(list,
+                [&](const Candidate& c) { return std::find(names.begin(), names.end(), name_of_file(c.path)) == names.end(); });
   return ask_all(list);
 }
 
@@ -133,9 +142,17 @@ const EngineEntry* find_engine(const std::vector<EngineEntry>& engines, const st
 std::string engines_json(const std::vector<EngineEntry>& engines) {
   Json list = Json::array();
   for (const auto& e : engines)
-    list.push_back({{"name", e.name}, {"version", e.version}, {"build", e.build}, {"library", {{"path", e.library_path}, {"hash", e.library_hash}}},
-                    {"capabilities", e.capabilities}, {"presets", e.presets}, {"settings", e.settings}, {"deterministic", e.deterministic},
-                    {"executable", e.executable}, {"available", e.available}, {"reason", e.reason}});
+    list.push_back({{"name", e.name},
+                    {"version", e.version},
+                    {"build", e.build},
+                    {"library", {{"path", e.library_path}, {"hash", e.library_hash}}},
+                    {"capabilities", e.capabilities},
+                    {"presets", e.presets},
+                    {"settings", e.settings},
+                    {"deterministic", e.deterministic},
+                    {"executable", e.executable},
+                    {"available", e.available},
+                    {"reason", e.reason}});
   return Json{{"engines", list}}.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

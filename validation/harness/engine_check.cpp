@@ -62,13 +62,21 @@ ProcessEnd ask(const std::string& executable, const std::vector<std::string>& wo
 
 bool check_info(const EngineEntry& engine, Checks& checks) {
   const auto end = ask(engine.executable, {"--info"}, 10.0);
-  if (!checks.add("--info exits 0 within 10 s", end.how == ProcessEnd::How::exited && end.code == 0, describe(end) + " " + end.log_tail)) return false;
+  if (!checks.add("--info exits 0 within 10 s", end.how == ProcessEnd::How::exited && end.code == 0,
+                  describe(end) + " " + end.log_tail))
+    return false;
   const auto info = nests_too_deep(end.output) ? nlohmann::json() : nlohmann::json::parse(end.output, nullptr, false);
   if (!checks.add("--info prints one JSON object and nothing else", info.is_object(), end.output.substr(0, 80))) return false;
-  checks.add("--info says contract 1", info.value("contract", nlohmann::json()) == 1, info.value("contract", nlohmann::json()).dump());
-  for (const char* key : {"name", "version", "build"}) checks.add(fmt::format("--info says its {}", key), info.contains(key) && info[key].is_string() && !info[key].get<std::string>().empty(), "no text");
-  for (const char* key : {"capabilities", "presets"}) checks.add(fmt::format("--info lists its {}", key), info.contains(key) && info[key].is_array() && !info[key].empty(), "no list");
-  checks.add("--info says whether it is deterministic", info.contains("deterministic") && info["deterministic"].is_boolean(), "no true or false");
+  checks.add("--info says contract 1", info.value("contract", nlohmann::json()) == 1,
+             info.value("contract", nlohmann::json()).dump());
+  for (const char* key : {"name", "version", "build"})
+    checks.add(fmt::format("--info says its {}", key),
+               info.contains(key) && info[key].is_string() && !info[key].get<std::string>().empty(), "no text");
+  for (const char* key : {"capabilities", "presets"})
+    checks.add(fmt::format("--info lists its {}", key), info.contains(key) && info[key].is_array() && !info[key].empty(),
+               "no list");
+  checks.add("--info says whether it is deterministic", info.contains("deterministic") && info["deterministic"].is_boolean(),
+             "no true or false");
   return checks.add("it is available here", engine.available, engine.reason);
 }
 
@@ -104,7 +112,8 @@ Prepared prepare(const CheckScene& scene, const EngineEntry& engine, const fs::p
   return p;
 }
 
-Outcome run(const CheckScene& scene, const EngineEntry& engine, const Prepared& p, const fs::path& folder, const std::string& name) {
+Outcome run(const CheckScene& scene, const EngineEntry& engine, const Prepared& p, const fs::path& folder,
+            const std::string& name) {
   RunRequest request;
   request.engine = &engine, request.job = &p.job, request.initial = &p.initial;
   request.folder = (folder / name).string(), request.particles = (folder / (scene.name + ".h5")).string();
@@ -113,7 +122,9 @@ Outcome run(const CheckScene& scene, const EngineEntry& engine, const Prepared& 
 }
 
 bool same_states(const Trajectory& a, const Trajectory& b) {
-  return a.frames.size() == b.frames.size() && std::equal(a.frames.begin(), a.frames.end(), b.frames.begin(), [](const auto& x, const auto& y) { return state_hash(x) == state_hash(y); });
+  return a.frames.size() == b.frames.size() &&
+         std::equal(a.frames.begin(), a.frames.end(), b.frames.begin(),
+                    [](const auto& x, const auto& y) { return state_hash(x) == state_hash(y); });
 }
 
 void check_result_file(const std::string& what, const fs::path& file, Checks& checks) {
@@ -124,7 +135,8 @@ void check_result_file(const std::string& what, const fs::path& file, Checks& ch
   }
   const auto result = nests_too_deep(text) ? nlohmann::json() : nlohmann::json::parse(text, nullptr, false);
   if (!checks.add(what + "result.json is one JSON object", result.is_object(), "it is not")) return;
-  for (const char* key : {"contract", "status", "time_reached", "steps", "seconds", "readback"}) checks.add(fmt::format("{}result.json has {}", what, key), result.contains(key), "it does not");
+  for (const char* key : {"contract", "status", "time_reached", "steps", "seconds", "readback"})
+    checks.add(fmt::format("{}result.json has {}", what, key), result.contains(key), "it does not");
 }
 
 void check_metrics(const std::string& what, const Prepared& p, const Outcome& outcome, Checks& checks) {
@@ -132,7 +144,8 @@ void check_metrics(const std::string& what, const Prepared& p, const Outcome& ou
   for (const auto& gate : p.value.gates) {
     const auto& m = metrics.at(gate.metric);
     const bool near = std::abs(m.value) <= *gate.limit;  // false for NaN
-    checks.add(fmt::format("{}its {} is in SI, near the exact one", what, gate.metric), near, fmt::format("error {:.3g} of at most {:g}; {}", m.value, *gate.limit, m.note));
+    checks.add(fmt::format("{}its {} is in SI, near the exact one", what, gate.metric), near,
+               fmt::format("error {:.3g} of at most {:g}; {}", m.value, *gate.limit, m.note));
   }
 }
 
@@ -146,17 +159,21 @@ bool check_scene(const CheckScene& scene, const EngineEntry& engine, const fs::p
     return false;
   }
   check_result_file(what, folder / (scene.name + "-1") / "result.json", checks);
-  if (!checks.add(what + "runs to the end; times, ids, masses and read-back scene are those of the job", outcome.status == "ok", outcome.status + ": " + outcome.reason)) return true;
+  if (!checks.add(what + "runs to the end; times, ids, masses and read-back scene are those of the job", outcome.status == "ok",
+                  outcome.status + ": " + outcome.reason))
+    return true;
   check_metrics(what, p, outcome, checks);
   if (!engine.deterministic) return true;
   const auto again = run(scene, engine, p, folder, scene.name + "-2");
-  checks.add(what + "a second run has the same bits", again.trajectory && same_states(*outcome.trajectory, *again.trajectory), again.trajectory ? "it has not" : again.reason);
+  checks.add(what + "a second run has the same bits", again.trajectory && same_states(*outcome.trajectory, *again.trajectory),
+             again.trajectory ? "it has not" : again.reason);
   return true;
 }
 
 /// Whether one of its capabilities begins with the word.
 bool says_that_it_can(const EngineEntry& engine, const std::string& word) {
-  return std::any_of(engine.capabilities.begin(), engine.capabilities.end(), [&](const auto& c) { return c.rfind(word, 0) == 0; });
+  return std::any_of(engine.capabilities.begin(), engine.capabilities.end(),
+                     [&](const auto& c) { return c.rfind(word, 0) == 0; });
 }
 
 }  // namespace
@@ -170,7 +187,8 @@ std::vector<EngineCheck> check_engine(const std::string& executable) {
   check_broken_jobs(engine.executable, scratch.path(), checks);
   int taken = 0;
   for (const auto& scene : check_scenes())
-    if (scene.capability.empty() || says_that_it_can(engine, scene.capability)) taken += check_scene(scene, engine, scratch.path(), checks);
+    if (scene.capability.empty() || says_that_it_can(engine, scene.capability))
+      taken += check_scene(scene, engine, scratch.path(), checks);
   checks.add("it can do one scene of the check at least", taken > 0, "it refused them all");
   return checks.take();
 }

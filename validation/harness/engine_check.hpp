@@ -13,7 +13,8 @@ struct EngineCheck {
 };
 
 /// Asks --info, hands over broken jobs, and runs small scenes (flight of one body; conduction where it says `heat`) of which it
-/// must be able to do one; checks result, times, ids, masses, units and, where it says deterministic, that a second run is the same.
+/// must be able to do one; checks result, times, ids, masses, units and, where it says deterministic, that a second run is the
+/// same.
 [[nodiscard]] std::vector<EngineCheck> check_engine(const std::string& executable);
 
 /// A case that the check runs, as text of a case file.

@@ -4,8 +4,7 @@
 namespace tripoint {
 
 const std::vector<CheckScene>& check_scenes() {
-  static const std::vector<CheckScene> scenes{
-      {"flight", R"(format = 1
+  static const std::vector<CheckScene> scenes{{"flight", R"(format = 1
 [case]
 title = "A cube thrown with a spin"
 [scene]
@@ -36,8 +35,9 @@ norm = "max"
 metric = "position"
 limit = 0.1
 reason = "units: a tenth of a second's flight"
-)", ""},
-      {"conduction", R"(format = 1
+)",
+                                               ""},
+                                              {"conduction", R"(format = 1
 [case]
 title = "Half a cosine of temperature in a bar"
 [scene]
@@ -73,8 +73,9 @@ scale = 10.0
 metric = "temperature"
 limit = 0.2
 reason = "units: a fifth of the step"
-)", "heat"},
-      {"elasticity", R"(format = 1
+)",
+                                               "heat"},
+                                              {"elasticity", R"(format = 1
 [case]
 title = "A bar clamped at one end, let go under gravity along it"
 [scene]
@@ -114,8 +115,9 @@ scale = 0.0015696
 metric = "tip"
 limit = 0.2
 reason = "units: a fifth of the way"
-)", "elastic"},
-      {"liquid", R"(format = 1
+)",
+                                               "elastic"},
+                                              {"liquid", R"(format = 1
 [case]
 title = "A block of liquid falls freely"
 [scene]
@@ -147,7 +149,8 @@ scale = 0.04905
 metric = "height"
 limit = 0.2
 reason = "units: a fifth of the fall"
-)", "liquid"}};
+)",
+                                               "liquid"}};
   return scenes;
 }
 

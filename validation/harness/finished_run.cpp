@@ -25,7 +25,8 @@ fs::path record_file(const RunRequest& request) { return fs::path(request.folder
 std::string hash_of_files(const RunRequest& request) {
   const fs::path folder(request.folder);
   std::string all;
-  for (const char* name : {"job.json", "result.json", "trajectory.h5", "trajectory.csv", "gauges.csv"}) all += file_hash((folder / name).string()) + '\0';
+  for (const char* name : {"job.json", "result.json", "trajectory.h5", "trajectory.csv", "gauges.csv"})
+    all += file_hash((folder / name).string()) + '\0';
   return text_hash(all);
 }
 
@@ -35,7 +36,8 @@ std::string file_hash(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return {};
   std::string part(1u << 20, '\0'), all;  // a trajectory may be larger than memory: the hash is of the hashes of its parts
-  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0) all += text_hash(part.substr(0, static_cast<std::size_t>(in.gcount())));
+  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0)
+    all += text_hash(part.substr(0, static_cast<std::size_t>(in.gcount())));
   return text_hash(all);
 }
 
@@ -52,16 +54,23 @@ static std::string program_hash(const std::string& executable) {
 std::string run_hash(const RunRequest& request, const std::string& job) {
   const EngineEntry& e = *request.engine;
   std::string all = job + '\0' + state_hash(*request.initial);
-  for (const auto& part : {e.name, e.version, e.build, e.library_path, e.library_hash, program_hash(e.executable)}) all += '\0' + part;
+  for (const auto& part : {e.name, e.version, e.build, e.library_path, e.library_hash, program_hash(e.executable)})
+    all += '\0' + part;
   for (const auto& [name, value] : request.environment) all += '\0' + name + '=' + value;
   return text_hash(all);
 }
 
 void record_finished(const RunRequest& request, const std::string& hash, const ProcessEnd& end, const Outcome& outcome) {
   if (outcome.status != "ok" && outcome.status != "diverged") return;
-  const nlohmann::ordered_json record{{"run", hash}, {"files", hash_of_files(request)}, {"status", outcome.status}, {"code", end.code},
-                                      {"cpu_s", end.cpu_s}, {"wall_s", end.wall_s}, {"peak_bytes", end.peak_bytes},
-                                      {"instructions", outcome.cost.instructions}, {"counted_by", outcome.cost.counted_by}};
+  const nlohmann::ordered_json record{{"run", hash},
+                                      {"files", hash_of_files(request)},
+                                      {"status", outcome.status},
+                                      {"code", end.code},
+                                      {"cpu_s", end.cpu_s},
+                                      {"wall_s", end.wall_s},
+                                      {"peak_bytes", end.peak_bytes},
+                                      {"instructions", outcome.cost.instructions},
+                                      {"counted_by", outcome.cost.counted_by}};
   try {
     write_durably(record_file(request).string(), record.dump(1));
   } catch (const std::exception&) {  // without a record the run is made again, no more

@@ -6,8 +6,8 @@
 
 #include "validation/harness/run_one.hpp"
 
-/// Runs that have ended are recorded in outcome.json in their folder, under a hash of all that made them, so that a suite that was
-/// cut need not make them again.
+/// Runs that have ended are recorded in outcome.json in their folder, under a hash of all that made them, so that a suite that
+/// was cut need not make them again.
 namespace tripoint {
 
 /// Of a file's bytes; empty where it cannot be read.

@@ -35,24 +35,43 @@ bool breaks_a_line(std::uint32_t c) { return (c >= 0x09 && c <= 0x0D) || c == 0x
 
 /// Control characters, and marks that turn the direction of writing or are not seen.
 bool is_hidden(std::uint32_t c) {
-  return c < 0x20 || (c >= 0x7F && c <= 0x9F) || (c >= 0x200B && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF || c == 0xFFFE || c == 0xFFFF;
+  return c < 0x20 || (c >= 0x7F && c <= 0x9F) || (c >= 0x200B && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) ||
+         (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF || c == 0xFFFE || c == 0xFFFF;
 }
 
 bool is_word(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
-/// What stands for a character of one line in Markdown. Entities, since a backslash does not keep a bar out of a table everywhere.
+/// What stands for a character of one line in Markdown. Entities, since a backslash does not keep a bar out of a table
+/// everywhere.
 std::string markdown_letter(std::string_view line, std::size_t k) {
   const char c = line[k], before = k > 0 ? line[k - 1] : ' ', after = k + 1 < line.size() ? line[k + 1] : ' ';
   switch (c) {
-    case '&': return "&amp;";
-    case '<': return "&lt;";
-    case '>': return k == 0 ? "&gt;" : ">";  // a quotation; an arrow elsewhere
-    case '|': case '`': case '*': case '~': case '[': case ']': case '\\': case '$': return fmt::format("&#{};", static_cast<int>(c));
-    case '_': return is_word(before) && is_word(after) ? "_" : "&#95;";          // inside a word it emphasises nothing
-    case '@': case '#': return is_word(after) ? std::string(1, c) + "&#8203;" : std::string(1, c);  // no mention, no reference: a space of no width
-    case ':': return after == '/' ? "&#58;" : ":";                                // no link
-    case '.': return k >= 3 && (line.substr(k - 3, 3) == "www" || line.substr(k - 3, 3) == "WWW") ? "&#46;" : ".";
-    default: return std::string(1, c);
+    case '&':
+      return "&amp;";
+    case '<':
+      return "&lt;";
+    case '>':
+      return k == 0 ? "&gt;" : ">";  // a quotation; an arrow elsewhere
+    case '|':
+    case '`':
+    case '*':
+    case '~':
+    case '[':
+    case ']':
+    case '\\':
+    case '$':
+      return fmt::format("&#{};", static_cast<int>(c));
+    case '_':
+      return is_word(before) && is_word(after) ? "_" : "&#95;";  // inside a word it emphasises nothing
+    case '@':
+    case '#':
+      return is_word(after) ? std::string(1, c) + "&#8203;" : std::string(1, c);  // no mention, no reference: a space of no width
+    case ':':
+      return after == '/' ? "&#58;" : ":";  // no link
+    case '.':
+      return k >= 3 && (line.substr(k - 3, 3) == "www" || line.substr(k - 3, 3) == "WWW") ? "&#46;" : ".";
+    default:
+      return std::string(1, c);
   }
 }
 
@@ -62,10 +81,14 @@ std::string one_line(std::string_view text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
     const auto letter = letter_at(text, at);
-    if (!letter.valid) out += '?';
-    else if (breaks_a_line(letter.code)) out += ' ';
-    else if (is_hidden(letter.code)) out += '?';
-    else out += text.substr(at, letter.bytes);
+    if (!letter.valid)
+      out += '?';
+    else if (breaks_a_line(letter.code))
+      out += ' ';
+    else if (is_hidden(letter.code))
+      out += '?';
+    else
+      out += text.substr(at, letter.bytes);
     at += letter.bytes;
   }
   return out;
@@ -81,11 +104,20 @@ std::string markdown(std::string_view text) {
 std::string xml(std::string_view text) {
   std::string out;
   for (const char c : one_line(text)) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   return out;
 }
@@ -93,7 +125,9 @@ std::string xml(std::string_view text) {
 std::string url_path(std::string_view text) {
   std::string out;
   for (const char c : text)
-    out += is_word(c) || c == '-' || c == '.' || c == '_' || c == '~' || c == '/' ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+    out += is_word(c) || c == '-' || c == '.' || c == '_' || c == '~' || c == '/'
+               ? std::string(1, c)
+               : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
   return out;
 }
 
@@ -101,16 +135,25 @@ std::string command_text(std::string_view text, bool property) {
   std::string out, line;
   const auto end_line = [&] {
     for (const char c : one_line(line)) switch (c) {
-        case '%': out += "%25"; break;
-        case ':': out += property ? "%3A" : ":"; break;
-        case ',': out += property ? "%2C" : ","; break;
-        default: out += c;
+        case '%':
+          out += "%25";
+          break;
+        case ':':
+          out += property ? "%3A" : ":";
+          break;
+        case ',':
+          out += property ? "%2C" : ",";
+          break;
+        default:
+          out += c;
       }
     line.clear();
   };
   for (const char c : text) {
-    if (c != '\r' && c != '\n') line += c;
-    else end_line(), out += c == '\r' ? "%0D" : "%0A";
+    if (c != '\r' && c != '\n')
+      line += c;
+    else
+      end_line(), out += c == '\r' ? "%0D" : "%0A";
   }
   end_line();
   for (auto at = out.find("##["); at != std::string::npos; at = out.find("##[", at)) out.insert(at + 1, 1, ' ');
@@ -123,8 +166,10 @@ std::string without_commands(const std::string& lines) {
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const char c = lines[k];
     out += c;
-    if (at_start && c == ':' && lines.compare(k, 2, "::") == 0) out += ' ';
-    else if (c == '#' && lines.compare(k, 3, "##[") == 0) out += ' ';
+    if (at_start && c == ':' && lines.compare(k, 2, "::") == 0)
+      out += ' ';
+    else if (c == '#' && lines.compare(k, 3, "##[") == 0)
+      out += ' ';
     at_start = c == '\n' || c == '\r' || (at_start && (c == ' ' || c == '\t'));
   }
   return out;

@@ -15,14 +15,16 @@ bool refines_upward(const std::string& axis) { return axis == "walkers" || axis 
 double step_of(const std::string& axis, double level) { return refines_upward(axis) ? 1.0 / level : level; }
 
 /// Replicas of one level as one point: mean value with its uncertainty, mean seconds.
-std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, const std::string& axis, double level, const std::string& metric) {
+std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, const std::string& axis, double level,
+                                    const std::string& metric) {
   std::vector<MetricValue> values;
   LadderPoint point;
   for (const auto* run : runs) {
     const auto value = measured(*run, metric);
     if (run->status != "ok" || !value || !std::isfinite(value->value)) return {};
     values.push_back(*value);
-    point.cpu_s += run->cost.cpu_s / static_cast<double>(runs.size()), point.pairs += run->cost.pairs / static_cast<double>(runs.size());
+    point.cpu_s += run->cost.cpu_s / static_cast<double>(runs.size()),
+        point.pairs += run->cost.pairs / static_cast<double>(runs.size());
   }
   const auto pool = pooled(values);
   point.level = level, point.step = step_of(axis, level);
@@ -35,13 +37,16 @@ std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, cons
 bool only_along(const RunRow& run, const std::string& axis, const EngineRow& engine) {
   if (run.levels.size() == 1) return true;
   return run.base || std::all_of(run.levels.begin(), run.levels.end(), [&](const auto& l) {
-    return l.first == axis || std::any_of(engine.runs.begin(), engine.runs.end(), [&](const RunRow& b) { const auto at = b.levels.find(l.first); return b.base && at != b.levels.end() && same_level(at->second, l.second); });
-  });
+           return l.first == axis || std::any_of(engine.runs.begin(), engine.runs.end(), [&](const RunRow& b) {
+                    const auto at = b.levels.find(l.first);
+                    return b.base && at != b.levels.end() && same_level(at->second, l.second);
+                  });
+         });
 }
 
 struct Line {
   double slope = 0.0, change = 0.0;  ///< of the line itself, and between it and its neighbour
-  const LadderPoint *a = nullptr;
+  const LadderPoint* a = nullptr;
 };
 
 Line line_at(const Ladder& ladder, double step, const std::function<double(const LadderPoint&)>& y) {
@@ -81,22 +86,29 @@ std::vector<Ladder> ladders_of(const CaseResult& result, const std::string& metr
   std::vector<Ladder> ladders;
   for (const auto& engine : result.engines) {
     if (engine.name == "exact") continue;
-    std::map<std::pair<std::string, std::string>, std::map<double, std::vector<const RunRow*>>> groups;  // (mode, axis) -> step -> runs
+    std::map<std::pair<std::string, std::string>, std::map<double, std::vector<const RunRow*>>>
+        groups;  // (mode, axis) -> step -> runs
     for (const auto& run : engine.runs)
       for (const auto& [axis, level] : run.levels)
-        if (run.input.empty() && axis.find('+') == std::string::npos && only_along(run, axis, engine)) groups[{run.knobs.mode, axis}][-step_of(axis, level)].push_back(&run);
+        if (run.input.empty() && axis.find('+') == std::string::npos && only_along(run, axis, engine))
+          groups[{run.knobs.mode, axis}][-step_of(axis, level)].push_back(&run);
     for (const auto& [key, levels] : groups) {
       Ladder ladder{engine.name, engine.preset, key.first, key.second, {}};
       for (const auto& [negative, runs] : levels)
-        if (const auto point = point_of(runs, key.second, runs.front()->levels.at(key.second), metric)) ladder.points.push_back(*point);
+        if (const auto point = point_of(runs, key.second, runs.front()->levels.at(key.second), metric))
+          ladder.points.push_back(*point);
       if (ladder.points.size() >= 2) ladders.push_back(std::move(ladder));
     }
   }
   return ladders;
 }
 
-Prediction predicted_error(const Ladder& ladder, double step) { return predict(ladder, step, [](const LadderPoint& p) { return p.error; }); }
-Prediction predicted_cpu(const Ladder& ladder, double step) { return predict(ladder, step, [](const LadderPoint& p) { return p.cpu_s; }); }
+Prediction predicted_error(const Ladder& ladder, double step) {
+  return predict(ladder, step, [](const LadderPoint& p) { return p.error; });
+}
+Prediction predicted_cpu(const Ladder& ladder, double step) {
+  return predict(ladder, step, [](const LadderPoint& p) { return p.cpu_s; });
+}
 
 std::vector<double> possible_levels(const Scene& scene, const Ladder& ladder) {
   const double coarsest = ladder.points.front().step, finest = 0.5 * ladder.points.back().step;
@@ -104,18 +116,24 @@ std::vector<double> possible_levels(const Scene& scene, const Ladder& ladder) {
   for (const auto& p : ladder.points) levels.push_back(p.level);
   if (ladder.axis == "spacing" || ladder.axis == "time_step") {
     std::vector<double> lengths;
-    if (ladder.axis == "time_step") lengths = {scene.output_interval};
+    if (ladder.axis == "time_step")
+      lengths = {scene.output_interval};
     else {
       for (const auto& b : scene.bodies) lengths_of(b.shape, lengths);
       if (scene.min && scene.max)
-        for (const double l : {scene.max->x - scene.min->x, scene.max->y - scene.min->y, scene.max->z - scene.min->z}) lengths.push_back(l);
+        for (const double l : {scene.max->x - scene.min->x, scene.max->y - scene.min->y, scene.max->z - scene.min->z})
+          lengths.push_back(l);
     }
-    std::erase_if(lengths, [&](double l) { return !std::isfinite(l) || !divides(ladder.points.back().level, l); });  // what the measured ones do not divide is no demand
+    std::erase_if(lengths, [&](double l) {
+      return !std::isfinite(l) || !divides(ladder.points.back().level, l);
+    });  // what the measured ones do not divide is no demand
     const double whole = lengths.empty() ? coarsest * 60.0 : *std::max_element(lengths.begin(), lengths.end());
     for (double n = std::max(1.0, std::ceil(whole / coarsest - 1e-9)); whole / n >= finest && n < 1e7; n += 1.0)
-      if (std::all_of(lengths.begin(), lengths.end(), [&](double l) { return divides(whole / n, l); })) levels.push_back(whole / n);
+      if (std::all_of(lengths.begin(), lengths.end(), [&](double l) { return divides(whole / n, l); }))
+        levels.push_back(whole / n);
   } else {
-    for (double step = coarsest; step >= finest; step /= std::pow(2.0, 0.125)) levels.push_back(ladder.axis == "support_ratio" ? 1.0 / step : std::ceil(1.0 / step));
+    for (double step = coarsest; step >= finest; step /= std::pow(2.0, 0.125))
+      levels.push_back(ladder.axis == "support_ratio" ? 1.0 / step : std::ceil(1.0 / step));
   }
   std::erase_if(levels, [&](double l) { return step_of(ladder.axis, l) > coarsest * (1.0 + 1e-9); });
   return levels;
@@ -140,14 +158,17 @@ std::optional<Recommendation> least(const Scene& scene, const std::vector<Ladder
 
 std::optional<Recommendation> cheapest_for_error(const Scene& scene, const std::vector<Ladder>& ladders, double error) {
   const auto enough = [&](const Recommendation& r) {
-    const bool is_measured = std::any_of(r.ladder->points.begin(), r.ladder->points.end(), [&](const auto& p) { return same_level(p.level, r.level); });
+    const bool is_measured = std::any_of(r.ladder->points.begin(), r.ladder->points.end(),
+                                         [&](const auto& p) { return same_level(p.level, r.level); });
     return r.error.value * (is_measured ? 1.0 : 1.05) <= error;  // between levels the line is known to some per cent
   };
   return least(scene, ladders, enough, [](const Recommendation& r) { return r.cpu_s.value; });
 }
 
 std::optional<Recommendation> best_within(const Scene& scene, const std::vector<Ladder>& ladders, double cpu_s) {
-  return least(scene, ladders, [&](const Recommendation& r) { return r.cpu_s.value <= cpu_s; }, [](const Recommendation& r) { return r.error.value; });
+  return least(
+      scene, ladders, [&](const Recommendation& r) { return r.cpu_s.value <= cpu_s; },
+      [](const Recommendation& r) { return r.error.value; });
 }
 
 }  // namespace tripoint

@@ -6,13 +6,14 @@
 
 #include "validation/harness/results.hpp"
 
-/// What accuracy costs, from runs that were made: error and CPU seconds along one knob of one engine, and the cheapest settings for a wish.
+/// What accuracy costs, from runs that were made: error and CPU seconds along one knob of one engine, and the cheapest settings
+/// for a wish.
 namespace tripoint {
 
 struct LadderPoint {
-  double level = 0.0;   ///< in the axis's own unit
-  double step = 0.0;    ///< finer = smaller
-  double error = 0.0;   ///< |value| + 2 u: what a limit is held against
+  double level = 0.0;  ///< in the axis's own unit
+  double step = 0.0;   ///< finer = smaller
+  double error = 0.0;  ///< |value| + 2 u: what a limit is held against
   double cpu_s = 0.0;
   double pairs = 0.0;
 };
@@ -31,8 +32,8 @@ struct Prediction {
   double value = 0.0, factor = 1.0;
 };
 
-/// Along straight lines in log-log between neighbouring levels; outside them along the outermost line. The factor is what the slope's own
-/// change between neighbouring intervals would make of it, and 1.1 at least (seconds are never better known).
+/// Along straight lines in log-log between neighbouring levels; outside them along the outermost line. The factor is what the
+/// slope's own change between neighbouring intervals would make of it, and 1.1 at least (seconds are never better known).
 [[nodiscard]] Prediction predicted_error(const Ladder&, double step);
 [[nodiscard]] Prediction predicted_cpu(const Ladder&, double step);
 
@@ -43,8 +44,8 @@ struct Recommendation {
   Prediction error, cpu_s;
 };
 
-/// Levels that a scene takes: a spacing that divides what the measured ones divide, a time step that divides the output interval, whole
-/// walkers and iterations. Within twice beyond the measured ones at the fine end, and not beyond the coarsest.
+/// Levels that a scene takes: a spacing that divides what the measured ones divide, a time step that divides the output interval,
+/// whole walkers and iterations. Within twice beyond the measured ones at the fine end, and not beyond the coarsest.
 [[nodiscard]] std::vector<double> possible_levels(const Scene&, const Ladder&);
 
 /// The cheapest level of any ladder whose predicted error is at most this; empty when none is.

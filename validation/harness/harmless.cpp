@@ -92,8 +92,10 @@ void sort_back(const ChangedScene& before, Trajectory& run) {
   std::vector<std::size_t> back(from.size());
   for (std::size_t n = 0; n < from.size(); ++n) back[from[n]] = n;
   for (auto& s : run.frames) {
-    gather(s.position, back), gather(s.velocity, back), gather(s.mass, back), gather(s.temperature, back), gather(s.temperature_error, back);
-    gather(s.density, back), gather(s.pressure, back), gather(s.liquid_fraction, back), gather(s.phase, back), gather(s.body, back), gather(s.material, back);
+    gather(s.position, back), gather(s.velocity, back), gather(s.mass, back), gather(s.temperature, back),
+        gather(s.temperature_error, back);
+    gather(s.density, back), gather(s.pressure, back), gather(s.liquid_fraction, back), gather(s.phase, back),
+        gather(s.body, back), gather(s.material, back);
     gather(s.id, back);
     for (std::size_t i = 0; i < std::min(s.id.size(), back.size()); ++i)
       if (s.id[i] >= 0) s.id[i] = static_cast<int>(i);
@@ -146,12 +148,17 @@ const std::vector<HarmlessChange>& harmless_changes() {
   static const std::vector<HarmlessChange> list{
       {"threads", "2 threads instead of 1", 0.0, "every sum has a fixed order: the same bits", always, two_threads, as_it_is},
       {"order", "the particles in another order", 1e-10, sums, always, shuffle, sort_back},
-      {"ulp", "each coordinate one unit in the last place up or down", 1e-10, "round-off of the start, grown over the steps of a run that is not chaotic", always, nudge, as_it_is},
-      {"boost", "every velocity plus one constant, seen from the moving frame", 1e-10, "round-off of places that lie further out, grown over the steps", is_not_closed, boost, ride_along},
+      {"ulp", "each coordinate one unit in the last place up or down", 1e-10,
+       "round-off of the start, grown over the steps of a run that is not chaotic", always, nudge, as_it_is},
+      {"boost", "every velocity plus one constant, seen from the moving frame", 1e-10,
+       "round-off of places that lie further out, grown over the steps", is_not_closed, boost, ride_along},
       {"mirror", "the scene, its gravity and its domain mirrored in x", 1e-10, sums, has_places, mirror, mirror_back},
-      {"rotation", "the scene, its gravity and its domain turned, x to y to z to x", 1e-10, sums, has_places, rotate_axes, rotate_back_axes},
-      {"units", "length, time and mass in units of 1/1024 m, 1/16 s, 1/4096 kg: powers of 2, so that only a number with a unit in the code shows", 1e-12,
-       "library functions whose last bit depends on the exponent", has_other_numbers, other_measures, own_measures}};
+      {"rotation", "the scene, its gravity and its domain turned, x to y to z to x", 1e-10, sums, has_places, rotate_axes,
+       rotate_back_axes},
+      {"units",
+       "length, time and mass in units of 1/1024 m, 1/16 s, 1/4096 kg: powers of 2, so that only a number with a unit in the "
+       "code shows",
+       1e-12, "library functions whose last bit depends on the exponent", has_other_numbers, other_measures, own_measures}};
   return list;
 }
 

@@ -7,8 +7,8 @@
 #include "io/trajectory.hpp"
 #include "scene/scene.hpp"
 
-/// Changes of a scene that physics does not feel: symmetries, and what is below the last digit. The run of the changed scene, taken
-/// back, must say what the run of the scene itself says. [[harmless]] of a case names those that it must bear.
+/// Changes of a scene that physics does not feel: symmetries, and what is below the last digit. The run of the changed scene,
+/// taken back, must say what the run of the scene itself says. [[harmless]] of a case names those that it must bear.
 namespace tripoint {
 
 /// A scene and its particles, before or after a change.
@@ -21,8 +21,8 @@ struct ChangedScene {
 /// One change and the way back from it.
 struct HarmlessChange {
   std::string_view name, what;
-  double tolerance;     ///< of each metric, in the metric's own scaled unit; 0 = the same bits
-  std::string_view why; ///< where the tolerance comes from
+  double tolerance;      ///< of each metric, in the metric's own scaled unit; 0 = the same bits
+  std::string_view why;  ///< where the tolerance comes from
   /// Why it is no symmetry of this scene; empty = it is one.
   std::string (*refusal)(const Scene&);
   void (*apply)(ChangedScene&);

@@ -116,7 +116,8 @@ void ride(const Vec3& U, Snapshot& s) {
   const double M = s.total_mass;
   s.momentum += M * U;
   s.angular_momentum += cross(lever, U) + cross(way, P);
-  if (const auto kinetic = s.energy.find("kinetic"); kinetic != s.energy.end()) kinetic->second += dot(P, U) + 0.5 * M * dot(U, U);
+  if (const auto kinetic = s.energy.find("kinetic"); kinetic != s.energy.end())
+    kinetic->second += dot(P, U) + 0.5 * M * dot(U, U);
 }
 
 }  // namespace tripoint

@@ -27,8 +27,15 @@ Json gates_of(const CaseResult& c) {
   for (const auto& e : c.engines)
     for (const auto& g : e.gates) {
       if (!g.expect.empty()) continue;  // a class has no size
-      list.push_back({{"engine", e.name}, {"preset", e.preset}, {"mode", g.mode}, {"metric", g.metric}, {"level", g.level ? Json(*g.level) : Json(nullptr)},
-                      {"value", number(g.value)}, {"uncertainty", number(g.uncertainty)}, {"used", number(share_used(g))}, {"verdict", g.verdict}});
+      list.push_back({{"engine", e.name},
+                      {"preset", e.preset},
+                      {"mode", g.mode},
+                      {"metric", g.metric},
+                      {"level", g.level ? Json(*g.level) : Json(nullptr)},
+                      {"value", number(g.value)},
+                      {"uncertainty", number(g.uncertainty)},
+                      {"used", number(share_used(g))},
+                      {"verdict", g.verdict}});
     }
   return list;
 }
@@ -38,7 +45,13 @@ Json costs_of(const CaseResult& c) {
   for (const auto& e : c.engines)
     for (const auto& r : e.runs)
       if (r.status == "ok")
-        list.push_back({{"engine", e.name}, {"run", r.group}, {"seed", r.knobs.seed}, {"pairs", r.cost.pairs}, {"steps", r.cost.steps}, {"instructions", r.cost.instructions > 0.0 ? Json(r.cost.instructions) : Json(nullptr)}, {"cpu_s", r.cost.cpu_s}});
+        list.push_back({{"engine", e.name},
+                        {"run", r.group},
+                        {"seed", r.knobs.seed},
+                        {"pairs", r.cost.pairs},
+                        {"steps", r.cost.steps},
+                        {"instructions", r.cost.instructions > 0.0 ? Json(r.cost.instructions) : Json(nullptr)},
+                        {"cpu_s", r.cost.cpu_s}});
   return list;
 }
 
@@ -49,8 +62,20 @@ std::string history_lines(const Results& r) {
   for (const auto& c : r.cases) {
     Json versions = Json::object();
     for (const auto& e : c.engines) versions[e.name] = e.version;
-    text += line({{"format", 1}, {"case", c.id}, {"date", r.date}, {"commit", r.tool.commit}, {"compiler", r.tool.compiler}, {"flags", r.tool.flags}, {"cpu", r.tool.cpu}, {"cores", r.tool.cores},
-                  {"profile", r.profile}, {"seed", r.seed}, {"verdict", c.verdict}, {"engines", versions}, {"gates", gates_of(c)}, {"cost", costs_of(c)}});
+    text += line({{"format", 1},
+                  {"case", c.id},
+                  {"date", r.date},
+                  {"commit", r.tool.commit},
+                  {"compiler", r.tool.compiler},
+                  {"flags", r.tool.flags},
+                  {"cpu", r.tool.cpu},
+                  {"cores", r.tool.cores},
+                  {"profile", r.profile},
+                  {"seed", r.seed},
+                  {"verdict", c.verdict},
+                  {"engines", versions},
+                  {"gates", gates_of(c)},
+                  {"cost", costs_of(c)}});
   }
   return text;
 }

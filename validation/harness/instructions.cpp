@@ -48,7 +48,8 @@ double InstructionCounter::read() const {
 std::optional<double> collected_instructions(const std::string& log) {
   static constexpr std::string_view word = "Collected : ";
   double sum = 0.0;
-  for (auto at = log.find(word); at != std::string::npos; at = log.find(word, at + 1)) sum += std::strtod(log.c_str() + at + word.size(), nullptr);
+  for (auto at = log.find(word); at != std::string::npos; at = log.find(word, at + 1))
+    sum += std::strtod(log.c_str() + at + word.size(), nullptr);
   if (!(sum > 0.0)) return {};
   return sum;
 }

@@ -32,17 +32,21 @@ void settle_status(const CaseResult& result, EngineRow& engine, Findings& findin
   }
   for (const auto& run : engine.runs) {
     if (run.status == "diverged" && !may_diverge(result, run.knobs.mode))
-      findings.add(exit_diverged, fmt::format("{}{}{} diverged: {}", label_of(engine.name, engine.preset), run.knobs.mode.empty() ? "" : " ", run.knobs.mode, run.reason));
+      findings.add(exit_diverged, fmt::format("{}{}{} diverged: {}", label_of(engine.name, engine.preset),
+                                              run.knobs.mode.empty() ? "" : " ", run.knobs.mode, run.reason));
     if (!run.comparable) findings.add(exit_missing, label_of(engine.name, engine.preset) + " is not comparable: " + run.reason);
   }
-  const auto bad = std::find_if(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != "ok" || !r.comparable; });
+  const auto bad =
+      std::find_if(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != "ok" || !r.comparable; });
   if (!engine.runs.empty()) {
     engine.status = bad == engine.runs.end() ? "ok" : bad->status == "ok" ? "error" : bad->status;
     engine.reason = bad == engine.runs.end() ? "" : bad->reason.empty() ? bad->status : bad->reason;
   }
-  if (const auto broken = broken_refusal(engine); !broken.empty()) findings.add(exit_fail, label_of(engine.name, engine.preset) + " " + broken);
+  if (const auto broken = broken_refusal(engine); !broken.empty())
+    findings.add(exit_fail, label_of(engine.name, engine.preset) + " " + broken);
   if (engine.required && engine.status != "ok" && engine.status != "diverged")
-    findings.add(exit_missing, fmt::format("{} is required and is {}: {}", label_of(engine.name, engine.preset), engine.status, engine.reason));
+    findings.add(exit_missing,
+                 fmt::format("{} is required and is {}: {}", label_of(engine.name, engine.preset), engine.status, engine.reason));
 }
 
 bool same_preset(const Gate& gate, const EngineRow& engine) { return gate.preset.empty() || gate.preset == engine.preset; }
@@ -66,18 +70,22 @@ Applied apply_excused(const CaseResult& result, const Gate& gate, const Gate& de
   auto tried = engine;
   tried.gates.clear();
   const auto applied = apply_gate(result, gate, tried);
-  const bool holds = !tried.gates.empty() && std::all_of(tried.gates.begin(), tried.gates.end(), [](const GateRow& row) { return row.verdict == "pass"; });
+  const bool holds = !tried.gates.empty() && std::all_of(tried.gates.begin(), tried.gates.end(),
+                                                         [](const GateRow& row) { return row.verdict == "pass"; });
   for (auto& row : tried.gates) {
     if (!holds) continue;
     row.verdict = "fail";
-    row.why = fmt::format("holds the limit, though {} declares the defect {}: take the declaration away", to_string(declared.place), known_defect(declared));
+    row.why = fmt::format("holds the limit, though {} declares the defect {}: take the declaration away",
+                          to_string(declared.place), known_defect(declared));
     engine.gates.push_back(row);
   }
   return applied;
 }
 
 void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen, Findings& findings) {
-  if (gate.reason.empty()) findings.add(exit_missing, fmt::format("{}: the gate on {} gives no reason for its limit", to_string(gate.place), gate.metric));
+  if (gate.reason.empty())
+    findings.add(exit_missing,
+                 fmt::format("{}: the gate on {} gives no reason for its limit", to_string(gate.place), gate.metric));
   int named = 0, judged = 0, absent = 0;
   for (auto& engine : result.engines) {
     if (!names(gate, engine)) continue;
@@ -87,16 +95,21 @@ void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen
     judged += applied == Applied::judged;
     absent += applied == Applied::absent;
   }
-  const bool left_out = engines_were_chosen && !gate.engine.empty() && std::none_of(result.engines.begin(), result.engines.end(), [&](const auto& e) { return e.name == gate.engine; });
+  const bool left_out =
+      engines_were_chosen && !gate.engine.empty() &&
+      std::none_of(result.engines.begin(), result.engines.end(), [&](const auto& e) { return e.name == gate.engine; });
   if (judged > 0 || absent > 0 || (named == 0 && left_out)) return;
-  findings.add(exit_missing, fmt::format("{}: the gate on {} judges nothing: no engine, mode or level of the case fits it", to_string(gate.place), gate.metric));
+  findings.add(exit_missing, fmt::format("{}: the gate on {} judges nothing: no engine, mode or level of the case fits it",
+                                         to_string(gate.place), gate.metric));
 }
 
-/// Every engine that was chosen refuses the case, and none is required: it is no case of theirs. Who ran no case at all is told by the whole (unanswered).
+/// Every engine that was chosen refuses the case, and none is required: it is no case of theirs. Who ran no case at all is told
+/// by the whole (unanswered).
 bool is_refused(const CaseResult& result, bool engines_were_chosen) {
   const auto is_judge = [](const EngineRow& e) { return e.name == "exact"; };  // the truth is no engine that could take the case
   if (!engines_were_chosen || std::all_of(result.engines.begin(), result.engines.end(), is_judge)) return false;
-  return std::all_of(result.engines.begin(), result.engines.end(), [&](const EngineRow& e) { return is_judge(e) || (e.status == "refused" && !e.required); });
+  return std::all_of(result.engines.begin(), result.engines.end(),
+                     [&](const EngineRow& e) { return is_judge(e) || (e.status == "refused" && !e.required); });
 }
 
 void count_gates(CaseResult& result, Findings& findings) {
@@ -105,26 +118,35 @@ void count_gates(CaseResult& result, Findings& findings) {
     for (const auto& row : engine.gates) {
       ++judged;
       two_sided += row.gate.band || row.gate.at_least;
-      if (row.verdict == "fail") findings.codes.insert(exit_fail);
-      else if (row.verdict == "inconclusive") findings.codes.insert(exit_inconclusive);
-      else if (row.verdict == "diverged") findings.codes.insert(may_diverge(result, row.mode) ? exit_pass : exit_diverged);
-      else if (row.verdict != "pass") findings.codes.insert(exit_missing);
+      if (row.verdict == "fail")
+        findings.codes.insert(exit_fail);
+      else if (row.verdict == "inconclusive")
+        findings.codes.insert(exit_inconclusive);
+      else if (row.verdict == "diverged")
+        findings.codes.insert(may_diverge(result, row.mode) ? exit_pass : exit_diverged);
+      else if (row.verdict != "pass")
+        findings.codes.insert(exit_missing);
     }
   if (judged == 0 && result.expect != "diverges") findings.add(exit_missing, "no gate judges this case");
   if (result.expect == "defect" && two_sided == 0)
     findings.add(exit_missing, "declares a defect, which only a gate with band or at_least can measure, and has none");
 }
 
-/// Each engine that the case requires must diverge, and where it requires none each that ran: another's word does not stand for it.
+/// Each engine that the case requires must diverge, and where it requires none each that ran: another's word does not stand for
+/// it.
 void check_divergence(const CaseResult& result, Findings& findings) {
   if (!may_diverge(result, "paper")) return;
   const bool some_required = std::any_of(result.engines.begin(), result.engines.end(), [](const auto& e) { return e.required; });
   int asked = 0;
   for (const auto& engine : result.engines) {
-    const auto due = [&](const RunRow& run) { return may_diverge(result, run.knobs.mode) && (run.status == "ok" || run.status == "diverged"); };
-    if ((some_required ? !engine.required : engine.name == "exact") || std::none_of(engine.runs.begin(), engine.runs.end(), due)) continue;
+    const auto due = [&](const RunRow& run) {
+      return may_diverge(result, run.knobs.mode) && (run.status == "ok" || run.status == "diverged");
+    };
+    if ((some_required ? !engine.required : engine.name == "exact") || std::none_of(engine.runs.begin(), engine.runs.end(), due))
+      continue;
     ++asked;
-    if (std::none_of(engine.runs.begin(), engine.runs.end(), [&](const RunRow& run) { return due(run) && run.status == "diverged"; }))
+    if (std::none_of(engine.runs.begin(), engine.runs.end(),
+                     [&](const RunRow& run) { return due(run) && run.status == "diverged"; }))
       findings.add(exit_fail, label_of(engine.name, engine.preset) + " is declared to diverge, and no run of it did");
   }
   if (asked == 0) findings.add(exit_fail, "is declared to diverge, and no run did");
@@ -137,7 +159,8 @@ void check_planned(const Results& results, std::vector<std::string>& problems, s
   for (const auto& c : results.cases)
     if (!seen.insert(c.id).second) say(c.id + ": two cases have this id");
   if (results.interrupted) {
-    problems.push_back(fmt::format("stopped by Ctrl-C: {} of {} planned cases are complete", seen.size(), results.planned.size()));
+    problems.push_back(
+        fmt::format("stopped by Ctrl-C: {} of {} planned cases are complete", seen.size(), results.planned.size()));
     codes.insert(exit_interrupted);
     return;
   }
@@ -184,7 +207,8 @@ void judge(Results& results) {
   }
   check_planned(results, results.problems, codes);
   // Nothing is wrong but that who was asked takes no case: nobody passes unjudged, and nothing of it is missing either.
-  const bool all_refused = codes == std::set<int>{exit_pass} && std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return c.verdict == "REFUSED"; });
+  const bool all_refused = codes == std::set<int>{exit_pass} && std::all_of(results.cases.begin(), results.cases.end(),
+                                                                            [](const auto& c) { return c.verdict == "REFUSED"; });
   for (const auto& what : unanswered(results)) results.problems.push_back(what), codes.insert(exit_missing);
   results.exit_code = first_of(codes);
   results.verdict = all_refused ? "REFUSED" : verdict_word(results.exit_code);

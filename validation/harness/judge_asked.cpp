@@ -24,13 +24,15 @@ Answer answer_of(const Results& results, const std::string& name) {
       ++a.rows;
       a.missing += e.status == "missing";
       a.refused += e.status == "refused";
-      a.ran += std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "ok" || r.status == "diverged"; });
+      a.ran +=
+          std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "ok" || r.status == "diverged"; });
       a.judged += std::any_of(e.gates.begin(), e.gates.end(), [](const auto& g) { return g.verdict != "missing"; });
       if (e.status != "ok" && a.why.empty()) a.why = e.status + " in " + c.id + ": " + e.reason;
       const auto refused = std::find_if(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "refused"; });
       const bool some_ran = std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "ok"; });
       if (refused != e.runs.end() && some_ran && a.partly.empty()) a.partly = fmt::format("{} ({})", c.id, refused->reason);
-      if ((e.status == "killed" || e.status == "timeout" || e.status == "error") && a.crashed.empty()) a.crashed = fmt::format("{} in {}: {}", e.status, c.id, e.reason);
+      if ((e.status == "killed" || e.status == "timeout" || e.status == "error") && a.crashed.empty())
+        a.crashed = fmt::format("{} in {}: {}", e.status, c.id, e.reason);
     }
   return a;
 }
@@ -40,7 +42,9 @@ bool is_part(const std::string& shard) { return !shard.empty() && !shard.ends_wi
 
 }  // namespace
 
-bool crashed(const RunRow& run) { return run.status != "ok" && run.status != "refused" && run.status != "missing" && run.status != "diverged"; }
+bool crashed(const RunRow& run) {
+  return run.status != "ok" && run.status != "refused" && run.status != "missing" && run.status != "diverged";
+}
 
 bool is_unjudged(const EngineRow& engine) { return engine.name != "exact" && engine.status == "ok" && engine.gates.empty(); }
 
@@ -49,15 +53,26 @@ std::vector<std::string> unanswered(const Results& results) {
   const bool part = is_part(results.shard);
   for (const auto& name : results.asked) {
     const auto a = answer_of(results, name);
-    if (a.rows == a.missing && !(part && a.rows == 0)) list.push_back(fmt::format("{} was asked for and is not there{}", name, a.why.empty() ? "" : "; " + a.why));
-    else if (!a.crashed.empty()) list.push_back(fmt::format("{} was asked for and is {}", name, a.crashed));
-    else if (!a.partly.empty()) list.push_back(fmt::format("{} was asked for, and ran a part of {} and refused the rest", name, a.partly));
-    else if (part || name == "exact") continue;
+    if (a.rows == a.missing && !(part && a.rows == 0))
+      list.push_back(fmt::format("{} was asked for and is not there{}", name, a.why.empty() ? "" : "; " + a.why));
+    else if (!a.crashed.empty())
+      list.push_back(fmt::format("{} was asked for and is {}", name, a.crashed));
+    else if (!a.partly.empty())
+      list.push_back(fmt::format("{} was asked for, and ran a part of {} and refused the rest", name, a.partly));
+    else if (part || name == "exact")
+      continue;
     else if (a.ran == 0 && a.refused == a.rows)
-      list.push_back(fmt::format("{} was asked for and ran no case; it refuses {}, and nothing of it is judged: leave it out, or ask for a case that it takes; {}", name, a.rows == 1 ? "the one case" : fmt::format("all {} cases", a.rows), a.why));
-    else if (a.ran == 0) list.push_back(fmt::format("{} was asked for and ran no case; {}", name, a.why));
+      list.push_back(
+          fmt::format("{} was asked for and ran no case; it refuses {}, and nothing of it is judged: leave it out, or ask for a "
+                      "case that it takes; {}",
+                      name, a.rows == 1 ? "the one case" : fmt::format("all {} cases", a.rows), a.why));
+    else if (a.ran == 0)
+      list.push_back(fmt::format("{} was asked for and ran no case; {}", name, a.why));
     else if (a.judged == 0)
-      list.push_back(fmt::format("{} was asked for, ran {} case{}, and is not judged: no gate names it, and none is for every engine ([[gate]] engine = \"{}\", or none)", name, a.ran, a.ran == 1 ? "" : "s", name));
+      list.push_back(
+          fmt::format("{} was asked for, ran {} case{}, and is not judged: no gate names it, and none is for every engine "
+                      "([[gate]] engine = \"{}\", or none)",
+                      name, a.ran, a.ran == 1 ? "" : "s", name));
   }
   return list;
 }

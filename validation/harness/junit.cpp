@@ -28,10 +28,13 @@ std::string name_of(const GateRow& g, const EngineRow& e) {
 
 TestCase test_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
   TestCase t{c.id, name_of(g, e), {}, g.verdict != "pass", false};
-  t.body = fmt::format("<properties><property name=\"value\" value=\"{:g}\"/><property name=\"uncertainty\" value=\"{:g}\"/><property name=\"limit\" value=\"{}\"/></properties>",
-                       g.value, g.uncertainty, xml(describe(g.gate)));
+  t.body = fmt::format(
+      "<properties><property name=\"value\" value=\"{:g}\"/><property name=\"uncertainty\" value=\"{:g}\"/><property "
+      "name=\"limit\" value=\"{}\"/></properties>",
+      g.value, g.uncertainty, xml(describe(g.gate)));
   if (t.failed)
-    t.body += fmt::format("<failure type=\"{}\" message=\"{}\">{}\nlimit set at {} because: {}</failure>", g.verdict, xml(g.why), xml(g.why), xml(to_string(g.gate.place)), xml(g.gate.reason));
+    t.body += fmt::format("<failure type=\"{}\" message=\"{}\">{}\nlimit set at {} because: {}</failure>", g.verdict, xml(g.why),
+                          xml(g.why), xml(to_string(g.gate.place)), xml(g.gate.reason));
   return t;
 }
 
@@ -41,13 +44,19 @@ std::vector<TestCase> tests_of(const CaseResult& c) {
     if (e.status != "ok") {
       const bool broke_off = std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return crashed(r); });
       const bool counts = e.required || e.status == "diverged" || broke_off;
-      tests.push_back({c.id, e.name + " runs", counts ? fmt::format("<failure type=\"{}\" message=\"{}\"/>", xml(e.status), xml(e.reason))
-                                                      : fmt::format("<skipped message=\"{}: {}\"/>", xml(e.status), xml(e.reason)), counts, !counts});
+      tests.push_back({c.id, e.name + " runs",
+                       counts ? fmt::format("<failure type=\"{}\" message=\"{}\"/>", xml(e.status), xml(e.reason))
+                              : fmt::format("<skipped message=\"{}: {}\"/>", xml(e.status), xml(e.reason)),
+                       counts, !counts});
     }
-    if (is_unjudged(e)) tests.push_back({c.id, e.name + " is judged", "<skipped message=\"not judged: no gate of the case names it or every engine\"/>", false, true});
+    if (is_unjudged(e))
+      tests.push_back({c.id, e.name + " is judged",
+                       "<skipped message=\"not judged: no gate of the case names it or every engine\"/>", false, true});
     for (const auto& g : e.gates) tests.push_back(test_of(c, e, g));
   }
-  for (const auto& p : c.problems) tests.push_back({c.id, "the case can be judged", fmt::format("<failure type=\"problem\" message=\"{}\"/>", xml(p)), true, false});
+  for (const auto& p : c.problems)
+    tests.push_back(
+        {c.id, "the case can be judged", fmt::format("<failure type=\"problem\" message=\"{}\"/>", xml(p)), true, false});
   return tests;
 }
 
@@ -58,7 +67,8 @@ std::string suite_text(const std::string& name, const std::vector<TestCase>& tes
     failures += t.failed, skipped += t.skipped;
     body += fmt::format("    <testcase classname=\"{}\" name=\"{}\">{}</testcase>\n", xml(t.class_name), xml(t.name), t.body);
   }
-  return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n", xml(name), tests.size(), failures, skipped, body);
+  return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n", xml(name),
+                     tests.size(), failures, skipped, body);
 }
 
 }  // namespace
@@ -67,7 +77,9 @@ std::string junit_text(const Results& results) {
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"tripoint\">\n";
   for (const auto& c : results.cases) text += suite_text(c.id, tests_of(c));
   std::vector<TestCase> whole;
-  for (const auto& p : results.problems) whole.push_back({"tripoint", "the results are whole", fmt::format("<failure type=\"problem\" message=\"{}\"/>", xml(p)), true, false});
+  for (const auto& p : results.problems)
+    whole.push_back(
+        {"tripoint", "the results are whole", fmt::format("<failure type=\"problem\" message=\"{}\"/>", xml(p)), true, false});
   if (!whole.empty()) text += suite_text("tripoint", whole);
   return text + "</testsuites>\n";
 }

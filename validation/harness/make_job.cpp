@@ -19,7 +19,8 @@ struct Gathered {
 Gathered gather(const InitialState& initial, int source) {
   Gathered g;
   for (std::size_t i = 0; i < initial.size(); ++i)
-    if (initial.source[i] == source) g.position.push_back(initial.position[i]), g.velocity.push_back(initial.velocity[i]), g.mass.push_back(initial.mass[i]);
+    if (initial.source[i] == source)
+      g.position.push_back(initial.position[i]), g.velocity.push_back(initial.velocity[i]), g.mass.push_back(initial.mass[i]);
   return g;
 }
 
@@ -70,11 +71,13 @@ Job make_job(const Case& value, const EnginePlan& engine, const RunPlan& run, co
   job.case_id = value.id;
   job.scene = scene;
   const auto rows = body_rows(scene);
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) job.bodies.push_back(job_body(scene.bodies[b], rows[b], gather(initial, static_cast<int>(b))));
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    job.bodies.push_back(job_body(scene.bodies[b], rows[b], gather(initial, static_cast<int>(b))));
   job.resolution = {scene.spacing, scene.support_ratio, scene.time_step, run.walkers, run.iterations};
   job.preset = engine.preset;
   job.settings = engine.settings;
-  for (const char* own : {"wall_limit", refuses_setting}) job.settings.erase(own);  // the harness's own: an engine need not know them
+  for (const char* own : {"wall_limit", refuses_setting})
+    job.settings.erase(own);  // the harness's own: an engine need not know them
   if (run.walkers) job.settings["walkers"] = *run.walkers;
   if (run.iterations) job.settings["iterations"] = *run.iterations;
   job.reference = value.reference;

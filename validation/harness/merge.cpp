@@ -22,7 +22,8 @@ void check_shards(const std::vector<std::string>& folders, const std::vector<Res
     if (shard.empty()) throw InputError(folders[k] + ": was not made with --shard i/n");
     if (!shards.insert(shard).second) throw InputError(fmt::format("{}: shard {} is given twice", folders[k], shard));
     const auto n = static_cast<std::size_t>(std::stoul(shard.substr(shard.find('/') + 1)));
-    if (wanted != 0 && n != wanted) throw InputError(fmt::format("{}: shard {} belongs to another set than {}", folders[k], shard, parts.front().shard));
+    if (wanted != 0 && n != wanted)
+      throw InputError(fmt::format("{}: shard {} belongs to another set than {}", folders[k], shard, parts.front().shard));
     wanted = n;
   }
   if (parts.size() != wanted) throw InputError(fmt::format("{} of {} shards are given", parts.size(), wanted));
@@ -31,8 +32,10 @@ void check_shards(const std::vector<std::string>& folders, const std::vector<Res
 void check_same_question(const std::vector<std::string>& folders, const std::vector<Results>& parts) {
   for (std::size_t k = 1; k < parts.size(); ++k) {
     const auto &a = parts.front(), &b = parts[k];
-    if (a.profile != b.profile || a.seed != b.seed || a.only_engines != b.only_engines || a.asked != b.asked || a.what != b.what || a.tag != b.tag || a.tool.commit != b.tool.commit)
-      throw InputError(fmt::format("{}: was made with another profile, seed, choice of engines or commit than {}", folders[k], folders.front()));
+    if (a.profile != b.profile || a.seed != b.seed || a.only_engines != b.only_engines || a.asked != b.asked ||
+        a.what != b.what || a.tag != b.tag || a.tool.commit != b.tool.commit)
+      throw InputError(fmt::format("{}: was made with another profile, seed, choice of engines or commit than {}", folders[k],
+                                   folders.front()));
   }
 }
 

@@ -10,7 +10,9 @@
 namespace tripoint {
 namespace {
 
-bool contains(const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); }
+bool contains(const std::vector<std::string>& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
 
 std::optional<double> number_setting(const Settings& settings, const std::string& key) {
   const auto at = settings.find(key);
@@ -30,7 +32,9 @@ Settings settings_of(const Case& value, const EngineChoice& engine) {
 
 std::vector<EngineChoice> engines_of(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
   std::vector<EngineChoice> list;
-  const auto listed = [&](const std::string& name) { return std::find_if(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; }); };
+  const auto listed = [&](const std::string& name) {
+    return std::find_if(value.engines.begin(), value.engines.end(), [&](const auto& e) { return e.name == name; });
+  };
   const auto add = [&](const std::string& name, bool required) {
     if (std::any_of(list.begin(), list.end(), [&](const auto& e) { return e.name == name; })) return;
     const auto at = listed(name);
@@ -47,7 +51,8 @@ std::vector<EngineChoice> engines_of(const Case& value, const std::vector<Engine
   for (const auto& e : found)
     if (e.joins) add(e.name, false);
   if (!selection.engines.empty())
-    std::erase_if(list, [&](const auto& e) { return !contains(selection.engines, e.name) && !contains(selection.extra, e.name); });
+    std::erase_if(list,
+                  [&](const auto& e) { return !contains(selection.engines, e.name) && !contains(selection.extra, e.name); });
   return list;
 }
 
@@ -60,18 +65,26 @@ std::optional<double> own_level(const Scene& scene, const RunPlan& run, const st
 }
 
 void set_level(RunPlan& run, const std::string& axis, double level) {
-  if (axis == "spacing") run.choice.spacing = level;
-  else if (axis == "time_step") run.choice.time_step = level;
-  else if (axis == "support_ratio") run.choice.support_ratio = level;
-  else if (axis == "walkers") run.walkers = level;
-  else run.iterations = level;
+  if (axis == "spacing")
+    run.choice.spacing = level;
+  else if (axis == "time_step")
+    run.choice.time_step = level;
+  else if (axis == "support_ratio")
+    run.choice.support_ratio = level;
+  else if (axis == "walkers")
+    run.walkers = level;
+  else
+    run.iterations = level;
 }
 
 bool same_run(const Case& value, const RunPlan& a, const RunPlan& b) {
   const auto s = scene_of(value, a), t = scene_of(value, b);
-  const auto same = [](const std::optional<double>& x, const std::optional<double>& y) { return x.has_value() == y.has_value() && (!x || same_level(*x, *y)); };
-  return a.mode == b.mode && a.input == b.input && same_level(s.spacing, t.spacing) && same(s.time_step, t.time_step) && same_level(s.support_ratio, t.support_ratio) &&
-         s.jitter == t.jitter && s.seed == t.seed && same(a.walkers, b.walkers) && same(a.iterations, b.iterations);
+  const auto same = [](const std::optional<double>& x, const std::optional<double>& y) {
+    return x.has_value() == y.has_value() && (!x || same_level(*x, *y));
+  };
+  return a.mode == b.mode && a.input == b.input && same_level(s.spacing, t.spacing) && same(s.time_step, t.time_step) &&
+         same_level(s.support_ratio, t.support_ratio) && s.jitter == t.jitter && s.seed == t.seed && same(a.walkers, b.walkers) &&
+         same(a.iterations, b.iterations);
 }
 
 /// @return the run itself, or the one that is the same and was planned before
@@ -97,7 +110,8 @@ void add_study(const Case& value, const Study& study, const RunPlan& base, std::
     set_level(run, study.axis, level);
     set_together(run, study, k);
     if (study.jitter > 0.0) run.choice.jitter = study.jitter;
-    run.label = run.group = fmt::format("{}{}={:g}{}", base.mode.empty() ? "" : base.mode + "-", axis, level, study.jitter > 0.0 ? fmt::format("-jitter={:g}", study.jitter) : "");
+    run.label = run.group = fmt::format("{}{}={:g}{}", base.mode.empty() ? "" : base.mode + "-", axis, level,
+                                        study.jitter > 0.0 ? fmt::format("-jitter={:g}", study.jitter) : "");
     const std::string group = add_run(value, runs, run).group;
     for (int n = 1; n < study.seeds; ++n) {
       auto replica = run;
@@ -135,8 +149,10 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
     base.walkers = number_setting(engine.settings, "walkers"), base.iterations = number_setting(engine.settings, "iterations");
     base.label = base.group = mode.empty() ? "base" : mode;
     const Scene scene = scene_of(value, base);
-    for (const auto& study : value.studies)  // a gate on this level means the case's own run too, whichever engine the study is of
-      if (const auto level = own_level(scene, base, study.axis); level && study_axis(study) == study.axis) base.levels[study.axis] = *level;
+    for (const auto& study :
+         value.studies)  // a gate on this level means the case's own run too, whichever engine the study is of
+      if (const auto level = own_level(scene, base, study.axis); level && study_axis(study) == study.axis)
+        base.levels[study.axis] = *level;
     runs.push_back(base);
     base.levels.clear();
     if (engine.name != "exact") add_inputs(value, base, runs);
@@ -154,7 +170,8 @@ std::string study_axis(const Study& study) {
 
 bool has_states(const ReferenceChoice& reference) {
   if (reference.function == "expression" || reference.function == "table") return false;  // a field of place, not of particles
-  return !reference.function.empty() && (reference.kind == "analytic" || reference.kind == "discrete_exact" || reference.kind == "mms");
+  return !reference.function.empty() &&
+         (reference.kind == "analytic" || reference.kind == "discrete_exact" || reference.kind == "mms");
 }
 
 std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
@@ -163,10 +180,13 @@ std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEnt
     EnginePlan plan;
     plan.name = engine.name, plan.required = engine.required, plan.settings = settings_of(value, engine);
     plan.entry = find_engine(found, engine.name);
-    if (plan.entry && !plan.entry->available) plan.runs.clear();
-    else plan.runs = runs_of(value, engine, selection);
+    if (plan.entry && !plan.entry->available)
+      plan.runs.clear();
+    else
+      plan.runs = runs_of(value, engine, selection);
     auto presets = engine.presets;
-    if (presets.empty()) presets = {plan.entry && !contains(plan.entry->presets, "default") ? plan.entry->presets.front() : "default"};
+    if (presets.empty())
+      presets = {plan.entry && !contains(plan.entry->presets, "default") ? plan.entry->presets.front() : "default"};
     for (const auto& preset : presets) {
       plan.preset = preset;
       plans.push_back(plan);
@@ -175,6 +195,8 @@ std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEnt
   return plans;
 }
 
-Scene scene_of(const Case& value, const RunPlan& run) { return scene_for(run.input.empty() ? value : read_case(value.file, {run.input}).value, run.choice); }
+Scene scene_of(const Case& value, const RunPlan& run) {
+  return scene_for(run.input.empty() ? value : read_case(value.file, {run.input}).value, run.choice);
+}
 
 }  // namespace tripoint

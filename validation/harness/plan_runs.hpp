@@ -40,8 +40,9 @@ struct Selection {
 };
 
 /// Engines that run the case: tripoint (required unless the case says otherwise) and, where the reference has states, exact;
-/// then those that the case lists, the extra ones, and those that TRIPOINT_ENGINE_PATH brings. Modes are tripoint's alone: foreign engines run once.
-/// Runs: the case's own resolution, and each level and seed of each study; a run that two studies share is made once.
+/// then those that the case lists, the extra ones, and those that TRIPOINT_ENGINE_PATH brings. Modes are tripoint's alone:
+/// foreign engines run once. Runs: the case's own resolution, and each level and seed of each study; a run that two studies share
+/// is made once.
 [[nodiscard]] std::vector<EnginePlan> plan_runs(const Case&, const std::vector<EngineEntry>&, const Selection&);
 
 /// What a study refines: its axis, and what it refines together with it ("spacing+support_ratio"): a ladder of its own.

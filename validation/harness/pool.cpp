@@ -22,11 +22,13 @@ bool has_jitter_of(const EngineRow& engine, const Study& study, const RunRow& ru
 }
 
 /// The pooled metric at one level of a study, NaN when any of its runs is missing, not ok, or lacks it.
-MetricValue at_level(const EngineRow& engine, const Study& study, const std::string& mode, const std::string& metric, double level) {
+MetricValue at_level(const EngineRow& engine, const Study& study, const std::string& mode, const std::string& metric,
+                     double level) {
   std::vector<MetricValue> values;
   for (const auto& run : engine.runs) {
     const auto at = run.levels.find(study.axis);
-    if (run.knobs.mode != mode || at == run.levels.end() || !same_level(at->second, level) || !has_jitter_of(engine, study, run)) continue;
+    if (run.knobs.mode != mode || at == run.levels.end() || !same_level(at->second, level) || !has_jitter_of(engine, study, run))
+      continue;
     const auto value = measured(run, metric);
     if (run.status != "ok" || !run.comparable || !value) return {not_a_number, {}, "a level has no value", {}, {}};
     values.push_back(*value);
@@ -61,7 +63,8 @@ bool same_level(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(
 
 bool applies(const Study& study, const std::string& engine, const std::string& mode) {
   if (engine == "exact") return false;  // truth does not converge
-  return (study.engine.empty() || study.engine == engine) && (study.mode.empty() || study.mode == mode || (study.mode == "not paper" && mode != "paper"));
+  return (study.engine.empty() || study.engine == engine) &&
+         (study.mode.empty() || study.mode == mode || (study.mode == "not paper" && mode != "paper"));
 }
 
 std::optional<MetricValue> measured(const RunRow& run, const std::string& metric) {
@@ -69,7 +72,8 @@ std::optional<MetricValue> measured(const RunRow& run, const std::string& metric
   if (!metric.ends_with(statistical)) return {};
   const auto at = run.metrics.find(metric.substr(0, metric.size() - statistical.size()));
   if (at == run.metrics.end()) return {};
-  const bool known = std::isfinite(at->second.value) && at->second.uncertainty.statistical > 0.0;  // an unknown scatter is no scatter of 0
+  const bool known =
+      std::isfinite(at->second.value) && at->second.uncertainty.statistical > 0.0;  // an unknown scatter is no scatter of 0
   return MetricValue{known ? at->second.uncertainty.statistical : not_a_number, {}, "statistical standard uncertainty", {}, {}};
 }
 
@@ -112,7 +116,8 @@ double input_uncertainty(const EngineRow& engine, const RunRow& run, const std::
     ends[r.input.substr(0, r.input.find('='))].push_back(r.status == "ok" && value ? value->value : not_a_number);
   }
   double squares = 0.0;
-  for (const auto& [key, values] : ends) squares += values.size() == 2 ? 0.25 * (values[1] - values[0]) * (values[1] - values[0]) : not_a_number;
+  for (const auto& [key, values] : ends)
+    squares += values.size() == 2 ? 0.25 * (values[1] - values[0]) * (values[1] - values[0]) : not_a_number;
   return std::sqrt(squares);
 }
 
@@ -129,7 +134,8 @@ std::vector<OrderRow> fit_orders(const CaseResult& result, const EngineRow& engi
         row.uncertainty.push_back(value.uncertainty.combined());
       }
       if (!std::all_of(row.error.begin(), row.error.end(), [](double e) { return std::isfinite(e); })) continue;
-      if (row.formal > 0.0 && !metric.ends_with(statistical)) row.numerical = grid_convergence_uncertainties(row.step, row.error, row.formal);
+      if (row.formal > 0.0 && !metric.ends_with(statistical))
+        row.numerical = grid_convergence_uncertainties(row.step, row.error, row.formal);
       row.order = fit_order(row.step, row.error, row.uncertainty, row.formal);
       rows.push_back(row);
     }

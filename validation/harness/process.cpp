@@ -101,12 +101,15 @@ class BoundedLog {
 /// Finds the lines `progress X` and `status REST` in a stream that arrives in pieces.
 class ProgressLines {
  public:
-  ProgressLines(const std::function<void(double)>& report, const std::function<void(const std::string&)>& status) : report_(report), status_(status) {}
+  ProgressLines(const std::function<void(double)>& report, const std::function<void(const std::string&)>& status)
+      : report_(report), status_(status) {}
   void add(const char* data, std::size_t size) {
     if (!report_ && !status_) return;
     for (std::size_t i = 0; i < size; ++i) {
-      if (data[i] == '\n') end_line();
-      else if (line_.size() < longest) line_ += data[i];
+      if (data[i] == '\n')
+        end_line();
+      else if (line_.size() < longest)
+        line_ += data[i];
     }
   }
 
@@ -165,7 +168,8 @@ int spawn(const ProcessSpec& spec, const std::string& mark, int out, int err, pi
   added[stray_mark] = mark;
   auto environment = environment_with(added);
   const std::lock_guard lock(no_spawn_mutex());
-  const int error = posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
+  const int error =
+      posix_spawn(&pid, argv.front().c_str(), &actions, &attributes, pointers(argv).data(), pointers(environment).data());
   posix_spawn_file_actions_destroy(&actions);
   posix_spawnattr_destroy(&attributes);
   return error;
@@ -192,7 +196,8 @@ double peak_of(pid_t pid) {
   return 0.0;
 }
 
-/// What the system counts as a child's memory begins with the peak of us who started it: it is the child's own only where it is more.
+/// What the system counts as a child's memory begins with the peak of us who started it: it is the child's own only where it is
+/// more.
 void add_cost(ProcessEnd& end, const rusage& use) {
   const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
   end.cpu_s += seconds(use.ru_utime) + seconds(use.ru_stime);
@@ -210,9 +215,12 @@ bool drain(int fd, Take take) {
   char buffer[65536];
   for (int rounds = 0; rounds < 64; ++rounds) {  // a flood must not starve the clock
     const ssize_t n = ::read(fd, buffer, sizeof buffer);
-    if (n > 0) take(buffer, static_cast<std::size_t>(n));
-    else if (n == 0) return false;
-    else return errno == EAGAIN || errno == EINTR;
+    if (n > 0)
+      take(buffer, static_cast<std::size_t>(n));
+    else if (n == 0)
+      return false;
+    else
+      return errno == EAGAIN || errno == EINTR;
   }
   return true;
 }
@@ -236,7 +244,9 @@ void adopt_orphans() {
 void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& log, ProcessEnd& end) {
   const auto start = Clock::now();
   ProgressLines progress(spec.progress, spec.status);
-  const auto take_output = [&](const char* p, std::size_t n) { end.output.append(p, std::min(n, kept_output - std::min(kept_output, end.output.size()))); };
+  const auto take_output = [&](const char* p, std::size_t n) {
+    end.output.append(p, std::min(n, kept_output - std::min(kept_output, end.output.size())));
+  };
   const auto take_log = [&](const char* p, std::size_t n) { log.add(p, n), progress.add(p, n); };
   const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
   std::array<pollfd, 3> wait{pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}, pollfd{child.get(), POLLIN, 0}};
@@ -312,11 +322,16 @@ ProcessEnd run_process(const ProcessSpec& spec) {
 
 std::string describe(const ProcessEnd& end) {
   switch (end.how) {
-    case ProcessEnd::How::exited: return fmt::format("exited with code {}", end.code);
-    case ProcessEnd::How::signalled: return fmt::format("was killed by signal {} ({})", end.code, strsignal(end.code));
-    case ProcessEnd::How::timed_out: return fmt::format("was stopped after {:.0f} s", end.wall_s);
-    case ProcessEnd::How::interrupted: return "was stopped by Ctrl-C";
-    case ProcessEnd::How::not_started: break;
+    case ProcessEnd::How::exited:
+      return fmt::format("exited with code {}", end.code);
+    case ProcessEnd::How::signalled:
+      return fmt::format("was killed by signal {} ({})", end.code, strsignal(end.code));
+    case ProcessEnd::How::timed_out:
+      return fmt::format("was stopped after {:.0f} s", end.wall_s);
+    case ProcessEnd::How::interrupted:
+      return "was stopped by Ctrl-C";
+    case ProcessEnd::How::not_started:
+      break;
   }
   return "could not be started: " + end.log_tail;
 }

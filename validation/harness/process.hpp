@@ -17,22 +17,24 @@ struct ProcessSpec {
   double wall_limit = 600.0;                       ///< [s]; then the whole group is killed
   std::string log;                                 ///< file that keeps stderr: its first MiB and its last lines; empty = none
   std::function<void(double)> progress;            ///< called with 0..1 for each line `progress X` of stderr
-  std::function<void(const std::string&)> status;  ///< called with the rest of each line `status REST` of stderr, of 400 bytes at most
-  bool outlives_interrupt = false;                 ///< Ctrl-C does not end it: it shows what was complete by then
+  std::function<void(const std::string&)>
+      status;                       ///< called with the rest of each line `status REST` of stderr, of 400 bytes at most
+  bool outlives_interrupt = false;  ///< Ctrl-C does not end it: it shows what was complete by then
 };
 
 struct ProcessEnd {
   enum class How { exited, signalled, timed_out, interrupted, not_started } how = How::not_started;
-  int code = 0;              ///< exit code, or the signal's number
-  std::string output;        ///< stdout, at most 4 MiB
-  std::string log_tail;      ///< last lines of stderr, or why it could not start
-  double wall_s = 0.0;       ///< [s]
-  double cpu_s = 0.0;        ///< user and system of the whole group [s]
-  double instructions = 0.0; ///< in user space, of the whole group; 0 = this machine counts none
-  double peak_bytes = 0.0;   ///< greatest resident size of one process of the group
+  int code = 0;               ///< exit code, or the signal's number
+  std::string output;         ///< stdout, at most 4 MiB
+  std::string log_tail;       ///< last lines of stderr, or why it could not start
+  double wall_s = 0.0;        ///< [s]
+  double cpu_s = 0.0;         ///< user and system of the whole group [s]
+  double instructions = 0.0;  ///< in user space, of the whole group; 0 = this machine counts none
+  double peak_bytes = 0.0;    ///< greatest resident size of one process of the group
 };
 
-/// Runs a program to its end, its limit or our Ctrl-C, whichever is first; nothing of its group survives, nor does it where we are killed. Never throws for what the program does.
+/// Runs a program to its end, its limit or our Ctrl-C, whichever is first; nothing of its group survives, nor does it where we
+/// are killed. Never throws for what the program does.
 [[nodiscard]] ProcessEnd run_process(const ProcessSpec&);
 
 /// Held while a program is started, and by whoever uses HDF5: its files are not close-on-exec, a child would inherit them for a
@@ -42,8 +44,8 @@ struct ProcessEnd {
 /// "exited with code 3", "was killed by signal 9 (Killed)", "was stopped after 600 s", ...
 [[nodiscard]] std::string describe(const ProcessEnd&);
 
-/// From now on Ctrl-C and SIGTERM ask the children to end, kill those that have not within 10 s, and set interrupted(), instead of
-/// ending this process.
+/// From now on Ctrl-C and SIGTERM ask the children to end, kill those that have not within 10 s, and set interrupted(), instead
+/// of ending this process.
 void catch_interrupts();
 [[nodiscard]] bool interrupted() noexcept;
 

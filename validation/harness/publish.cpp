@@ -18,7 +18,8 @@ using Json = nlohmann::ordered_json;
 /// For programs that put a name into a page or a table as it is: no markup is left in it.
 std::string harmless(const std::string& text) {
   auto out = one_line(text);
-  std::replace_if(out.begin(), out.end(), [](char c) { return c == '<' || c == '>' || c == '|' || c == '`' || c == '&' || c == '@'; }, '?');
+  std::replace_if(
+      out.begin(), out.end(), [](char c) { return c == '<' || c == '>' || c == '|' || c == '`' || c == '&' || c == '@'; }, '?');
   return out;
 }
 
@@ -44,11 +45,12 @@ int width_of(const std::string& text) { return static_cast<int>(6.8 * static_cas
 
 std::string svg_of(const std::string& label, const Badge& badge) {
   const int left = width_of(label), right = width_of(badge.message);
-  return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="20" role="img" aria-label="{3}: {4}"><title>{3}: {4}</title>
+  return fmt::format(
+      R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="20" role="img" aria-label="{3}: {4}"><title>{3}: {4}</title>
 <rect width="{1}" height="20" fill="#444"/><rect x="{1}" width="{2}" height="20" fill="{5}"/>
 <g fill="#fff" text-anchor="middle" font-family="Verdana,DejaVu Sans,sans-serif" font-size="11"><text x="{6}" y="14">{3}</text><text x="{7}" y="14">{4}</text></g></svg>
 )",
-                     left + right, left, right, xml(label), xml(badge.message), badge.colour, left / 2, left + right / 2);
+      left + right, left, right, xml(label), xml(badge.message), badge.colour, left / 2, left + right / 2);
 }
 
 }  // namespace
@@ -65,7 +67,7 @@ std::string dashboard_json(const Results& results, bool in_limits) {
   Json list = Json::array();
   for (const auto& c : compare_results(results, results, {}).changes) {
     const auto& s = *c.head;
-    if (!std::isfinite(s.used) || !std::isfinite(s.value)) continue;  // a class, a metric without a gate, no value
+    if (!std::isfinite(s.used) || !std::isfinite(s.value)) continue;            // a class, a metric without a gate, no value
     const double range = in_limits ? c.noise / std::sqrt(2.0) : 2.0 * s.noise;  // of one result, not of a difference of two
     Json entry;
     entry["name"] = harmless(fmt::format("{} {}", c.case_id, name_of(c)));

@@ -24,11 +24,13 @@ constexpr double rounding = 1e-9;  // of a value against the norm of its series:
 
 class Recheck {
  public:
-  Recheck(const Results& results, const CaseResult& stored, const Case& file, std::vector<Remark>& list) : results_(results), stored_(stored), file_(file), list_(list) {}
+  Recheck(const Results& results, const CaseResult& stored, const Case& file, std::vector<Remark>& list)
+      : results_(results), stored_(stored), file_(file), list_(list) {}
 
   void all() {
     if (stored_.id != file_.id) return say({}, fmt::format("its file {} is that of {}", stored_.file, file_.id));
-    if (stored_.expect != file_.expect) say({}, fmt::format("expects \"{}\", and the file says \"{}\"", stored_.expect, file_.expect));
+    if (stored_.expect != file_.expect)
+      say({}, fmt::format("expects \"{}\", and the file says \"{}\"", stored_.expect, file_.expect));
     question();
     reference();
     metrics();
@@ -40,7 +42,8 @@ class Recheck {
 
  private:
   void say(const SourcePlace& place, const std::string& what) {
-    list_.push_back({true, exit_missing, place.file.empty() ? SourcePlace{stored_.file, 1, 0} : place, stored_.id, "the results are not of this case: " + what, infinity, "CHANGED"});
+    list_.push_back({true, exit_missing, place.file.empty() ? SourcePlace{stored_.file, 1, 0} : place, stored_.id,
+                     "the results are not of this case: " + what, infinity, "CHANGED"});
   }
 
   /// What was run, as its hashes tell: a scene that was easier then, or other data, is seen also where limits and metrics stay.
@@ -51,28 +54,35 @@ class Recheck {
     if (stored_.hashes->reference != now->reference) say({}, "the reference, or its data, were others when it was run");
     for (const auto& m : file_.metrics) {
       const auto then = stored_.hashes->metrics.find(m.name), today = now->metrics.find(m.name);
-      if (then != stored_.hashes->metrics.end() && today != now->metrics.end() && then->second != today->second) say(m.place, fmt::format("the metric {} was another when it was run", m.name));
+      if (then != stored_.hashes->metrics.end() && today != now->metrics.end() && then->second != today->second)
+        say(m.place, fmt::format("the metric {} was another when it was run", m.name));
     }
   }
 
   void reference() {
     const auto& a = stored_.reference;
     const auto b = with_source_of_file(file_.reference);
-    if (a.kind != b.kind || a.function != b.function || fs::path(a.file).filename() != fs::path(b.file).filename() || a.args != b.args || a.uncertainty != b.uncertainty) say({}, "the reference is another");
+    if (a.kind != b.kind || a.function != b.function || fs::path(a.file).filename() != fs::path(b.file).filename() ||
+        a.args != b.args || a.uncertainty != b.uncertainty)
+      say({}, "the reference is another");
   }
 
   void metrics() {
     for (const auto& m : file_.metrics) {
-      const auto at = std::find_if(stored_.metrics.begin(), stored_.metrics.end(), [&](const auto& s) { return s.name == m.name; });
-      if (at == stored_.metrics.end()) say(m.place, "the metric " + m.name + " is not in them");
-      else if (at->quantity != m.quantity || at->norm != m.norm || at->body != m.body || at->at != m.at || at->scale != m.scale || at->unit != m.unit || at->window != m.window)
+      const auto at =
+          std::find_if(stored_.metrics.begin(), stored_.metrics.end(), [&](const auto& s) { return s.name == m.name; });
+      if (at == stored_.metrics.end())
+        say(m.place, "the metric " + m.name + " is not in them");
+      else if (at->quantity != m.quantity || at->norm != m.norm || at->body != m.body || at->at != m.at || at->scale != m.scale ||
+               at->unit != m.unit || at->window != m.window)
         say(m.place, fmt::format("the metric {} has another quantity, norm, body, place, window, scale or unit", m.name));
     }
   }
 
   static bool same(const Gate& a, const Gate& b) {
-    return a.metric == b.metric && a.engine == b.engine && a.mode == b.mode && a.preset == b.preset && a.limit == b.limit && a.at_least == b.at_least && a.band == b.band &&
-           a.level == b.level && a.drift == b.drift && a.date.empty() == b.date.empty();
+    return a.metric == b.metric && a.engine == b.engine && a.mode == b.mode && a.preset == b.preset && a.limit == b.limit &&
+           a.at_least == b.at_least && a.band == b.band && a.level == b.level && a.drift == b.drift &&
+           a.date.empty() == b.date.empty();
   }
 
   /// Each gate of the file must be in the results, once for each time that it is in the file.
@@ -80,19 +90,22 @@ class Recheck {
     auto left = stored_.gates;
     for (const auto& g : file_.gates) {
       const auto at = std::find_if(left.begin(), left.end(), [&](const auto& s) { return same(s, g); });
-      if (at == left.end()) say(g.place, fmt::format("the gate on {}, {}, is not in them", g.metric, describe(g)));
-      else left.erase(at);
+      if (at == left.end())
+        say(g.place, fmt::format("the gate on {}, {}, is not in them", g.metric, describe(g)));
+      else
+        left.erase(at);
     }
     for (const auto& g : left) say({}, fmt::format("they hold a gate on {}, {}, that the file does not", g.metric, describe(g)));
   }
 
   void studies() {
     const auto same_study = [](const Study& a, const Study& b) {
-      return a.axis == study_axis(b) && a.levels == b.levels && a.jitter == b.jitter && a.seeds == b.seeds && a.engine == b.engine && a.mode == b.mode && a.expect == b.expect &&
-             a.order == b.order && a.metric == b.metric;
+      return a.axis == study_axis(b) && a.levels == b.levels && a.jitter == b.jitter && a.seeds == b.seeds &&
+             a.engine == b.engine && a.mode == b.mode && a.expect == b.expect && a.order == b.order && a.metric == b.metric;
     };
     for (const auto& s : file_.studies)
-      if (std::none_of(stored_.studies.begin(), stored_.studies.end(), [&](const auto& t) { return same_study(t, s); })) say(s.place, fmt::format("the study over {} is not in them", s.axis));
+      if (std::none_of(stored_.studies.begin(), stored_.studies.end(), [&](const auto& t) { return same_study(t, s); }))
+        say(s.place, fmt::format("the study over {} is not in them", s.axis));
   }
 
   /// Every engine of the case has its row, and every run that is planned for it.
@@ -101,8 +114,11 @@ class Recheck {
     selection.engines = results_.only_engines;
     if (results_.seed_given) selection.seed = results_.seed;
     for (const auto& plan : plan_runs(file_, {}, selection)) {
-      const bool named = !file_.engines.empty() && std::any_of(file_.engines.begin(), file_.engines.end(), [&](const auto& e) { return e.name == plan.name && !e.presets.empty(); });
-      const auto at = std::find_if(stored_.engines.begin(), stored_.engines.end(), [&](const auto& e) { return e.name == plan.name && (!named || e.preset == plan.preset); });
+      const bool named = !file_.engines.empty() && std::any_of(file_.engines.begin(), file_.engines.end(), [&](const auto& e) {
+        return e.name == plan.name && !e.presets.empty();
+      });
+      const auto at = std::find_if(stored_.engines.begin(), stored_.engines.end(),
+                                   [&](const auto& e) { return e.name == plan.name && (!named || e.preset == plan.preset); });
       if (at == stored_.engines.end()) {
         say({}, fmt::format("{} has no row in them", label_of(plan.name, plan.preset)));
         continue;
@@ -133,7 +149,8 @@ class Recheck {
           const auto norm = value_of_series(m, at->second);
           const double value = at->second.value;
           if (norm && std::isfinite(value) && !(std::abs(*norm - value) <= rounding * std::max(std::abs(*norm), std::abs(value))))
-            say(m.place, fmt::format("{:.6g} of {} in {} {} is not the {} of its series, {:.6g}", value, m.name, label_of(e.name, e.preset), run.group, m.norm, *norm));
+            say(m.place, fmt::format("{:.6g} of {} in {} {} is not the {} of its series, {:.6g}", value, m.name,
+                                     label_of(e.name, e.preset), run.group, m.norm, *norm));
         }
   }
 
@@ -148,10 +165,13 @@ void recheck_selection(const Results& results, std::vector<Remark>& list) {
   if (!results.filter_known || !results.shard.empty()) return;
   CaseFilter filter;
   filter.what = results.what, filter.profile = results.profile, filter.tag = results.tag;
-  const auto say = [&](const std::string& id, const std::string& what) { list.push_back({true, exit_missing, {}, id, what, infinity, "CHANGED"}); };
+  const auto say = [&](const std::string& id, const std::string& what) {
+    list.push_back({true, exit_missing, {}, id, what, infinity, "CHANGED"});
+  };
   try {
     for (const auto& c : select_cases(filter))
-      if (std::none_of(results.cases.begin(), results.cases.end(), [&](const auto& r) { return r.id == c.id; })) say(c.id, "belongs to these results and is not in them: validate again");
+      if (std::none_of(results.cases.begin(), results.cases.end(), [&](const auto& r) { return r.id == c.id; }))
+        say(c.id, "belongs to these results and is not in them: validate again");
   } catch (const std::exception& e) {
     say("the results", std::string("the cases that they are of cannot be listed again: ") + e.what());
   }
@@ -166,7 +186,13 @@ std::vector<Remark> recheck_remarks(const Results& results) {
       const auto file = read_case(c.file).value;
       Recheck(results, c, file, list).all();
     } catch (const std::exception& e) {
-      list.push_back({true, exit_missing, {c.file, 1, 0}, c.id, std::string("the case cannot be read again: ") + e.what(), infinity, "CHANGED"});
+      list.push_back({true,
+                      exit_missing,
+                      {c.file, 1, 0},
+                      c.id,
+                      std::string("the case cannot be read again: ") + e.what(),
+                      infinity,
+                      "CHANGED"});
     }
   }
   recheck_selection(results, list);

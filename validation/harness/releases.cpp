@@ -21,7 +21,8 @@ double round_off(const EngineEntry& engine) { return engine.build.find("single")
 
 /// A metric against the exact solution of another scheme says what an engine is, not how far it is off.
 bool is_of_a_scheme(const CaseResult& c, const std::string& metric) {
-  return std::any_of(c.metrics.begin(), c.metrics.end(), [&](const auto& m) { return m.name == metric && m.reference && m.reference->kind == "discrete_exact"; });
+  return std::any_of(c.metrics.begin(), c.metrics.end(),
+                     [&](const auto& m) { return m.name == metric && m.reference && m.reference->kind == "discrete_exact"; });
 }
 
 bool lost_a_row(const CaseResult& from, const CaseResult& to) {
@@ -39,7 +40,8 @@ const RunRow* base_run(const EngineRow& e) {
 }
 
 double observed_order(const EngineRow& e, const std::string& metric) {
-  const auto at = std::find_if(e.order.begin(), e.order.end(), [&](const auto& o) { return o.metric == metric && o.axis == "time_step"; });
+  const auto at =
+      std::find_if(e.order.begin(), e.order.end(), [&](const auto& o) { return o.metric == metric && o.axis == "time_step"; });
   return at == e.order.end() ? not_a_number : at->order.value;
 }
 
@@ -50,7 +52,8 @@ std::vector<std::string> gates_turned_red(const Release& from, const Release& to
     for (const auto& g : e.gates) {
       if (g.verdict == "pass" || !before) continue;
       const bool was_green = std::any_of(before->gates.begin(), before->gates.end(), [&](const auto& b) {
-        return b.metric == g.metric && b.level == g.level && b.gate.place.line == g.gate.place.line && b.gate.place.file == g.gate.place.file && b.verdict == "pass";
+        return b.metric == g.metric && b.level == g.level && b.gate.place.line == g.gate.place.line &&
+               b.gate.place.file == g.gate.place.file && b.verdict == "pass";
       });
       if (was_green) list.push_back(fmt::format("{} {}: {}", e.preset, g.metric, g.why));
     }
@@ -58,7 +61,8 @@ std::vector<std::string> gates_turned_red(const Release& from, const Release& to
   return list;
 }
 
-Case case_for_releases(Case value, const EngineEntry& engine, const std::vector<std::string>& presets, const std::vector<double>& levels) {
+Case case_for_releases(Case value, const EngineEntry& engine, const std::vector<std::string>& presets,
+                       const std::vector<double>& levels) {
   EngineChoice choice;
   choice.name = engine.name;
   for (const auto& e : value.engines)
@@ -74,7 +78,8 @@ Case case_for_releases(Case value, const EngineEntry& engine, const std::vector<
     Study study;
     study.axis = "time_step", study.engine = engine.name, study.levels = levels;
     const auto own = value.scene.time_step;
-    if (levels.empty() && !own) throw InputError(value.id + " leaves the time step to the engine: name --levels a,b,c, coarse to fine [s]");
+    if (levels.empty() && !own)
+      throw InputError(value.id + " leaves the time step to the engine: name --levels a,b,c, coarse to fine [s]");
     if (levels.empty()) study.levels = {2.0 * *own, *own, 0.5 * *own, 0.25 * *own};
     studies.push_back(study);
   }
@@ -94,8 +99,9 @@ std::vector<ReleaseChange> changes_between(const Release& from, const Release& t
       if (found == a->metrics.end() || is_of_a_scheme(to.result, name)) continue;
       const double x = std::max(std::abs(found->second.value), floor), y = std::max(std::abs(value.value), floor);
       if (std::isfinite(x) == std::isfinite(y) && !(std::max(x, y) > margin * std::min(x, y))) continue;
-      list.push_back({e.preset, name, from.engine.version, to.engine.version, found->second.value, value.value, observed_order(*before, name), observed_order(e, name),
-                      std::max(x, y) / std::min(x, y), std::min(x, y) <= floor, !(y < x)});
+      list.push_back({e.preset, name, from.engine.version, to.engine.version, found->second.value, value.value,
+                      observed_order(*before, name), observed_order(e, name), std::max(x, y) / std::min(x, y),
+                      std::min(x, y) <= floor, !(y < x)});
     }
   }
   return list;
@@ -105,7 +111,8 @@ bool is_worse(const ReleaseTable& t) {
   if (t.releases.size() < 2) return false;
   const auto &first = t.releases.front(), &last = t.releases.back();
   const auto changes = changes_between(first, last, t.margin);
-  return std::any_of(changes.begin(), changes.end(), [](const auto& c) { return c.worse; }) || !gates_turned_red(first, last).empty() || lost_a_row(first.result, last.result);
+  return std::any_of(changes.begin(), changes.end(), [](const auto& c) { return c.worse; }) ||
+         !gates_turned_red(first, last).empty() || lost_a_row(first.result, last.result);
 }
 
 std::string upgrade_line(const ReleaseTable& t) {
@@ -113,12 +120,14 @@ std::string upgrade_line(const ReleaseTable& t) {
   const auto &first = t.releases.front(), &last = t.releases.back();
   std::string worse, better;
   for (const auto& c : changes_between(first, last, t.margin))
-    (c.worse ? worse : better) += fmt::format("{}{} {} {:.3g} -> {:.3g}", (c.worse ? worse : better).empty() ? "" : ", ", c.preset, c.metric, c.before, c.after);
+    (c.worse ? worse : better) += fmt::format("{}{} {} {:.3g} -> {:.3g}", (c.worse ? worse : better).empty() ? "" : ", ",
+                                              c.preset, c.metric, c.before, c.after);
   for (const auto& red : gates_turned_red(first, last)) worse += fmt::format("{}gate {}", worse.empty() ? "" : ", ", red);
   if (lost_a_row(first.result, last.result)) worse += fmt::format("{}a preset that ran does not run", worse.empty() ? "" : ", ");
   const std::string head = fmt::format("{} {} in the place of {}: ", last.engine.name, last.engine.version, first.engine.version);
   if (worse.empty() && better.empty()) return head + fmt::format("no error differs by more than {:g} times", t.margin);
-  return head + (worse.empty() ? "nothing is worse; better: " + better : "worse: " + worse + (better.empty() ? "" : "; better: " + better));
+  return head + (worse.empty() ? "nothing is worse; better: " + better
+                               : "worse: " + worse + (better.empty() ? "" : "; better: " + better));
 }
 
 }  // namespace tripoint

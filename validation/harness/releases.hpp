@@ -19,14 +19,16 @@ struct ReleaseChange {
   std::string preset, metric, from, to;
   double before = 0.0, after = 0.0;
   double order_before = 0.0, order_after = 0.0;
-  double ratio = 0.0;       ///< of the greater error to the lesser one, or to round-off where that is more; NaN where one is not finite
-  bool round_off = false;   ///< the lesser error is one of round-off
+  double ratio =
+      0.0;  ///< of the greater error to the lesser one, or to round-off where that is more; NaN where one is not finite
+  bool round_off = false;  ///< the lesser error is one of round-off
   bool worse = false;
 };
 
 /// The case with one engine, in these presets (empty = those of the case, else all of the engine), and its time step refined over
 /// these levels (empty = those of the case's study of this engine, else 2, 1, 1/2 and 1/4 of the case's own step).
-[[nodiscard]] Case case_for_releases(Case, const EngineEntry&, const std::vector<std::string>& presets, const std::vector<double>& levels);
+[[nodiscard]] Case case_for_releases(Case, const EngineEntry&, const std::vector<std::string>& presets,
+                                     const std::vector<double>& levels);
 
 /// Where an error grew or shrank by more than `margin` times. Errors of round-off are equal: 1e-11, or 1e-5 in single precision.
 [[nodiscard]] std::vector<ReleaseChange> changes_between(const Release& from, const Release& to, double margin);
@@ -50,7 +52,8 @@ struct ReleaseTable {
 [[nodiscard]] std::string releases_markdown(const ReleaseTable&);
 /// One line: whether the last release may take the place of the first.
 [[nodiscard]] std::string upgrade_line(const ReleaseTable&);
-/// The last release has a greater error than the first beyond the margin, fails a gate that the first passes, or did not run where the first did.
+/// The last release has a greater error than the first beyond the margin, fails a gate that the first passes, or did not run
+/// where the first did.
 [[nodiscard]] bool is_worse(const ReleaseTable&);
 
 }  // namespace tripoint

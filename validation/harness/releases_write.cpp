@@ -18,16 +18,30 @@ Json json(const EngineRow& e) {
   Json metrics = Json::object(), gates = Json::array();
   const auto* base = base_run(e);
   if (base)
-    for (const auto& [name, value] : base->metrics) metrics[name] = {{"value", number(value.value)}, {"order", number(observed_order(e, name))}};
+    for (const auto& [name, value] : base->metrics)
+      metrics[name] = {{"value", number(value.value)}, {"order", number(observed_order(e, name))}};
   for (const auto& o : e.order)
-    if (metrics.contains(o.metric)) metrics[o.metric].update({{"step", numbers(o.step)}, {"error", numbers(o.error)}, {"class", o.order.fit_class}});
-  for (const auto& g : e.gates) gates.push_back({{"metric", g.metric}, {"level", number(g.level)}, {"value", number(g.value)}, {"verdict", g.verdict}, {"why", g.why}});
-  return {{"preset", e.preset}, {"status", e.status}, {"reason", e.reason}, {"metrics", metrics}, {"gates", gates}, {"cpu_s", base ? Json(base->cost.cpu_s) : Json(nullptr)}};
+    if (metrics.contains(o.metric))
+      metrics[o.metric].update({{"step", numbers(o.step)}, {"error", numbers(o.error)}, {"class", o.order.fit_class}});
+  for (const auto& g : e.gates)
+    gates.push_back(
+        {{"metric", g.metric}, {"level", number(g.level)}, {"value", number(g.value)}, {"verdict", g.verdict}, {"why", g.why}});
+  return {{"preset", e.preset}, {"status", e.status}, {"reason", e.reason},
+          {"metrics", metrics}, {"gates", gates},     {"cpu_s", base ? Json(base->cost.cpu_s) : Json(nullptr)}};
 }
 
 Json json(const ReleaseChange& c) {
-  return {{"preset", c.preset}, {"metric", c.metric}, {"from", c.from}, {"to", c.to}, {"before", number(c.before)}, {"after", number(c.after)},
-          {"order_before", number(c.order_before)}, {"order_after", number(c.order_after)}, {"ratio", number(c.ratio)}, {"round_off", c.round_off}, {"worse", c.worse}};
+  return {{"preset", c.preset},
+          {"metric", c.metric},
+          {"from", c.from},
+          {"to", c.to},
+          {"before", number(c.before)},
+          {"after", number(c.after)},
+          {"order_before", number(c.order_before)},
+          {"order_after", number(c.order_after)},
+          {"ratio", number(c.ratio)},
+          {"round_off", c.round_off},
+          {"worse", c.worse}};
 }
 
 std::string cell(const Release& r, const std::string& preset, const std::string& metric) {
@@ -42,7 +56,8 @@ std::string cell(const Release& r, const std::string& preset, const std::string&
 }
 
 std::string table_of(const ReleaseTable& t, const MetricChoice& metric) {
-  std::string text = fmt::format("\n**{}**{}: error at the case's own time step (observed order)\n\n| release |", markdown(metric.name), metric.unit.empty() ? "" : " [" + markdown(metric.unit) + "]");
+  std::string text = fmt::format("\n**{}**{}: error at the case's own time step (observed order)\n\n| release |",
+                                 markdown(metric.name), metric.unit.empty() ? "" : " [" + markdown(metric.unit) + "]");
   std::string rule = "|---|";
   std::vector<std::string> presets;
   for (const auto& r : t.releases)
@@ -59,10 +74,16 @@ std::string table_of(const ReleaseTable& t, const MetricChoice& metric) {
 }
 
 std::string change_line(const ReleaseChange& c) {
-  std::string text = fmt::format("- {} -> {}, {} {}: {:.3g} -> {:.3g}", markdown(c.from), markdown(c.to), markdown(c.preset), markdown(c.metric), c.before, c.after);
-  if (c.round_off) text += c.worse ? ", worse: it was round-off" : ", better: it is round-off";
-  else text += std::isfinite(c.ratio) ? fmt::format(", {:.3g} times {}", c.ratio, c.worse ? "worse" : "better") : c.worse ? ", worse" : ", better";
-  if (std::abs(c.order_after - c.order_before) > 0.5) text += fmt::format("; order {:.1f} -> {:.1f}", c.order_before, c.order_after);
+  std::string text = fmt::format("- {} -> {}, {} {}: {:.3g} -> {:.3g}", markdown(c.from), markdown(c.to), markdown(c.preset),
+                                 markdown(c.metric), c.before, c.after);
+  if (c.round_off)
+    text += c.worse ? ", worse: it was round-off" : ", better: it is round-off";
+  else
+    text += std::isfinite(c.ratio) ? fmt::format(", {:.3g} times {}", c.ratio, c.worse ? "worse" : "better")
+            : c.worse              ? ", worse"
+                                   : ", better";
+  if (std::abs(c.order_after - c.order_before) > 0.5)
+    text += fmt::format("; order {:.1f} -> {:.1f}", c.order_before, c.order_after);
   return text + "\n";
 }
 
@@ -79,7 +100,8 @@ std::string gates_of(const ReleaseTable& t) {
         if (g.verdict != "pass") red += fmt::format("{}{} {}: {}", red.empty() ? "" : "; ", e.preset, g.metric, g.why);
       }
     any = any || all > 0;
-    text += fmt::format("| {} {} | {} of {} | {} |\n", markdown(r.engine.name), markdown(r.engine.version), good, all, markdown(red));
+    text +=
+        fmt::format("| {} {} | {} of {} | {} |\n", markdown(r.engine.name), markdown(r.engine.version), good, all, markdown(red));
   }
   return any ? text : "\nThe case has no gate for this engine.\n";
 }
@@ -91,15 +113,22 @@ std::string releases_text(const ReleaseTable& t) {
   for (const auto& r : t.releases) {
     Json rows = Json::array();
     for (const auto& e : r.result.engines) rows.push_back(json(e));
-    releases.push_back({{"engine", r.engine.name}, {"version", r.engine.version}, {"build", r.engine.build}, {"library", r.engine.library_hash}, {"rows", rows}});
+    releases.push_back({{"engine", r.engine.name},
+                        {"version", r.engine.version},
+                        {"build", r.engine.build},
+                        {"library", r.engine.library_hash},
+                        {"rows", rows}});
   }
   for (std::size_t k = 1; k < t.releases.size(); ++k) {
     for (const auto& c : changes_between(t.releases[k - 1], t.releases[k], t.margin)) changes.push_back(json(c));
   }
   if (!t.releases.empty())
     for (const auto& m : t.releases.front().result.metrics) metrics.push_back({{"name", m.name}, {"unit", m.unit}});
-  return Json{{"format", 1}, {"case", t.case_id}, {"title", t.title}, {"command", t.command}, {"margin", t.margin}, {"metrics", metrics}, {"releases", releases},
-              {"changes", changes}, {"worse", is_worse(t)}, {"line", upgrade_line(t)}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return Json{{"format", 1},          {"case", t.case_id},      {"title", t.title},     {"command", t.command},
+              {"margin", t.margin},   {"metrics", metrics},     {"releases", releases}, {"changes", changes},
+              {"worse", is_worse(t)}, {"line", upgrade_line(t)}}
+             .dump(2, ' ', false, Json::error_handler_t::replace) +
+         "\n";
 }
 
 std::string releases_markdown(const ReleaseTable& t) {

@@ -31,10 +31,13 @@ Remark remark_on(const CaseResult& c, const EngineRow& e, const GateRow& row) {
 
 std::string command(const Remark& r, std::size_t more) {
   std::string place;
-  if (!r.place.file.empty()) place = fmt::format(" file={},line={},", command_text(r.place.file, true), std::max(r.place.line, 1));
-  else place = " ";
+  if (!r.place.file.empty())
+    place = fmt::format(" file={},line={},", command_text(r.place.file, true), std::max(r.place.line, 1));
+  else
+    place = " ";
   const std::string rest = more > 0 ? fmt::format(" (and {} more, which results.json lists)", more) : "";
-  return fmt::format("::{}{}title={}::{}\n", r.error ? "error" : "warning", place, command_text(r.title, true), command_text(r.text + rest, false));
+  return fmt::format("::{}{}title={}::{}\n", r.error ? "error" : "warning", place, command_text(r.title, true),
+                     command_text(r.text + rest, false));
 }
 
 }  // namespace
@@ -77,7 +80,10 @@ std::string verdict_word(int exit_code, const Results& results, const std::vecto
 
 std::string remarks_text(const std::vector<Remark>& list) {
   std::string text;
-  for (const auto& r : list) text += one_line(fmt::format("{}: {}{}: {}", r.error ? "error" : "warning", r.place.file.empty() ? "" : to_string(r.place) + ": ", r.title, r.text)) + "\n";
+  for (const auto& r : list)
+    text += one_line(fmt::format("{}: {}{}: {}", r.error ? "error" : "warning",
+                                 r.place.file.empty() ? "" : to_string(r.place) + ": ", r.title, r.text)) +
+            "\n";
   return text;
 }
 
@@ -87,7 +93,8 @@ std::string annotations_text(const std::vector<Remark>& list, std::size_t most) 
     std::vector<const Remark*> kind;
     for (const auto& r : list)
       if (r.error == error) kind.push_back(&r);
-    for (std::size_t k = 0; k < std::min(most, kind.size()); ++k) text += command(*kind[k], k + 1 == most ? kind.size() - most : 0);
+    for (std::size_t k = 0; k < std::min(most, kind.size()); ++k)
+      text += command(*kind[k], k + 1 == most ? kind.size() - most : 0);
   }
   return text;
 }

@@ -21,8 +21,8 @@ struct Remark {
 /// The word of the verdict: that of the remarks where all that give the code share one, else that of the code.
 [[nodiscard]] std::string verdict_word(int exit_code, const Results&, const std::vector<Remark>&);
 
-/// How much of what its gate allows a value takes: its size over the limit; distance from the middle of a band over half its width; at_least over it.
-/// Infinite where there is no value or nothing is allowed.
+/// How much of what its gate allows a value takes: its size over the limit; distance from the middle of a band over half its
+/// width; at_least over it. Infinite where there is no value or nothing is allowed.
 [[nodiscard]] double share_used(const GateRow&);
 
 /// Every gate that is not green, and every problem of a case or the suite, worst first.
@@ -31,8 +31,9 @@ struct Remark {
 /// "error: file:line: title: text", one line each.
 [[nodiscard]] std::string remarks_text(const std::vector<Remark>&);
 
-/// The same as workflow commands of GitHub (`::error file=...,line=...`), which it draws beside the line of the limit. It shows ten of
-/// a kind a step: the ten worst errors are written, the last of them saying how many more there are, then likewise the warnings.
+/// The same as workflow commands of GitHub (`::error file=...,line=...`), which it draws beside the line of the limit. It shows
+/// ten of a kind a step: the ten worst errors are written, the last of them saying how many more there are, then likewise the
+/// warnings.
 [[nodiscard]] std::string annotations_text(const std::vector<Remark>&, std::size_t most = 10);
 
 }  // namespace tripoint

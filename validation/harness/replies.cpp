@@ -57,9 +57,12 @@ void read_info(const Json& info, EngineEntry& entry) {
   }
 }
 
-/// A name is a word of the report and a folder of its own: nothing that leads elsewhere, or looks like the name of another engine.
+/// A name is a word of the report and a folder of its own: nothing that leads elsewhere, or looks like the name of another
+/// engine.
 bool is_plain(const std::string& name) {
-  const auto good = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.'; };
+  const auto good = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '.';
+  };
   return !name.empty() && name.size() <= 64 && name.front() != '.' && std::all_of(name.begin(), name.end(), good);
 }
 
@@ -76,7 +79,8 @@ EngineEntry with_info(EngineEntry entry, const std::string& printed) {
     return unavailable(entry, "its name is not 1 to 64 letters, digits, '-', '_' or '.'");
   }
   for (const auto& preset : entry.presets)
-    if (!is_plain(preset)) return unavailable(entry, "one of its presets has a name that is not 1 to 64 letters, digits, '-', '_' or '.'");
+    if (!is_plain(preset))
+      return unavailable(entry, "one of its presets has a name that is not 1 to 64 letters, digits, '-', '_' or '.'");
   return entry;
 }
 
@@ -85,7 +89,8 @@ std::string refusal_in(const std::string& printed) {
   if (!answer.is_object() || !answer.contains("can") || !answer["can"].is_boolean()) return "--check did not print {can, reason}";
   if (answer["can"].get<bool>()) return {};
   const auto reason = answer.find("reason");
-  return reason != answer.end() && reason->is_string() && !reason->empty() ? reason->get<std::string>().substr(0, most_words) : "it gives no reason";
+  return reason != answer.end() && reason->is_string() && !reason->empty() ? reason->get<std::string>().substr(0, most_words)
+                                                                           : "it gives no reason";
 }
 
 }  // namespace tripoint

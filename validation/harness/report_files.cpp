@@ -64,7 +64,8 @@ void set_aside_report(const std::string& folder) {
   const fs::path out(folder);
   std::error_code none;
   if (fs::exists(out / "results.json", none)) fs::rename(out / "results.json", out / "results.previous.json");
-  for (const char* made : {"junit.xml", "summary.md", "index.html", "scorecard.json", "scorecard.md", "scorecard.html"}) fs::remove(out / made, none);
+  for (const char* made : {"junit.xml", "summary.md", "index.html", "scorecard.json", "scorecard.md", "scorecard.html"})
+    fs::remove(out / made, none);
 }
 
 namespace {
@@ -96,7 +97,8 @@ std::string notes_text(const Results& results) {
   }
   const auto list = [&](const char* what, const std::map<std::string, int>& rows) {
     std::string names;
-    for (const auto& [name, count] : rows) names += fmt::format("{}{} in {} case{}", names.empty() ? "" : ", ", name, count, count == 1 ? "" : "s");
+    for (const auto& [name, count] : rows)
+      names += fmt::format("{}{} in {} case{}", names.empty() ? "" : ", ", name, count, count == 1 ? "" : "s");
     if (!names.empty()) text += fmt::format("{}: {}\n", what, one_line(names));
   };
   list("missing", missing), list("not judged", unjudged);
@@ -104,7 +106,9 @@ std::string notes_text(const Results& results) {
 }
 
 std::string last_line(const Results& results, const std::string& folder) {
-  return fmt::format("verdict {} exit {}  {}", results.verdict, results.exit_code, one_line((fs::path(folder) / (fs::exists(fs::path(folder) / "index.html") ? "index.html" : "results.json")).string()));
+  return fmt::format(
+      "verdict {} exit {}  {}", results.verdict, results.exit_code,
+      one_line((fs::path(folder) / (fs::exists(fs::path(folder) / "index.html") ? "index.html" : "results.json")).string()));
 }
 
 }  // namespace tripoint

@@ -14,17 +14,19 @@
 namespace tripoint {
 
 /// An engine and, where it is not the default, its preset, for people: "bullet (tuned)".
-[[nodiscard]] inline std::string label_of(const std::string& engine, const std::string& preset) { return preset == "default" ? engine : engine + " (" + preset + ")"; }
+[[nodiscard]] inline std::string label_of(const std::string& engine, const std::string& preset) {
+  return preset == "default" ? engine : engine + " (" + preset + ")";
+}
 
 struct Cost {
   double cpu_s = 0.0, wall_s = 0.0, setup_cpu_s = 0.0;  ///< [s]
   double peak_bytes = 0.0;
   double pairs = 0.0, steps = 0.0, iterations = 0.0;  ///< counted by the engine
-  double simulated_s = 0.0;  ///< time of the scene that the steps took it through [s]
-  double particles = 0.0;    ///< at the end: with what flowed in, without what is no more
-  double instructions = 0.0;  ///< in user space, of the whole process; 0 = not counted
+  double simulated_s = 0.0;                           ///< time of the scene that the steps took it through [s]
+  double particles = 0.0;                             ///< at the end: with what flowed in, without what is no more
+  double instructions = 0.0;                          ///< in user space, of the whole process; 0 = not counted
   std::vector<double> repeats;  ///< CPU seconds of the timed runs (--timing), one a round [s]; empty = it was run once
-  std::string counted_by;     ///< of the instructions: counter (the processor's own), callgrind (a second run)
+  std::string counted_by;       ///< of the instructions: counter (the processor's own), callgrind (a second run)
 };
 
 struct Knobs {
@@ -58,21 +60,22 @@ struct OrderRow {
   Order order;
   double formal = 0.0;
   std::vector<double> step, error, uncertainty;  ///< what was fitted
-  std::vector<double> numerical;  ///< standard uncertainty of each level by the grid convergence index, which knows no truth; empty = no formal order is declared
+  std::vector<double> numerical;  ///< standard uncertainty of each level by the grid convergence index, which knows no truth;
+                                  ///< empty = no formal order is declared
 };
 
 /// One gate applied to one engine's run (or seeds of a run, pooled), or to a fitted order.
 struct GateRow {
   std::string metric, mode;
   std::optional<double> level;
-  double value = 0.0;        ///< NaN where there is none
-  double uncertainty = 0.0;  ///< standard
-  Uncertainty budget;        ///< what it is made of
+  double value = 0.0;               ///< NaN where there is none
+  double uncertainty = 0.0;         ///< standard
+  Uncertainty budget;               ///< what it is made of
   std::optional<double> low, high;  ///< an order's 95 % interval
-  std::string verdict;       ///< pass fail inconclusive missing diverged
-  std::string why;           ///< one sentence for a verdict that is not pass
-  std::string expect, fit_class;  ///< class of convergence: as a study declares it, and as fitted
-  Gate gate;                 ///< limit, band, reason, file and line
+  std::string verdict;              ///< pass fail inconclusive missing diverged
+  std::string why;                  ///< one sentence for a verdict that is not pass
+  std::string expect, fit_class;    ///< class of convergence: as a study declares it, and as fitted
+  Gate gate;                        ///< limit, band, reason, file and line
 };
 
 /// One row of the matrix: an engine with a preset.
@@ -90,7 +93,7 @@ struct EngineRow {
 struct EquivalenceRow {
   std::string a, b, metric;
   double difference = 0.0, uncertainty = 0.0;
-  std::optional<double> margin;   ///< the limit that the case sets for this metric
+  std::optional<double> margin;         ///< the limit that the case sets for this metric
   double error_a = 0.0, error_b = 0.0;  ///< to truth
   std::string verdict;
 };
@@ -113,8 +116,8 @@ struct CaseResult {
   std::vector<EngineRow> engines;
   std::vector<EquivalenceRow> equivalence;
   std::map<std::string, double> ledger;
-  std::vector<std::string> problems;  ///< why the verdict is not pass, beyond the gates' own rows
-  int timing_rounds = 0;              ///< --timing; 0 = runs were made once, and nothing says how far their times may be off
+  std::vector<std::string> problems;   ///< why the verdict is not pass, beyond the gates' own rows
+  int timing_rounds = 0;               ///< --timing; 0 = runs were made once, and nothing says how far their times may be off
   double timing_floor = not_a_number;  ///< factor >= 1 by which an engine differed from itself
   std::string repeat;
   std::optional<CaseHashes> hashes;  ///< of the case that was run; older results do not say
@@ -131,16 +134,18 @@ struct Results {
   std::string command, profile, verdict, date;
   std::uint64_t seed = 1;
   int exit_code = 0;
-  std::string history;                  ///< file of JSON lines, relative to results.json; empty = none is kept
-  std::string shard;                    ///< "i/n", empty = whole
-  bool interrupted = false;             ///< Ctrl-C ended it before every planned case was complete
-  std::vector<std::string> planned;     ///< ids of every case that this run had to do
-  std::vector<std::string> what;          ///< files, folders and ids that were asked for; empty = the cases beside the program
-  std::string tag;                        ///< --tag; empty = any
-  bool filter_known = false;              ///< these are all cases of `what`, `tag` and `profile`: not with -k or --last-failed, and older results do not say
+  std::string history;               ///< file of JSON lines, relative to results.json; empty = none is kept
+  std::string shard;                 ///< "i/n", empty = whole
+  bool interrupted = false;          ///< Ctrl-C ended it before every planned case was complete
+  std::vector<std::string> planned;  ///< ids of every case that this run had to do
+  std::vector<std::string> what;     ///< files, folders and ids that were asked for; empty = the cases beside the program
+  std::string tag;                   ///< --tag; empty = any
+  bool filter_known =
+      false;  ///< these are all cases of `what`, `tag` and `profile`: not with -k or --last-failed, and older results do not say
   bool seed_given = false;                ///< --seed replaced the cases' own
   std::vector<std::string> only_engines;  ///< --engines; empty = all
-  std::vector<std::string> asked;         ///< engines that the command line named, by --engine or --engines: none of them passes unjudged
+  std::vector<std::string>
+      asked;  ///< engines that the command line named, by --engine or --engines: none of them passes unjudged
   std::vector<std::string> problems;
   std::vector<CaseResult> cases;
 };

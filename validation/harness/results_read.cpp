@@ -87,7 +87,8 @@ MetricValue metric_value(const Json& from) {
 
 Knobs knobs(const Json& from) {
   Knobs k;
-  k.spacing = number_or(from, "spacing", 0.0), k.time_step = number_or(from, "time_step", 0.0), k.support_ratio = number_or(from, "support_ratio", 0.0);
+  k.spacing = number_or(from, "spacing", 0.0), k.time_step = number_or(from, "time_step", 0.0),
+  k.support_ratio = number_or(from, "support_ratio", 0.0);
   k.walkers = optional_number(from, "walkers"), k.iterations = optional_number(from, "iterations");
   k.mode = text(from, "mode"), k.threads = whole_number<int>(number_or(from, "threads", 1.0));
   k.seed = whole_number<std::uint64_t>(number_or(from, "seed", 1.0)), k.jitter = number_or(from, "jitter", 0.0);
@@ -95,9 +96,10 @@ Knobs knobs(const Json& from) {
 }
 
 Cost cost(const Json& from) {
-  return {number_or(from, "cpu_s", 0.0), number_or(from, "wall_s", 0.0), number_or(from, "setup_cpu_s", 0.0), number_or(from, "peak_bytes", 0.0),
-          number_or(from, "pairs", 0.0), number_or(from, "steps", 0.0), number_or(from, "iterations", 0.0),
-          number_or(from, "simulated_s", 0.0), number_or(from, "particles", 0.0), number_or(from, "instructions", 0.0), numbers(member(from, "timed"), "cpu_s"), text(from, "counted_by")};
+  return {number_or(from, "cpu_s", 0.0),        number_or(from, "wall_s", 0.0),          number_or(from, "setup_cpu_s", 0.0),
+          number_or(from, "peak_bytes", 0.0),   number_or(from, "pairs", 0.0),           number_or(from, "steps", 0.0),
+          number_or(from, "iterations", 0.0),   number_or(from, "simulated_s", 0.0),     number_or(from, "particles", 0.0),
+          number_or(from, "instructions", 0.0), numbers(member(from, "timed"), "cpu_s"), text(from, "counted_by")};
 }
 
 RunRow run_row(const Json& from) {
@@ -118,7 +120,8 @@ RunRow run_row(const Json& from) {
 Gate gate(const Json& from) {
   Gate g;
   g.metric = text(from, "metric"), g.engine = text(from, "engine"), g.mode = text(from, "mode"), g.preset = text(from, "preset");
-  g.limit = optional_number(from, "limit"), g.at_least = optional_number(from, "at_least"), g.level = optional_number(from, "level"), g.drift = optional_number(from, "drift");
+  g.limit = optional_number(from, "limit"), g.at_least = optional_number(from, "at_least"),
+  g.level = optional_number(from, "level"), g.drift = optional_number(from, "drift");
   if (const auto band = numbers(from, "band"); band.size() == 2) g.band = {band[0], band[1]};
   g.reason = text(from, "reason"), g.by = text(from, "by"), g.date = text(from, "date"), g.place = place(from);
   return g;
@@ -157,7 +160,8 @@ ReferenceChoice reference(const Json& from) {
 
 MetricChoice metric_choice(const Json& from) {
   MetricChoice m;
-  m.name = text(from, "name"), m.quantity = text(from, "quantity"), m.norm = text(from, "norm"), m.body = text(from, "body"), m.at = text(from, "at");
+  m.name = text(from, "name"), m.quantity = text(from, "quantity"), m.norm = text(from, "norm"), m.body = text(from, "body"),
+  m.at = text(from, "at");
   m.scale = number_or(from, "scale", 1.0), m.unit = text(from, "unit");
   if (const auto window = numbers(from, "window"); window.size() == 2) m.window = {window[0], window[1]};
   return m;
@@ -167,13 +171,21 @@ Study study(const Json& from) {
   Study s;
   s.axis = text(from, "axis"), s.levels = numbers(from, "levels"), s.jitter = number_or(from, "jitter", 0.0);
   s.seeds = whole_number<int>(number_or(from, "seeds", 1.0)), s.engine = text(from, "engine"), s.mode = text(from, "mode");
-  s.expect = text(from, "expect"), s.order = optional_number(from, "order"), s.metric = text(from, "metric"), s.place = place(from);
+  s.expect = text(from, "expect"), s.order = optional_number(from, "order"), s.metric = text(from, "metric"),
+  s.place = place(from);
   return s;
 }
 
 EquivalenceRow equivalence_row(const Json& from) {
-  return {text(from, "a"), text(from, "b"), text(from, "metric"), number(from, "difference"), number(from, "uncertainty"),
-          optional_number(from, "margin"), number(from, "error_a"), number(from, "error_b"), text(from, "verdict")};
+  return {text(from, "a"),
+          text(from, "b"),
+          text(from, "metric"),
+          number(from, "difference"),
+          number(from, "uncertainty"),
+          optional_number(from, "margin"),
+          number(from, "error_a"),
+          number(from, "error_b"),
+          text(from, "verdict")};
 }
 
 CaseResult case_result(const Json& from) {
@@ -187,10 +199,12 @@ CaseResult case_result(const Json& from) {
   c.studies = rows<Study>(from, "studies", study);
   c.gates = rows<Gate>(from, "gates", gate);
   c.engines = rows<EngineRow>(from, "engines", engine_row);
-  if (const auto& timing = member(from, "timing"); timing.is_object()) c.timing_rounds = whole_number<int>(number_or(timing, "rounds", 0.0)), c.timing_floor = number(timing, "noise_floor");
+  if (const auto& timing = member(from, "timing"); timing.is_object())
+    c.timing_rounds = whole_number<int>(number_or(timing, "rounds", 0.0)), c.timing_floor = number(timing, "noise_floor");
   if (const auto& hashes = member(from, "hashes"); hashes.is_object()) {
     c.hashes = CaseHashes{text(hashes, "scene"), text(hashes, "reference"), {}, {}, {}};
-    for (const auto& [name, hash] : member(hashes, "metrics").items()) c.hashes->metrics[name] = hash.is_string() ? hash.get<std::string>() : "";
+    for (const auto& [name, hash] : member(hashes, "metrics").items())
+      c.hashes->metrics[name] = hash.is_string() ? hash.get<std::string>() : "";
   }
   c.equivalence = rows<EquivalenceRow>(from, "equivalence", equivalence_row);
   if (const auto& ledger = member(from, "ledger"); ledger.is_object())
@@ -199,7 +213,8 @@ CaseResult case_result(const Json& from) {
 }
 
 Tool tool(const Json& from) {
-  return {text(from, "version"), text(from, "commit"), text(from, "compiler"), text(from, "flags"), text(from, "cpu"), whole_number<int>(number_or(from, "cores", 0.0))};
+  return {text(from, "version"), text(from, "commit"), text(from, "compiler"),
+          text(from, "flags"),   text(from, "cpu"),    whole_number<int>(number_or(from, "cores", 0.0))};
 }
 
 }  // namespace
@@ -212,19 +227,22 @@ RunRow read_run_row(const std::string& text_of_row, const std::string& place_of_
 
 Results read_results(const std::string& path) {
   const std::string text_of_file = text_of_regular_file(path, largest_file);
-  if (nests_too_deep(text_of_file)) throw InputError(fmt::format("{}: nests deeper than {} levels, which no results file does", path, most_levels));
+  if (nests_too_deep(text_of_file))
+    throw InputError(fmt::format("{}: nests deeper than {} levels, which no results file does", path, most_levels));
   const auto document = Json::parse(text_of_file, nullptr, false);
   if (!document.is_object()) throw InputError(path + ": is not a JSON object (a results.json of tripoint validate is wanted)");
   if (number(document, "format") != 1.0) throw InputError(path + ": has not \"format\": 1");
   if (!member(document, "cases").is_array()) throw InputError(path + ": has no list \"cases\"");
   Results r;
   r.tool = tool(member(document, "tool"));
-  r.command = text(document, "command"), r.profile = text(document, "profile"), r.date = text(document, "date"), r.shard = text(document, "shard"), r.history = text(document, "history");
+  r.command = text(document, "command"), r.profile = text(document, "profile"), r.date = text(document, "date"),
+  r.shard = text(document, "shard"), r.history = text(document, "history");
   r.seed = whole_number<std::uint64_t>(number_or(document, "seed", 1.0));
   r.verdict = text(document, "verdict"), r.exit_code = whole_number<int>(number_or(document, "exit_code", 4.0));
   r.interrupted = member(document, "interrupted") == Json(true);
   r.planned = strings(document, "planned"), r.only_engines = strings(document, "only_engines");
-  r.filter_known = flag(document, "whole", false), r.what = strings(document, "what"), r.tag = text(document, "tag"), r.seed_given = flag(document, "seed_given", false);
+  r.filter_known = flag(document, "whole", false), r.what = strings(document, "what"), r.tag = text(document, "tag"),
+  r.seed_given = flag(document, "seed_given", false);
   r.asked = document.contains("asked") ? strings(document, "asked") : r.only_engines;
   r.cases = rows<CaseResult>(document, "cases", case_result);
   return r;

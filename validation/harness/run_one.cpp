@@ -20,7 +20,7 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double read_limit = 300.0;  // [s], for a foreign trajectory
+constexpr double read_limit = 300.0;                                 // [s], for a foreign trajectory
 constexpr double check_limit = 60.0, check_limit_a_particle = 1e-4;  // [s]: --check runs nothing, but may set up the scene
 
 Outcome failed(Outcome outcome, const std::string& status, const std::string& reason) {
@@ -64,9 +64,12 @@ Job job_in_folder(const RunRequest& request) {
 void prepare_folder(const RunRequest& request) {
   const fs::path folder(request.folder);
   fs::create_directories(folder);
-  for (const char* stale : {"job.json", "result.json", "outcome.json", "trajectory.csv", "gauges.csv", "trajectory.xdmf", "log.txt"}) fs::remove(folder / stale);
+  for (const char* stale :
+       {"job.json", "result.json", "outcome.json", "trajectory.csv", "gauges.csv", "trajectory.xdmf", "log.txt"})
+    fs::remove(folder / stale);
   std::error_code ignored;
-  const bool goes_on = !request.job->resume.empty() && fs::equivalent(fs::path(request.job->resume).parent_path(), folder, ignored);
+  const bool goes_on =
+      !request.job->resume.empty() && fs::equivalent(fs::path(request.job->resume).parent_path(), folder, ignored);
   if (!goes_on) {
     fs::remove(folder / "trajectory.h5");
     for (const auto& checkpoint : checkpoints_in(request.folder)) fs::remove(checkpoint);
@@ -95,12 +98,15 @@ ProcessSpec call(const RunRequest& request, const char* verb, double limit) {
 
 void take_cost(Outcome& outcome, const ProcessEnd& end) {
   const auto& r = outcome.result;
-  outcome.cost = {end.cpu_s, end.wall_s, r.setup_cpu, end.peak_bytes, r.pairs, static_cast<double>(r.steps), r.iterations, r.time_reached, 0.0, end.instructions, {}, end.instructions > 0.0 ? "counter" : ""};
+  outcome.cost = {end.cpu_s,    end.wall_s,     r.setup_cpu, end.peak_bytes,   r.pairs, static_cast<double>(r.steps),
+                  r.iterations, r.time_reached, 0.0,         end.instructions, {},      end.instructions > 0.0 ? "counter" : ""};
 }
 
 /// A second run in a folder of its own, of which nothing but the count is kept.
 void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& outcome) {
-  if (request.engine->name == "exact" || outcome.status != "ok" || outcome.cost.instructions > 0.0 || !(outcome.cost.cpu_s < request.count_below)) return;
+  if (request.engine->name == "exact" || outcome.status != "ok" || outcome.cost.instructions > 0.0 ||
+      !(outcome.cost.cpu_s < request.count_below))
+    return;
   const fs::path folder = fs::path(request.folder) / "callgrind";
   std::error_code ignored;
   fs::create_directories(folder, ignored);
@@ -129,7 +135,8 @@ Trajectory read_particle_trajectory(const RunRequest& request) {
   const fs::path folder(request.folder);
   if (const std::string file = (folder / "trajectory.h5").string(); fs::exists(file)) {
     // Nobody promises that HDF5 bears every file. Who is not ours has it tried by a copy of us first.
-    if (!belongs_to_us(request.engine->executable)) try_in_child([&] { static_cast<void>(read_trajectory(file)); }, "trajectory.h5", read_limit);
+    if (!belongs_to_us(request.engine->executable))
+      try_in_child([&] { static_cast<void>(read_trajectory(file)); }, "trajectory.h5", read_limit);
     return read_trajectory(file);
   }
   const auto& bodies = request.job->bodies;
@@ -162,7 +169,9 @@ double alive_at_the_end(const Trajectory& trajectory) {
 }
 
 std::string describe(const Divergence& d) {
-  return fmt::format("{}{}{} in stage {} at t = {:g} s", d.field, d.particle >= 0 ? fmt::format(" of particle {}", d.particle) : "", d.body >= 0 ? fmt::format(" of body {}", d.body) : "", d.stage, d.time);
+  return fmt::format("{}{}{} in stage {} at t = {:g} s", d.field,
+                     d.particle >= 0 ? fmt::format(" of particle {}", d.particle) : "",
+                     d.body >= 0 ? fmt::format(" of body {}", d.body) : "", d.stage, d.time);
 }
 
 Outcome read_trajectory_of(const RunRequest& request, Outcome outcome) {
@@ -172,7 +181,8 @@ Outcome read_trajectory_of(const RunRequest& request, Outcome outcome) {
     return failed(outcome, "error", fmt::format("time not reached: {:g} s of {:g} s", outcome.result.time_reached, end));
   outcome.trajectory = read_any_trajectory(request);
   outcome.cost.particles = alive_at_the_end(*outcome.trajectory);
-  if (const auto wrong = audit(job, *request.initial, *outcome.trajectory); !wrong.empty()) return failed(outcome, "error", wrong);
+  if (const auto wrong = audit(job, *request.initial, *outcome.trajectory); !wrong.empty())
+    return failed(outcome, "error", wrong);
   if (const auto other = audit_scene(job, outcome.result.readback); !other.empty()) {
     outcome.comparable = false;
     return failed(outcome, "error", "not comparable: " + other);
@@ -196,9 +206,15 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
     take_cost(outcome, end);
     const auto& r = outcome.result;
     if (r.status == "refused") return failed(outcome, "refused", r.message.empty() ? "it gives no reason" : r.message);
-    if (r.status == "diverged") return failed(outcome, "diverged", r.divergence ? describe(*r.divergence) + (r.message.empty() ? "" : ": " + r.message) : r.message.empty() ? "it gives no place" : r.message);
-    if (r.status != "ok") return failed(outcome, "error", (r.message.empty() ? "status " + r.status : r.message) + last_words(end.log_tail));
-    if (end.how != How::exited || end.code != 0) return failed(outcome, "error", "says ok but " + describe(end) + last_words(end.log_tail));
+    if (r.status == "diverged")
+      return failed(outcome, "diverged",
+                    r.divergence        ? describe(*r.divergence) + (r.message.empty() ? "" : ": " + r.message)
+                    : r.message.empty() ? "it gives no place"
+                                        : r.message);
+    if (r.status != "ok")
+      return failed(outcome, "error", (r.message.empty() ? "status " + r.status : r.message) + last_words(end.log_tail));
+    if (end.how != How::exited || end.code != 0)
+      return failed(outcome, "error", "says ok but " + describe(end) + last_words(end.log_tail));
     if (r.extra.contains("recoveries")) outcome.reason = r.message;
     return read_trajectory_of(request, outcome);
   } catch (const std::exception& e) {
@@ -212,10 +228,12 @@ Outcome ask(const RunRequest& request) {
   } catch (const std::exception& e) {
     return failed({}, "error", std::string("the job could not be written: ") + e.what());
   }
-  const auto check = run_process(call(request, "--check", check_limit + check_limit_a_particle * static_cast<double>(request.initial->size())));
+  const auto check =
+      run_process(call(request, "--check", check_limit + check_limit_a_particle * static_cast<double>(request.initial->size())));
   if (check.how == ProcessEnd::How::interrupted) return failed({}, "killed", describe(check));
   if (check.how == ProcessEnd::How::timed_out) return failed({}, "timeout", "--check " + describe(check));
-  if (check.how != ProcessEnd::How::exited || check.code != 0) return failed({}, "error", "--check " + describe(check) + last_words(check.log_tail));
+  if (check.how != ProcessEnd::How::exited || check.code != 0)
+    return failed({}, "error", "--check " + describe(check) + last_words(check.log_tail));
   if (const auto reason = refusal_in(check.output); !reason.empty()) return failed({}, "refused", reason);
   return {};
 }
@@ -242,7 +260,8 @@ Outcome run_one(const RunRequest& request) {
   return outcome;
 }
 
-MetricValue metric_of(const Case& value, const MetricChoice& choice, const Job& job, const InitialState& initial, const Trajectory& trajectory) {
+MetricValue metric_of(const Case& value, const MetricChoice& choice, const Job& job, const InitialState& initial,
+                      const Trajectory& trajectory) {
   const auto& truth = choice.reference.value_or(value.reference);
   std::unique_ptr<Reference> reference;
   try {
@@ -256,7 +275,8 @@ MetricValue metric_of(const Case& value, const MetricChoice& choice, const Job& 
   return evaluate(choice, job, initial, trajectory, *reference);
 }
 
-std::map<std::string, MetricValue> evaluate_all(const Case& value, const Job& job, const InitialState& initial, const Trajectory& trajectory) {
+std::map<std::string, MetricValue> evaluate_all(const Case& value, const Job& job, const InitialState& initial,
+                                                const Trajectory& trajectory) {
   std::map<std::string, MetricValue> metrics;
   for (const auto& choice : value.metrics) {
     try {

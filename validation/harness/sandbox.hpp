@@ -5,15 +5,16 @@
 
 #include "validation/harness/process.hpp"
 
-/// Engines that somebody else wrote, run by bubblewrap in namespaces of their own: no network, no other process, and of the files only the
-/// system's programs, the engine's own folder and its run.
+/// Engines that somebody else wrote, run by bubblewrap in namespaces of their own: no network, no other process, and of the files
+/// only the system's programs, the engine's own folder and its run.
 namespace tripoint {
 
 /// Whether an engine is one of this program's own: it lies where they do.
 [[nodiscard]] bool belongs_to_us(const std::string& executable);
 
 /// From now on `sandboxed` acts. Asked once, before the first engine is.
-/// @throws EngineError where bubblewrap is not installed, or this machine lets it make no namespaces: nothing is run unguarded then
+/// @throws EngineError where bubblewrap is not installed, or this machine lets it make no namespaces: nothing is run unguarded
+/// then
 void sandbox_strangers();
 
 /// The child as it is to be started: unchanged where no sandbox is wanted, and where the engine belongs to this program.

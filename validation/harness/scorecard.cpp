@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "validation/harness/apply_gate.hpp"
-#include "validation/harness/judge.hpp"
 #include "validation/harness/expected_refusal.hpp"
+#include "validation/harness/judge.hpp"
 #include "validation/harness/known_defect.hpp"
 #include "validation/harness/releases.hpp"
 #include "validation/harness/slack.hpp"
@@ -16,8 +16,8 @@
 namespace tripoint {
 namespace {
 
-constexpr double same_error = 1e-6;     // share by which two errors may differ and still share a place
-constexpr double disagreement = 0.5;    // of the acceptance limit
+constexpr double same_error = 1e-6;   // share by which two errors may differ and still share a place
+constexpr double disagreement = 0.5;  // of the acceptance limit
 
 bool is_order(const Gate& g) { return g.metric.ends_with(".order"); }
 
@@ -27,7 +27,8 @@ const MetricChoice* metric_of(const CaseResult& c, const std::string& name) {
 }
 
 bool is_conserved(const MetricChoice& m) {
-  return m.norm == "drift" || m.quantity.starts_with("ledger.") || m.quantity == "momentum" || m.quantity == "angular_momentum" || m.quantity == "mass";
+  return m.norm == "drift" || m.quantity.starts_with("ledger.") || m.quantity == "momentum" || m.quantity == "angular_momentum" ||
+         m.quantity == "mass";
 }
 
 /// The run at the case's own resolution; of our solver the corrected one.
@@ -44,7 +45,9 @@ double error_of(const EngineRow& e, const Gate* gate) {
 }
 
 /// The edge of the acceptance limit that is farthest from zero.
-double edge(const Gate& g) { return g.limit ? *g.limit : g.band ? std::max(std::abs((*g.band)[0]), std::abs((*g.band)[1])) : not_a_number; }
+double edge(const Gate& g) {
+  return g.limit ? *g.limit : g.band ? std::max(std::abs((*g.band)[0]), std::abs((*g.band)[1])) : not_a_number;
+}
 
 bool same_place(double a, double b) { return std::abs(a - b) <= same_error * std::max(a, b) || std::max(a, b) <= roundoff_limit; }
 
@@ -118,7 +121,8 @@ ScoreRow row_of(const CaseResult& c, const EngineRow& e) {
     conservation(c, *run, row);
     row.cpu_s = run->cost.cpu_s;
     for (const auto& ours : c.engines)
-      if (const auto* base = own_run(ours); ours.name == "tripoint" && base && base->status == "ok" && base->cost.cpu_s > 0.0) row.cost = row.cpu_s / base->cost.cpu_s;
+      if (const auto* base = own_run(ours); ours.name == "tripoint" && base && base->status == "ok" && base->cost.cpu_s > 0.0)
+        row.cost = row.cpu_s / base->cost.cpu_s;
   }
   settle(e, row);
   return row;
@@ -132,7 +136,8 @@ std::string words_on(const EngineRow& e, const Case* value, const std::vector<En
   if (!value) return text;
   for (const auto& choice : value->engines)
     for (const auto& [key, setting] : choice.settings)
-      if (const auto at = entry->settings.find(key); choice.name == e.name && at != entry->settings.end()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", key, at->second);
+      if (const auto at = entry->settings.find(key); choice.name == e.name && at != entry->settings.end())
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", key, at->second);
   return text;
 }
 
@@ -154,9 +159,11 @@ std::optional<Disagreement> disagreement_of(const CaseResult& c, const Case* val
   Disagreement d{c.id, gate->metric, metric ? metric->unit : "", describe(*gate), {}, {}, 0.0, {}};
   for (std::size_t i = 0; i < ran.size(); ++i)
     for (std::size_t j = i + 1; j < ran.size(); ++j)
-      if (const double x = apart(c, *gate, *ran[i], *ran[j]); x > d.difference) d.difference = x, d.a = label_of(ran[i]->name, ran[i]->preset), d.b = label_of(ran[j]->name, ran[j]->preset);
+      if (const double x = apart(c, *gate, *ran[i], *ran[j]); x > d.difference)
+        d.difference = x, d.a = label_of(ran[i]->name, ran[i]->preset), d.b = label_of(ran[j]->name, ran[j]->preset);
   if (!(d.difference > disagreement * edge(*gate))) return {};
-  std::stable_sort(ran.begin(), ran.end(), [&](const auto* a, const auto* b) { return std::abs(error_of(*a, gate)) < std::abs(error_of(*b, gate)); });
+  std::stable_sort(ran.begin(), ran.end(),
+                   [&](const auto* a, const auto* b) { return std::abs(error_of(*a, gate)) < std::abs(error_of(*b, gate)); });
   for (const auto* e : ran) {
     ScoreRow row;
     settle(*e, row);
@@ -192,7 +199,8 @@ int EngineScore::count(const std::string& verdict) const {
 
 Scorecard scorecard_of(const Results& results, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines) {
   Scorecard card;
-  card.command = results.command, card.verdict = results.verdict, card.exit_code = results.exit_code, card.date = results.date, card.commit = results.tool.commit;
+  card.command = results.command, card.verdict = results.verdict, card.exit_code = results.exit_code, card.date = results.date,
+  card.commit = results.tool.commit;
   for (const auto& c : results.cases) {
     const auto at = std::find_if(cases.begin(), cases.end(), [&](const auto& value) { return value.id == c.id; });
     const Case* value = at == cases.end() ? nullptr : &*at;

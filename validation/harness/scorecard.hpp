@@ -15,19 +15,19 @@ namespace tripoint {
 /// One case of one engine and preset. What is not there is NaN, 0 or empty.
 struct ScoreRow {
   std::string case_id, title;
-  std::string verdict;   ///< pass, fail, known defect, inconclusive, diverged, crashed, refused, missing, not judged
-  std::string reason;    ///< of a verdict that is not pass: what failed, why it was refused; of a known defect its name
-  std::string metric, unit;          ///< the metric by which engines are ranked: that of the first acceptance limit of the case
-  double error = not_a_number;       ///< its value at the case's own resolution, scaled
-  std::string allowed;               ///< "limit 0.05": the acceptance limit on it
-  double share = not_a_number;       ///< of that limit that is used
-  double order = not_a_number;       ///< observed, of a study of the case
+  std::string verdict;          ///< pass, fail, known defect, inconclusive, diverged, crashed, refused, missing, not judged
+  std::string reason;           ///< of a verdict that is not pass: what failed, why it was refused; of a known defect its name
+  std::string metric, unit;     ///< the metric by which engines are ranked: that of the first acceptance limit of the case
+  double error = not_a_number;  ///< its value at the case's own resolution, scaled
+  std::string allowed;          ///< "limit 0.05": the acceptance limit on it
+  double share = not_a_number;  ///< of that limit that is used
+  double order = not_a_number;  ///< observed, of a study of the case
   std::string order_metric, order_class;
-  double drift = not_a_number;       ///< the largest of the case's laws of conservation, scaled
+  double drift = not_a_number;  ///< the largest of the case's laws of conservation, scaled
   std::string drift_metric;
-  double cpu_s = not_a_number;       ///< of the run at the case's own resolution [CPU s]
-  double cost = not_a_number;        ///< cpu_s over that of tripoint in the same case
-  int rank = 0, of = 0;              ///< 1 = the smallest error of the `of` engines that ran; equal errors share a place
+  double cpu_s = not_a_number;  ///< of the run at the case's own resolution [CPU s]
+  double cost = not_a_number;   ///< cpu_s over that of tripoint in the same case
+  int rank = 0, of = 0;         ///< 1 = the smallest error of the `of` engines that ran; equal errors share a place
 };
 
 /// An engine and preset over all cases.
@@ -45,11 +45,12 @@ struct Witness {
   std::string words;  ///< the vendor's own on preset and settings, with their source; empty = the engine gives none
 };
 
-/// A case in which two engines differ by more than half of the acceptance limit: at most one of them uses less than a quarter of it.
+/// A case in which two engines differ by more than half of the acceptance limit: at most one of them uses less than a quarter of
+/// it.
 struct Disagreement {
   std::string case_id, metric, unit, allowed;
-  std::string a, b;         ///< the two that differ most
-  double difference = 0.0;  ///< of these two, in the metric
+  std::string a, b;                ///< the two that differ most
+  double difference = 0.0;         ///< of these two, in the metric
   std::vector<Witness> witnesses;  ///< every engine that ran, the nearest to the truth first
 };
 
@@ -60,7 +61,8 @@ struct Scorecard {
   std::vector<Disagreement> disagreements;
 };
 
-/// @param cases as they were run: settings and limits  @param engines for the vendors' words; `exact` and our printed form have no score
+/// @param cases as they were run: settings and limits  @param engines for the vendors' words; `exact` and our printed form have
+/// no score
 [[nodiscard]] Scorecard scorecard_of(const Results&, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines);
 
 /// Whether a gate is a limit that any engine must hold.
@@ -74,7 +76,8 @@ struct Scorecard {
 [[nodiscard]] std::string scorecard_markdown(const Scorecard&);
 /// scorecard.json, format 1: what the page is made of.
 [[nodiscard]] std::string scorecard_json(const Scorecard&);
-/// Writes scorecard.json, scorecard.md and, where the report program can, scorecard.html. @return why there is no page; empty where it is there
+/// Writes scorecard.json, scorecard.md and, where the report program can, scorecard.html. @return why there is no page; empty
+/// where it is there
 [[nodiscard]] std::string write_scorecard(const Scorecard&, const std::string& folder);
 
 }  // namespace tripoint

@@ -20,19 +20,28 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double page_limit = 120.0;          // [s]
-constexpr std::size_t most_in_full = 4;       // engines whose rows the terminal shows; of more it shows the totals
-constexpr std::array<const char*, 9> verdicts{"pass", "fail", "known defect", "inconclusive", "diverged", "crashed", "not judged", "refused", "missing"};
+constexpr double page_limit = 120.0;     // [s]
+constexpr std::size_t most_in_full = 4;  // engines whose rows the terminal shows; of more it shows the totals
+constexpr std::array<const char*, 9> verdicts{"pass",    "fail",       "known defect", "inconclusive", "diverged",
+                                              "crashed", "not judged", "refused",      "missing"};
 
 bool ran(const ScoreRow& r) { return r.verdict != "refused" && r.verdict != "missing"; }
 
-std::string figure(double value, const char* form = "{:.3g}") { return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-"; }
+std::string figure(double value, const char* form = "{:.3g}") {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-";
+}
 
-std::string error_cell(const ScoreRow& r) { return std::isfinite(r.error) ? fmt::format("{:.3g} ({})", r.error, r.allowed) : "-"; }
+std::string error_cell(const ScoreRow& r) {
+  return std::isfinite(r.error) ? fmt::format("{:.3g} ({})", r.error, r.allowed) : "-";
+}
 
-std::string order_cell(const ScoreRow& r) { return std::isfinite(r.order) ? fmt::format("{:.1f}", r.order) : r.order_class.empty() ? "-" : r.order_class; }
+std::string order_cell(const ScoreRow& r) {
+  return std::isfinite(r.order) ? fmt::format("{:.1f}", r.order) : r.order_class.empty() ? "-" : r.order_class;
+}
 
-std::string drift_cell(const ScoreRow& r) { return std::isfinite(r.drift) ? fmt::format("{} {:.2g}", r.drift_metric, r.drift) : "-"; }
+std::string drift_cell(const ScoreRow& r) {
+  return std::isfinite(r.drift) ? fmt::format("{} {:.2g}", r.drift_metric, r.drift) : "-";
+}
 
 std::string rank_cell(const ScoreRow& r) { return r.rank > 0 ? fmt::format("{} of {}", r.rank, r.of) : "-"; }
 
@@ -46,7 +55,8 @@ std::string cell(std::string text) {
 std::string tally(const EngineScore& s) {
   std::string text;
   for (const auto* v : verdicts)
-    if (const int n = s.count(v); n > 0 || v == verdicts[0] || v == verdicts[1]) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, v);
+    if (const int n = s.count(v); n > 0 || v == verdicts[0] || v == verdicts[1])
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, v);
   return text;
 }
 
@@ -68,46 +78,60 @@ std::vector<std::pair<std::string, std::vector<std::string>>> refusals(const Eng
     if (ran(r)) continue;
     const auto words = r.verdict + (r.reason.starts_with("as expected: ") ? ", " : ": ") + r.reason;
     const auto at = std::find_if(list.begin(), list.end(), [&](const auto& l) { return l.first == words; });
-    if (at == list.end()) list.push_back({words, {r.case_id}});
-    else at->second.push_back(r.case_id);
+    if (at == list.end())
+      list.push_back({words, {r.case_id}});
+    else
+      at->second.push_back(r.case_id);
   }
   return list;
 }
 
 std::string rows_text(const EngineScore& s) {
-  std::string text = fmt::format("\nscorecard of {} {}: {}\n  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", s.label(), s.version, tally(s), "verdict", "case", "error (limit)", "order", "drift", "CPU s", "x ours", "rank");
+  std::string text =
+      fmt::format("\nscorecard of {} {}: {}\n  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", s.label(), s.version,
+                  tally(s), "verdict", "case", "error (limit)", "order", "drift", "CPU s", "x ours", "rank");
   for (const auto& r : s.rows) {
     if (!ran(r)) continue;
-    text += fmt::format("  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", r.verdict, r.case_id, error_cell(r), order_cell(r), drift_cell(r), figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
+    text += fmt::format("  {:13} {:26} {:>28} {:>10} {:>18} {:>8} {:>7} {:>8}\n", r.verdict, r.case_id, error_cell(r),
+                        order_cell(r), drift_cell(r), figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
     if (!r.reason.empty()) text += "                " + r.reason + "\n";
   }
-  for (const auto& [reason, ids] : refusals(s)) text += fmt::format("  {} ({} case{})\n", reason, ids.size(), ids.size() == 1 ? "" : "s");
+  for (const auto& [reason, ids] : refusals(s))
+    text += fmt::format("  {} ({} case{})\n", reason, ids.size(), ids.size() == 1 ? "" : "s");
   return text;
 }
 
 std::string totals_text(const Scorecard& card) {
-  std::string text = fmt::format("\n{:34} {:>5} {:>5} {:>6} {:>8} {:>8} {:>8} {:>6} {:>9}\n", "engine", "pass", "fail", "known", "refused", "missing", "crashed", "first", "CPU s");
+  std::string text = fmt::format("\n{:34} {:>5} {:>5} {:>6} {:>8} {:>8} {:>8} {:>6} {:>9}\n", "engine", "pass", "fail", "known",
+                                 "refused", "missing", "crashed", "first", "CPU s");
   for (const auto& s : card.engines)
-    text += fmt::format("{:34} {:5} {:5} {:6} {:8} {:8} {:8} {:6} {:9.2f}\n", s.label(), s.count("pass"), s.count("fail") + s.count("inconclusive") + s.count("not judged"), s.count("known defect"), s.count("refused"), s.count("missing"),
-                        s.count("crashed") + s.count("diverged"), firsts(s), cpu_of(s));
+    text += fmt::format("{:34} {:5} {:5} {:6} {:8} {:8} {:8} {:6} {:9.2f}\n", s.label(), s.count("pass"),
+                        s.count("fail") + s.count("inconclusive") + s.count("not judged"), s.count("known defect"),
+                        s.count("refused"), s.count("missing"), s.count("crashed") + s.count("diverged"), firsts(s), cpu_of(s));
   return text;
 }
 
 std::string totals_markdown(const Scorecard& card) {
-  std::string text = "| engine | pass | fail | known defect | refused | missing | crashed | first | CPU s |\n|---|---|---|---|---|---|---|---|---|\n";
+  std::string text =
+      "| engine | pass | fail | known defect | refused | missing | crashed | first | CPU s "
+      "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& s : card.engines)
-    text += fmt::format("| {} {} | {} | {} | {} | {} | {} | {} | {} | {:.1f} |\n", s.label(), s.version, s.count("pass"), s.count("fail") + s.count("inconclusive") + s.count("not judged"), s.count("known defect"), s.count("refused"),
-                        s.count("missing"), s.count("crashed") + s.count("diverged"), firsts(s), cpu_of(s));
+    text += fmt::format("| {} {} | {} | {} | {} | {} | {} | {} | {} | {:.1f} |\n", s.label(), s.version, s.count("pass"),
+                        s.count("fail") + s.count("inconclusive") + s.count("not judged"), s.count("known defect"),
+                        s.count("refused"), s.count("missing"), s.count("crashed") + s.count("diverged"), firsts(s), cpu_of(s));
   return text;
 }
 
 std::string rows_markdown(const EngineScore& s) {
   std::string text = fmt::format("\n## {} {}\n\n{}.\n", s.label(), s.version, tally(s));
-  if (std::any_of(s.rows.begin(), s.rows.end(), ran)) text += "\n| case | verdict | error | order | drift | CPU s | times ours | rank |\n|---|---|---|---|---|---|---|---|\n";
+  if (std::any_of(s.rows.begin(), s.rows.end(), ran))
+    text += "\n| case | verdict | error | order | drift | CPU s | times ours | rank |\n|---|---|---|---|---|---|---|---|\n";
   for (const auto& r : s.rows)
     if (ran(r))
-      text += fmt::format("| {} | {}{} | {}{} | {} | {} | {} | {} | {} |\n", r.case_id, r.verdict, r.reason.empty() ? "" : ": " + cell(r.reason), error_cell(r), std::isfinite(r.error) && !r.unit.empty() ? " " + cell(r.unit) : "",
-                          order_cell(r), cell(drift_cell(r)), figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
+      text += fmt::format("| {} | {}{} | {}{} | {} | {} | {} | {} | {} |\n", r.case_id, r.verdict,
+                          r.reason.empty() ? "" : ": " + cell(r.reason), error_cell(r),
+                          std::isfinite(r.error) && !r.unit.empty() ? " " + cell(r.unit) : "", order_cell(r), cell(drift_cell(r)),
+                          figure(r.cpu_s, "{:.2f}"), figure(r.cost, "{:.2g}"), rank_cell(r));
   const auto list = refusals(s);
   if (!list.empty()) text += "\n";
   for (const auto& [reason, ids] : list) text += fmt::format("- {}: {}\n", cell(reason), fmt::join(ids, ", "));
@@ -115,28 +139,56 @@ std::string rows_markdown(const EngineScore& s) {
 }
 
 std::string disagreement_markdown(const Disagreement& d) {
-  std::string text = fmt::format("\n### {}\n\n{} and {} are {:.3g} {} apart in `{}` ({}).\n\n| engine | off the truth | verdict | the setting, in the vendor's words |\n|---|---|---|---|\n", d.case_id, d.a, d.b, d.difference, cell(d.unit), d.metric, d.allowed);
-  for (const auto& w : d.witnesses) text += fmt::format("| {} | {:.3g} | {} | {} |\n", w.label, w.error, w.verdict, cell(w.words));
+  std::string text = fmt::format(
+      "\n### {}\n\n{} and {} are {:.3g} {} apart in `{}` ({}).\n\n| engine | off the truth | verdict | the setting, in the "
+      "vendor's words |\n|---|---|---|---|\n",
+      d.case_id, d.a, d.b, d.difference, cell(d.unit), d.metric, d.allowed);
+  for (const auto& w : d.witnesses)
+    text += fmt::format("| {} | {:.3g} | {} | {} |\n", w.label, w.error, w.verdict, cell(w.words));
   return text;
 }
 
 Json json(const ScoreRow& r) {
-  return {{"case", r.case_id}, {"title", r.title}, {"verdict", r.verdict}, {"reason", r.reason}, {"metric", r.metric}, {"unit", r.unit}, {"error", number(r.error)}, {"allowed", r.allowed}, {"share", number(r.share)},
-          {"order", number(r.order)}, {"order_metric", r.order_metric}, {"order_class", r.order_class}, {"drift", number(r.drift)}, {"drift_metric", r.drift_metric}, {"cpu_s", number(r.cpu_s)}, {"cost", number(r.cost)},
-          {"rank", r.rank}, {"of", r.of}};
+  return {{"case", r.case_id},
+          {"title", r.title},
+          {"verdict", r.verdict},
+          {"reason", r.reason},
+          {"metric", r.metric},
+          {"unit", r.unit},
+          {"error", number(r.error)},
+          {"allowed", r.allowed},
+          {"share", number(r.share)},
+          {"order", number(r.order)},
+          {"order_metric", r.order_metric},
+          {"order_class", r.order_class},
+          {"drift", number(r.drift)},
+          {"drift_metric", r.drift_metric},
+          {"cpu_s", number(r.cpu_s)},
+          {"cost", number(r.cost)},
+          {"rank", r.rank},
+          {"of", r.of}};
 }
 
 Json json(const EngineScore& s) {
   Json rows = Json::array(), totals = Json::object();
   for (const auto& r : s.rows) rows.push_back(json(r));
   for (const auto* v : verdicts) totals[v] = s.count(v);
-  return {{"engine", s.engine}, {"preset", s.preset}, {"label", s.label()}, {"version", s.version}, {"totals", totals}, {"first", firsts(s)}, {"cpu_s", cpu_of(s)}, {"rows", rows}};
+  return {{"engine", s.engine}, {"preset", s.preset}, {"label", s.label()}, {"version", s.version},
+          {"totals", totals},   {"first", firsts(s)}, {"cpu_s", cpu_of(s)}, {"rows", rows}};
 }
 
 Json json(const Disagreement& d) {
   Json witnesses = Json::array();
-  for (const auto& w : d.witnesses) witnesses.push_back({{"engine", w.label}, {"verdict", w.verdict}, {"error", number(w.error)}, {"words", w.words}});
-  return {{"case", d.case_id}, {"metric", d.metric}, {"unit", d.unit}, {"allowed", d.allowed}, {"a", d.a}, {"b", d.b}, {"difference", number(d.difference)}, {"engines", witnesses}};
+  for (const auto& w : d.witnesses)
+    witnesses.push_back({{"engine", w.label}, {"verdict", w.verdict}, {"error", number(w.error)}, {"words", w.words}});
+  return {{"case", d.case_id},
+          {"metric", d.metric},
+          {"unit", d.unit},
+          {"allowed", d.allowed},
+          {"a", d.a},
+          {"b", d.b},
+          {"difference", number(d.difference)},
+          {"engines", witnesses}};
 }
 
 }  // namespace
@@ -148,14 +200,26 @@ std::string scorecard_text(const Scorecard& card, const std::vector<std::string>
   std::string text;
   if (shown.size() <= most_in_full)
     for (const auto* s : shown) text += rows_text(*s);
-  return text + totals_text(card) + (card.disagreements.empty() ? "" : fmt::format("in {} cases two engines differ by more than half of the limit: the page says which is how far off\n", card.disagreements.size()));
+  return text + totals_text(card) +
+         (card.disagreements.empty()
+              ? ""
+              : fmt::format("in {} cases two engines differ by more than half of the limit: the page says which is how far off\n",
+                            card.disagreements.size()));
 }
 
 std::string scorecard_markdown(const Scorecard& card) {
-  std::string text = fmt::format("# Acceptance: engines by the limits that any engine must hold\n\nWritten by `{}`: {}, exit {}.\n\n", card.command, card.verdict, card.exit_code);
-  text += "`first` counts the cases in which an engine has the smallest error of several. `CPU s` is the sum over its own runs of the cases, studies left out.\n\n" + totals_markdown(card);
+  std::string text =
+      fmt::format("# Acceptance: engines by the limits that any engine must hold\n\nWritten by `{}`: {}, exit {}.\n\n",
+                  card.command, card.verdict, card.exit_code);
+  text +=
+      "`first` counts the cases in which an engine has the smallest error of several. `CPU s` is the sum over its own runs of "
+      "the cases, studies left out.\n\n" +
+      totals_markdown(card);
   for (const auto& s : card.engines) text += rows_markdown(s);
-  if (!card.disagreements.empty()) text += "\n## Where engines disagree\n\nTwo engines differ by more than half of the limit. The error of each is against the exact solution.\n";
+  if (!card.disagreements.empty())
+    text +=
+        "\n## Where engines disagree\n\nTwo engines differ by more than half of the limit. The error of each is against the "
+        "exact solution.\n";
   for (const auto& d : card.disagreements) text += disagreement_markdown(d);
   return text;
 }
@@ -164,8 +228,10 @@ std::string scorecard_json(const Scorecard& card) {
   Json engines = Json::array(), disagreements = Json::array();
   for (const auto& s : card.engines) engines.push_back(json(s));
   for (const auto& d : card.disagreements) disagreements.push_back(json(d));
-  return Json{{"format", 1}, {"command", card.command}, {"verdict", card.verdict}, {"exit_code", card.exit_code}, {"date", card.date}, {"commit", card.commit}, {"engines", engines}, {"disagreements", disagreements}}
-             .dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return Json{{"format", 1},       {"command", card.command}, {"verdict", card.verdict}, {"exit_code", card.exit_code},
+              {"date", card.date}, {"commit", card.commit},   {"engines", engines},      {"disagreements", disagreements}}
+             .dump(1, ' ', false, Json::error_handler_t::replace) +
+         "\n";
 }
 
 std::string write_scorecard(const Scorecard& card, const std::string& folder) {
@@ -175,7 +241,8 @@ std::string write_scorecard(const Scorecard& card, const std::string& folder) {
   write_durably((out / "scorecard.json").string(), scorecard_json(card));
   write_durably((out / "scorecard.md").string(), scorecard_markdown(card));
   ProcessSpec spec;
-  spec.argv = {python_program(), (fs::path(share_folder()) / "reports" / "scorecard.py").string(), (out / "scorecard.json").string()};
+  spec.argv = {python_program(), (fs::path(share_folder()) / "reports" / "scorecard.py").string(),
+               (out / "scorecard.json").string()};
   spec.wall_limit = page_limit, spec.outlives_interrupt = true, spec.log = (out / "scorecard.log").string();
   const auto end = run_process(spec);
   if (end.how == ProcessEnd::How::exited && end.code == 0 && fs::exists(out / "scorecard.html")) return {};

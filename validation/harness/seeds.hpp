@@ -15,15 +15,15 @@ namespace tripoint {
 struct SeedOutcome {
   std::string case_id, engine, mode, metric, allows;
   std::optional<double> level;
-  std::vector<double> values;                ///< one a seed
-  std::vector<std::uint64_t> alarms;         ///< seeds at which the gate was not green
+  std::vector<double> values;                            ///< one a seed
+  std::vector<std::uint64_t> alarms;                     ///< seeds at which the gate was not green
   double mean = not_a_number, deviation = not_a_number;  ///< of the values; standard deviation over seeds
-  double distance = not_a_number;            ///< from the mean to the nearest edge of what is allowed, in standard deviations
-  Gate gate;                                 ///< what it allows, and where that is written
+  double distance = not_a_number;  ///< from the mean to the nearest edge of what is allowed, in standard deviations
+  Gate gate;                       ///< what it allows, and where that is written
 };
 
 struct SeedsOutcome {
-  std::deque<SeedOutcome> gates;  ///< a deque: those that are there stay where they are
+  std::deque<SeedOutcome> gates;             ///< a deque: those that are there stay where they are
   std::vector<std::string> cases, problems;  ///< cases that chance has a hand in; runs that were not ok
   int seeds = 0, exit_code = 0;              ///< 0 or 5
 };
@@ -31,9 +31,11 @@ struct SeedsOutcome {
 /// Whether another seed makes another run: jittered particles, walkers, or an engine that says that it is not deterministic.
 [[nodiscard]] bool depends_on_seed(const Case&, const EnginePlan&, const RunPlan&);
 
-/// Runs the engines in whose runs chance has a hand with `count` seeds from `first` on (never the cases' own), and collects every gate that is judged.
+/// Runs the engines in whose runs chance has a hand with `count` seeds from `first` on (never the cases' own), and collects every
+/// gate that is judged.
 /// @throws InputError where no case depends on a seed
-[[nodiscard]] SeedsOutcome try_seeds(const std::vector<Case>&, const std::vector<EngineEntry>&, int count, const SelftestOptions&);
+[[nodiscard]] SeedsOutcome try_seeds(const std::vector<Case>&, const std::vector<EngineEntry>&, int count,
+                                     const SelftestOptions&);
 
 /// Adds the gates of a case that was run with one seed.
 void add_seed(const CaseResult&, std::uint64_t seed, SeedsOutcome&);

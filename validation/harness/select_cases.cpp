@@ -23,7 +23,8 @@ struct Found {
 
 /// Not a case: reference data beside a case (NAME.ref.*), and the material library.
 bool is_case(const fs::path& file) {
-  return file.extension() == ".toml" && file.filename().string().find(".ref.") == std::string::npos && file.parent_path().filename() != "materials";
+  return file.extension() == ".toml" && file.filename().string().find(".ref.") == std::string::npos &&
+         file.parent_path().filename() != "materials";
 }
 
 std::vector<Found> files_below(const fs::path& folder) {
@@ -38,7 +39,8 @@ std::vector<Found> files_for(const std::string& what) {
   const auto subject = subject_folder(what);
   if (fs::is_directory(what, none)) {
     auto files = files_below(what);
-    return files.empty() && !subject.empty() ? files_below(subject) : files;  // a folder of runs that has a subject's name is not meant
+    return files.empty() && !subject.empty() ? files_below(subject)
+                                             : files;  // a folder of runs that has a subject's name is not meant
   }
   const bool is_file = fs::exists(what, none) || fs::is_regular_file(what + ".toml", none);
   if (!is_file && !subject.empty()) return files_below(subject);
@@ -47,7 +49,8 @@ std::vector<Found> files_for(const std::string& what) {
 
 std::vector<Found> all_files(const std::vector<std::string>& what) {
   const fs::path own = fs::path(share_folder()) / "cases";
-  if (what.empty()) return fs::is_directory(own) ? files_below(own) : throw InputError(own.string() + ": the folder of cases is missing");
+  if (what.empty())
+    return fs::is_directory(own) ? files_below(own) : throw InputError(own.string() + ": the folder of cases is missing");
   std::vector<Found> files;
   for (const auto& w : what)
     for (auto& f : files_for(w)) files.push_back(std::move(f));
@@ -55,7 +58,9 @@ std::vector<Found> all_files(const std::vector<std::string>& what) {
 }
 
 bool matches(const CaseFilter& filter, const Case& value, bool by_name) {
-  const auto has = [](const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); };
+  const auto has = [](const std::vector<std::string>& list, const std::string& word) {
+    return std::find(list.begin(), list.end(), word) != list.end();
+  };
   if (!filter.tag.empty() && !has(value.tags, filter.tag)) return false;
   if (value.id.find(filter.substring) == std::string::npos) return false;
   if (filter.only && !has(*filter.only, value.id)) return false;
@@ -89,10 +94,13 @@ std::vector<Case> select_cases(const CaseFilter& filter) {
     tags.insert(value.tags.begin(), value.tags.end());
     if (!matches(filter, value, file.by_name)) continue;
     const auto [at, is_new] = by_id.emplace(value.id, value);
-    if (!is_new && at->second.file != value.file) throw InputError(fmt::format("{}: the id {} is already that of {}", value.file, value.id, at->second.file));
+    if (!is_new && at->second.file != value.file)
+      throw InputError(fmt::format("{}: the id {} is already that of {}", value.file, value.id, at->second.file));
   }
   const bool no_such_tag = !filter.tag.empty() && tags.count(filter.tag) == 0;
-  if (by_id.empty()) throw NothingSelected("no case matches " + describe(filter) + (no_such_tag ? suggestion(filter.tag, {tags.begin(), tags.end()}) : ""));
+  if (by_id.empty())
+    throw NothingSelected("no case matches " + describe(filter) +
+                          (no_such_tag ? suggestion(filter.tag, {tags.begin(), tags.end()}) : ""));
   std::vector<Case> chosen;
   int index = 0;
   for (auto& [id, value] : by_id)

@@ -37,16 +37,16 @@ struct HarmlessOutcome {
   bool borne = false;
   double greatest = 0.0;  ///< change of any metric of any mode, in the metric's scaled unit
   double tolerance = 0.0;
-  std::string found;      ///< which metric changed most, or what went wrong
+  std::string found;  ///< which metric changed most, or what went wrong
 };
 
 /// The least size of one defect that a gate of one case sees, whichever its sign.
 struct SmallestOutcome {
   std::string defect, what, case_id, metric;  ///< what: as the term registers it; metric: whose gate turned red first
-  double size = not_a_number;    ///< at which it is red; NaN = it is green up to the declared size
-  double hidden = 0.0;           ///< a size at most 5 % less at which it is green
-  double stored = 0.0;           ///< as the case states
-  std::string verdict;           ///< held, shrank, GREW, UNSEEN
+  double size = not_a_number;                 ///< at which it is red; NaN = it is green up to the declared size
+  double hidden = 0.0;                        ///< a size at most 5 % less at which it is green
+  double stored = 0.0;                        ///< as the case states
+  std::string verdict;                        ///< held, shrank, GREW, UNSEEN
   int runs = 0;
   SourcePlace place;
   [[nodiscard]] bool holds() const { return verdict == "held" || verdict == "shrank"; }
@@ -60,17 +60,18 @@ struct SelftestOutcome {
   int exit_code = 0;                  ///< 0 or 5
 };
 
-/// Runs each case once without and once with each of its defects: every metric in killed_by must be green without, and red with it;
-/// and once with each of its harmless changes: every gate must stay green, and no metric may change by more than round-off.
-/// Of each defect that states a `smallest` size, bisection finds the one that is there: it may not have grown by more than a quarter.
+/// Runs each case once without and once with each of its defects: every metric in killed_by must be green without, and red with
+/// it; and once with each of its harmless changes: every gate must stay green, and no metric may change by more than round-off.
+/// Of each defect that states a `smallest` size, bisection finds the one that is there: it may not have grown by more than a
+/// quarter.
 /// @throws EngineError when the test build is missing
 [[nodiscard]] SelftestOutcome run_selftest(const SelftestOptions&);
 [[nodiscard]] std::string selftest_table(const SelftestOutcome&);
 /// The same as one JSON document, format 1.
 [[nodiscard]] std::string selftest_json(const SelftestOutcome&);
 
-/// Defects that the terms register and no case declares, whose own case is gone or does not declare them (both asked of the whole suite only),
-/// and those that cases declare and the engine does not have.
+/// Defects that the terms register and no case declares, whose own case is gone or does not declare them (both asked of the whole
+/// suite only), and those that cases declare and the engine does not have.
 [[nodiscard]] std::vector<std::string> registry_problems(const std::vector<Case>&, const EngineEntry&, bool whole);
 
 /// Each defect of the case that states a smallest size, bisected.

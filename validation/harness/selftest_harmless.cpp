@@ -37,8 +37,10 @@ void compare_metrics(const RunRow& a, const RunRow& b, HarmlessOutcome& outcome,
     const double after = at == b.metrics.end() ? not_a_number : at->second.value;
     if (!std::isfinite(before.value) && !std::isfinite(after)) continue;  // a metric that this mode does not have
     const double change = std::abs(after - before.value);
-    if (!std::isfinite(change)) blame(outcome, fmt::format("{}{} is {:.3g} without and {:.3g} with", mode_of(a), name, before.value, after));
-    else if (most.metric.empty() || change > most.change) most = {change, mode_of(a) + name};
+    if (!std::isfinite(change))
+      blame(outcome, fmt::format("{}{} is {:.3g} without and {:.3g} with", mode_of(a), name, before.value, after));
+    else if (most.metric.empty() || change > most.change)
+      most = {change, mode_of(a) + name};
   }
 }
 
@@ -63,9 +65,12 @@ HarmlessOutcome judge_harmless(const HarmlessChange& change, const CaseResult& w
       for (const auto& run : engine.runs) {
         const auto* changed = same_run(other, run);
         if (run.status != "ok" || !changed || changed->status != "ok")
-          blame(outcome, fmt::format("{}run is {} without and {} with{}", mode_of(run), run.status, changed ? changed->status : "missing", changed ? " " + changed->reason : ""));
-        else compare_metrics(run, *changed, outcome, most);
-        if (changed && change.tolerance == 0.0 && run.state_hash != changed->state_hash) blame(outcome, mode_of(run) + "last state has other bits");
+          blame(outcome, fmt::format("{}run is {} without and {} with{}", mode_of(run), run.status,
+                                     changed ? changed->status : "missing", changed ? " " + changed->reason : ""));
+        else
+          compare_metrics(run, *changed, outcome, most);
+        if (changed && change.tolerance == 0.0 && run.state_hash != changed->state_hash)
+          blame(outcome, mode_of(run) + "last state has other bits");
       }
       compare_gates(engine, "without", outcome, judged);
       compare_gates(other, "with", outcome, judged);
@@ -73,8 +78,10 @@ HarmlessOutcome judge_harmless(const HarmlessChange& change, const CaseResult& w
   if (judged == 0) blame(outcome, "no gate judges the case's own resolution");
   if (most.metric.empty()) blame(outcome, "no metric was formed");
   outcome.greatest = most.change;
-  if (most.change > change.tolerance) blame(outcome, fmt::format("{} changes by {:.3g}, allowed {:.0e}", most.metric, most.change, change.tolerance));
-  else if (outcome.borne) outcome.found = fmt::format("most: {}, allowed {:.0e}: {}", most.metric, change.tolerance, change.why);
+  if (most.change > change.tolerance)
+    blame(outcome, fmt::format("{} changes by {:.3g}, allowed {:.0e}", most.metric, most.change, change.tolerance));
+  else if (outcome.borne)
+    outcome.found = fmt::format("most: {}, allowed {:.0e}: {}", most.metric, change.tolerance, change.why);
   return outcome;
 }
 

@@ -14,7 +14,9 @@
 namespace tripoint {
 namespace {
 
-bool judges(const Gate& gate, const std::string& engine, const std::string& metric) { return gate.metric == metric && (gate.engine.empty() || gate.engine == engine); }
+bool judges(const Gate& gate, const std::string& engine, const std::string& metric) {
+  return gate.metric == metric && (gate.engine.empty() || gate.engine == engine);
+}
 
 /// Whether a gate on one of these metrics looks at this run; a gate on every run is content with the case's own.
 bool is_needed(const Case& value, const std::string& engine, const std::vector<std::string>& metrics, const RunPlan& run) {
@@ -32,12 +34,16 @@ bool is_needed(const Case& value, const std::string& engine, const std::vector<s
 
 std::string engine_of_defect(const Case& value, const Defect& defect) {
   const auto judged_by = [&](const std::string& engine) {
-    return std::any_of(value.gates.begin(), value.gates.end(), [&](const Gate& g) { return std::find(defect.killed_by.begin(), defect.killed_by.end(), g.metric) != defect.killed_by.end() && g.engine == engine; });
+    return std::any_of(value.gates.begin(), value.gates.end(), [&](const Gate& g) {
+      return std::find(defect.killed_by.begin(), defect.killed_by.end(), g.metric) != defect.killed_by.end() &&
+             g.engine == engine;
+    });
   };
   return !judged_by("tripoint") && !judged_by("") && judged_by("tripoint-mpi") ? "tripoint-mpi" : "tripoint";
 }
 
-CaseResult run_with_defect(const Case& value, const EngineEntry& engine, const std::vector<std::string>& metrics, const std::string& defect, const std::string& folder, const SelftestOptions& o) {
+CaseResult run_with_defect(const Case& value, const EngineEntry& engine, const std::vector<std::string>& metrics,
+                           const std::string& defect, const std::string& folder, const SelftestOptions& o) {
   SuiteOptions suite;
   suite.selection.engines = {engine.name};
   suite.jobs = o.jobs, suite.say = o.say;
@@ -53,7 +59,8 @@ std::vector<std::string> judged_modes(const CaseResult& result, const std::strin
   std::vector<std::string> modes;
   for (const auto& engine : result.engines)
     for (const auto& row : engine.gates)
-      if (row.metric == metric && row.verdict != "missing" && std::find(modes.begin(), modes.end(), row.mode) == modes.end()) modes.push_back(row.mode);
+      if (row.metric == metric && row.verdict != "missing" && std::find(modes.begin(), modes.end(), row.mode) == modes.end())
+        modes.push_back(row.mode);
   return modes;
 }
 
@@ -68,7 +75,8 @@ Seen look(const CaseResult& result, const std::string& metric, const std::string
   Seen seen;
   for (const auto& engine : result.engines)
     for (const auto& row : engine.gates) {
-      if (row.metric != metric || row.mode != mode || row.verdict == "missing") continue;  // levels that the defect's gates do not need were not run
+      if (row.metric != metric || row.mode != mode || row.verdict == "missing")
+        continue;  // levels that the defect's gates do not need were not run
       seen.any = true;
       seen.all_green = seen.all_green && row.verdict == "pass";
       seen.red = seen.red || row.verdict == "fail" || row.verdict == "diverged";

@@ -11,7 +11,8 @@ namespace {
 
 /// First of the metrics whose gate is red; empty = none.
 std::string red_metric(const CaseResult& result, const std::vector<std::string>& metrics, const std::string& defect) {
-  const auto at = std::find_if(metrics.begin(), metrics.end(), [&](const std::string& m) { return look(result, m, decisive_mode(result, m, defect)).red; });
+  const auto at = std::find_if(metrics.begin(), metrics.end(),
+                               [&](const std::string& m) { return look(result, m, decisive_mode(result, m, defect)).red; });
   return at == metrics.end() ? std::string() : *at;
 }
 
@@ -21,17 +22,23 @@ SmallestOutcome bisect(const Case& value, const Defect& defect, const EngineEntr
   for (const auto& d : engine.defects)
     if (d.name == defect.name) outcome.what = d.what;
   const auto is_red = [&](double size) {
-    const auto metric = red_metric(run_with_defect(value, engine, defect.killed_by, fmt::format("{}={:.17g}", defect.name, size), "smallest-" + defect.name, o), defect.killed_by, defect.name);
+    const auto metric = red_metric(run_with_defect(value, engine, defect.killed_by, fmt::format("{}={:.17g}", defect.name, size),
+                                                   "smallest-" + defect.name, o),
+                                   defect.killed_by, defect.name);
     if (!metric.empty()) outcome.metric = metric;
     return !metric.empty();
   };
-  // Of either sign: a value that happens to lie close to one edge of its limit would make the defects towards that edge look visible however small.
+  // Of either sign: a value that happens to lie close to one edge of its limit would make the defects towards that edge look
+  // visible however small.
   const auto found = smallest_visible(*defect.smallest, defect.size, [&](double size) { return is_red(size) && is_red(-size); });
   outcome.runs = found.runs, outcome.hidden = found.hidden;
   if (found.size) outcome.size = *found.size;
-  if (!found.size) outcome.verdict = "UNSEEN";
-  else if (!found.found) outcome.verdict = "NEVER GREEN";
-  else outcome.verdict = against_stored(*found.size, outcome.stored);
+  if (!found.size)
+    outcome.verdict = "UNSEEN";
+  else if (!found.found)
+    outcome.verdict = "NEVER GREEN";
+  else
+    outcome.verdict = against_stored(*found.size, outcome.stored);
   return outcome;
 }
 

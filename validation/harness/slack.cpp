@@ -17,7 +17,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_count(const CaseResult& c, const std::string& metric) {
-  static constexpr std::array<std::string_view, 6> counts{"body_count", "bonded_objects", "object_count", "phase_count", "event_count", "toggles"};
+  static constexpr std::array<std::string_view, 6> counts{"body_count",  "bonded_objects", "object_count",
+                                                          "phase_count", "event_count",    "toggles"};
   const auto at = std::find_if(c.metrics.begin(), c.metrics.end(), [&](const MetricChoice& m) { return m.name == metric; });
   return at != c.metrics.end() && at->scale == 1.0 && std::find(counts.begin(), counts.end(), at->quantity) != counts.end();
 }
@@ -34,21 +35,27 @@ double floor_of(const Gate& g) { return std::max({g.at_least.value_or(0.0), g.ba
 
 /// The gate, wherever it is applied.
 std::string key_of(const CaseResult& c, const Gate& g) {
-  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", c.id, g.place.line, g.metric, g.engine, g.mode, g.preset, g.level.value_or(0.0));
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", c.id, g.place.line, g.metric, g.engine, g.mode, g.preset,
+                     g.level.value_or(0.0));
 }
 
 /// A limit that every engine must hold may be used by one that is not here: how slack it is then cannot be told.
 bool some_engine_is_absent(const CaseResult& c, const Gate& g) {
-  return g.engine.empty() && std::any_of(c.engines.begin(), c.engines.end(), [](const auto& e) { return e.name != "exact" && e.status != "ok"; });
+  return g.engine.empty() &&
+         std::any_of(c.engines.begin(), c.engines.end(), [](const auto& e) { return e.name != "exact" && e.status != "ok"; });
 }
 
 Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool engines_were_chosen) {
   Remark r;
-  r.error = slack > slack_fails && row.gate.date.empty() && !some_engine_is_absent(c, row.gate) && !(engines_were_chosen && row.gate.engine.empty());
+  r.error = slack > slack_fails && row.gate.date.empty() && !some_engine_is_absent(c, row.gate) &&
+            !(engines_were_chosen && row.gate.engine.empty());
   r.code = r.error ? exit_fail : exit_pass, r.place = row.gate.place, r.excess = slack;
   r.title = fmt::format("{}: the limit of {} is loose", c.id, row.metric);
-  r.text = fmt::format("{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: room by a factor of {:.3g}{}", describe(row.gate), row.value, row.uncertainty, slack,
-                       r.error ? "; tighten it, or give the reason a date" : row.gate.date.empty() ? "" : " (dated " + row.gate.date + ")");
+  r.text = fmt::format("{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: room by a factor of {:.3g}{}",
+                       describe(row.gate), row.value, row.uncertainty, slack,
+                       r.error                 ? "; tighten it, or give the reason a date"
+                       : row.gate.date.empty() ? ""
+                                               : " (dated " + row.gate.date + ")");
   return r;
 }
 

@@ -20,8 +20,10 @@ SmallestVisible smallest_visible(double start, double greatest, const std::funct
   std::optional<double> red, green;
   double stride = smallest_resolution;
   for (double size = std::min(start, greatest); !red || !green; stride *= stride) {
-    if (is_seen(size)) red = red ? std::min(*red, size) : size;
-    else green = green ? std::max(*green, size) : size;
+    if (is_seen(size))
+      red = red ? std::min(*red, size) : size;
+    else
+      green = green ? std::max(*green, size) : size;
     if (red && !green && *red < least_share * start) return result.size = red, result;
     if (green && !red && *green >= greatest) return result.hidden = *green, result;
     size = red ? *red / stride : std::min(*green * stride, greatest);

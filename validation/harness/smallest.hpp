@@ -16,8 +16,8 @@ struct SmallestVisible {
 
 /// Ratio of the sizes between which bisection ends.
 constexpr double smallest_resolution = 1.05;
-/// A stored size may be passed by this factor before the self-test fails: a limit loosened, or a metric blunted, by a quarter is seen;
-/// twice the resolution of the bisection and another machine's round-off are not.
+/// A stored size may be passed by this factor before the self-test fails: a limit loosened, or a metric blunted, by a quarter is
+/// seen; twice the resolution of the bisection and another machine's round-off are not.
 constexpr double smallest_growth = 1.25;
 
 /// Looks from `start` in ever longer strides for a size that is seen and one that is not, then halves the ratio of the two.

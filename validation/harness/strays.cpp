@@ -29,7 +29,8 @@ struct Look {
   bool unsure = false;  // one of ours is just becoming another program: for that moment nobody can read its environment
 };
 
-/// What can be read of a file. Reading fails in the middle where the process ends just then, and a bare iterator would throw at it.
+/// What can be read of a file. Reading fails in the middle where the process ends just then, and a bare iterator would throw at
+/// it.
 std::string all_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
@@ -87,13 +88,16 @@ Look look_for(const std::string& entry) {
     const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), pid);
     if (error != std::errc() || stop != name.data() + name.size() || pid == ::getpid()) continue;
     const std::string environment = all_of(at->path() / "environ");
-    if (carries(environment, entry)) look.marked.push_back(pid);
-    else if (environment.empty() && is_becoming_another(at->path())) look.unsure = true;
+    if (carries(environment, entry))
+      look.marked.push_back(pid);
+    else if (environment.empty() && is_becoming_another(at->path()))
+      look.unsure = true;
   }
   return look;
 }
 
-/// Children of ours, the newest first. What an engine leaves comes to us when its parent ends. Empty where the kernel keeps no such list.
+/// Children of ours, the newest first. What an engine leaves comes to us when its parent ends. Empty where the kernel keeps no
+/// such list.
 std::vector<pid_t> our_children() {
   std::vector<pid_t> found;
   std::error_code none;
@@ -104,8 +108,9 @@ std::vector<pid_t> our_children() {
   return {found.rbegin(), found.rend()};
 }
 
-/// Kills children of ours that have this entry, and buries those that came to us from sessions of their own and have ended: nobody else waits for them.
-/// It takes a tenth of the time of a look over all processes, so that it catches what is always another process. @return whether there was any of either
+/// Kills children of ours that have this entry, and buries those that came to us from sessions of their own and have ended:
+/// nobody else waits for them. It takes a tenth of the time of a look over all processes, so that it catches what is always
+/// another process. @return whether there was any of either
 bool end_children(const std::string& entry) {
   bool found = false;
   for (const pid_t pid : our_children()) {
@@ -152,7 +157,8 @@ void end_strays(const std::string& mark) {
     if (strays.empty() && (!unsure || ran > patience)) return;
     if (ran > longest) return;
     for (const pid_t pid : strays) ::kill(pid, SIGKILL);
-    for (const pid_t pid : strays) ::waitpid(pid, nullptr, WNOHANG);  // orphans come to us; one that stays dead has no environment
+    for (const pid_t pid : strays)
+      ::waitpid(pid, nullptr, WNOHANG);  // orphans come to us; one that stays dead has no environment
     if (strays.empty()) std::this_thread::sleep_for(1ms);
   }
 }

@@ -17,7 +17,8 @@ inline constexpr char mark_end = '/';
 /// A mark that no other child of any tripoint on this machine has.
 [[nodiscard]] std::string new_stray_mark();
 
-/// Kills every process that carries this mark, or one made of it, in its environment, and those that it starts meanwhile. One that takes the mark away is not found.
+/// Kills every process that carries this mark, or one made of it, in its environment, and those that it starts meanwhile. One
+/// that takes the mark away is not found.
 void end_strays(const std::string& mark);
 
 }  // namespace tripoint

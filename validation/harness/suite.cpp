@@ -17,8 +17,9 @@
 namespace tripoint {
 namespace {
 
-/// Workers prepare the cases in order and make their runs, no more of either at a time than there are jobs. A case is prepared when the runs that
-/// wait are fewer than the jobs, so that particles of a few cases are held and not of all. Results keep the order of the cases whatever ends first.
+/// Workers prepare the cases in order and make their runs, no more of either at a time than there are jobs. A case is prepared
+/// when the runs that wait are fewer than the jobs, so that particles of a few cases are held and not of all. Results keep the
+/// order of the cases whatever ends first.
 class Suite {
  public:
   Suite(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const SuiteOptions& options)
@@ -51,15 +52,19 @@ class Suite {
   };
 
   [[nodiscard]] bool wants_a_case() const { return !preparing_ && prepared_ < cases_.size() && queue_.size() < jobs_; }
-  [[nodiscard]] bool is_over() const { return given_up_ || interrupted() || (!preparing_ && prepared_ == cases_.size() && queue_.empty()); }
+  [[nodiscard]] bool is_over() const {
+    return given_up_ || interrupted() || (!preparing_ && prepared_ == cases_.size() && queue_.empty());
+  }
 
   void work() {
     for (;;) {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return is_over() || wants_a_case() || !queue_.empty(); });
       if (is_over()) return;
-      if (wants_a_case()) prepare_next(lock);
-      else make_next(lock);
+      if (wants_a_case())
+        prepare_next(lock);
+      else
+        make_next(lock);
     }
   }
 
@@ -133,8 +138,9 @@ class Suite {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     ++done_;
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(all_runs_ - done_);
-    options_.say(fmt::format("[{:3}/{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{}{} ({:.2f} CPU s)", done_, all_runs_, elapsed, left,
-                             all.value->id, all.engines[run.engine].name, run.plan.label, run.kept ? "kept, " : "", run.row.status, run.row.reason.empty() ? "" : ", " + run.row.reason, run.row.cost.cpu_s));
+    options_.say(fmt::format("[{:3}/{}  {:.0f} s, about {:.0f} s left] {} {} {}: {}{}{} ({:.2f} CPU s)", done_, all_runs_,
+                             elapsed, left, all.value->id, all.engines[run.engine].name, run.plan.label, run.kept ? "kept, " : "",
+                             run.row.status, run.row.reason.empty() ? "" : ", " + run.row.reason, run.row.cost.cpu_s));
   }
 
   const std::vector<Case>& cases_;
@@ -146,8 +152,8 @@ class Suite {
   std::deque<Work> queue_;
   std::vector<Slot> slots_;
   std::size_t all_runs_ = 0, done_ = 0, announced_ = 0;
-  std::size_t prepared_ = 0;  ///< cases
-  bool preparing_ = false;    ///< a worker prepares a case
+  std::size_t prepared_ = 0;    ///< cases
+  bool preparing_ = false;      ///< a worker prepares a case
   std::exception_ptr failure_;  ///< the first
   std::atomic<bool> given_up_{false};
 };

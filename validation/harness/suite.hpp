@@ -20,15 +20,16 @@ class NothingSelected : public InputError {
 };
 
 struct CaseFilter {
-  std::vector<std::string> what;  ///< files, folders or case ids; empty = all cases beside the program
-  std::string profile;            ///< empty = every profile; files and ids are taken whatever their profile
-  std::string tag;                ///< empty = any
-  std::string substring;          ///< of the id; empty = any
+  std::vector<std::string> what;                 ///< files, folders or case ids; empty = all cases beside the program
+  std::string profile;                           ///< empty = every profile; files and ids are taken whatever their profile
+  std::string tag;                               ///< empty = any
+  std::string substring;                         ///< of the id; empty = any
   std::optional<std::vector<std::string>> only;  ///< only these ids; unset = any
-  int shard = 1, shards = 1;      ///< takes the cases shard, shard + shards, ... of the list by id
+  int shard = 1, shards = 1;                     ///< takes the cases shard, shard + shards, ... of the list by id
 };
 
-/// Reads the cases, in order of their ids. @throws InputError for a file that is wrong, an id used twice; NothingSelected for a filter that nothing matches
+/// Reads the cases, in order of their ids. @throws InputError for a file that is wrong, an id used twice; NothingSelected for a
+/// filter that nothing matches
 [[nodiscard]] std::vector<Case> select_cases(const CaseFilter&);
 
 struct CaseRuns;
@@ -40,16 +41,18 @@ struct SuiteOptions {
   int jobs = 1;                ///< engine processes at a time
   int threads = 1;             ///< of each engine process
   bool resume = false;         ///< runs of an earlier call that have ended, of the same job and engine, are kept
-  double count_below = 0.0;    ///< [CPU s] instructions of shorter runs are counted by callgrind where the processor counts none; 0 = never
-  double wall_limit = 600.0;   ///< [s] for a run whose case says nothing else (engine setting wall_limit)
+  double count_below =
+      0.0;  ///< [CPU s] instructions of shorter runs are counted by callgrind where the processor counts none; 0 = never
+  double wall_limit = 600.0;                       ///< [s] for a run whose case says nothing else (engine setting wall_limit)
   std::map<std::string, std::string> environment;  ///< for the engines
-  const HarmlessChange* change = nullptr;          ///< every scene is run changed, and its frames are taken back before they are judged
+  const HarmlessChange* change = nullptr;  ///< every scene is run changed, and its frames are taken back before they are judged
   /// Which runs of the plan are made; empty = all.
   std::function<bool(const EnginePlan&, const RunPlan&)> wanted;
-  /// Row of a run that was made elsewhere, in the place of making it; its folder lies below `out` already. Empty = runs are made here.
+  /// Row of a run that was made elsewhere, in the place of making it; its folder lies below `out` already. Empty = runs are made
+  /// here.
   std::function<RunRow(const CaseRuns&, const CaseRun&)> made;
-  std::function<void(const std::string&)> say;           ///< progress, one line a call, from any thread
-  std::function<void(const CaseResult&)> on_case;        ///< each case as soon as it and those before it are judged
+  std::function<void(const std::string&)> say;     ///< progress, one line a call, from any thread
+  std::function<void(const CaseResult&)> on_case;  ///< each case as soon as it and those before it are judged
 };
 
 /// The verdicts of all cases, in their order; judged. Stopped by Ctrl-C, it returns what has ended.

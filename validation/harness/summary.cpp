@@ -20,7 +20,10 @@ std::string engines_of(const CaseResult& c) {
       if (absent.empty() || absent.back() != e.name) absent.push_back(e.name);
       continue;
     }
-    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", label_of(e.name, e.preset), e.status != "ok" ? ": " + e.status : is_unjudged(e) ? ": not judged" : "");
+    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", label_of(e.name, e.preset),
+                        e.status != "ok" ? ": " + e.status
+                        : is_unjudged(e) ? ": not judged"
+                                         : "");
   }
   return absent.empty() ? list : fmt::format("{}{}not here: {}", list, list.empty() ? "" : "; ", fmt::join(absent, " "));
 }
@@ -44,9 +47,15 @@ std::string not_green(const CaseResult& c) {
   for (const auto& e : c.engines) {
     for (const auto& g : e.gates)
       if (g.verdict != "pass")
-        text += fmt::format("- **{}** {}\n", markdown(c.id), markdown(fmt::format("{}{} {} {}: {} ({}; limit because: {})", e.name, g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, g.why, to_string(g.gate.place), g.gate.reason)));
-    if (is_unjudged(e)) text += fmt::format("- {} {} ran and is not judged: no gate of the case names it or every engine\n", markdown(c.id), markdown(label_of(e.name, e.preset)));
-    if (e.status != "ok") text += fmt::format("- {} {} {}: {}\n", markdown(c.id), markdown(e.name), markdown(e.status), markdown(e.reason));
+        text +=
+            fmt::format("- **{}** {}\n", markdown(c.id),
+                        markdown(fmt::format("{}{} {} {}: {} ({}; limit because: {})", e.name, g.mode.empty() ? "" : " " + g.mode,
+                                             g.metric, g.verdict, g.why, to_string(g.gate.place), g.gate.reason)));
+    if (is_unjudged(e))
+      text += fmt::format("- {} {} ran and is not judged: no gate of the case names it or every engine\n", markdown(c.id),
+                          markdown(label_of(e.name, e.preset)));
+    if (e.status != "ok")
+      text += fmt::format("- {} {} {}: {}\n", markdown(c.id), markdown(e.name), markdown(e.status), markdown(e.reason));
   }
   return text;
 }
@@ -61,13 +70,18 @@ std::string case_line(const CaseResult& c) {
   for (const auto& p : c.problems) line += "\n              " + one_line(p);
   for (const auto& e : c.engines)
     for (const auto& g : e.gates)
-      if (g.verdict != "pass") line += "\n              " + one_line(fmt::format("{}: {}{} {}: {}: {}", to_string(g.gate.place), e.name, g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, g.why));
+      if (g.verdict != "pass")
+        line += "\n              " + one_line(fmt::format("{}: {}{} {}: {}: {}", to_string(g.gate.place), e.name,
+                                                          g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, g.why));
   return line;
 }
 
 std::string summary_text(const Results& r) {
-  std::string text = fmt::format("# tripoint: {} (exit {})\n\n{} case{}, profile {}, commit {}, {}, {}\n\n| verdict | case | gates | engines |\n|---|---|---|---|\n", r.verdict, r.exit_code,
-                                 r.cases.size(), r.cases.size() == 1 ? "" : "s", r.profile.empty() ? "any" : markdown(r.profile), markdown(r.tool.commit), markdown(r.tool.compiler), markdown(r.tool.cpu));
+  std::string text = fmt::format(
+      "# tripoint: {} (exit {})\n\n{} case{}, profile {}, commit {}, {}, {}\n\n| verdict | case | gates | engines "
+      "|\n|---|---|---|---|\n",
+      r.verdict, r.exit_code, r.cases.size(), r.cases.size() == 1 ? "" : "s", r.profile.empty() ? "any" : markdown(r.profile),
+      markdown(r.tool.commit), markdown(r.tool.compiler), markdown(r.tool.cpu));
   for (const auto& c : r.cases) text += row_of(c);
   std::string rest;
   for (const auto& p : r.problems) rest += fmt::format("- {}\n", markdown(p));

@@ -89,7 +89,8 @@ std::vector<TimingPair> timing_pairs(const CaseResult& result) {
   return pairs;
 }
 
-void time_case(const Case& value, const std::vector<EngineEntry>& found, int rounds, const SuiteOptions& options, CaseResult& result) {
+void time_case(const Case& value, const std::vector<EngineEntry>& found, int rounds, const SuiteOptions& options,
+               CaseResult& result) {
   auto alone = options;
   alone.out = (fs::path(options.out) / "timing").string(), alone.jobs = 1, alone.resume = false, alone.count_below = 0.0;
   alone.wanted = [&](const EnginePlan& engine, const RunPlan& plan) {
@@ -105,7 +106,8 @@ void time_case(const Case& value, const std::vector<EngineEntry>& found, int rou
     for (auto& timed : runs) {
       const std::string bits = timed.row->state_hash;
       make_run(all, *timed.run, alone);
-      const bool same = timed.run->row.status == "ok" && (timed.run->row.state_hash == bits || !all.engines[timed.run->engine].entry->deterministic);
+      const bool same = timed.run->row.status == "ok" &&
+                        (timed.run->row.state_hash == bits || !all.engines[timed.run->engine].entry->deterministic);
       const double seconds = same ? timed.run->row.cost.cpu_s : not_a_number;
       if (timed.part != Timed::Part::second) timed.row->cost.repeats.push_back(seconds);
       if (timed.part == Timed::Part::first) of_round[timed.run->engine].first = seconds;
@@ -115,7 +117,8 @@ void time_case(const Case& value, const std::vector<EngineEntry>& found, int rou
     std::reverse(runs.begin(), runs.end());
   }
   for (const auto& timed : runs)
-    if (std::any_of(timed.row->cost.repeats.begin(), timed.row->cost.repeats.end(), [](double s) { return !(s > 0.0); })) timed.row->cost.repeats.clear();
+    if (std::any_of(timed.row->cost.repeats.begin(), timed.row->cost.repeats.end(), [](double s) { return !(s > 0.0); }))
+      timed.row->cost.repeats.clear();
   result.timing_rounds = rounds, result.timing_floor = not_a_number;
   for (const auto& [engine, pairs] : twice)
     if (const double floor = noise_floor(pairs); !(result.timing_floor >= floor)) result.timing_floor = floor;

@@ -23,7 +23,8 @@ Tool this_tool() {
 #else
   const std::string compiler = "g++ " __VERSION__;
 #endif
-  return {TRIPOINT_VERSION, TRIPOINT_COMMIT, compiler, TRIPOINT_FLAGS, cpu_name(), static_cast<int>(std::thread::hardware_concurrency())};
+  return {TRIPOINT_VERSION, TRIPOINT_COMMIT, compiler,
+          TRIPOINT_FLAGS,   cpu_name(),      static_cast<int>(std::thread::hardware_concurrency())};
 }
 
 }  // namespace tripoint

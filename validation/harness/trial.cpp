@@ -25,7 +25,8 @@ class Scratch {
  public:
   Scratch() {
     std::string path = (fs::temp_directory_path() / "tripoint-check-XXXXXX").string();
-    if (mkdtemp(path.data()) == nullptr) throw EngineError(path + ": no folder for the jobs that engines are asked about could be made");
+    if (mkdtemp(path.data()) == nullptr)
+      throw EngineError(path + ": no folder for the jobs that engines are asked about could be made");
     path_ = path;
   }
   ~Scratch() {
@@ -40,7 +41,9 @@ class Scratch {
   fs::path path_;
 };
 
-bool known(const std::vector<std::string>& list, const std::string& word) { return std::find(list.begin(), list.end(), word) != list.end(); }
+bool known(const std::vector<std::string>& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
 
 template <class List>
 std::vector<std::string> names_of(const List& list) {
@@ -53,31 +56,43 @@ std::vector<std::string> names_of(const List& list) {
 Finding finding_of(const InputError& e, const MetricChoice& m) {
   const std::string what = e.what(), place = to_string(e.place()) + ": ";
   const bool placed = !e.place().file.empty() && what.starts_with(place);
-  return {true, placed ? what.substr(place.size()) : fmt::format("metric \"{}\": {}", m.name, what), placed ? e.place() : m.place};
+  return {true, placed ? what.substr(place.size()) : fmt::format("metric \"{}\": {}", m.name, what),
+          placed ? e.place() : m.place};
 }
 
 /// Words of the judge, which the scene does not know: a name that nobody evaluates would pass silently.
 void check_words(const Case& c, std::vector<Finding>& findings) {
-  const auto quantities = names_of(metric_quantities()), functions = names_of(reference_functions()), norms = names_of(metric_norms());
+  const auto quantities = names_of(metric_quantities()), functions = names_of(reference_functions()),
+             norms = names_of(metric_norms());
   for (const auto& m : c.metrics) {
     const auto refuse = [&](const char* what, const std::string& word, const std::vector<std::string>& list) {
-      if (!known(list, word)) findings.push_back({true, fmt::format("metric \"{}\": no {} is named \"{}\"{}", m.name, what, printable(word), suggestion(word, list)), m.place});
+      if (!known(list, word))
+        findings.push_back(
+            {true, fmt::format("metric \"{}\": no {} is named \"{}\"{}", m.name, what, printable(word), suggestion(word, list)),
+             m.place});
     };
     if (!m.quantity.starts_with("ledger.")) refuse("quantity", m.quantity, quantities);
     refuse("norm", m.norm, norms);
     if (m.reference && !m.reference->function.empty()) refuse("reference function", m.reference->function, functions);
   }
   if (!c.reference.function.empty() && !known(functions, c.reference.function))
-    findings.push_back({true, fmt::format("no reference function is named \"{}\"{}", printable(c.reference.function), suggestion(c.reference.function, functions)), {c.file, 0, 0}});
+    findings.push_back({true,
+                        fmt::format("no reference function is named \"{}\"{}", printable(c.reference.function),
+                                    suggestion(c.reference.function, functions)),
+                        {c.file, 0, 0}});
 }
 
 /// A term that no engine of ours keeps is a warning: another engine may keep it.
 void check_ledger_terms(const Case& c, std::vector<Finding>& findings) {
-  static const std::vector<std::string> terms{"kinetic", "potential", "compression", "elastic", "hourglass", "plastic", "fracture", "viscous", "thermal", "latent",
-                                              "phase_work", "pressure_work", "merging", "walls", "inflow", "time_integration", "residual"};
+  static const std::vector<std::string> terms{
+      "kinetic", "potential",  "compression",   "elastic", "hourglass", "plastic", "fracture",         "viscous", "thermal",
+      "latent",  "phase_work", "pressure_work", "merging", "walls",     "inflow",  "time_integration", "residual"};
   for (const auto& m : c.metrics) {
     const std::string term = m.quantity.starts_with("ledger.") ? m.quantity.substr(7) : "";
-    if (!term.empty() && !known(terms, term)) findings.push_back({false, fmt::format("metric \"{}\": the ledger has no term \"{}\"{}", m.name, printable(term), suggestion(term, terms)), m.place});
+    if (!term.empty() && !known(terms, term))
+      findings.push_back(
+          {false, fmt::format("metric \"{}\": the ledger has no term \"{}\"{}", m.name, printable(term), suggestion(term, terms)),
+           m.place});
   }
 }
 
@@ -116,7 +131,8 @@ std::vector<double> times_for(const MetricChoice& m, const Job& job) {
 /// Whether a note tells of the case and not of the particles that stayed where they were.
 bool tells_of_the_case(const std::string& note) {
   if (note == "the trajectory has no temperature") return true;
-  for (const char* start : {"the reference", "no output time", "only the start", "the front has not started", "mass_in_region needs", "the box follows", "the start has one temperature"})
+  for (const char* start : {"the reference", "no output time", "only the start", "the front has not started",
+                            "mass_in_region needs", "the box follows", "the start has one temperature"})
     if (note.rfind(start, 0) == 0 && note.find("the reference's body") == std::string::npos) return true;
   return false;
 }
@@ -146,17 +162,23 @@ class Samples {
   std::map<std::string, Sample> samples_;
 };
 
-void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, const Job& job, const Samples::Sample& from, const fs::path& folder, std::vector<Finding>& findings) {
+void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, const Job& job, const Samples::Sample& from,
+               const fs::path& folder, std::vector<Finding>& findings) {
   RunRequest request;
   request.engine = engine.entry, request.job = &job, request.initial = &from.state;
   request.folder = folder.string(), request.particles = from.file;
   const Outcome answer = ask(request);
   EngineRow row;
   row.refuses = declared_refusal(engine.settings), row.status = answer.status, row.reason = answer.reason;
-  if (const auto broken = broken_refusal(row); !broken.empty()) return findings.push_back({true, fmt::format("engine {} {}", label_of(engine.name, engine.preset), broken), {value.file, 0, 0}});
+  if (const auto broken = broken_refusal(row); !broken.empty())
+    return findings.push_back(
+        {true, fmt::format("engine {} {}", label_of(engine.name, engine.preset), broken), {value.file, 0, 0}});
   if (answer.status == "ok" || refuses_as_expected(row)) return;
-  const std::string what = fmt::format("engine {}{}{}: {}: {}", engine.name, engine.preset == "default" ? "" : " " + engine.preset, run.base ? "" : ", run " + run.label, answer.status, answer.reason);
-  if (std::none_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.what == what; })) findings.push_back({engine.required, what, {value.file, 0, 0}});
+  const std::string what =
+      fmt::format("engine {}{}{}: {}: {}", engine.name, engine.preset == "default" ? "" : " " + engine.preset,
+                  run.base ? "" : ", run " + run.label, answer.status, answer.reason);
+  if (std::none_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.what == what; }))
+    findings.push_back({engine.required, what, {value.file, 0, 0}});
 }
 
 }  // namespace
@@ -173,8 +195,13 @@ std::vector<Finding> try_metrics(const Case& value, const Job& whole, const Init
     try {
       const auto value_of = metric_of(value, m, job, initial, still);
       if (std::isfinite(value_of.value)) continue;
-      if (looks_at_nothing(value_of.note)) findings.push_back({false, fmt::format("metric \"{}\": at the start {}: it has no value until one comes there", m.name, value_of.note), m.place});
-      else if (tells_of_the_case(value_of.note)) findings.push_back({true, fmt::format("metric \"{}\" could not be formed of any run: {}", m.name, value_of.note), m.place});
+      if (looks_at_nothing(value_of.note))
+        findings.push_back(
+            {false, fmt::format("metric \"{}\": at the start {}: it has no value until one comes there", m.name, value_of.note),
+             m.place});
+      else if (tells_of_the_case(value_of.note))
+        findings.push_back(
+            {true, fmt::format("metric \"{}\" could not be formed of any run: {}", m.name, value_of.note), m.place});
     } catch (const InputError& e) {
       findings.push_back(finding_of(e, m));
     }
@@ -196,7 +223,11 @@ std::vector<Finding> trial(const Case& value) {
   for (const EnginePlan& plan : plan_runs(value, engines, {})) {
     if (!plan.entry || !plan.entry->available) {
       if (plan.required)
-        findings.push_back({true, fmt::format("engine {} is required and {}", plan.name, plan.entry ? "is not available: " + plan.entry->reason : "is not found beside the program or in TRIPOINT_ENGINE_PATH"), {value.file, 0, 0}});
+        findings.push_back({true,
+                            fmt::format("engine {} is required and {}", plan.name,
+                                        plan.entry ? "is not available: " + plan.entry->reason
+                                                   : "is not found beside the program or in TRIPOINT_ENGINE_PATH"),
+                            {value.file, 0, 0}});
       continue;
     }
     for (const RunPlan& run : plan.runs) {

@@ -72,7 +72,9 @@ void try_in_child(const std::function<void()>& deed, const std::string& what, do
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!in_time) throw EngineError(fmt::format("{} could not be read within {:g} s", what, limit));
-  if (WIFSIGNALED(status)) throw EngineError(fmt::format("{} kills the library that reads it (signal {}, {})", what, WTERMSIG(status), strsignal(WTERMSIG(status))));
+  if (WIFSIGNALED(status))
+    throw EngineError(
+        fmt::format("{} kills the library that reads it (signal {}, {})", what, WTERMSIG(status), strsignal(WTERMSIG(status))));
   if (WEXITSTATUS(status) == no_memory) throw EngineError(what + " takes more memory than this machine has");
 }
 

@@ -12,15 +12,24 @@ int first_of(const std::set<int>& codes) {
 
 std::string verdict_word(int exit_code) {
   switch (exit_code) {
-    case exit_pass: return "PASS";
-    case exit_fail: return "FAIL";
-    case exit_bad_input: return "BAD INPUT";
-    case exit_inconclusive: return "INCONCLUSIVE";
-    case exit_missing: return "MISSING";
-    case exit_selftest: return "SELF-TEST FAILED";
-    case exit_cost: return "COST REGRESSION";
-    case exit_diverged: return "DIVERGED";
-    default: return "INTERRUPTED";
+    case exit_pass:
+      return "PASS";
+    case exit_fail:
+      return "FAIL";
+    case exit_bad_input:
+      return "BAD INPUT";
+    case exit_inconclusive:
+      return "INCONCLUSIVE";
+    case exit_missing:
+      return "MISSING";
+    case exit_selftest:
+      return "SELF-TEST FAILED";
+    case exit_cost:
+      return "COST REGRESSION";
+    case exit_diverged:
+      return "DIVERGED";
+    default:
+      return "INTERRUPTED";
   }
 }
 

@@ -23,11 +23,12 @@
 namespace tripoint {
 namespace {
 
-// The watcher is a copy of a process with many threads, any of which may have held a lock: it makes system calls only, in memory that was taken before.
+// The watcher is a copy of a process with many threads, any of which may have held a lock: it makes system calls only, in memory
+// that was taken before.
 struct Watch {
-  std::string entry;           // what the environment of each process of ours holds
+  std::string entry;  // what the environment of each process of ours holds
   std::vector<char> names, text;
-  int door = -1;               // the watcher's end of a pair of sockets: the other one closes when we end, however we end
+  int door = -1;  // the watcher's end of a pair of sockets: the other one closes when we end, however we end
 };
 
 /// Whether this file holds the entry; read in pieces that overlap by the length of it.

@@ -18,19 +18,23 @@ bool dead(const Snapshot& s, std::size_t i) { return i < s.id.size() && s.id[i] 
 std::string not_finite(const Snapshot& s) {
   const auto scalar = [&](const std::vector<double>& column, const char* name) -> std::string {
     for (std::size_t i = 0; i < column.size(); ++i)
-      if (!std::isfinite(column[i]) && !dead(s, i)) return std::string(name) + " of particle " + std::to_string(i) + " is not finite" + at_time(s);
+      if (!std::isfinite(column[i]) && !dead(s, i))
+        return std::string(name) + " of particle " + std::to_string(i) + " is not finite" + at_time(s);
     return {};
   };
   const auto vector = [&](const std::vector<Vec3>& column, const char* name) -> std::string {
     for (std::size_t i = 0; i < column.size(); ++i)
-      if (!finite(column[i]) && !dead(s, i)) return std::string(name) + " of particle " + std::to_string(i) + " is not finite" + at_time(s);
+      if (!finite(column[i]) && !dead(s, i))
+        return std::string(name) + " of particle " + std::to_string(i) + " is not finite" + at_time(s);
     return {};
   };
-  for (const auto& why : {vector(s.position, "position"), vector(s.velocity, "velocity"), scalar(s.temperature, "temperature"),
-                          scalar(s.temperature_error, "temperature_error"), scalar(s.density, "density"), scalar(s.pressure, "pressure")})
+  for (const auto& why :
+       {vector(s.position, "position"), vector(s.velocity, "velocity"), scalar(s.temperature, "temperature"),
+        scalar(s.temperature_error, "temperature_error"), scalar(s.density, "density"), scalar(s.pressure, "pressure")})
     if (!why.empty()) return why;
   for (std::size_t b = 0; b < s.bodies.size(); ++b)
-    if (finite(s.bodies[b].position) != finite(s.bodies[b].velocity)) return "body row " + std::to_string(b) + " is not finite" + at_time(s);
+    if (finite(s.bodies[b].position) != finite(s.bodies[b].velocity))
+      return "body row " + std::to_string(b) + " is not finite" + at_time(s);
   return {};
 }
 
@@ -51,8 +55,10 @@ std::string lost(const Snapshot& s, const InitialState& initial) {
 
 /// A body's own row must be where its particles are, and move as they do: else one metric would see another run than the next.
 std::string apart_from_its_particles(const Job& job, const InitialState& initial, const Snapshot& s) {
-  // An engine that does not say which particle is of which body means those of the start, where nothing unites, parts, melts or freezes.
-  const bool as_at_the_start = job.scene.events.empty() && std::none_of(job.scene.materials.begin(), job.scene.materials.end(), [](const Material& m) { return m.t_melt.has_value(); });
+  // An engine that does not say which particle is of which body means those of the start, where nothing unites, parts, melts or
+  // freezes.
+  const bool as_at_the_start = job.scene.events.empty() && std::none_of(job.scene.materials.begin(), job.scene.materials.end(),
+                                                                        [](const Material& m) { return m.t_melt.has_value(); });
   const std::vector<int>& of = s.body.empty() && as_at_the_start ? initial.body : s.body;
   const std::vector<double>& mass = s.mass.empty() ? initial.mass : s.mass;
   if (of.size() != s.position.size() || s.velocity.size() != s.position.size() || mass.size() != s.position.size()) return {};
@@ -66,15 +72,20 @@ std::string apart_from_its_particles(const Job& job, const InitialState& initial
     if (of[i] < 0 || static_cast<std::size_t>(of[i]) >= sums.size() || dead(s, i)) continue;
     const auto b = static_cast<std::size_t>(of[i]);
     const Vec3 arm = displacement(job.scene, s.position[i], s.bodies[b].position);
-    for (std::size_t k = 0; k < 3; ++k) sums[b].wraps = sums[b].wraps || (job.scene.periodic[k] && std::abs(arm[k]) > 0.25 * ((*job.scene.max)[k] - (*job.scene.min)[k]));
+    for (std::size_t k = 0; k < 3; ++k)
+      sums[b].wraps =
+          sums[b].wraps || (job.scene.periodic[k] && std::abs(arm[k]) > 0.25 * ((*job.scene.max)[k] - (*job.scene.min)[k]));
     sums[b].mass += mass[i], sums[b].off += mass[i] * arm, sums[b].momentum += mass[i] * s.velocity[i];
     sums[b].fastest = std::max(sums[b].fastest, norm(s.velocity[i]));
   }
   for (std::size_t b = 0; b < sums.size(); ++b) {
     if (!(sums[b].mass > 0.0) || sums[b].wraps || !finite(s.bodies[b].position)) continue;
     const double off = norm(sums[b].off) / sums[b].mass, faster = norm(s.bodies[b].velocity - sums[b].momentum / sums[b].mass);
-    if (off > 1e-3 * job.scene.spacing) return "body row " + std::to_string(b) + " is " + std::to_string(off) + " m from the centre of its particles" + at_time(s);
-    if (faster > 1e-3 * std::max(sums[b].fastest, norm(s.bodies[b].velocity))) return "body row " + std::to_string(b) + " moves otherwise than its particles, by " + std::to_string(faster) + " m/s" + at_time(s);
+    if (off > 1e-3 * job.scene.spacing)
+      return "body row " + std::to_string(b) + " is " + std::to_string(off) + " m from the centre of its particles" + at_time(s);
+    if (faster > 1e-3 * std::max(sums[b].fastest, norm(s.bodies[b].velocity)))
+      return "body row " + std::to_string(b) + " moves otherwise than its particles, by " + std::to_string(faster) + " m/s" +
+             at_time(s);
   }
   return {};
 }
@@ -92,14 +103,16 @@ std::string other_start(const Job& job, const InitialState& initial, const Snaps
     const bool placed = body && body->motion == Motion::prescribed && !body->keyframes.empty();
     if (placed || dead(first, i)) continue;
     if (!(norm(displacement(job.scene, first.position[i], initial.position[i])) <= tolerance))
-      return "the first frame is not the job's start: particle " + std::to_string(i) + " is elsewhere (other units, permuted ids or a shifted time?)";
+      return "the first frame is not the job's start: particle " + std::to_string(i) +
+             " is elsewhere (other units, permuted ids or a shifted time?)";
   }
   return {};
 }
 
 bool is_pushed(const Job& job, const JobBody& b) {
   if (b.motion == Motion::fixed) return false;
-  const bool held = std::any_of(job.bodies.begin(), job.bodies.end(), [](const JobBody& other) { return other.motion == Motion::fixed; });
+  const bool held =
+      std::any_of(job.bodies.begin(), job.bodies.end(), [](const JobBody& other) { return other.motion == Motion::fixed; });
   const bool flies = norm(b.velocity) > 0.0 || norm(b.angular_velocity) > 0.0;
   return flies || b.keyframes.size() > 1 || (!held && b.motion == Motion::free && norm(job.scene.gravity) > 0.0);
 }
@@ -117,11 +130,12 @@ bool turned_round(const Snapshot& a, const Snapshot& b) {
   return false;
 }
 
-/// Some particle moves the same way in both frames: it has not turned back between them (a pause between keyframes is no fault), and by more than
-/// what a body at rest keeps of its speed in the last digits.
+/// Some particle moves the same way in both frames: it has not turned back between them (a pause between keyframes is no fault),
+/// and by more than what a body at rest keeps of its speed in the last digits.
 bool goes_on(const Job& job, const Snapshot& a, const Snapshot& b) {
   for (std::size_t i = 0; i < std::min(a.velocity.size(), b.velocity.size()); ++i)
-    if (dot(a.velocity[i], b.velocity[i]) > 0.0 && norm(a.velocity[i]) * (b.time - a.time) > 1e-12 * job.scene.spacing) return true;
+    if (dot(a.velocity[i], b.velocity[i]) > 0.0 && norm(a.velocity[i]) * (b.time - a.time) > 1e-12 * job.scene.spacing)
+      return true;
   return false;
 }
 
@@ -130,7 +144,8 @@ bool has_support(const Job& job) {
   return std::any_of(job.bodies.begin(), job.bodies.end(), [](const JobBody& b) { return b.motion != Motion::free; });
 }
 
-/// Whether what moves by itself between two frames goes farther than a coordinate in single precision resolves: a body that has come to rest on another creeps by less.
+/// Whether what moves by itself between two frames goes farther than a coordinate in single precision resolves: a body that has
+/// come to rest on another creeps by less.
 /// @param falls whether gravity moves it, which it does not where the body lies
 bool is_resolved(const Job& job, const Snapshot& a, double time, bool falls) {
   constexpr double single = 6e-8;  // half a unit in the last of 24 bits
@@ -153,7 +168,8 @@ bool goes_far(const Job& job, const Snapshot& a, double time) {
 /// A whole number of turns of a body that does nothing but spin.
 bool turns_back(const Job& job, const JobBody& b, double time) {
   if (!is_pushed(job, b)) return true;
-  const bool spins_only = norm(b.velocity) == 0.0 && b.keyframes.size() < 2 && (b.motion != Motion::free || norm(job.scene.gravity) == 0.0);
+  const bool spins_only =
+      norm(b.velocity) == 0.0 && b.keyframes.size() < 2 && (b.motion != Motion::free || norm(job.scene.gravity) == 0.0);
   const double turns = norm(b.angular_velocity) * time / (2.0 * std::numbers::pi);
   return spins_only && turns > 0.5 && std::abs(turns - std::round(turns)) < 1e-6 * turns;
 }
@@ -182,37 +198,47 @@ bool truth_comes_back(const Job& job, const InitialState& initial, double from, 
 
 /// Whether a right run may have the same places and velocities at both times.
 bool may_come_back(const Job& job, const InitialState& initial, double from, double to) {
-  const bool by_itself = std::all_of(job.bodies.begin(), job.bodies.end(), [&](const JobBody& b) { return turns_back(job, b, to - from) || led_back(b, from, to); });
+  const bool by_itself = std::all_of(job.bodies.begin(), job.bodies.end(),
+                                     [&](const JobBody& b) { return turns_back(job, b, to - from) || led_back(b, from, to); });
   return by_itself || truth_comes_back(job, initial, from, to);
 }
 
-/// Pairs so near that heat must flow between them within the run: both conduct, one at least is free to warm, and their temperatures differ.
+/// Pairs so near that heat must flow between them within the run: both conduct, one at least is free to warm, and their
+/// temperatures differ.
 bool should_conduct(const Job& job, const InitialState& initial) {
   const auto& T = initial.temperature;
   if (T.empty() || *std::max_element(T.begin(), T.end()) == *std::min_element(T.begin(), T.end())) return false;
   const auto material = [&](std::size_t i) { return job.scene.materials.at(static_cast<std::size_t>(initial.material[i])); };
-  const auto held = [&](std::size_t i) { const auto* b = body_of(job, initial, i); return b && b->temperature_held; };
+  const auto held = [&](std::size_t i) {
+    const auto* b = body_of(job, initial, i);
+    return b && b->temperature_held;
+  };
   std::vector<std::size_t> conducting;
   for (std::size_t i = 0; i < initial.size(); ++i)
-    if (const Material m = material(i); m.conductivity.value_or(0.0) > 0.0 && m.heat_capacity.value_or(0.0) > 0.0) conducting.push_back(i);
+    if (const Material m = material(i); m.conductivity.value_or(0.0) > 0.0 && m.heat_capacity.value_or(0.0) > 0.0)
+      conducting.push_back(i);
   bool must = false;
   const double dx = job.scene.spacing;
   for_near_pairs(job.scene, initial.position, conducting, 1.2 * dx, [&](std::size_t i, std::size_t j, const Vec3&) {
     if (must || held(i) || T[i] == T[j]) return;
     const Material m = material(i), other = material(j);
-    const double k = std::min(*m.conductivity, *other.conductivity), share = k * job.scene.end_time / (m.density * *m.heat_capacity * dx * dx);
+    const double k = std::min(*m.conductivity, *other.conductivity),
+                 share = k * job.scene.end_time / (m.density * *m.heat_capacity * dx * dx);
     must = share * std::abs(T[j] - T[i]) > 1e-9 * T[i];  // far above the last digit that a run writes
   });
   return must;
 }
 
-/// Name of a free body that no other is near, and that keeps place and velocity between two frames though gravity pulls it; empty = none. It says nothing of
-/// scenes with events, which may hold a body, with inflow, or with half spaces, which go on beyond their particles.
+/// Name of a free body that no other is near, and that keeps place and velocity between two frames though gravity pulls it; empty
+/// = none. It says nothing of scenes with events, which may hold a body, with inflow, or with half spaces, which go on beyond
+/// their particles.
 std::string hangs_in_the_air(const Job& job, const InitialState& initial, const Snapshot& a, const Snapshot& b) {
   const double time = b.time - a.time, g = norm(job.scene.gravity);
-  const bool says_nothing = g == 0.0 || !job.scene.events.empty() || !job.scene.inflows.empty() || a.velocity.size() != initial.size() || b.velocity.size() != initial.size() ||
+  const bool says_nothing = g == 0.0 || !job.scene.events.empty() || !job.scene.inflows.empty() ||
+                            a.velocity.size() != initial.size() || b.velocity.size() != initial.size() ||
                             initial.source.size() != initial.size() ||
-                            std::any_of(job.scene.bodies.begin(), job.scene.bodies.end(), [](const Body& body) { return body.shape.kind == Shape::Kind::half_space; });
+                            std::any_of(job.scene.bodies.begin(), job.scene.bodies.end(),
+                                        [](const Body& body) { return body.shape.kind == Shape::Kind::half_space; });
   if (says_nothing || !is_resolved(job, a, time, true)) return {};
   std::vector<char> hangs(job.bodies.size(), 0);
   for (std::size_t k = 0; k < hangs.size(); ++k) hangs[k] = job.bodies[k].motion == Motion::free;
@@ -236,14 +262,20 @@ std::string frozen(const Job& job, const InitialState& initial, const Frames& fr
     const auto &a = *frames[n - 1], &b = *frames[n];
     if (!same_places(a, b)) continue;
     const double time = b.time - a.time;
-    if (moves && goes_on(job, a, b) && goes_far(job, a, time) && is_resolved(job, a, time, !has_support(job)) && !may_come_back(job, initial, a.time, b.time))
-      return "frozen: no particle moves from t = " + std::to_string(a.time) + " to " + std::to_string(b.time) + " s, yet they have velocities";
+    if (moves && goes_on(job, a, b) && goes_far(job, a, time) && is_resolved(job, a, time, !has_support(job)) &&
+        !may_come_back(job, initial, a.time, b.time))
+      return "frozen: no particle moves from t = " + std::to_string(a.time) + " to " + std::to_string(b.time) +
+             " s, yet they have velocities";
     if (const auto body = hangs_in_the_air(job, initial, a, b); !body.empty() && !truth_comes_back(job, initial, a.time, b.time))
-      return "frozen: `" + body + "` hangs in the air from t = " + std::to_string(a.time) + " to " + std::to_string(b.time) + " s";
+      return "frozen: `" + body + "` hangs in the air from t = " + std::to_string(a.time) + " to " + std::to_string(b.time) +
+             " s";
   }
   const auto &first = *frames.front(), &last = *frames.back();
-  if (moves && same_places(first, last) && !turned_round(first, last) && goes_far(job, first, last.time - first.time) && !may_come_back(job, initial, first.time, last.time)) return "frozen: nothing has moved by the end, though the scene does";
-  if (!last.temperature.empty() && last.temperature == first.temperature && should_conduct(job, initial)) return "frozen: no temperature has changed by the end";
+  if (moves && same_places(first, last) && !turned_round(first, last) && goes_far(job, first, last.time - first.time) &&
+      !may_come_back(job, initial, first.time, last.time))
+    return "frozen: nothing has moved by the end, though the scene does";
+  if (!last.temperature.empty() && last.temperature == first.temperature && should_conduct(job, initial))
+    return "frozen: no temperature has changed by the end";
   return {};
 }
 

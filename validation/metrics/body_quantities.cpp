@@ -23,9 +23,12 @@ FrameError over_bodies(const FramePair& f, F difference) {
   const std::size_t rows = std::max(f.now.bodies.size(), f.truth.bodies.size());
   for (std::size_t b = 0; b < rows; ++b) {
     if (only >= 0 && static_cast<long>(b) != only) continue;
-    const bool run = b < f.now.bodies.size() && alive(f.now.bodies[b]), truth = b < f.truth.bodies.size() && alive(f.truth.bodies[b]);
+    const bool run = b < f.now.bodies.size() && alive(f.now.bodies[b]),
+               truth = b < f.truth.bodies.size() && alive(f.truth.bodies[b]);
     if (!run && !truth && only < 0) continue;
-    if (run != truth || !run) return problem("body row " + std::to_string(b) + (run ? " should not exist" : " is missing or not finite") + " at t = " + std::to_string(f.now.time) + " s");
+    if (run != truth || !run)
+      return problem("body row " + std::to_string(b) + (run ? " should not exist" : " is missing or not finite") +
+                     " at t = " + std::to_string(f.now.time) + " s");
     if (!whole(f.now.bodies[b])) return problem("body row " + std::to_string(b) + " is not finite");
     out.add(difference(f.now.bodies[b], f.truth.bodies[b]), 1.0, static_cast<long>(b));
   }
@@ -39,7 +42,8 @@ FrameError body_count(const FramePair& f) {
   return single(alive_count(f.now) - alive_count(f.truth));
 }
 
-/// Largest relative change of the distances to four members far apart, which fix the shape of all; pairs in one body now and then only.
+/// Largest relative change of the distances to four members far apart, which fix the shape of all; pairs in one body now and then
+/// only.
 double stretch(const FramePair& f, const std::vector<std::size_t>& members) {
   const auto& start = f.in.initial.position;
   std::vector<std::size_t> anchors{members.front()};
@@ -64,11 +68,13 @@ double stretch(const FramePair& f, const std::vector<std::size_t>& members) {
 }
 
 FrameError shape(const FramePair& f) {
-  if (f.now.position.size() < f.in.initial.size() || f.now.body.size() != f.now.position.size()) return problem("the trajectory has no positions and bodies of all particles");
+  if (f.now.position.size() < f.in.initial.size() || f.now.body.size() != f.now.position.size())
+    return problem("the trajectory has no positions and bodies of all particles");
   FrameError out;
   for (std::size_t b = 0; b < f.in.job.bodies.size(); ++b) {
     const auto& body = f.in.job.bodies[b];
-    const bool meant = f.in.choice.body.empty() ? body.phase == Phase::rigid : body.phase != Phase::liquid && f.in.choice.body == body.name;
+    const bool meant =
+        f.in.choice.body.empty() ? body.phase == Phase::rigid : body.phase != Phase::liquid && f.in.choice.body == body.name;
     if (!meant) continue;
     std::vector<std::size_t> members;
     for (std::size_t i = 0; i < f.in.initial.size(); ++i)
@@ -78,24 +84,39 @@ FrameError shape(const FramePair& f) {
   return out.error.empty() ? problem("there is no rigid body of two particles or more") : out;
 }
 
-double distance(const Scene& scene, const BodyState& a, const BodyState& b) { return norm(displacement(scene, a.position, b.position)); }
+double distance(const Scene& scene, const BodyState& a, const BodyState& b) {
+  return norm(displacement(scene, a.position, b.position));
+}
 
 }  // namespace
 
 const std::vector<Quantity>& body_quantities() {
   static const std::vector<Quantity> list{
-      {{"position", "m", ""}, [](const FramePair& f) { return over_bodies(f, [&](const auto& a, const auto& b) { return distance(f.in.job.scene, a, b); }); }},
-      {{"velocity", "m/s", ""}, [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.velocity - b.velocity); }); }},
+      {{"position", "m", ""},
+       [](const FramePair& f) {
+         return over_bodies(f, [&](const auto& a, const auto& b) { return distance(f.in.job.scene, a, b); });
+       }},
+      {{"velocity", "m/s", ""},
+       [](const FramePair& f) {
+         return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.velocity - b.velocity); });
+       }},
       {{"orientation", "rad", "angle between the orientations of bodies, 0..pi, blind to the quaternion's sign"},
-       [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return angle_between(a.orientation, b.orientation); }); }},
+       [](const FramePair& f) {
+         return over_bodies(f, [](const auto& a, const auto& b) { return angle_between(a.orientation, b.orientation); });
+       }},
       {{"angular_velocity", "rad/s", "difference of angular velocities of bodies, world frame"},
-       [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.angular_velocity - b.angular_velocity); }); }},
+       [](const FramePair& f) {
+         return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.angular_velocity - b.angular_velocity); });
+       }},
       {{"force", "N", "difference of the forces on bodies from all others"},
        [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.force - b.force); }); }},
       {{"torque", "N m", "difference of the torques on bodies from all others"},
        [](const FramePair& f) { return over_bodies(f, [](const auto& a, const auto& b) { return norm(a.torque - b.torque); }); }},
       {{"body_count", "1", "difference in the number of solid bodies alive, or from the stated value"}, body_count},
-      {{"shape", "1", "largest relative change of distances inside a rigid body, or an elastic one that is named, since the start; needs no reference"}, shape}};
+      {{"shape", "1",
+        "largest relative change of distances inside a rigid body, or an elastic one that is named, since the start; needs no "
+        "reference"},
+       shape}};
   return list;
 }
 

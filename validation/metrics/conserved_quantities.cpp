@@ -94,7 +94,8 @@ FrameError ledger(const FramePair& f) {
   const auto now = term_of(f.in, f.now, term);
   if (!now) return problem("the trajectory has no ledger term `" + term + "`");
   auto truth = term_of(f.in, term == "residual" ? f.first : f.truth, term);
-  if (!truth && term == "kinetic") truth = f.in.reference.number("kinetic_energy");  // a law of conservation knows it without particles
+  if (!truth && term == "kinetic")
+    truth = f.in.reference.number("kinetic_energy");  // a law of conservation knows it without particles
   if (const auto stated = f.in.reference.number("value"); !truth && stated) return single(*now - *stated);
   if (!truth) return problem("the reference does not know the ledger term `" + term + "`: use norm = \"drift\"");
   return single(*now - *truth);
@@ -104,7 +105,8 @@ template <class F>
 FrameError vector_change(const FramePair& f, F quantity, const char* name) {
   const auto n = f.in.initial.size();
   if (!has_motion(f.now, n)) return problem("the trajectory has no positions and velocities");
-  if (!has_motion(f.truth, n)) return problem(std::string("the reference has no particles to sum the ") + name + " of: use norm = \"drift\"");
+  if (!has_motion(f.truth, n))
+    return problem(std::string("the reference has no particles to sum the ") + name + " of: use norm = \"drift\"");
   const Vec3 d = quantity(f.in, f.now) - quantity(f.in, f.truth);
   return finite(d) ? single(norm(d)) : problem(std::string(name) + " is not finite");
 }
@@ -140,13 +142,15 @@ FrameError energy_ratio(const FramePair& f) {
 
 FrameError bonded_objects(const FramePair& f) {
   const auto count = f.now.counts.find("objects");
-  if (count == f.now.counts.end()) return problem("the run counts no objects: nothing in its scene melts, freezes or breaks, or its engine has no bonds");
+  if (count == f.now.counts.end())
+    return problem("the run counts no objects: nothing in its scene melts, freezes or breaks, or its engine has no bonds");
   return against_truth(f, "bonded_objects", count->second);
 }
 
 FrameError recoveries(const FramePair& f) {
   const auto count = f.now.counts.find("recoveries");
-  if (count == f.now.counts.end()) return problem("the run counts no recoveries: its scene says on_failure = \"recover\" where it may");
+  if (count == f.now.counts.end())
+    return problem("the run counts no recoveries: its scene says on_failure = \"recover\" where it may");
   return single(count->second - f.in.reference.number("value").value_or(0.0));
 }
 
@@ -160,9 +164,13 @@ const std::vector<Quantity>& conserved_quantities() {
        [](const FramePair& f) { return vector_change(f, angular_momentum, "angular momentum"); }},
       {{"energy", "J", "difference of kinetic and potential energy, from the particles"}, energy_change},
       {{"energy_ratio", "1", "kinetic energy over that of the first frame, minus the reference's energy_ratio"}, energy_ratio},
-      {{"bonded_objects", "1", "solid objects that bonds hold together, as the engine counts them, minus the stated value; what only touches is two"}, bonded_objects},
+      {{"bonded_objects", "1",
+        "solid objects that bonds hold together, as the engine counts them, minus the stated value; what only touches is two"},
+       bonded_objects},
       {{"recoveries", "1", "how often a guard sent the run back to a good state, minus the stated value"}, recoveries},
-      {{"ledger.TERM", "J", "difference of a ledger term: kinetic, potential, thermal from the particles, others as the engine keeps them; residual is the change of their sum"},
+      {{"ledger.TERM", "J",
+        "difference of a ledger term: kinetic, potential, thermal from the particles, others as the engine keeps them; residual "
+        "is the change of their sum"},
        ledger}};
   return list;
 }

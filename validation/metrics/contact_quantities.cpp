@@ -10,8 +10,12 @@
 namespace tripoint {
 namespace {
 
-bool shows_solids(const Snapshot& s, std::size_t n) { return s.position.size() >= n && n > 0 && s.phase.size() == s.position.size() && s.body.size() == s.position.size(); }
-std::string no_solids(const FramePair& f) { return shows_solids(f.now, f.in.initial.size()) ? "" : "the trajectory has no positions, phases and bodies of all particles"; }
+bool shows_solids(const Snapshot& s, std::size_t n) {
+  return s.position.size() >= n && n > 0 && s.phase.size() == s.position.size() && s.body.size() == s.position.size();
+}
+std::string no_solids(const FramePair& f) {
+  return shows_solids(f.now, f.in.initial.size()) ? "" : "the trajectory has no positions, phases and bodies of all particles";
+}
 
 // --- depth of one body in another -----------------------------------------------------------------------------------------
 
@@ -21,8 +25,9 @@ struct Facing {
   std::vector<Vec3> place;  // from the particle [m]
 };
 
-/// Before the other body's outer layer: 1 - least distance / spacing, 0 at one spacing. Past it: 1 + how far past, which no distance shows.
-/// The outer layer is the highest along the line out of the other body; within 0.8 spacings of that line a lattice always has a particle.
+/// Before the other body's outer layer: 1 - least distance / spacing, 0 at one spacing. Past it: 1 + how far past, which no
+/// distance shows. The outer layer is the highest along the line out of the other body; within 0.8 spacings of that line a
+/// lattice always has a particle.
 double depth(const Facing& other, double dx) {
   const double length = norm(other.inward);
   if (length == 0.0) return 3.0;  // deep inside, no way out to be seen: two spacings and the one before the layer
@@ -93,7 +98,8 @@ FrameError object_count(const FramePair& f) {
   std::iota(parent.begin(), parent.end(), std::size_t{0});
   const bool any_phase = f.in.reference.number("phase").has_value();
   for (std::size_t i = 0; i < parent.size(); ++i)
-    if (is_alive(f.now, i) && takes(f.in, i) && (any_phase ? of_stated_phase(f.in, f.now, i) : f.now.phase[i] != 0)) members.push_back(i);
+    if (is_alive(f.now, i) && takes(f.in, i) && (any_phase ? of_stated_phase(f.in, f.now, i) : f.now.phase[i] != 0))
+      members.push_back(i);
   const double reach = f.in.job.scene.merge_distance * f.in.job.scene.spacing;
   for_near_pairs(f.in.job.scene, f.now.position, members, reach, [&](std::size_t i, std::size_t j, const Vec3&) {
     const auto a = root(parent, i), b = root(parent, j);
@@ -107,10 +113,20 @@ FrameError object_count(const FramePair& f) {
 
 const std::vector<Quantity>& contact_quantities() {
   static const std::vector<Quantity> list{
-      {{"overlap", "spacings", "largest depth of a solid particle in another body: 1 - least distance / spacing before its outer layer, over 1 (at most 3) past it"}, overlap},
-      {{"separation", "m", "distance of the centres of the metric's and the other body, of their particles as sampled, minus the stated value"}, separation},
-      {{"relative_motion", "m/s", "speed of the other body's centre seen from the metric's body, |v_b - v_a - w_a x (r_b - r_a)|: 0 when they move as one"}, relative_motion},
-      {{"object_count", "1", "clusters of solid particles (of the stated phase) nearer than merge_distance, minus the stated value; touching bodies count as one"}, object_count}};
+      {{"overlap", "spacings",
+        "largest depth of a solid particle in another body: 1 - least distance / spacing before its outer layer, over 1 (at most "
+        "3) past it"},
+       overlap},
+      {{"separation", "m",
+        "distance of the centres of the metric's and the other body, of their particles as sampled, minus the stated value"},
+       separation},
+      {{"relative_motion", "m/s",
+        "speed of the other body's centre seen from the metric's body, |v_b - v_a - w_a x (r_b - r_a)|: 0 when they move as one"},
+       relative_motion},
+      {{"object_count", "1",
+        "clusters of solid particles (of the stated phase) nearer than merge_distance, minus the stated value; touching bodies "
+        "count as one"},
+       object_count}};
   return list;
 }
 

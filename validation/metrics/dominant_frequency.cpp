@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/metrics/dominant_frequency.hpp"
 
-#include <Eigen/Dense>
 #include <cmath>
+#include <Eigen/Dense>
 #include <numbers>
 
 namespace tripoint {
@@ -41,7 +41,8 @@ DominantFrequency none(const std::string& why) {
 DominantFrequency dominant_frequency(const std::vector<double>& time, const std::vector<double>& value) {
   const auto count = static_cast<double>(time.size());
   if (time.size() < 8) return none("a frequency needs eight output times or more in its window");
-  const double length = time.back() - time.front(), highest = (count - 1.0) / length / least_samples_a_period, lowest = least_periods / length;
+  const double length = time.back() - time.front(), highest = (count - 1.0) / length / least_samples_a_period,
+               lowest = least_periods / length;
   double mean = 0.0, variance = 0.0, largest = 0.0;
   for (const double y : value) mean += y / count, largest = std::max(largest, std::abs(y));
   std::vector<double> y;
@@ -55,20 +56,27 @@ DominantFrequency dominant_frequency(const std::vector<double>& time, const std:
   double least = fit_at(time, y, lowest).rest;
   for (int n = 1; n <= steps; ++n)
     if (const double rest = fit_at(time, y, lowest + n * step).rest; rest < least) least = rest, best = n;
-  if (best == 0 || best == steps) return none("the quantity swings less than one and a half times in the window, or too fast for its output times: lengthen the window or shorten output_interval");
+  if (best == 0 || best == steps)
+    return none(
+        "the quantity swings less than one and a half times in the window, or too fast for its output times: lengthen the window "
+        "or shorten output_interval");
   double low = lowest + (best - 1) * step, high = lowest + (best + 1) * step;
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
   for (int n = 0; n < 60; ++n) {
     const double a = high - golden * (high - low), b = low + golden * (high - low);
-    if (fit_at(time, y, a).rest < fit_at(time, y, b).rest) high = b;
-    else low = a;
+    if (fit_at(time, y, a).rest < fit_at(time, y, b).rest)
+      high = b;
+    else
+      low = a;
   }
   DominantFrequency d;
   d.frequency = 0.5 * (low + high);
   const Fit fit = fit_at(time, y, d.frequency);
   d.amplitude = std::hypot(fit.coefficients[1], fit.coefficients[2]);
   d.share = 1.0 - fit.rest / variance;
-  if (d.share < least_share) return none("no single frequency stands out: the best sine explains " + std::to_string(100.0 * d.share) + " % of the variance");
+  if (d.share < least_share)
+    return none("no single frequency stands out: the best sine explains " + std::to_string(100.0 * d.share) +
+                " % of the variance");
   d.uncertainty = std::sqrt(6.0 / count) * std::sqrt(fit.rest / (count - 4.0)) / (std::numbers::pi * length * d.amplitude);
   return d;
 }

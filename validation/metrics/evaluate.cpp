@@ -50,13 +50,15 @@ const Quantity* find_quantity(const MetricInput& input) {
   if (of_body && body_row(input) >= 0) return of_body;
   if (const auto* q = in(particle_quantities(), choice.quantity)) return q;
   if (of_body) return of_body;
-  for (const auto* list : {&conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(), &impact_quantities(), &phase_quantities(), &probe_quantities()})
+  for (const auto* list : {&conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(),
+                           &impact_quantities(), &phase_quantities(), &probe_quantities()})
     if (const auto* q = in(*list, choice.quantity)) return q;
   return in(profile_quantities(), choice.quantity);
 }
 
 const RunQuantity* find_run_quantity(const MetricChoice& choice) {
-  for (const auto* list : {&run_quantities(), &motion_quantities(), &impact_run_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
+  for (const auto* list : {&run_quantities(), &motion_quantities(), &impact_run_quantities(), &front_quantities(),
+                           &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
     for (const auto& q : *list)
       if (q.word.name == choice.quantity) return &q;
   return nullptr;
@@ -69,7 +71,8 @@ void refuse_unknown_words(const MetricChoice& choice) {
       if (w.name == word) return;
       known.push_back(w.name);
     }
-    throw InputError(choice.place, "metric `" + choice.name + "`: unknown " + what + " `" + printable(word) + "`" + suggestion(word, known));
+    throw InputError(choice.place,
+                     "metric `" + choice.name + "`: unknown " + what + " `" + printable(word) + "`" + suggestion(word, known));
   };
   if (!is_ledger(choice.quantity)) check(metric_quantities(), choice.quantity, "quantity");
   check(metric_norms(), choice.norm, "norm");
@@ -77,8 +80,14 @@ void refuse_unknown_words(const MetricChoice& choice) {
 
 /// A unit for people that is another than the number beside it has: a value in m, divided by a scale of 1, is none in mm.
 void refuse_another_unit(const MetricChoice& choice) {
-  if (choice.unit.empty() || choice.unit == "degC" || choice.norm == "slope" || choice.norm == "frequency" || choice.norm == "chi") return;
-  const std::string own = is_ledger(choice.quantity) ? "J" : std::find_if(metric_quantities().begin(), metric_quantities().end(), [&](const MetricWord& w) { return w.name == choice.quantity; })->unit;
+  if (choice.unit.empty() || choice.unit == "degC" || choice.norm == "slope" || choice.norm == "frequency" ||
+      choice.norm == "chi")
+    return;
+  const std::string own = is_ledger(choice.quantity)
+                              ? "J"
+                              : std::find_if(metric_quantities().begin(), metric_quantities().end(), [&](const MetricWord& w) {
+                                  return w.name == choice.quantity;
+                                })->unit;
   if (choice.unit == own) return;  // what it is divided by beside its own unit is in the baseline
   double factor = 0.0;
   try {
@@ -87,7 +96,9 @@ void refuse_another_unit(const MetricChoice& choice) {
     return;  // of another dimension, or words: what the value is divided by has it
   }
   if (std::abs(factor / choice.scale - 1.0) > 1e-9)
-    throw InputError(choice.place, "metric `" + choice.name + "`: its value is in " + own + ", divided by scale = " + number_text(choice.scale) + ", and that is no " + choice.unit + ": write scale = " + number_text(factor) + ", or another unit");
+    throw InputError(choice.place, "metric `" + choice.name + "`: its value is in " + own +
+                                       ", divided by scale = " + number_text(choice.scale) + ", and that is no " + choice.unit +
+                                       ": write scale = " + number_text(factor) + ", or another unit");
 }
 
 /// Errors of all chosen frames under one norm in space, and what the norm in time makes of them.
@@ -107,7 +118,8 @@ double rms_over_time(const Series& s) {
 double mean_over_time(const Series& s) {
   if (s.value.size() == 1) return s.value[0];
   double integral = 0.0;
-  for (std::size_t n = 1; n < s.value.size(); ++n) integral += 0.5 * (s.times[n] - s.times[n - 1]) * (s.value[n] + s.value[n - 1]);
+  for (std::size_t n = 1; n < s.value.size(); ++n)
+    integral += 0.5 * (s.times[n] - s.times[n - 1]) * (s.value[n] + s.value[n - 1]);
   return integral / (s.times.back() - s.times.front());
 }
 
@@ -116,7 +128,8 @@ std::pair<double, double> slope_over_time(const Series& s) {
   const double n = static_cast<double>(s.value.size());
   double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0;
   for (std::size_t i = 0; i < s.value.size(); ++i) t0 += s.times[i] / n, y0 += s.value[i] / n;
-  for (std::size_t i = 0; i < s.value.size(); ++i) tt += (s.times[i] - t0) * (s.times[i] - t0), ty += (s.times[i] - t0) * (s.value[i] - y0);
+  for (std::size_t i = 0; i < s.value.size(); ++i)
+    tt += (s.times[i] - t0) * (s.times[i] - t0), ty += (s.times[i] - t0) * (s.value[i] - y0);
   for (std::size_t i = 0; i < s.value.size(); ++i) rest += std::pow(s.value[i] - y0 - ty / tt * (s.times[i] - t0), 2);
   return {ty / tt, n > 2.0 ? std::sqrt(rest / (n - 2.0) / tt) : not_a_number};
 }
@@ -127,7 +140,8 @@ MetricValue stationary(const Series& s, MetricValue v) {
   if (!std::isfinite(m.value)) return unformed("a stationary mean needs eight finite output times or more in its window");
   v.value = m.value;
   v.uncertainty.statistical = std::max(m.uncertainty, *std::max_element(s.uncertainty.begin(), s.uncertainty.end()));
-  v.note = std::to_string(m.burn_in) + " samples of burn-in cut, " + std::to_string(static_cast<long>(m.effective)) + " independent ones left" + (m.plateau ? "" : ", no plateau yet");
+  v.note = std::to_string(m.burn_in) + " samples of burn-in cut, " + std::to_string(static_cast<long>(m.effective)) +
+           " independent ones left" + (m.plateau ? "" : ", no plateau yet");
   return v;
 }
 
@@ -136,12 +150,14 @@ MetricValue frequency(const MetricInput& in, const Series& s) {
   MetricValue v;
   v.times = s.times, v.series = s.value;
   const auto truth = in.reference.number("stated_frequency");
-  if (!truth) return unformed("the norm frequency needs the true one in Hz: reference = {function = \"stated\", args = {frequency = ...}}");
+  if (!truth)
+    return unformed("the norm frequency needs the true one in Hz: reference = {function = \"stated\", args = {frequency = ...}}");
   const auto found = dominant_frequency(s.times, s.value);
   if (!found.problem.empty()) return unformed(found.problem);
   v.value = found.frequency - *truth;
   v.uncertainty.numerical = found.uncertainty;
-  v.note = std::to_string(found.frequency) + " Hz against " + std::to_string(*truth) + ", amplitude " + std::to_string(found.amplitude) + ", " + std::to_string(100.0 * found.share) + " % of the variance";
+  v.note = std::to_string(found.frequency) + " Hz against " + std::to_string(*truth) + ", amplitude " +
+           std::to_string(found.amplitude) + ", " + std::to_string(100.0 * found.share) + " % of the variance";
   return v;
 }
 
@@ -200,7 +216,9 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
     const Snapshot truth = no_state ? *all.front() : in.reference.beside(*now);
     const auto error = quantity.error({in, *now, truth, *all.front()});
     if (!error.problem.empty()) return unformed(error.problem);
-    if (norm == "frequency" && error.error.size() != 1) return unformed("the norm frequency is of a single number in time, and " + in.choice.quantity + " is of many: choose a probe, a mean or a body");
+    if (norm == "frequency" && error.error.size() != 1)
+      return unformed("the norm frequency is of a single number in time, and " + in.choice.quantity +
+                      " is of many: choose a probe, a mean or a body");
     const auto value = spatial_norm(in_space, error);
     if (!std::isfinite(value.value)) return unformed("no finite value at t = " + std::to_string(now->time) + " s");
     series.times.push_back(now->time);
@@ -210,7 +228,8 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
   }
   MetricValue v = norm == "frequency" ? frequency(in, series) : over_time(norm, series);
   for (const auto* now : chosen)  // that of the last frame for the last value, else the largest
-    if (norm != "final" || now == chosen.back()) v.uncertainty.data = std::max(v.uncertainty.data, in.reference.uncertainty(in.choice.quantity, now->time).value_or(0.0));
+    if (norm != "final" || now == chosen.back())
+      v.uncertainty.data = std::max(v.uncertainty.data, in.reference.uncertainty(in.choice.quantity, now->time).value_or(0.0));
   return v;
 }
 
@@ -224,9 +243,12 @@ double stated_error(const Snapshot& frame, const std::string& metric) {
 Quantity gauge_quantity(const std::string& metric, const std::string& quantity) {
   return {{quantity, "", ""}, [=](const FramePair& f) {
             const auto own = f.now.gauges.find(metric), first = f.first.gauges.find(metric);
-            if (own == f.now.gauges.end() || first == f.first.gauges.end()) return problem("the engine shows no gauge of this metric at t = " + std::to_string(f.now.time) + " s");
-            auto error = f.in.choice.norm == "drift" ? single(own->second - first->second) : against_truth(f, quantity.c_str(), own->second);
-            if (const auto sigma = stated_error(f.now, metric); sigma > 0.0 && error.problem.empty()) error.sigma.assign(error.error.size(), sigma);
+            if (own == f.now.gauges.end() || first == f.first.gauges.end())
+              return problem("the engine shows no gauge of this metric at t = " + std::to_string(f.now.time) + " s");
+            auto error = f.in.choice.norm == "drift" ? single(own->second - first->second)
+                                                     : against_truth(f, quantity.c_str(), own->second);
+            if (const auto sigma = stated_error(f.now, metric); sigma > 0.0 && error.problem.empty())
+              error.sigma.assign(error.error.size(), sigma);
             return error;
           }};
 }
@@ -235,7 +257,8 @@ Quantity gauge_quantity(const std::string& metric, const std::string& quantity) 
 MetricValue diffusivity_by_gauge(const MetricInput& in, const Snapshot& end) {
   const auto truth = in.reference.number("diffusivity");
   const auto own = end.gauges.find(in.choice.name);
-  if (!truth) return unformed("a diffusivity needs its true value: reference = {function = \"stated\", args = {diffusivity = ...}}");
+  if (!truth)
+    return unformed("a diffusivity needs its true value: reference = {function = \"stated\", args = {diffusivity = ...}}");
   if (own == end.gauges.end()) return unformed("the engine shows no gauge of this metric at the end");
   MetricValue v;
   v.value = in.choice.norm == "final" ? own->second - *truth : std::abs(own->second - *truth);
@@ -245,7 +268,8 @@ MetricValue diffusivity_by_gauge(const MetricInput& in, const Snapshot& end) {
 }
 
 MetricValue of_gauges(const MetricInput& in, const Frames& all, const Frames& chosen) {
-  if (!can_be_gauged(in.choice.quantity)) return unformed("the engine answers by gauges and shows no particles, of which " + in.choice.quantity + " is made");
+  if (!can_be_gauged(in.choice.quantity))
+    return unformed("the engine answers by gauges and shows no particles, of which " + in.choice.quantity + " is made");
   if (find_run_quantity(in.choice)) return diffusivity_by_gauge(in, *chosen.back());
   return of_frames(in, gauge_quantity(in.choice.name, in.choice.quantity), all, chosen);
 }
@@ -258,9 +282,12 @@ void scale(MetricValue& v, double by) {
 
 }  // namespace
 
-double Uncertainty::combined() const { return std::sqrt(numerical * numerical + statistical * statistical + input * input + data * data); }
+double Uncertainty::combined() const {
+  return std::sqrt(numerical * numerical + statistical * statistical + input * input + data * data);
+}
 
-MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialState& initial, const Trajectory& run, const Reference& reference) {
+MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialState& initial, const Trajectory& run,
+                     const Reference& reference) {
   refuse_unknown_words(choice);
   if (!(choice.scale > 0.0)) throw InputError(choice.place, "metric `" + choice.name + "`: scale must be above 0");
   refuse_another_unit(choice);
@@ -270,7 +297,8 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
   if (!frames.problem.empty()) return unformed(frames.problem);
   const auto chosen = chosen_frames(choice, job, frames.list);
   if (chosen.empty()) return unformed("no output time lies in the metric's window");
-  if (chosen.back() == frames.list.front()) return unformed("only the start lies in the metric's window, and there every run is what it was given");
+  if (chosen.back() == frames.list.front())
+    return unformed("only the start lies in the metric's window, and there every run is what it was given");
   const bool gauged = can_be_gauged(choice.quantity) && chosen.back()->gauges.contains(choice.name);
   MetricValue value;
   if (gauged || chosen.back()->gauges_only()) {
@@ -287,7 +315,9 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
 }
 
 std::optional<double> value_of_series(const MetricChoice& choice, const MetricValue& stored) {
-  if (stored.series.empty() || stored.series.size() != stored.times.size() || choice.norm == "L2mean" || choice.norm == "frequency" || find_run_quantity(choice)) return {};
+  if (stored.series.empty() || stored.series.size() != stored.times.size() || choice.norm == "L2mean" ||
+      choice.norm == "frequency" || find_run_quantity(choice))
+    return {};
   const std::vector<double> nothing(stored.series.size(), 0.0);
   return over_time(choice.norm, {stored.times, stored.series, nothing, std::vector<long>(stored.series.size(), -1)}).value;
 }
@@ -295,18 +325,22 @@ std::optional<double> value_of_series(const MetricChoice& choice, const MetricVa
 const std::vector<MetricWord>& metric_quantities() {
   static const std::vector<MetricWord> words = [] {
     std::vector<MetricWord> list;
-    for (const auto* group : {&particle_quantities(), &body_quantities(), &conserved_quantities(), &liquid_quantities(), &solid_quantities(), &contact_quantities(), &impact_quantities(), &phase_quantities(),
-                              &profile_quantities(), &probe_quantities()})
+    for (const auto* group :
+         {&particle_quantities(), &body_quantities(), &conserved_quantities(), &liquid_quantities(), &solid_quantities(),
+          &contact_quantities(), &impact_quantities(), &phase_quantities(), &profile_quantities(), &probe_quantities()})
       for (const auto& q : *group)
         if (!q.word.meaning.empty()) list.push_back(q.word);
-    for (const auto* group : {&run_quantities(), &motion_quantities(), &impact_run_quantities(), &front_quantities(), &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
+    for (const auto* group : {&run_quantities(), &motion_quantities(), &impact_run_quantities(), &front_quantities(),
+                              &solid_run_quantities(), &phase_run_quantities(), &heat_run_quantities()})
       for (const auto& q : *group) list.push_back(q.word);
     return list;
   }();
   return words;
 }
 
-bool can_be_gauged(const std::string& quantity) { return quantity == "diffusivity" || find_word(probe_quantities(), quantity) != probe_quantities().end(); }
+bool can_be_gauged(const std::string& quantity) {
+  return quantity == "diffusivity" || find_word(probe_quantities(), quantity) != probe_quantities().end();
+}
 
 const std::vector<MetricWord>& metric_norms() {
   static const std::vector<MetricWord> words{
@@ -319,10 +353,14 @@ const std::vector<MetricWord>& metric_norms() {
       {"rms", "", "root mean square over time of L2"},
       {"L2mean", "", "root mean square, by volume, of each sample's mean error over the window"},
       {"mean", "", "mean over the times of the window of a single number, with its sign; of many samples, of the largest size"},
-      {"stationary", "", "mean, with its sign, of a series that fluctuates about a steady value: burn-in cut, statistical uncertainty from block averages"},
+      {"stationary", "",
+       "mean, with its sign, of a series that fluctuates about a steady value: burn-in cut, statistical uncertainty from block "
+       "averages"},
       {"final", "", "at the end; keeps the sign of a single number"},
       {"drift", "", "largest change since the run's own start; needs no reference"},
-      {"frequency", "Hz", "of a single number: the frequency of the sine about an offset that explains most of it, by least squares, minus the stated `frequency`; its numerical uncertainty is the fit's"},
+      {"frequency", "Hz",
+       "of a single number: the frequency of the sine about an offset that explains most of it, by least squares, minus the "
+       "stated `frequency`; its numerical uncertainty is the fit's"},
       {"slope", "1/s", "trend of the largest error over time, least squares"}};
   return words;
 }

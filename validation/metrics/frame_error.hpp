@@ -79,7 +79,8 @@ struct RunQuantity {
 [[nodiscard]] double rest_volume(const MetricInput&, std::size_t particle);
 /// Whether the metric takes a particle: all, or those of its body as sampled.
 [[nodiscard]] bool takes(const MetricInput&, std::size_t particle);
-/// Row of the metric's body in /particles/bodies, or -1 when it names none. @throws InputError for a name that the job does not have
+/// Row of the metric's body in /particles/bodies, or -1 when it names none. @throws InputError for a name that the job does not
+/// have
 [[nodiscard]] long body_row(const MetricInput&);
 
 }  // namespace tripoint

@@ -13,10 +13,12 @@ std::string wrong_rows(const Snapshot& frame, const Job& job, const InitialState
   if (frame.gauges_only()) return {};
   const std::size_t n = initial.size(), rows = frame.position.empty() ? frame.temperature.size() : frame.position.size();
   if (rows != n && (job.scene.inflows.empty() || rows < n))
-    return "the frame at t = " + std::to_string(frame.time) + " s has " + std::to_string(rows) + " particles, the job " + std::to_string(n);
+    return "the frame at t = " + std::to_string(frame.time) + " s has " + std::to_string(rows) + " particles, the job " +
+           std::to_string(n);
   for (std::size_t i = 0; i < frame.id.size(); ++i)
     if (frame.id[i] != static_cast<int>(i) && frame.id[i] != -1)
-      return "ids are permuted: row " + std::to_string(i) + " holds particle " + std::to_string(frame.id[i]) + " at t = " + std::to_string(frame.time) + " s";
+      return "ids are permuted: row " + std::to_string(i) + " holds particle " + std::to_string(frame.id[i]) +
+             " at t = " + std::to_string(frame.time) + " s";
   return {};
 }
 

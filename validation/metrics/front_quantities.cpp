@@ -20,7 +20,8 @@ MetricValue unformed(const std::string& why) {
 bool belongs_to_the_liquid(const MetricInput& in, const Snapshot& s, std::size_t particle) {
   int companions = 0;
   for (std::size_t j = 0; j < in.initial.size() && companions < 2; ++j)
-    companions += j != particle && takes(in, j) && norm(displacement(in.job.scene, s.position[j], s.position[particle])) < 1.5 * in.job.scene.spacing;
+    companions += j != particle && takes(in, j) &&
+                  norm(displacement(in.job.scene, s.position[j], s.position[particle])) < 1.5 * in.job.scene.spacing;
   return companions == 2;
 }
 
@@ -51,12 +52,18 @@ Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames)
   Fronts f;
   for (std::size_t n = 0; n < curve->time.size(); ++n) {
     const auto next = std::lower_bound(t.begin(), t.end(), curve->time[n]);
-    if (next == t.end() || next == t.begin()) return {{}, {}, {}, {}, "a front was measured at t = " + std::to_string(curve->time[n]) + " s, which the run's frames do not enclose"};
+    if (next == t.end() || next == t.begin())
+      return {{},
+              {},
+              {},
+              {},
+              "a front was measured at t = " + std::to_string(curve->time[n]) + " s, which the run's frames do not enclose"};
     const auto k = static_cast<std::size_t>(next - t.begin());
     const double share = (curve->time[n] - t[k - 1]) / (t[k] - t[k - 1]);
     f.time.push_back(curve->time[n]), f.run.push_back(x[k - 1] + share * (x[k] - x[k - 1]));
     f.measured.push_back(curve->value[n]), f.uncertainty.push_back(curve->uncertainty[n]);
-    if (!std::isfinite(f.run.back())) return {{}, {}, {}, {}, "the liquid has no front at t = " + std::to_string(f.time.back()) + " s"};
+    if (!std::isfinite(f.run.back()))
+      return {{}, {}, {}, {}, "the liquid has no front at t = " + std::to_string(f.time.back()) + " s"};
   }
   return f;
 }
@@ -79,7 +86,8 @@ MetricValue front_speed(const MetricInput& in, const std::vector<const Snapshot*
   const auto f = fronts(in, frames);
   if (!f.problem.empty()) return unformed(f.problem);
   if (f.time.size() < 2) return unformed("a speed needs two measured fronts or more");
-  const double way = f.measured.back() - f.measured.front(), span = f.time.back() - f.time.front(), own = f.run.back() - f.run.front();
+  const double way = f.measured.back() - f.measured.front(), span = f.time.back() - f.time.front(),
+               own = f.run.back() - f.run.front();
   if (!(way > 0.0)) return unformed("the measured front does not advance");
   MetricValue v;
   v.value = own / way - 1.0;
@@ -92,8 +100,11 @@ MetricValue front_speed(const MetricInput& in, const std::vector<const Snapshot*
 
 const std::vector<RunQuantity>& front_quantities() {
   static const std::vector<RunQuantity> list{
-      {{"front_lead", "m", "front of the liquid minus the measured one, where it is largest in size; its uncertainty is the data's"}, front_lead},
-      {{"front_speed", "1", "mean speed of the front from the first measured place to the last over the measured one, minus 1"}, front_speed}};
+      {{"front_lead", "m",
+        "front of the liquid minus the measured one, where it is largest in size; its uncertainty is the data's"},
+       front_lead},
+      {{"front_speed", "1", "mean speed of the front from the first measured place to the last over the measured one, minus 1"},
+       front_speed}};
   return list;
 }
 

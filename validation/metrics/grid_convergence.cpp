@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/Dense>
-#include <boost/math/tools/minima.hpp>
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <Eigen/Dense>
 #include <limits>
 
 #include "validation/metrics/order.hpp"
@@ -45,7 +45,9 @@ double observed_order(const List& h, const List& value) {
   };
   for (double p = 0.1; p <= 8.0; p += 0.05)
     if (exact(p) < exact(best)) best = p;
-  return boost::math::tools::brent_find_minima([&](double p) { return h.size() > 3 ? misfit(p) : exact(p); }, std::max(best - 0.05, 0.02), best + 0.05, 40).first;
+  return boost::math::tools::brent_find_minima([&](double p) { return h.size() > 3 ? misfit(p) : exact(p); },
+                                               std::max(best - 0.05, 0.02), best + 0.05, 40)
+      .first;
 }
 
 }  // namespace

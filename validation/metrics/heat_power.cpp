@@ -23,13 +23,16 @@ std::optional<double> heat_of_free(const MetricInput& in, const Snapshot& s) {
   return double(sum);
 }
 
-/// Heat that what holds the body's temperature has given so far: as the engine counts it, else as the others have gained, where nothing else
-/// brings heat.
+/// Heat that what holds the body's temperature has given so far: as the engine counts it, else as the others have gained, where
+/// nothing else brings heat.
 std::optional<double> heat_given(const MetricInput& in, const Snapshot& s, std::string& why) {
   if (const auto counted = s.heat_given.find(in.choice.body); counted != s.heat_given.end()) return counted->second;
-  const auto held = std::count_if(in.job.bodies.begin(), in.job.bodies.end(), [](const JobBody& b) { return b.temperature_held; });
-  if (held != 1 || !in.job.bodies[job_body(in)].temperature_held || !in.job.scene.events.empty() || !in.job.scene.inflows.empty()) {
-    why = "the trajectory does not count the heat of `" + in.choice.body + "` (heat_given), and it is not the only one that brings heat";
+  const auto held =
+      std::count_if(in.job.bodies.begin(), in.job.bodies.end(), [](const JobBody& b) { return b.temperature_held; });
+  if (held != 1 || !in.job.bodies[job_body(in)].temperature_held || !in.job.scene.events.empty() ||
+      !in.job.scene.inflows.empty()) {
+    why = "the trajectory does not count the heat of `" + in.choice.body +
+          "` (heat_given), and it is not the only one that brings heat";
     return {};
   }
   const auto gained = heat_of_free(in, s);
@@ -86,7 +89,8 @@ std::optional<Spread> spread_of(const MetricInput& in, const Snapshot& s, std::s
   square /= heat;
   for (const auto& [x, list] : layers) {
     if (!states_error) break;
-    const bool one_count = std::ranges::all_of(list, [&](std::size_t i) { return s.temperature[i] == s.temperature[list.front()]; });
+    const bool one_count =
+        std::ranges::all_of(list, [&](std::size_t i) { return s.temperature[i] == s.temperature[list.front()]; });
     double sum = 0.0, squares = 0.0;
     for (const auto i : list) sum += s.temperature_error[i], squares += std::pow(s.temperature_error[i], 2);
     variance += std::pow((std::pow(x - first / heat, 2) - square) / heat, 2) * (one_count ? sum * sum : squares);
@@ -98,27 +102,37 @@ std::optional<Spread> spread_of(const MetricInput& in, const Snapshot& s, std::s
 MetricValue diffusivity_by_spread(const MetricInput& in, const Frames& frames) {
   const auto axis = in.reference.number("axis");
   const auto base = in.reference.number("value");
-  if (!axis || !in.reference.number("diffusivity")) return not_formed("a diffusivity needs its axis and its true value: reference = {function = \"stated\", args = {axis = \"x\", value = BASE_TEMPERATURE, diffusivity = ...}}");
+  if (!axis || !in.reference.number("diffusivity"))
+    return not_formed(
+        "a diffusivity needs its axis and its true value: reference = {function = \"stated\", args = {axis = \"x\", value = "
+        "BASE_TEMPERATURE, diffusivity = ...}}");
   if (frames.size() < 2) return not_formed("a diffusivity needs two output times or more");
   const Snapshot &begin = *frames.front(), &end = *frames.back();
   for (const auto* s : {&begin, &end})
     if (s->temperature.size() != s->position.size()) return not_formed("the trajectory has no temperature");
-  const auto a = spread_of(in, begin, static_cast<std::size_t>(*axis), *base), b = spread_of(in, end, static_cast<std::size_t>(*axis), *base);
+  const auto a = spread_of(in, begin, static_cast<std::size_t>(*axis), *base),
+             b = spread_of(in, end, static_cast<std::size_t>(*axis), *base);
   if (!a || !b) return not_formed("no heat lies above the stated base");
   const double D = 0.5 * (b->square - a->square) / (end.time - begin.time), truth = *in.reference.number("diffusivity");
   MetricValue v;
   v.value = D - truth;
   v.uncertainty.statistical = 0.5 * std::hypot(a->error, b->error) / (end.time - begin.time);
-  v.note = std::to_string(D / truth) + " of the true diffusivity, from t = " + std::to_string(begin.time) + " s to " + std::to_string(end.time) + " s";
+  v.note = std::to_string(D / truth) + " of the true diffusivity, from t = " + std::to_string(begin.time) + " s to " +
+           std::to_string(end.time) + " s";
   return v;
 }
 
 }  // namespace
 
 const std::vector<RunQuantity>& heat_run_quantities() {
-  static const std::vector<RunQuantity> list{
-      {{"heat_power", "W", "mean over the window of the heat a second that holding the named body's temperature gives to what it touches, minus the true mean"}, heat_power},
-      {{"diffusivity", "m2/s", "half of what the mean square distance of the heat above `value` from its centre, along the stated axis, grows a second, minus the true `diffusivity`"}, diffusivity_by_spread}};
+  static const std::vector<RunQuantity> list{{{"heat_power", "W",
+                                               "mean over the window of the heat a second that holding the named body's "
+                                               "temperature gives to what it touches, minus the true mean"},
+                                              heat_power},
+                                             {{"diffusivity", "m2/s",
+                                               "half of what the mean square distance of the heat above `value` from its centre, "
+                                               "along the stated axis, grows a second, minus the true `diffusivity`"},
+                                              diffusivity_by_spread}};
   return list;
 }
 

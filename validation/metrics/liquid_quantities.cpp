@@ -45,15 +45,16 @@ FrameError at_interface(const FramePair& f, std::vector<double> Snapshot::*colum
 FrameError interface_pressure(const FramePair& f) { return at_interface(f, &Snapshot::pressure, "pressure"); }
 FrameError interface_density(const FramePair& f) { return at_interface(f, &Snapshot::density, "density"); }
 
-/// Depth of a floating body's keel below the level that the liquid's volume gives: volume = pool (level - floor) - block (level - keel).
-/// (The top layer of particles is no measure: it lies up to 0.2 dx low.)
+/// Depth of a floating body's keel below the level that the liquid's volume gives: volume = pool (level - floor) - block (level -
+/// keel). (The top layer of particles is no measure: it lies up to 0.2 dx low.)
 FrameError draught(const FramePair& f) {
   const auto number = [&](const char* name) { return f.in.reference.number(name); };
-  const auto truth = number("draught"), axis = number("axis"), up = number("up"), floor = number("floor"), pool = number("pool_area"), block = number("block_area"),
-             volume = number("liquid_volume"), below = number("keel");
+  const auto truth = number("draught"), axis = number("axis"), up = number("up"), floor = number("floor"),
+             pool = number("pool_area"), block = number("block_area"), volume = number("liquid_volume"), below = number("keel");
   if (!truth || !axis || !up || !floor || !pool || !block || !volume || !below) return problem("the reference knows no draught");
   const long row = body_row(f.in);
-  if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size()) return problem("draught: the metric must name the floating body");
+  if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size())
+    return problem("draught: the metric must name the floating body");
   const auto& body = f.now.bodies[static_cast<std::size_t>(row)];
   if (!finite(body.position)) return problem("the floating body is not finite");
   const double keel = *up * body.position[static_cast<std::size_t>(*axis)] - *below;
@@ -66,7 +67,8 @@ FrameError axial_torque(const FramePair& f) {
   const auto truth = f.in.reference.number("torque"), axis = f.in.reference.number("axis");
   if (!truth || !axis) return problem("the reference knows no torque");
   const long row = body_row(f.in);
-  if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size()) return problem("axial_torque: the metric must name a solid body");
+  if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size())
+    return problem("axial_torque: the metric must name a solid body");
   return single(f.now.bodies[static_cast<std::size_t>(row)].torque[static_cast<std::size_t>(*axis)] - *truth);
 }
 
@@ -81,7 +83,8 @@ FrameError half_length(const FramePair& f) {
     const double x = f.now.position[i][k];
     low = std::min(low, x), high = std::max(high, x);
   }
-  return high >= low ? single(0.5 * (high - low) + 0.5 * f.in.job.scene.spacing - *truth) : problem("the metric takes no particle");
+  return high >= low ? single(0.5 * (high - low) + 0.5 * f.in.job.scene.spacing - *truth)
+                     : problem("the metric takes no particle");
 }
 
 }  // namespace
@@ -89,7 +92,9 @@ FrameError half_length(const FramePair& f) {
 const std::vector<Quantity>& liquid_quantities() {
   static const std::vector<Quantity> list{
       {{"pressure_factor", "1", "least-squares factor of the pressures on the true ones, minus 1"}, pressure_factor},
-      {{"interface_pressure", "Pa", "mean error of pressure of the particles that began within a spacing of the reference's interface"}, interface_pressure},
+      {{"interface_pressure", "Pa",
+        "mean error of pressure of the particles that began within a spacing of the reference's interface"},
+       interface_pressure},
       {{"interface_density", "kg/m3", "mean error of density of the same particles"}, interface_density},
       {{"draught", "m", "depth of the floating body's keel below the level by volume, minus the true draught"}, draught},
       {{"axial_torque", "N m", "torque on the body about the reference's axis minus the true one"}, axial_torque},

@@ -32,8 +32,10 @@ long double heat_per_mass(const Material& m, const Snapshot& s, std::size_t i) {
   const bool melts = i < s.liquid_fraction.size();
   const double L = m.latent_heat.value_or(0.0), T = s.temperature[i];
   if (!m.solid_heat_capacity) return static_cast<long double>(*m.heat_capacity) * T + (melts ? L * s.liquid_fraction[i] : 0.0);
-  if (!melts) return static_cast<long double>(i < s.phase.size() && s.phase[i] == 0 ? *m.heat_capacity : *m.solid_heat_capacity) * T;
-  const long double f = s.liquid_fraction[i], liquid = static_cast<long double>(*m.solid_heat_capacity) * *m.t_melt + L + static_cast<long double>(*m.heat_capacity) * (T - *m.t_melt);
+  if (!melts)
+    return static_cast<long double>(i < s.phase.size() && s.phase[i] == 0 ? *m.heat_capacity : *m.solid_heat_capacity) * T;
+  const long double f = s.liquid_fraction[i], liquid = static_cast<long double>(*m.solid_heat_capacity) * *m.t_melt + L +
+                                                       static_cast<long double>(*m.heat_capacity) * (T - *m.t_melt);
   return (1 - f) * *m.solid_heat_capacity * T + f * liquid;
 }
 
@@ -52,7 +54,10 @@ std::size_t job_body(const MetricInput& in) {
 
 std::size_t other_body(const MetricInput& in) {
   const auto other = in.reference.number("other");
-  if (!other) throw InputError(in.choice.place, "metric `" + in.choice.name + "` needs a second body: reference = {function = \"stated\", args = {other = \"NAME\"}}");
+  if (!other)
+    throw InputError(
+        in.choice.place,
+        "metric `" + in.choice.name + "` needs a second body: reference = {function = \"stated\", args = {other = \"NAME\"}}");
   return static_cast<std::size_t>(*other);
 }
 

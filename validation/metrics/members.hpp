@@ -22,7 +22,8 @@ namespace tripoint {
 /// Mass of a particle [kg]: of the frame, else as sampled.
 [[nodiscard]] double particle_mass(const MetricInput&, const Snapshot&, std::size_t particle);
 
-/// c_p T + L f, above 0 K [J/kg]; where the solid has its own heat capacity, (1 - f) c_s T + f (c_s t_melt + L + c_l (T - t_melt)).
+/// c_p T + L f, above 0 K [J/kg]; where the solid has its own heat capacity, (1 - f) c_s T + f (c_s t_melt + L + c_l (T -
+/// t_melt)).
 [[nodiscard]] long double heat_per_mass(const Material&, const Snapshot&, std::size_t particle);
 
 /// Particles sampled for a body of the job (row in Job::bodies), in the order of their ids.

@@ -21,18 +21,21 @@ struct Uncertainty {
 struct MetricValue {
   double value = 0.0;  ///< scaled; NaN where it could not be formed
   Uncertainty uncertainty;
-  std::string note;  ///< why it could not be formed, or where the worst place is
+  std::string note;                   ///< why it could not be formed, or where the worst place is
   std::vector<double> times, series;  ///< the error in time, where the norm is over time
 };
 
 /// Compares a trajectory with its reference by the metric's quantity and norm.
-/// @throws InputError for an unknown quantity or norm; a trajectory that does not fit (count, ids, times, units) gives NaN and a note.
+/// @throws InputError for an unknown quantity or norm; a trajectory that does not fit (count, ids, times, units) gives NaN and a
+/// note.
 [[nodiscard]] MetricValue evaluate(const MetricChoice&, const Job&, const InitialState&, const Trajectory&, const Reference&);
 
-/// The value that a stored series gives by the metric's norm in time, by the same rules; nothing where the value is not the norm of a series.
+/// The value that a stored series gives by the metric's norm in time, by the same rules; nothing where the value is not the norm
+/// of a series.
 [[nodiscard]] std::optional<double> value_of_series(const MetricChoice&, const MetricValue&);
 
-/// Refuses what cannot be judged: times missing to 1e-9 of the end, permuted ids, non-finite values, frozen frames, changed masses.
+/// Refuses what cannot be judged: times missing to 1e-9 of the end, permuted ids, non-finite values, frozen frames, changed
+/// masses.
 /// @return empty when sound, else what is wrong ("time not reached", "ids are permuted", ...)
 [[nodiscard]] std::string audit(const Job&, const InitialState&, const Trajectory&);
 

@@ -21,8 +21,8 @@ MetricValue unformed(const std::string& why) {
 struct Line {
   double slope = not_a_number, error = 0.0;
 };
-/// Neighbours in time deviate from the line alike. Of n deviations those count as independent that would change sign as often: n independent ones do at
-/// half of the steps. Frames in between then add no certainty.
+/// Neighbours in time deviate from the line alike. Of n deviations those count as independent that would change sign as often: n
+/// independent ones do at half of the steps. Frames in between then add no certainty.
 Line fit(const std::vector<double>& t, const std::vector<double>& y) {
   const double n = static_cast<double>(t.size());
   double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0, last = 0.0;
@@ -47,7 +47,8 @@ std::string speeds(const MetricInput& in, const Frames& frames, std::vector<doub
   if (!axis) return "the reference names no axis";
   if (row < 0) return "the metric must name a solid body";
   for (const auto* s : frames) {
-    if (static_cast<std::size_t>(row) >= s->bodies.size() || !finite(s->bodies[static_cast<std::size_t>(row)].velocity)) return "the trajectory does not have the body";
+    if (static_cast<std::size_t>(row) >= s->bodies.size() || !finite(s->bodies[static_cast<std::size_t>(row)].velocity))
+      return "the trajectory does not have the body";
     t.push_back(s->time);
     v.push_back(s->bodies[static_cast<std::size_t>(row)].velocity[static_cast<std::size_t>(*axis)]);
   }
@@ -88,7 +89,8 @@ MetricValue touch_time(const MetricInput& in, const Frames& frames) {
 
 /// Which way the particles of a standing wave swing: as the reference says, else along the wave vector.
 Vec3 swing_direction(const MetricInput& in, const Vec3& k) {
-  const auto x = in.reference.number("polarisation.x"), y = in.reference.number("polarisation.y"), z = in.reference.number("polarisation.z");
+  const auto x = in.reference.number("polarisation.x"), y = in.reference.number("polarisation.y"),
+             z = in.reference.number("polarisation.z");
   return x && y && z ? Vec3{*x, *y, *z} : (1.0 / norm(k)) * k;
 }
 
@@ -105,24 +107,28 @@ double mode_amplitude(const MetricInput& in, const Snapshot& s, const Vec3& k, d
   return double(product / square);
 }
 
-/// Square of the mode's frequency over the true one, minus 1: of a damped swing a(t) at equal times, a[n+1] + q a[n-1] = 2 sqrt(q) cos(w dt) a[n]
-/// (Prony's method), both coefficients by least squares.
+/// Square of the mode's frequency over the true one, minus 1: of a damped swing a(t) at equal times, a[n+1] + q a[n-1] = 2
+/// sqrt(q) cos(w dt) a[n] (Prony's method), both coefficients by least squares.
 MetricValue frequency_squared(const MetricInput& in, const Frames& frames) {
   const auto number = [&](const char* name) { return in.reference.number(name); };
-  const auto truth = number("frequency"), kx = number("wave_vector.x"), ky = number("wave_vector.y"), kz = number("wave_vector.z"), phase = number("phase");
+  const auto truth = number("frequency"), kx = number("wave_vector.x"), ky = number("wave_vector.y"),
+             kz = number("wave_vector.z"), phase = number("phase");
   if (!truth || !kx || !ky || !kz || !phase) return unformed("the reference does not know the frequency of a wave");
   if (frames.size() < 6) return unformed("a frequency needs six output times or more");
   std::vector<double> a;
   for (const auto* s : frames) a.push_back(mode_amplitude(in, *s, {*kx, *ky, *kz}, *phase));
   double ss = 0.0, sp = 0.0, pp = 0.0, sn = 0.0, pn = 0.0;  // of now, previous and next
-  for (std::size_t n = 1; n + 1 < a.size(); ++n) ss += a[n] * a[n], sp += a[n] * a[n - 1], pp += a[n - 1] * a[n - 1], sn += a[n] * a[n + 1], pn += a[n - 1] * a[n + 1];
+  for (std::size_t n = 1; n + 1 < a.size(); ++n)
+    ss += a[n] * a[n], sp += a[n] * a[n - 1], pp += a[n - 1] * a[n - 1], sn += a[n] * a[n + 1], pn += a[n - 1] * a[n + 1];
   const double determinant = ss * pp - sp * sp, b = (sn * pp - pn * sp) / determinant, q = -(pn * ss - sn * sp) / determinant;
-  const double cosine = 0.5 * b / std::sqrt(q), step = (frames.back()->time - frames.front()->time) / static_cast<double>(frames.size() - 1);
+  const double cosine = 0.5 * b / std::sqrt(q),
+               step = (frames.back()->time - frames.front()->time) / static_cast<double>(frames.size() - 1);
   if (!(q > 0.0) || !(std::abs(cosine) < 1.0)) return unformed("the mode does not swing");
   const double w = std::acos(cosine) / step;
   MetricValue v;
   v.value = w * w / (*truth * *truth) - 1.0;
-  v.note = "frequency " + std::to_string(w) + " rad/s against " + std::to_string(*truth) + ", damping " + std::to_string(-0.5 * std::log(q) / step) + " 1/s";
+  v.note = "frequency " + std::to_string(w) + " rad/s against " + std::to_string(*truth) + ", damping " +
+           std::to_string(-0.5 * std::log(q) / step) + " 1/s";
   return v;
 }
 
@@ -162,14 +168,18 @@ MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
   for (const auto* s : frames) {
     double mass = 0.0, moment = 0.0;
     for (std::size_t i = 0; i < in.initial.size(); ++i)
-      if (takes(in, i)) mass += in.initial.mass[i], moment += in.initial.mass[i] * displacement(in.job.scene, s->position[i], in.initial.position[i])[static_cast<std::size_t>(*axis)];
+      if (takes(in, i))
+        mass += in.initial.mass[i],
+            moment += in.initial.mass[i] *
+                      displacement(in.job.scene, s->position[i], in.initial.position[i])[static_cast<std::size_t>(*axis)];
     t.push_back(s->time), y.push_back(moment / mass);
   }
   const Swing swing = fit_swing(t, y, 2.0 * std::numbers::pi * *truth);
   if (!swing.problem.empty()) return unformed(swing.problem);
   MetricValue v;
   v.value = swing.frequency / (2.0 * std::numbers::pi * *truth) - 1.0;
-  v.note = std::to_string(swing.frequency / (2.0 * std::numbers::pi)) + " Hz against " + std::to_string(*truth) + ", amplitude " + std::to_string(swing.amplitude) + " m";
+  v.note = std::to_string(swing.frequency / (2.0 * std::numbers::pi)) + " Hz against " + std::to_string(*truth) + ", amplitude " +
+           std::to_string(swing.amplitude) + " m";
   return v;
 }
 
@@ -177,11 +187,16 @@ MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
 
 const std::vector<RunQuantity>& motion_quantities() {
   static const std::vector<RunQuantity> list{
-      {{"acceleration", "m/s2", "acceleration of the body against gravity over the window, by least squares, minus the true one"}, acceleration},
-      {{"touch_time", "s", "time at which the body's speed has made half of its change minus the true time of touch"}, touch_time},
+      {{"acceleration", "m/s2", "acceleration of the body against gravity over the window, by least squares, minus the true one"},
+       acceleration},
+      {{"touch_time", "s", "time at which the body's speed has made half of its change minus the true time of touch"},
+       touch_time},
       {{"frequency_squared", "1", "square of the standing wave's frequency over the true one, minus 1"}, frequency_squared},
       {{"spin_rate", "1/s", "rate at which the angular momentum about the centre of mass falls, minus the true one"}, spin_rate},
-      {{"sway_frequency", "1", "frequency of the swing of the body's centre of mass along the stated axis, a sine about an offset by least squares, over the stated value in Hz, minus 1"}, sway_frequency}};
+      {{"sway_frequency", "1",
+        "frequency of the swing of the body's centre of mass along the stated axis, a sine about an offset by least squares, "
+        "over the stated value in Hz, minus 1"},
+       sway_frequency}};
   return list;
 }
 

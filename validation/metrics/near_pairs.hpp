@@ -12,10 +12,11 @@
 
 namespace tripoint {
 
-/// Calls f(i, j, r_j - r_i) once for each ordered pair of the given particles nearer than `reach`, nearest images in periodic directions.
-/// In cells of one reach or more, so that the cost is that of the pairs.
+/// Calls f(i, j, r_j - r_i) once for each ordered pair of the given particles nearer than `reach`, nearest images in periodic
+/// directions. In cells of one reach or more, so that the cost is that of the pairs.
 template <class F>
-void for_near_pairs(const Scene& scene, const std::vector<Vec3>& position, const std::vector<std::size_t>& particles, double reach, F f) {
+void for_near_pairs(const Scene& scene, const std::vector<Vec3>& position, const std::vector<std::size_t>& particles,
+                    double reach, F f) {
   using Cell = std::array<long, 3>;
   std::array<long, 3> count{};  // cells in a periodic direction; 0 = open
   Vec3 size{reach, reach, reach}, origin;
@@ -41,7 +42,8 @@ void for_near_pairs(const Scene& scene, const std::vector<Vec3>& position, const
     for (long a = -1; a <= 1; ++a)
       for (long b = -1; b <= 1; ++b)
         for (long c = -1; c <= 1; ++c)
-          if (const auto found = cells.find(wrap({cell[0] + a, cell[1] + b, cell[2] + c})); found != cells.end()) around[found->first] = &found->second;
+          if (const auto found = cells.find(wrap({cell[0] + a, cell[1] + b, cell[2] + c})); found != cells.end())
+            around[found->first] = &found->second;
     for (const auto i : members)
       for (const auto& [other, list] : around)
         for (const auto j : *list) {

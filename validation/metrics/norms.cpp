@@ -48,9 +48,11 @@ NormValue l2_raw(const FrameError& e) {
 NormValue l1(const FrameError& e) {
   NormValue v{mean_of(e, [&](std::size_t n) { return std::abs(e.error[n]); }), 0.0, -1};
   if (e.sigma.empty()) return v;
-  const double W = sum_of(e.weight), bias = std::sqrt(2.0 / std::numbers::pi) * mean_of(e, [&](std::size_t n) { return e.sigma[n]; });
+  const double W = sum_of(e.weight),
+               bias = std::sqrt(2.0 / std::numbers::pi) * mean_of(e, [&](std::size_t n) { return e.sigma[n]; });
   Real variance = 0;
-  for (std::size_t n = 0; n < e.sigma.size(); ++n) variance += Real(e.weight[n] / W) * (e.weight[n] / W) * e.sigma[n] * e.sigma[n];
+  for (std::size_t n = 0; n < e.sigma.size(); ++n)
+    variance += Real(e.weight[n] / W) * (e.weight[n] / W) * e.sigma[n] * e.sigma[n];
   v.uncertainty = std::hypot(std::sqrt(double(variance)), bias);
   return v;
 }
@@ -78,7 +80,9 @@ NormValue chi(const FrameError& e) {
 
 }  // namespace
 
-bool is_spatial(const std::string& norm) { return norm == "L1" || norm == "L2" || norm == "Linf" || norm == "L2raw" || norm == "chi"; }
+bool is_spatial(const std::string& norm) {
+  return norm == "L1" || norm == "L2" || norm == "Linf" || norm == "L2raw" || norm == "chi";
+}
 
 NormValue spatial_norm(const std::string& norm, const FrameError& e) {
   const bool finite_samples = std::all_of(e.error.begin(), e.error.end(), [](double x) { return std::isfinite(x); });

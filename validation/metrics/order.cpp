@@ -23,7 +23,8 @@ List local_slopes(const List& h, const List& e) {
 }
 
 bool changes_sign(const List& e) {
-  return std::any_of(e.begin(), e.end(), [](double x) { return x > 0.0; }) && std::any_of(e.begin(), e.end(), [](double x) { return x < 0.0; });
+  return std::any_of(e.begin(), e.end(), [](double x) { return x > 0.0; }) &&
+         std::any_of(e.begin(), e.end(), [](double x) { return x < 0.0; });
 }
 
 bool monotone(const List& e) {
@@ -59,7 +60,8 @@ bool asymptotic(const Order& fit, const List& h, const List& e, double formal) {
   return settled && steady && meets && !(fit.low <= formal - 1.0 && formal - 1.0 <= fit.high);
 }
 
-/// The floored law is taken when it explains the data better, its floor is not zero at 95 % and makes up a quarter of the finest error.
+/// The floored law is taken when it explains the data better, its floor is not zero at 95 % and makes up a quarter of the finest
+/// error.
 bool has_floor(const FlooredPowerLaw& floored, const PowerLaw& plain, const List& e) {
   if (!floored.found || floored.floor.low * floored.floor.high <= 0.0) return false;
   if (std::abs(floored.floor.value) < 0.25 * std::abs(e.back())) return false;
@@ -80,11 +82,14 @@ Order fit_order(const List& step, const List& error, const List& uncertainty, do
   const auto finite = [](double x) { return std::isfinite(x); };
   if (step.size() != error.size() || step.size() < 2) return sized("too-few", nan, nan, nan, nan);
   if (!std::all_of(error.begin(), error.end(), finite)) return sized("diverging", nan, nan, nan, nan);
-  if (std::all_of(error.begin(), error.end(), [](double e) { return std::abs(e) <= roundoff; })) return sized("roundoff", nan, nan, nan, 0.0);
+  if (std::all_of(error.begin(), error.end(), [](double e) { return std::abs(e) <= roundoff; }))
+    return sized("roundoff", nan, nan, nan, 0.0);
   if (std::any_of(error.begin(), error.end(), [](double e) { return e == 0.0; })) return sized("oscillating", nan, nan, nan, nan);
 
   const auto plain = fit_power_law(step, error);
-  const auto with = [&](const char* name) { return sized(name, plain.order.value, plain.order.low, plain.order.high, plain.coefficient); };
+  const auto with = [&](const char* name) {
+    return sized(name, plain.order.value, plain.order.low, plain.order.high, plain.coefficient);
+  };
   if (step.size() < 4) return with("too-few");
   if (std::abs(error.back()) <= roundoff) return with("roundoff");
   if (lost_in_noise(error, uncertainty)) return with("noise-limited");

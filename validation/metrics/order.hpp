@@ -5,7 +5,8 @@
 
 namespace tripoint {
 
-/// Observed order of convergence with its 95 % interval and class (docs: asymptotic preasymptotic plateau roundoff oscillating diverging noise-limited too-few).
+/// Observed order of convergence with its 95 % interval and class (docs: asymptotic preasymptotic plateau roundoff oscillating
+/// diverging noise-limited too-few).
 struct Order {
   double value = 0.0, low = 0.0, high = 0.0;  ///< signed; low <= value <= high
   std::string fit_class;
@@ -15,17 +16,22 @@ struct Order {
 /// @param error error at each step, signed values allowed (their magnitude is fitted)
 /// @param uncertainty standard uncertainty of each error, may be empty
 /// @param formal formal order, 0 = none
-[[nodiscard]] Order fit_order(const std::vector<double>& step, const std::vector<double>& error, const std::vector<double>& uncertainty, double formal);
+[[nodiscard]] Order fit_order(const std::vector<double>& step, const std::vector<double>& error,
+                              const std::vector<double>& uncertainty, double formal);
 
 /// Grid convergence index by least squares [Eca & Hoekstra 2014]: standard uncertainty of the finest value.
-[[nodiscard]] double grid_convergence_uncertainty(const std::vector<double>& step, const std::vector<double>& value, double formal);
-/// The same of every level, coarse to fine; NaN throughout where it cannot be formed (fewer than two levels, no formal order, a value that is not finite).
-[[nodiscard]] std::vector<double> grid_convergence_uncertainties(const std::vector<double>& step, const std::vector<double>& value, double formal);
+[[nodiscard]] double grid_convergence_uncertainty(const std::vector<double>& step, const std::vector<double>& value,
+                                                  double formal);
+/// The same of every level, coarse to fine; NaN throughout where it cannot be formed (fewer than two levels, no formal order, a
+/// value that is not finite).
+[[nodiscard]] std::vector<double> grid_convergence_uncertainties(const std::vector<double>& step,
+                                                                 const std::vector<double>& value, double formal);
 
 enum class Verdict { pass, fail, inconclusive, missing, diverged };
 [[nodiscard]] const char* to_string(Verdict);
 
-/// Against a limit on |value|: pass iff |value| + k u <= limit, fail iff |value| - k u > limit, else inconclusive; a non-finite value fails.
+/// Against a limit on |value|: pass iff |value| + k u <= limit, fail iff |value| - k u > limit, else inconclusive; a non-finite
+/// value fails.
 [[nodiscard]] Verdict judge_limit(double value, double u, double limit, double k = 2.0);
 /// value >= least, likewise. band: low <= value <= high, likewise.
 [[nodiscard]] Verdict judge_at_least(double value, double u, double least, double k = 2.0);

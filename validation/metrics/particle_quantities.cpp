@@ -20,14 +20,16 @@ Sample look(const Snapshot& now, std::size_t i, bool run_finite, bool truth_fini
 }
 
 std::string bad_sample(const char* what, std::size_t i, bool run_finite) {
-  return std::string(what) + " of particle " + std::to_string(i) + " is " + (run_finite ? "there, but not in the reference" : "not finite or missing");
+  return std::string(what) + " of particle " + std::to_string(i) + " is " +
+         (run_finite ? "there, but not in the reference" : "not finite or missing");
 }
 
 template <class T>
 std::string unequal(const std::vector<T>& run, const std::vector<T>& truth, const char* what) {
   if (truth.empty()) return std::string("the reference does not know the ") + what;
   if (run.empty()) return std::string("the trajectory has no ") + what;
-  if (run.size() != truth.size()) return std::string(what) + ": " + std::to_string(run.size()) + " particles against " + std::to_string(truth.size());
+  if (run.size() != truth.size())
+    return std::string(what) + ": " + std::to_string(run.size()) + " particles against " + std::to_string(truth.size());
   return {};
 }
 
@@ -40,7 +42,8 @@ FrameError vector_error(const FramePair& f, std::vector<Vec3> Snapshot::*column,
     const auto state = look(f.now, i, finite(run[i]), finite(truth[i]));
     if (state == Sample::bad) return problem(bad_sample(what, i, finite(run[i])));
     if (state == Sample::absent) continue;
-    out.add(norm(wrap ? displacement(f.in.job.scene, run[i], truth[i]) : run[i] - truth[i]), rest_volume(f.in, i), static_cast<long>(i));
+    out.add(norm(wrap ? displacement(f.in.job.scene, run[i], truth[i]) : run[i] - truth[i]), rest_volume(f.in, i),
+            static_cast<long>(i));
   }
   return out;
 }
@@ -61,7 +64,9 @@ FrameError scalar_error(const FramePair& f, Columns column, const char* what) {
 
 /// Standard error of particle i: of the run, and of the truth where that is another run.
 double sigma_of(const FramePair& f, long i) {
-  const auto of = [&](const std::vector<double>& column) { return static_cast<std::size_t>(i) < column.size() ? column[static_cast<std::size_t>(i)] : 0.0; };
+  const auto of = [&](const std::vector<double>& column) {
+    return static_cast<std::size_t>(i) < column.size() ? column[static_cast<std::size_t>(i)] : 0.0;
+  };
   return std::hypot(of(f.now.temperature_error), of(f.truth.temperature_error));
 }
 
@@ -71,7 +76,8 @@ FrameError pooled(const FramePair& f, const FrameError& all) {
   std::map<std::tuple<double, double, double>, std::size_t> group;
   for (std::size_t n = 0; n < all.error.size(); ++n) {
     const double sigma = sigma_of(f, all.row[n]);
-    const auto [at, fresh] = group.try_emplace({f.now.temperature[static_cast<std::size_t>(all.row[n])], sigma, all.error[n]}, out.error.size());
+    const auto [at, fresh] =
+        group.try_emplace({f.now.temperature[static_cast<std::size_t>(all.row[n])], sigma, all.error[n]}, out.error.size());
     if (fresh) {
       out.add(all.error[n], all.weight[n], all.row[n]);
       out.sigma.push_back(sigma);
@@ -107,7 +113,8 @@ FrameError temperature_standard_error(const FramePair& f) {
 FrameError stated_phase_count(const FramePair& f) {
   if (f.now.phase.empty()) return problem("the trajectory has no phase");
   double count = 0.0;
-  for (std::size_t i = 0; i < f.now.phase.size(); ++i) count += takes(f.in, i) && is_alive(f.now, i) && of_stated_phase(f.in, f.now, i) ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < f.now.phase.size(); ++i)
+    count += takes(f.in, i) && is_alive(f.now, i) && of_stated_phase(f.in, f.now, i) ? 1.0 : 0.0;
   return against_truth(f, "phase_count", count);
 }
 
@@ -158,7 +165,8 @@ long body_row(const MetricInput& in) {
     if (b.name == in.choice.body) return b.index;
     names.push_back(b.name);
   }
-  throw InputError(in.choice.place, "metric `" + in.choice.name + "` names body `" + printable(in.choice.body) + "`" + suggestion(in.choice.body, names));
+  throw InputError(in.choice.place, "metric `" + in.choice.name + "` names body `" + printable(in.choice.body) + "`" +
+                                        suggestion(in.choice.body, names));
 }
 
 const std::vector<Quantity>& particle_quantities() {
@@ -173,7 +181,9 @@ const std::vector<Quantity>& particle_quantities() {
        [](const FramePair& f) { return scalar_error(f, &Snapshot::pressure, "pressure"); }},
       {{"density", "kg/m3", "difference of densities, weighted by rest volume"},
        [](const FramePair& f) { return scalar_error(f, &Snapshot::density, "density"); }},
-      {{"phase_count", "1", "largest difference in the number of liquid, elastic or rigid particles; of the stated phase, from the stated value"}, phase_count}};
+      {{"phase_count", "1",
+        "largest difference in the number of liquid, elastic or rigid particles; of the stated phase, from the stated value"},
+       phase_count}};
   return list;
 }
 

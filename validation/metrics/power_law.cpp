@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/metrics/power_law.hpp"
 
-#include <Eigen/Dense>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <Eigen/Dense>
 #include <limits>
 
 namespace tripoint {
@@ -37,7 +37,8 @@ LinearPart solve_for(double p, const std::vector<double>& h, const std::vector<d
 }
 
 /// Standard errors of floor and p from the Jacobian of the relative residuals at the solution.
-std::pair<double, double> standard_errors(const LinearPart& fit, double p, const std::vector<double>& h, const std::vector<double>& e) {
+std::pair<double, double> standard_errors(const LinearPart& fit, double p, const std::vector<double>& h,
+                                          const std::vector<double>& e) {
   const auto n = static_cast<Eigen::Index>(h.size());
   Eigen::MatrixXd J(n, 3);
   const double scale = fit.coefficient * std::pow(h[0], p);
@@ -47,7 +48,8 @@ std::pair<double, double> standard_errors(const LinearPart& fit, double p, const
   }
   const Eigen::Vector3d size = J.colwise().norm().cwiseMax(1e-300);
   const Eigen::Matrix3d normal = (J * size.cwiseInverse().asDiagonal()).transpose() * (J * size.cwiseInverse().asDiagonal());
-  const Eigen::Matrix3d covariance = normal.completeOrthogonalDecomposition().pseudoInverse() * (fit.residual / static_cast<double>(n - 3));
+  const Eigen::Matrix3d covariance =
+      normal.completeOrthogonalDecomposition().pseudoInverse() * (fit.residual / static_cast<double>(n - 3));
   return {std::sqrt(std::max(covariance(0, 0), 0.0)) / size[0], std::sqrt(std::max(covariance(2, 2), 0.0)) / size[2]};
 }
 

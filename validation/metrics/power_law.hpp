@@ -26,7 +26,8 @@ struct FlooredPowerLaw {
 };
 [[nodiscard]] FlooredPowerLaw fit_floored_power_law(const std::vector<double>& h, const std::vector<double>& e);
 
-/// Corrected Akaike criterion of a fit with `parameters`; where n - parameters - 1 <= 0 the correction does not exist and is left out.
+/// Corrected Akaike criterion of a fit with `parameters`; where n - parameters - 1 <= 0 the correction does not exist and is left
+/// out.
 [[nodiscard]] double akaike(double residual, std::size_t n, std::size_t parameters);
 
 /// Student's t of a two-sided 95 % interval; infinite without degrees of freedom.

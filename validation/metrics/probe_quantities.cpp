@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Dense>
 
 #include "validation/metrics/members.hpp"
 #include "validation/references/measuring.hpp"
@@ -21,22 +21,29 @@ struct Column {
 enum class Of { temperature, pressure, density, velocity };
 
 Column column_of(const MetricInput& in, const Snapshot& s, Of what) {
-  const auto given = [&](const std::vector<double>& column, const char* name) { return column.size() == s.position.size() ? Column{column, ""} : Column{{}, std::string("the trajectory has no ") + name}; };
+  const auto given = [&](const std::vector<double>& column, const char* name) {
+    return column.size() == s.position.size() ? Column{column, ""} : Column{{}, std::string("the trajectory has no ") + name};
+  };
   if (what == Of::temperature) return given(s.temperature, "temperature");
   if (what == Of::pressure) return given(s.pressure, "pressure");
   if (what == Of::density) return given(s.density, "density");
   const auto axis = in.reference.number("axis");
-  if (!axis) return {{}, "a component of velocity needs its axis: reference = {function = \"stated\", args = {axis = \"x\", ...}}"};
+  if (!axis)
+    return {{}, "a component of velocity needs its axis: reference = {function = \"stated\", args = {axis = \"x\", ...}}"};
   if (s.velocity.size() != s.position.size()) return {{}, "the trajectory has no velocity"};
   Column out;
   for (const Vec3& v : s.velocity) out.value.push_back(v[static_cast<std::size_t>(*axis)]);
   return out;
 }
 
-bool counts(const MetricInput& in, const Snapshot& s, std::size_t i) { return takes(in, i) && is_alive(s, i) && (s.phase.empty() || of_stated_phase(in, s, i)); }
+bool counts(const MetricInput& in, const Snapshot& s, std::size_t i) {
+  return takes(in, i) && is_alive(s, i) && (s.phase.empty() || of_stated_phase(in, s, i));
+}
 
-/// Value and slope of a scalar at a point, by least squares over what lies near: exact where the scalar is linear, also beside a surface.
-Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std::vector<std::size_t>& particles, const std::vector<double>& value, const Vec3& point) {
+/// Value and slope of a scalar at a point, by least squares over what lies near: exact where the scalar is linear, also beside a
+/// surface.
+Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std::vector<std::size_t>& particles,
+                const std::vector<double>& value, const Vec3& point) {
   const double reach = probe_reach * in.job.scene.spacing;
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
   Eigen::Vector4d b = Eigen::Vector4d::Zero();
@@ -50,13 +57,15 @@ Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std
     const Eigen::Vector4d basis(1.0, d.x, d.y, d.z);
     A += w * basis * basis.transpose(), b += w * value[i] * basis, ++seen;
   }
-  if (seen == 0) return {{}, "no particle that the metric takes lies within " + std::to_string(reach) + " m of the probe's point"};
+  if (seen == 0)
+    return {{}, "no particle that the metric takes lies within " + std::to_string(reach) + " m of the probe's point"};
   // directions in which all that is seen lies in one layer have no slope: the least solution leaves it out
   const Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix4d> solver(A);
   return {{solver.solve(b)[0]}, ""};
 }
 
-/// A number read off the run, less what the reference states, or else the same number read off the true field at the run's own places.
+/// A number read off the run, less what the reference states, or else the same number read off the true field at the run's own
+/// places.
 template <class Read>
 FrameError against_stated_or_field(const FramePair& f, const char* quantity, Read read) {
   const Column measured = read(f.now);
@@ -65,12 +74,15 @@ FrameError against_stated_or_field(const FramePair& f, const char* quantity, Rea
   Snapshot truth = f.truth;
   truth.position = f.now.position;
   const Column known = read(truth);
-  return known.problem.empty() ? single(measured.value[0] - known.value[0]) : problem(std::string("the reference does not know the ") + quantity + " and states no value");
+  return known.problem.empty() ? single(measured.value[0] - known.value[0])
+                               : problem(std::string("the reference does not know the ") + quantity + " and states no value");
 }
 
 FrameError probe(const FramePair& f, Of what, const char* quantity) {
   const auto point = stated_point(f.in.reference);
-  if (!point) return problem(std::string(quantity) + " needs the probe's place: reference = {function = \"stated\", args = {point = [x, y, z], value = ...}}");
+  if (!point)
+    return problem(std::string(quantity) +
+                   " needs the probe's place: reference = {function = \"stated\", args = {point = [x, y, z], value = ...}}");
   std::vector<std::size_t> particles;
   for (std::size_t i = 0; i < f.now.position.size(); ++i)
     if (counts(f.in, f.now, i)) particles.push_back(i);
@@ -89,7 +101,8 @@ bool in_region(const MetricInput& in, const Vec3& r) {
   const char* high[] = {"high.x", "high.y", "high.z"};
   if (!in.reference.number(low[0])) return true;
   bool inside = true;
-  for (std::size_t k = 0; k < 3; ++k) inside = inside && r[k] >= *in.reference.number(low[k]) && r[k] <= *in.reference.number(high[k]);
+  for (std::size_t k = 0; k < 3; ++k)
+    inside = inside && r[k] >= *in.reference.number(low[k]) && r[k] <= *in.reference.number(high[k]);
   return inside != (in.reference.number("outside").value_or(0.0) != 0.0);
 }
 
@@ -118,7 +131,10 @@ FrameError mean(const FramePair& f, Of what, const char* quantity) {
 FrameError displacement_of_point(const FramePair& f) {
   const auto point = stated_point(f.in.reference);
   const auto axis = f.in.reference.number("axis");
-  if (!point || !axis) return problem("displacement needs a place at the start and an axis: reference = {function = \"stated\", args = {point = [x, y, z], axis = \"x\", value = ...}}");
+  if (!point || !axis)
+    return problem(
+        "displacement needs a place at the start and an axis: reference = {function = \"stated\", args = {point = [x, y, z], "
+        "axis = \"x\", value = ...}}");
   const auto along = static_cast<std::size_t>(*axis);
   std::vector<std::size_t> particles;
   std::vector<double> way(f.in.initial.size(), 0.0);
@@ -147,19 +163,34 @@ FrameError centre(const FramePair& f) {
 }  // namespace
 
 const std::vector<Quantity>& probe_quantities() {
-  const auto at = [](const char* name, const char* unit, const char* meaning, Of what) { return Quantity{{name, unit, meaning}, [=](const FramePair& f) { return probe(f, what, name); }}; };
-  const auto over = [](const char* name, const char* unit, const char* meaning, Of what) { return Quantity{{name, unit, meaning}, [=](const FramePair& f) { return mean(f, what, name); }}; };
+  const auto at = [](const char* name, const char* unit, const char* meaning, Of what) {
+    return Quantity{{name, unit, meaning}, [=](const FramePair& f) { return probe(f, what, name); }};
+  };
+  const auto over = [](const char* name, const char* unit, const char* meaning, Of what) {
+    return Quantity{{name, unit, meaning}, [=](const FramePair& f) { return mean(f, what, name); }};
+  };
   static const std::vector<Quantity> list{
-      at("temperature_at", "K", "temperature at the stated point, by a linear fit to the particles within 2.5 spacings (of the body, or phase), minus the true one", Of::temperature),
+      at("temperature_at", "K",
+         "temperature at the stated point, by a linear fit to the particles within 2.5 spacings (of the body, or phase), minus "
+         "the true one",
+         Of::temperature),
       at("pressure_at", "Pa", "pressure at the stated point, by the same fit, minus the true one", Of::pressure),
       at("density_at", "kg/m3", "density at the stated point, by the same fit, minus the true one", Of::density),
-      at("velocity_at", "m/s", "component of velocity along the stated axis at the stated point, by the same fit, minus the true one", Of::velocity),
-      over("mean_temperature", "K", "mean temperature by volume of the body, or phase, in the stated box, minus the stated value or the mean of the true field", Of::temperature),
+      at("velocity_at", "m/s",
+         "component of velocity along the stated axis at the stated point, by the same fit, minus the true one", Of::velocity),
+      over("mean_temperature", "K",
+           "mean temperature by volume of the body, or phase, in the stated box, minus the stated value or the mean of the true "
+           "field",
+           Of::temperature),
       over("mean_pressure", "Pa", "mean pressure there, minus the true one", Of::pressure),
       over("mean_density", "kg/m3", "mean density there, minus the true one", Of::density),
       over("mean_velocity", "m/s", "mean component of velocity along the stated axis there, minus the true one", Of::velocity),
-      {{"displacement", "m", "way since the start, along the stated axis, of the matter (of the body) that began at the stated point, minus the true one"}, displacement_of_point},
-      {{"centre", "m", "place of the centre of mass of the body (or all, or a phase) along the stated axis, minus the true one"}, centre}};
+      {{"displacement", "m",
+        "way since the start, along the stated axis, of the matter (of the body) that began at the stated point, minus the true "
+        "one"},
+       displacement_of_point},
+      {{"centre", "m", "place of the centre of mass of the body (or all, or a phase) along the stated axis, minus the true one"},
+       centre}};
   return list;
 }
 

@@ -38,7 +38,8 @@ std::map<long, Layer> layers(const FramePair& f, std::size_t axis) {
   }
   for (auto& [row, layer] : list) {
     layer.place /= layer.weight, layer.run /= layer.weight, layer.truth /= layer.weight;
-    layer.variance = layer.one_count ? layer.greatest_sigma * layer.greatest_sigma : layer.variance / (layer.weight * layer.weight);
+    layer.variance =
+        layer.one_count ? layer.greatest_sigma * layer.greatest_sigma : layer.variance / (layer.weight * layer.weight);
   }
   return list;
 }
@@ -79,7 +80,8 @@ std::optional<double> crossing(const std::map<long, Layer>& list, double level, 
 FrameError front(const FramePair& f) {
   if (auto why = missing(f); !why.empty()) return problem(why);
   const auto [low, high] = std::minmax_element(f.in.initial.temperature.begin(), f.in.initial.temperature.end());
-  if (f.in.initial.temperature.empty() || *low == *high) return problem("the start has one temperature: there is no isotherm to follow");
+  if (f.in.initial.temperature.empty() || *low == *high)
+    return problem("the start has one temperature: there is no isotherm to follow");
   const auto list = layers(f, *axis_of_profile(f.in));
   const double level = 0.5 * (*low + *high);
   const auto run = crossing(list, level, &Layer::run), truth = crossing(list, level, &Layer::truth);
@@ -91,8 +93,11 @@ FrameError front(const FramePair& f) {
 
 const std::vector<Quantity>& profile_quantities() {
   static const std::vector<Quantity> list{
-      {{"temperature_profile", "K", "difference of the mean temperatures of layers one spacing thick, across the reference's axis"}, profile},
-      {{"front", "m", "difference in place of the isotherm halfway between the first extremes, along the reference's axis"}, front}};
+      {{"temperature_profile", "K",
+        "difference of the mean temperatures of layers one spacing thick, across the reference's axis"},
+       profile},
+      {{"front", "m", "difference in place of the isotherm halfway between the first extremes, along the reference's axis"},
+       front}};
   return list;
 }
 

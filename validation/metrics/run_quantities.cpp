@@ -8,8 +8,6 @@
 namespace tripoint {
 namespace {
 
-
-
 MetricValue unformed(const std::string& why) {
   MetricValue v;
   v.value = not_a_number;
@@ -65,12 +63,14 @@ MetricValue decay_rate(const MetricInput& in, const Frames& frames) {
     if (s->temperature.size() != in.initial.size()) return unformed("the trajectory has no temperature of all particles");
     const auto a = project(in, *s, shape);
     if (y.empty() && a.value < 0.0) sign = -1.0;
-    if (!(sign * a.value > 0.0)) return unformed("the mode has no amplitude of its first sign at t = " + std::to_string(s->time) + " s");
+    if (!(sign * a.value > 0.0))
+      return unformed("the mode has no amplitude of its first sign at t = " + std::to_string(s->time) + " s");
     t.push_back(s->time), y.push_back(std::log(sign * a.value)), u.push_back(a.sigma / std::abs(a.value));
   }
   double mean = 0.0, tt = 0.0, ty = 0.0, spread = 0.0;
   for (const double x : t) mean += x / static_cast<double>(t.size());
-  for (std::size_t n = 0; n < t.size(); ++n) tt += (t[n] - mean) * (t[n] - mean), ty += (t[n] - mean) * y[n], spread += std::abs(t[n] - mean) * u[n];
+  for (std::size_t n = 0; n < t.size(); ++n)
+    tt += (t[n] - mean) * (t[n] - mean), ty += (t[n] - mean) * y[n], spread += std::abs(t[n] - mean) * u[n];
   MetricValue v;
   v.value = -ty / tt / *rate - 1.0;
   v.uncertainty.statistical = spread / tt / *rate;
@@ -93,7 +93,8 @@ MiddleSpin middle_spin(const BodyState& b, const MassProperties& p) {
 double hermite_root(const MiddleSpin& a, const MiddleSpin& b, double t0, double t1) {
   const double h = t1 - t0;
   const auto value = [&](double s) {
-    return (1 + 2 * s) * (1 - s) * (1 - s) * a.w + s * (1 - s) * (1 - s) * h * a.rate + s * s * (3 - 2 * s) * b.w + s * s * (s - 1) * h * b.rate;
+    return (1 + 2 * s) * (1 - s) * (1 - s) * a.w + s * (1 - s) * (1 - s) * h * a.rate + s * s * (3 - 2 * s) * b.w +
+           s * s * (s - 1) * h * b.rate;
   };
   double low = 0.0, high = 1.0;
   for (int n = 0; n < 60; ++n) {
@@ -121,7 +122,8 @@ std::string find_flips(const MetricInput& in, const Frames& frames, std::size_t 
 }
 
 std::size_t bodies_alive(const Snapshot& s) {
-  return static_cast<std::size_t>(std::count_if(s.bodies.begin(), s.bodies.end(), [](const BodyState& b) { return finite(b.position); }));
+  return static_cast<std::size_t>(
+      std::count_if(s.bodies.begin(), s.bodies.end(), [](const BodyState& b) { return finite(b.position); }));
 }
 
 /// A merge or split shows between two frames: the error is the distance of the true time from that interval.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/metrics/solid_motion.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Dense>
 #include <limits>
 
 namespace tripoint {
@@ -79,15 +79,19 @@ Measured deflection(const MetricInput& in, const Snapshot& s) {
   }
   const long row = body_row(in);
   if (row >= 0 && in.job.bodies[job_body(in)].phase == Phase::rigid) {
-    if (static_cast<std::size_t>(row) >= s.bodies.size() || !finite(s.bodies[static_cast<std::size_t>(row)].position)) return unknown("the trajectory does not have the body");
-    return {dot(direction, displacement(in.job.scene, s.bodies[static_cast<std::size_t>(row)].position, in.job.bodies[job_body(in)].properties.centre)), "", true};
+    if (static_cast<std::size_t>(row) >= s.bodies.size() || !finite(s.bodies[static_cast<std::size_t>(row)].position))
+      return unknown("the trajectory does not have the body");
+    return {dot(direction, displacement(in.job.scene, s.bodies[static_cast<std::size_t>(row)].position,
+                                        in.job.bodies[job_body(in)].properties.centre)),
+            "", true};
   }
   const auto end = in.reference.number("end");
   if (!end) return unknown("the reference knows no free end");
   const auto e = extent_of(in);
   const double dx = in.job.scene.spacing;
   const auto last = *end > 0.0 ? layer(in, e, e.high - dx, e.high) : layer(in, e, e.low, e.low + dx);
-  return last.empty() ? unknown("the bar has no particles at its free end") : Measured{dot(direction, moved(in, s, last)), "", false};
+  return last.empty() ? unknown("the bar has no particles at its free end")
+                      : Measured{dot(direction, moved(in, s, last)), "", false};
 }
 
 Measured stretch(const MetricInput& in, const Snapshot& s, double gauge) {
@@ -121,8 +125,10 @@ Swing fit_swing(const std::vector<double>& t, const std::vector<double>& y, doub
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
   for (int n = 0; n < 50; ++n) {
     const double a = high - golden * (high - low), b = low + golden * (high - low);
-    if (rest(a) < rest(b)) high = b;
-    else low = a;
+    if (rest(a) < rest(b))
+      high = b;
+    else
+      low = a;
   }
   const double w = 0.5 * (low + high);
   const auto x = at_frequency(t, y, w).first;

@@ -14,8 +14,8 @@ struct Measured {
   bool of_tip = false;  ///< of a rigid body at the end, not of the bar's own last layer
 };
 
-/// Displacement along the reference's direction [m]: of the named rigid body's centre, else the mean of the bar's particles that began within
-/// one spacing of its free end.
+/// Displacement along the reference's direction [m]: of the named rigid body's centre, else the mean of the bar's particles that
+/// began within one spacing of its free end.
 [[nodiscard]] Measured deflection(const MetricInput&, const Snapshot&);
 
 /// Distance of two layers, one spacing thick, over their distance at the start [1].

@@ -16,7 +16,8 @@ FrameError deflection_error(const FramePair& f) {
 }
 
 FrameError stretch_error(const FramePair& f) {
-  const auto measured = stretch(f.in, f.now, f.in.reference.number("stretch_gauge").value_or(f.in.reference.number("gauge").value_or(1.0)));
+  const auto measured =
+      stretch(f.in, f.now, f.in.reference.number("stretch_gauge").value_or(f.in.reference.number("gauge").value_or(1.0)));
   return measured.problem.empty() ? against_truth(f, "stretch", measured.value) : problem(measured.problem);
 }
 
@@ -33,7 +34,8 @@ FrameError modulus_error(const FramePair& f) {
   for (const auto& m : {force, length})
     if (!m.problem.empty()) return problem(m.problem);
   const double strain = 0.5 * (length.value * length.value - 1.0);
-  if (std::abs(strain) < 1e-12) return problem("the bar is not stretched at t = " + std::to_string(f.now.time) + " s: choose a window");
+  if (std::abs(strain) < 1e-12)
+    return problem("the bar is not stretched at t = " + std::to_string(f.now.time) + " s: choose a window");
   return single(force.value / (*area * length.value * strain) / *truth - 1.0);
 }
 
@@ -71,7 +73,8 @@ MetricValue frequency(const MetricInput& in, const Frames& frames) {
   if (!swing.problem.empty()) return not_formed(swing.problem);
   MetricValue v;
   v.value = swing.frequency / *truth - 1.0;
-  v.note = "frequency " + std::to_string(swing.frequency) + " rad/s against " + std::to_string(*truth) + ", amplitude " + std::to_string(swing.amplitude) + " m";
+  v.note = "frequency " + std::to_string(swing.frequency) + " rad/s against " + std::to_string(*truth) + ", amplitude " +
+           std::to_string(swing.amplitude) + " m";
   return v;
 }
 
@@ -92,7 +95,9 @@ MetricValue sag(const MetricInput& in, const Frames& frames) {
 
 MetricValue swing_amplitude(const MetricInput& in, const Frames& frames) {
   const auto truth = in.reference.number("amplitude"), guess = in.reference.number("frequency");
-  if (!truth || !guess) return not_formed("the reference does not know the amplitude of a swing: it starts neither in its lowest mode nor with a stated one");
+  if (!truth || !guess)
+    return not_formed(
+        "the reference does not know the amplitude of a swing: it starts neither in its lowest mode nor with a stated one");
   const auto swing = swing_of(in, frames, *guess);
   if (!swing.problem.empty()) return not_formed(swing.problem);
   MetricValue v;
@@ -101,10 +106,12 @@ MetricValue swing_amplitude(const MetricInput& in, const Frames& frames) {
   return v;
 }
 
-/// Between frames by a straight line in (stretch, reaction), the first time that the reaction falls through zero after the longest stretch.
+/// Between frames by a straight line in (stretch, reaction), the first time that the reaction falls through zero after the
+/// longest stretch.
 MetricValue residual_stretch(const MetricInput& in, const Frames& frames) {
   const auto truth = in.reference.number("residual_stretch");
-  if (!truth) return not_formed("the reference does not know a residual stretch: the material does not yield, or the ends do not go back");
+  if (!truth)
+    return not_formed("the reference does not know a residual stretch: the material does not yield, or the ends do not go back");
   std::vector<double> force, length;
   for (const auto* s : frames) {
     const auto f = reaction(in, *s), l = stretch(in, *s, in.reference.number("stretch_gauge").value_or(1.0));
@@ -128,20 +135,31 @@ MetricValue residual_stretch(const MetricInput& in, const Frames& frames) {
 
 const std::vector<Quantity>& solid_quantities() {
   static const std::vector<Quantity> list{
-      {{"deflection", "m", "displacement of the free end (mean of the last layer) or of the named rigid tip along the reference's direction, minus the true one"}, deflection_error},
+      {{"deflection", "m",
+        "displacement of the free end (mean of the last layer) or of the named rigid tip along the reference's direction, minus "
+        "the true one"},
+       deflection_error},
       {{"stretch", "1", "length of the body along the axis over its length at the start, minus the true one"}, stretch_error},
       {{"reaction", "N", "force on the named held body along the bar, tension positive, minus the true one"}, reaction_error},
-      {{"modulus", "1", "reaction over cross-section, stretch and Green strain of the bar's middle, over the true modulus, minus 1"}, modulus_error},
-      {{"spin_ratio", "1", "angular momentum of the body about its centre along that of the start, over it, minus the stated value"}, spin_ratio}};
+      {{"modulus", "1",
+        "reaction over cross-section, stretch and Green strain of the bar's middle, over the true modulus, minus 1"},
+       modulus_error},
+      {{"spin_ratio", "1",
+        "angular momentum of the body about its centre along that of the start, over it, minus the stated value"},
+       spin_ratio}};
   return list;
 }
 
 const std::vector<RunQuantity>& solid_run_quantities() {
   static const std::vector<RunQuantity> list{
-      {{"frequency", "1", "frequency of the deflection's swing, a sine about an offset by least squares, over the true one, minus 1"}, frequency},
+      {{"frequency", "1",
+        "frequency of the deflection's swing, a sine about an offset by least squares, over the true one, minus 1"},
+       frequency},
       {{"sag", "1", "offset about which the deflection swings over the true static deflection, minus 1"}, sag},
       {{"swing_amplitude", "1", "amplitude of the deflection's swing over the true one, minus 1"}, swing_amplitude},
-      {{"residual_stretch", "1", "stretch at which the reaction on the named body falls to zero on the way back, minus the true one"}, residual_stretch}};
+      {{"residual_stretch", "1",
+        "stretch at which the reaction on the named body falls to zero on the way back, minus the true one"},
+       residual_stretch}};
   return list;
 }
 

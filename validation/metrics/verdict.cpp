@@ -14,11 +14,16 @@ bool usable(double u) { return u >= 0.0 && std::isfinite(u); }
 
 const char* to_string(Verdict v) {
   switch (v) {
-    case Verdict::pass: return "pass";
-    case Verdict::fail: return "fail";
-    case Verdict::inconclusive: return "inconclusive";
-    case Verdict::missing: return "missing";
-    case Verdict::diverged: return "diverged";
+    case Verdict::pass:
+      return "pass";
+    case Verdict::fail:
+      return "fail";
+    case Verdict::inconclusive:
+      return "inconclusive";
+    case Verdict::missing:
+      return "missing";
+    case Verdict::diverged:
+      return "diverged";
   }
   return "missing";
 }

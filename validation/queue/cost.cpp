@@ -19,9 +19,11 @@ Rates rates_of(const std::string& engine) {
   return {0.0, 2e-6, 0.1};  // engines of rigid bodies: their steps are nearly free beside the frames
 }
 
-/// Whether particles push each other: liquids and what is elastic. Else they stand, conduct heat or move as whole bodies, at a tenth of the cost.
+/// Whether particles push each other: liquids and what is elastic. Else they stand, conduct heat or move as whole bodies, at a
+/// tenth of the cost.
 bool has_forces(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.phase != Phase::rigid && b.motion == Motion::free; });
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const Body& b) { return b.phase != Phase::rigid && b.motion == Motion::free; });
 }
 
 /// Fastest sound of the materials that the scene holds [m/s]; 0 where none has one.

@@ -36,10 +36,14 @@ std::string ranges(const std::vector<int>& numbers) {
 int minutes(double predicted) { return std::max(15, static_cast<int>(std::ceil(4.0 * predicted / 60.0))); }
 
 std::string head(const Queue& queue, const EmitOptions& o) {
-  return fmt::format("# {} jobs in {} shards; the longest shard is predicted to take {:.0f} CPU s. Written by: tripoint suite emit\n", queue.jobs.size(), o.shards, o.longest);
+  return fmt::format(
+      "# {} jobs in {} shards; the longest shard is predicted to take {:.0f} CPU s. Written by: tripoint suite emit\n",
+      queue.jobs.size(), o.shards, o.longest);
 }
 
-std::string names(const EmitOptions& o) { return fmt::format("TRIPOINT=${{TRIPOINT:-{}}}\nDIR={}\n", quoted(o.program), quoted(o.dir)); }
+std::string names(const EmitOptions& o) {
+  return fmt::format("TRIPOINT=${{TRIPOINT:-{}}}\nDIR={}\n", quoted(o.program), quoted(o.dir));
+}
 
 std::string slurm(const Queue& queue, const EmitOptions& o) {
   return "#!/bin/bash\n" + head(queue, o) +
@@ -59,8 +63,8 @@ child=$!
 trap 'kill -TERM "$child"' TERM
 wait "$child" || wait "$child"
 )",
-                     fmt::arg("dir", o.dir), fmt::arg("array", ranges(o.numbers)), fmt::arg("threads", queue.threads), fmt::arg("minutes", minutes(o.longest)), fmt::arg("names", names(o)),
-                     fmt::arg("shards", o.shards));
+                     fmt::arg("dir", o.dir), fmt::arg("array", ranges(o.numbers)), fmt::arg("threads", queue.threads),
+                     fmt::arg("minutes", minutes(o.longest)), fmt::arg("names", names(o)), fmt::arg("shards", o.shards));
 }
 
 std::string hyperqueue(const Queue& queue, const EmitOptions& o) {
@@ -71,17 +75,19 @@ set -eu
   bash -c 'exec "$1" suite work "$2" --shard "$HQ_TASK_ID/{shards}"' shard "$TRIPOINT" "$DIR"
 exec "$TRIPOINT" suite merge "$DIR"
 )",
-                     fmt::arg("array", ranges(o.numbers)), fmt::arg("threads", queue.threads), fmt::arg("names", names(o)), fmt::arg("shards", o.shards));
+                     fmt::arg("array", ranges(o.numbers)), fmt::arg("threads", queue.threads), fmt::arg("names", names(o)),
+                     fmt::arg("shards", o.shards));
 }
 
 std::string parallel(const Queue& queue, const EmitOptions& o) {
   return "#!/bin/bash\n" + head(queue, o) +
-         fmt::format(R"(# JOBS=8 bash THIS: eight shards at a time (2 where nothing is said). Other machines: PARALLEL="--sshloginfile hosts" where the folder is shared.
+         fmt::format(
+             R"(# JOBS=8 bash THIS: eight shards at a time (2 where nothing is said). Other machines: PARALLEL="--sshloginfile hosts" where the folder is shared.
 set -u
 {names}parallel --jobs "${{JOBS:-2}}" --quote --retries 3 --line-buffer "$TRIPOINT" suite work "$DIR" --shard "{{}}/{shards}" ::: {numbers}
 exec "$TRIPOINT" suite merge "$DIR"
 )",
-                     fmt::arg("names", names(o)), fmt::arg("shards", o.shards), fmt::arg("numbers", fmt::join(o.numbers, " ")));
+             fmt::arg("names", names(o)), fmt::arg("shards", o.shards), fmt::arg("numbers", fmt::join(o.numbers, " ")));
 }
 
 /// A string for Python.
@@ -93,7 +99,8 @@ std::string python_word(const std::string& word) {
 
 std::string snakemake(const Queue& queue, const EmitOptions& o) {
   return head(queue, o) +
-         fmt::format(R"(# snakemake --snakefile THIS --cores 2        (--executor slurm and others send the same rules to a cluster)
+         fmt::format(
+             R"(# snakemake --snakefile THIS --cores 2        (--executor slurm and others send the same rules to a cluster)
 # A shard that was killed is made again by --retries 2, or by the same line once more; what is done in it is skipped.
 import os
 
@@ -118,8 +125,9 @@ rule shard:
     shell:
         "{{TRIPOINT:q}} suite work {{DIR:q}} --shard {{wildcards.k}}/{shards}"
 )",
-                     fmt::arg("program", python_word(o.program)), fmt::arg("dir", python_word(o.dir)), fmt::arg("shards", o.shards), fmt::arg("numbers", fmt::join(o.numbers, ", ")),
-                     fmt::arg("threads", queue.threads), fmt::arg("minutes", minutes(o.longest)));
+             fmt::arg("program", python_word(o.program)), fmt::arg("dir", python_word(o.dir)), fmt::arg("shards", o.shards),
+             fmt::arg("numbers", fmt::join(o.numbers, ", ")), fmt::arg("threads", queue.threads),
+             fmt::arg("minutes", minutes(o.longest)));
 }
 
 /// The line that plans this suite anew on another machine.
@@ -129,7 +137,8 @@ std::string make_command(const Queue& queue, const EmitOptions& o) {
   if (!queue.filter.profile.empty()) line += " --profile " + queue.filter.profile;
   if (!queue.filter.tag.empty()) line += " --tag " + quoted(queue.filter.tag);
   if (!queue.filter.substring.empty()) line += " -k " + quoted(queue.filter.substring);
-  if (!queue.selection.engines.empty()) line += " --engines " + quoted(fmt::format("{}", fmt::join(queue.selection.engines, ",")));
+  if (!queue.selection.engines.empty())
+    line += " --engines " + quoted(fmt::format("{}", fmt::join(queue.selection.engines, ",")));
   for (const auto& word : queue.engine_words) line += " --engine " + quoted(word);
   if (queue.selection.seed) line += fmt::format(" --seed {}", *queue.selection.seed);
   return line + fmt::format(" --threads {} --time-limit {:g}", queue.threads, queue.wall_limit);
@@ -137,7 +146,8 @@ std::string make_command(const Queue& queue, const EmitOptions& o) {
 
 std::string github(const Queue& queue, const EmitOptions& o) {
   return head(queue, o) +
-         fmt::format(R"(# Runners share no folder: each plans the suite anew. Ids are hashes of what a run is, so that all come to the same jobs and shards.
+         fmt::format(
+             R"(# Runners share no folder: each plans the suite anew. Ids are hashes of what a run is, so that all come to the same jobs and shards.
 # Put the step that installs tripoint in the place of the one that is marked, in both jobs. Program and engines must be the same builds on every runner.
 name: suite
 on: workflow_dispatch
@@ -184,13 +194,15 @@ jobs:
           name: report
           path: {typed}
 )",
-                     fmt::arg("minutes", minutes(o.longest)), fmt::arg("numbers", fmt::join(o.numbers, ", ")), fmt::arg("shards", o.shards), fmt::arg("make", make_command(queue, o)), fmt::arg("dir", quoted(o.typed)),
-                     fmt::arg("typed", o.typed));
+             fmt::arg("minutes", minutes(o.longest)), fmt::arg("numbers", fmt::join(o.numbers, ", ")),
+             fmt::arg("shards", o.shards), fmt::arg("make", make_command(queue, o)), fmt::arg("dir", quoted(o.typed)),
+             fmt::arg("typed", o.typed));
 }
 
 using Writer = std::string (*)(const Queue&, const EmitOptions&);
 const std::map<std::string, Writer>& writers() {
-  static const std::map<std::string, Writer> all{{"github", github}, {"hyperqueue", hyperqueue}, {"parallel", parallel}, {"slurm", slurm}, {"snakemake", snakemake}};
+  static const std::map<std::string, Writer> all{
+      {"github", github}, {"hyperqueue", hyperqueue}, {"parallel", parallel}, {"slurm", slurm}, {"snakemake", snakemake}};
   return all;
 }
 

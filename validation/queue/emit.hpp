@@ -5,16 +5,17 @@
 
 #include "validation/queue/queue.hpp"
 
-/// Scripts for schedulers. Each starts `tripoint suite work DIR --shard k/n` for every k, then merges; which jobs are in a shard is worked out there.
+/// Scripts for schedulers. Each starts `tripoint suite work DIR --shard k/n` for every k, then merges; which jobs are in a shard
+/// is worked out there.
 namespace tripoint {
 
 struct EmitOptions {
-  std::string program;      ///< path of tripoint
-  std::string dir;          ///< of the suite, absolute
-  std::string typed;        ///< DIR as it was typed, for machines that share no folder
+  std::string program;  ///< path of tripoint
+  std::string dir;      ///< of the suite, absolute
+  std::string typed;    ///< DIR as it was typed, for machines that share no folder
   int shards = 1;
-  std::vector<int> numbers; ///< of the shards that are to be started, from 1
-  double longest = 0.0;     ///< predicted cost of the dearest shard [CPU s]
+  std::vector<int> numbers;  ///< of the shards that are to be started, from 1
+  double longest = 0.0;      ///< predicted cost of the dearest shard [CPU s]
 };
 
 /// "slurm", "hyperqueue", "parallel", "snakemake", "github".

@@ -26,8 +26,11 @@ void check_all_ended(const Queue& queue, const Standing& standing) {
   std::string names;
   for (const auto stand : {Stand::lost, Stand::running, Stand::waiting})  // what needs somebody's hand first
     for (std::size_t n = 0; n < queue.jobs.size(); ++n)
-      if (standing.jobs[n].stand == stand && ++open <= most) names += fmt::format("\n  {}  {}  {}", word_of(stand), queue.jobs[n].id, name_of(queue.jobs[n]));
-  if (open > 0) throw InputError(fmt::format("{} of {} jobs have no result yet: tripoint suite work makes them{}{}", open, queue.jobs.size(), names, open > most ? "\n  ..." : ""));
+      if (standing.jobs[n].stand == stand && ++open <= most)
+        names += fmt::format("\n  {}  {}  {}", word_of(stand), queue.jobs[n].id, name_of(queue.jobs[n]));
+  if (open > 0)
+    throw InputError(fmt::format("{} of {} jobs have no result yet: tripoint suite work makes them{}{}", open, queue.jobs.size(),
+                                 names, open > most ? "\n  ..." : ""));
 }
 
 /// What killed workers of this machine have left.
@@ -51,7 +54,8 @@ void copy_runs(const fs::path& dir, const fs::path& out) {
 
 }  // namespace
 
-Results join(const std::string& dir, const Queue& queue, const std::vector<EngineEntry>& engines, const std::string& out, const std::function<void(const CaseResult&)>& on_case) {
+Results join(const std::string& dir, const Queue& queue, const std::vector<EngineEntry>& engines, const std::string& out,
+             const std::function<void(const CaseResult&)>& on_case) {
   const auto standing = look(dir, queue);
   check_all_ended(queue, standing);
   sweep(dir, standing);
@@ -65,9 +69,10 @@ Results join(const std::string& dir, const Queue& queue, const std::vector<Engin
     const auto at = jobs.find({all.value->id, engine.name, engine.preset, run.plan.label});
     const bool is_same = at != jobs.end() && run_id(all, run, options) == at->second->id;
     if (!is_same)
-      throw InputError(fmt::format("{} {} {}: is not the run that the suite was made of: the case, the engine or this program is another. "
-                                   "tripoint suite make again keeps every job that is still the same",
-                                   all.value->id, label_of(engine.name, engine.preset), run.plan.label));
+      throw InputError(
+          fmt::format("{} {} {}: is not the run that the suite was made of: the case, the engine or this program is another. "
+                      "tripoint suite make again keeps every job that is still the same",
+                      all.value->id, label_of(engine.name, engine.preset), run.plan.label));
     return published_row(dir, *at->second);
   };
   auto results = run_suite(cases_of(queue), engines, options);

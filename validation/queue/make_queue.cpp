@@ -16,8 +16,10 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-/// Jobs of one case. Its particles are sampled here, since they are part of what a run is; what is written of them is removed again.
-void add_jobs(const Case& value, const std::vector<EngineEntry>& engines, const SuiteOptions& options, const std::map<std::string, double>& costs, QueueMade& made) {
+/// Jobs of one case. Its particles are sampled here, since they are part of what a run is; what is written of them is removed
+/// again.
+void add_jobs(const Case& value, const std::vector<EngineEntry>& engines, const SuiteOptions& options,
+              const std::map<std::string, double>& costs, QueueMade& made) {
   const auto all = prepare_case(value, engines, options);
   for (const auto& run : all.runs) {
     QueuedJob job;
@@ -49,7 +51,8 @@ std::set<std::string> claimed(const std::string& dir) {
 
 /// Every job of the suite stands somewhere: those that are nowhere wait. @return how many have a result
 std::size_t lay_out(const std::string& dir, const Queue& queue) {
-  const auto todo = names_in(fs::path(dir) / state::todo), running = claimed(dir), done = names_in(fs::path(dir) / state::done), failed = names_in(fs::path(dir) / state::failed);
+  const auto todo = names_in(fs::path(dir) / state::todo), running = claimed(dir), done = names_in(fs::path(dir) / state::done),
+             failed = names_in(fs::path(dir) / state::failed);
   std::set<std::string> wanted;
   std::size_t kept = 0;
   for (const auto& job : queue.jobs) {
@@ -67,10 +70,12 @@ std::size_t lay_out(const std::string& dir, const Queue& queue) {
 
 }  // namespace
 
-QueueMade make_queue(const std::string& dir, Queue wanted, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const std::map<std::string, double>& costs) {
+QueueMade make_queue(const std::string& dir, Queue wanted, const std::vector<Case>& cases,
+                     const std::vector<EngineEntry>& engines, const std::map<std::string, double>& costs) {
   QueueMade made;
   made.queue = std::move(wanted);
-  for (const char* name : {state::todo, state::running, state::done, state::failed, state::lost, state::doubled, state::workers}) fs::create_directories(fs::path(dir) / name);
+  for (const char* name : {state::todo, state::running, state::done, state::failed, state::lost, state::doubled, state::workers})
+    fs::create_directories(fs::path(dir) / name);
   auto options = options_of(made.queue);
   options.out = (fs::path(dir) / "planning").string();
   for (const auto& value : cases) {
@@ -85,7 +90,8 @@ QueueMade make_queue(const std::string& dir, Queue wanted, const std::vector<Cas
 
 std::size_t retry_failed(const std::string& dir, const Queue& queue, const std::vector<std::string>& ids) {
   for (const auto& id : ids)
-    if (!fs::exists(place(dir, state::failed, id))) throw InputError(id + ": is no failed job of this suite (tripoint status names them)");
+    if (!fs::exists(place(dir, state::failed, id)))
+      throw InputError(id + ": is no failed job of this suite (tripoint status names them)");
   std::size_t count = 0;
   for (const auto& job : queue.jobs) {
     if (!ids.empty() && std::find(ids.begin(), ids.end(), job.id) == ids.end()) continue;

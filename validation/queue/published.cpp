@@ -36,11 +36,13 @@ RunRow published_row(const std::string& dir, const QueuedJob& job) {
   const auto file = row_file(dir, job);
   const auto document = document_of(file);
   if (id_in(document) != job.id || !document.contains("row"))
-    throw InputError(fmt::format("{}: holds no result of job {} ({}): tripoint suite make, then work, makes it again", file.string(), job.id, name_of(job)));
+    throw InputError(fmt::format("{}: holds no result of job {} ({}): tripoint suite make, then work, makes it again",
+                                 file.string(), job.id, name_of(job)));
   return read_run_row(document["row"].dump(), file.string());
 }
 
-bool publish(const std::string& dir, const QueuedJob& job, const RunRow& row, const std::string& folder, const std::string& worker) {
+bool publish(const std::string& dir, const QueuedJob& job, const RunRow& row, const std::string& folder,
+             const std::string& worker) {
   const fs::path target = fs::path(dir) / run_folder(job);
   fs::create_directories(target.parent_path());
   fs::create_directories(folder);

@@ -17,7 +17,8 @@ namespace tripoint {
 /// Moves a run's folder to its place, with its row in it.
 /// @return false where the job has a result already: the folder stays where it is
 /// @throws EngineError where the system does not let it
-[[nodiscard]] bool publish(const std::string& dir, const QueuedJob&, const RunRow&, const std::string& folder, const std::string& worker);
+[[nodiscard]] bool publish(const std::string& dir, const QueuedJob&, const RunRow&, const std::string& folder,
+                           const std::string& worker);
 
 /// Takes the row away, so that the run counts as not made.
 void withdraw(const std::string& dir, const QueuedJob&);

@@ -19,33 +19,56 @@ namespace {
 Queue queue_from(const Json& document) {
   Queue q;
   q.folder = document.at("folder"), q.command = document.at("command");
-  q.filter.what = document.at("what"), q.filter.profile = document.at("profile"), q.filter.tag = document.at("tag"), q.filter.substring = document.at("substring");
-  q.selection.engines = document.at("only_engines"), q.selection.extra = document.at("extra"), q.selection.asked = document.at("asked");
+  q.filter.what = document.at("what"), q.filter.profile = document.at("profile"), q.filter.tag = document.at("tag"),
+  q.filter.substring = document.at("substring");
+  q.selection.engines = document.at("only_engines"), q.selection.extra = document.at("extra"),
+  q.selection.asked = document.at("asked");
   if (!document.at("seed").is_null()) q.selection.seed = document.at("seed").get<std::uint64_t>();
   q.engine_words = document.at("engine_words"), q.threads = document.at("threads"), q.wall_limit = document.at("wall_limit");
   for (const auto& c : document.at("cases")) q.cases.push_back({c.at("id"), c.at("file")});
   q.jobs.reserve(document.at("jobs").size());
-  for (const auto& j : document.at("jobs")) q.jobs.push_back({j.at("id"), j.at("case"), j.at("engine"), j.at("preset"), j.at("run"), j.at("cost_s")});
+  for (const auto& j : document.at("jobs"))
+    q.jobs.push_back({j.at("id"), j.at("case"), j.at("engine"), j.at("preset"), j.at("run"), j.at("cost_s")});
   return q;
 }
 
 }  // namespace
 
-std::string name_of(const QueuedJob& job) { return fmt::format("{} {} {}", job.case_id, label_of(job.engine, job.preset), job.label); }
+std::string name_of(const QueuedJob& job) {
+  return fmt::format("{} {} {}", job.case_id, label_of(job.engine, job.preset), job.label);
+}
 
-std::string place(const std::string& dir, const char* state_name, const std::string& name) { return (fs::path(dir) / state_name / name).string(); }
+std::string place(const std::string& dir, const char* state_name, const std::string& name) {
+  return (fs::path(dir) / state_name / name).string();
+}
 
 std::string run_folder(const QueuedJob& job) {
-  return (fs::path("runs") / job.case_id / job.engine / (job.preset == "default" ? job.label : job.preset + "-" + job.label)).string();
+  return (fs::path("runs") / job.case_id / job.engine / (job.preset == "default" ? job.label : job.preset + "-" + job.label))
+      .string();
 }
 
 std::string queue_text(const Queue& q) {
   Json cases = Json::array(), jobs = Json::array();
   for (const auto& c : q.cases) cases.push_back({{"id", c.id}, {"file", c.file}});
-  for (const auto& j : q.jobs) jobs.push_back({{"id", j.id}, {"case", j.case_id}, {"engine", j.engine}, {"preset", j.preset}, {"run", j.label}, {"cost_s", j.cost}});
-  Json document{{"format", 1}, {"folder", q.folder}, {"command", q.command}, {"what", q.filter.what}, {"profile", q.filter.profile}, {"tag", q.filter.tag}, {"substring", q.filter.substring},
-                {"only_engines", q.selection.engines}, {"extra", q.selection.extra}, {"asked", q.selection.asked}, {"seed", nullptr},
-                {"engine_words", q.engine_words}, {"threads", q.threads}, {"wall_limit", q.wall_limit}, {"cases", cases}, {"jobs", jobs}};
+  for (const auto& j : q.jobs)
+    jobs.push_back(
+        {{"id", j.id}, {"case", j.case_id}, {"engine", j.engine}, {"preset", j.preset}, {"run", j.label}, {"cost_s", j.cost}});
+  Json document{{"format", 1},
+                {"folder", q.folder},
+                {"command", q.command},
+                {"what", q.filter.what},
+                {"profile", q.filter.profile},
+                {"tag", q.filter.tag},
+                {"substring", q.filter.substring},
+                {"only_engines", q.selection.engines},
+                {"extra", q.selection.extra},
+                {"asked", q.selection.asked},
+                {"seed", nullptr},
+                {"engine_words", q.engine_words},
+                {"threads", q.threads},
+                {"wall_limit", q.wall_limit},
+                {"cases", cases},
+                {"jobs", jobs}};
   if (q.selection.seed) document["seed"] = *q.selection.seed;
   return document.dump(0, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -53,7 +76,9 @@ std::string queue_text(const Queue& q) {
 Queue read_queue(const std::string& dir) {
   const auto file = fs::path(dir) / "suite.json";
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(fmt::format("{}: is no folder of a suite, it has no suite.json (tripoint suite make {} makes one)", dir, dir));
+  if (!in)
+    throw InputError(
+        fmt::format("{}: is no folder of a suite, it has no suite.json (tripoint suite make {} makes one)", dir, dir));
   try {
     const auto document = Json::parse(in);
     if (document.at("format") != 1) throw InputError(file.string() + ": has not \"format\": 1");
@@ -69,7 +94,8 @@ Case case_of(const Queue& queue, const std::string& id) {
   CaseFilter file;
   file.what = {at->file};
   auto cases = select_cases(file);
-  if (cases.size() != 1 || cases.front().id != id) throw InputError(fmt::format("{}: is no longer the case {}: make the suite again, what is done is kept", at->file, id));
+  if (cases.size() != 1 || cases.front().id != id)
+    throw InputError(fmt::format("{}: is no longer the case {}: make the suite again, what is done is kept", at->file, id));
   return std::move(cases.front());
 }
 

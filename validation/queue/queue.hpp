@@ -18,14 +18,15 @@
 ///     runs/...             what the runs left, as `tripoint validate` lays them out, and in each a row.json
 ///     workers/WORKER.json  a worker that lives touches its file every few seconds; workers/WORKER/ is its own workshop
 ///
-/// Every file but the workshops comes to be by a rename, so that it is whole or not there; a job goes forward only (todo, running, done).
+/// Every file but the workshops comes to be by a rename, so that it is whole or not there; a job goes forward only (todo,
+/// running, done).
 namespace tripoint {
 
 struct QueuedJob {
   std::string id;  ///< hash of all that makes the run (case_run.hpp: run_id)
   std::string case_id, engine, preset = "default";
-  std::string label;   ///< of the run in its plan: "corrected", "spacing=0.01-seed2"
-  double cost = 0.0;   ///< predicted [CPU s]
+  std::string label;  ///< of the run in its plan: "corrected", "spacing=0.01-seed2"
+  double cost = 0.0;  ///< predicted [CPU s]
 };
 
 struct QueuedCase {
@@ -33,20 +34,22 @@ struct QueuedCase {
 };
 
 struct Queue {
-  std::string folder;   ///< working folder of `suite make`: workers and the merge go there, so that every path is the same text for all
+  std::string
+      folder;  ///< working folder of `suite make`: workers and the merge go there, so that every path is the same text for all
   std::string command;  ///< of `suite make`
   CaseFilter filter;    ///< what was asked
   Selection selection;
   std::vector<std::string> engine_words;  ///< given by --engine, as typed
-  int threads = 1;             ///< of each engine process
-  double wall_limit = 600.0;   ///< [s]
+  int threads = 1;                        ///< of each engine process
+  double wall_limit = 600.0;              ///< [s]
   std::vector<QueuedCase> cases;
   std::vector<QueuedJob> jobs;
 };
 
 /// Names of the folders of states.
 namespace state {
-inline constexpr const char *todo = "todo", *running = "running", *done = "done", *failed = "failed", *lost = "lost", *doubled = "doubled", *workers = "workers";
+inline constexpr const char *todo = "todo", *running = "running", *done = "done", *failed = "failed", *lost = "lost",
+                            *doubled = "doubled", *workers = "workers";
 }
 
 /// "rigid/ballistic bullet corrected", for people.
@@ -62,12 +65,14 @@ inline constexpr const char *todo = "todo", *running = "running", *done = "done"
 /// @throws InputError where DIR/suite.json is absent or is none
 [[nodiscard]] Queue read_queue(const std::string& dir);
 
-/// The cases of the suite as they are now, and what every run of it is made with; `out` is left to the caller. @throws InputError for a case that is wrong or gone
+/// The cases of the suite as they are now, and what every run of it is made with; `out` is left to the caller. @throws InputError
+/// for a case that is wrong or gone
 [[nodiscard]] std::vector<Case> cases_of(const Queue&);
 [[nodiscard]] Case case_of(const Queue&, const std::string& id);
 [[nodiscard]] SuiteOptions options_of(const Queue&);
 
-/// A file that appears whole or not at all, without waiting for the disk: what is lost with the machine's power is made again. @throws EngineError
+/// A file that appears whole or not at all, without waiting for the disk: what is lost with the machine's power is made again.
+/// @throws EngineError
 void write_by_rename(const std::string& path, const std::string& text, const std::string& own_name);
 
 }  // namespace tripoint

@@ -14,7 +14,9 @@ namespace tripoint {
 std::vector<std::size_t> dearest_first(const std::vector<QueuedJob>& jobs) {
   std::vector<std::size_t> rows(jobs.size());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
-  std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) { return jobs[a].cost != jobs[b].cost ? jobs[a].cost > jobs[b].cost : jobs[a].id < jobs[b].id; });
+  std::sort(rows.begin(), rows.end(), [&](std::size_t a, std::size_t b) {
+    return jobs[a].cost != jobs[b].cost ? jobs[a].cost > jobs[b].cost : jobs[a].id < jobs[b].id;
+  });
   return rows;
 }
 
@@ -38,8 +40,10 @@ double cost_of(const std::vector<QueuedJob>& jobs, const std::vector<std::size_t
 }
 
 int shards_of_seconds(const std::vector<QueuedJob>& jobs, double seconds, int most) {
-  const double whole = std::accumulate(jobs.begin(), jobs.end(), 0.0, [](double sum, const QueuedJob& job) { return sum + job.cost; });
-  const double wanted = std::ceil(whole / seconds), at_most = std::min(static_cast<double>(most), static_cast<double>(jobs.size()));
+  const double whole =
+      std::accumulate(jobs.begin(), jobs.end(), 0.0, [](double sum, const QueuedJob& job) { return sum + job.cost; });
+  const double wanted = std::ceil(whole / seconds),
+               at_most = std::min(static_cast<double>(most), static_cast<double>(jobs.size()));
   return std::max(1, static_cast<int>(std::min(wanted, at_most)));
 }
 

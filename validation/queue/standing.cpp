@@ -19,7 +19,9 @@ std::vector<std::string> names_in(const std::string& dir, const char* name) {
     auto file = at->path().filename().string();
     if (!file.ends_with(".part")) names.push_back(std::move(file));
   }
-  if (error) throw InputError((fs::path(dir) / name).string() + ": cannot be read: " + error.message() + " (tripoint suite make lays it out again)");
+  if (error)
+    throw InputError((fs::path(dir) / name).string() + ": cannot be read: " + error.message() +
+                     " (tripoint suite make lays it out again)");
   return names;
 }
 
@@ -38,8 +40,10 @@ std::size_t Standing::count(Stand stand) const {
 Standing look(const std::string& dir, const Queue& queue) {
   Standing all;
   // In the order in which a job goes: one that moves on meanwhile is seen once more, never missed.
-  const auto todo_names = names_in(dir, state::todo), running = names_in(dir, state::running), failed_names = names_in(dir, state::failed), done_names = names_in(dir, state::done);
-  const std::unordered_set<std::string> todo(todo_names.begin(), todo_names.end()), failed(failed_names.begin(), failed_names.end()), done(done_names.begin(), done_names.end());
+  const auto todo_names = names_in(dir, state::todo), running = names_in(dir, state::running),
+             failed_names = names_in(dir, state::failed), done_names = names_in(dir, state::done);
+  const std::unordered_set<std::string> todo(todo_names.begin(), todo_names.end()),
+      failed(failed_names.begin(), failed_names.end()), done(done_names.begin(), done_names.end());
   const double now = file_clock(dir);
   for (const auto& name : names_in(dir, state::workers))
     if (name.ends_with(".json")) all.workers[name.substr(0, name.size() - 5)] = {};
@@ -56,10 +60,14 @@ Standing look(const std::string& dir, const Queue& queue) {
     JobStand stand;
     const auto held = holder.find(job.id);
     if (held != holder.end()) stand.worker = held->second;
-    if (done.count(job.id)) stand.stand = Stand::done;
-    else if (failed.count(job.id)) stand.stand = Stand::failed;
-    else if (held != holder.end()) stand.stand = alive[held->second] ? Stand::running : Stand::lost;
-    else if (todo.count(job.id)) stand.stand = Stand::waiting;
+    if (done.count(job.id))
+      stand.stand = Stand::done;
+    else if (failed.count(job.id))
+      stand.stand = Stand::failed;
+    else if (held != holder.end())
+      stand.stand = alive[held->second] ? Stand::running : Stand::lost;
+    else if (todo.count(job.id))
+      stand.stand = Stand::waiting;
     all.jobs.push_back(std::move(stand));
   }
   return all;

@@ -122,20 +122,26 @@ class Crew {
   }
 
   void make(const Worker& worker, const QueuedJob& job, int losses) {
-    if (published_id(dir_, job) == job.id) return note_end(worker, job, published_row(dir_, job));  // its worker was lost between the run and its note
+    if (published_id(dir_, job) == job.id)
+      return note_end(worker, job, published_row(dir_, job));  // its worker was lost between the run and its note
     auto options = options_of(queue_);
     options.out = worker.workshop();
-    options.wanted = [&](const EnginePlan& engine, const RunPlan& run) { return engine.name == job.engine && engine.preset == job.preset && run.label == job.label; };
+    options.wanted = [&](const EnginePlan& engine, const RunPlan& run) {
+      return engine.name == job.engine && engine.preset == job.preset && run.label == job.label;
+    };
     auto all = prepared(job, options);
     auto& run = all.runs.front();
-    if (losses >= most_losses) give_up(run, "killed", fmt::format("its worker was lost {} times", losses), options);
-    else make_run(all, run, options);
+    if (losses >= most_losses)
+      give_up(run, "killed", fmt::format("its worker was lost {} times", losses), options);
+    else
+      make_run(all, run, options);
     if (interrupted()) return worker.release(job.id);
     if (publish(dir_, job, run.row, run.folder, worker.name())) return note_end(worker, job, run.row);
     const auto first = published_row(dir_, job);
     const bool same = same_outcome(first, run.row);
     worker.note_double(job.id, nlohmann::json{{"same", same}}.dump());
-    say(fmt::format("doubled: {} ({}) had a result already; ours {}, and is dropped", name_of(job), job.id, same ? "is the same" : "DIFFERS from it"));
+    say(fmt::format("doubled: {} ({}) had a result already; ours {}, and is dropped", name_of(job), job.id,
+                    same ? "is the same" : "DIFFERS from it"));
     note_end(worker, job, first);
   }
 
@@ -150,19 +156,22 @@ class Crew {
     auto all = *plan;
     add_runs(all, options);
     if (all.runs.size() != 1 || run_id(all, all.runs.front(), options) != job.id)
-      throw InputError(fmt::format("{} ({}): is not the run that the suite was made of: the case, the engine or this program is another. "
-                                   "tripoint suite make again keeps every job that is still the same",
-                                   name_of(job), job.id));
+      throw InputError(
+          fmt::format("{} ({}): is not the run that the suite was made of: the case, the engine or this program is another. "
+                      "tripoint suite make again keeps every job that is still the same",
+                      name_of(job), job.id));
     return all;
   }
 
   void note_end(const Worker& worker, const QueuedJob& job, const RunRow& row) {
     const bool failed = crashed(row);
-    const nlohmann::ordered_json note{{"status", row.status}, {"reason", row.reason}, {"cpu_s", row.cost.cpu_s}, {"wall_s", row.cost.wall_s}, {"cost_s", job.cost}, {"worker", worker.name()}};
+    const nlohmann::ordered_json note{{"status", row.status},      {"reason", row.reason}, {"cpu_s", row.cost.cpu_s},
+                                      {"wall_s", row.cost.wall_s}, {"cost_s", job.cost},   {"worker", worker.name()}};
     worker.finish(job.id, note.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), failed);
     count(&WorkDone::made);
     if (failed) count(&WorkDone::failed);
-    say(fmt::format("{} {}: {}{} ({:.2f} CPU s)", job.id, name_of(job), row.status, row.reason.empty() ? "" : ", " + row.reason, row.cost.cpu_s));
+    say(fmt::format("{} {}: {}{} ({:.2f} CPU s)", job.id, name_of(job), row.status, row.reason.empty() ? "" : ", " + row.reason,
+                    row.cost.cpu_s));
   }
 
   void say_waiting(const Standing& standing) {
@@ -195,6 +204,8 @@ class Crew {
 
 }  // namespace
 
-WorkDone work(const std::string& dir, const Queue& queue, const std::vector<EngineEntry>& engines, const WorkOptions& options) { return Crew(dir, queue, engines, options).run(); }
+WorkDone work(const std::string& dir, const Queue& queue, const std::vector<EngineEntry>& engines, const WorkOptions& options) {
+  return Crew(dir, queue, engines, options).run();
+}
 
 }  // namespace tripoint

@@ -16,13 +16,14 @@ struct WorkOptions {
 };
 
 struct WorkDone {
-  std::size_t made = 0, failed = 0;    ///< by these workers
-  std::size_t taken_over = 0;          ///< of them, from workers that were lost
-  std::size_t held_by_others = 0;      ///< not finished when they left
+  std::size_t made = 0, failed = 0;  ///< by these workers
+  std::size_t taken_over = 0;        ///< of them, from workers that were lost
+  std::size_t held_by_others = 0;    ///< not finished when they left
 };
 
 /// Takes jobs until all of `rows` are finished, or Ctrl-C: then the jobs that it holds go back to those that wait.
-/// A job that has cost three workers their lives is given up: it becomes a killed run, so that it does not take every worker with it.
+/// A job that has cost three workers their lives is given up: it becomes a killed run, so that it does not take every worker with
+/// it.
 /// @throws InputError where a run is no longer the one that the suite was made of
 [[nodiscard]] WorkDone work(const std::string& dir, const Queue&, const std::vector<EngineEntry>&, const WorkOptions&);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/queue/worker.hpp"
 
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -61,12 +61,15 @@ std::string start_of(long pid) {
 /// Seconds since 1970 of a file's last change; negative where it is not there.
 double changed_at(const std::string& file) {
   struct stat s {};
-  return ::stat(file.c_str(), &s) == 0 ? static_cast<double>(s.st_mtim.tv_sec) + 1e-9 * static_cast<double>(s.st_mtim.tv_nsec) : -1.0;
+  return ::stat(file.c_str(), &s) == 0 ? static_cast<double>(s.st_mtim.tv_sec) + 1e-9 * static_cast<double>(s.st_mtim.tv_nsec)
+                                       : -1.0;
 }
 
 std::string sign_file(const std::string& dir, const std::string& worker) { return place(dir, state::workers, worker + ".json"); }
 
-std::string claim_file(const std::string& dir, const std::string& id, const std::string& worker) { return place(dir, state::running, id + "." + worker); }
+std::string claim_file(const std::string& dir, const std::string& id, const std::string& worker) {
+  return place(dir, state::running, id + "." + worker);
+}
 
 bool renamed(const std::string& from, const std::string& to) { return std::rename(from.c_str(), to.c_str()) == 0; }
 
@@ -91,11 +94,14 @@ WorkerSign read_sign(const std::string& dir, const std::string& worker, double n
   sign.age = changed < 0.0 ? std::numeric_limits<double>::infinity() : std::max(0.0, now_file - changed);
   const auto document = nlohmann::json::parse(text_of(file), nullptr, false);
   if (!document.is_object()) return sign;
-  sign.host = document.value("host", ""), sign.machine = document.value("machine", ""), sign.pid = document.value("pid", 0L), sign.started = document.value("started", "");
+  sign.host = document.value("host", ""), sign.machine = document.value("machine", ""), sign.pid = document.value("pid", 0L),
+  sign.started = document.value("started", "");
   return sign;
 }
 
-bool is_gone(const WorkerSign& sign) { return sign.pid > 0 && sign.machine == this_machine() && (sign.started.empty() || start_of(sign.pid) != sign.started); }
+bool is_gone(const WorkerSign& sign) {
+  return sign.pid > 0 && sign.machine == this_machine() && (sign.started.empty() || start_of(sign.pid) != sign.started);
+}
 
 bool is_alive(const WorkerSign& sign) {
   if (sign.pid > 0 && sign.machine == this_machine()) return !is_gone(sign);
@@ -105,7 +111,8 @@ bool is_alive(const WorkerSign& sign) {
 Worker::Worker(std::string dir, int number) : dir_(std::move(dir)) {
   const std::string started = start_of(::getpid());
   name_ = fmt::format("{}.{}.{}.{}", host_name(), ::getpid(), started, number);
-  const nlohmann::ordered_json sign{{"host", host_name()}, {"machine", this_machine()}, {"pid", ::getpid()}, {"started", started}};
+  const nlohmann::ordered_json sign{
+      {"host", host_name()}, {"machine", this_machine()}, {"pid", ::getpid()}, {"started", started}};
   write_by_rename(sign_file(dir_, name_), sign.dump() + "\n", name_);
   heart_ = std::thread([this] { beat(); });
 }
@@ -124,7 +131,8 @@ Worker::~Worker() {
 
 void Worker::beat() {
   std::unique_lock lock(mutex_);
-  while (!leaving_.wait_for(lock, std::chrono::duration<double>(lost_after / 6.0), [this] { return leaves_; })) touch(sign_file(dir_, name_));
+  while (!leaving_.wait_for(lock, std::chrono::duration<double>(lost_after / 6.0), [this] { return leaves_; }))
+    touch(sign_file(dir_, name_));
 }
 
 std::string Worker::workshop() const { return place(dir_, state::workers, name_); }
@@ -144,13 +152,17 @@ bool Worker::take_over(const std::string& id, const std::string& from) const {
   return true;
 }
 
-void Worker::release(const std::string& id) const { static_cast<void>(renamed(claim_file(dir_, id, name_), place(dir_, state::todo, id))); }
+void Worker::release(const std::string& id) const {
+  static_cast<void>(renamed(claim_file(dir_, id, name_), place(dir_, state::todo, id)));
+}
 
 void Worker::finish(const std::string& id, const std::string& note, bool failed) const {
   write_by_rename(place(dir_, failed ? state::failed : state::done, id), note + "\n", name_);
   ::unlink(claim_file(dir_, id, name_).c_str());
 }
 
-void Worker::note_double(const std::string& id, const std::string& note) const { write_by_rename(place(dir_, state::doubled, id + "." + name_), note + "\n", name_); }
+void Worker::note_double(const std::string& id, const std::string& note) const {
+  write_by_rename(place(dir_, state::doubled, id + "." + name_), note + "\n", name_);
+}
 
 }  // namespace tripoint

@@ -10,7 +10,10 @@ namespace {
 class AddedMass : public LiquidReference {
  public:
   AddedMass(const ReferenceInput& in, std::size_t axis, double acceleration)
-      : LiquidReference(in.job, in.initial), axis_(axis), up_(in.job.scene.gravity[axis] > 0.0 ? -1.0 : 1.0), acceleration_(acceleration) {}
+      : LiquidReference(in.job, in.initial),
+        axis_(axis),
+        up_(in.job.scene.gravity[axis] > 0.0 ? -1.0 : 1.0),
+        acceleration_(acceleration) {}
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "acceleration") return acceleration_;
     if (quantity == "axis") return static_cast<double>(axis_);
@@ -51,9 +54,13 @@ std::unique_ptr<Reference> make_added_mass(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry added_mass_entry() {
-  return {{"added_mass", "analytic", "Landau & Lifshitz, Fluid Mechanics, section 11: the added mass of a sphere is half of the liquid it displaces; in a concentric shell 1/2 (1 + 3 (R/R_wall)^3) to lowest order",
+  return {{"added_mass",
+           "analytic",
+           "Landau & Lifshitz, Fluid Mechanics, section 11: the added mass of a sphere is half of the liquid it displaces; in a "
+           "concentric shell 1/2 (1 + 3 (R/R_wall)^3) to lowest order",
            "start of a sphere in still liquid: upward at (1 - s)/(s + 1/2) g, s the ratio of densities",
-           {{"body", "", "the sphere; default the scene's only free body"}, {"radius_over_wall", "1", "radius of the sphere over that of a concentric wall; default 0: far walls"}}},
+           {{"body", "", "the sphere; default the scene's only free body"},
+            {"radius_over_wall", "1", "radius of the sphere over that of a concentric wall; default 0: far walls"}}},
           make_added_mass};
 }
 

@@ -6,11 +6,12 @@
 namespace tripoint {
 namespace {
 
-/// A body floats where it displaces its own weight. Numbers: draught [m]; for the metric of that name the pool: axis, up (+1, -1), floor [m],
-/// pool_area, block_area [m2], liquid_volume [m3], keel [m] (bottom of the body below its centre).
+/// A body floats where it displaces its own weight. Numbers: draught [m]; for the metric of that name the pool: axis, up (+1,
+/// -1), floor [m], pool_area, block_area [m2], liquid_volume [m3], keel [m] (bottom of the body below its centre).
 class Archimedes : public LiquidReference {
  public:
-  Archimedes(const ReferenceInput& in, std::map<std::string, double, std::less<>> numbers) : LiquidReference(in.job, in.initial), numbers_(std::move(numbers)) {}
+  Archimedes(const ReferenceInput& in, std::map<std::string, double, std::less<>> numbers)
+      : LiquidReference(in.job, in.initial), numbers_(std::move(numbers)) {}
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     const auto found = numbers_.find(quantity);
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
@@ -43,20 +44,24 @@ std::unique_ptr<Reference> make_archimedes(const ReferenceInput& in) {
   const double ratio = material_of_body(job, block).density / material_of_body(job, liquid).density;
   if (ratio >= 1.0) throw InputError("archimedes: body `" + job.bodies[block].name + "` sinks");
   const double volume = job.bodies[liquid].properties.mass / material_of_body(job, liquid).density;
-  return std::make_unique<Archimedes>(in, std::map<std::string, double, std::less<>>{{"draught", ratio * box.length()},
-                                                                                     {"axis", static_cast<double>(axis)},
-                                                                                     {"up", up},
-                                                                                     {"floor", up > 0.0 ? water.low : -water.high},
-                                                                                     {"pool_area", pool},
-                                                                                     {"block_area", area},
-                                                                                     {"liquid_volume", volume},
-                                                                                     {"keel", 0.5 * box.length()}});
+  return std::make_unique<Archimedes>(in,
+                                      std::map<std::string, double, std::less<>>{{"draught", ratio * box.length()},
+                                                                                 {"axis", static_cast<double>(axis)},
+                                                                                 {"up", up},
+                                                                                 {"floor", up > 0.0 ? water.low : -water.high},
+                                                                                 {"pool_area", pool},
+                                                                                 {"block_area", area},
+                                                                                 {"liquid_volume", volume},
+                                                                                 {"keel", 0.5 * box.length()}});
 }
 
 }  // namespace
 
 ReferenceEntry archimedes_entry() {
-  return {{"archimedes", "analytic", "Archimedes, On Floating Bodies: a floating body displaces its own weight", "draught of a floating box in a pool that is periodic across gravity",
+  return {{"archimedes",
+           "analytic",
+           "Archimedes, On Floating Bodies: a floating body displaces its own weight",
+           "draught of a floating box in a pool that is periodic across gravity",
            {{"body", "", "the floating body; default the scene's only free one"}}},
           make_archimedes};
 }

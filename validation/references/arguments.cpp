@@ -7,7 +7,8 @@
 
 namespace tripoint {
 
-Arguments::Arguments(const ReferenceChoice& choice, const ReferenceFunction& function) : function_(function.name), args_(choice.args) {
+Arguments::Arguments(const ReferenceChoice& choice, const ReferenceFunction& function)
+    : function_(function.name), args_(choice.args) {
   std::vector<std::string> known;
   for (const auto& a : function.args) known.push_back(a.name);
   for (const auto& [name, value] : args_) {
@@ -31,7 +32,8 @@ std::optional<bool> Arguments::flag(const std::string& name) const { return get<
 std::optional<Vec3> Arguments::vector(const std::string& name) const {
   const auto list = get<std::vector<double>>(name, "three numbers");
   if (!list) return {};
-  if (list->size() != 3) throw InputError("argument `" + name + "` of reference function " + function_ + " must be three numbers");
+  if (list->size() != 3)
+    throw InputError("argument `" + name + "` of reference function " + function_ + " must be three numbers");
   return Vec3{(*list)[0], (*list)[1], (*list)[2]};
 }
 

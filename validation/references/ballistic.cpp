@@ -8,14 +8,16 @@
 namespace tripoint {
 namespace {
 
-/// What semi-implicit Euler (v += g d, then x += v d) does exactly: each step of length d falls g d^2/2 further than the parabola,
-/// so that with one step length dt the body lags by g t dt/2. Between two output times the steps are equal, and none is above dt.
+/// What semi-implicit Euler (v += g d, then x += v d) does exactly: each step of length d falls g d^2/2 further than the
+/// parabola, so that with one step length dt the body lags by g t dt/2. Between two output times the steps are equal, and none is
+/// above dt.
 class SemiImplicitFlight : public RigidFlight {
  public:
   SemiImplicitFlight(const Job& job, const InitialState& initial, double dt) : RigidFlight(job, initial), times_(job.times) {
     if (!job.scene.events.empty()) throw InputError("ballistic_semi_implicit holds without events only");
     for (const auto& flight : flights())
-      if (!flight.spin.steady()) throw InputError("ballistic_semi_implicit needs a spin of constant axis: the scheme's own tumbling is not exact");
+      if (!flight.spin.steady())
+        throw InputError("ballistic_semi_implicit needs a spin of constant axis: the scheme's own tumbling is not exact");
     for (std::size_t n = 1; n < times_.size(); ++n) {
       const double interval = times_[n] - times_[n - 1];
       const double steps = std::max(1.0, std::ceil(interval / dt * (1.0 - 1e-9)));
@@ -58,13 +60,18 @@ std::unique_ptr<Reference> make_semi_implicit(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry ballistic_entry() {
-  return {{"ballistic", "analytic", "Newton: r = r0 + v t + g t^2/2 for the centre of mass; free rotation as torque_free",
-           "free rigid bodies under gravity, turning freely; prescribed and fixed bodies beside them", {}},
+  return {{"ballistic",
+           "analytic",
+           "Newton: r = r0 + v t + g t^2/2 for the centre of mass; free rotation as torque_free",
+           "free rigid bodies under gravity, turning freely; prescribed and fixed bodies beside them",
+           {}},
           make_ballistic};
 }
 
 ReferenceEntry ballistic_semi_implicit_entry() {
-  return {{"ballistic_semi_implicit", "discrete_exact", "sum of the scheme's steps: x lags the parabola by g t dt/2; equal steps between output times",
+  return {{"ballistic_semi_implicit",
+           "discrete_exact",
+           "sum of the scheme's steps: x lags the parabola by g t dt/2; equal steps between output times",
            "what semi-implicit Euler does exactly to a body in flight with a spin of constant axis",
            {{"time_step", "s", "step of the scheme; default the run's time step"}}},
           make_semi_implicit};

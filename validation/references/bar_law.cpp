@@ -19,7 +19,8 @@ struct Play {
   double share, half, factor;
 };
 Play play_of(const BarLaw& b) {
-  // Free sides: the elastic strain is (e, -nu e, -nu e), its deviator sqrt(2/3)(1 + nu) e. Held sides: dev E_11 = 2/3 E_11, |e'| = sqrt(3/2) e'_11.
+  // Free sides: the elastic strain is (e, -nu e, -nu e), its deviator sqrt(2/3)(1 + nu) e. Held sides: dev E_11 = 2/3 E_11, |e'|
+  // = sqrt(3/2) e'_11.
   if (b.sides == BarSides::confined) return {2.0 / 3.0, std::sqrt(2.0 / 3.0) * b.elastic_limit, std::sqrt(1.5)};
   return {1.0, std::sqrt(1.5) * b.elastic_limit / (1.0 + b.poisson_ratio), std::sqrt(1.5)};
 }
@@ -51,7 +52,8 @@ BarState stretched(const BarLaw& b, const BarState& from, double stretch) {
   BarState s = from;
   s.stretch = stretch;
   if (yields(b)) {
-    if (b.sides == BarSides::plane_strain) throw InputError("yielding in plane strain has no closed form: leave both sides of the bar free, or hold both");
+    if (b.sides == BarSides::plane_strain)
+      throw InputError("yielding in plane strain has no closed form: leave both sides of the bar free, or hold both");
     const auto play = play_of(b);
     const double cap = b.plastic_limit / play.factor;
     s.plastic = std::clamp(std::clamp(from.plastic, play.share * strain - play.half, play.share * strain + play.half), -cap, cap);

@@ -7,16 +7,17 @@ namespace tripoint {
 /// What holds the sides of a stretched bar: nothing, one direction (the other free), or both.
 enum class BarSides { free, plane_strain, confined };
 
-/// Reference stretch of a homogeneous bar: St Venant-Kirchhoff's S = C : (E - E_p) in Green strain, von Mises flow at |dev(E - E_p)| = g1,
-/// |E_p| <= g2 (model 8.7, 8.8). The printed form is the same law in the strain F^T F - I, with the gradient that the lattice sees.
+/// Reference stretch of a homogeneous bar: St Venant-Kirchhoff's S = C : (E - E_p) in Green strain, von Mises flow at |dev(E -
+/// E_p)| = g1, |E_p| <= g2 (model 8.7, 8.8). The printed form is the same law in the strain F^T F - I, with the gradient that the
+/// lattice sees.
 struct BarLaw {
   double young = 0.0, poisson_ratio = 0.0;  ///< [Pa], [1]
   BarSides sides = BarSides::free;
   double elastic_limit = std::numeric_limits<double>::infinity();  ///< g1
   double plastic_limit = std::numeric_limits<double>::infinity();  ///< g2
-  double strain_factor = 0.5;  ///< strain = this (F^2 - 1): 1/2, as printed 1
-  double moment = 1.0;         ///< M: F - 1 = M (stretch - 1); as printed the lattice's gradient moment
-  double volume = 1.0;         ///< body volume of a particle over dx^3; as printed (11)
+  double strain_factor = 0.5;                                      ///< strain = this (F^2 - 1): 1/2, as printed 1
+  double moment = 1.0;  ///< M: F - 1 = M (stretch - 1); as printed the lattice's gradient moment
+  double volume = 1.0;  ///< body volume of a particle over dx^3; as printed (11)
 
   /// Stiffness along the bar at small strain without its factors: E; E/(1 - nu^2); E (1 - nu)/((1 + nu)(1 - 2 nu)) [Pa].
   [[nodiscard]] double stiffness() const;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/references/beam.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Dense>
 
 #include "core/errors.hpp"
 
@@ -23,8 +23,8 @@ Eigen::Matrix4d exponential(const Eigen::Matrix4d& A) {
   return sum;
 }
 
-/// Residual of the end conditions at angular frequency w, 1 for w = 0. State (w/L, psi, M L/(EI), V L^2/(EI)) over x/L, so that all entries are
-/// of order 1: w' = psi + V/(kappa G A), psi' = M/(EI), M' = -V - rho I w^2 psi, V' = -rho A w^2 w.
+/// Residual of the end conditions at angular frequency w, 1 for w = 0. State (w/L, psi, M L/(EI), V L^2/(EI)) over x/L, so that
+/// all entries are of order 1: w' = psi + V/(kappa G A), psi' = M/(EI), M' = -V - rho I w^2 psi, V' = -rho A w^2 w.
 double determinant(const Beam& b, const BeamTip& tip, double w) {
   const double L = b.length, L2 = L * L, stiffness = b.bending, w2 = w * w;
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
@@ -49,7 +49,9 @@ double determinant(const Beam& b, const BeamTip& tip, double w) {
 BeamPoint beam_sag(const Beam& b, const BeamTip& tip, double gravity, double x) {
   const double q = b.mass * gravity, P = tip.mass * gravity, L = b.length, arm = L + tip.offset;
   const double rotation = (0.5 * q * (L * L * x - L * x * x + x * x * x / 3.0) + P * (arm * x - 0.5 * x * x)) / b.bending;
-  const double bent = (0.5 * q * (L * L * x * x / 2.0 - L * x * x * x / 3.0 + x * x * x * x / 12.0) + P * (0.5 * arm * x * x - x * x * x / 6.0)) / b.bending;
+  const double bent =
+      (0.5 * q * (L * L * x * x / 2.0 - L * x * x * x / 3.0 + x * x * x * x / 12.0) + P * (0.5 * arm * x * x - x * x * x / 6.0)) /
+      b.bending;
   const double sheared = (q * (L * x - 0.5 * x * x) + P * x) / b.shear;
   return {bent + sheared, rotation};
 }
@@ -61,10 +63,13 @@ double beam_frequency(const Beam& b, const BeamTip& tip) {
   double low = 0.0, high = 0.0;
   for (int n = 0; n <= steps && high == 0.0; ++n) {
     const double w = thin * 1.01 * std::pow(1e-5, 1.0 - static_cast<double>(n) / steps);
-    if (determinant(b, tip, w) <= 0.0) high = w;
-    else low = w;
+    if (determinant(b, tip, w) <= 0.0)
+      high = w;
+    else
+      low = w;
   }
-  if (high == 0.0) throw InputError("the beam has no frequency below that of a thin beam: its length, stiffness or mass is not above 0");
+  if (high == 0.0)
+    throw InputError("the beam has no frequency below that of a thin beam: its length, stiffness or mass is not above 0");
   for (int n = 0; n < 60; ++n) {
     const double middle = 0.5 * (low + high);
     (determinant(b, tip, middle) > 0.0 ? low : high) = middle;
@@ -77,7 +82,8 @@ double rectangular_shear_coefficient(double poisson_ratio, bool plane_strain) {
   return 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu);
 }
 
-Beam rectangular_beam(double length, double height, double depth, double density, double young, double poisson_ratio, bool plane_strain, double kappa) {
+Beam rectangular_beam(double length, double height, double depth, double density, double young, double poisson_ratio,
+                      bool plane_strain, double kappa) {
   const double area = height * depth, moment = depth * height * height * height / 12.0;
   const double E = plane_strain ? young / (1.0 - poisson_ratio * poisson_ratio) : young, G = 0.5 * young / (1.0 + poisson_ratio);
   return {length, E * moment, kappa * G * area, density * area, density * moment};

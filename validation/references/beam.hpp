@@ -28,8 +28,8 @@ struct BeamPoint {
 /// @param gravity [m/s2]   @param x from the clamp, 0 <= x <= L [m]
 [[nodiscard]] BeamPoint beam_sag(const Beam&, const BeamTip&, double gravity, double x);
 
-/// Lowest angular frequency [rad/s]: root of the determinant of the end conditions, the equations of motion carried from clamp to end by the
-/// exponential of their matrix.
+/// Lowest angular frequency [rad/s]: root of the determinant of the end conditions, the equations of motion carried from clamp to
+/// end by the exponential of their matrix.
 [[nodiscard]] double beam_frequency(const Beam&, const BeamTip&);
 
 /// Shear coefficient of a rectangular section [Cowper 1966]: 10 (1 + nu)/(12 + 11 nu); in plane strain with nu/(1 - nu) for nu.
@@ -37,6 +37,7 @@ struct BeamPoint {
 
 /// A beam of rectangular section, `height` along the deflection, `depth` across it [m]. In plane strain E is E/(1 - nu^2).
 /// @param kappa shear coefficient
-[[nodiscard]] Beam rectangular_beam(double length, double height, double depth, double density, double young, double poisson_ratio, bool plane_strain, double kappa);
+[[nodiscard]] Beam rectangular_beam(double length, double height, double depth, double density, double young,
+                                    double poisson_ratio, bool plane_strain, double kappa);
 
 }  // namespace tripoint

@@ -15,7 +15,8 @@ struct Flight {
 /// Parabolas between hits, each hit turning the speed round by the restitution. Numbers: touch_time, of the first hit [s].
 class Bouncing : public Reference {
  public:
-  Bouncing(BoxOnFloor scene, Flight start, double gravity, double restitution) : scene_(std::move(scene)), start_(start), gravity_(gravity), restitution_(restitution) {}
+  Bouncing(BoxOnFloor scene, Flight start, double gravity, double restitution)
+      : scene_(std::move(scene)), start_(start), gravity_(gravity), restitution_(restitution) {}
   [[nodiscard]] Snapshot at(double time) const override {
     const auto now = flight(time);
     Snapshot out;
@@ -33,7 +34,9 @@ class Bouncing : public Reference {
   }
 
  private:
-  [[nodiscard]] double until_touch(const Flight& f) const { return (f.speed + std::sqrt(f.speed * f.speed + 2.0 * gravity_ * f.height)) / gravity_; }
+  [[nodiscard]] double until_touch(const Flight& f) const {
+    return (f.speed + std::sqrt(f.speed * f.speed + 2.0 * gravity_ * f.height)) / gravity_;
+  }
   [[nodiscard]] Flight flight(double time) const {
     auto f = start_;
     double left = time;
@@ -53,8 +56,10 @@ class Bouncing : public Reference {
 std::unique_ptr<Reference> make_bouncing(const ReferenceInput& in) {
   auto scene = box_on_floor(in, "bouncing");
   const auto& box = in.job.bodies[scene.block];
-  const Vec3 along = box.velocity - box.velocity[scene.axis] * Vec3{scene.axis == 0 ? 1.0 : 0.0, scene.axis == 1 ? 1.0 : 0.0, scene.axis == 2 ? 1.0 : 0.0};
-  if (norm(along) > 0.0 || norm(box.angular_velocity) > 0.0) throw InputError("bouncing holds for a box that falls straight and does not turn");
+  const Vec3 along = box.velocity - box.velocity[scene.axis] * Vec3{scene.axis == 0 ? 1.0 : 0.0, scene.axis == 1 ? 1.0 : 0.0,
+                                                                    scene.axis == 2 ? 1.0 : 0.0};
+  if (norm(along) > 0.0 || norm(box.angular_velocity) > 0.0)
+    throw InputError("bouncing holds for a box that falls straight and does not turn");
   const double of_scene = law_of_contact(in.job, "restitution").value_or(1.0);
   const double restitution = in.args.number("restitution").value_or(of_scene);
   if (restitution < 0.0 || restitution > 1.0) throw InputError("bouncing: the restitution lies from 0 to 1");
@@ -66,8 +71,12 @@ std::unique_ptr<Reference> make_bouncing(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry bouncing_entry() {
-  return {{"bouncing", "analytic", "Newton: parabolas between hits; each hit turns the speed round by the restitution", "a ball, or a box that falls flat, on a fixed floor: it bounces",
-           {{"restitution", "1", "speed after a hit over that before it; default that of all engines' settings, 1 where they say none"}}},
+  return {{"bouncing",
+           "analytic",
+           "Newton: parabolas between hits; each hit turns the speed round by the restitution",
+           "a ball, or a box that falls flat, on a fixed floor: it bounces",
+           {{"restitution", "1",
+             "speed after a hit over that before it; default that of all engines' settings, 1 where they say none"}}},
           make_bouncing};
 }
 

@@ -10,9 +10,9 @@
 namespace tripoint {
 namespace {
 
-/// Sag and lowest frequency of a clamped beam. Numbers: deflection [m] of the last layer of particles, half a spacing inside the end, and
-/// tip_deflection of a rigid tip's centre (both where the scene has gravity); frequency [rad/s], period [s]; amplitude [m] of a beam that starts
-/// in its lowest mode; bar, axis, end (+1 or -1: where the free end lies), direction.x, .y, .z.
+/// Sag and lowest frequency of a clamped beam. Numbers: deflection [m] of the last layer of particles, half a spacing inside the
+/// end, and tip_deflection of a rigid tip's centre (both where the scene has gravity); frequency [rad/s], period [s]; amplitude
+/// [m] of a beam that starts in its lowest mode; bar, axis, end (+1 or -1: where the free end lies), direction.x, .y, .z.
 using Cantilever = NumberTable;
 
 /// Where the beam is free: away from the body that holds it.
@@ -58,13 +58,15 @@ BeamTip tip_of(const ReferenceInput& in, std::size_t tip, std::size_t axis, std:
 double end_velocity(const ReferenceInput& in, std::size_t bar, std::size_t axis, double end, const Vec3& direction, double face) {
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
-    if (in.initial.source[i] != static_cast<int>(bar) || end * (face - in.initial.position[i][axis]) > in.job.scene.spacing) continue;
+    if (in.initial.source[i] != static_cast<int>(bar) || end * (face - in.initial.position[i][axis]) > in.job.scene.spacing)
+      continue;
     sum += dot(in.initial.velocity[i], direction), count += 1.0;
   }
   return count > 0.0 ? sum / count : 0.0;
 }
 
-/// What others have published of this very plate goes before the theory of beams. They read its end, a run its last layer of particles.
+/// What others have published of this very plate goes before the theory of beams. They read its end, a run its last layer of
+/// particles.
 /// @param inside displacement of that layer over that of the end
 void take_published(const ReferenceInput& in, double inside, Numbers& n) {
   if (const auto f = in.args.number("frequency")) n["frequency"] = 2.0 * std::numbers::pi * *f;
@@ -82,16 +84,20 @@ std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
   const double end = free_end(in, bar, axis), length = in.args.number("length").value_or(size[axis]);
   const bool plane_strain = in.args.flag("plane_strain").value_or(in.job.scene.periodic[third]);
   const auto material = elastic_constants(in.job, bar);
-  const double kappa = in.args.number("shear_coefficient").value_or(rectangular_shear_coefficient(material.poisson_ratio, plane_strain));
+  const double kappa =
+      in.args.number("shear_coefficient").value_or(rectangular_shear_coefficient(material.poisson_ratio, plane_strain));
   const double density = in.job.scene.material(in.job.bodies[bar].material).density;
-  const auto beam = rectangular_beam(length, size[across], size[third], density, material.young, material.poisson_ratio, plane_strain, kappa);
+  const auto beam =
+      rectangular_beam(length, size[across], size[third], density, material.young, material.poisson_ratio, plane_strain, kappa);
 
   const auto ends = body_along(axis, bar, in.job, in.initial);
   const auto tip_row = named_body(in, "tip");
   const double face = end > 0.0 ? ends.high : ends.low;
   const auto tip = tip_row ? tip_of(in, *tip_row, axis, across, end, face) : BeamTip{};
   Vec3 direction;
-  direction[across] = in.args.vector("direction") ? std::copysign(1.0, (*in.args.vector("direction"))[across]) : in.job.scene.gravity[across] < 0.0 ? -1.0 : 1.0;
+  direction[across] = in.args.vector("direction")          ? std::copysign(1.0, (*in.args.vector("direction"))[across])
+                      : in.job.scene.gravity[across] < 0.0 ? -1.0
+                                                           : 1.0;
 
   Numbers n{{"bar", static_cast<double>(bar)}, {"axis", static_cast<double>(axis)}, {"end", end}};
   n["direction.x"] = direction.x, n["direction.y"] = direction.y, n["direction.z"] = direction.z;
@@ -103,22 +109,30 @@ std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
   } else if (const double v = end_velocity(in, bar, axis, end, direction, face); v != 0.0) {
     n["amplitude"] = std::abs(v) / n["frequency"];
   }
-  take_published(in, beam_sag(beam, tip, 1.0, length - 0.5 * in.job.scene.spacing).displacement / beam_sag(beam, tip, 1.0, length).displacement, n);
+  take_published(
+      in,
+      beam_sag(beam, tip, 1.0, length - 0.5 * in.job.scene.spacing).displacement / beam_sag(beam, tip, 1.0, length).displacement,
+      n);
   return std::make_unique<Cantilever>(std::move(n));
 }
 
 }  // namespace
 
 ReferenceEntry cantilever_entry() {
-  return {{"cantilever", "analytic", "Timoshenko, Phil. Mag. 41, 1921: beam with shear and rotary inertia; shear coefficient of Cowper, J. Appl. Mech. 33, 1966",
-           "static sag and lowest frequency of an elastic box clamped at one end by a fixed or prescribed solid body, small deflections; with a rigid tip too",
+  return {{"cantilever",
+           "analytic",
+           "Timoshenko, Phil. Mag. 41, 1921: beam with shear and rotary inertia; shear coefficient of Cowper, J. Appl. Mech. 33, "
+           "1966",
+           "static sag and lowest frequency of an elastic box clamped at one end by a fixed or prescribed solid body, small "
+           "deflections; with a rigid tip too",
            {{"body", "", "the beam; default the scene's only free elastic body"},
             {"tip", "", "name of a rigid body at the free end; default none"},
             {"length", "m", "free length; default of the beam's box"},
             {"direction", "", "of the deflection; default gravity's, without gravity the thinner side"},
             {"frequency", "Hz", "published, in the place of Timoshenko's"},
             {"deflection", "m", "published mean deflection of the free end, likewise; read half a spacing inside"},
-            {"amplitude", "m", "published amplitude of its swing, likewise; default its speed at the start over the frequency, in the lowest mode"},
+            {"amplitude", "m",
+             "published amplitude of its swing, likewise; default its speed at the start over the frequency, in the lowest mode"},
             {"plane_strain", "", "default true where the third direction is periodic"},
             {"shear_coefficient", "", "default 10 (1 + nu)/(12 + 11 nu), in plane strain with nu/(1 - nu) for nu"}}},
           make_cantilever};

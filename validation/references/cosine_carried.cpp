@@ -34,13 +34,16 @@ std::unique_ptr<Reference> make_carried(const ReferenceInput& in) {
   if (in.job.bodies.empty()) throw InputError("cosine_carried: the scene has no bodies");
   const Vec3 velocity = in.job.bodies.front().velocity;
   for (const auto& body : in.job.bodies)
-    if (norm(body.velocity - velocity) > 0.0 || norm(body.angular_velocity) > 0.0) throw InputError("cosine_carried: all must move at one velocity");
+    if (norm(body.velocity - velocity) > 0.0 || norm(body.angular_velocity) > 0.0)
+      throw InputError("cosine_carried: all must move at one velocity");
   if (norm(in.job.scene.gravity) > 0.0) throw InputError("cosine_carried: the scene has gravity");
   const Job still = at_rest(in.job);
   const auto wave = cosine_wave(in);
   refuse_open_ends(wave, {in.args, still, in.initial});
   const double D = in.args.number("diffusivity") ? *in.args.number("diffusivity") : common_diffusivity(still);
-  return std::make_unique<CarriedCosine>(std::make_unique<DecayingCosine>(ReferenceInput{in.args, still, in.initial}, wave, D * dot(wave.wave_vector, wave.wave_vector)), velocity);
+  return std::make_unique<CarriedCosine>(std::make_unique<DecayingCosine>(ReferenceInput{in.args, still, in.initial}, wave,
+                                                                          D * dot(wave.wave_vector, wave.wave_vector)),
+                                         velocity);
 }
 
 }  // namespace
@@ -48,7 +51,8 @@ std::unique_ptr<Reference> make_carried(const ReferenceInput& in) {
 ReferenceEntry cosine_carried_entry() {
   auto args = cosine_arguments();
   args.push_back({"diffusivity", "m2/s", "k/(rho c_p); default of the bodies' material"});
-  return {{"cosine_carried", "analytic", "separation of variables in the frame of the medium (Galileo): T = mean + A exp(-D k^2 t) cos(k.(r - U t) + phase)",
+  return {{"cosine_carried", "analytic",
+           "separation of variables in the frame of the medium (Galileo): T = mean + A exp(-D k^2 t) cos(k.(r - U t) + phase)",
            "decay of one cosine mode in a medium that moves as a whole", args},
           make_carried};
 }

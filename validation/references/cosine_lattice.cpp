@@ -31,7 +31,8 @@ double versine(double x) { return 2.0 * std::sin(0.5 * x) * std::sin(0.5 * x); }
 
 std::unique_ptr<Reference> make_lattice(const ReferenceInput& in) {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!in.job.scene.periodic[axis]) throw InputError("cosine_mode_lattice holds on the full lattice: make all three directions periodic");
+    if (!in.job.scene.periodic[axis])
+      throw InputError("cosine_mode_lattice holds on the full lattice: make all three directions periodic");
   if (in.job.scene.jitter != 0.0) throw InputError("cosine_mode_lattice holds without jitter");
   const auto wave = cosine_wave(in);
   refuse_open_ends(wave, in);
@@ -40,7 +41,8 @@ std::unique_ptr<Reference> make_lattice(const ReferenceInput& in) {
   const double support = in.args.number("support_ratio").value_or(ratio) * dx;
   const auto form = in.args.word("form").value_or(in.job.scene.mode_of(Term::heat) == Mode::paper ? "paper" : "corrected");
   if (form != "paper" && form != "corrected") throw InputError("argument `form` must be \"paper\" or \"corrected\"");
-  const double damping = form == "paper" ? paper_lattice_damping(wave.wave_vector, dx, support) : corrected_lattice_damping(wave.wave_vector, dx, support);
+  const double damping = form == "paper" ? paper_lattice_damping(wave.wave_vector, dx, support)
+                                         : corrected_lattice_damping(wave.wave_vector, dx, support);
   return std::make_unique<DecayingCosine>(in, wave, common_diffusivity(in.job) * damping);
 }
 
@@ -48,7 +50,8 @@ std::unique_ptr<Reference> make_lattice(const ReferenceInput& in) {
 
 double paper_lattice_damping(const Vec3& k, double dx, double h) {
   const double poly6 = 315.0 / (64.0 * pi * std::pow(h, 9)), laplacian = 45.0 / (pi * std::pow(h, 6));
-  const double number_density = lattice_sum(dx, h, [&](const Vec3& r) { return poly6 * std::pow(h * h - dot(r, r), 3); });  // m_j/rho_j = 1/this
+  const double number_density =
+      lattice_sum(dx, h, [&](const Vec3& r) { return poly6 * std::pow(h * h - dot(r, r), 3); });  // m_j/rho_j = 1/this
   return lattice_sum(dx, h, [&](const Vec3& r) { return laplacian * (h - norm(r)) * versine(dot(k, r)); }) / number_density;
 }
 
@@ -63,7 +66,8 @@ ReferenceEntry cosine_mode_lattice_entry() {
   auto args = cosine_arguments();
   args.push_back({"form", "", "paper or corrected; default the run's mode of the heat term"});
   args.push_back({"support_ratio", "", "h/dx; default the run's"});
-  return {{"cosine_mode_lattice", "discrete_exact", "eigenvalue of the conduction operator on the cubic lattice: model (21) or section 8.6",
+  return {{"cosine_mode_lattice", "discrete_exact",
+           "eigenvalue of the conduction operator on the cubic lattice: model (21) or section 8.6",
            "decay of one cosine mode by the SPH operator itself, on an unbounded cubic lattice, exact in time", args},
           make_lattice};
 }

@@ -12,7 +12,8 @@ namespace tripoint {
 [[nodiscard]] double paper_lattice_damping(const Vec3& wave_vector, double spacing, double support);
 
 /// Likewise of the corrected form (model, 8.6) with rest volumes dx^3 and Wendland C2:
-///   (1/M) sum_j V K(r_j) (1 - cos k.r_j),  K = -2 W'/r,  M = (1/2) sum_j V K x_j^2 (the moment matrix is M times the unit one here).
+///   (1/M) sum_j V K(r_j) (1 - cos k.r_j),  K = -2 W'/r,  M = (1/2) sum_j V K x_j^2 (the moment matrix is M times the unit one
+///   here).
 [[nodiscard]] double corrected_lattice_damping(const Vec3& wave_vector, double spacing, double support);
 
 }  // namespace tripoint

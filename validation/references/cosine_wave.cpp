@@ -33,7 +33,8 @@ CosineWave cosine_wave(const ReferenceInput& in) {
   wave.phase = in.args.number("phase").value_or(wave.phase);
   wave.wave_vector = in.args.vector("wave_vector").value_or(wave.wave_vector);
   if (norm(wave.wave_vector) == 0.0 || wave.amplitude == 0.0)
-    throw InputError("the cosine mode needs a body with temperature = {kind = \"cosine\", ...} or the arguments wave_vector and amplitude");
+    throw InputError(
+        "the cosine mode needs a body with temperature = {kind = \"cosine\", ...} or the arguments wave_vector and amplitude");
   return wave;
 }
 

@@ -34,9 +34,11 @@ class CouetteCylinders : public LiquidReference {
 std::unique_ptr<Reference> make_cylinders(const ReferenceInput& in) {
   const auto liquid = only_liquid(in.job, "couette_cylinders"), inner = solid_body(in, Motion::prescribed, "couette_cylinders");
   const auto inner_radius = in.args.number("inner_radius"), outer_radius = in.args.number("outer_radius");
-  if (!inner_radius || !outer_radius || !(*outer_radius > *inner_radius)) throw InputError("couette_cylinders needs inner_radius below outer_radius");
+  if (!inner_radius || !outer_radius || !(*outer_radius > *inner_radius))
+    throw InputError("couette_cylinders needs inner_radius below outer_radius");
   if (!in.job.scene.periodic[2] || !in.job.scene.min) throw InputError("couette_cylinders is periodic in z, along the cylinders");
-  const double a2 = *inner_radius * *inner_radius, b2 = *outer_radius * *outer_radius, spin = in.job.bodies[inner].angular_velocity.z;
+  const double a2 = *inner_radius * *inner_radius, b2 = *outer_radius * *outer_radius,
+               spin = in.job.bodies[inner].angular_velocity.z;
   const double A = -spin * a2 / (b2 - a2), B = spin * a2 * b2 / (b2 - a2);
   const double length = in.job.scene.max->z - in.job.scene.min->z;
   const double torque = -4.0 * std::numbers::pi * material_of_body(in.job, liquid).viscosity * B * length;
@@ -46,8 +48,13 @@ std::unique_ptr<Reference> make_cylinders(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry couette_cylinders_entry() {
-  return {{"couette_cylinders", "analytic", "Landau & Lifshitz, Fluid Mechanics, section 18: u = A r + B/r, torque 4 pi mu B a unit of length", "steady flow between a turning inner and a fixed outer cylinder about z",
-           {{"inner_radius", "m", "of the turning cylinder; needed"}, {"outer_radius", "m", "of the fixed one; needed"}, {"body", "", "the turning cylinder; default the only prescribed body"}}},
+  return {{"couette_cylinders",
+           "analytic",
+           "Landau & Lifshitz, Fluid Mechanics, section 18: u = A r + B/r, torque 4 pi mu B a unit of length",
+           "steady flow between a turning inner and a fixed outer cylinder about z",
+           {{"inner_radius", "m", "of the turning cylinder; needed"},
+            {"outer_radius", "m", "of the fixed one; needed"},
+            {"body", "", "the turning cylinder; default the only prescribed body"}}},
           make_cylinders};
 }
 

@@ -9,7 +9,8 @@
 
 namespace tripoint {
 
-CoulombMotion::CoulombMotion(const Plane& plane, const Contact& contact, double speed, double spin) : plane_(plane), contact_(contact), start_{0.0, speed, 0.0, spin} {
+CoulombMotion::CoulombMotion(const Plane& plane, const Contact& contact, double speed, double spin)
+    : plane_(plane), contact_(contact), start_{0.0, speed, 0.0, spin} {
   const double slip = speed - spin * contact.radius * (contact.share > 0.0 ? 1.0 : 0.0);
   if (slip == 0.0) {
     first_ = after();
@@ -34,7 +35,8 @@ CoulombMotion::Phase CoulombMotion::after() const {
 
 CoulombMotion::State CoulombMotion::at(double time) const {
   const auto go = [](const State& s, const Phase& p, double t) {
-    return State{s.way + s.speed * t + 0.5 * p.acceleration * t * t, s.speed + p.acceleration * t, s.angle + s.spin * t + 0.5 * p.spin_rate * t * t, s.spin + p.spin_rate * t};
+    return State{s.way + s.speed * t + 0.5 * p.acceleration * t * t, s.speed + p.acceleration * t,
+                 s.angle + s.spin * t + 0.5 * p.spin_rate * t * t, s.spin + p.spin_rate * t};
   };
   if (end_ == 0.0 || time <= end_) return go(start_, first_, time);
   return go(go(start_, first_, end_), after(), time - end_);
@@ -74,9 +76,11 @@ class OnPlane : public Reference {
 
 std::unique_ptr<Reference> make_sliding(const ReferenceInput& in) {
   auto scene = body_on_plane(in, "sliding");
-  if (scene.shape != Shape::Kind::box || scene.spin != 0.0) throw InputError("sliding holds for a box that lies on its face and does not turn");
+  if (scene.shape != Shape::Kind::box || scene.spin != 0.0)
+    throw InputError("sliding holds for a box that lies on its face and does not turn");
   const CoulombMotion::Plane plane{scene.pull, scene.friction * scene.press};
-  if (scene.friction * scene.height > scene.half_length) throw InputError("sliding: friction times the height of its centre is more than half its length: the box would tip");
+  if (scene.friction * scene.height > scene.half_length)
+    throw InputError("sliding: friction times the height of its centre is more than half its length: the box would tip");
   return std::make_unique<OnPlane>(scene, CoulombMotion(plane, {}, scene.speed, 0.0));
 }
 
@@ -84,23 +88,35 @@ std::unique_ptr<Reference> make_rolling(const ReferenceInput& in) {
   auto scene = body_on_plane(in, "rolling");
   if (scene.shape != Shape::Kind::sphere) throw InputError("rolling holds for a ball");
   const auto& p = in.job.bodies[scene.body].properties;
-  if (p.principal_inertia.z - p.principal_inertia.x > 1e-6 * p.principal_inertia.z) throw InputError("rolling: the ball's particles have three different moments: put its centre on the lattice");
+  if (p.principal_inertia.z - p.principal_inertia.x > 1e-6 * p.principal_inertia.z)
+    throw InputError("rolling: the ball's particles have three different moments: put its centre on the lattice");
   const CoulombMotion::Plane plane{scene.pull, scene.friction * scene.press};
   const CoulombMotion::Contact contact{p.mass * scene.height * scene.height / p.principal_inertia.z, scene.height};
   return std::make_unique<OnPlane>(scene, CoulombMotion(plane, contact, scene.speed, scene.spin));
 }
 
-const ReferenceArgument friction{"friction", "1", "coefficient of Coulomb's friction; default that of all engines' settings, none where they say none"};
+const ReferenceArgument friction{
+    "friction", "1", "coefficient of Coulomb's friction; default that of all engines' settings, none where they say none"};
 
 }  // namespace
 
 ReferenceEntry sliding_entry() {
-  return {{"sliding", "analytic", "Coulomb's law of friction: g (sin a - mu cos a) downhill, v0^2/(2 mu g) to rest, and no motion where tan a <= mu", "a box that lies on a plane, sticks or slides; gravity may be tilted, and the plane may move at a constant velocity", {friction}},
+  return {{"sliding",
+           "analytic",
+           "Coulomb's law of friction: g (sin a - mu cos a) downhill, v0^2/(2 mu g) to rest, and no motion where tan a <= mu",
+           "a box that lies on a plane, sticks or slides; gravity may be tilted, and the plane may move at a constant velocity",
+           {friction}},
           make_sliding};
 }
 
 ReferenceEntry rolling_entry() {
-  return {{"rolling", "analytic", "Coulomb's law of friction and Euler's law of rotation: a ball slips until it rolls, at v0/(1 + I/(m r^2)) on the level: 5/7 v0 of a solid ball", "a ball on a plane that slips, rolls, or both in turn, with the moment of its own particles; gravity may be tilted, and the plane may move at a constant velocity", {friction}},
+  return {{"rolling",
+           "analytic",
+           "Coulomb's law of friction and Euler's law of rotation: a ball slips until it rolls, at v0/(1 + I/(m r^2)) on the "
+           "level: 5/7 v0 of a solid ball",
+           "a ball on a plane that slips, rolls, or both in turn, with the moment of its own particles; gravity may be tilted, "
+           "and the plane may move at a constant velocity",
+           {friction}},
           make_rolling};
 }
 

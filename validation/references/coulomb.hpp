@@ -3,21 +3,22 @@
 
 namespace tripoint {
 
-/// Motion of a block or a ball on a plane with Coulomb's friction, along one line, in the plane's frame. The contact point slips at c = v - w r.
-/// While it slips, friction is mu times the normal force against it; when c reaches 0 it sticks (the ball rolls) if the friction that this takes is
-/// within mu times the normal force, and else slips on, downhill. While it slips, dv/dt = pull - grip sign(c) and dc/dt = pull - (1 + share) grip sign(c).
+/// Motion of a block or a ball on a plane with Coulomb's friction, along one line, in the plane's frame. The contact point slips
+/// at c = v - w r. While it slips, friction is mu times the normal force against it; when c reaches 0 it sticks (the ball rolls)
+/// if the friction that this takes is within mu times the normal force, and else slips on, downhill. While it slips, dv/dt = pull
+/// - grip sign(c) and dc/dt = pull - (1 + share) grip sign(c).
 class CoulombMotion {
  public:
   struct Plane {
-    double pull = 0.0;   ///< acceleration along the plane, of gravity [m/s2]
-    double grip = 0.0;   ///< mu times the acceleration into the plane [m/s2]
+    double pull = 0.0;  ///< acceleration along the plane, of gravity [m/s2]
+    double grip = 0.0;  ///< mu times the acceleration into the plane [m/s2]
   };
   struct Contact {
     double share = 0.0;   ///< m r^2/I of a ball, 0 of a block that cannot turn [1]
     double radius = 1.0;  ///< of the ball [m]
   };
   struct State {
-    double way = 0.0, speed = 0.0;  ///< of the centre [m], [m/s]
+    double way = 0.0, speed = 0.0;   ///< of the centre [m], [m/s]
     double angle = 0.0, spin = 0.0;  ///< w = v/r where it rolls [rad], [rad/s]
   };
   CoulombMotion(const Plane&, const Contact&, double speed, double spin);

@@ -7,11 +7,12 @@
 namespace tripoint {
 namespace {
 
-/// Two free boxes that meet face to face and centre to centre, without friction or loss: straight paths, and at touch the velocities along
-/// the line of centres change as those of points. Numbers: event_time of the touch [s], axis.
+/// Two free boxes that meet face to face and centre to centre, without friction or loss: straight paths, and at touch the
+/// velocities along the line of centres change as those of points. Numbers: event_time of the touch [s], axis.
 class ElasticCollision : public Reference {
  public:
-  ElasticCollision(const ReferenceInput& in, std::size_t axis, double touch) : job_(in.job), initial_(in.initial), axis_(axis), touch_(touch) {}
+  ElasticCollision(const ReferenceInput& in, std::size_t axis, double touch)
+      : job_(in.job), initial_(in.initial), axis_(axis), touch_(touch) {}
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
     out.time = time;
@@ -54,13 +55,16 @@ class ElasticCollision : public Reference {
 
 std::unique_ptr<Reference> make_collision(const ReferenceInput& in) {
   const auto& bodies = in.job.bodies;
-  if (bodies.size() != 2 || norm(in.job.scene.gravity) > 0.0) throw InputError("elastic_collision holds for two bodies without gravity");
+  if (bodies.size() != 2 || norm(in.job.scene.gravity) > 0.0)
+    throw InputError("elastic_collision holds for two bodies without gravity");
   const Vec3 approach = bodies[0].velocity - bodies[1].velocity;
   const auto axis = axis_of(approach, "elastic_collision: the bodies' relative velocity");
   for (const auto& b : bodies)
-    if (b.motion != Motion::free || b.phase == Phase::liquid || norm(b.angular_velocity) > 0.0) throw InputError("elastic_collision: body `" + b.name + "` must be a free rigid body without spin");
+    if (b.motion != Motion::free || b.phase == Phase::liquid || norm(b.angular_velocity) > 0.0)
+      throw InputError("elastic_collision: body `" + b.name + "` must be a free rigid body without spin");
   for (std::size_t k = 0; k < 3; ++k)
-    if (k != axis && std::abs(bodies[0].properties.centre[k] - bodies[1].properties.centre[k]) > 1e-9 * in.job.scene.spacing) throw InputError("elastic_collision: an off-centre hit has no exact path");
+    if (k != axis && std::abs(bodies[0].properties.centre[k] - bodies[1].properties.centre[k]) > 1e-9 * in.job.scene.spacing)
+      throw InputError("elastic_collision: an off-centre hit has no exact path");
   const auto a = body_along(axis, 0, in.job, in.initial), b = body_along(axis, 1, in.job, in.initial);
   const bool ahead = a.low < b.low;
   const double gap = ahead ? b.low - a.high : a.low - b.high, speed = ahead ? approach[axis] : -approach[axis];
@@ -71,7 +75,12 @@ std::unique_ptr<Reference> make_collision(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry elastic_collision_entry() {
-  return {{"elastic_collision", "analytic", "momentum and energy of two bodies: v' = 2 v_mean - v along the line of centres", "central, face to face, loss-free collision of two free boxes", {}}, make_collision};
+  return {{"elastic_collision",
+           "analytic",
+           "momentum and energy of two bodies: v' = 2 v_mean - v along the line of centres",
+           "central, face to face, loss-free collision of two free boxes",
+           {}},
+          make_collision};
 }
 
 }  // namespace tripoint

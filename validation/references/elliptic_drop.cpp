@@ -12,7 +12,12 @@ namespace {
 class EllipticDrop : public LiquidReference {
  public:
   EllipticDrop(const ReferenceInput& in, const Vec3& centre, double rate, double radius, double density)
-      : LiquidReference(in.job, in.initial), centre_(centre), rate_(rate), radius_(radius), density_(density), end_(in.job.scene.end_time) {}
+      : LiquidReference(in.job, in.initial),
+        centre_(centre),
+        rate_(rate),
+        radius_(radius),
+        density_(density),
+        end_(in.job.scene.end_time) {}
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "half_length") return elliptic_drop(rate_, radius_, end_).b;
     if (quantity == "axis") return 1.0;
@@ -42,9 +47,12 @@ std::unique_ptr<Reference> make_drop(const ReferenceInput& in) {
   const auto liquid = only_liquid(in.job, "elliptic_drop");
   const auto& body = in.job.scene.bodies.at(liquid);
   const auto& g = body.velocity.gradient;
-  const bool drawn = body.velocity.kind == VelocityField::Kind::linear && g[0].x == -g[1].y && g[1].y > 0.0 && g[0].y == 0.0 && g[1].x == 0.0 && g[2] == Vec3{};
-  if (body.shape.kind != Shape::Kind::cylinder || !drawn) throw InputError("elliptic_drop needs a cylinder of liquid along z with the velocity (-A x, A y, 0), A > 0");
-  return std::make_unique<EllipticDrop>(in, body.velocity.centre, g[1].y, body.shape.radius, material_of_body(in.job, liquid).density);
+  const bool drawn = body.velocity.kind == VelocityField::Kind::linear && g[0].x == -g[1].y && g[1].y > 0.0 && g[0].y == 0.0 &&
+                     g[1].x == 0.0 && g[2] == Vec3{};
+  if (body.shape.kind != Shape::Kind::cylinder || !drawn)
+    throw InputError("elliptic_drop needs a cylinder of liquid along z with the velocity (-A x, A y, 0), A > 0");
+  return std::make_unique<EllipticDrop>(in, body.velocity.centre, g[1].y, body.shape.radius,
+                                        material_of_body(in.job, liquid).density);
 }
 
 }  // namespace
@@ -70,7 +78,12 @@ DropState elliptic_drop(double rate, double radius, double time) {
 }
 
 ReferenceEntry elliptic_drop_entry() {
-  return {{"elliptic_drop", "analytic", "Monaghan, Simulating free surface flows with SPH, 1994: ordinary differential equations of the axes", "a round drop drawn out to an ellipse, without gravity", {}}, make_drop};
+  return {{"elliptic_drop",
+           "analytic",
+           "Monaghan, Simulating free surface flows with SPH, 1994: ordinary differential equations of the axes",
+           "a round drop drawn out to an ellipse, without gravity",
+           {}},
+          make_drop};
 }
 
 }  // namespace tripoint

@@ -52,10 +52,14 @@ class Reader {
     for (std::string line; std::getline(lines, line);) {
       ++place_.line;
       if (!line.empty() && line.back() == '\r') line.pop_back();
-      if (line.starts_with('#')) comment(line);
-      else if (trimmed(line).empty()) continue;
-      else if (columns_.empty()) head(line);
-      else row(line);
+      if (line.starts_with('#'))
+        comment(line);
+      else if (trimmed(line).empty())
+        continue;
+      else if (columns_.empty())
+        head(line);
+      else
+        row(line);
     }
     place_.line = 0;
     check(text);
@@ -82,21 +86,27 @@ class Reader {
     words >> key >> column >> more;
     const std::string value = trimmed(std::string_view(line).substr(colon + 1));
     if (!more.empty()) return;
-    if (key == "source" && column.empty()) source_ = value;
-    else if (key == "hash" && column.empty()) hash_ = value;
-    else if (key == "unit" && !column.empty()) units_[column] = unit(value);
-    else if (key == "uncertainty" && !column.empty()) uncertainty_[column] = uncertainty(value), words_[column] = value;
+    if (key == "source" && column.empty())
+      source_ = value;
+    else if (key == "hash" && column.empty())
+      hash_ = value;
+    else if (key == "unit" && !column.empty())
+      units_[column] = unit(value);
+    else if (key == "uncertainty" && !column.empty())
+      uncertainty_[column] = uncertainty(value), words_[column] = value;
   }
 
   double unit(const std::string& value) const {
     const auto s = stated(value);
-    if (!(s.number > 0.0) || s.rest.empty()) refuse("write a unit as a size greater than 0 in SI and the SI unit's name, like `0.05715 m`");
+    if (!(s.number > 0.0) || s.rest.empty())
+      refuse("write a unit as a size greater than 0 in SI and the SI unit's name, like `0.05715 m`");
     return s.number;
   }
 
   Stated uncertainty(const std::string& value) const {
     const auto s = stated(value);
-    if (!(s.number >= 0.0) || (!s.rest.empty() && s.rest != "%")) refuse("write a standard uncertainty as `0.05` in the column's unit or as `2 %` of each value");
+    if (!(s.number >= 0.0) || (!s.rest.empty() && s.rest != "%"))
+      refuse("write a standard uncertainty as `0.05` in the column's unit or as `2 %` of each value");
     return s;
   }
 
@@ -105,22 +115,27 @@ class Reader {
     if (columns_.size() < 2 || std::find(first_.begin(), first_.end(), columns_.front()) == first_.end())
       refuse(fmt::format("the first line of the table names the columns: `{}` and at least one more", fmt::join(first_, "`, `")));
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-      if (columns_[c].empty() || std::count(columns_.begin(), columns_.end(), columns_[c]) > 1) refuse(fmt::format("column {} has no name of its own", c + 1));
-      if (!units_.count(columns_[c])) refuse(fmt::format("no line `# unit {}: ...` stands above the table", printable(columns_[c])));
-      if (c > 0 && !uncertainty_.count(columns_[c])) refuse(fmt::format("no line `# uncertainty {}: ...` stands above the table", printable(columns_[c])));
+      if (columns_[c].empty() || std::count(columns_.begin(), columns_.end(), columns_[c]) > 1)
+        refuse(fmt::format("column {} has no name of its own", c + 1));
+      if (!units_.count(columns_[c]))
+        refuse(fmt::format("no line `# unit {}: ...` stands above the table", printable(columns_[c])));
+      if (c > 0 && !uncertainty_.count(columns_[c]))
+        refuse(fmt::format("no line `# uncertainty {}: ...` stands above the table", printable(columns_[c])));
     }
   }
 
   void row(const std::string& line) {
     const auto cells = split(line);
-    if (cells.size() != columns_.size()) refuse(fmt::format("{} values where the table has {} columns", cells.size(), columns_.size()));
+    if (cells.size() != columns_.size())
+      refuse(fmt::format("{} values where the table has {} columns", cells.size(), columns_.size()));
     std::vector<double> values;
     for (const auto& cell : cells) {
       const auto s = stated(cell);
       if (!s.rest.empty()) refuse("`" + printable(cell) + "` is not a number");
       values.push_back(s.number);
     }
-    if (!rows_.empty() && !(values[0] > rows_.back()[0])) refuse(fmt::format("{} must rise from row to row", columns_.front() == "time" ? "times" : columns_.front()));
+    if (!rows_.empty() && !(values[0] > rows_.back()[0]))
+      refuse(fmt::format("{} must rise from row to row", columns_.front() == "time" ? "times" : columns_.front()));
     rows_.push_back(std::move(values));
   }
 
@@ -129,7 +144,8 @@ class Reader {
     if (columns_.empty() || rows_.empty()) refuse("the table has no row");
     const auto now = experiment_hash(text);
     if (hash_.empty()) refuse(fmt::format("no line `# hash: ...`; of these data it is {}", now));
-    if (hash_ != now) refuse(fmt::format("the data hash to {}, the file says {}: they changed since they were entered", now, printable(hash_)));
+    if (hash_ != now)
+      refuse(fmt::format("the data hash to {}, the file says {}: they changed since they were entered", now, printable(hash_)));
   }
 
   [[nodiscard]] ExperimentFile finished() const {
@@ -175,7 +191,9 @@ class Experiment : public Reference {
     out.time = time;
     return out;
   }
-  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override { return quantity == "axis" ? axis_ : std::nullopt; }
+  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
+    return quantity == "axis" ? axis_ : std::nullopt;
+  }
   [[nodiscard]] const MeasuredCurve* measured(std::string_view column) const override {
     const auto found = file_.curves.find(std::string(column));
     return found == file_.curves.end() ? nullptr : &found->second;
@@ -189,7 +207,8 @@ class Experiment : public Reference {
 std::unique_ptr<Reference> make_experiment(const ReferenceInput& in) {
   std::optional<double> axis;
   if (const auto word = in.args.word("axis")) {
-    if (*word != "x" && *word != "y" && *word != "z") throw InputError("argument `axis` of reference function experiment must be \"x\", \"y\" or \"z\"");
+    if (*word != "x" && *word != "y" && *word != "z")
+      throw InputError("argument `axis` of reference function experiment must be \"x\", \"y\" or \"z\"");
     axis = (*word)[0] - 'x';
   }
   if (in.file.empty()) throw InputError("reference function experiment needs the key `file`: the data beside the case");
@@ -215,8 +234,10 @@ ExperimentFile read_table(const std::string& path) { return Reader(path, {"time"
 
 void check_data_files(const Case& value) {
   const auto check = [](const ReferenceChoice& choice) {
-    if (choice.function == "table") (void)read_table(choice.file);
-    else if (choice.kind == "experiment") (void)read_experiment(choice.file);
+    if (choice.function == "table")
+      (void)read_table(choice.file);
+    else if (choice.kind == "experiment")
+      (void)read_experiment(choice.file);
   };
   check(value.reference);
   for (const auto& m : value.metrics)
@@ -228,7 +249,8 @@ ReferenceChoice with_source_of_file(ReferenceChoice choice) {
   try {
     const auto file = choice.function == "table" ? read_table(choice.file) : read_experiment(choice.file);
     choice.source = file.source;
-    for (const auto& [column, words] : file.uncertainty) choice.source += fmt::format("; standard uncertainty of {}: {}", column, words);
+    for (const auto& [column, words] : file.uncertainty)
+      choice.source += fmt::format("; standard uncertainty of {}: {}", column, words);
   } catch (const InputError&) {  // gone or changed since the case began: check_data_files() saw it whole
     choice.source.clear();
   }
@@ -236,7 +258,10 @@ ReferenceChoice with_source_of_file(ReferenceChoice choice) {
 }
 
 ReferenceEntry experiment_entry() {
-  return {{"experiment", "experiment", "the source that the data file states", "measured values in time, from the file beside the case",
+  return {{"experiment",
+           "experiment",
+           "the source that the data file states",
+           "measured values in time, from the file beside the case",
            {{"axis", "", "x, y or z: along which the measured length runs"}}},
           make_experiment};
 }

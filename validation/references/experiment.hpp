@@ -6,7 +6,8 @@
 
 #include "validation/references/reference.hpp"
 
-/// Measured data: a table beside the case, `<case>.ref.csv`, that says where it comes from, in what unit and how well it is known.
+/// Measured data: a table beside the case, `<case>.ref.csv`, that says where it comes from, in what unit and how well it is
+/// known.
 ///
 ///     # source: J. C. Martin, W. J. Moyce, Phil. Trans. R. Soc. Lond. A 244 (1952) 312, figure 3
 ///     # unit time: 0.0539706 s           a value of the column times this is in SI
@@ -22,12 +23,13 @@ namespace tripoint {
 /// A data file as read.
 struct ExperimentFile {
   std::string source;
-  std::string first;  ///< name of the first column
+  std::string first;                               ///< name of the first column
   std::map<std::string, MeasuredCurve> curves;     ///< by column; SI
   std::map<std::string, std::string> uncertainty;  ///< by column, as the file words it
 };
 
-/// @throws InputError naming file and line: what is missing, unknown, not a number, not rising, of another width, or changed since it was hashed
+/// @throws InputError naming file and line: what is missing, unknown, not a number, not rising, of another width, or changed
+/// since it was hashed
 [[nodiscard]] ExperimentFile read_experiment(const std::string& path);
 
 /// Likewise of a table whose first column is time, x, y or z; the curves' `time` is then that column.

@@ -12,7 +12,8 @@ namespace {
 /// Formulas that a case writes itself: a number in time, or fields of place and time.
 class Formula : public Reference {
  public:
-  Formula(Numbers numbers, std::map<std::string, Expression, std::less<>> formulas) : numbers_(std::move(numbers)), formulas_(std::move(formulas)) {
+  Formula(Numbers numbers, std::map<std::string, Expression, std::less<>> formulas)
+      : numbers_(std::move(numbers)), formulas_(std::move(formulas)) {
     if (const auto point = stated_point(*this)) point_ = *point;
   }
   [[nodiscard]] Snapshot at(double time) const override {
@@ -59,7 +60,10 @@ std::unique_ptr<Reference> make_formula(const ReferenceInput& in) {
       throw InputError("argument `" + a.name + "` of reference function expression, " + e.what());
     }
   }
-  if (formulas.empty()) throw InputError("reference function expression needs a formula: `value` of t for a single number, or `temperature`, `pressure`, `density`, `velocity_x` ... of x, y, z and t for a field");
+  if (formulas.empty())
+    throw InputError(
+        "reference function expression needs a formula: `value` of t for a single number, or `temperature`, `pressure`, "
+        "`density`, `velocity_x` ... of x, y, z and t for a field");
   return std::make_unique<Formula>(measuring_numbers(in, "expression"), std::move(formulas));
 }
 
@@ -68,7 +72,10 @@ std::unique_ptr<Reference> make_formula(const ReferenceInput& in) {
 ReferenceEntry expression_entry() {
   std::vector<ReferenceArgument> args = truth_fields();
   for (const auto& a : measuring_arguments()) args.push_back(a);
-  return {{"expression", "analytic", "the case's own formula", "formulas of x, y, z and t, written as texts: `value` of t for a quantity that is a single number, the others for fields; x, y, z are where the particle is", args},
+  return {{"expression", "analytic", "the case's own formula",
+           "formulas of x, y, z and t, written as texts: `value` of t for a quantity that is a single number, the others for "
+           "fields; x, y, z are where the particle is",
+           args},
           make_formula};
 }
 

@@ -14,7 +14,8 @@ const Material& material_of(const Job& job, std::size_t body) {
   const auto& name = job.bodies.at(body).material;
   const auto& list = job.scene.materials;
   const auto found = std::find_if(list.begin(), list.end(), [&](const Material& m) { return m.name == name; });
-  if (found == list.end()) throw InputError("body `" + job.bodies[body].name + "` is of material `" + name + "`, which the scene does not have");
+  if (found == list.end())
+    throw InputError("body `" + job.bodies[body].name + "` is of material `" + name + "`, which the scene does not have");
   if (!found->conductivity || !found->heat_capacity)
     throw InputError("material `" + name + "` needs conductivity and heat_capacity for an exact solution of heat");
   return *found;
@@ -77,19 +78,24 @@ double common_diffusivity(const Job& job) {
   if (job.bodies.empty()) throw InputError("a scene without bodies has no heat");
   const double first = diffusivity(job, 0);
   for (std::size_t b = 1; b < job.bodies.size(); ++b)
-    if (std::abs(diffusivity(job, b) - first) > 1e-12 * first) throw InputError("the bodies differ in diffusivity: this exact solution holds for one");
+    if (std::abs(diffusivity(job, b) - first) > 1e-12 * first)
+      throw InputError("the bodies differ in diffusivity: this exact solution holds for one");
   return first;
 }
 
 HeatReference::HeatReference(const Job& job, const InitialState& initial, HeldEnds held) : initial_(initial) {
   for (const auto& body : job.bodies) {
-    const bool at_rest = body.motion == Motion::fixed || (norm(body.velocity) == 0.0 && norm(body.angular_velocity) == 0.0 && body.keyframes.empty());
+    const bool at_rest = body.motion == Motion::fixed ||
+                         (norm(body.velocity) == 0.0 && norm(body.angular_velocity) == 0.0 && body.keyframes.empty());
     if (!at_rest) throw InputError("body `" + body.name + "` moves: the exact solutions of heat are of a medium at rest");
     if (body.temperature_held && held == HeldEnds::refused)
-      throw InputError("body `" + body.name + "` holds its temperature: this exact solution is of an insulated or periodic medium");
-    if (body.motion == Motion::free && norm(job.scene.gravity) > 0.0) throw InputError("body `" + body.name + "` falls: the exact solutions of heat are of a medium at rest");
+      throw InputError("body `" + body.name +
+                       "` holds its temperature: this exact solution is of an insulated or periodic medium");
+    if (body.motion == Motion::free && norm(job.scene.gravity) > 0.0)
+      throw InputError("body `" + body.name + "` falls: the exact solutions of heat are of a medium at rest");
   }
-  if (!job.scene.events.empty() || !job.scene.inflows.empty()) throw InputError("an exact solution of heat has no events or inflows");
+  if (!job.scene.events.empty() || !job.scene.inflows.empty())
+    throw InputError("an exact solution of heat has no events or inflows");
   rest_.position = initial.position;
   rest_.velocity.assign(initial.size(), Vec3{});
   rest_.phase = initial.phase;

@@ -32,14 +32,16 @@ struct PhaseValues {
 /// @throws InputError when the material has no conductivity or heat capacity
 [[nodiscard]] PhaseValues phase_values(const Job&, std::size_t body, Phase);
 
-/// Of the phase in which a body begins: diffusivity k/(rho c_p) [m2/s] and effusivity sqrt(k rho c_p) [W s^0.5/m2/K] of a body's material.
+/// Of the phase in which a body begins: diffusivity k/(rho c_p) [m2/s] and effusivity sqrt(k rho c_p) [W s^0.5/m2/K] of a body's
+/// material.
 /// @throws InputError when its material has no conductivity or heat capacity
 [[nodiscard]] double diffusivity(const Job&, std::size_t body);
 [[nodiscard]] double effusivity(const Job&, std::size_t body);
 /// The one diffusivity of a scene. @throws InputError when its bodies differ
 [[nodiscard]] double common_diffusivity(const Job&);
 
-/// Base of the references of heat: a medium at rest of which only the temperature changes. Snapshots hold everything else as it was.
+/// Base of the references of heat: a medium at rest of which only the temperature changes. Snapshots hold everything else as it
+/// was.
 class HeatReference : public Reference {
  public:
   enum class HeldEnds { refused, allowed };

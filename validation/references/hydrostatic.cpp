@@ -12,14 +12,21 @@ struct LiquidLayer {
   double low, high, density;
 };
 
-/// Layers of liquid at rest: the pressure is the weight above. A single one may be compressed by it, p = c^2 (rho - rho0): then dp/dz = -rho g gives
-/// p = c^2 rho0 (exp(g (z_s - z)/c^2) - 1), and its surface has fallen to z_s = low + c^2/g ln(1 + g H/c^2), where it has the mass of before. Numbers: bottom_pressure, interface_pressure [Pa], interface [m] (height of
-/// the highest interface along the axis), axis.
+/// Layers of liquid at rest: the pressure is the weight above. A single one may be compressed by it, p = c^2 (rho - rho0): then
+/// dp/dz = -rho g gives p = c^2 rho0 (exp(g (z_s - z)/c^2) - 1), and its surface has fallen to z_s = low + c^2/g ln(1 + g H/c^2),
+/// where it has the mass of before. Numbers: bottom_pressure, interface_pressure [Pa], interface [m] (height of the highest
+/// interface along the axis), axis.
 class Hydrostatic : public LiquidReference {
  public:
   /// @param sound speed of sound of a single layer that its weight compresses [m/s], 0 = incompressible
   Hydrostatic(const ReferenceInput& in, std::size_t axis, std::vector<LiquidLayer> layers, double factor, double sound)
-      : LiquidReference(in.job, in.initial), axis_(axis), up_(in.job.scene.gravity[axis] > 0.0 ? -1.0 : 1.0), gravity_(norm(in.job.scene.gravity)), factor_(factor), sound2_(sound * sound), layers_(std::move(layers)) {}
+      : LiquidReference(in.job, in.initial),
+        axis_(axis),
+        up_(in.job.scene.gravity[axis] > 0.0 ? -1.0 : 1.0),
+        gravity_(norm(in.job.scene.gravity)),
+        factor_(factor),
+        sound2_(sound * sound),
+        layers_(std::move(layers)) {}
 
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "axis") return static_cast<double>(axis_);
@@ -64,11 +71,13 @@ std::vector<LiquidLayer> stacked_layers(const ReferenceInput& in, std::size_t ax
   std::vector<LiquidLayer> layers;
   for (const std::size_t b : liquid_bodies(in.job)) {
     const auto along = body_along(axis, b, in.job, in.initial);
-    layers.push_back({std::min(up * along.low, up * along.high), std::max(up * along.low, up * along.high), material_of_body(in.job, b).density});
+    layers.push_back({std::min(up * along.low, up * along.high), std::max(up * along.low, up * along.high),
+                      material_of_body(in.job, b).density});
   }
   std::sort(layers.begin(), layers.end(), [](const auto& a, const auto& b) { return a.low < b.low; });
   for (std::size_t n = 1; n < layers.size(); ++n)
-    if (std::abs(layers[n].low - layers[n - 1].high) > 1e-6 * (layers[n].high - layers[n].low)) throw InputError("hydrostatic: the layers of liquid leave a gap or overlap");
+    if (std::abs(layers[n].low - layers[n - 1].high) > 1e-6 * (layers[n].high - layers[n].low))
+      throw InputError("hydrostatic: the layers of liquid leave a gap or overlap");
   return layers;
 }
 
@@ -86,9 +95,15 @@ std::unique_ptr<Reference> make_hydrostatic(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry hydrostatic_entry() {
-  return {{"hydrostatic", "analytic", "Archimedes, Pascal: the pressure is the weight of the liquid above", "liquid at rest, in layers stacked along gravity",
-           {{"factor", "1", "of the whole pressure: what an equation that tends to 1/factor of the pressure gradient has to read; default 1"},
-            {"compressed", "true or false", "the one layer is compressed by its weight, at the speed of sound of the scene: its surface has fallen; default false"}}},
+  return {{"hydrostatic",
+           "analytic",
+           "Archimedes, Pascal: the pressure is the weight of the liquid above",
+           "liquid at rest, in layers stacked along gravity",
+           {{"factor", "1",
+             "of the whole pressure: what an equation that tends to 1/factor of the pressure gradient has to read; default 1"},
+            {"compressed", "true or false",
+             "the one layer is compressed by its weight, at the speed of sound of the scene: its surface has fallen; default "
+             "false"}}},
           make_hydrostatic};
 }
 

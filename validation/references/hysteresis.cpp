@@ -7,12 +7,13 @@
 namespace tripoint {
 namespace {
 
-/// Phases under a programme of temperatures that heat events set: liquid since the last one above t_melt, solid since the last one below
-/// t_solid, unchanged by those between.
+/// Phases under a programme of temperatures that heat events set: liquid since the last one above t_melt, solid since the last
+/// one below t_solid, unchanged by those between.
 class Hysteresis : public Reference {
  public:
   Hysteresis(const Job& job, const InitialState& initial) : job_(job), initial_(initial) {
-    std::stable_sort(job_.scene.events.begin(), job_.scene.events.end(), [](const Event& a, const Event& b) { return a.time < b.time; });
+    std::stable_sort(job_.scene.events.begin(), job_.scene.events.end(),
+                     [](const Event& a, const Event& b) { return a.time < b.time; });
     refuse_other_heat();
   }
   [[nodiscard]] Snapshot at(double time) const override {
@@ -27,7 +28,9 @@ class Hysteresis : public Reference {
   }
 
  private:
-  [[nodiscard]] const Material& material(std::size_t i) const { return job_.scene.materials.at(static_cast<std::size_t>(initial_.material[i])); }
+  [[nodiscard]] const Material& material(std::size_t i) const {
+    return job_.scene.materials.at(static_cast<std::size_t>(initial_.material[i]));
+  }
   [[nodiscard]] bool heats(const Event& e, std::size_t i) const {
     if (e.kind != Event::Kind::heat) return false;
     const auto& name = job_.bodies.at(static_cast<std::size_t>(initial_.source[i])).name;
@@ -42,7 +45,8 @@ class Hysteresis : public Reference {
     for (const auto& e : job_.scene.events) {
       if (!(e.time < time) || !heats(e, i)) continue;
       if (*e.temperature > *m.t_melt) phase = static_cast<int>(Phase::liquid);
-      if (*e.temperature < m.t_solid.value_or(*m.t_melt)) phase = static_cast<int>(m.solid == "rigid" ? Phase::rigid : Phase::elastic);
+      if (*e.temperature < m.t_solid.value_or(*m.t_melt))
+        phase = static_cast<int>(m.solid == "rigid" ? Phase::rigid : Phase::elastic);
     }
     return phase;
   }
@@ -53,7 +57,8 @@ class Hysteresis : public Reference {
       any = true;
       if (!e.temperature) throw InputError(e.place, "hysteresis: the heat event needs a temperature");
       for (std::size_t i = 0; i < initial_.size(); ++i)
-        if (material(i).t_melt && !heats(e, i)) throw InputError(e.place, "hysteresis: each heat event must hold all that can melt, else conduction decides");
+        if (material(i).t_melt && !heats(e, i))
+          throw InputError(e.place, "hysteresis: each heat event must hold all that can melt, else conduction decides");
     }
     if (!any) throw InputError("hysteresis needs heat events");
   }
@@ -66,8 +71,11 @@ std::unique_ptr<Reference> make_hysteresis(const ReferenceInput& in) { return st
 }  // namespace
 
 ReferenceEntry hysteresis_entry() {
-  return {{"hysteresis", "analytic", "relay with two thresholds: melts above t_melt, freezes below t_solid, keeps its phase between (model 8.9)",
-           "phases of all particles under heat events that hold everything that can melt", {}},
+  return {{"hysteresis",
+           "analytic",
+           "relay with two thresholds: melts above t_melt, freezes below t_solid, keeps its phase between (model 8.9)",
+           "phases of all particles under heat events that hold everything that can melt",
+           {}},
           make_hysteresis};
 }
 

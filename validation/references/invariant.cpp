@@ -38,8 +38,11 @@ std::unique_ptr<Reference> make_invariant(const ReferenceInput& in) { return std
 }  // namespace
 
 ReferenceEntry invariant_entry() {
-  return {{"invariant", "invariant", "conservation of mass, momentum, angular momentum and energy",
-           "initial mass, momentum (with gravity's impulse), angular momentum, energy and shape are kept; no positions", {}},
+  return {{"invariant",
+           "invariant",
+           "conservation of mass, momentum, angular momentum and energy",
+           "initial mass, momentum (with gravity's impulse), angular momentum, energy and shape are kept; no positions",
+           {}},
           make_invariant};
 }
 

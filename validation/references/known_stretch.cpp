@@ -33,7 +33,8 @@ std::unique_ptr<Reference> make_rod(const ReferenceInput& in) {
   const auto axis = long_axis(in, rod);
   const auto& body = in.job.bodies[rod];
   const Vec3 w = body.angular_velocity;
-  if (norm(w) == 0.0 || std::abs(w[axis]) > 1e-12 * norm(w)) throw InputError("spinning_rod: the rod must spin across its length");
+  if (norm(w) == 0.0 || std::abs(w[axis]) > 1e-12 * norm(w))
+    throw InputError("spinning_rod: the rod must spin across its length");
   const double R = 0.5 * extents(in, rod)[axis], x = R - 0.5 * in.job.scene.spacing;
   const double load = in.job.scene.material(body.material).density * dot(w, w) / elastic_constants(in.job, rod).young;
   return std::make_unique<KnownStretch>(rod, axis, 1.0 + 0.5 * load * (R * R - x * x / 3.0));
@@ -50,14 +51,19 @@ std::unique_ptr<Reference> make_pressed(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry spinning_rod_entry() {
-  return {{"spinning_rod", "analytic", "Timoshenko & Goodier, Theory of Elasticity: rod in rotation, u = rho w^2 (R^2 x - x^3/3)/(2 E)",
+  return {{"spinning_rod",
+           "analytic",
+           "Timoshenko & Goodier, Theory of Elasticity: rod in rotation, u = rho w^2 (R^2 x - x^3/3)/(2 E)",
            "steady stretch of a slender elastic box that spins about its centre across its length, small strains",
            {{"body", "", "the rod; default the scene's only free elastic body"}}},
           make_rod};
 }
 
 ReferenceEntry pressed_block_entry() {
-  return {{"pressed_block", "analytic", "Hooke: strain -p (1 - 2 nu)/E under pressure from all sides", "stretch of an elastic block under an even pressure, small strains",
+  return {{"pressed_block",
+           "analytic",
+           "Hooke: strain -p (1 - 2 nu)/E under pressure from all sides",
+           "stretch of an elastic block under an even pressure, small strains",
            {{"pressure", "Pa", "on all sides; required"}, {"body", "", "the block; default the scene's only free elastic body"}}},
           make_pressed};
 }

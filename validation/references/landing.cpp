@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Dense>
 #include <optional>
 
 #include "validation/references/contact_entries.hpp"
@@ -14,12 +14,14 @@ namespace {
 
 /// A box in free flight from a time on.
 struct FreeBox {
-  double since = 0.0;          ///< [s]
+  double since = 0.0;  ///< [s]
   Vec3 centre, velocity, gravity;
-  Quaternion turned;           ///< of the box at that time, from the start of the job
+  Quaternion turned;  ///< of the box at that time, from the start of the job
   std::shared_ptr<const TorqueFree> spin;
 
-  [[nodiscard]] Vec3 place(double t) const { return centre + (t - since) * velocity + (0.5 * (t - since) * (t - since)) * gravity; }
+  [[nodiscard]] Vec3 place(double t) const {
+    return centre + (t - since) * velocity + (0.5 * (t - since) * (t - since)) * gravity;
+  }
   [[nodiscard]] Vec3 speed(double t) const { return velocity + (t - since) * gravity; }
   [[nodiscard]] Quaternion orientation(double t) const { return normalised(spin->rotation(t - since) * turned); }
   [[nodiscard]] Vec3 angular_velocity(double t) const { return spin->angular_velocity(t - since); }
@@ -51,20 +53,26 @@ std::optional<double> touch(const FreeBox& box, const Ground& ground, double fro
   return {};
 }
 
-/// A free box meets a smooth floor with a corner or an edge: an impulse along the normal at each corner that touches, such that its normal
-/// velocity is -e times what it was (Newton); then free flight again, known until the next touch.
-/// Numbers: event_time, of the touch [s]; next_touch [s].
+/// A free box meets a smooth floor with a corner or an edge: an impulse along the normal at each corner that touches, such that
+/// its normal velocity is -e times what it was (Newton); then free flight again, known until the next touch. Numbers: event_time,
+/// of the touch [s]; next_touch [s].
 class Landing : public Reference {
  public:
   Landing(std::vector<BodyState> rows, std::size_t row, FreeBox before, FreeBox after, double touch_time, double known_to)
-      : rows_(std::move(rows)), row_(row), before_(std::move(before)), after_(std::move(after)), touch_(touch_time), known_to_(known_to) {}
+      : rows_(std::move(rows)),
+        row_(row),
+        before_(std::move(before)),
+        after_(std::move(after)),
+        touch_(touch_time),
+        known_to_(known_to) {}
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
     out.time = time;
     out.bodies = rows_;
     auto& b = out.bodies[row_];
     const FreeBox& now = time <= touch_ ? before_ : after_;
-    b.position = now.place(time), b.velocity = now.speed(time), b.orientation = now.orientation(time), b.angular_velocity = now.angular_velocity(time);
+    b.position = now.place(time), b.velocity = now.speed(time), b.orientation = now.orientation(time),
+    b.angular_velocity = now.angular_velocity(time);
     if (time > known_to_) b.position = {not_a_number, not_a_number, not_a_number};
     return out;
   }
@@ -90,7 +98,8 @@ Vec3 turned_by(const MassProperties& p, const Quaternion& turned, const Vec3& an
 }
 
 /// Velocity and angular velocity after the impulses at the corners `arms` (from the centre).
-std::pair<Vec3, Vec3> hit(const MassProperties& p, const FreeBox& box, double t, const std::vector<Vec3>& arms, const Vec3& up, double restitution) {
+std::pair<Vec3, Vec3> hit(const MassProperties& p, const FreeBox& box, double t, const std::vector<Vec3>& arms, const Vec3& up,
+                          double restitution) {
   const auto n = static_cast<Eigen::Index>(arms.size());
   const Quaternion turned = box.orientation(t);
   const Vec3 v = box.speed(t), w = box.angular_velocity(t);
@@ -99,12 +108,14 @@ std::pair<Vec3, Vec3> hit(const MassProperties& p, const FreeBox& box, double t,
   for (Eigen::Index i = 0; i < n; ++i) {
     const Vec3& at = arms[static_cast<std::size_t>(i)];
     b[i] = -(1.0 + restitution) * dot(v + cross(w, at), up);
-    for (Eigen::Index j = 0; j < n; ++j) A(i, j) = 1.0 / p.mass + dot(cross(turned_by(p, turned, cross(arms[static_cast<std::size_t>(j)], up)), at), up);
+    for (Eigen::Index j = 0; j < n; ++j)
+      A(i, j) = 1.0 / p.mass + dot(cross(turned_by(p, turned, cross(arms[static_cast<std::size_t>(j)], up)), at), up);
   }
   const Eigen::VectorXd impulse = A.completeOrthogonalDecomposition().solve(b);
   Vec3 dv, dw;
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (impulse[i] < -1e-9 * impulse.cwiseAbs().maxCoeff()) throw InputError("landing: two corners touch at once, and one would be pulled down: turn the box otherwise");
+    if (impulse[i] < -1e-9 * impulse.cwiseAbs().maxCoeff())
+      throw InputError("landing: two corners touch at once, and one would be pulled down: turn the box otherwise");
     dv += (impulse[i] / p.mass) * up;
     dw += turned_by(p, turned, impulse[i] * cross(arms[static_cast<std::size_t>(i)], up));
   }
@@ -113,7 +124,8 @@ std::pair<Vec3, Vec3> hit(const MassProperties& p, const FreeBox& box, double t,
 
 std::vector<Vec3> corners_of(const Shape& s, const Vec3& centre) {
   std::vector<Vec3> list;
-  for (int k = 0; k < 8; ++k) list.push_back(Vec3{k & 1 ? s.max.x : s.min.x, k & 2 ? s.max.y : s.min.y, k & 4 ? s.max.z : s.min.z} - centre);
+  for (int k = 0; k < 8; ++k)
+    list.push_back(Vec3{k & 1 ? s.max.x : s.min.x, k & 2 ? s.max.y : s.min.y, k & 4 ? s.max.z : s.min.z} - centre);
   return list;
 }
 
@@ -122,14 +134,18 @@ std::unique_ptr<Reference> make_landing(const ReferenceInput& in) {
   const auto& box = in.job.bodies[scene.block];
   const Shape& shape = in.job.scene.body(box.name).shape;
   if (shape.kind != Shape::Kind::box) throw InputError("landing holds for a box");
-  if (law_of_contact(in.job, "friction").value_or(0.0) > 0.0) throw InputError("landing holds without friction: a corner that sticks and slips in one hit has no closed form");
+  if (law_of_contact(in.job, "friction").value_or(0.0) > 0.0)
+    throw InputError("landing holds without friction: a corner that sticks and slips in one hit has no closed form");
   const double restitution = in.args.number("restitution").value_or(law_of_contact(in.job, "restitution").value_or(1.0));
   Ground ground;
   ground.up[scene.axis] = scene.up;
   ground.corners = corners_of(shape, box.properties.centre);
   ground.level = scene.up * scene.rest - 0.5 * (shape.max[scene.axis] - shape.min[scene.axis]);
   const auto flight = [&](double since, const Vec3& centre, const Vec3& velocity, const Quaternion& turned, const Vec3& w) {
-    return FreeBox{since, centre, velocity, in.job.scene.gravity, turned, std::make_shared<TorqueFree>(box.properties.principal_inertia, turned * box.properties.principal_axes, w)};
+    return FreeBox{
+        since,    centre,
+        velocity, in.job.scene.gravity,
+        turned,   std::make_shared<TorqueFree>(box.properties.principal_inertia, turned * box.properties.principal_axes, w)};
   };
   const double end = in.job.scene.end_time;
   const auto before = flight(0.0, box.properties.centre, box.velocity, {}, box.angular_velocity);
@@ -150,8 +166,14 @@ std::unique_ptr<Reference> make_landing(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry landing_entry() {
-  return {{"landing", "analytic", "Newton's law of impact at each corner that touches, Euler's equations of the free top before and after", "a box that falls on a smooth floor with a corner or an edge first: its flight, the hit, and its flight up to the next touch",
-           {{"restitution", "1", "normal speed of the corner after the hit over that before it; default that of all engines' settings, 1 where they say none"}}},
+  return {{"landing",
+           "analytic",
+           "Newton's law of impact at each corner that touches, Euler's equations of the free top before and after",
+           "a box that falls on a smooth floor with a corner or an edge first: its flight, the hit, and its flight up to the "
+           "next touch",
+           {{"restitution", "1",
+             "normal speed of the corner after the hit over that before it; default that of all engines' settings, 1 where they "
+             "say none"}}},
           make_landing};
 }
 

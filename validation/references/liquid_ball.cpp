@@ -6,8 +6,8 @@
 namespace tripoint {
 namespace {
 
-/// A liquid in rigid rotation feels no viscous torque; the printed (8) brakes it. Numbers: spin_rate, the rate at which the angular
-/// momentum falls [1/s]: 0, or 5 nu/R^2 for a ball in the printed form.
+/// A liquid in rigid rotation feels no viscous torque; the printed (8) brakes it. Numbers: spin_rate, the rate at which the
+/// angular momentum falls [1/s]: 0, or 5 nu/R^2 for a ball in the printed form.
 class LiquidBall : public LiquidReference {
  public:
   LiquidBall(const ReferenceInput& in, const Vec3& centre, const Vec3& spin, double rate)
@@ -42,9 +42,13 @@ std::unique_ptr<Reference> make_ball(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry liquid_ball_entry() {
-  return {{"liquid_ball", "analytic", "rigid rotation has no rate of strain; the printed form: 1/2 sum_ij of (8)'s torques over a homogeneous ball, 5 nu/R^2", "a free ball of liquid set in rigid rotation",
-           {{"form", "", "corrected (no torque) or paper (the printed form's own braking); default corrected"}}},
-          make_ball};
+  return {
+      {"liquid_ball",
+       "analytic",
+       "rigid rotation has no rate of strain; the printed form: 1/2 sum_ij of (8)'s torques over a homogeneous ball, 5 nu/R^2",
+       "a free ball of liquid set in rigid rotation",
+       {{"form", "", "corrected (no torque) or paper (the printed form's own braking); default corrected"}}},
+      make_ball};
 }
 
 }  // namespace tripoint

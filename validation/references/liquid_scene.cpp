@@ -17,7 +17,8 @@ std::vector<std::size_t> liquid_bodies(const Job& job) {
 
 std::size_t only_liquid(const Job& job, const char* function) {
   const auto list = liquid_bodies(job);
-  if (list.size() != 1) throw InputError(std::string(function) + " holds for one liquid, and the scene has " + std::to_string(list.size()));
+  if (list.size() != 1)
+    throw InputError(std::string(function) + " holds for one liquid, and the scene has " + std::to_string(list.size()));
   return list.front();
 }
 
@@ -45,8 +46,8 @@ std::size_t solid_body(const ReferenceInput& in, Motion motion, const char* func
     if (body.phase != Phase::liquid && body.motion == motion && (!name || body.name == *name)) found.push_back(b);
   }
   if (found.size() == 1) return found.front();
-  throw InputError(std::string(function) + " needs one " + std::string(to_string(motion)) + " body" + (name ? " `" + *name + "`" : "") + ", and the scene has " +
-                   std::to_string(found.size()));
+  throw InputError(std::string(function) + " needs one " + std::string(to_string(motion)) + " body" +
+                   (name ? " `" + *name + "`" : "") + ", and the scene has " + std::to_string(found.size()));
 }
 
 LiquidReference::LiquidReference(const Job& job, const InitialState& initial) : initial_(initial) {

@@ -7,14 +7,48 @@
 namespace tripoint {
 
 const std::vector<ReferenceEntry>& all_references() {
-  static const std::vector<ReferenceEntry> entries{
-      ballistic_entry(),       ballistic_semi_implicit_entry(), torque_free_entry(),    flip_time_entry(),
-      merge_in_flight_entry(), split_in_flight_entry(),         keyframes_entry(),      cosine_mode_entry(),
-      cosine_mode_lattice_entry(), sine_held_ends_entry(), step_insulated_entry(),      two_conductivities_entry(), hydrostatic_entry(), poiseuille_entry(), couette_entry(), sound_wave_entry(),
-      liquid_ball_entry(), archimedes_entry(), added_mass_entry(), elastic_collision_entry(),
-      resting_entry(), bouncing_entry(), sliding_entry(), rolling_entry(), landing_entry(), elliptic_drop_entry(), taylor_green_entry(), couette_cylinders_entry(),
-      cosine_carried_entry(), cosine_sum_entry(), cantilever_entry(), tension_entry(), spinning_rod_entry(), pressed_block_entry(), elastic_wave_entry(),
-      stefan_entry(), hysteresis_entry(), stated_entry(), expression_entry(), table_entry(), experiment_entry(), invariant_entry()};
+  static const std::vector<ReferenceEntry> entries{ballistic_entry(),
+                                                   ballistic_semi_implicit_entry(),
+                                                   torque_free_entry(),
+                                                   flip_time_entry(),
+                                                   merge_in_flight_entry(),
+                                                   split_in_flight_entry(),
+                                                   keyframes_entry(),
+                                                   cosine_mode_entry(),
+                                                   cosine_mode_lattice_entry(),
+                                                   sine_held_ends_entry(),
+                                                   step_insulated_entry(),
+                                                   two_conductivities_entry(),
+                                                   hydrostatic_entry(),
+                                                   poiseuille_entry(),
+                                                   couette_entry(),
+                                                   sound_wave_entry(),
+                                                   liquid_ball_entry(),
+                                                   archimedes_entry(),
+                                                   added_mass_entry(),
+                                                   elastic_collision_entry(),
+                                                   resting_entry(),
+                                                   bouncing_entry(),
+                                                   sliding_entry(),
+                                                   rolling_entry(),
+                                                   landing_entry(),
+                                                   elliptic_drop_entry(),
+                                                   taylor_green_entry(),
+                                                   couette_cylinders_entry(),
+                                                   cosine_carried_entry(),
+                                                   cosine_sum_entry(),
+                                                   cantilever_entry(),
+                                                   tension_entry(),
+                                                   spinning_rod_entry(),
+                                                   pressed_block_entry(),
+                                                   elastic_wave_entry(),
+                                                   stefan_entry(),
+                                                   hysteresis_entry(),
+                                                   stated_entry(),
+                                                   expression_entry(),
+                                                   table_entry(),
+                                                   experiment_entry(),
+                                                   invariant_entry()};
   return entries;
 }
 
@@ -28,7 +62,8 @@ const std::vector<ReferenceFunction>& reference_functions() {
 }
 
 std::unique_ptr<Reference> make_reference(const ReferenceChoice& choice, const Job& job, const InitialState& initial) {
-  const std::string name = choice.function.empty() && (choice.kind == "invariant" || choice.kind == "experiment") ? choice.kind : choice.function;
+  const std::string name =
+      choice.function.empty() && (choice.kind == "invariant" || choice.kind == "experiment") ? choice.kind : choice.function;
   if (name.empty()) throw InputError("the reference of kind " + choice.kind + " names no function: no truth to compare with");
   const auto& entries = all_references();
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.function.name == name; });

@@ -11,7 +11,8 @@ double phase_number(const std::string& word, const std::string& function) {
   try {
     return static_cast<double>(phase_from(word));
   } catch (const InputError&) {
-    throw InputError("argument `phase` of reference function " + function + " must be \"liquid\", \"elastic\", \"rigid\" or \"solid\"");
+    throw InputError("argument `phase` of reference function " + function +
+                     " must be \"liquid\", \"elastic\", \"rigid\" or \"solid\"");
   }
 }
 
@@ -26,10 +27,13 @@ double body_number(const Job& job, const std::string& name, const std::string& f
     if (job.bodies[b].name == name) return static_cast<double>(b);
     known.push_back(job.bodies[b].name);
   }
-  throw InputError("argument `other` of reference function " + function + " names body `" + printable(name) + "`" + suggestion(name, known));
+  throw InputError("argument `other` of reference function " + function + " names body `" + printable(name) + "`" +
+                   suggestion(name, known));
 }
 
-void add_vector(Numbers& n, const std::string& name, const Vec3& v) { n[name + ".x"] = v.x, n[name + ".y"] = v.y, n[name + ".z"] = v.z; }
+void add_vector(Numbers& n, const std::string& name, const Vec3& v) {
+  n[name + ".x"] = v.x, n[name + ".y"] = v.y, n[name + ".z"] = v.z;
+}
 
 }  // namespace
 
@@ -60,9 +64,12 @@ Numbers measuring_numbers(const ReferenceInput& in, const std::string& function)
   }
   if (const auto value = in.args.number("diffusivity")) n["diffusivity"] = *value;
   const auto low = in.args.vector("min"), high = in.args.vector("max");
-  if (low.has_value() != high.has_value()) throw InputError("reference function " + function + " needs both `min` and `max` for a box, or neither");
+  if (low.has_value() != high.has_value())
+    throw InputError("reference function " + function + " needs both `min` and `max` for a box, or neither");
   for (std::size_t k = 0; low && k < 3; ++k)
-    if (!((*high)[k] > (*low)[k])) throw InputError("reference function " + function + ": `max` must lie above `min` in " + std::string(1, static_cast<char>('x' + k)));
+    if (!((*high)[k] > (*low)[k]))
+      throw InputError("reference function " + function + ": `max` must lie above `min` in " +
+                       std::string(1, static_cast<char>('x' + k)));
   if (low) add_vector(n, "low", *low), add_vector(n, "high", *high);
   if (const auto point = in.args.vector("point")) add_vector(n, "point", *point);
   return n;

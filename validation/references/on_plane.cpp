@@ -46,18 +46,21 @@ BodyOnPlane body_on_plane(const ReferenceInput& in, const char* function) {
   const std::string name = function;
   const Vec3 g = in.job.scene.gravity;
   const auto& bodies = in.job.bodies;
-  if (norm(g) == 0.0 || bodies.size() != 2) throw InputError(name + " holds for one free body on one that is held or moved, with gravity");
+  if (norm(g) == 0.0 || bodies.size() != 2)
+    throw InputError(name + " holds for one free body on one that is held or moved, with gravity");
   BodyOnPlane s;
   s.body = bodies[0].motion == Motion::free ? 0 : 1, s.plane = 1 - s.body;
   const auto &body = bodies[s.body], &plane = bodies[s.plane];
-  if (body.motion != Motion::free || plane.motion == Motion::free || !plane.keyframes.empty() || norm(plane.angular_velocity) > 0.0)
+  if (body.motion != Motion::free || plane.motion == Motion::free || !plane.keyframes.empty() ||
+      norm(plane.angular_velocity) > 0.0)
     throw InputError(name + " needs one free body, and one that is fixed or prescribed with a constant velocity");
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k) axis = std::abs(g[k]) > std::abs(g[axis]) ? k : axis;
   s.up = unit(axis, g[axis] > 0.0 ? -1.0 : 1.0);
   const Shape &shape = in.job.scene.body(body.name).shape, &ground = in.job.scene.body(plane.name).shape;
   s.shape = shape.kind;
-  if ((shape.kind != Shape::Kind::box && shape.kind != Shape::Kind::sphere) || ground.kind != Shape::Kind::box) throw InputError(name + " holds for a box or a ball on a box");
+  if ((shape.kind != Shape::Kind::box && shape.kind != Shape::Kind::sphere) || ground.kind != Shape::Kind::box)
+    throw InputError(name + " holds for a box or a ball on a box");
   s.height = half_along(shape, s.up);
   const double gap = dot(middle(shape) - middle(ground), s.up) - s.height - half_along(ground, s.up);
   if (std::abs(gap) > round_off * s.height) throw InputError(name + ": the body must touch the plane at the start");
@@ -68,7 +71,8 @@ BodyOnPlane body_on_plane(const ReferenceInput& in, const char* function) {
   if (norm(s.along) == 0.0) s.along = unit((axis + 1) % 3, 1.0);
   const Vec3 about = cross(s.up, s.along);
   s.spin = dot(body.angular_velocity, about);
-  if (norm(body.angular_velocity - s.spin * about) > round_off * norm(body.angular_velocity)) throw InputError(name + ": the body may spin about the axis that it rolls about only");
+  if (norm(body.angular_velocity - s.spin * about) > round_off * norm(body.angular_velocity))
+    throw InputError(name + ": the body may spin about the axis that it rolls about only");
   s.half_length = half_along(shape, s.along);
   s.pull = dot(g, s.along), s.press = -dot(g, s.up), s.speed = dot(relative, s.along);
   s.friction = in.args.number("friction").value_or(law_of_contact(in.job, "friction").value_or(0.0));

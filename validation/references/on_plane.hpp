@@ -19,8 +19,8 @@ struct BodyOnPlane {
   double pull = 0.0, press = 0.0;          ///< gravity along the motion and into the plane [m/s2]
   double speed = 0.0, spin = 0.0;          ///< of the body along the motion as the plane sees it [m/s], about up x along [rad/s]
   double friction = 0.0;
-  Vec3 plane_velocity;                     ///< [m/s]
-  std::vector<BodyState> start;            ///< of all bodies, one row each
+  Vec3 plane_velocity;           ///< [m/s]
+  std::vector<BodyState> start;  ///< of all bodies, one row each
 };
 /// @throws InputError unless the scene is that, with pull and velocity along one line
 [[nodiscard]] BodyOnPlane body_on_plane(const ReferenceInput&, const char* function);

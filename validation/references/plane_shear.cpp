@@ -32,7 +32,9 @@ std::size_t open_axis(const Job& job, const char* function) {
   std::size_t axis = 0, count = 0;
   for (std::size_t k = 0; k < 3; ++k)
     if (!job.scene.periodic[k]) axis = k, ++count;
-  if (count != 1) throw InputError(std::string(function) + " holds between two plates: every direction but the one across them must be periodic");
+  if (count != 1)
+    throw InputError(std::string(function) +
+                     " holds between two plates: every direction but the one across them must be periodic");
   return axis;
 }
 
@@ -40,7 +42,8 @@ std::size_t open_axis(const Job& job, const char* function) {
 std::pair<Vec3, Vec3> plate_velocities(const ReferenceInput& in, std::size_t across, double middle, const char* function) {
   std::optional<Vec3> low, high;
   for (const auto& body : in.job.bodies)
-    if (body.phase != Phase::liquid) (body.properties.centre[across] < middle ? low : high) = body.motion == Motion::fixed ? Vec3{} : body.velocity;
+    if (body.phase != Phase::liquid)
+      (body.properties.centre[across] < middle ? low : high) = body.motion == Motion::fixed ? Vec3{} : body.velocity;
   if (!low || !high) throw InputError(std::string(function) + " needs a plate on either side of the liquid");
   return {*low, *high};
 }
@@ -63,7 +66,8 @@ double ShearFlow::speed(double distance, double time) const {
 }
 
 std::vector<ReferenceArgument> plane_shear_arguments() {
-  return {{"kinematic_viscosity", "m2/s", "default of the liquid"}, {"width", "m", "between the plates; default the extent of the liquid"}};
+  return {{"kinematic_viscosity", "m2/s", "default of the liquid"},
+          {"width", "m", "between the plates; default the extent of the liquid"}};
 }
 
 std::unique_ptr<Reference> make_plane_shear(const ReferenceInput& in, const char* function, bool by_walls) {
@@ -72,13 +76,16 @@ std::unique_ptr<Reference> make_plane_shear(const ReferenceInput& in, const char
   const auto extent = body_along(across, liquid, in.job, in.initial);
   const auto [low, high] = plate_velocities(in, across, 0.5 * (extent.low + extent.high), function);
   const Vec3 drive = by_walls ? high - low : in.job.scene.gravity;
-  if (norm(drive) == 0.0) throw InputError(std::string(function) + (by_walls ? ": no plate moves" : ": the scene has no gravity to drive it"));
+  if (norm(drive) == 0.0)
+    throw InputError(std::string(function) + (by_walls ? ": no plate moves" : ": the scene has no gravity to drive it"));
   if (by_walls == (norm(in.job.scene.gravity) > 0.0)) throw InputError("couette is driven by its plates alone");
   const Vec3 along = (1.0 / norm(drive)) * drive;
-  if (std::abs(along[across]) > 1e-12 || (!by_walls && norm(low) + norm(high) > 0.0)) throw InputError(std::string(function) + ": the drive must be along the plates, and plates beside a body force at rest");
+  if (std::abs(along[across]) > 1e-12 || (!by_walls && norm(low) + norm(high) > 0.0))
+    throw InputError(std::string(function) + ": the drive must be along the plates, and plates beside a body force at rest");
   ShearFlow flow;
   flow.width = in.args.number("width").value_or(extent.length());
-  flow.kinematic_viscosity = in.args.number("kinematic_viscosity") ? *in.args.number("kinematic_viscosity") : kinematic_viscosity(in.job, liquid);
+  flow.kinematic_viscosity =
+      in.args.number("kinematic_viscosity") ? *in.args.number("kinematic_viscosity") : kinematic_viscosity(in.job, liquid);
   flow.drive = by_walls ? 0.0 : norm(drive);
   flow.low_speed = dot(low, along), flow.high_speed = dot(high, along);
   return std::make_unique<PlaneShear>(in, flow, across, extent.low, along);

@@ -20,19 +20,32 @@ struct MeasuredCurve {
 class Reference {
  public:
   virtual ~Reference() = default;
-  /// The solution at a time: positions and velocities of particles and bodies, temperatures; columns that it does not know are empty.
+  /// The solution at a time: positions and velocities of particles and bodies, temperatures; columns that it does not know are
+  /// empty.
   [[nodiscard]] virtual Snapshot at(double time) const = 0;
-  /// The truth that this frame is compared with. A solution that is a field of place (a liquid's) takes the frame's own places, so that
-  /// a particle is judged where it is; others know each particle's place, and this is at(now.time).
+  /// The truth that this frame is compared with. A solution that is a field of place (a liquid's) takes the frame's own places,
+  /// so that a particle is judged where it is; others know each particle's place, and this is at(now.time).
   [[nodiscard]] virtual Snapshot beside(const Snapshot& now) const { return at(now.time); }
   /// A number it knows by name: decay_rate [1/s], event_time [s], energy_ratio ...; empty when it does not.
-  [[nodiscard]] virtual std::optional<double> number(std::string_view quantity) const { (void)quantity; return {}; }
+  [[nodiscard]] virtual std::optional<double> number(std::string_view quantity) const {
+    (void)quantity;
+    return {};
+  }
   /// Measured values by the name of their column; nullptr when it has none.
-  [[nodiscard]] virtual const MeasuredCurve* measured(std::string_view column) const { (void)column; return nullptr; }
+  [[nodiscard]] virtual const MeasuredCurve* measured(std::string_view column) const {
+    (void)column;
+    return nullptr;
+  }
   /// Standard uncertainty of what it says of a quantity at a time, in SI; empty where its data state none.
-  [[nodiscard]] virtual std::optional<double> uncertainty(std::string_view quantity, double time) const { (void)quantity, (void)time; return {}; }
+  [[nodiscard]] virtual std::optional<double> uncertainty(std::string_view quantity, double time) const {
+    (void)quantity, (void)time;
+    return {};
+  }
   /// A number that changes in time: stretch, front_position ...; one that does not is the same at all times.
-  [[nodiscard]] virtual std::optional<double> number_at(std::string_view quantity, double time) const { (void)time; return number(quantity); }
+  [[nodiscard]] virtual std::optional<double> number_at(std::string_view quantity, double time) const {
+    (void)time;
+    return number(quantity);
+  }
 };
 
 /// One argument of a reference function, for the schema and the reference page.

@@ -33,7 +33,8 @@ std::unique_ptr<Reference> make_resting(const ReferenceInput& in) {
 
 BoxOnFloor box_on_floor(const ReferenceInput& in, const char* function) {
   const std::string name = function;
-  if (norm(in.job.scene.gravity) == 0.0 || in.job.bodies.size() != 2) throw InputError(name + " holds for one free box or ball above one held body, with gravity");
+  if (norm(in.job.scene.gravity) == 0.0 || in.job.bodies.size() != 2)
+    throw InputError(name + " holds for one free box or ball above one held body, with gravity");
   BoxOnFloor s;
   s.axis = axis_of(in.job.scene.gravity, name + ": gravity");
   s.up = in.job.scene.gravity[s.axis] > 0.0 ? -1.0 : 1.0;
@@ -45,10 +46,12 @@ BoxOnFloor box_on_floor(const ReferenceInput& in, const char* function) {
     s.start.push_back(row);
     if (in.job.bodies[b].motion == Motion::free) s.block = b;
   }
-  if (s.block == 2 || in.job.bodies[1 - s.block].motion != Motion::fixed) throw InputError(name + " needs one free and one fixed body");
+  if (s.block == 2 || in.job.bodies[1 - s.block].motion != Motion::fixed)
+    throw InputError(name + " needs one free and one fixed body");
   const auto box = body_along(s.axis, s.block, in.job, in.initial), floor = body_along(s.axis, 1 - s.block, in.job, in.initial);
   const Shape& shape = in.job.scene.body(in.job.bodies[s.block].name).shape;
-  const double half = shape.kind == Shape::Kind::sphere ? shape.radius : 0.5 * box.length();  // a ball's particles end below its surface
+  const double half =
+      shape.kind == Shape::Kind::sphere ? shape.radius : 0.5 * box.length();  // a ball's particles end below its surface
   s.rest = (s.up > 0.0 ? floor.high : floor.low) + s.up * half;
   return s;
 }

@@ -28,8 +28,8 @@ void set_principal_axes(RigidBody& body, const std::vector<double>& mass) {
 
 }  // namespace
 
-RigidBody rigid_body(const std::vector<std::size_t>& members, const std::vector<Vec3>& position, const std::vector<Vec3>& velocity,
-                     const std::vector<double>& mass) {
+RigidBody rigid_body(const std::vector<std::size_t>& members, const std::vector<Vec3>& position,
+                     const std::vector<Vec3>& velocity, const std::vector<double>& mass) {
   RigidBody body;
   body.members = members;
   Vec3 moment, momentum;

@@ -24,7 +24,8 @@ std::vector<std::size_t> members_of(const InitialState& initial, std::size_t bod
 
 void refuse_what_is_not_free(const Job& job) {
   for (const auto& body : job.bodies)
-    if (body.phase != Phase::rigid) throw InputError("body `" + body.name + "` is not rigid: free flight is exact for rigid bodies only");
+    if (body.phase != Phase::rigid)
+      throw InputError("body `" + body.name + "` is not rigid: free flight is exact for rigid bodies only");
   for (const auto& body : job.scene.bodies)
     if (!body.joined_to.empty()) throw InputError(body.place, "a joined body has no exact free flight");
   for (const auto& event : job.scene.events)
@@ -73,7 +74,8 @@ RigidFlight::Flight& RigidFlight::alive(const std::string& name) {
   const auto row = std::find(row_names_.begin(), row_names_.end(), name) - row_names_.begin();
   for (auto& flight : flights_)
     if (flight.row == row && flight.death == std::numeric_limits<double>::infinity()) return flight;
-  throw InputError("an event names body `" + printable(name) + "`, which is not in free flight then" + suggestion(name, row_names_));
+  throw InputError("an event names body `" + printable(name) + "`, which is not in free flight then" +
+                   suggestion(name, row_names_));
 }
 
 void RigidFlight::merge(const Event& event) {

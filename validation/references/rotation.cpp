@@ -14,7 +14,10 @@ class FlipTime : public RigidFlight {
   FlipTime(const Job& job, const InitialState& initial, const std::string& name) : RigidFlight(job, initial) {
     const Flight* chosen = nullptr;
     for (const auto& flight : flights())
-      if (name.empty() || job.bodies[static_cast<std::size_t>(flight.row)].name == name) { chosen = &flight; break; }
+      if (name.empty() || job.bodies[static_cast<std::size_t>(flight.row)].name == name) {
+        chosen = &flight;
+        break;
+      }
     if (!chosen) throw InputError("flip_time: no free body named `" + printable(name) + "`");
     body_row_ = chosen->row;
     const auto interval = chosen->spin.flip_interval();
@@ -57,37 +60,50 @@ template <Event::Kind kind>
 std::unique_ptr<Reference> make_in_flight(const ReferenceInput& in) {
   for (const auto& event : in.job.scene.events)
     if (event.kind == kind) return std::make_unique<RigidFlight>(in.job, in.initial);
-  throw InputError(std::string(kind == Event::Kind::merge ? "merge_in_flight needs a merge event" : "split_in_flight needs a split event"));
+  throw InputError(
+      std::string(kind == Event::Kind::merge ? "merge_in_flight needs a merge event" : "split_in_flight needs a split event"));
 }
 
 }  // namespace
 
 ReferenceEntry torque_free_entry() {
-  return {{"torque_free", "analytic", landau, "orientation and angular velocity of free rigid bodies of any inertia", {}}, make_torque_free};
+  return {{"torque_free", "analytic", landau, "orientation and angular velocity of free rigid bodies of any inertia", {}},
+          make_torque_free};
 }
 
 ReferenceEntry flip_time_entry() {
-  return {{"flip_time", "analytic", landau,
+  return {{"flip_time",
+           "analytic",
+           landau,
            "first time at which the spin about the middle principal axis changes sign, and how often it does",
            {{"body", "", "name of the body; default the first free one"}}},
           make_flip_time};
 }
 
 ReferenceEntry merge_in_flight_entry() {
-  return {{"merge_in_flight", "analytic", "conservation of mass, momentum and angular momentum at the event; free flight around it",
-           "bodies that become one in flight, before and after; number energy_ratio: kinetic energy after over before", {}},
+  return {{"merge_in_flight",
+           "analytic",
+           "conservation of mass, momentum and angular momentum at the event; free flight around it",
+           "bodies that become one in flight, before and after; number energy_ratio: kinetic energy after over before",
+           {}},
           make_in_flight<Event::Kind::merge>};
 }
 
 ReferenceEntry split_in_flight_entry() {
-  return {{"split_in_flight", "analytic", "each part keeps the velocities of its particles; free flight around the event",
-           "a body that becomes two in flight, before and after; number energy_ratio: kinetic energy after over before", {}},
+  return {{"split_in_flight",
+           "analytic",
+           "each part keeps the velocities of its particles; free flight around the event",
+           "a body that becomes two in flight, before and after; number energy_ratio: kinetic energy after over before",
+           {}},
           make_in_flight<Event::Kind::split>};
 }
 
 ReferenceEntry keyframes_entry() {
-  return {{"keyframes", "analytic", "linear interpolation of position, slerp of rotation (Shoemake 1985), velocity their derivative",
-           "bodies moved as the scene prescribes; free ones fly", {}},
+  return {{"keyframes",
+           "analytic",
+           "linear interpolation of position, slerp of rotation (Shoemake 1985), velocity their derivative",
+           "bodies moved as the scene prescribes; free ones fly",
+           {}},
           make_keyframes};
 }
 

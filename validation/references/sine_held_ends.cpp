@@ -30,7 +30,8 @@ std::size_t free_body(const Job& job) {
   std::size_t found = job.bodies.size();
   for (std::size_t b = 0; b < job.bodies.size(); ++b) {
     if (job.bodies[b].temperature_held) continue;
-    if (found != job.bodies.size()) throw InputError("a sine between held ends needs all bodies but one with temperature_held = true");
+    if (found != job.bodies.size())
+      throw InputError("a sine between held ends needs all bodies but one with temperature_held = true");
     found = b;
   }
   if (found == job.bodies.size()) throw InputError("a sine between held ends needs one body whose temperature is not held");
@@ -39,10 +40,12 @@ std::size_t free_body(const Job& job) {
 
 std::unique_ptr<Reference> make_sine(const ReferenceInput& in) {
   const auto wave = cosine_wave(in);
-  const BarAxis bar = body_along(axis_of(wave.wave_vector, "between held ends the wave vector"), free_body(in.job), in.job, in.initial);
+  const BarAxis bar =
+      body_along(axis_of(wave.wave_vector, "between held ends the wave vector"), free_body(in.job), in.job, in.initial);
   const double k = wave.wave_vector[bar.axis];
   for (const double end : {bar.low, bar.high})
-    if (std::abs(std::cos(k * end + wave.phase)) > 1e-9) throw InputError("the wave is not at its mean at the held ends: choose the phase so that they are nodes");
+    if (std::abs(std::cos(k * end + wave.phase)) > 1e-9)
+      throw InputError("the wave is not at its mean at the held ends: choose the phase so that they are nodes");
   const double D = in.args.number("diffusivity") ? *in.args.number("diffusivity") : common_diffusivity(in.job);
   return std::make_unique<SineBetweenHeldEnds>(in, wave, D * k * k, bar);
 }

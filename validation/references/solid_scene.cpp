@@ -8,7 +8,8 @@ namespace tripoint {
 
 ElasticConstants elastic_constants(const Job& job, std::size_t body) {
   const auto& m = job.scene.material(job.bodies.at(body).material);
-  if (!m.young_modulus || !m.poisson_ratio) throw InputError("material `" + m.name + "` needs young_modulus and poisson_ratio for an exact solution of elasticity");
+  if (!m.young_modulus || !m.poisson_ratio)
+    throw InputError("material `" + m.name + "` needs young_modulus and poisson_ratio for an exact solution of elasticity");
   return {*m.young_modulus, *m.poisson_ratio};
 }
 
@@ -39,7 +40,8 @@ std::array<double, 3> extents(const ReferenceInput& in, std::size_t body) {
   std::array<double, 3> size{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& scene = in.job.scene;
-    size[k] = scene.periodic[k] && scene.min && scene.max ? (*scene.max)[k] - (*scene.min)[k] : body_along(k, body, in.job, in.initial).length();
+    size[k] = scene.periodic[k] && scene.min && scene.max ? (*scene.max)[k] - (*scene.min)[k]
+                                                          : body_along(k, body, in.job, in.initial).length();
   }
   return size;
 }

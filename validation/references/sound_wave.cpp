@@ -26,7 +26,8 @@ class SoundWave : public LiquidReference {
     const double angle = dot(start_.wave_vector, place) + start_.phase, w = frequency();
     LiquidState s;
     s.velocity = (std::cos(angle) * std::cos(w * time)) * start_.amplitude;
-    s.pressure = density_ * c_ * dot(start_.amplitude, start_.wave_vector) / norm(start_.wave_vector) * std::sin(angle) * std::sin(w * time);
+    s.pressure = density_ * c_ * dot(start_.amplitude, start_.wave_vector) / norm(start_.wave_vector) * std::sin(angle) *
+                 std::sin(w * time);
     s.density = density_ + s.pressure / (c_ * c_);
     return s;
   }
@@ -40,9 +41,11 @@ class SoundWave : public LiquidReference {
 std::unique_ptr<Reference> make_sound(const ReferenceInput& in) {
   const auto liquid = only_liquid(in.job, "sound_wave");
   const auto& start = in.job.scene.bodies.at(liquid).velocity;
-  if (start.kind != VelocityField::Kind::cosine || norm(start.wave_vector) == 0.0) throw InputError("sound_wave needs a liquid with velocity = {kind = \"cosine\", ...}");
+  if (start.kind != VelocityField::Kind::cosine || norm(start.wave_vector) == 0.0)
+    throw InputError("sound_wave needs a liquid with velocity = {kind = \"cosine\", ...}");
   if (norm(start.mean) > 0.0) throw InputError("sound_wave: the liquid must not move on the mean");
-  if (norm(cross(start.amplitude, start.wave_vector)) > 1e-12 * norm(start.amplitude) * norm(start.wave_vector)) throw InputError("sound_wave: sound swings along its wave vector");
+  if (norm(cross(start.amplitude, start.wave_vector)) > 1e-12 * norm(start.amplitude) * norm(start.wave_vector))
+    throw InputError("sound_wave: sound swings along its wave vector");
   const double c = in.args.number("sound_speed") ? *in.args.number("sound_speed") : state_sound_speed(in.job, liquid);
   return std::make_unique<SoundWave>(in, start, c, material_of_body(in.job, liquid).density);
 }
@@ -50,7 +53,10 @@ std::unique_ptr<Reference> make_sound(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry sound_wave_entry() {
-  return {{"sound_wave", "analytic", "Landau & Lifshitz, Fluid Mechanics, section 64: standing plane wave of small amplitude, w = c k", "a standing wave of sound that starts as a cosine of velocity",
+  return {{"sound_wave",
+           "analytic",
+           "Landau & Lifshitz, Fluid Mechanics, section 64: standing plane wave of small amplitude, w = c k",
+           "a standing wave of sound that starts as a cosine of velocity",
            {{"sound_speed", "m/s", "default of the equation of state: sqrt(k rho_ref/rho0)"}}},
           make_sound};
 }

@@ -4,8 +4,8 @@
 namespace tripoint {
 namespace {
 
-/// What a case states itself: a claim, and what a quantity must know to be measured. It computes nothing, so that a metric says in the case
-/// file what it is compared with. Numbers: value, and those of measuring.hpp.
+/// What a case states itself: a claim, and what a quantity must know to be measured. It computes nothing, so that a metric says
+/// in the case file what it is compared with. Numbers: value, and those of measuring.hpp.
 using Stated = NumberTable;
 
 std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {
@@ -19,7 +19,9 @@ std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {
 ReferenceEntry stated_entry() {
   std::vector<ReferenceArgument> args{{"value", "", "what the quantity is compared with, in its unit"}};
   for (const auto& a : measuring_arguments()) args.push_back(a);
-  return {{"stated", "bound", "the case's own claim", "a number that the case states, and what a quantity is measured by: nothing is computed", args}, make_stated};
+  return {{"stated", "bound", "the case's own claim",
+           "a number that the case states, and what a quantity is measured by: nothing is computed", args},
+          make_stated};
 }
 
 }  // namespace tripoint

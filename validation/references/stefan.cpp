@@ -16,11 +16,12 @@ struct Course {
   bool melts = true;
 };
 
-/// A bar at rest that changes phase from a held wall. Numbers: bar, axis, area [m2], melts (1 or 0), lambda, stefan_number; in time:
-/// front_position from the wall's face [m].
+/// A bar at rest that changes phase from a held wall. Numbers: bar, axis, area [m2], melts (1 or 0), lambda, stefan_number; in
+/// time: front_position from the wall's face [m].
 class Stefan : public Reference {
  public:
-  Stefan(const ReferenceInput& in, const NeumannFront& front, const Course& course) : initial_(in.initial), dx_(in.job.scene.spacing), front_(front), course_(course), lambda_(front.lambda()) {
+  Stefan(const ReferenceInput& in, const NeumannFront& front, const Course& course)
+      : initial_(in.initial), dx_(in.job.scene.spacing), front_(front), course_(course), lambda_(front.lambda()) {
     solid_ = in.job.scene.material(in.job.bodies[course.bar].material).solid == "rigid" ? Phase::rigid : Phase::elastic;
   }
   [[nodiscard]] Snapshot at(double time) const override {
@@ -70,7 +71,9 @@ std::size_t held_wall(const ReferenceInput& in) {
   std::optional<std::size_t> found;
   for (std::size_t b = 0; b < in.job.bodies.size(); ++b) {
     if (!in.job.bodies[b].temperature_held) continue;
-    if (found) throw InputError("stefan: name the wall that the change starts from by the argument `wall`: several bodies hold their temperature");
+    if (found)
+      throw InputError(
+          "stefan: name the wall that the change starts from by the argument `wall`: several bodies hold their temperature");
     found = b;
   }
   if (!found) throw InputError("stefan needs a wall with temperature_held = true");
@@ -91,7 +94,8 @@ std::size_t melting_bar(const ReferenceInput& in, std::size_t wall) {
 
 double constant_temperature(const Job& job, std::size_t body) {
   const auto& field = job.scene.bodies.at(body).temperature;
-  if (!field || field->kind != TemperatureField::Kind::constant) throw InputError("stefan: body `" + job.bodies[body].name + "` needs one temperature");
+  if (!field || field->kind != TemperatureField::Kind::constant)
+    throw InputError("stefan: body `" + job.bodies[body].name + "` needs one temperature");
   return field->value;
 }
 
@@ -124,31 +128,43 @@ std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
   auto course = course_of(in);
   const auto& material = in.job.scene.material(in.job.bodies[course.bar].material);
   const double latent = in.args.number("latent_heat").value_or(material.latent_heat.value_or(0.0));
-  if (!material.t_melt || !material.heat_capacity || !(latent > 0.0)) throw InputError("stefan: material `" + material.name + "` needs t_melt, heat_capacity and latent_heat");
+  if (!material.t_melt || !material.heat_capacity || !(latent > 0.0))
+    throw InputError("stefan: material `" + material.name + "` needs t_melt, heat_capacity and latent_heat");
   NeumannFront front;
   front.surface = constant_temperature(in.job, course.wall), front.far = constant_temperature(in.job, course.bar);
   course.melts = front.surface > front.far;
   front.change = course.melts ? *material.t_melt : material.t_solid.value_or(*material.t_melt);
   const Phase solid = Phase::rigid, liquid = Phase::liquid;
-  const auto near = phase_values(in.job, course.bar, course.melts ? liquid : solid), left = phase_values(in.job, course.bar, course.melts ? solid : liquid);
-  const double more = (phase_values(in.job, course.bar, liquid).heat_per_volume - phase_values(in.job, course.bar, solid).heat_per_volume) / material.density;
+  const auto near = phase_values(in.job, course.bar, course.melts ? liquid : solid),
+             left = phase_values(in.job, course.bar, course.melts ? solid : liquid);
+  const double more =
+      (phase_values(in.job, course.bar, liquid).heat_per_volume - phase_values(in.job, course.bar, solid).heat_per_volume) /
+      material.density;
   front.diffusivity = near.diffusivity();
-  front.far_diffusivity_ratio = left.diffusivity() / near.diffusivity(), front.far_conductivity_ratio = left.conductivity / near.conductivity;
-  front.latent_over_capacity = (latent + more * (front.change - *material.t_melt)) * material.density / near.heat_per_volume;  // the heat of fusion at the front (Kirchhoff)
+  front.far_diffusivity_ratio = left.diffusivity() / near.diffusivity(),
+  front.far_conductivity_ratio = left.conductivity / near.conductivity;
+  front.latent_over_capacity = (latent + more * (front.change - *material.t_melt)) * material.density /
+                               near.heat_per_volume;  // the heat of fusion at the front (Kirchhoff)
   if ((front.surface - front.change) * (front.change - front.far) < 0.0 || front.surface == front.change)
     throw InputError("stefan: the temperature of the change must lie between that of the wall and that of the bar");
-  const double end = in.job.scene.end_time, warmed = std::abs(front.far - front.change) * std::erfc(0.5 * course.length / std::sqrt(left.diffusivity() * end));
+  const double end = in.job.scene.end_time,
+               warmed = std::abs(front.far - front.change) * std::erfc(0.5 * course.length / std::sqrt(left.diffusivity() * end));
   const double allowed = 1e-3 * std::abs(front.surface - front.change);
   if (front.front(end) > course.length || warmed > allowed)
-    throw InputError("stefan holds for a half space: the bar is " + std::to_string(course.length) + " m long, and until end_time = " + std::to_string(end) + " s it must be " +
-                     std::to_string(least_length(front, left.diffusivity(), end, allowed)) + " m or longer: lengthen it, or end sooner");
+    throw InputError("stefan holds for a half space: the bar is " + std::to_string(course.length) +
+                     " m long, and until end_time = " + std::to_string(end) + " s it must be " +
+                     std::to_string(least_length(front, left.diffusivity(), end, allowed)) +
+                     " m or longer: lengthen it, or end sooner");
   return std::make_unique<Stefan>(in, front, course);
 }
 
 }  // namespace
 
 ReferenceEntry stefan_entry() {
-  return {{"stefan", "analytic", "Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 11.2: Stefan's problem in Neumann's similarity solution, X = 2 lambda sqrt(D t), each phase with its own conductivity and heat capacity",
+  return {{"stefan",
+           "analytic",
+           "Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 11.2: Stefan's problem in Neumann's similarity "
+           "solution, X = 2 lambda sqrt(D t), each phase with its own conductivity and heat capacity",
            "melting of a bar from a held hot wall, or freezing from a cold one: front, temperatures, liquid fractions and phases",
            {{"wall", "", "the held body; default the scene's only one"},
             {"body", "", "the bar; default the scene's only body that can melt"},

@@ -9,7 +9,9 @@ namespace tripoint {
 namespace {
 
 /// Integral of erf(x/s) over x [m].
-double erf_integral(double x, double s) { return x * std::erf(x / s) + s * std::exp(-x * x / (s * s)) / std::sqrt(std::numbers::pi); }
+double erf_integral(double x, double s) {
+  return x * std::erf(x / s) + s * std::exp(-x * x / (s * s)) / std::sqrt(std::numbers::pi);
+}
 
 /// erf(x/s), or its mean over a cell.
 double smooth_sign(double x, double cell, double s) {

@@ -22,7 +22,8 @@ double between(const std::vector<double>& x, const std::vector<double>& y, doubl
 /// A table beside the case: a number in time, or fields along an axis that do not change.
 class Table : public Reference {
  public:
-  Table(Numbers numbers, ExperimentFile file, std::string column) : numbers_(std::move(numbers)), file_(std::move(file)), column_(std::move(column)) {}
+  Table(Numbers numbers, ExperimentFile file, std::string column)
+      : numbers_(std::move(numbers)), file_(std::move(file)), column_(std::move(column)) {}
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
     out.time = time;
@@ -46,7 +47,9 @@ class Table : public Reference {
     const auto field = in_time() ? file_.curves.end() : file_.curves.find(field_of_probe(quantity, numbers_));
     if (field == file_.curves.end()) return number(quantity);
     const auto point = stated_point(*this);
-    return point ? known(between(field->second.time, field->second.value, (*point)[static_cast<std::size_t>(file_.first[0] - 'x')])) : std::nullopt;
+    return point
+               ? known(between(field->second.time, field->second.value, (*point)[static_cast<std::size_t>(file_.first[0] - 'x')]))
+               : std::nullopt;
   }
   [[nodiscard]] std::optional<double> uncertainty(std::string_view quantity, double time) const override {
     if (in_time()) return known(between(curve().time, curve().uncertainty, time));
@@ -65,7 +68,9 @@ class Table : public Reference {
  private:
   [[nodiscard]] bool in_time() const { return file_.first == "time"; }
   [[nodiscard]] const MeasuredCurve& curve() const { return file_.curves.at(column_); }
-  [[nodiscard]] static std::optional<double> known(double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; }
+  [[nodiscard]] static std::optional<double> known(double value) {
+    return std::isfinite(value) ? std::optional(value) : std::nullopt;
+  }
   Numbers numbers_;
   ExperimentFile file_;
   std::string column_;
@@ -76,7 +81,9 @@ std::string column_of(const ReferenceInput& in, const ExperimentFile& file) {
   std::vector<std::string> known;
   for (const auto& [name, curve] : file.curves) known.push_back(name);
   const auto named = in.args.word("column");
-  if (named && !file.curves.count(*named)) throw InputError(in.file + ": argument `column` of reference function table: the table has no column `" + printable(*named) + "`" + suggestion(*named, known));
+  if (named && !file.curves.count(*named))
+    throw InputError(in.file + ": argument `column` of reference function table: the table has no column `" + printable(*named) +
+                     "`" + suggestion(*named, known));
   if (named || known.size() == 1) return named.value_or(known.front());
   throw InputError(in.file + ": the table has several columns: name one by the argument `column` of reference function table");
 }
@@ -88,21 +95,28 @@ std::unique_ptr<Reference> make_table(const ReferenceInput& in) {
     auto column = column_of(in, file);
     return std::make_unique<Table>(measuring_numbers(in, "table"), std::move(file), std::move(column));
   }
-  if (in.args.word("column")) throw InputError("argument `column` of reference function table is of a table in time: a table along " + file.first + " names its fields itself");
+  if (in.args.word("column"))
+    throw InputError("argument `column` of reference function table is of a table in time: a table along " + file.first +
+                     " names its fields itself");
   std::vector<std::string> fields;
   for (const auto& f : truth_fields())
     if (f.name != "value") fields.push_back(f.name);
   for (const auto& [name, curve] : file.curves)
-    if (std::find(fields.begin(), fields.end(), name) == fields.end()) throw InputError(in.file + ": no field is named `" + printable(name) + "`" + suggestion(name, fields));
+    if (std::find(fields.begin(), fields.end(), name) == fields.end())
+      throw InputError(in.file + ": no field is named `" + printable(name) + "`" + suggestion(name, fields));
   return std::make_unique<Table>(measuring_numbers(in, "table"), std::move(file), "");
 }
 
 }  // namespace
 
 ReferenceEntry table_entry() {
-  std::vector<ReferenceArgument> args{{"column", "", "of a table in time: the column that the quantity is compared with; default the only one"}};
+  std::vector<ReferenceArgument> args{
+      {"column", "", "of a table in time: the column that the quantity is compared with; default the only one"}};
   for (const auto& a : measuring_arguments()) args.push_back(a);
-  return {{"table", "analytic", "the source that the file states", "values in time, or along x, y or z, from the csv file beside the case (key `file`), straight lines between its rows; its first column is time, x, y or z, and it states source, units, uncertainty and hash as measured data do", args},
+  return {{"table", "analytic", "the source that the file states",
+           "values in time, or along x, y or z, from the csv file beside the case (key `file`), straight lines between its rows; "
+           "its first column is time, x, y or z, and it states source, units, uncertainty and hash as measured data do",
+           args},
           make_table};
 }
 

@@ -13,8 +13,8 @@ struct Vortices {
   Vec3 origin, carried;
 };
 
-/// u = U (-cos kx sin ky, sin kx cos ky) exp(-2 nu k^2 t), x and y from the origin, which moves along. Numbers: velocity_rate, at which it
-/// decays [1/s].
+/// u = U (-cos kx sin ky, sin kx cos ky) exp(-2 nu k^2 t), x and y from the origin, which moves along. Numbers: velocity_rate, at
+/// which it decays [1/s].
 class TaylorGreen : public LiquidReference {
  public:
   TaylorGreen(const ReferenceInput& in, const Vortices& v, double viscosity, double density)
@@ -29,7 +29,8 @@ class TaylorGreen : public LiquidReference {
     const double U = vortices_.speed * std::exp(-rate_ * time), k = vortices_.k;
     const Vec3 r = place - vortices_.origin - time * vortices_.carried;
     LiquidState s;
-    s.velocity = vortices_.carried + Vec3{-U * std::cos(k * r.x) * std::sin(k * r.y), U * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
+    s.velocity =
+        vortices_.carried + Vec3{-U * std::cos(k * r.x) * std::sin(k * r.y), U * std::sin(k * r.x) * std::cos(k * r.y), 0.0};
     s.pressure = -0.25 * density_ * U * U * (std::cos(2.0 * k * r.x) + std::cos(2.0 * k * r.y));
     return s;
   }
@@ -42,8 +43,11 @@ class TaylorGreen : public LiquidReference {
 Vortices vortices_of(const ReferenceInput& in, const VelocityField& v) {
   const bool known = v.kind == VelocityField::Kind::taylor_green;
   const auto speed = in.args.number("speed"), wavelength = in.args.number("wavelength");
-  if (!known && (!speed || !wavelength)) throw InputError("taylor_green needs a liquid with velocity = {kind = \"taylor_green\", ...}, or the arguments speed and wavelength");
-  return {speed.value_or(v.speed), 2.0 * std::numbers::pi / wavelength.value_or(v.wavelength), in.args.vector("origin").value_or(Vec3{}), in.args.vector("carried").value_or(Vec3{})};
+  if (!known && (!speed || !wavelength))
+    throw InputError(
+        "taylor_green needs a liquid with velocity = {kind = \"taylor_green\", ...}, or the arguments speed and wavelength");
+  return {speed.value_or(v.speed), 2.0 * std::numbers::pi / wavelength.value_or(v.wavelength),
+          in.args.vector("origin").value_or(Vec3{}), in.args.vector("carried").value_or(Vec3{})};
 }
 
 std::unique_ptr<Reference> make_vortices(const ReferenceInput& in) {
@@ -53,14 +57,18 @@ std::unique_ptr<Reference> make_vortices(const ReferenceInput& in) {
   auto flow = std::make_unique<TaylorGreen>(in, v, kinematic_viscosity(in.job, liquid), material_of_body(in.job, liquid).density);
   const auto start = flow->at(0.0).velocity;  // formula and arguments are written apart: they must say the same
   for (std::size_t i = 0; i < in.initial.size(); ++i)
-    if (in.initial.phase[i] == static_cast<int>(Phase::liquid) && !(norm(start[i] - in.initial.velocity[i]) <= 1e-9 * v.speed)) throw InputError("taylor_green: the liquid does not start with these vortices");
+    if (in.initial.phase[i] == static_cast<int>(Phase::liquid) && !(norm(start[i] - in.initial.velocity[i]) <= 1e-9 * v.speed))
+      throw InputError("taylor_green: the liquid does not start with these vortices");
   return flow;
 }
 
 }  // namespace
 
 ReferenceEntry taylor_green_entry() {
-  return {{"taylor_green", "analytic", "Taylor & Green 1937: vortices that decay as exp(-2 nu k^2 t)", "a square of periodic vortices, at rest or carried along",
+  return {{"taylor_green",
+           "analytic",
+           "Taylor & Green 1937: vortices that decay as exp(-2 nu k^2 t)",
+           "a square of periodic vortices, at rest or carried along",
            {{"speed", "m/s", "greatest speed of the vortices; default of the liquid's velocity"},
             {"wavelength", "m", "side of their cell; default of the liquid's velocity"},
             {"origin", "m", "where their pattern begins; default 0"},

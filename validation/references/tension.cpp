@@ -16,7 +16,7 @@ struct Bar {
   double length = 0.0, area = 0.0;
   double gauge = 0.5, stretch_gauge = 1.0;  ///< middle shares of the length: for the modulus, for other stretches
   BarLaw law;
-  std::optional<std::size_t> low, high;   ///< rows in Job::bodies of what holds its ends
+  std::optional<std::size_t> low, high;                      ///< rows in Job::bodies of what holds its ends
   double release = std::numeric_limits<double>::infinity();  ///< time at which an end is let go [s]
   double tear = std::numeric_limits<double>::infinity();     ///< stretch at which it parts
 };
@@ -36,14 +36,16 @@ double displaced(const JobBody& body, std::size_t axis, double time) {
   return keys.back().position[axis] - start;
 }
 
-/// A homogeneous bar between driven ends. Numbers: bar, axis, area [m2], gauge, modulus [Pa], yield_stress [Pa], residual_stretch, event_time of
-/// the tear [s]; in time: stretch, reaction [N]. The ledger's terms elastic and plastic [J] are in its snapshots.
+/// A homogeneous bar between driven ends. Numbers: bar, axis, area [m2], gauge, modulus [Pa], yield_stress [Pa],
+/// residual_stretch, event_time of the tear [s]; in time: stretch, reaction [N]. The ledger's terms elastic and plastic [J] are
+/// in its snapshots.
 class Tension : public Reference {
  public:
   Tension(const Job& job, Bar bar) : job_(job), bar_(std::move(bar)) {
     times_.insert(0.0);
     for (const auto& end : {bar_.low, bar_.high})
-      for (std::size_t n = 0; end && n < job_.bodies[*end].keyframes.size(); ++n) times_.insert(job_.bodies[*end].keyframes[n].time);
+      for (std::size_t n = 0; end && n < job_.bodies[*end].keyframes.size(); ++n)
+        times_.insert(job_.bodies[*end].keyframes[n].time);
     find_tear();
     find_residual();
   }
@@ -75,7 +77,9 @@ class Tension : public Reference {
 
  private:
   [[nodiscard]] double driven_stretch(double time) const {
-    const auto end = [&](const std::optional<std::size_t>& body) { return body ? displaced(job_.bodies[*body], bar_.axis, time) : 0.0; };
+    const auto end = [&](const std::optional<std::size_t>& body) {
+      return body ? displaced(job_.bodies[*body], bar_.axis, time) : 0.0;
+    };
     return 1.0 + (end(bar_.high) - end(bar_.low)) / bar_.length;
   }
   /// Between the keyframes the stretch is monotone, so that each is one step of the law.
@@ -107,7 +111,8 @@ class Tension : public Reference {
   }
   void find_residual() {
     if (!std::isfinite(bar_.law.elastic_limit) || times_.size() < 2) return;
-    const double longest = *std::max_element(times_.begin(), times_.end(), [&](double a, double b) { return driven_stretch(a) < driven_stretch(b); });
+    const double longest = *std::max_element(times_.begin(), times_.end(),
+                                             [&](double a, double b) { return driven_stretch(a) < driven_stretch(b); });
     if (driven_stretch(longest) > 1.0) residual_ = unloaded_stretch(bar_.law, driven(longest));
   }
 
@@ -130,7 +135,8 @@ void find_ends(const ReferenceInput& in, Bar& bar) {
   for (const auto& event : in.job.scene.events) {
     if (event.kind != Event::Kind::release) continue;
     for (const auto& name : event.bodies)
-      if (name == in.job.bodies[*bar.low].name || name == in.job.bodies[*bar.high].name) bar.release = std::min(bar.release, event.time);
+      if (name == in.job.bodies[*bar.low].name || name == in.job.bodies[*bar.high].name)
+        bar.release = std::min(bar.release, event.time);
   }
 }
 
@@ -143,7 +149,8 @@ std::unique_ptr<Reference> make_tension(const ReferenceInput& in) {
   bar.area = in.args.number("area").value_or(size[(bar.axis + 1) % 3] * size[(bar.axis + 2) % 3]);
   bar.gauge = in.args.number("gauge").value_or(bar.gauge);
   bar.stretch_gauge = in.args.number("gauge").value_or(bar.stretch_gauge);
-  if (!(bar.gauge > 0.0) || bar.gauge > 1.0) throw InputError("argument `gauge` of reference function tension must be above 0 and at most 1");
+  if (!(bar.gauge > 0.0) || bar.gauge > 1.0)
+    throw InputError("argument `gauge` of reference function tension must be above 0 and at most 1");
   bar.law = bar_law(in, bar.row, bar.axis);
   bar.tear = in.job.scene.material(in.job.bodies[bar.row].material).fracture_stretch.value_or(bar.tear);
   find_ends(in, bar);
@@ -153,15 +160,20 @@ std::unique_ptr<Reference> make_tension(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry tension_entry() {
-  return {{"tension", "analytic", "homogeneous bar of St Venant-Kirchhoff material in Green strain, von Mises flow as O'Brien, Bargteil, Hodgins 2002; as printed with the lattice's gradient moment (17)",
-           "reaction, stretch, stored and dissipated energy of an elastic box between two held ends, driven by keyframes, to the tear",
+  return {{"tension",
+           "analytic",
+           "homogeneous bar of St Venant-Kirchhoff material in Green strain, von Mises flow as O'Brien, Bargteil, Hodgins 2002; "
+           "as printed with the lattice's gradient moment (17)",
+           "reaction, stretch, stored and dissipated energy of an elastic box between two held ends, driven by keyframes, to the "
+           "tear",
            {{"body", "", "the bar; default the scene's only free elastic body"},
             {"length", "m", "between the held ends; default of the bar's box"},
             {"area", "m2", "cross-section; default of the bar's box or the periodic domain"},
             {"sides", "", "free, plane_strain (one direction held) or confined (both); default by the periodic directions"},
             {"form", "", "paper or corrected; default the run's mode of the elastic term"},
             {"support_ratio", "", "h/dx of the printed form; default the run's"},
-            {"gauge", "", "middle share of the length over which stretches are measured; default 0.5 for the modulus, 1 for others"}}},
+            {"gauge", "",
+             "middle share of the length over which stretches are measured; default 0.5 for the modulus, 1 for others"}}},
           make_tension};
 }
 

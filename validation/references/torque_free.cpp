@@ -90,7 +90,8 @@ void TorqueFree::choose_axes(const Vec3& inertia, const Quaternion& axes, const 
   if (moment(1) > moment(2)) std::swap(order[1], order[2]);
   const Matrix columns = transposed(matrix_of(axes));  // rows: the principal axes in the world
   const Triple world{spin.x, spin.y, spin.z};
-  const Real I1 = moment(0), I2 = moment(1), I3 = moment(2), w1 = dot3(columns[order[0]], world), w3 = dot3(columns[order[2]], world);
+  const Real I1 = moment(0), I2 = moment(1), I3 = moment(2), w1 = dot3(columns[order[0]], world),
+             w3 = dot3(columns[order[2]], world);
   // L^2 - 2 E I2 without its cancellation; below zero the circulation is about the axis of the least moment.
   if (I1 * (I1 - I2) * w1 * w1 + I3 * (I3 - I2) * w3 * w3 < 0) std::swap(order[0], order[2]);
   Triple a = columns[order[0]], b = columns[order[1]], c = columns[order[2]];

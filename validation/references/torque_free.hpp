@@ -40,18 +40,18 @@ class TorqueFree {
   void choose_axes(const Vec3& inertia, const Quaternion& axes, const Vec3& spin);
   void solve(const Triple& omega);
   void store_panels();
-  [[nodiscard]] Triple omega(Real time) const;             // principal frame
-  [[nodiscard]] Matrix attitude(Real time) const;          // principal to world, but for the constant factor start_
-  [[nodiscard]] Real precession_rate(Real time) const;     // about L [rad/s]
-  [[nodiscard]] Real precession(Real time) const;          // [rad]
+  [[nodiscard]] Triple omega(Real time) const;          // principal frame
+  [[nodiscard]] Matrix attitude(Real time) const;       // principal to world, but for the constant factor start_
+  [[nodiscard]] Real precession_rate(Real time) const;  // about L [rad/s]
+  [[nodiscard]] Real precession(Real time) const;       // [rad]
   [[nodiscard]] Real integral(Real from, Real to) const;
 
   bool steady_ = false;
-  Vec3 spin_;              // steady: the constant angular velocity, world
-  Matrix principal_{};     // principal to world at time 0, axes ordered for the elliptic solution
+  Vec3 spin_;           // steady: the constant angular velocity, world
+  Matrix principal_{};  // principal to world at time 0, axes ordered for the elliptic solution
   Triple inertia_{}, amplitude_{};
   Real modulus_ = 0, rate_ = 0, start_phase_ = 0, quarter_ = 0, momentum_ = 0;
-  Matrix start_{};         // world from intermediate frame
+  Matrix start_{};            // world from intermediate frame
   std::vector<Real> panels_;  // precession at the panel ends of one period
   Real panel_ = 0;            // length of a panel [s]
 };

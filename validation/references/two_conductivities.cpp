@@ -11,11 +11,13 @@ namespace {
 
 class Contact : public HeatReference {
  public:
-  Contact(const ReferenceInput& in, std::size_t axis, const TwoLayers& layers) : HeatReference(in.job, in.initial), axis_(axis), layers_(layers), solution_(layers) {}
+  Contact(const ReferenceInput& in, std::size_t axis, const TwoLayers& layers)
+      : HeatReference(in.job, in.initial), axis_(axis), layers_(layers), solution_(layers) {}
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     const auto& s = layers_;
     if (quantity == "axis") return static_cast<double>(axis_);
-    if (quantity == "contact_temperature") return (s.effusivity_low * s.start_low + s.effusivity_high * s.start_high) / (s.effusivity_low + s.effusivity_high);
+    if (quantity == "contact_temperature")
+      return (s.effusivity_low * s.start_low + s.effusivity_high * s.start_high) / (s.effusivity_low + s.effusivity_high);
     return {};
   }
 
@@ -46,7 +48,8 @@ std::size_t contact_axis(const ReferenceInput& in) {
     const auto a = body_along(axis, 0, in.job, in.initial), b = body_along(axis, 1, in.job, in.initial);
     const double gap = std::min(std::abs(a.high - b.low), std::abs(b.high - a.low));
     if (gap > 1e-6 * (a.length() + b.length())) continue;
-    if (in.job.scene.periodic[axis]) throw InputError("two_conductivities: the contact axis is periodic, so the bodies touch twice");
+    if (in.job.scene.periodic[axis])
+      throw InputError("two_conductivities: the contact axis is periodic, so the bodies touch twice");
     return axis;
   }
   throw InputError("two_conductivities: the two bodies do not touch along x, y or z");
@@ -70,10 +73,13 @@ std::unique_ptr<Reference> make_contact(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry two_conductivities_entry() {
-  return {{"two_conductivities", "analytic",
-           "Carslaw & Jaeger, Conduction of Heat in Solids, 1959: composite solids; eigenfunctions once a front has reached an end",
-           "two bodies of different material and temperature in perfect contact, ends insulated", {}},
-          make_contact};
+  return {
+      {"two_conductivities",
+       "analytic",
+       "Carslaw & Jaeger, Conduction of Heat in Solids, 1959: composite solids; eigenfunctions once a front has reached an end",
+       "two bodies of different material and temperature in perfect contact, ends insulated",
+       {}},
+      make_contact};
 }
 
 }  // namespace tripoint

@@ -20,7 +20,8 @@ TwoLayerSolution::TwoLayerSolution(const TwoLayers& s)
   const double low = s.effusivity_low * reach_low_, high = s.effusivity_high * reach_high_;
   mean_ = (low * s.start_low + high * s.start_high) / (low + high);
   switch_time_ = std::pow(std::min(reach_low_, reach_high_) / 12.0, 2);
-  for (int n = 1; modes_.empty() || modes_.back().w * modes_.back().w * 0.25 * switch_time_ <= negligible; ++n) modes_.push_back(mode(n));
+  for (int n = 1; modes_.empty() || modes_.back().w * modes_.back().w * 0.25 * switch_time_ <= negligible; ++n)
+    modes_.push_back(mode(n));
 }
 
 TwoLayerSolution::Mode TwoLayerSolution::mode(int n) const {
@@ -33,7 +34,8 @@ TwoLayerSolution::Mode TwoLayerSolution::mode(int n) const {
   // A cos p = B cos q keeps the temperature continuous, e1 A sin p = -e2 B sin q the flux; the pair that does not vanish is used.
   const bool cosines = std::hypot(std::cos(p), std::cos(q)) > 0.1;
   const double A = cosines ? std::cos(q) : e2 * std::sin(q), B = cosines ? std::cos(p) : -e1 * std::sin(p);
-  const double square = e1 * a * A * A * (0.5 + 0.25 * std::sin(2.0 * p) / p) + e2 * b * B * B * (0.5 + 0.25 * std::sin(2.0 * q) / q);
+  const double square =
+      e1 * a * A * A * (0.5 + 0.25 * std::sin(2.0 * p) / p) + e2 * b * B * B * (0.5 + 0.25 * std::sin(2.0 * q) / q);
   const double share = (e1 * a * s_.start_low * A * std::sin(p) / p + e2 * b * s_.start_high * B * std::sin(q) / q) / square;
   return {w, share * A, share * B};
 }

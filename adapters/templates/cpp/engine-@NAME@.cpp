@@ -20,8 +20,15 @@ namespace {
 using json = nlohmann::json;
 using Vector = std::array<double, 3>;
 
-const json info{{"contract", 1}, {"name", "@NAME@"}, {"version", "1"}, {"build", "C++20"}, {"library", {{"path", ""}, {"hash", ""}}},
-                {"capabilities", {"rigid-free-flight", "gravity"}}, {"presets", {"default"}}, {"settings", json::object()}, {"deterministic", true}};
+const json info{{"contract", 1},
+                {"name", "@NAME@"},
+                {"version", "1"},
+                {"build", "C++20"},
+                {"library", {{"path", ""}, {"hash", ""}}},
+                {"capabilities", {"rigid-free-flight", "gravity"}},
+                {"presets", {"default"}},
+                {"settings", json::object()},
+                {"deterministic", true}};
 
 struct JobFile {
   json job;
@@ -32,7 +39,8 @@ JobFile read_job(const std::string& path) {
   std::ifstream in(path);
   JobFile file{json::parse(in), {}};
   const auto times = file.job.at("times").get<std::vector<double>>();
-  if (file.job.at("contract") != 1 || times.empty() || !std::is_sorted(times.begin(), times.end())) throw std::invalid_argument("contract 1 and rising times are needed");
+  if (file.job.at("contract") != 1 || times.empty() || !std::is_sorted(times.begin(), times.end()))
+    throw std::invalid_argument("contract 1 and rising times are needed");
   file.folder = std::filesystem::path(path).parent_path() / file.job.at("output").get<std::string>();
   return file;
 }
@@ -41,9 +49,11 @@ JobFile read_job(const std::string& path) {
 std::string refusal(const json& job) {
   if (!job.at("scene").at("events").empty()) return "no events";
   for (const auto& body : job.at("scene").at("bodies")) {
-    if (body.at("phase") != "rigid" || body.at("motion") != "free" || !body.at("temperature").is_null()) return "only free rigid bodies, without heat";
+    if (body.at("phase") != "rigid" || body.at("motion") != "free" || !body.at("temperature").is_null())
+      return "only free rigid bodies, without heat";
     const auto I = body.at("principal_inertia").get<Vector>();  // ascending
-    if (body.at("angular_velocity").get<Vector>() != Vector{} && I[2] > (1.0 + 1e-9) * I[0]) return "spin of bodies with equal moments only";
+    if (body.at("angular_velocity").get<Vector>() != Vector{} && I[2] > (1.0 + 1e-9) * I[0])
+      return "spin of bodies with equal moments only";
   }
   return {};
 }
@@ -55,7 +65,8 @@ void solve(const json& job, std::ostream& out) {
   out << "time,body,x,y,z,vx,vy,vz,qw,qx,qy,qz,wx,wy,wz\n";  // of particles: time,id,x,y,z,vx,vy,vz[,temperature]
   const auto g = job.at("scene").at("gravity").get<Vector>();
   for (const auto& body : job.at("scene").at("bodies")) {
-    const auto x0 = body.at("centre").get<Vector>(), v0 = body.at("velocity").get<Vector>(), w = body.at("angular_velocity").get<Vector>();
+    const auto x0 = body.at("centre").get<Vector>(), v0 = body.at("velocity").get<Vector>(),
+               w = body.at("angular_velocity").get<Vector>();
     const double rate = std::hypot(w[0], w[1], w[2]);
     for (const double t : job.at("times")) {
       out << t << ',' << body.at("index").get<int>();
@@ -78,10 +89,12 @@ int run(const std::string& path) {
     if (!trajectory.flush()) throw std::runtime_error("trajectory.csv cannot be written");
   }
   // Gravity, step and bodies as the engine itself holds them: the harness compares them with the job.
-  const json held{{"gravity", job.at("scene").at("gravity")}, {"time_step", 0.0}, {"precision", "double"}, {"bodies", json::array()}};
-  const json result{{"contract", 1}, {"status", reason.empty() ? "ok" : "refused"}, {"message", reason},
-                    {"time_reached", reason.empty() ? job.at("times").back().get<double>() : 0.0}, {"steps", 0},
-                    {"seconds", {{"stepping_cpu", static_cast<double>(std::clock()) / CLOCKS_PER_SEC}}}, {"readback", held}};
+  const json held{
+      {"gravity", job.at("scene").at("gravity")}, {"time_step", 0.0}, {"precision", "double"}, {"bodies", json::array()}};
+  const json result{{"contract", 1},     {"status", reason.empty() ? "ok" : "refused"},
+                    {"message", reason}, {"time_reached", reason.empty() ? job.at("times").back().get<double>() : 0.0},
+                    {"steps", 0},        {"seconds", {{"stepping_cpu", static_cast<double>(std::clock()) / CLOCKS_PER_SEC}}},
+                    {"readback", held}};
   std::ofstream(folder / "result.json.part") << result.dump(1);
   std::filesystem::rename(folder / "result.json.part", folder / "result.json");  // the last act
   return reason.empty() ? 0 : 4;
@@ -93,7 +106,8 @@ int main(int argc, char** argv) {
   const std::string verb = argc > 1 ? argv[1] : "", path = argc > 2 ? argv[2] : "";
   try {
     if (verb == "--run") return run(path);
-    if (verb == "--info") std::cout << info.dump() << '\n';
+    if (verb == "--info")
+      std::cout << info.dump() << '\n';
     else if (verb == "--check") {
       const std::string reason = refusal(read_job(path).job);
       std::cout << json{{"can", reason.empty()}, {"reason", reason}}.dump() << '\n';

@@ -27,7 +27,16 @@ class DensityEffect : public Effect {
 
 }  // namespace
 
-EffectSpec spec(const Scene&) { return {"density", Mode::paper, {field::density, field::volume}, {field::mass}, {}, {}, {}, {{field::density, "density", Written::density}}}; }
+EffectSpec spec(const Scene&) {
+  return {"density",
+          Mode::paper,
+          {field::density, field::volume},
+          {field::mass},
+          {},
+          {},
+          {},
+          {{field::density, "density", Written::density}}};
+}
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<DensityEffect>(); }
 

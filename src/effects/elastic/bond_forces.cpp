@@ -25,7 +25,8 @@ PeriodicWidths periodic_widths(const PeriodicBox& box) {
 }
 
 /// H of a sheet or chain: -F sum_j kappa_ij y y^T, y = P x_ji, kappa_ij = (a E/2) v_i v_j W g_ij/|x_ij|^2.
-Matrix3 flat_hourglass(const World& world, const Deformations& all, std::uint32_t id, double stiff, const Symmetric& strain, const Symmetric& P, const Matrix3& F) {
+Matrix3 flat_hourglass(const World& world, const Deformations& all, std::uint32_t id, double stiff, const Symmetric& strain,
+                       const Symmetric& P, const Matrix3& F) {
   Symmetric sum;
   const Place& i = all.places[id];
   for (const Bond& b : world.bonds.of(id)) {
@@ -41,13 +42,19 @@ Matrix3 flat_hourglass(const World& world, const Deformations& all, std::uint32_
 class Stresses {
  public:
   Stresses(World& world, const ElasticForms& forms, Deformations& all)
-      : forms_(forms), all_(all), constants_(forms.constants(world)), force_(triple(world.particles, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z)) {}
+      : forms_(forms),
+        all_(all),
+        constants_(forms.constants(world)),
+        force_(triple(world.particles, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z)) {}
   void none(std::size_t row) { force_.set(row, {}); }
-  /// @param total strain   @param elastic the same less what has flowed   @param A shape inverse   @param P projector on its range
-  void set(std::size_t row, std::size_t id, const Symmetric& total, const Symmetric& elastic, const Symmetric& A, const Symmetric& P, int rank) {
+  /// @param total strain   @param elastic the same less what has flowed   @param A shape inverse   @param P projector on its
+  /// range
+  void set(std::size_t row, std::size_t id, const Symmetric& total, const Symmetric& elastic, const Symmetric& A,
+           const Symmetric& P, int rank) {
     Deformed& i = all_.deformed[id];
     const Symmetric S = forms_.stress(elastic, P, rank, constants_(row));
-    const Matrix3 T = ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + Matrix3(i.strained)) * S) + Matrix3(i.T)) * A;
+    const Matrix3 T =
+        ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + Matrix3(i.strained)) * S) + Matrix3(i.T)) * A;
     i.T = T;
     if (rank != 3) i.strained = full(total);
     force_.set(row, T * all_.reference[id].gradient + all_.hourglass_force[id]);
@@ -65,7 +72,8 @@ double volume_ratio(const Deformed& i) { return determinant(identity3 + Matrix3(
 
 bool flows(const World& world) { return world.particles.has(field::plastic_strain_xx.name); }
 
-/// With the stresses at once where nothing can flow between. @param changed whether bonds or volumes have since `reference` was summed
+/// With the stresses at once where nothing can flow between. @param changed whether bonds or volumes have since `reference` was
+/// summed
 void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool changed) {
   Particles& p = world.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank];
@@ -129,7 +137,8 @@ void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (!owns(row) || !world.owns(row)) continue;
     const int rank = rank_of[row];
-    const Symmetric A = shape.at(row), P = forms.projector(A, rank), total = strain_of.at(row), elastic = total - plastic_of.at(row);
+    const Symmetric A = shape.at(row), P = forms.projector(A, rank), total = strain_of.at(row),
+                    elastic = total - plastic_of.at(row);
     stresses.set(row, static_cast<std::size_t>(id_of[row]), total, rank == 3 ? elastic : between(P, elastic), A, P, rank);
   }
 }
@@ -140,8 +149,10 @@ Vec3 force_of(const Deformations& all, std::uint32_t k, std::uint32_t l, const B
   const double volume = all.places[l].volume;
   Vec3 f = -volume * (Matrix3(d.T) * of_k.gradient);
   const double w = all.places[k].volume * volume * of_k.weight / dot(of_k.x, of_k.x);
-  if (d.solid_hourglass() != 0.0) f += (d.solid_hourglass() * w) * solid::hourglass_residual(identity3 + Matrix3(d.strained), -of_k.x, r_lk);
-  if (d.flat_hourglass() != 0.0) f -= (d.flat_hourglass() * w * solid::hourglass_residual_flat(symmetric_part(d.strained), -of_k.x, r_lk)) * r_lk;
+  if (d.solid_hourglass() != 0.0)
+    f += (d.solid_hourglass() * w) * solid::hourglass_residual(identity3 + Matrix3(d.strained), -of_k.x, r_lk);
+  if (d.flat_hourglass() != 0.0)
+    f -= (d.flat_hourglass() * w * solid::hourglass_residual_flat(symmetric_part(d.strained), -of_k.x, r_lk)) * r_lk;
   return f;
 }
 
@@ -231,11 +242,16 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
   if (least > 0.0) return;
   const solid::EnergyOwners owns(world);
   const auto rank_of = p[field::shape_rank], id_of = p[field::id];
-  const auto is_worst = [&](std::size_t row) { return rank_of[row] == 3 && owns(row) && world.owns(row) && volume_ratio(all.deformed[static_cast<std::size_t>(id_of[row])]) == least; };
+  const auto is_worst = [&](std::size_t row) {
+    return rank_of[row] == 3 && owns(row) && world.owns(row) &&
+           volume_ratio(all.deformed[static_cast<std::size_t>(id_of[row])]) == least;
+  };
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (is_worst(row))
       fail(world, "inversion", row, "deformation", "state",
-           fmt::format("is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = [\"inversion\"] to go on", least));
+           fmt::format("is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = "
+                       "[\"inversion\"] to go on",
+                       least));
   }
 }
 
@@ -243,7 +259,8 @@ void add_forces(World& world, const ElasticForms& forms, Deformations& all) {
   if (flows(world)) set_stress(world, forms, all);
   hand_deformed_to_copies(world, all);
   add_all(world, forms, all);
-  static constexpr std::array<const Field<double>*, 3> force{&field::elastic_force_x, &field::elastic_force_y, &field::elastic_force_z};
+  static constexpr std::array<const Field<double>*, 3> force{&field::elastic_force_x, &field::elastic_force_y,
+                                                             &field::elastic_force_z};
   world.refresh(force);
 }
 

@@ -3,7 +3,8 @@
 #include "effects/elastic/bond_sums.hpp"
 #include "effects/solid_particles.hpp"
 
-/// The two passes over bonds. Reference data stream by in order of the lists; what a pass needs of a partner lies together, by id.
+/// The two passes over bonds. Reference data stream by in order of the lists; what a pass needs of a partner lies together, by
+/// id.
 namespace tripoint::elastic {
 
 /// Memory of the passes. `reference` is kept until bonds, volumes or owners change; the rest is filled anew each step.
@@ -19,8 +20,8 @@ struct Deformations {
 
 /// F, strain and the hourglass part H = sum_j c_ij (F x_ji - r_ji) x_ji^T of all particles of deformable bodies.
 void deform(World&, const solid::ElasticForms&, Deformations&);
-/// @throws Diverged where a particle of a solid is turned inside out: det F <= 0. Printed strain is no measure of F (a rotation alone
-/// changes its sign), and F of a sheet or chain is that within its plane or line: neither is looked at.
+/// @throws Diverged where a particle of a solid is turned inside out: det F <= 0. Printed strain is no measure of F (a rotation
+/// alone changes its sign), and F of a sheet or chain is that within its plane or line: neither is looked at.
 void refuse_inversion(const World&, const solid::ElasticForms&, const Deformations&);
 /// (12) and the gradient of the hourglass energies, on every particle that has bonds, rigid or not.
 void add_forces(World&, const solid::ElasticForms&, Deformations&);

@@ -9,7 +9,8 @@ namespace {
 
 std::size_t hash_of(const BondShape& s) {
   std::uint64_t h = 0;
-  for (const double v : {s.x.x, s.x.y, s.x.z, s.slope, s.hourglass, s.gradient.x, s.gradient.y, s.gradient.z}) h = (std::rotl(h, 23) ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
+  for (const double v : {s.x.x, s.x.y, s.x.z, s.slope, s.hourglass, s.gradient.x, s.gradient.y, s.gradient.z})
+    h = (std::rotl(h, 23) ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
   return h ^ (h >> 29);
 }
 

@@ -6,8 +6,8 @@
 #include "core/matrix3.hpp"
 #include "effects/elastic/bond_lists.hpp"
 
-/// The two loops over the bonds of one particle: three components side by side in a vector of four lanes. What the fourth lane holds
-/// means nothing. They are compiled for each vector unit; the bits are the same.
+/// The two loops over the bonds of one particle: three components side by side in a vector of four lanes. What the fourth lane
+/// holds means nothing. They are compiled for each vector unit; the bits are the same.
 namespace tripoint::elastic {
 
 #ifdef __AVX2__
@@ -49,7 +49,8 @@ struct alignas(sizeof(Quad)) Place {
 /// What the partners of a particle see of it: three lines of the cache.
 struct alignas(vector_bytes) Deformed {
   Columned strained;  ///< F - I; with the stress, that of a sheet or chain becomes its strain
-  Columned T;         ///< H until the stress is known, then (v F S + H) A: force of i on j is -v_j T gradW(x_ij), and of the residual [N m]
+  Columned
+      T;  ///< H until the stress is known, then (v F S + H) A: force of i on j is -v_j T gradW(x_ij), and of the residual [N m]
   /// a E/2 where the hourglass energy is that of a solid, else 0 [Pa].
   [[nodiscard]] double solid_hourglass() const noexcept { return T.x.fourth; }
   /// a E/2 where it is that of a sheet or chain, else 0 [Pa].
@@ -57,7 +58,9 @@ struct alignas(vector_bytes) Deformed {
   /// v_i solid_hourglass() [J].
   [[nodiscard]] double hourglass_energy() const noexcept { return strained.x.fourth; }
   /// @param solid,flat a E/2 of the one form that holds, 0 of the other [Pa]   @param volume v_i [m3]
-  void set_hourglass(double solid, double flat, double volume) noexcept { T.x.fourth = solid, T.y.fourth = flat, strained.x.fourth = volume * solid; }
+  void set_hourglass(double solid, double flat, double volume) noexcept {
+    T.x.fourth = solid, T.y.fourth = flat, strained.x.fourth = volume * solid;
+  }
 };
 static_assert(sizeof(Deformed) == 3 * vector_bytes);
 
@@ -89,7 +92,8 @@ struct PartnerForces {
 struct BondSums {
   void (*reference)(const BondLists::List&, const BondShape*, const Place*, ReferenceSums&);
   void (*list)(const BondLists::List&, const BondShape*, const Place*, const Place&, const PeriodicWidths&, ListSums&);
-  void (*partners)(const BondLists::List&, const BondShape*, const Place*, const Deformed*, const Place&, const PeriodicWidths&, PartnerForces&);
+  void (*partners)(const BondLists::List&, const BondShape*, const Place*, const Deformed*, const Place&, const PeriodicWidths&,
+                   PartnerForces&);
 };
 /// What differs between scenes.
 struct BondForms {
@@ -114,7 +118,9 @@ namespace detail {
 struct Quads {
   Quad x{}, y{}, z{};
 };
-[[gnu::always_inline]] inline void store(Columned& to, const Quads& from) noexcept { store(&to.x, from.x), store(&to.y, from.y), store(&to.z, from.z); }
+[[gnu::always_inline]] inline void store(Columned& to, const Quads& from) noexcept {
+  store(&to.x, from.x), store(&to.y, from.y), store(&to.z, from.z);
+}
 
 /// A difference of places as the nearest images have it: both lie in the box, or apart by less than a bond.
 template <bool periodic>
@@ -122,9 +128,12 @@ template <bool periodic>
   if constexpr (periodic) {
     Column c;
     store(&c, d);
-    const auto shift = [](double along, double half, double width) { return along > half ? width : along < -half ? -width : 0.0; };
+    const auto shift = [](double along, double half, double width) {
+      return along > half ? width : along < -half ? -width : 0.0;
+    };
     Quad by;
-    const Column widths{shift(c.x, box.half.x, box.width.x), shift(c.y, box.half.y, box.width.y), shift(c.z, box.half.z, box.width.z)};
+    const Column widths{shift(c.x, box.half.x, box.width.x), shift(c.y, box.half.y, box.width.y),
+                        shift(c.z, box.half.z, box.width.z)};
     load(by, &widths);
     d -= by;
   }
@@ -165,7 +174,8 @@ void sum_reference(const BondLists::List& list, const BondShape* shapes, const P
 
 /// @param at place of i   @param places by id
 template <bool periodic, bool hourglass, bool bends, class ForUnit>
-void sum_list(const BondLists::List& list, const BondShape* shapes, const Place* places, const Place& at, const PeriodicWidths& box, ListSums& out) {
+void sum_list(const BondLists::List& list, const BondShape* shapes, const Place* places, const Place& at,
+              const PeriodicWidths& box, ListSums& out) {
   using namespace detail;
   Quads displacement, swept;
   Quad i, residual{};
@@ -198,7 +208,8 @@ void sum_list(const BondLists::List& list, const BondShape* shapes, const Place*
 /// sum_j -T_j gradW(x_ji), and sum_j -k_j v_j W(x_ji)/|x_ji|^2 ((F_j - I) x_ji + u_ij), k = a E/2: x_ji as j has it in its list.
 /// @param at place of i   @param places,deformed by id
 template <bool periodic, bool hourglass, bool bends, class ForUnit>
-void sum_partners(const BondLists::List& list, const BondShape* shapes, const Place* places, const Deformed* deformed, const Place& at, const PeriodicWidths& box, PartnerForces& out) {
+void sum_partners(const BondLists::List& list, const BondShape* shapes, const Place* places, const Deformed* deformed,
+                  const Place& at, const PeriodicWidths& box, PartnerForces& out) {
   using namespace detail;
   Quad i, stress{}, of_hourglass{};
   load(i, &at);
@@ -208,8 +219,10 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
     const Vec3& x = bond.x;
     Quads T;
     load(T.x, &j.T.x), load(T.y, &j.T.y), load(T.z, &j.T.z);
-    if constexpr (bends) stress -= bond.gradient.x * T.x + bond.gradient.y * T.y + bond.gradient.z * T.z;
-    else stress -= bond.slope * (x.x * T.x + x.y * T.y + x.z * T.z);
+    if constexpr (bends)
+      stress -= bond.gradient.x * T.x + bond.gradient.y * T.y + bond.gradient.z * T.z;
+    else
+      stress -= bond.slope * (x.x * T.x + x.y * T.y + x.z * T.z);
     if constexpr (hourglass) {
       Quads G;
       Quad u, r;
@@ -226,7 +239,8 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
 
 template <bool periodic, bool hourglass, bool bends, class ForUnit>
 [[nodiscard]] BondSums sums_of() {
-  return {&sum_reference<hourglass, bends, ForUnit>, &sum_list<periodic, hourglass, bends, ForUnit>, &sum_partners<periodic, hourglass, bends, ForUnit>};
+  return {&sum_reference<hourglass, bends, ForUnit>, &sum_list<periodic, hourglass, bends, ForUnit>,
+          &sum_partners<periodic, hourglass, bends, ForUnit>};
 }
 template <bool bends, class ForUnit>
 [[nodiscard]] BondSums pick_of(const BondForms& forms) {

@@ -55,7 +55,8 @@ TimeStepBound Elastic::max_dt(const World& world) const {
     const Material& m = world.scene.material(b.material);
     if ((b.phase == Phase::rigid && !turns_elastic(world.scene, m)) || !m.young_modulus || !m.poisson_ratio) continue;
     const solid::ElasticConstants c = solid::elastic_constants(*m.young_modulus, *m.poisson_ratio);
-    tighten(bound, share * bond_reach(world.scene) * world.scene.spacing / std::sqrt((c.lambda + 2.0 * c.mu) / m.density), "elastic wave");
+    tighten(bound, share * bond_reach(world.scene) * world.scene.spacing / std::sqrt((c.lambda + 2.0 * c.mu) / m.density),
+            "elastic wave");
   }
   if (!world.particles.has(field::bond_frequency.name)) return bound;
   const double greatest = std::ranges::max(world.particles[field::bond_frequency]);
@@ -75,22 +76,23 @@ void Elastic::add_to(const World& world, Ledger& ledger) const {
   ledger.energy["hourglass"] += sums[1];
 }
 
-bool can_freeze(const Scene& scene) {
-  return calls_for(scene, "phase");
-}
+bool can_freeze(const Scene& scene) { return calls_for(scene, "phase"); }
 
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"elastic",
                scene.mode_of(Term::elastic),
-               {field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, field::shape_inverse_xx, field::shape_inverse_yy, field::shape_inverse_zz,
-                field::shape_inverse_yz, field::shape_inverse_xz, field::shape_inverse_xy, field::shape_rank, field::solid_volume, field::solid_material, field::solid_stiffness, field::regular_bonds,
-                field::strain_xx, field::strain_yy, field::strain_zz, field::strain_yz, field::strain_xz, field::strain_xy},
+               {field::elastic_force_x,  field::elastic_force_y,  field::elastic_force_z,  field::shape_inverse_xx,
+                field::shape_inverse_yy, field::shape_inverse_zz, field::shape_inverse_yz, field::shape_inverse_xz,
+                field::shape_inverse_xy, field::shape_rank,       field::solid_volume,     field::solid_material,
+                field::solid_stiffness,  field::regular_bonds,    field::strain_xx,        field::strain_yy,
+                field::strain_zz,        field::strain_yz,        field::strain_xz,        field::strain_xy},
                fields::joined({fields::position(), {field::id, field::mass, field::body, field::material}})};
   s.reads_if_there = fields::deformation_if_there();
   if (can_freeze(scene)) s.owns.emplace_back(field::bond_frequency);
-  Force bonds{field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, {"elastic_work"}, Account{"wall_elastic_work"}};
+  Force bonds{
+      field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, {"elastic_work"}, Account{"wall_elastic_work"}};
   bonds.stored = StoredEnergy{{"elastic", "hourglass"}, {"start_deformation"}, account::deformation_released};
   bonds.body_force_defect = "bodies.bonds";
   s.forces = {bonds};

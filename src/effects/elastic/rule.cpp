@@ -5,27 +5,41 @@ namespace tripoint::elastic {
 namespace {
 
 std::string called_for(const Scene& s) {
-  const std::string who = bodies_where(s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::elastic && moves(scene, b); });
+  const std::string who = bodies_where(
+      s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::elastic && moves(scene, b); });
   if (!who.empty()) return because(who, "elastic, and not held in place");
   return because(who_freezes_elastic(s, [](const Material&) { return true; }), "what freezes is elastic");
 }
 
 std::string left_out(const Scene& s) {
-  return any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::elastic; }) ? "what is elastic is held in place" : "nothing is elastic";
+  return any_body(s, [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::elastic; })
+             ? "what is elastic is held in place"
+             : "nothing is elastic";
 }
 
-std::string no_bending(const Scene& s) { return s.mode_of(Term::elastic) == Mode::paper ? "elasticity as printed has no second-order gradients" : ""; }
+std::string no_bending(const Scene& s) {
+  return s.mode_of(Term::elastic) == Mode::paper ? "elasticity as printed has no second-order gradients" : "";
+}
 
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "", "coefficient of the energy against zero-energy modes"}, &Scene::hourglass},
-      {{"scene", "bond_reach", number, "", above_one, "2.12", "the paper's support, about 40 neighbours", "", "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
-      {{"scene", "bending", number, "", fraction, "0", "it costs stiffness where particles are disordered", "", "share of the correction for bending: at surfaces gradients are then exact for curved displacements too (model 8.7), and slender bars as stiff as they are; 0: none. Only where elasticity is corrected"}, {}, no_bending, true},
+      {{"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "",
+        "coefficient of the energy against zero-energy modes"},
+       &Scene::hourglass},
+      {{"scene", "bond_reach", number, "", above_one, "2.12", "the paper's support, about 40 neighbours", "",
+        "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
+      {{"scene", "bending", number, "", fraction, "0", "it costs stiffness where particles are disordered", "",
+        "share of the correction for bending: at surfaces gradients are then exact for curved displacements too (model 8.7), and "
+        "slender bars as stiff as they are; 0: none. Only where elasticity is corrected"},
+       {},
+       no_bending,
+       true},
       {{"material", "young_modulus", number, "Pa", positive, "", "not elastic", "", "E of the solid"}, &Material::young_modulus},
-      {{"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"}, &Material::poisson_ratio},
+      {{"material", "poisson_ratio", number, "", poisson, "", "not elastic", "", "of the solid, below 0.5"},
+       &Material::poisson_ratio},
   };
 }
 

@@ -12,20 +12,26 @@
 
 namespace tripoint::fluid {
 
-double bulk_viscosity(const Scene& scene) { return no_bulk_viscosity(scene).empty() ? kept_number(scene.values, key_row("scene", "bulk_viscosity")) : 0.0; }
+double bulk_viscosity(const Scene& scene) {
+  return no_bulk_viscosity(scene).empty() ? kept_number(scene.values, key_row("scene", "bulk_viscosity")) : 0.0;
+}
 
 void set_bulk_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   static const double thinner = 1.0 - defect_size("fluid.bulk_viscosity"), told = 1.0 - defect_size("fluid.bulk_viscosity.entry");
-  const double dt = 2.0 * world.lagged.half_step;  // the step was begun by a half kick
+  const double dt = 2.0 * world.lagged.half_step;       // the step was begun by a half kick
   const bool flows = dt > 0.0 && world.change.empty();  // what is born changes densities at once
-  const double viscosity = flows ? n.bulk_viscosity * thinner * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
+  const double viscosity =
+      flows ? n.bulk_viscosity * thinner * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
   const auto delta = p[field::number_density], before = p[field::number_density_before], q = p[field::bulk_pressure];
-  const auto rest = p[field::rest_density], m = p[field::mass], pressure = p[field::pressure], V = p[field::volume], group = p[field::group];
+  const auto rest = p[field::rest_density], m = p[field::mass], pressure = p[field::pressure], V = p[field::volume],
+             group = p[field::group];
   std::vector<std::array<double, 1>> blocks;
   const auto taken = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
     const double squeezed = flows && group[i] == -1.0 ? delta[i] / before[i] - 1.0 : 0.0;
-    const double next = pressure[i] > 0.0 && V[i] * rest[i] < m[i] ? std::max(viscosity * std::min(rest[i], n.damped_density) * squeezed, -pressure[i]) : 0.0;
+    const double next = pressure[i] > 0.0 && V[i] * rest[i] < m[i]
+                            ? std::max(viscosity * std::min(rest[i], n.damped_density) * squeezed, -pressure[i])
+                            : 0.0;
     sum[0] += 0.5 * (q[i] + next) * V[i] * squeezed;
     q[i] = next;
     before[i] = delta[i];

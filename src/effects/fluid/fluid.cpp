@@ -31,7 +31,9 @@ class Groups {
       of_.push_back(!is_rigid(world, b) ? -2.0 : free ? 1.0 + static_cast<double>(b) : 0.0);
     }
   }
-  [[nodiscard]] double operator()(std::size_t row) const { return body_[row] < 0 ? -1.0 : of_[static_cast<std::size_t>(body_[row])]; }
+  [[nodiscard]] double operator()(std::size_t row) const {
+    return body_[row] < 0 ? -1.0 : of_[static_cast<std::size_t>(body_[row])];
+  }
 
  private:
   std::span<const int> body_;
@@ -89,10 +91,10 @@ class Fluid : public Effect {
   PairKernels kernels_;
   bool transports_;
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
-  bool damps_;      ///< liquids have a numerical bulk viscosity
-  bool mirrors_;    ///< viscous pairs see walls by the mirrored velocity
-  bool averages_;   ///< walls press by the mean density of a patch of their face
-  bool lays_walls_;  ///< liquid feels fixed walls from their lattice
+  bool damps_;            ///< liquids have a numerical bulk viscosity
+  bool mirrors_;          ///< viscous pairs see walls by the mirrored velocity
+  bool averages_;         ///< walls press by the mean density of a patch of their face
+  bool lays_walls_;       ///< liquid feels fixed walls from their lattice
   Walls walls_;
   LaidWalls laid_;
   SolidViscosity solid_viscosity_;
@@ -133,7 +135,8 @@ void Fluid::follow_temperature(World& world) const {
 void Fluid::set_own_density(World& world, std::size_t row) const {
   if (!world.particles.has(field::own_density.name)) return;
   double sum = 0.0;
-  for (const OwnPair& pair : std::as_const(world.own).of(static_cast<std::size_t>(world.particles[field::id][row]))) sum += pair.weight;
+  for (const OwnPair& pair : std::as_const(world.own).of(static_cast<std::size_t>(world.particles[field::id][row])))
+    sum += pair.weight;
   world.particles[field::own_density][row] = sum;
 }
 
@@ -170,7 +173,8 @@ void Fluid::clear(World& world, PassName pass) {
   Particles& p = world.particles;
   if (pass == PassName::heat) return;
   if (pass == PassName::rates) {
-    for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x, &field::viscous_force_y, &field::viscous_force_z})
+    for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x,
+                                   &field::viscous_force_y, &field::viscous_force_z})
       fill(awake(p, *f), 0.0, world.threads);
   } else if (world.scene.mode_of(Term::density) == Mode::corrected) {
     const auto delta = awake(p, field::number_density);
@@ -218,17 +222,22 @@ TimeStepBound Fluid::max_dt(const World& world) const {
   const double courant = world.scene.mode_of(Term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.35 : 0.45;
   TimeStepBound bound;
   tighten(bound, courant * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "sound");
-  if (damps_) tighten(bound, bulk_viscous_step(numbers_) * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "bulk viscosity");
+  if (damps_)
+    tighten(bound, bulk_viscous_step(numbers_) * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "bulk viscosity");
   tighten(bound, world.lagged.viscous_step, "viscosity");
   return bound;
 }
 
-/// Pressure, viscosity and, where the scene says so, the stress of the transport velocity, with where their work goes (model 8.11).
+/// Pressure, viscosity and, where the scene says so, the stress of the transport velocity, with where their work goes
+/// (model 8.11).
 std::vector<Force> forces_of(const Scene& scene) {
   Force pressure{field::force_x, field::force_y, field::force_z, {"pressure_work"}, Account{"wall_pressure_work"}};
-  if (stores_compression(scene)) pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, compression_released, "phase_work"};
-  else pressure.entry = "pressure_work";
-  Force viscous{field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, {"viscous_work"}, Account{"wall_viscous_work"}};
+  if (stores_compression(scene))
+    pressure.stored = StoredEnergy{{"compression"}, {"start_compression"}, compression_released, "phase_work"};
+  else
+    pressure.entry = "pressure_work";
+  Force viscous{
+      field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, {"viscous_work"}, Account{"wall_viscous_work"}};
   viscous.entry = "viscous";
   for (Force* f : {&pressure, &viscous}) f->body_force_defect = "bodies.force", f->body_torque_defect = "bodies.torque";
   if (!uses_transport_velocity(scene)) return {pressure, viscous};
@@ -241,12 +250,14 @@ std::vector<Force> forces_of(const Scene& scene) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{"fluid",
-               scene.mode_of(Term::pressure),
-               {field::density, field::volume, field::pressure, field::rest_density, field::viscosity, field::solid, field::stick, field::group,
-                field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z,
-                field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z},
-               fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
+  EffectSpec s{
+      "fluid",
+      scene.mode_of(Term::pressure),
+      {field::density, field::volume, field::pressure, field::rest_density, field::viscosity, field::solid, field::stick,
+       field::group, field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y,
+       field::viscous_force_z, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z},
+      fields::joined(
+          {fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
   s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
   s.sums_forces = true;
   const bool damps = bulk_viscosity(scene) > 0.0;
@@ -255,10 +266,11 @@ EffectSpec spec(const Scene& scene) {
   if (scene.mode_of(Term::pressure) == Mode::corrected) own({field::pressure_share});
   if (scene.mode_of(Term::density) == Mode::corrected && can_have_deformable_bodies(scene)) own({field::own_density});
   if (damps) own({field::number_density_before, field::bulk_pressure});
-  if (mirrors_velocities(scene)) own({field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z});
+  if (mirrors_velocities(scene))
+    own({field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z});
   if (uses_transport_velocity(scene))
-    own({field::shift_x, field::shift_y, field::shift_z, field::background_x, field::background_y, field::background_z, field::transport_force_x,
-         field::transport_force_y, field::transport_force_z});
+    own({field::shift_x, field::shift_y, field::shift_z, field::background_x, field::background_y, field::background_z,
+         field::transport_force_x, field::transport_force_y, field::transport_force_z});
   s.forces = forces_of(scene);
   s.accounts = {compression_released};
   s.guards = {{field::density, "density", Written::density}};
@@ -269,38 +281,44 @@ EffectSpec spec(const Scene& scene) {
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fluid>(scene); }
 
 std::vector<DefectEntry> defects() {
-  return {{"fluid.density", "number density times 1 + size", "fluid/hydrostatic"},
-          {"fluid.paper.density", "density (4) times 1 + size", "fluid/hydrostatic"},
-          {"fluid.pressure", "corrected pressure force times 1 + size", "fluid/hydrostatic"},
-          {"fluid.paper.pressure", "pressure force (7) times 1 + size", "fluid/hydrostatic"},
-          {"fluid.core", "reach of the core of pairs times 1 + size", "fluid/hydrostatic"},
-          {"walls.pressure", "pressure of walls on liquids times 1 - size", "fluid/still-water"},
-          {"fluid.surface", "part of its weight that the topmost layer of a liquid bears times 1 - size", "fluid/hydrostatic-ladder"},
-          {"walls.jitter", "share of what the jitter of walls does to their own number density left in", "fluid/hydrostatic"},
-          {"walls.places", "share of how far jitter puts fixed walls off their lattice left in what liquid feels of them", "fluid/hydrostatic"},
-          {"walls.stiffness", "stiffness of walls times 1 - size", "fluid/hydrostatic-ladder"},
-          {"walls.clamp", "walls are not clamped: they pull where liquid is thin", "fluid/still-water"},
-          {"fluid.bulk_viscosity", "numerical bulk viscosity of liquids times 1 - size", "fluid/still-water"},
-          {"fluid.bulk_viscosity.entry", "share of what the numerical bulk viscosity takes left untold", "fluid/breathing-column"},
-          {"fluid.bulk_viscosity.step", "greatest step that the numerical bulk viscosity allows times 1 + size", "fluid/breathing-column-thick"},
-          {"fluid.phase_jump", "share of 0..1 of the compression that changes of phase let go left untold", "phase/melt-elastic"},
-          {"fluid.state", "scaled pressure of (9) times 1 + size", "fluid/sound-wave"},
-          {"fluid.paper.state", "pressure (9) as printed times 1 + size", "fluid/sound-wave"},
-          {"fluid.viscosity.laplacian", "laplacian viscous force times 1 + size", "fluid/poiseuille"},
-          {"fluid.paper.viscosity", "viscous force (8) times 1 + size", "fluid/poiseuille"},
-          {"walls.velocity", "part of the mirrored velocity of walls left out", "fluid/poiseuille"},
-          {"fluid.viscosity.central", "part of the central viscous force along the velocity, not the line of centres", "fluid/liquid-ball"},
-          {"fluid.viscosity.contact", "viscosity of solids that touch times 1 + size", "coupling/sliding-slab"},
-          {"fluid.paper.solid_viscosity", "viscosity of a solid in (8) times 1 + size", "phase/stage-viscosity"},
-          {"fluid.paper.stage_viscosity", "share of 0..1 of the change of a solid's viscosity between t_solid and t_melt left out", "phase/stage-viscosity"},
-          {"fluid.viscosity.lag", "viscous forces see the velocity of `size` steps before", "fluid/viscous-order"},
-          {"fluid.viscosity.mean", "share of the arithmetic mean in the viscosity between two liquids", "fluid/two-viscosities"},
-          {"fluid.transport.background", "background pressure of the transport velocity times 1 - size", "fluid/taylor-green"},
-          {"fluid.transport.stress", "stress that the transport velocity carries times 1 - size", "fluid/taylor-green"},
-          {"bodies.force", "forces of liquids and contact on bodies times 1 - size", "coupling/floating-block-050"},
-          {"bodies.torque", "torques of liquids and contact on bodies times 1 - size", "coupling/oblique"},
-          {"bodies.force_axes", "y and z of the forces on bodies swapped in the frames", "solid/plastic-sheet"},
-          {"bodies.arm", "arms of torques to the image inside the box: wrong across a periodic boundary", "coupling/oblique-periodic"}};
+  return {
+      {"fluid.density", "number density times 1 + size", "fluid/hydrostatic"},
+      {"fluid.paper.density", "density (4) times 1 + size", "fluid/hydrostatic"},
+      {"fluid.pressure", "corrected pressure force times 1 + size", "fluid/hydrostatic"},
+      {"fluid.paper.pressure", "pressure force (7) times 1 + size", "fluid/hydrostatic"},
+      {"fluid.core", "reach of the core of pairs times 1 + size", "fluid/hydrostatic"},
+      {"walls.pressure", "pressure of walls on liquids times 1 - size", "fluid/still-water"},
+      {"fluid.surface", "part of its weight that the topmost layer of a liquid bears times 1 - size", "fluid/hydrostatic-ladder"},
+      {"walls.jitter", "share of what the jitter of walls does to their own number density left in", "fluid/hydrostatic"},
+      {"walls.places", "share of how far jitter puts fixed walls off their lattice left in what liquid feels of them",
+       "fluid/hydrostatic"},
+      {"walls.stiffness", "stiffness of walls times 1 - size", "fluid/hydrostatic-ladder"},
+      {"walls.clamp", "walls are not clamped: they pull where liquid is thin", "fluid/still-water"},
+      {"fluid.bulk_viscosity", "numerical bulk viscosity of liquids times 1 - size", "fluid/still-water"},
+      {"fluid.bulk_viscosity.entry", "share of what the numerical bulk viscosity takes left untold", "fluid/breathing-column"},
+      {"fluid.bulk_viscosity.step", "greatest step that the numerical bulk viscosity allows times 1 + size",
+       "fluid/breathing-column-thick"},
+      {"fluid.phase_jump", "share of 0..1 of the compression that changes of phase let go left untold", "phase/melt-elastic"},
+      {"fluid.state", "scaled pressure of (9) times 1 + size", "fluid/sound-wave"},
+      {"fluid.paper.state", "pressure (9) as printed times 1 + size", "fluid/sound-wave"},
+      {"fluid.viscosity.laplacian", "laplacian viscous force times 1 + size", "fluid/poiseuille"},
+      {"fluid.paper.viscosity", "viscous force (8) times 1 + size", "fluid/poiseuille"},
+      {"walls.velocity", "part of the mirrored velocity of walls left out", "fluid/poiseuille"},
+      {"fluid.viscosity.central", "part of the central viscous force along the velocity, not the line of centres",
+       "fluid/liquid-ball"},
+      {"fluid.viscosity.contact", "viscosity of solids that touch times 1 + size", "coupling/sliding-slab"},
+      {"fluid.paper.solid_viscosity", "viscosity of a solid in (8) times 1 + size", "phase/stage-viscosity"},
+      {"fluid.paper.stage_viscosity", "share of 0..1 of the change of a solid's viscosity between t_solid and t_melt left out",
+       "phase/stage-viscosity"},
+      {"fluid.viscosity.lag", "viscous forces see the velocity of `size` steps before", "fluid/viscous-order"},
+      {"fluid.viscosity.mean", "share of the arithmetic mean in the viscosity between two liquids", "fluid/two-viscosities"},
+      {"fluid.transport.background", "background pressure of the transport velocity times 1 - size", "fluid/taylor-green"},
+      {"fluid.transport.stress", "stress that the transport velocity carries times 1 - size", "fluid/taylor-green"},
+      {"bodies.force", "forces of liquids and contact on bodies times 1 - size", "coupling/floating-block-050"},
+      {"bodies.torque", "torques of liquids and contact on bodies times 1 - size", "coupling/oblique"},
+      {"bodies.force_axes", "y and z of the forces on bodies swapped in the frames", "solid/plastic-sheet"},
+      {"bodies.arm", "arms of torques to the image inside the box: wrong across a periodic boundary",
+       "coupling/oblique-periodic"}};
 }
 
 }  // namespace tripoint::fluid

@@ -8,7 +8,8 @@ namespace tripoint::fluid {
 namespace {
 
 /// Core energy of the pairs of i that act, half of each pair [J]. What sleeps has none.
-double core_energy(const World& world, const Triple<const double>& x, std::span<const double> group, const Core& core, std::size_t i) {
+double core_energy(const World& world, const Triple<const double>& x, std::span<const double> group, const Core& core,
+                   std::size_t i) {
   double sum = 0.0;
   for (const Entry e : world.neighbours->of(i)) {
     const std::size_t j = e.row();

@@ -25,7 +25,8 @@ void refuse_overlap(const World& world, const SceneNumbers& n) {
   std::size_t worst = 0;
   while (pressed(worst) != most) ++worst;
   fail(world, "overlap", worst, "density", "density",
-       fmt::format("is pressed to {:.3g} times its rest density, as where two bodies overlap by one spacing ({:.3g}): a stiffer contact (speed of sound above 10 times that of the "
+       fmt::format("is pressed to {:.3g} times its rest density, as where two bodies overlap by one spacing ({:.3g}): a stiffer "
+                   "contact (speed of sound above 10 times that of the "
                    "impact), walls of 3 layers, or a smaller step",
                    most, n.overlap_density));
 }
@@ -61,11 +62,14 @@ void set_pressure(World& world, const SceneNumbers& n) {
 
 void set_pressure_shares(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
-  const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure], m = p[field::mass], rest = p[field::rest_density];
+  const auto share = p[field::pressure_share], V = p[field::volume], pressure = p[field::pressure], m = p[field::mass],
+             rest = p[field::rest_density];
   const auto group = p[field::group];
   const auto q = p.has(field::bulk_pressure) ? p[field::bulk_pressure] : std::span<double>{};
   // At a free surface a particle has few neighbours, and is not thinned: it presses on its rest volume.
-  const auto pressed = [&](std::size_t i) { return n.surface_head > 0.0 && group[i] == -1.0 ? std::min(V[i], m[i] / rest[i]) : V[i]; };
+  const auto pressed = [&](std::size_t i) {
+    return n.surface_head > 0.0 && group[i] == -1.0 ? std::min(V[i], m[i] / rest[i]) : V[i];
+  };
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {
     const double volume = pressed(i);
@@ -84,8 +88,11 @@ void predict_velocities(World& world) {
   const auto m = p[field::mass];
   const auto body = p[field::body];
   const RigidMembers is_member(world);
-  const auto of_bodies = [&](const Field<Vec3>& f) { return world.bodies.size() > 0 ? std::as_const(world.bodies)[f] : std::span<const Vec3>{}; };
-  const auto centre = of_bodies(field::body_centre), velocity = of_bodies(field::body_velocity), omega = of_bodies(field::body_angular_velocity);
+  const auto of_bodies = [&](const Field<Vec3>& f) {
+    return world.bodies.size() > 0 ? std::as_const(world.bodies)[f] : std::span<const Vec3>{};
+  };
+  const auto centre = of_bodies(field::body_centre), velocity = of_bodies(field::body_velocity),
+             omega = of_bodies(field::body_angular_velocity);
   const auto gained = of_bodies(field::body_acceleration), turned = of_bodies(field::body_angular_acceleration);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {

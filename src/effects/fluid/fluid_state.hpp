@@ -7,13 +7,15 @@
 namespace tripoint::fluid {
 
 /// @throws Diverged where a particle that is no wall is pressed to the density of two layers in one plane: its body or liquid and
-/// another overlap by one spacing. Printed (4) sums masses, which tells an overlap from a heavy neighbour by nothing: no such limit.
+/// another overlap by one spacing. Printed (4) sums masses, which tells an overlap from a heavy neighbour by nothing: no such
+/// limit.
 void refuse_overlap(const World&, const SceneNumbers&);
 /// rho and V from the sums of the density pass: delta = sum W / S0, rho = m delta (model 8.2), or (4) as printed.
 void set_density(World&, const SceneNumbers&);
 /// (9), printed or scaled (model 8.3).
 void set_pressure(World&, const SceneNumbers&);
-/// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment, what the corrected pressure force takes of each particle.
+/// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment, what the corrected pressure force takes of
+/// each particle.
 void set_pressure_shares(World&, const SceneNumbers&);
 /// The velocities that viscous pairs see: of the full step, a half kick with the old rates ahead (model 7, time).
 void predict_velocities(World&);

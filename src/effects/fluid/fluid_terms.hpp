@@ -20,7 +20,8 @@ struct NumberDensity {
   }
 };
 
-/// Where a pair acts: not where both are members of one rigid body, or both are wall. Liquids have group -1, deformable solids -2.
+/// Where a pair acts: not where both are members of one rigid body, or both are wall. Liquids have group -1, deformable solids
+/// -2.
 template <class V>
 [[nodiscard]] inline MaskOf<V> acts(V group_i, V group_j) noexcept {
   return (group_j < 0.0) | (group_i != group_j);
@@ -28,7 +29,8 @@ template <class V>
 
 /// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of
 /// compression_energy(); `pressure_share` is V^2 p over the kernel's lattice moment, so that p is the force on an area also on
-/// the lattice (decision 6). With it the core energy 1/2 kappa (0.9 dx - r)^2 that keeps pairs apart where the clamp leaves no repulsion.
+/// the lattice (decision 6). With it the core energy 1/2 kappa (0.9 dx - r)^2 that keeps pairs apart where the clamp leaves no
+/// repulsion.
 struct PressureCorrected {
   using reads = Keys<field::pressure_share, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
@@ -149,13 +151,14 @@ struct ViscosityCentral {
   }
 };
 
-/// sum_j G_ij of a viscosity [kg/s], and for `central` sum_j G_ij e e^T (xx, yy, zz, yz, xz, xy), for the bound of the step. It is
-/// summed to the columns of forces, between their last use and the pass that fills them anew.
+/// sum_j G_ij of a viscosity [kg/s], and for `central` sum_j G_ij e e^T (xx, yy, zz, yz, xz, xy), for the bound of the step. It
+/// is summed to the columns of forces, between their last use and the pass that fills them anew.
 template <class Viscosity>
 struct ViscousSpread {
   static constexpr bool central = std::is_same_v<Viscosity, ViscosityCentral>;
   using reads = ViscousKeys;
-  using adds = Keys<field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y, field::viscous_force_z>;
+  using adds = Keys<field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y,
+                    field::viscous_force_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 6> sum) {
     const V G = Viscosity::template coefficient<V>(g, i, j);

@@ -18,8 +18,8 @@ bool is_liquid(double group) { return group == -1.0; }
 
 }  // namespace
 
-/// Where the lattices of fixed walls lie: of the places of each wall over the spacing the mean direction, as of angles. The mean jitter of all particles of
-/// a wall stays in it, which moves the wall as a whole and is no roughness.
+/// Where the lattices of fixed walls lie: of the places of each wall over the spacing the mean direction, as of angles. The mean
+/// jitter of all particles of a wall stays in it, which moves the wall as a whole and is no roughness.
 void LaidWalls::find_moves(World& world) {
   using std::numbers::pi;
   const Particles& p = world.particles;
@@ -27,7 +27,10 @@ void LaidWalls::find_moves(World& world) {
   const auto body = p[field::body], source = p[field::source], id = p[field::id];
   const auto x = positions(p);
   const double dx = world.scene.spacing;
-  const auto fixed = [&](std::size_t row) { return group[row] == 0.0 && world.bodies[field::body_motion][static_cast<std::size_t>(body[row])] == static_cast<int>(Motion::fixed); };
+  const auto fixed = [&](std::size_t row) {
+    return group[row] == 0.0 &&
+           world.bodies[field::body_motion][static_cast<std::size_t>(body[row])] == static_cast<int>(Motion::fixed);
+  };
   const auto first_of = [&](std::size_t row) { return 6 * static_cast<std::size_t>(source[row]); };
   std::vector<double> sums(6 * world.scene.bodies.size());
   for (std::size_t i = 0; i < p.size(); ++i)
@@ -88,7 +91,9 @@ void LaidWalls::each_row(const World& world, Give give) const {
 void LaidWalls::lay_densities(World& world, const PairKernels& kernels) {
   find(world);
   const auto delta = world.particles[field::number_density];
-  each_row(world, [&](std::size_t i, std::size_t, const Vec3& d, const Vec3& from_lattice) { delta[i] += kernels.wendland.value(norm(from_lattice)) - kernels.wendland.value(norm(d)); });
+  each_row(world, [&](std::size_t i, std::size_t, const Vec3& d, const Vec3& from_lattice) {
+    delta[i] += kernels.wendland.value(norm(from_lattice)) - kernels.wendland.value(norm(d));
+  });
   world.refresh(densities);
 }
 
@@ -99,7 +104,8 @@ void LaidWalls::lay_forces(World& world, const PairKernels& kernels) {
   static const double stronger = 1.0 + defect_size("fluid.pressure");
   each_row(world, [&](std::size_t i, std::size_t j, const Vec3& d, const Vec3& from_lattice) {
     const double pressure = stronger * (share[i] + share[j]);
-    F.set(i, F.at(i) + pressure * (kernels.wendland.derivative_over_r(norm(from_lattice)) * from_lattice - kernels.wendland.derivative_over_r(norm(d)) * d));
+    F.set(i, F.at(i) + pressure * (kernels.wendland.derivative_over_r(norm(from_lattice)) * from_lattice -
+                                   kernels.wendland.derivative_over_r(norm(d)) * d));
   });
   world.refresh(forces);
 }

@@ -10,24 +10,24 @@
 
 namespace tripoint::fluid {
 
-/// Whether the jitter of a scene leaves two particles of one lattice nearer to their own places of it than to others. Fixed walls then press from
-/// their lattice.
+/// Whether the jitter of a scene leaves two particles of one lattice nearer to their own places of it than to others. Fixed walls
+/// then press from their lattice.
 [[nodiscard]] inline bool has_laid_walls(const Scene& scene) { return scene.jitter > 0.0 && scene.jitter < 0.25; }
 
 /// Difference of two places of one lattice, from that of two that are jittered. @param away, and the result [spacings]
 [[nodiscard]] inline Vec3 laid(const Vec3& away) { return {std::round(away.x), std::round(away.y), std::round(away.z)}; }
 
-/// A run that goes on finds rows in another order, and places of walls that are off by their last bit. A millionth of a spacing, or of the rest
-/// density, is far above what that does to a sum, and far below what matters, so both runs have the same bits.
+/// A run that goes on finds rows in another order, and places of walls that are off by their last bit. A millionth of a spacing,
+/// or of the rest density, is far above what that does to a sum, and far below what matters, so both runs have the same bits.
 [[nodiscard]] inline double to_a_millionth(double x) { return std::ldexp(std::round(std::ldexp(x, 20)), -20); }
 
-/// Liquid feels the fixed walls of a jittered scene from the lattice that they were laid on (model 8.4). A wall never moves, so nothing evens out
-/// what jitter did to it: the first layer of liquid would lie on it as on gravel, and all layers above would bear the pattern of that. The pair
-/// passes see walls where they are; what the places of the lattice change is added after them.
+/// Liquid feels the fixed walls of a jittered scene from the lattice that they were laid on (model 8.4). A wall never moves, so
+/// nothing evens out what jitter did to it: the first layer of liquid would lie on it as on gravel, and all layers above would
+/// bear the pattern of that. The pair passes see walls where they are; what the places of the lattice change is added after them.
 class LaidWalls {
  public:
-  /// After the pass of densities: W(|d'|) - W(|d|) to each pair of liquid and fixed wall within the support, d = r_j - r_i and d' that from the
-  /// place of the wall particle on the lattice. The wall's own part is that of Walls.
+  /// After the pass of densities: W(|d'|) - W(|d|) to each pair of liquid and fixed wall within the support, d = r_j - r_i and d'
+  /// that from the place of the wall particle on the lattice. The wall's own part is that of Walls.
   void lay_densities(World&, const PairKernels&);
   /// After the pass of rates: the same to the pressure force, so that it is the gradient of the energy at these densities.
   void lay_forces(World&, const PairKernels&);
@@ -45,7 +45,8 @@ class LaidWalls {
   template <class Give>
   void each_row(const World&, Give give) const;
 
-  std::vector<Vec3> moves_;          ///< by id, from where jitter put a particle of a fixed wall to its place on the lattice [m]; 0 of all others
+  std::vector<Vec3>
+      moves_;  ///< by id, from where jitter put a particle of a fixed wall to its place on the lattice [m]; 0 of all others
   std::vector<std::uint32_t> rows_;  ///< of liquid near fixed walls, and of these near liquid
   std::vector<std::size_t> start_;   ///< first pair of each row, and one past the last
   std::vector<Pair> pairs_;

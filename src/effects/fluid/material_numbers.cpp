@@ -34,15 +34,21 @@ double least_density(const Scene& scene) {
   return least;
 }
 
-/// What of its own weight the topmost layer of a liquid bears as pressure: scene.surface_weight, 0 where liquids of this scene can bear none.
-double surface_weight(const Scene& scene) { return no_surface_weight(scene).empty() ? kept_number(scene.values, key_row("scene", "surface_weight")) : 0.0; }
+/// What of its own weight the topmost layer of a liquid bears as pressure: scene.surface_weight, 0 where liquids of this scene
+/// can bear none.
+double surface_weight(const Scene& scene) {
+  return no_surface_weight(scene).empty() ? kept_number(scene.values, key_row("scene", "surface_weight")) : 0.0;
+}
 
 }  // namespace
 
 SceneNumbers numbers_of(const Scene& scene) {
   SceneNumbers n;
   for (const Material& m : scene.materials) n.stiffness = std::max(n.stiffness, m.stiffness.value_or(0.0));
-  if (!(n.stiffness > 0.0)) throw InputError("bodies of this scene can touch or flow, and no material has a stiffness: give one a sound_speed of at least 10 times the fastest motion");
+  if (!(n.stiffness > 0.0))
+    throw InputError(
+        "bodies of this scene can touch or flow, and no material has a stiffness: give one a sound_speed of at least 10 times "
+        "the fastest motion");
   n.reference_density = reference_density(scene);
   const double lightest = least_density(scene);
   n.damped_density = 4.0 * lightest;
@@ -60,9 +66,11 @@ SceneNumbers numbers_of(const Scene& scene) {
   if (scene.mode_of(Term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
   n.core_reach = 0.9 * (1.0 + defect_size("fluid.core")) * scene.spacing;
-  const bool corrected = std::ranges::all_of(std::array{Term::walls, Term::density, Term::pressure}, [&](Term t) { return scene.mode_of(t) == Mode::corrected; });
+  const bool corrected = std::ranges::all_of(std::array{Term::walls, Term::density, Term::pressure},
+                                             [&](Term t) { return scene.mode_of(t) == Mode::corrected; });
   const bool freezes = calls_for(scene, "phase");
-  n.averages_walls = corrected && !freezes && !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
+  n.averages_walls = corrected && !freezes &&
+                     !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   // Half of what a wall particle sees is wall, which does not move: it reads half of the strain of the liquid.
   if (n.averages_walls) n.wall_stiffness = 2.0 * (1.0 - defect_size("walls.stiffness"));
   return n;

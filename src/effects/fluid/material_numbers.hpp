@@ -14,16 +14,18 @@ struct SceneNumbers {
   double damped_density = 0.0;     ///< rest density above which the numerical bulk viscosity of a liquid grows no more [kg/m3]
   double bulk_viscosity = 0.0;     ///< zeta of the numerical bulk viscosity of liquids, 0 = none [1]
   double lattice_density = 1.0;    ///< S0 of the kernel at the scene's h/dx
-  double overlap_density = 2.0;    ///< of a particle in the outermost layer of two bodies that overlap by one spacing, over its rest density
-  double gradient_moment = 1.0;    ///< of the kernel at the scene's h/dx
-  double pressure_work = 1.0;      ///< energy of compression a p dV: lattice_density/gradient_moment, 1 as printed
-  double core_stiffness = 0.0;     ///< kappa = 0.03 k rho_ref dx [N/m]
-  double core_reach = 0.0;         ///< 0.9 dx [m]
-  double least_exposure = 0.0;     ///< a wall particle is at the face of its wall where this share of its number density can be other than wall
-  double wall_stiffness = 1.0;     ///< of a wall's equation of state over that of liquids (model 8.4)
-  double surface_head = 0.0;       ///< pressure of the topmost layer of a liquid over its rest density [m2/s2], 0 = none (model 8.3)
-  double half_full = 0.5;          ///< density of that layer over the rest density, on the lattice
-  bool averages_walls = false;     ///< the pressure of walls is that of a patch of their face: liquid alone touches them
+  double overlap_density =
+      2.0;  ///< of a particle in the outermost layer of two bodies that overlap by one spacing, over its rest density
+  double gradient_moment = 1.0;  ///< of the kernel at the scene's h/dx
+  double pressure_work = 1.0;    ///< energy of compression a p dV: lattice_density/gradient_moment, 1 as printed
+  double core_stiffness = 0.0;   ///< kappa = 0.03 k rho_ref dx [N/m]
+  double core_reach = 0.0;       ///< 0.9 dx [m]
+  double least_exposure =
+      0.0;  ///< a wall particle is at the face of its wall where this share of its number density can be other than wall
+  double wall_stiffness = 1.0;  ///< of a wall's equation of state over that of liquids (model 8.4)
+  double surface_head = 0.0;    ///< pressure of the topmost layer of a liquid over its rest density [m2/s2], 0 = none (model 8.3)
+  double half_full = 0.5;       ///< density of that layer over the rest density, on the lattice
+  bool averages_walls = false;  ///< the pressure of walls is that of a patch of their face: liquid alone touches them
 };
 /// @throws InputError when no material of the scene has a stiffness or a speed of sound
 [[nodiscard]] SceneNumbers numbers_of(const Scene&);

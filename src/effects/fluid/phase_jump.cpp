@@ -22,8 +22,10 @@ std::vector<std::size_t> changed_rows(const World& world) {
 
 }  // namespace
 
-double compression_jump(const World& world, const SceneNumbers& n, const PairKernels& kernels, const std::function<double(std::size_t)>& group_now, double back) {
-  const bool core = world.scene.mode_of(Term::pressure) == Mode::corrected, numbers = world.scene.mode_of(Term::density) == Mode::corrected;
+double compression_jump(const World& world, const SceneNumbers& n, const PairKernels& kernels,
+                        const std::function<double(std::size_t)>& group_now, double back) {
+  const bool core = world.scene.mode_of(Term::pressure) == Mode::corrected,
+             numbers = world.scene.mode_of(Term::density) == Mode::corrected;
   if (!world.neighbours || world.neighbours->rebuilds() == 0 || !(core || numbers)) return 0.0;
   const Particles& p = world.particles;
   const std::vector<std::size_t> rows = changed_rows(world);

@@ -14,7 +14,9 @@ bool is_liquid(const Scene&, const Body& b, const Material&) { return b.phase ==
 
 bool has_stiffness(const Material& m) { return m.stiffness.has_value(); }
 
-bool can_break(const Scene&, const Body& b, const Material& m) { return b.phase == Phase::elastic && (m.fracture_stretch || m.fracture_distance); }
+bool can_break(const Scene&, const Body& b, const Material& m) {
+  return b.phase == Phase::elastic && (m.fracture_stretch || m.fracture_distance);
+}
 
 /// Bodies that can meet others: contact needs a stiffness, two bodies, or one that can break in two, and one of them free.
 std::string who_can_touch(const Scene& s) {
@@ -24,10 +26,12 @@ std::string who_can_touch(const Scene& s) {
 }
 
 std::string called_for(const Scene& s) {
-  std::string liquid = bodies_where(s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::liquid && moves(scene, b); });
+  std::string liquid = bodies_where(
+      s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::liquid && moves(scene, b); });
   if (liquid.empty() && !s.inflows.empty()) liquid = "an inflow";
   if (!liquid.empty()) return because(liquid, "liquid, and not held in place");
-  if (const std::string touch = who_can_touch(s); !touch.empty()) return because(touch, "more than one body, one of them free, and a stiffness: they can touch");
+  if (const std::string touch = who_can_touch(s); !touch.empty())
+    return because(touch, "more than one body, one of them free, and a stiffness: they can touch");
   const bool flows = any_material(s, has_stiffness) || s.gravity != Vec3{};
   return flows ? because(who_changes_phase(s), "what melts flows") : "";
 }
@@ -35,24 +39,51 @@ std::string called_for(const Scene& s) {
 std::string left_out(const Scene& s) {
   if (any_body(s, is_liquid)) return "every liquid is held in place, and nothing can touch";
   if (!s.contact) return "nothing is liquid, and the scene says contact = \"none\"";
-  if (!any_material(s, has_stiffness)) return "nothing is liquid, no two bodies can meet before the end of the run, and no material has a stiffness";
+  if (!any_material(s, has_stiffness))
+    return "nothing is liquid, no two bodies can meet before the end of the run, and no material has a stiffness";
   return "nothing is liquid, and no free body has another to touch";
 }
 
-std::string solid_viscosity_idle(const Scene& scene) { return scene.mode_of(Term::viscosity) == Mode::paper ? "" : "viscosity is corrected: a liquid takes its own beside a solid, and solids scene.contact_viscosity"; }
+std::string solid_viscosity_idle(const Scene& scene) {
+  return scene.mode_of(Term::viscosity) == Mode::paper
+             ? ""
+             : "viscosity is corrected: a liquid takes its own beside a solid, and solids scene.contact_viscosity";
+}
 
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "viscosity_form", word, "", any, "\"central\"", "keeps angular momentum; right wherever a surface or body is free", "laplacian central", "corrected viscosity; laplacian for wall-bounded shear only"}, &Scene::viscosity_form},
-      {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "", "move particles by the transport velocity"}, &Scene::transport_velocity},
-      {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "", "viscosity between solids that touch"}, &Scene::contact_viscosity},
-      {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "", "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, density, pressure and state are corrected, and nothing freezes"}, {}, no_bulk_viscosity, true},
-      {{"scene", "surface_weight", number, "", not_negative, "0.5", "half of its own weight lies above the middle of a layer", "", "what of its own weight the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene clamps, density, pressure and state are corrected, nothing freezes, and no body is free"}, {}, no_surface_weight, true},
-      {{"material", "solid_viscosity", number, "Pa s", not_negative, "0", "a solid has scene.contact_viscosity", "", "dynamic viscosity of the solid in (8), only where modes.viscosity is paper; between t_solid and t_melt, where modes.phase is paper, linear from it to viscosity (Fig. 5)"}, {}, solid_viscosity_idle},
-      {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"}, &Material::viscosity},
+      {{"scene", "viscosity_form", word, "", any, "\"central\"",
+        "keeps angular momentum; right wherever a surface or body is free", "laplacian central",
+        "corrected viscosity; laplacian for wall-bounded shear only"},
+       &Scene::viscosity_form},
+      {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "",
+        "move particles by the transport velocity"},
+       &Scene::transport_velocity},
+      {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
+        "viscosity between solids that touch"},
+       &Scene::contact_viscosity},
+      {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "",
+        "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
+        "density, pressure and state are corrected, and nothing freezes"},
+       {},
+       no_bulk_viscosity,
+       true},
+      {{"scene", "surface_weight", number, "", not_negative, "0.5", "half of its own weight lies above the middle of a layer", "",
+        "what of its own weight the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene "
+        "clamps, density, pressure and state are corrected, nothing freezes, and no body is free"},
+       {},
+       no_surface_weight,
+       true},
+      {{"material", "solid_viscosity", number, "Pa s", not_negative, "0", "a solid has scene.contact_viscosity", "",
+        "dynamic viscosity of the solid in (8), only where modes.viscosity is paper; between t_solid and t_melt, where "
+        "modes.phase is paper, linear from it to viscosity (Fig. 5)"},
+       {},
+       solid_viscosity_idle},
+      {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"},
+       &Material::viscosity},
   };
 }
 
@@ -74,11 +105,22 @@ Vec3 pressing_gravity(const Scene& scene) {
 }
 
 std::string no_surface_weight(const Scene& scene) {
-  if (any_body(scene, [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; })) return "a free body that floats would be lifted by it";
-  if (pressing_gravity(scene) == Vec3{}) return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
+  if (any_body(scene,
+               [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }))
+    return "a free body that floats would be lifted by it";
+  if (pressing_gravity(scene) == Vec3{})
+    return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
   return no_bulk_viscosity(scene);
 }
 
-EffectRule rule() { return {"fluid", called_for, left_out, nullptr, {Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls}, {Term::kernel}, keys()}; }
+EffectRule rule() {
+  return {"fluid",
+          called_for,
+          left_out,
+          nullptr,
+          {Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls},
+          {Term::kernel},
+          keys()};
+}
 
 }  // namespace tripoint::fluid

@@ -6,14 +6,15 @@
 
 namespace tripoint::fluid {
 
-/// Why liquids of the scene can have no numerical bulk viscosity, whatever scene.bulk_viscosity says; "" where they can: something is liquid and never
-/// freezes, which changes densities at once; density, pressure and state are corrected; and the scene clamps, so that a free surface or a contact can be.
+/// Why liquids of the scene can have no numerical bulk viscosity, whatever scene.bulk_viscosity says; "" where they can:
+/// something is liquid and never freezes, which changes densities at once; density, pressure and state are corrected; and the
+/// scene clamps, so that a free surface or a contact can be.
 [[nodiscard]] std::string no_bulk_viscosity(const Scene&);
 
 /// Gravity without its parts along periodic directions, which drive a flow there and press on nothing [m/s2].
 [[nodiscard]] Vec3 pressing_gravity(const Scene&);
-/// Why the topmost layer of a liquid can bear no part of its own weight, whatever scene.surface_weight says; "" where it can: as for the numerical bulk
-/// viscosity, there is a weight, and no free body, which at a surface weighs what it likes.
+/// Why the topmost layer of a liquid can bear no part of its own weight, whatever scene.surface_weight says; "" where it can: as
+/// for the numerical bulk viscosity, there is a weight, and no free body, which at a surface weighs what it likes.
 [[nodiscard]] std::string no_surface_weight(const Scene&);
 
 }  // namespace tripoint::fluid

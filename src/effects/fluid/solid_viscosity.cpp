@@ -7,7 +7,8 @@
 namespace tripoint::fluid {
 
 SolidViscosity::SolidViscosity(const Scene& scene) {
-  static const double rougher = 1.0 + defect_size("fluid.viscosity.contact"), thicker = 1.0 + defect_size("fluid.paper.solid_viscosity");
+  static const double rougher = 1.0 + defect_size("fluid.viscosity.contact"),
+                      thicker = 1.0 + defect_size("fluid.paper.solid_viscosity");
   const bool printed = scene.mode_of(Term::viscosity) == Mode::paper;
   for (const Material& m : scene.materials) {
     const double own = printed ? thicker * value_of(m.values, "solid_viscosity") : 0.0;

@@ -13,9 +13,12 @@ namespace tripoint::fluid {
 
 bool uses_transport_velocity(const Scene& scene) {
   if (!scene.transport_velocity || scene.mode_of(Term::pressure) != Mode::corrected) return false;
-  const bool free_bodies = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
+  const bool free_bodies =
+      std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   if (free_bodies || scene.clamps())
-    throw InputError("scene.transport_velocity is for liquid that fills its space, between walls at most: it needs clamp = false and no free body");
+    throw InputError(
+        "scene.transport_velocity is for liquid that fills its space, between walls at most: it needs clamp = false and no free "
+        "body");
   return true;
 }
 
@@ -25,7 +28,8 @@ void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels
   const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).transport;
   run_pass(pass, p, *world.neighbours, kernels, world.threads);
   world.refresh(pass.adds());
-  static const double weaker = 1.0 - defect_size("fluid.transport.background"), left = 1.0 - defect_size("fluid.transport.stress");
+  static const double weaker = 1.0 - defect_size("fluid.transport.background"),
+                      left = 1.0 - defect_size("fluid.transport.stress");
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it
   const double background = weaker * pressure / n.lattice_density, stress = left / n.lattice_density;
   for (const Field<double>* f : {&field::background_x, &field::background_y, &field::background_z})

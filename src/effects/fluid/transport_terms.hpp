@@ -9,10 +9,10 @@ namespace tripoint {
 /// background force per background pressure [m2]: sum (V_i^2 + V_j^2) (W'/r) d, which evens out the particles;
 /// stress force [N]: sum (V_i^2 + V_j^2) 1/2 (A_i + A_j).grad_i W, A = rho v w^T, the momentum that the difference carries.
 struct TransportForces {
-  using reads = Keys<field::volume, field::density, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z, field::shift_x,
-                     field::shift_y, field::shift_z>;
-  using adds = Keys<field::background_x, field::background_y, field::background_z, field::transport_force_x, field::transport_force_y,
-                    field::transport_force_z>;
+  using reads = Keys<field::volume, field::density, field::viscous_velocity_x, field::viscous_velocity_y,
+                     field::viscous_velocity_z, field::shift_x, field::shift_y, field::shift_z>;
+  using adds = Keys<field::background_x, field::background_y, field::background_z, field::transport_force_x,
+                    field::transport_force_y, field::transport_force_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 6> sum) {
     const V b = (i[0] * i[0] + j[0] * j[0]) * g.gradient;

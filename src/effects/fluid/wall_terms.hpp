@@ -5,11 +5,13 @@
 /// Pair terms of walls (model 8.4). d = r_j - r_i.
 namespace tripoint {
 
-/// What a wall particle sees of the liquid's velocity [Adami, Hu, Adams 2012]: sums over its liquid neighbours of w and v w. The weight is the
-/// viscous coefficient of the pair but for what all pairs of the wall particle share, w = mu (-W'/r). The work of the `laplacian` forces that
-/// follow is then -sum G v_f.(v_f + mean v) = -(sum G v_f^2 + (sum G) |mean v|^2), seen from the wall: it only takes.
+/// What a wall particle sees of the liquid's velocity [Adami, Hu, Adams 2012]: sums over its liquid neighbours of w and v w. The
+/// weight is the viscous coefficient of the pair but for what all pairs of the wall particle share, w = mu (-W'/r). The work of
+/// the `laplacian` forces that follow is then -sum G v_f.(v_f + mean v) = -(sum G v_f^2 + (sum G) |mean v|^2), seen from the
+/// wall: it only takes.
 struct WallExtrapolation {
-  using reads = Keys<field::solid, field::viscosity, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z>;
+  using reads =
+      Keys<field::solid, field::viscosity, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z>;
   using adds = Keys<field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 5> i, std::span<const V, 5> j, std::span<V, 4> sum) {

@@ -18,12 +18,14 @@ namespace {
 
 constexpr double wall_group = 0.0, liquid_group = -1.0;
 constexpr int fixed_frame = -1;
-constexpr std::array<const Field<double>*, 3> seen_velocity{&field::viscous_velocity_x, &field::viscous_velocity_y, &field::viscous_velocity_z};
+constexpr std::array<const Field<double>*, 3> seen_velocity{&field::viscous_velocity_x, &field::viscous_velocity_y,
+                                                            &field::viscous_velocity_z};
 
 /// What each body moves with: all that is fixed moves as one, each driven body by itself.
 std::vector<int> frames_of(const World& world) {
   std::vector<int> frames(world.bodies.size());
-  for (std::size_t b = 0; b < frames.size(); ++b) frames[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? fixed_frame : static_cast<int>(b);
+  for (std::size_t b = 0; b < frames.size(); ++b)
+    frames[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed) ? fixed_frame : static_cast<int>(b);
   return frames;
 }
 
@@ -48,7 +50,8 @@ void Walls::find(const World& world) {
   const Clusters& c = world.neighbours->clusters();
   for (const std::size_t k : c.listed) {
     unsigned walls = 0, wet = 0;  // bits of members
-    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) walls |= static_cast<unsigned>(group[i] == wall_group && (drags_all || stick[i] != 0.0)) << (i - c.first[k]);
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+      walls |= static_cast<unsigned>(group[i] == wall_group && (drags_all || stick[i] != 0.0)) << (i - c.first[k]);
     for (std::size_t e = c.start[k]; e < c.start[k + 1] && (walls & ~wet) != 0; ++e)
       if (group[Entry{c.entries[e]}.row()] == liquid_group) wet |= c.near[e];
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
@@ -67,7 +70,8 @@ void hand_to_copies(const World& world, std::vector<T>& by_id) {
   for (std::size_t id = 0; id < by_id.size(); ++id) by_id[id] = static_cast<T>(numbers[id]);
 }
 
-/// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter adds to the part that is fixed wall.
+/// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter adds to the part
+/// that is fixed wall.
 void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
   const Particles& p = world.particles;
   const auto group = p[field::group];
@@ -89,13 +93,16 @@ void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKe
       if (j == i || group[j] != wall_group || frame_of(i) != frame_of(j)) continue;
       const Vec3 away = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image());
       const double as_it_is = kernels.wendland.value(norm(away));
-      if (as_it_is > 0.0) shares.push_back({id[j], as_it_is, source[i] == source[j] ? kernels.wendland.value(dx * norm(laid(away / dx))) : as_it_is});
+      if (as_it_is > 0.0)
+        shares.push_back(
+            {id[j], as_it_is, source[i] == source[j] ? kernels.wendland.value(dx * norm(laid(away / dx))) : as_it_is});
     }
     std::ranges::sort(shares);
     double wall = kernels.wendland.value(0.0), from_lattice = wall;
     for (const Share& s : shares) wall += s.as_it_is, from_lattice += s.from_lattice;
     at_face_[static_cast<std::size_t>(id[i])] = wall < (1.0 - n.least_exposure) * full ? 1 : 0;
-    if (jittered && frame_of(i) == fixed_frame) excess_[static_cast<std::size_t>(id[i])] = put_back * to_a_millionth((wall - from_lattice) / full);
+    if (jittered && frame_of(i) == fixed_frame)
+      excess_[static_cast<std::size_t>(id[i])] = put_back * to_a_millionth((wall - from_lattice) / full);
   }
 }
 
@@ -111,7 +118,8 @@ void Walls::add_faces(const World& world, bool fixed) {
   place_.resize(p.size(), none);
   const std::size_t old = face_.size();
   for (std::size_t i = 0; i < p.awake(); ++i) {
-    if (group[i] != wall_group || (frame_of(i) == fixed_frame) != fixed || at_face_[static_cast<std::size_t>(id[i])] == 0) continue;
+    if (group[i] != wall_group || (frame_of(i) == fixed_frame) != fixed || at_face_[static_cast<std::size_t>(id[i])] == 0)
+      continue;
     place_[static_cast<std::size_t>(id[i])] = static_cast<std::uint32_t>(face_.size());
     face_.push_back(static_cast<std::uint32_t>(id[i]));
   }
@@ -120,8 +128,10 @@ void Walls::add_faces(const World& world, bool fixed) {
     patch_.push_back(static_cast<std::uint32_t>(k));
     for (const Entry e : world.neighbours->of(i)) {
       const std::size_t j = e.row();
-      if (group[j] != wall_group || j == i || frame_of(i) != frame_of(j) || at_face_[static_cast<std::size_t>(id[j])] == 0) continue;
-      if (norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())) < radius) patch_.push_back(place_[static_cast<std::size_t>(id[j])]);
+      if (group[j] != wall_group || j == i || frame_of(i) != frame_of(j) || at_face_[static_cast<std::size_t>(id[j])] == 0)
+        continue;
+      if (norm((x.at(j) - x.at(i)) + world.neighbours->shift(e.image())) < radius)
+        patch_.push_back(place_[static_cast<std::size_t>(id[j])]);
     }
     start_.push_back(patch_.size());
   }
@@ -135,8 +145,10 @@ void Walls::find_rows(const World& world) {
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     if (group[i] != wall_group) continue;
     const auto one = static_cast<std::size_t>(id[i]);
-    if (at_face_[one] == 0) hidden_.push_back(i);
-    else awake_.push_back(place_[one]), row_.push_back(i);
+    if (at_face_[one] == 0)
+      hidden_.push_back(i);
+    else
+      awake_.push_back(place_[one]), row_.push_back(i);
   }
 }
 
@@ -221,7 +233,8 @@ void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
   Particles& p = world.particles;
   for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, world.threads);
   if (wet_walls_.empty()) return world.refresh(seen_velocity);
-  run_pass_over(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads, wet_);
+  run_pass_over(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation, p, *world.neighbours, kernels, world.threads,
+                wet_);
 
   const auto weight = p[field::wall_weight];
   const auto moved = triple(p, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z);

@@ -9,20 +9,22 @@
 
 namespace tripoint::fluid {
 
-/// Of a patch at the face of a wall, and how far a wall particle is from those whose density tells on its share of the pressure [spacings].
+/// Of a patch at the face of a wall, and how far a wall particle is from those whose density tells on its share of the pressure
+/// [spacings].
 inline constexpr double patch_radius = 1.75, reach_of_patches = 4.0 * patch_radius;
 
-/// What fixed and driven walls do to liquids (model 8.4). Their pressure is the gradient of an energy, as that of all particles is, so that walls
-/// do no net work. In a scene where liquid alone touches them it follows from the mean number density of a patch of the wall's face: how single wall
-/// particles lie then matters little. The velocity that viscous pairs see is the mirrored one, v = 2 v_wall - mean v_f [Adami, Hu, Adams 2012].
+/// What fixed and driven walls do to liquids (model 8.4). Their pressure is the gradient of an energy, as that of all particles
+/// is, so that walls do no net work. In a scene where liquid alone touches them it follows from the mean number density of a
+/// patch of the wall's face: how single wall particles lie then matters little. The velocity that viscous pairs see is the
+/// mirrored one, v = 2 v_wall - mean v_f [Adami, Hu, Adams 2012].
 class Walls {
  public:
-  /// Puts the mean density of its patch to each particle at the face of a wall, and the rest density to those behind: A A rho, A the mean
-  /// over the particles of the face within 1.75 spacings that move as one with it. Where the scene jitters fixed walls, the part of rho that is wall
-  /// is first put back to that of the wall's lattice.
+  /// Puts the mean density of its patch to each particle at the face of a wall, and the rest density to those behind: A A rho, A
+  /// the mean over the particles of the face within 1.75 spacings that move as one with it. Where the scene jitters fixed walls,
+  /// the part of rho that is wall is first put back to that of the wall's lattice.
   void average_density(World&, const SceneNumbers&, const PairKernels&);
-  /// Hands the pressure shares of the patches to their particles, by the transpose of average_density(): the force is the gradient of the energy
-  /// of compression at the mean density.
+  /// Hands the pressure shares of the patches to their particles, by the transpose of average_density(): the force is the
+  /// gradient of the energy of compression at the mean density.
   void hand_down_shares(World&);
   /// Sets the viscous velocity of the walls that liquid is near, where it sticks to them.
   void mirror_velocities(World&, const PairKernels&);
@@ -51,14 +53,15 @@ class Walls {
   std::vector<std::uint32_t> patch_;      ///< places in face_, the particle itself first
   std::size_t fixed_faces_ = 0;
   std::vector<std::uint32_t> awake_, row_;  ///< places in face_ of those that are awake, and their rows
-  std::vector<std::uint32_t> place_;      ///< by id, the place in face_
-  std::vector<char> at_face_;             ///< by id, whether it is a wall's and at its face: what moves as one keeps its faces
-  std::vector<double> excess_;            ///< by id, what jitter adds to the density of a wall particle over its rest density; empty where nothing is jittered
-  /// Of each place in face_: density over the rest density, its mean and the mean of that; what each member of its patch is given of its share of
-  /// the pressure, the same once more, and the sum of that. Those that sleep keep theirs.
+  std::vector<std::uint32_t> place_;        ///< by id, the place in face_
+  std::vector<char> at_face_;               ///< by id, whether it is a wall's and at its face: what moves as one keeps its faces
+  std::vector<double> excess_;  ///< by id, what jitter adds to the density of a wall particle over its rest density; empty where
+                                ///< nothing is jittered
+  /// Of each place in face_: density over the rest density, its mean and the mean of that; what each member of its patch is given
+  /// of its share of the pressure, the same once more, and the sum of that. Those that sleep keep theirs.
   std::vector<double> density_, mean_, mean_of_mean_, part_, part_again_, share_;
-  long known_ = -1, known_faces_ = -1;    ///< the rebuild that the rows are of
-  long known_whole_ = -1;                 ///< the whole lists that fixed faces are of
+  long known_ = -1, known_faces_ = -1;  ///< the rebuild that the rows are of
+  long known_whole_ = -1;               ///< the whole lists that fixed faces are of
 };
 
 }  // namespace tripoint::fluid

@@ -31,7 +31,7 @@ class Fracture : public Effect {
   [[nodiscard]] std::vector<Pair> broken(const World&);
 
   BondLimits limits_;
-  double drifted_ = 0.0;          ///< since the last forces, within a step [s]
+  double drifted_ = 0.0;  ///< since the last forces, within a step [s]
   UnbrokenProof unbroken_;
   std::vector<char> has_broken_;  ///< memory that is used again, by id
 };
@@ -48,7 +48,8 @@ std::vector<Pair> Fracture::broken(const World& world) {
   };
   const auto ends_of = [&](std::size_t i, const Bond& bond) {
     const std::size_t j = p.row(bond.other);
-    return Ends{solid::nearest_image(world.box, x.at(i) - x.at(j)), static_cast<std::size_t>(material[i]), static_cast<std::size_t>(material[j])};
+    return Ends{solid::nearest_image(world.box, x.at(i) - x.at(j)), static_cast<std::size_t>(material[i]),
+                static_cast<std::size_t>(material[j])};
   };
   has_broken_.assign(p.size(), 0);
   double least = std::numeric_limits<double>::infinity();
@@ -75,8 +76,8 @@ std::vector<Pair> Fracture::broken(const World& world) {
   return pairs;
 }
 
-/// Puts all particles half a drift back, and where they were at its end. Of the kicks around a drift the first has the force of a bond
-/// and the second has not, so it broke half way: what it stored there is what it lets go, to second order in the step.
+/// Puts all particles half a drift back, and where they were at its end. Of the kicks around a drift the first has the force of a
+/// bond and the second has not, so it broke half way: what it stored there is what it lets go, to second order in the step.
 class HalfDriftBack {
  public:
   HalfDriftBack(World& world, double drifted) : world_(world) {
@@ -103,7 +104,8 @@ class Release {
  public:
   explicit Release(World& world) : world_(world), forms_(world.scene) {}
 
-  /// To be called ahead of a change to the list of a particle. As printed its partners change with it: its volume is a sum over the list.
+  /// To be called ahead of a change to the list of a particle. As printed its partners change with it: its volume is a sum over
+  /// the list.
   void touch(std::uint32_t id) {
     remember(id);
     if (!forms_.paper()) return;
@@ -134,8 +136,8 @@ class Release {
     const Symmetric plastic = solid::plastic_strain_of(world_.particles, world_.particles.row(id));
     before_[id] = {solid::deformation_energy(world_, forms_, id).total(), between(d.P, d.strain - plastic), plastic};
   }
-  /// A particle that has flowed and loses bonds sees another strain at once: eps_p goes with it, so that P (eps - eps_p) P does not
-  /// jump. Without this the tear of a plastic bar creates energy.
+  /// A particle that has flowed and loses bonds sees another strain at once: eps_p goes with it, so that P (eps - eps_p) P does
+  /// not jump. Without this the tear of a plastic bar creates energy.
   void keep_elastic_strain(std::uint32_t id) {
     static const bool left_as_it_was = defect_size("fracture.plastic_strain") > 0.0;
     const Before& before = before_.at(id);
@@ -155,7 +157,8 @@ std::vector<std::size_t> bodies_of(const World& world, const std::vector<Pair>& 
   const auto body = world.particles[field::body];
   for (const Pair& pair : pairs)
     for (const std::uint32_t id : {pair.first, pair.second})
-      if (const std::size_t i = world.particles.row(id); solid::ElasticParticles(world)(i)) rows.push_back(static_cast<std::size_t>(body[i]));
+      if (const std::size_t i = world.particles.row(id); solid::ElasticParticles(world)(i))
+        rows.push_back(static_cast<std::size_t>(body[i]));
   sort_once(rows);
   return rows;
 }
@@ -180,7 +183,14 @@ void Fracture::change(World& world) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{"fracture", scene.mode_of(Term::elastic), {}, fields::joined({fields::position(), fields::velocity(), {field::mass}, fields::deformation(), fields::shapes(), fields::grouping()}), {}, {let_go_by_bonds}};
+  EffectSpec s{
+      "fracture",
+      scene.mode_of(Term::elastic),
+      {},
+      fields::joined(
+          {fields::position(), fields::velocity(), {field::mass}, fields::deformation(), fields::shapes(), fields::grouping()}),
+      {},
+      {let_go_by_bonds}};
   s.reads_if_there = fields::joined({fields::deformation_if_there(), fields::shapes_if_there()});
   return s;
 }

@@ -15,8 +15,12 @@ std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"material", "fracture_stretch", number, "", above_one, "", "never breaks", "", "corrected: stretch |r|/|x| that breaks a bond"}, &Material::fracture_stretch},
-      {{"material", "fracture_distance", number, "", positive, "", "never breaks", "", "paper: distance that breaks a bond, in spacings"}, &Material::fracture_distance},
+      {{"material", "fracture_stretch", number, "", above_one, "", "never breaks", "",
+        "corrected: stretch |r|/|x| that breaks a bond"},
+       &Material::fracture_stretch},
+      {{"material", "fracture_distance", number, "", positive, "", "never breaks", "",
+        "paper: distance that breaks a bond, in spacings"},
+       &Material::fracture_distance},
   };
 }
 

@@ -30,7 +30,10 @@ bool books_bodies(const Scene& scene) {
          std::ranges::any_of(scene.events, [](const Event& e) { return e.kind == Event::Kind::heat; });
 }
 
-std::vector<FieldInfo> read_by_both() { return fields::joined({fields::position(), {field::id, field::mass, field::body, field::material, field::phase, field::source}}); }
+std::vector<FieldInfo> read_by_both() {
+  return fields::joined(
+      {fields::position(), {field::id, field::mass, field::body, field::material, field::phase, field::source}});
+}
 
 EffectSpec spec_of_form(const Scene& scene) {
   if (scene.mode_of(Term::heat) == Mode::paper) {
@@ -39,14 +42,13 @@ EffectSpec spec_of_form(const Scene& scene) {
             {field::temperature, field::temperature_rate, field::exchange, field::heat_capacity, field::diffusivity, field::held},
             fields::joined({read_by_both(), {field::density, field::volume}})};
   }
-  return {"heat",
-          Mode::corrected,
-          {field::temperature,       field::enthalpy,          field::heat_rate,
-           field::heat_rate_before,  field::conductance,       field::heat_capacity,
-           field::conductivity,      field::rest_volume,       field::held,
-           field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz,
-           field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy},
-          read_by_both()};
+  return {
+      "heat",
+      Mode::corrected,
+      {field::temperature, field::enthalpy, field::heat_rate, field::heat_rate_before, field::conductance, field::heat_capacity,
+       field::conductivity, field::rest_volume, field::held, field::moment_inverse_xx, field::moment_inverse_yy,
+       field::moment_inverse_zz, field::moment_inverse_yz, field::moment_inverse_xz, field::moment_inverse_xy},
+      read_by_both()};
 }
 
 }  // namespace
@@ -55,8 +57,10 @@ EffectSpec spec(const Scene& scene) {
   if (equal_temperature(scene)) return {"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material, field::phase}};
   EffectSpec s = spec_of_form(scene);
   s.guards = {{field::temperature, "temperature", Written::drift, "K, below absolute zero"}};
-  if (s.mode == Mode::paper) s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});
-  else s.guards.push_back({field::heat_rate, "heat_rate", Written::rates});
+  if (s.mode == Mode::paper)
+    s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});
+  else
+    s.guards.push_back({field::heat_rate, "heat_rate", Written::rates});
   if (books_bodies(scene)) s.owns.emplace_back(field::body_heat);
   s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
   return s;
@@ -70,18 +74,19 @@ std::unique_ptr<Effect> make(const Scene& scene) {
 }
 
 std::vector<DefectEntry> defects() {
-  return {{"heat.conductivity", "conductivity times 1 + size", "heat/cosine-mode"},
-          {"heat.solid_conductivity", "conductivity of the solid, where it has its own, times 1 + size", "textbook/freezing-water"},
-          {"heat.solid_capacity", "heat capacity of the solid, where it has its own, times 1 + size", "textbook/ice-in-water"},
-          {"heat.moment", "second-moment matrices left out", "heat/bar-3x3"},
-          {"heat.inflow", "what flows in is size kelvin hotter", "heat/inflow"},
-          {"heat.harmonic_mean", "arithmetic instead of harmonic mean of conductivities", "heat/two-conductivities"},
-          {"heat.one_sided", "size of 0..1: conductivity and moment lean to the receiving particle, so that energy is not kept",
-           "heat/step-insulated"},
-          {"heat.held", "temperatures that should be held are let go", "heat/held-ends"},
-          {"heat.first_order", "second stage of the time scheme left out: first order", "heat/temporal"},
-          {"heat.paper.diffusivity", "diffusivity of (21) as printed times 1 + size", "heat/cosine-mode"},
-          {"heat.paper.density", "rest density in the paper's diffusivity times 1 + size", "heat/cosine-mode"}};
+  return {
+      {"heat.conductivity", "conductivity times 1 + size", "heat/cosine-mode"},
+      {"heat.solid_conductivity", "conductivity of the solid, where it has its own, times 1 + size", "textbook/freezing-water"},
+      {"heat.solid_capacity", "heat capacity of the solid, where it has its own, times 1 + size", "textbook/ice-in-water"},
+      {"heat.moment", "second-moment matrices left out", "heat/bar-3x3"},
+      {"heat.inflow", "what flows in is size kelvin hotter", "heat/inflow"},
+      {"heat.harmonic_mean", "arithmetic instead of harmonic mean of conductivities", "heat/two-conductivities"},
+      {"heat.one_sided", "size of 0..1: conductivity and moment lean to the receiving particle, so that energy is not kept",
+       "heat/step-insulated"},
+      {"heat.held", "temperatures that should be held are let go", "heat/held-ends"},
+      {"heat.first_order", "second stage of the time scheme left out: first order", "heat/temporal"},
+      {"heat.paper.diffusivity", "diffusivity of (21) as printed times 1 + size", "heat/cosine-mode"},
+      {"heat.paper.density", "rest density in the paper's diffusivity times 1 + size", "heat/cosine-mode"}};
 }
 
 }  // namespace tripoint::heat

@@ -25,14 +25,15 @@ double heat_content(const World& world, std::size_t row) {
   if (!p.has(field::liquid_fraction.name)) return sensible;
   const Fusion fusion = fusion_of(world.scene, world.material_of(row));
   if (fusion.jump == 0.0) return sensible + latent_heat(world, row);
-  return sensible + p[field::mass][row] * p[field::heat_capacity][row] * bound_heat(fusion, p[field::temperature][row], p[field::liquid_fraction][row]);
+  return sensible + p[field::mass][row] * p[field::heat_capacity][row] *
+                        bound_heat(fusion, p[field::temperature][row], p[field::liquid_fraction][row]);
 }
 
 /// Conductivity of both phases of a material [W/m/K].
 struct Conductivity {
   double solid = 0.0, liquid = 0.0;
-  /// Of a particle of the given phase. While it changes it conducts as what it becomes: the front runs through it, and the heat that moves
-  /// the front comes through the phase that grows.
+  /// Of a particle of the given phase. While it changes it conducts as what it becomes: the front runs through it, and the heat
+  /// that moves the front comes through the phase that grows.
   [[nodiscard]] double of(int phase, double f) const {
     const bool is_liquid = f >= 1.0 || (f > 0.0 && phase != static_cast<int>(Phase::liquid));
     return is_liquid ? liquid : solid;
@@ -47,7 +48,9 @@ Conductivity conductivity_of(const Material& m) {
 /// A particle conducts as its phase does, or as what it becomes.
 void follow_phase(World& world, std::size_t row) {
   const Material& m = world.material_of(row);
-  world.particles[field::conductivity][row] = m.solid_conductivity ? conductivity_of(m).of(world.particles[field::phase][row], liquid_share(world, row)) : conductivity_of(m).liquid;
+  world.particles[field::conductivity][row] =
+      m.solid_conductivity ? conductivity_of(m).of(world.particles[field::phase][row], liquid_share(world, row))
+                           : conductivity_of(m).liquid;
 }
 
 double set_temperature(World& world, std::size_t row, double temperature) {
@@ -62,8 +65,8 @@ double set_temperature(World& world, std::size_t row, double temperature) {
 
 enum class Stage { first, last };
 
-/// H_i += change(i), T from H, and with the last stage f; what a held particle would have taken goes to the walls. Of the first stage
-/// only T is taken: f follows the heat of the whole step, whatever the way between.
+/// H_i += change(i), T from H, and with the last stage f; what a held particle would have taken goes to the walls. Of the first
+/// stage only T is taken: f follows the heat of the whole step, whatever the way between.
 template <class Change>
 void add_heat(World& world, Stage stage, Change change) {
   Particles& p = world.particles;
@@ -73,7 +76,8 @@ void add_heat(World& world, Stage stage, Change change) {
   const auto f = melts ? p[field::liquid_fraction] : std::span<double>{};
   const std::vector<Fusion> fusions = melts ? fusions_of(world.scene) : std::vector<Fusion>{};
   std::vector<Conductivity> conducts;  // empty where no phase change touches it
-  if (melts && stage == Stage::last && std::ranges::any_of(world.scene.materials, [](const Material& one) { return one.solid_conductivity.has_value(); }))
+  if (melts && stage == Stage::last &&
+      std::ranges::any_of(world.scene.materials, [](const Material& one) { return one.solid_conductivity.has_value(); }))
     for (const Material& one : world.scene.materials) conducts.push_back(conductivity_of(one));
   const auto k = p[field::conductivity];
   const auto phase = p[field::phase];
@@ -97,11 +101,13 @@ void add_heat(World& world, Stage stage, Change change) {
   if (!leaks) book_held(world, change);
 }
 
-/// Least heat capacity of either phase over that of the solid, by material: a particle may change its phase within the step. Empty where
-/// the phases do not differ.
+/// Least heat capacity of either phase over that of the solid, by material: a particle may change its phase within the step.
+/// Empty where the phases do not differ.
 std::vector<double> least_capacities(const World& world) {
   std::vector<double> shares;
-  if (!world.particles.has(field::liquid_fraction.name) || std::ranges::none_of(world.scene.materials, [](const Material& m) { return m.solid_heat_capacity.has_value(); })) return shares;
+  if (!world.particles.has(field::liquid_fraction.name) ||
+      std::ranges::none_of(world.scene.materials, [](const Material& m) { return m.solid_heat_capacity.has_value(); }))
+    return shares;
   for (const Fusion& fusion : fusions_of(world.scene)) shares.push_back(std::min(1.0, 1.0 + fusion.jump));
   return shares;
 }
@@ -184,7 +190,9 @@ TimeStepBound CorrectedHeat::max_dt(const World& world) const {
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (!held[i]) greatest = std::max(greatest, G[i] / (m[i] * c_p[i] * (least.empty() ? 1.0 : least[static_cast<std::size_t>(material[i])])));
+    if (!held[i])
+      greatest =
+          std::max(greatest, G[i] / (m[i] * c_p[i] * (least.empty() ? 1.0 : least[static_cast<std::size_t>(material[i])])));
   }
   TimeStepBound bound;
   if (greatest > 0.0) tighten(bound, 1.0 / greatest, "heat");

@@ -24,12 +24,14 @@ void EqualHeat::load(World&, const InitialState& initial) {
 
 /// What flowed in brings its heat.
 void EqualHeat::adopt(World& world) {
-  for (const std::uint32_t id : world.change.born) world.booked[account::inflow] += heat_content(world, world.particles.row(id), temperature_);
+  for (const std::uint32_t id : world.change.born)
+    world.booked[account::inflow] += heat_content(world, world.particles.row(id), temperature_);
 }
 
 void EqualHeat::add_to(const World& world, Ledger& ledger) const {
   std::vector<std::array<double, 1>> blocks;
-  const auto sums = ordered_sums_of_all(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += heat_content(world, i, temperature_); });
+  const auto sums = ordered_sums_of_all(
+      world, blocks, [&](std::size_t i, std::array<double, 1>& sum) { sum[0] += heat_content(world, i, temperature_); });
   ledger.energy["thermal"] += sums[0];
 }
 

@@ -43,7 +43,7 @@ void PaperHeat::set_material(World& world, std::size_t row) const {
   const Material& m = world.material_of(row);
   const double own = *m.conductivity / (m.density * density * *m.heat_capacity);
   const double one = kept_number(world.scene.values, key_row("scene", "heat_constant"));  // 0 = none is given
-  world.particles[field::diffusivity][row] = faster * (one > 0.0 ? one : own);  // the paper's c [m2/s]
+  world.particles[field::diffusivity][row] = faster * (one > 0.0 ? one : own);            // the paper's c [m2/s]
 }
 
 /// What flowed in brings its heat.
@@ -89,10 +89,11 @@ void PaperHeat::happen(World& world, const Happening& now) { hold_temperature(wo
 
 /// 1/max_i sum_j of the coefficients of T_j - T_i (model 8.10).
 TimeStepBound PaperHeat::max_dt(const World& world) const {
-  const auto exchange = world.particles[field::exchange];
-  const auto held = world.particles[field::held];
+  const Particles& p = world.particles;
+  const auto exchange = p[field::exchange];
+  const auto held = p[field::held];
   double greatest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (exchange.size() > worth_threads)
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest) if (p.size() > worth_threads)
   for (std::size_t i = 0; i < exchange.size(); ++i) {
     if (!held[i]) greatest = std::max(greatest, exchange[i]);
   }

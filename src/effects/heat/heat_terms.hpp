@@ -20,8 +20,8 @@ struct HeatFlowPaper {
   }
 };
 
-/// Second moment M_i = 1/2 sum_j V_j K r r^T, K = -2 W'(r)/r (model 8.6): the unit matrix in a bulk that is fine enough. It is summed
-/// to the columns of its inverse, and inverted there.
+/// Second moment M_i = 1/2 sum_j V_j K r r^T, K = -2 W'(r)/r (model 8.6): the unit matrix in a bulk that is fine enough. It is
+/// summed to the columns of its inverse, and inverted there.
 struct HeatMoment {
   using reads = Keys<field::rest_volume>;
   using adds = Keys<field::moment_inverse_xx, field::moment_inverse_yy, field::moment_inverse_zz, field::moment_inverse_yz,

@@ -10,7 +10,8 @@ namespace {
 std::string called_for(const Scene& s) {
   const std::string who = bodies_where(s, [](const Scene&, const Body& b, const Material& m) { return has_heat(b, m); });
   const auto equal = who.empty() ? std::optional<double>() : equal_temperature(s);
-  if (equal) return fmt::format("all has {:.6g} K and nothing brings another temperature: no heat flows, none is computed", *equal);
+  if (equal)
+    return fmt::format("all has {:.6g} K and nothing brings another temperature: no heat flows, none is computed", *equal);
   return because(who, "a temperature is given, and the material conducts");
 }
 
@@ -19,22 +20,35 @@ std::string left_out(const Scene& s) {
   return "no body with a temperature has a conductivity and a heat_capacity";
 }
 
-std::string no_constant(const Scene& s) { return s.mode_of(Term::heat) == Mode::paper ? "" : "heat is corrected, and conducts by what the materials say"; }
+std::string no_constant(const Scene& s) {
+  return s.mode_of(Term::heat) == Mode::paper ? "" : "heat is corrected, and conducts by what the materials say";
+}
 
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"scene", "heat_constant", number, "m2/s", not_negative, "0", "each material has its own, conductivity/(density heat_capacity)", "", "the one constant c of (21), of all matter; only where modes.heat is paper; 0: each material has its own"}, {}, no_constant},
-      {{"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "", "thermal conductivity"}, &Material::conductivity},
-      {{"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"}, &Material::heat_capacity},
+      {{"scene", "heat_constant", number, "m2/s", not_negative, "0",
+        "each material has its own, conductivity/(density heat_capacity)", "",
+        "the one constant c of (21), of all matter; only where modes.heat is paper; 0: each material has its own"},
+       {},
+       no_constant},
+      {{"material", "conductivity", number, "W/m/K", positive, "", "no heat flows", "", "thermal conductivity"},
+       &Material::conductivity},
+      {{"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"},
+       &Material::heat_capacity},
   };
 }
 
 }  // namespace
 
 /// As printed it divides by sums of density.
-EffectRule rule() { return {"heat", called_for, left_out, nullptr, {Term::heat}, {Term::kernel, Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls}, keys()}; }
+EffectRule rule() {
+  return {"heat",       called_for,
+          left_out,     nullptr,
+          {Term::heat}, {Term::kernel, Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls},
+          keys()};
+}
 
 }  // namespace tripoint::heat

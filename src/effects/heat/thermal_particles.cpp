@@ -32,14 +32,16 @@ void load_particle(World& world, std::size_t row, double temperature) {
                      " has no heat_capacity or no conductivity: give both");
   }
   const bool liquid = p[field::phase][row] == static_cast<int>(Phase::liquid);
-  p[field::heat_capacity][row] = !p.has(field::liquid_fraction.name) && liquid ? *material.heat_capacity : solid_capacity(material);
+  p[field::heat_capacity][row] =
+      !p.has(field::liquid_fraction.name) && liquid ? *material.heat_capacity : solid_capacity(material);
   p[field::temperature][row] = temperature;
   if (!std::isfinite(temperature))
     throw InputError("particle " + std::to_string(p[field::id][row]) + " has no temperature: give its body or inflow one");
   p[field::held][row] = held_by_scene(world, row);
   if (!p.has(field::liquid_fraction.name)) return;
   p[field::liquid_fraction][row] = liquid ? 1.0 : 0.0;
-  if (const Fusion fusion = fusion_of(world.scene, material); fusion.soft_band) p[field::liquid_fraction][row] = settled(fusion, temperature, 0.0).liquid_fraction;
+  if (const Fusion fusion = fusion_of(world.scene, material); fusion.soft_band)
+    p[field::liquid_fraction][row] = settled(fusion, temperature, 0.0).liquid_fraction;
 }
 
 double liquid_share(const World& world, std::size_t row) {
@@ -50,16 +52,20 @@ double liquid_share(const World& world, std::size_t row) {
 
 double latent_heat(const World& world, std::size_t row) {
   const Particles& p = world.particles;
-  return p[field::mass][row] * p[field::heat_capacity][row] * fusion_of(world.scene, world.material_of(row)).heat * p[field::liquid_fraction][row];
+  return p[field::mass][row] * p[field::heat_capacity][row] * fusion_of(world.scene, world.material_of(row)).heat *
+         p[field::liquid_fraction][row];
 }
 
 void set_melted(World& world, std::size_t row, double temperature) {
   if (!world.particles.has(field::liquid_fraction.name)) return;
   const Fusion fusion = fusion_of(world.scene, world.material_of(row));
   double& f = world.particles[field::liquid_fraction][row];
-  if (fusion.soft_band) f = settled(fusion, temperature, f).liquid_fraction;
-  else if (temperature > fusion.melts) f = 1.0;
-  else if (temperature < fusion.solidifies) f = 0.0;
+  if (fusion.soft_band)
+    f = settled(fusion, temperature, f).liquid_fraction;
+  else if (temperature > fusion.melts)
+    f = 1.0;
+  else if (temperature < fusion.solidifies)
+    f = 0.0;
 }
 
 double inflow_temperature(const World& world, std::size_t row) {
@@ -77,12 +83,14 @@ void hold_temperature(World& world, const Happening& now, SetTemperature set) {
     const std::size_t i = p.row(id);
     const auto source = static_cast<std::size_t>(p[field::source][i]);
     const auto& names = now.event.bodies;
-    const bool named = names.empty() || (source < world.scene.bodies.size() && std::find(names.begin(), names.end(), world.scene.bodies[source].name) != names.end());
+    const bool named = names.empty() || (source < world.scene.bodies.size() &&
+                                         std::find(names.begin(), names.end(), world.scene.bodies[source].name) != names.end());
     if (!named || !inside(world.unwrapped(i))) continue;
     if (now.begins) {
       const double given = set(world, i, *now.event.temperature);
       world.booked[account::walls] -= given;
-      if (const int b = p[field::body][i]; b >= 0 && world.bodies.has(field::body_heat.name)) world.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
+      if (const int b = p[field::body][i]; b >= 0 && world.bodies.has(field::body_heat.name))
+        world.bodies[field::body_heat][static_cast<std::size_t>(b)] += given;
     }
     held[i] = now.begins || held_by_scene(world, i);
   }

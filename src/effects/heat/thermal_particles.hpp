@@ -23,8 +23,8 @@ using SetTemperature = double (*)(World&, std::size_t row, double temperature);
 /// Melts or freezes a particle whose temperature is set from outside [K]; nothing where the scene has no phase change.
 void set_melted(World&, std::size_t row, double temperature);
 
-/// Counts the heat that held particles hand on, body by body: what holds a body has given it what its neighbours took. @param change of a
-/// row [J]
+/// Counts the heat that held particles hand on, body by body: what holds a body has given it what its neighbours took. @param
+/// change of a row [J]
 template <class Change>
 void book_held(World& world, Change change) {
   if (!world.bodies.has(field::body_heat.name)) return;

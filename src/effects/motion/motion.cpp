@@ -95,7 +95,9 @@ void FreeMotion::add_to(const World& world, Ledger& ledger) const {
   const auto v = velocities(p);
   const RigidMembers is_member(world);
   std::vector<std::array<double, entries>> blocks;
-  const auto add = [](std::array<double, entries>& sum, std::size_t first, const Vec3& a) { sum[first] += a.x, sum[first + 1] += a.y, sum[first + 2] += a.z; };
+  const auto add = [](std::array<double, entries>& sum, std::size_t first, const Vec3& a) {
+    sum[first] += a.x, sum[first + 1] += a.y, sum[first + 2] += a.z;
+  };
   const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, entries>& sum) {
     if (is_member(i)) return;
     const Vec3 r = world.unwrapped(i), P = m[i] * v.at(i);
@@ -113,7 +115,10 @@ void FreeMotion::add_to(const World& world, Ledger& ledger) const {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{"motion", scene.mode_of(Term::time), {}, fields::joined({fields::position(), fields::velocity(), {field::mass, field::body}})};
+  EffectSpec s{"motion",
+               scene.mode_of(Term::time),
+               {},
+               fields::joined({fields::position(), fields::velocity(), {field::mass, field::body}})};
   s.reads_if_there = fields::joined({fields::image(), fields::shift(), {field::driven}});
   s.sums_forces = true;
   return s;
@@ -121,6 +126,8 @@ EffectSpec spec(const Scene& scene) {
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<FreeMotion>(); }
 
-std::vector<DefectEntry> defects() { return {{"motion.gravity", "gravity on liquids and deformable solids times 1 + size", "fluid/hydrostatic"}}; }
+std::vector<DefectEntry> defects() {
+  return {{"motion.gravity", "gravity on liquids and deformable solids times 1 + size", "fluid/hydrostatic"}};
+}
 
 }  // namespace tripoint::motion

@@ -9,9 +9,9 @@
 
 namespace tripoint::phase {
 
-/// Whose energy the events of one step change, and to whom it goes (model 8.9): what a particle's bonds store, before less after, is
-/// divided equally among the events that touched it; what a rigid body's joining cost equally among the events of that body. So the
-/// result does not depend on any order.
+/// Whose energy the events of one step change, and to whom it goes (model 8.9): what a particle's bonds store, before less after,
+/// is divided equally among the events that touched it; what a rigid body's joining cost equally among the events of that body.
+/// So the result does not depend on any order.
 class Account {
  public:
   using Energy = std::function<double(std::uint32_t id)>;  ///< of deformation, as the lists are [J]

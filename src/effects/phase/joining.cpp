@@ -28,8 +28,9 @@ void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
   p[field::plastic_strain_yz][row] = e.yz, p[field::plastic_strain_xz][row] = e.xz, p[field::plastic_strain_xy][row] = e.xy;
 }
 
-/// Turns the list of a deformable solid, and what has flowed in it, into the present frame: no energy changes, and F has an inverse
-/// also for chains and sheets. Printed, nothing is turned: beside a turned solid that strains it. @return F^-1 of what is left
+/// Turns the list of a deformable solid, and what has flowed in it, into the present frame: no energy changes, and F has an
+/// inverse also for chains and sheets. Printed, nothing is turned: beside a turned solid that strains it. @return F^-1 of what is
+/// left
 Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
   static const bool skipped = defect_size("phase.frame") > 0.0;
   if (skipped || world.scene.mode_of(Term::phase) == Mode::paper) return identity3;
@@ -66,8 +67,10 @@ void bond(World& world, const std::vector<Joint>& joints) {
     for (const Joint& joint : joints)
       if (!joint.both) ids.insert(joint.j);
     for (const std::uint32_t id : ids) {
-      if (owns(world.particles.row(id))) to_reference[id] = turn_into_present_frame(world, id);
-      else take_present_vectors(world, kernel, id);
+      if (owns(world.particles.row(id)))
+        to_reference[id] = turn_into_present_frame(world, id);
+      else
+        take_present_vectors(world, kernel, id);
     }
   }
   for (const Joint& joint : joints) {

@@ -33,9 +33,9 @@ class PhaseChange : public Effect {
   std::optional<Account> account_;  ///< of the step that is being taken
 };
 
-/// What a particle's bonds store half a drift back; nothing where no body can deform. Of the kicks around a drift the first has the
-/// forces of before the change and the second those of after it: what the change itself lets go is, to second order in the step, the
-/// difference half way.
+/// What a particle's bonds store half a drift back; nothing where no body can deform. Of the kicks around a drift the first has
+/// the forces of before the change and the second those of after it: what the change itself lets go is, to second order in the
+/// step, the difference half way.
 Account::Energy energy_of(World& world, double back) {
   if (!world.particles.has(field::shape_rank.name)) return [](std::uint32_t) { return 0.0; };
   return [&world, back, forms = solid::ElasticForms(world.scene)](std::uint32_t id) {
@@ -82,9 +82,19 @@ void PhaseChange::happen(World& world, const Happening& now) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{"phase", scene.mode_of(Term::phase), {field::liquid_fraction},
-               fields::joined({fields::position(), fields::velocity(), fields::grouping(), {field::mass, field::temperature, field::heat_capacity, field::held}})};
-  s.reads_if_there = fields::joined({fields::image(), {field::driven, field::enthalpy}, fields::deformation(), fields::shapes(), fields::deformation_if_there(), fields::shapes_if_there()});
+  EffectSpec s{"phase",
+               scene.mode_of(Term::phase),
+               {field::liquid_fraction},
+               fields::joined({fields::position(),
+                               fields::velocity(),
+                               fields::grouping(),
+                               {field::mass, field::temperature, field::heat_capacity, field::held}})};
+  s.reads_if_there = fields::joined({fields::image(),
+                                     {field::driven, field::enthalpy},
+                                     fields::deformation(),
+                                     fields::shapes(),
+                                     fields::deformation_if_there(),
+                                     fields::shapes_if_there()});
   if (any_softens(scene)) s.owns.emplace_back(field::stiffness_share);
   return s;
 }
@@ -92,17 +102,18 @@ EffectSpec spec(const Scene& scene) {
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<PhaseChange>(scene); }
 
 std::vector<DefectEntry> defects() {
-  return {{"phase.latent", "latent heat times 1 - size", "phase/stefan"},
-          {"phase.hysteresis", "freezing at t_melt: no hysteresis", "phase/hysteresis"},
-          {"phase.freezing", "freezing size kelvin below t_solid", "phase/hysteresis"},
-          {"phase.paper.melting", "the printed form melts and freezes size kelvin later", "phase/hysteresis"},
-          {"phase.paper.stage", "printed rigid matter turns elastic at the liquid fraction `size`, not at 0", "phase/rigid-stage"},
-          {"phase.merging", "what freezes joins nothing", "phase/freeze-merge"},
-          {"phase.own_pairs", "frozen solids press on themselves as on others", "phase/press-and-freeze"},
-          {"phase.frame", "new bonds of a turned or strained solid are written in the present frame", "phase/freeze-turned"},
-          {"phase.softening", "share of 0..1 of the softening left out", "phase/softening"},
-          {"phase.share", "heat of joining to the first of the particles that freeze, not to all alike", "phase/sticking-heat"},
-          {"phase.account", "share of 0..1 of the energy of joining that never becomes heat", "phase/freeze-merge"}};
+  return {
+      {"phase.latent", "latent heat times 1 - size", "phase/stefan"},
+      {"phase.hysteresis", "freezing at t_melt: no hysteresis", "phase/hysteresis"},
+      {"phase.freezing", "freezing size kelvin below t_solid", "phase/hysteresis"},
+      {"phase.paper.melting", "the printed form melts and freezes size kelvin later", "phase/hysteresis"},
+      {"phase.paper.stage", "printed rigid matter turns elastic at the liquid fraction `size`, not at 0", "phase/rigid-stage"},
+      {"phase.merging", "what freezes joins nothing", "phase/freeze-merge"},
+      {"phase.own_pairs", "frozen solids press on themselves as on others", "phase/press-and-freeze"},
+      {"phase.frame", "new bonds of a turned or strained solid are written in the present frame", "phase/freeze-turned"},
+      {"phase.softening", "share of 0..1 of the softening left out", "phase/softening"},
+      {"phase.share", "heat of joining to the first of the particles that freeze, not to all alike", "phase/sticking-heat"},
+      {"phase.account", "share of 0..1 of the energy of joining that never becomes heat", "phase/freeze-merge"}};
 }
 
 }  // namespace tripoint::phase

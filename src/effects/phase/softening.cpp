@@ -19,7 +19,8 @@ double share_of(const World& world, std::size_t row) {
 }  // namespace
 
 bool any_softens(const Scene& scene) {
-  return can_have_deformable_bodies(scene) && std::ranges::any_of(scene.materials, [&](const Material& m) { return solid::softens(scene, m); });
+  return can_have_deformable_bodies(scene) &&
+         std::ranges::any_of(scene.materials, [&](const Material& m) { return solid::softens(scene, m); });
 }
 
 void load_stiffness(World& world) {

@@ -105,8 +105,9 @@ void Transition::melt(std::uint32_t id) {
   world_.particles[field::phase][i] = static_cast<int>(Phase::liquid);
 }
 
-/// Bonds stay, so that what turns elastic is joined to its mates and to nothing that it touches. What was rigid is not strained, and what becomes
-/// rigid lets its strain go: both have the present vectors. At a joint the list of a rigid member is strained with its partners, and goes on so.
+/// Bonds stay, so that what turns elastic is joined to its mates and to nothing that it touches. What was rigid is not strained,
+/// and what becomes rigid lets its strain go: both have the present vectors. At a joint the list of a rigid member is strained
+/// with its partners, and goes on so.
 void Transition::turn(const std::vector<std::uint32_t>& ids) {
   if (ids.empty()) return;
   Particles& p = world_.particles;
@@ -169,7 +170,8 @@ void Transition::freeze(const std::vector<std::uint32_t>& ids) {
       joints.push_back({id, partner.id, partner.r, both_freeze});
       volumes_follow_lists(world_) ? touch_with_partners(partner.id, id) : account_.touch(partner.id, id);
       world_.change.relisted.push_back(partner.id);
-      if (const int body = p[field::body][p.row(partner.id)]; body >= 0) changed_.bodies.push_back(static_cast<std::size_t>(body));
+      if (const int body = p[field::body][p.row(partner.id)]; body >= 0)
+        changed_.bodies.push_back(static_cast<std::size_t>(body));
     }
   }
   bond(world_, joints);

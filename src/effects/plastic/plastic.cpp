@@ -24,7 +24,7 @@ class PlasticFlow : public Effect {
   double flow(World&, std::size_t row) const;
 
   solid::ElasticForms forms_;
-  std::vector<YieldLimits> limits_;           ///< of each material
+  std::vector<YieldLimits> limits_;            ///< of each material
   std::vector<std::array<double, 1>> blocks_;  ///< memory that is used again
 };
 
@@ -50,7 +50,9 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
   const solid::ElasticConstants c = forms_.constants(world, row);
   static const double sheet = 1.0 + defect_size("plastic.sheet");
   const double yields = (rank == 2 ? sheet : 1.0) * yield_stress(c.mu, limits.elastic);
-  const auto flat = [&] { return flowed_flat(elastic, forms_.stress(elastic, P, rank, c), plastic, rank, yields, limits.plastic); };
+  const auto flat = [&] {
+    return flowed_flat(elastic, forms_.stress(elastic, P, rank, c), plastic, rank, yields, limits.plastic);
+  };
   const Symmetric after = rank == 3 ? flowed(strain, plastic, limits) : flat();
   if (after == plastic) return 0.0;
   solid::set_plastic_strain(p, row, after);
@@ -62,9 +64,10 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
 void PlasticFlow::state(World& world) {
   const solid::ElasticParticles is_elastic(world);
   static const double booked = 1.0 - defect_size("plastic.dissipation");
-  const auto lost = ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
-    if (is_elastic(row) && world.owns(row)) sum[0] += flow(world, row);
-  });
+  const auto lost =
+      ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
+        if (is_elastic(row) && world.owns(row)) sum[0] += flow(world, row);
+      });
   world.booked[dissipation] += booked * lost[0];
   world.booked[account::deformation_released] += booked * lost[0];
 }
@@ -78,7 +81,12 @@ void PlasticFlow::adopt(World& world) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  EffectSpec s{"plastic", scene.mode_of(Term::elastic), fields::plastic_strain(), fields::joined({fields::strain(), fields::deformation(), {field::body, field::material}}), {}, {dissipation}};
+  EffectSpec s{"plastic",
+               scene.mode_of(Term::elastic),
+               fields::plastic_strain(),
+               fields::joined({fields::strain(), fields::deformation(), {field::body, field::material}}),
+               {},
+               {dissipation}};
   s.reads_if_there = {field::stiffness_share};
   return s;
 }

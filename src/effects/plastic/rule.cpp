@@ -15,8 +15,10 @@ std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"material", "elastic_limit", number, "", positive, "", "never yields", "", "deviatoric strain where plastic flow begins"}, &Material::elastic_limit},
-      {{"material", "plastic_limit", number, "", positive, "", "flows without end", "", "largest plastic strain"}, &Material::plastic_limit},
+      {{"material", "elastic_limit", number, "", positive, "", "never yields", "", "deviatoric strain where plastic flow begins"},
+       &Material::elastic_limit},
+      {{"material", "plastic_limit", number, "", positive, "", "flows without end", "", "largest plastic strain"},
+       &Material::plastic_limit},
   };
 }
 

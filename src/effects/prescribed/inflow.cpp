@@ -10,13 +10,16 @@
 
 namespace tripoint::prescribed {
 
-Entrance::Entrance(const Scene& scene, std::size_t inflow) : start_(scene.inflows[inflow].start), stop_(scene.inflows[inflow].stop), spacing_(scene.spacing) {
+Entrance::Entrance(const Scene& scene, std::size_t inflow)
+    : start_(scene.inflows[inflow].start), stop_(scene.inflows[inflow].stop), spacing_(scene.spacing) {
   const Inflow& in = scene.inflows[inflow];
   const Vec3 v = in.velocity;
   std::size_t along = 0;
   for (std::size_t a = 0; a < 3; ++a)
     if (std::abs(v[a]) > std::abs(v[along])) along = a;
-  if (std::abs(v[along]) < (1.0 - 1e-9) * norm(v)) throw InputError("inflow " + std::to_string(inflow + 1) + ": its layers lie on the lattice: let its velocity be along x, y or z");
+  if (std::abs(v[along]) < (1.0 - 1e-9) * norm(v))
+    throw InputError("inflow " + std::to_string(inflow + 1) +
+                     ": its layers lie on the lattice: let its velocity be along x, y or z");
   Body source;
   source.name = "inflow " + std::to_string(inflow + 1);
   source.material = in.material;

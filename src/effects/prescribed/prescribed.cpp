@@ -94,7 +94,8 @@ bool named(const Event& event, const std::string& name) { return std::ranges::fi
 
 void Prescribed::happen(World& world, const Happening& now) {
   const Event& event = now.event;
-  const bool holds = event.kind == Event::Kind::hold, grips = event.kind == Event::Kind::grip, releases = event.kind == Event::Kind::release;
+  const bool holds = event.kind == Event::Kind::hold, grips = event.kind == Event::Kind::grip,
+             releases = event.kind == Event::Kind::release;
   if (!holds && !grips && !releases) return;
   Particles& p = world.particles;
   const auto driven = p[field::driven], body = p[field::body];
@@ -111,13 +112,16 @@ void Prescribed::happen(World& world, const Happening& now) {
       if (!forgets) place.set(i, world.unwrapped(i));
     } else if (grips && !now.begins && driven[i] == number) {
       driven[i] = 0;
-    } else if (releases && driven[i] >= driven_grip && named(event, world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)].name)) {
+    } else if (releases && driven[i] >= driven_grip &&
+               named(event, world.scene.events[static_cast<std::size_t>(driven[i] - driven_grip)].name)) {
       driven[i] = 0;
     } else if (holds || releases) {
       const auto source = static_cast<std::size_t>(p[field::source][i]);
       if (source >= world.scene.bodies.size() || !named(event, world.scene.bodies[source].name)) continue;
-      if (holds && now.begins && driven[i] == 0) driven[i] = driven_still, guide(world, i, world.unwrapped(i), {});
-      else if (driven[i] == driven_still) driven[i] = 0;
+      if (holds && now.begins && driven[i] == 0)
+        driven[i] = driven_still, guide(world, i, world.unwrapped(i), {});
+      else if (driven[i] == driven_still)
+        driven[i] = 0;
     }
   }
 }
@@ -128,7 +132,9 @@ EffectSpec spec(const Scene& scene) {
   EffectSpec s{"prescribed",
                scene.mode_of(Term::time),
                {field::driven, field::grip_x, field::grip_y, field::grip_z},
-               fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
+               fields::joined({fields::position(),
+                               fields::velocity(),
+                               {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
   s.reads_if_there = fields::image();
   return s;
 }

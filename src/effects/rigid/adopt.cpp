@@ -32,9 +32,9 @@ class Adoption {
   [[nodiscard]] int parent_of(std::size_t row, int now) const;
 
   World& world_;
-  std::map<std::size_t, Former> before_;                   ///< rigid bodies by row
-  std::map<std::size_t, std::vector<std::size_t>> rows_;   ///< members now, of each changed rigid body, in order of id
-  std::map<std::size_t, std::size_t> heir_;                ///< of each former body: where its member of lowest id is now
+  std::map<std::size_t, Former> before_;                  ///< rigid bodies by row
+  std::map<std::size_t, std::vector<std::size_t>> rows_;  ///< members now, of each changed rigid body, in order of id
+  std::map<std::size_t, std::size_t> heir_;               ///< of each former body: where its member of lowest id is now
 };
 
 void Adoption::remember() {
@@ -124,9 +124,12 @@ void Adoption::hand_over_undelivered() {
     if (old.undelivered == Vec3{}) continue;
     const bool stays = rows_.contains(b) && !rows_.at(b).empty();
     const auto heir = heir_.find(b);
-    if (stays) world_.bodies[field::body_angular_momentum][b] += old.undelivered;
-    else if (heir != heir_.end() && !before_.at(heir->second).driven) world_.bodies[field::body_angular_momentum][heir->second] += old.undelivered;
-    else world_.booked.undelivered_spin += old.undelivered;
+    if (stays)
+      world_.bodies[field::body_angular_momentum][b] += old.undelivered;
+    else if (heir != heir_.end() && !before_.at(heir->second).driven)
+      world_.bodies[field::body_angular_momentum][heir->second] += old.undelivered;
+    else
+      world_.booked.undelivered_spin += old.undelivered;
   }
 }
 

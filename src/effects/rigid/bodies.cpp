@@ -39,7 +39,8 @@ BodyMotion motion_of(const World& world, std::size_t b) {
 }
 
 bool is_free(const World& world, std::size_t body) {
-  return is_alive(world, body) && is_rigid(world, body) && world.bodies[field::body_motion][body] == static_cast<int>(Motion::free);
+  return is_alive(world, body) && is_rigid(world, body) &&
+         world.bodies[field::body_motion][body] == static_cast<int>(Motion::free);
 }
 
 Quaternion principal_to_world(const World& world, std::size_t body) {
@@ -74,8 +75,7 @@ void measure(World& world, std::size_t b, const std::vector<std::size_t>& rows) 
   t[field::body_mass][b] = properties.mass;
   t[field::body_centre][b] = rotate(q, properties.centre);
   t[field::body_offset][b] += rotate_back(q, t[field::body_centre][b] - centre_before);
-  t[field::body_inertia][b] =
-      truncated(properties.principal_inertia, properties.mass, world.scene.spacing);
+  t[field::body_inertia][b] = truncated(properties.principal_inertia, properties.mass, world.scene.spacing);
   t[field::body_axes][b] = properties.principal_axes;
   t[field::body_turns][b] = turning_axes(world, rows);
   const auto reference = triple(world.particles, field::reference_x, field::reference_y, field::reference_z);
@@ -125,7 +125,8 @@ void place_members(World& world) {
   const auto orientation = world.bodies[field::body_orientation];
   const auto alive = world.bodies[field::body_alive];
   const RigidMembers is_member(world);
-  const std::size_t rows = world.placed ? p.awake() : p.size();  // the first time moves members of fixed bodies too, by a rounding error
+  const std::size_t rows =
+      world.placed ? p.awake() : p.size();  // the first time moves members of fixed bodies too, by a rounding error
   world.placed = true;
   for_rows(rows, world.threads, [&](std::size_t i) {
     if (!is_member(i)) return;

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "effects/rigid/adopt.hpp"
-#include "effects/grip.hpp"
-#include "effects/rigid/bodies.hpp"
 #include "effects/body_forces.hpp"
+#include "effects/grip.hpp"
+#include "effects/rigid/adopt.hpp"
+#include "effects/rigid/bodies.hpp"
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/geometry.hpp"
@@ -50,7 +50,8 @@ void refuse_blocked_spin(const World& world, std::size_t b) {
 /// A gripped body at a time: carried from where it was when the grip took it.
 PrescribedState gripped_state(const World& world, std::size_t b, double time) {
   const Columns& t = world.bodies;
-  PrescribedState s = carried(world.scene.events[static_cast<std::size_t>(t[field::body_grip][b] - 1)], t[field::body_grip_centre][b], time);
+  PrescribedState s =
+      carried(world.scene.events[static_cast<std::size_t>(t[field::body_grip][b] - 1)], t[field::body_grip_centre][b], time);
   s.rotation = s.rotation * t[field::body_grip_orientation][b];
   return s;
 }
@@ -63,7 +64,8 @@ PrescribedState driven_state(const World& world, std::size_t b, double time) {
   static const std::vector<Keyframe> none;
   const auto& keyframes = source >= 0 ? world.scene.bodies[static_cast<std::size_t>(source)].keyframes : none;
   static const double faster = 1.0 + defect_size("rigid.prescribed");
-  return prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b], t[field::body_start_spin][b], faster * time);
+  return prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b],
+                          t[field::body_start_spin][b], faster * time);
 }
 
 void drive(World& world, std::size_t b, double time) {
@@ -78,7 +80,9 @@ void drive(World& world, std::size_t b, double time) {
   t[field::body_angular_momentum][b] = spin_momentum(world, b);
 }
 
-bool is_fixed(const World& world, std::size_t b) { return world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed); }
+bool is_fixed(const World& world, std::size_t b) {
+  return world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed);
+}
 
 bool at_rest(const World& world, std::size_t b) {
   return world.bodies[field::body_velocity][b] == Vec3{} && world.bodies[field::body_angular_momentum][b] == Vec3{};
@@ -120,7 +124,8 @@ void push(World& world, std::size_t b, const BodyForces& f, const Vec3& g, doubl
   if (!world.tells_of_bodies()) return;
   const Vec3 mean = 0.5 * (v_before + v), spin = 0.5 * (omega_before + t[field::body_angular_velocity][b]);
   for (std::size_t k = 0; k < world.forces.size(); ++k)
-    if (world.forces[k].feels == Feels::all) world.booked[world.forces[k].work] += dt * (dot(f.forces[k], mean) + dot(f.torques[k], spin));
+    if (world.forces[k].feels == Feels::all)
+      world.booked[world.forces[k].work] += dt * (dot(f.forces[k], mean) + dot(f.torques[k], spin));
   world.booked[account::gravity_work] += dt * m * dot(g, mean);
 }
 
@@ -133,7 +138,8 @@ void book_wall_work(World& world, std::size_t b, const std::vector<BodyForces>& 
   const Vec3 omega = s.angular_velocity, v = s.velocity + cross(omega, rotate(s.rotation, world.bodies[field::body_offset][b]));
   const BodyForces& f = forces[b];
   for (std::size_t k = 0; k < world.forces.size(); ++k)
-    if (world.forces[k].feels == Feels::all) world.booked[work_on_driven(world.forces[k])] += dt * (dot(f.forces[k], v) + dot(f.torques[k], omega));
+    if (world.forces[k].feels == Feels::all)
+      world.booked[work_on_driven(world.forces[k])] += dt * (dot(f.forces[k], v) + dot(f.torques[k], omega));
 }
 
 void RigidBodies::load(World& world, const InitialState& initial) {
@@ -341,7 +347,8 @@ std::vector<DefectEntry> defects() {
           {"rigid.split", "velocity of the split part times 1 + size", "rigid/split-in-flight"},
           {"rigid.one_axis.turn", "turn of a body that reaches through a periodic direction times 1 + size", "rigid/shaft"},
           {"rigid.one_axis.spin", "angular velocity of such a body times 1 + size", "rigid/shaft"},
-          {"bodies.over_ranks", "over ranks, forces on the members that ranks but the first have, times 1 - size", "coupling/over-ranks"},
+          {"bodies.over_ranks", "over ranks, forces on the members that ranks but the first have, times 1 - size",
+           "coupling/over-ranks"},
           {"rigid.truncated", "moment below which a body does not turn about an axis times 1 + size", "rigid/bent-chain"},
           {"rigid.adopt.undelivered", "spin about such an axis is lost as particles leave the body", "phase/bent-chain-melts"},
           {"rigid.prescribed.lever", "part of omega x lever left out of a prescribed body's velocity", "rigid/prescribed-merge"},

@@ -7,15 +7,20 @@ namespace tripoint::rigid {
 namespace {
 
 std::string called_for(const Scene& s) {
-  return because(bodies_where(s, [](const Scene& scene, const Body& b, const Material&) { return b.phase == Phase::rigid && moves(scene, b); }), "rigid, and not held in place");
+  return because(bodies_where(s, [](const Scene& scene, const Body& b,
+                                    const Material&) { return b.phase == Phase::rigid && moves(scene, b); }),
+                 "rigid, and not held in place");
 }
 
 std::string left_out(const Scene&) { return "nothing is rigid and moves"; }
 
 std::string needed_for(const Scene& s, const Called& called) {
-  const auto driven = [](const Scene&, const Body& b, const Material&) { return b.phase == Phase::rigid || (b.phase == Phase::elastic && b.motion != Motion::free); };
+  const auto driven = [](const Scene&, const Body& b, const Material&) {
+    return b.phase == Phase::rigid || (b.phase == Phase::elastic && b.motion != Motion::free);
+  };
   if (any_body(s, driven)) return "fixed and prescribed bodies move as rigid ones";
-  if (called("phase") && any_material(s, [](const Material& m) { return m.t_melt && m.solid == "rigid"; })) return "what freezes becomes rigid";
+  if (called("phase") && any_material(s, [](const Material& m) { return m.t_melt && m.solid == "rigid"; }))
+    return "what freezes becomes rigid";
   return "";
 }
 

@@ -49,7 +49,11 @@ TimeStepBound LinearDrag::max_dt(const World&) const {
 EffectSpec spec(const Scene&) {
   Force drag{force_x, force_y, force_z, {"drag_work"}, Account{"wall_drag_work"}};
   drag.entry = "drag";
-  return {"drag", Mode::corrected, {force_x, force_y, force_z}, {field::mass, field::material, field::velocity_x, field::velocity_y, field::velocity_z}, {drag}};
+  return {"drag",
+          Mode::corrected,
+          {force_x, force_y, force_z},
+          {field::mass, field::material, field::velocity_x, field::velocity_y, field::velocity_z},
+          {drag}};
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<LinearDrag>(scene); }

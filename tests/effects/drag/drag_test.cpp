@@ -132,7 +132,7 @@ TEST(AddedEffect, BooksItsWorkSoThatTheLedgerCloses) {
   const Ledger after = s.ledger();
   double sum = 0.0;
   for (const auto& [entry, energy] : after.energy) sum += energy;
-  EXPECT_NEAR(sum / before, 1.0, 1e-13);  // round-off of 100 steps
+  EXPECT_NEAR(sum / before, 1.0, 1e-13);                                      // round-off of 100 steps
   EXPECT_NEAR(after.energy.at("drag") / before, 1.0 - std::exp(-4.0), 1e-4);  // second order in the step
 }
 
@@ -164,7 +164,8 @@ TEST(AddedEffect, GoesOnWithTheSameBitsAfterARestart) {
   EXPECT_EQ(whole.ledger().energy, resumed.ledger().energy);
 }
 
-/// Every block of docs/add-an-effect.md stands in the file that it names, and each of these files stands there in full but its licence.
+/// Every block of docs/add-an-effect.md stands in the file that it names, and each of these files stands there in full but its
+/// licence.
 TEST(AddedEffect, IsTheExampleOfThePage) {
   const std::string page = text_of(root / "docs/add-an-effect.md");
   for (const char* file : {"rule.cpp", "drag.cpp", "effect_list.inc"}) {

@@ -11,10 +11,13 @@ std::string called_for(const Scene& s) {
   return because(bodies_where(s, drags), "it moves through a gas that brakes it");
 }
 
-std::string left_out(const Scene& s) { return any_material(s, has_drag) ? "what has a drag is held in place" : "no material has a drag"; }
+std::string left_out(const Scene& s) {
+  return any_material(s, has_drag) ? "what has a drag is held in place" : "no material has a drag";
+}
 
 std::vector<EffectKey> keys() {
-  return {{{"material", "drag", ValueType::number, "1/s", Range::not_negative, "0", "it moves in a vacuum", "", "share of the velocity that drag takes in a second"}}};
+  return {{{"material", "drag", ValueType::number, "1/s", Range::not_negative, "0", "it moves in a vacuum", "",
+            "share of the velocity that drag takes in a second"}}};
 }
 
 }  // namespace
