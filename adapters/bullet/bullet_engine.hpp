@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adapters/bullet/world.hpp"
-#include "adapters/engine.hpp"
+#include "adapters/engine/engine.hpp"
 
 namespace tripoint::bullet {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 
 namespace tripoint::bullet {
 

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "adapters/loaded_library.hpp"
+#include "adapters/engine/loaded_library.hpp"
 
 namespace tripoint::bullet {
 namespace {

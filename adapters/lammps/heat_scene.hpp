@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "adapters/job.hpp"
 #include "io/trajectory.hpp"
+#include "job/job.hpp"
 
 /// What walkers and sph/heatconduction share: heat in bodies at rest.
 namespace tripoint::lammps {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "adapters/job.hpp"
 #include "io/trajectory.hpp"
+#include "job/job.hpp"
 
 namespace tripoint::lammps {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "adapters/loaded_library.hpp"
+#include "adapters/engine/loaded_library.hpp"
 #include "core/errors.hpp"
 
 namespace tripoint::lammps {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "adapters/engine.hpp"
+#include "adapters/engine/engine.hpp"
 #include "adapters/lammps/library.hpp"
 
 namespace tripoint::lammps {

@@ -2,8 +2,8 @@
 #pragma once
 #include <vector>
 
-#include "adapters/job.hpp"
 #include "io/trajectory.hpp"
+#include "job/job.hpp"
 
 namespace tripoint::lammps {
 

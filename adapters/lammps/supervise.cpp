@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "adapters/job.hpp"
 #include "core/children.hpp"
+#include "job/job.hpp"
 
 namespace tripoint::lammps {
 namespace {

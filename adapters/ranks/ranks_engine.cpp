@@ -11,7 +11,7 @@
 
 #include "adapters/tripoint/solver_job.hpp"
 #include "adapters/tripoint/tripoint_engine.hpp"
-#include "effects/body_table.hpp"
+#include "world/body_table.hpp"
 
 namespace tripoint::ranks {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "adapters/engine.hpp"
+#include "adapters/engine/engine.hpp"
 #include "adapters/ranks/lammps_halo.hpp"
 #include "adapters/ranks/wheel.hpp"
 #include "step/simulation.hpp"

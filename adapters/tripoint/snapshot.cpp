@@ -5,11 +5,11 @@
 
 #include "adapters/tripoint/tripoint_engine.hpp"
 #include "core/defect.hpp"
-#include "effects/body_forces.hpp"
-#include "effects/objects.hpp"
-#include "effects/solid_particles.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/temperatures.hpp"
+#include "solids/body_forces.hpp"
+#include "solids/objects.hpp"
+#include "solids/solid_particles.hpp"
 
 namespace tripoint {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <string_view>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 #include "step/simulation.hpp"
 
 /// A job as the solver takes it, for every engine that is the solver.

@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "adapters/engine.hpp"
+#include "adapters/engine/engine.hpp"
 #include "io/point_cloud.hpp"
 #include "step/simulation.hpp"
 

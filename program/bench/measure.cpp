@@ -8,7 +8,7 @@
 #include <ctime>
 #include <numeric>
 
-#include "effects/plan.hpp"
+#include "assembly/plan.hpp"
 #include "program/bench/memory.hpp"
 #include "step/simulation.hpp"
 

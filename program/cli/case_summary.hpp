@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "effects/plan.hpp"
+#include "assembly/plan.hpp"
 #include "program/bench/trial.hpp"
 #include "scene/scene.hpp"
 

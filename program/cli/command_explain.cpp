@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "effects/plan.hpp"
+#include "assembly/plan.hpp"
 #include "program/bench/trial.hpp"
 #include "program/cli/case_summary.hpp"
 #include "program/cli/commands.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "effects/plan.hpp"
+#include "assembly/plan.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/discover.hpp"
 #include "validation/harness/plan_runs.hpp"

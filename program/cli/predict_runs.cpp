@@ -7,8 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "assembly/plan.hpp"
 #include "core/errors.hpp"
-#include "effects/plan.hpp"
 #include "program/cli/common.hpp"
 #include "scene/read_case.hpp"
 

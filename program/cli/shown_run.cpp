@@ -10,8 +10,8 @@
 #include <map>
 #include <tuple>
 
-#include "adapters/job.hpp"
 #include "core/errors.hpp"
+#include "job/job.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/defect.hpp"
-#include "effects/field_groups.hpp"
-#include "effects/world.hpp"
 #include "scene/initial_state.hpp"
+#include "world/field_groups.hpp"
+#include "world/world.hpp"
 
 /// An effect: a part of physics that a scene calls for. Effects do not know each other; they meet in fields.
 namespace tripoint {

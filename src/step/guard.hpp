@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/effect.hpp"
-#include "effects/failure.hpp"
-#include "effects/world.hpp"
 #include "scene/geometry.hpp"
+#include "world/failure.hpp"
+#include "world/world.hpp"
 
 /// Guards that belong to no single effect; those of effects are in their check(). Each names particle, body, field, stage and
 /// time, and changes nothing.

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "effects/body_table.hpp"
-#include "effects/solid_particles.hpp"
 #include "scene/effect_rule.hpp"
+#include "solids/solid_particles.hpp"
 #include "step/guard.hpp"
+#include "world/body_table.hpp"
 
 namespace tripoint {
 namespace {

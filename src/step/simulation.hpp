@@ -7,15 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "assembly/all_effects.hpp"
+#include "assembly/declared_view.hpp"
+#include "assembly/scene_passes.hpp"
 #include "core/checkpoint.hpp"
-#include "effects/all_effects.hpp"
-#include "effects/declared_view.hpp"
-#include "effects/world.hpp"
 #include "scene/initial_state.hpp"
 #include "step/guard.hpp"
 #include "step/recovery.hpp"
 #include "step/stage_clock.hpp"
 #include "step/thread_choice.hpp"
+#include "world/world.hpp"
 
 namespace tripoint {
 

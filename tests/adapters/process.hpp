@@ -10,9 +10,9 @@
 #include <sstream>
 #include <string>
 
-#include "adapters/job.hpp"
 #include "adapters/scenes.hpp"
 #include "io/trajectory.hpp"
+#include "job/job.hpp"
 
 /// Engines as the harness runs them: a process, a folder, an exit code.
 namespace tripoint::test {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 #include "scene/read_case.hpp"
 
 /// Jobs as the harness makes them: the scene's own sampler, mass properties from the particles.

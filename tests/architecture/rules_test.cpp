@@ -13,18 +13,18 @@ Source file(std::string path, std::string text) { return {std::move(path), std::
 
 TEST(Rooms, AreReadFromPaths) {
   EXPECT_EQ(room_of("src/core/vec3.hpp"), "core");
-  EXPECT_EQ(room_of("src/effects/plan.hpp"), "effects");
+  EXPECT_EQ(room_of("src/effects/effect.hpp"), "effects");
   EXPECT_EQ(room_of("src/effects/heat/heat.cpp"), "effects/heat");
-  EXPECT_EQ(room_of("adapters/job.hpp"), "adapters");
+  EXPECT_EQ(room_of("job/job.hpp"), "job");
   EXPECT_EQ(room_of("adapters/bullet/world.cpp"), "adapters/bullet");
   EXPECT_EQ(room_of("validation/metrics/order.hpp"), "validation/metrics");
   EXPECT_EQ(room_of("program/cli/main.cpp"), "program/cli");
   EXPECT_EQ(room_of("tests/core/vec3_test.cpp"), "");
 }
 
-/// 0 for a room of src, and one more for each folder that stands above: adapters, validation, program.
+/// 0 for a room of src, and one more for each folder that stands above: job, adapters, validation, program.
 std::size_t height_of(const std::string& room) {
-  const std::vector<std::string> above_src{"adapters", "validation", "program"};
+  const std::vector<std::string> above_src{"job", "adapters", "validation", "program"};
   const auto at = std::ranges::find(above_src, room.substr(0, room.find('/')));
   return at == above_src.end() ? 0U : 1U + static_cast<std::size_t>(at - above_src.begin());
 }
@@ -46,7 +46,7 @@ TEST(Includes, UpTheChainAreNamedWithTheirLine) {
 
 TEST(Includes, DownTheChainAreAllowed) {
   EXPECT_TRUE(forbidden_includes(file("src/step/step.cpp",
-                                      "#include \"step/step.hpp\"\n#include \"effects/plan.hpp\"\n#include \"core/vec3.hpp\"\n"))
+                                      "#include \"step/step.hpp\"\n#include \"assembly/plan.hpp\"\n#include \"core/vec3.hpp\"\n"))
                   .empty());
   EXPECT_TRUE(
       forbidden_includes(file("validation/exact/exact.cpp", "#include \"validation/references/reference.hpp\"\n")).empty());
@@ -58,7 +58,7 @@ TEST(Includes, DownTheChainAreAllowed) {
 TEST(Includes, OfTheJudgeNeverReachTheSolver) {
   for (const auto* room : {"references", "metrics", "harness"}) {
     for (const auto* header :
-         {"effects/plan.hpp", "effects/heat/heat.hpp", "step/step.hpp", "particles/columns.hpp", "sph/kernels.hpp"}) {
+         {"assembly/plan.hpp", "effects/heat/heat.hpp", "step/step.hpp", "particles/columns.hpp", "sph/kernels.hpp"}) {
       const auto found =
           forbidden_includes(file(std::string("validation/") + room + "/a.cpp", std::string("#include \"") + header + "\"\n"));
       EXPECT_EQ(found.size(), 1U) << room << " " << header;
@@ -71,14 +71,15 @@ TEST(Includes, OfOneEffectByAnotherAreRefusedAndTheListIsNot) {
   EXPECT_EQ(forbidden_includes(file("src/effects/rigid/rigid.cpp", line)).size(), 1U);
   EXPECT_EQ(forbidden_includes(file("src/effects/plan.cpp", line)).size(), 1U);
   EXPECT_TRUE(forbidden_includes(file("src/effects/heat/heat.cpp", line)).empty());
-  EXPECT_TRUE(forbidden_includes(file("src/effects/all_effects.cpp", line)).empty());
+  EXPECT_TRUE(forbidden_includes(file("src/assembly/all_effects.cpp", line)).empty());
 }
 
 TEST(Includes, OfOneEngineByAnotherAreRefused) {
   EXPECT_EQ(forbidden_includes(file("adapters/bullet/a.cpp", "#include \"adapters/lammps/deck.hpp\"\n")).size(), 1U);
   EXPECT_EQ(forbidden_includes(file("adapters/bullet/a.cpp", "#  include \"step/step.hpp\"\n")).size(), 1U);
   EXPECT_TRUE(
-      forbidden_includes(file("adapters/bullet/a.cpp", "#include \"world.hpp\"\n#include \"adapters/engine.hpp\"\n")).empty());
+      forbidden_includes(file("adapters/bullet/a.cpp", "#include \"world.hpp\"\n#include \"adapters/engine/engine.hpp\"\n"))
+          .empty());
 }
 
 TEST(Includes, FromARoomThatTheMapDoesNotKnowAreRefused) {
@@ -100,9 +101,9 @@ TEST(Libraries, StayInTheirRooms) {
 }
 
 TEST(Libraries, ThatAreDearStayOutOfHeaders) {
-  EXPECT_EQ(strayed_libraries(file("adapters/scene_json.hpp", "#include <nlohmann/json.hpp>\n")).size(), 1U);
-  EXPECT_TRUE(strayed_libraries(file("adapters/scene_json.hpp", "#include <nlohmann/json_fwd.hpp>\n")).empty());
-  EXPECT_TRUE(strayed_libraries(file("adapters/scene_json.cpp", "#include <nlohmann/json.hpp>\n")).empty());
+  EXPECT_EQ(strayed_libraries(file("job/scene_json.hpp", "#include <nlohmann/json.hpp>\n")).size(), 1U);
+  EXPECT_TRUE(strayed_libraries(file("job/scene_json.hpp", "#include <nlohmann/json_fwd.hpp>\n")).empty());
+  EXPECT_TRUE(strayed_libraries(file("job/scene_json.cpp", "#include <nlohmann/json.hpp>\n")).empty());
 }
 
 TEST(Licence, IsNamedAtTheTopAndIsTheGplForLammps) {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "effects/plan.hpp"
+#include "assembly/plan.hpp"
 #include "scene/read_case.hpp"
 #include "step/settle.hpp"
 #include "step/simulation.hpp"

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "effects/plan.hpp"
+#include "assembly/plan.hpp"
 
 namespace tripoint {
 namespace {

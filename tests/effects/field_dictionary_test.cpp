@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "effects/all_effects.hpp"
-#include "effects/plan.hpp"
+#include "assembly/all_effects.hpp"
+#include "assembly/plan.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint {

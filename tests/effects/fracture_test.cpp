@@ -5,8 +5,8 @@
 
 #include "effects/fracture/bond_limit.hpp"
 #include "effects/fracture/fracture.hpp"
-#include "effects/objects.hpp"
 #include "effects/solid_lab.hpp"
+#include "solids/objects.hpp"
 
 namespace tripoint {
 namespace {

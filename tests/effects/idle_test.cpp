@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <random>
 
+#include "assembly/plan.hpp"
 #include "effects/fluid_lab.hpp"
 #include "effects/fracture/unbroken_proof.hpp"
-#include "effects/plan.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint {

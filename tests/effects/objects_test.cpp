@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/objects.hpp"
+#include "solids/objects.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <string>
 
-#include "effects/body_table.hpp"
+#include "world/body_table.hpp"
 
 namespace tripoint {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/pair_passes.hpp"
+#include "passes/pair_passes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/machine.hpp"
-#include "effects/run_pass.hpp"
+#include "passes/run_pass.hpp"
 
 namespace tripoint {
 namespace {

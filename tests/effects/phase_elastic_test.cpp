@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "effects/objects.hpp"
 #include "effects/phase/joining.hpp"
 #include "effects/phase_lab.hpp"
-#include "effects/solid_particles.hpp"
+#include "solids/objects.hpp"
+#include "solids/solid_particles.hpp"
 
 namespace tripoint {
 namespace {

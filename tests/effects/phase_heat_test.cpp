@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "effects/fusion.hpp"
 #include "effects/phase_lab.hpp"
+#include "solids/fusion.hpp"
 
 namespace tripoint {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/plan.hpp"
+#include "assembly/plan.hpp"
 
 #include <gtest/gtest.h>
 

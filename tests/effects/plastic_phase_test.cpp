@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "effects/phase_lab.hpp"
-#include "effects/solid_particles.hpp"
+#include "solids/solid_particles.hpp"
 
 namespace tripoint {
 namespace {

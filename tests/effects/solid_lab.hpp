@@ -6,7 +6,7 @@
 
 #include "effects/elastic/elastic.hpp"
 #include "effects/fluid_lab.hpp"
-#include "effects/solid_particles.hpp"
+#include "solids/solid_particles.hpp"
 
 /// Small scenes of deformable solids.
 namespace tripoint::lab {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "adapters/job.hpp"
 #include "core/errors.hpp"
 #include "fuzz/input.hpp"
+#include "job/job.hpp"
 #include "validation/harness/replies.hpp"
 
 using namespace tripoint;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 
 namespace tripoint {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/scene_json.hpp"
+#include "job/scene_json.hpp"
 #include "scene/read_case.hpp"
 #include "step/simulation.hpp"
 

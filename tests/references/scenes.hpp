@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 #include "validation/references/rigid_body.hpp"
 
 /// Jobs and particles for the tests of references and metrics, made by hand: no reader, no sampler.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "effects/run_pass.hpp"
+#include "passes/run_pass.hpp"
 
 namespace tripoint {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 
-#include "adapters/engine.hpp"
+#include "adapters/engine/engine.hpp"
 #include "validation/references/reference.hpp"
 
 namespace tripoint {

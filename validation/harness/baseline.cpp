@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "adapters/job.hpp"
 #include "core/errors.hpp"
 #include "core/whole_number.hpp"
+#include "job/job.hpp"
 #include "scene/toml_node.hpp"
 #include "validation/harness/apply_gate.hpp"
 

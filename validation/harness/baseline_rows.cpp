@@ -7,7 +7,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 #include "validation/harness/apply_gate.hpp"
 
 namespace tripoint {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint {

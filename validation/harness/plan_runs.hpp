@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 #include "scene/read_case.hpp"
 #include "validation/harness/discover.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "adapters/job.hpp"
 #include "io/trajectory.hpp"
+#include "job/job.hpp"
 #include "scene/scene.hpp"
 #include "validation/references/reference.hpp"
 

@@ -3,7 +3,7 @@
 #include <map>
 #include <string>
 
-#include "adapters/job.hpp"
+#include "job/job.hpp"
 #include "validation/harness/results.hpp"
 
 /// What a run will cost, before it is made: good enough to share work out, never shown as a measurement.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "adapters/job.hpp"
 #include "io/trajectory.hpp"
+#include "job/job.hpp"
 
 namespace tripoint {
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "adapters/job.hpp"
 #include "io/trajectory.hpp"
+#include "job/job.hpp"
 
 namespace tripoint {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/defect.hpp"
-#include "effects/failure.hpp"
+#include "world/failure.hpp"
 
 namespace tripoint::elastic {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/elastic/bond_sums.hpp"
-#include "effects/solid_particles.hpp"
+#include "solids/solid_particles.hpp"
 
 /// The two passes over bonds. Reference data stream by in order of the lists; what a pass needs of a partner lies together, by
 /// id.

@@ -6,9 +6,9 @@
 #include <numeric>
 
 #include "effects/elastic/bond_forces.hpp"
-#include "effects/ordered_sum.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
+#include "world/ordered_sum.hpp"
 
 namespace tripoint::elastic {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "core/defect.hpp"
 #include "effects/fluid/rule.hpp"
-#include "effects/ordered_sum.hpp"
 #include "scene/effect_rule.hpp"
+#include "world/ordered_sum.hpp"
 
 namespace tripoint::fluid {
 

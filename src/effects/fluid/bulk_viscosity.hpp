@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/fluid/material_numbers.hpp"
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 namespace tripoint::fluid {
 

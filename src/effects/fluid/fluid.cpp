@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "core/machine.hpp"
-#include "effects/body_table.hpp"
-#include "effects/fill.hpp"
 #include "effects/fluid/bulk_viscosity.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
@@ -17,6 +15,8 @@
 #include "effects/fluid/viscous_bound.hpp"
 #include "effects/fluid/walls.hpp"
 #include "sph/pass.hpp"
+#include "world/body_table.hpp"
+#include "world/fill.hpp"
 
 namespace tripoint::fluid {
 namespace {

@@ -2,7 +2,7 @@
 #include "effects/fluid/fluid_ledger.hpp"
 
 #include "effects/fluid/fluid_terms.hpp"
-#include "effects/ordered_sum.hpp"
+#include "world/ordered_sum.hpp"
 
 namespace tripoint::fluid {
 namespace {

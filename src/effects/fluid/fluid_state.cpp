@@ -7,9 +7,9 @@
 
 #include "core/defect.hpp"
 #include "core/machine.hpp"
-#include "effects/body_table.hpp"
-#include "effects/failure.hpp"
-#include "effects/force_columns.hpp"
+#include "world/body_table.hpp"
+#include "world/failure.hpp"
+#include "world/force_columns.hpp"
 
 namespace tripoint::fluid {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/fluid/material_numbers.hpp"
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 /// What follows from places and velocities of one time, particle by particle: before the rate pass.
 namespace tripoint::fluid {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "effects/fluid/material_numbers.hpp"
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 namespace tripoint::fluid {
 

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "effects/fluid/material_numbers.hpp"
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 namespace tripoint::fluid {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "effects/fusion.hpp"
+#include "solids/fusion.hpp"
 
 /// mu of a solid in (8) and in contacts. The paper gives every particle a mu and interpolates it linearly between t_solid and
 /// t_melt (Fig. 5).

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "core/defect.hpp"
-#include "effects/fill.hpp"
 #include "effects/fluid/transport_terms.hpp"
-#include "effects/pair_passes.hpp"
-#include "effects/run_pass.hpp"
+#include "passes/pair_passes.hpp"
+#include "passes/run_pass.hpp"
+#include "world/fill.hpp"
 
 namespace tripoint::fluid {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/fluid/material_numbers.hpp"
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 /// Transport velocity, the scene's choice for vortical flow without free surface [Adami, Hu, Adams 2013]: particles move
 /// with v + dt/2 (background force)/m, so that they stay even, and the momentum that the difference carries is a force.

@@ -5,11 +5,11 @@
 #include <array>
 #include <limits>
 
-#include "effects/fill.hpp"
 #include "effects/fluid/fluid_terms.hpp"
-#include "effects/pair_passes.hpp"
-#include "effects/run_pass.hpp"
+#include "passes/pair_passes.hpp"
+#include "passes/run_pass.hpp"
 #include "sph/moments.hpp"
+#include "world/fill.hpp"
 
 namespace tripoint::fluid {
 namespace {

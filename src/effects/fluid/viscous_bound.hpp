@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "effects/world.hpp"
 #include "sph/pass.hpp"
+#include "world/world.hpp"
 
 namespace tripoint::fluid {
 

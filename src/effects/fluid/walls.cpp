@@ -7,11 +7,11 @@
 #include <compare>
 
 #include "core/defect.hpp"
-#include "effects/fill.hpp"
 #include "effects/fluid/laid_walls.hpp"
 #include "effects/fluid/wall_terms.hpp"
-#include "effects/pair_passes.hpp"
-#include "effects/run_pass.hpp"
+#include "passes/pair_passes.hpp"
+#include "passes/run_pass.hpp"
+#include "world/fill.hpp"
 
 namespace tripoint::fluid {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "effects/fluid/material_numbers.hpp"
-#include "effects/run_pass.hpp"
-#include "effects/world.hpp"
+#include "passes/run_pass.hpp"
+#include "world/world.hpp"
 
 namespace tripoint::fluid {
 

@@ -6,8 +6,8 @@
 
 #include "effects/fracture/bond_limit.hpp"
 #include "effects/fracture/unbroken_proof.hpp"
-#include "effects/objects.hpp"
-#include "effects/solid_particles.hpp"
+#include "solids/objects.hpp"
+#include "solids/solid_particles.hpp"
 
 namespace tripoint::fracture {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 namespace tripoint::fracture {
 

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 
-#include "effects/body_table.hpp"
 #include "effects/heat/heat_corrected.hpp"
 #include "effects/heat/heat_equal.hpp"
 #include "effects/heat/heat_paper.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/temperatures.hpp"
+#include "world/body_table.hpp"
 
 namespace tripoint::heat {
 namespace {

@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "core/machine.hpp"
-#include "effects/fill.hpp"
-#include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/heat_terms.hpp"
 #include "effects/heat/thermal_particles.hpp"
-#include "effects/ordered_sum.hpp"
+#include "solids/fusion.hpp"
 #include "sph/moments.hpp"
+#include "world/fill.hpp"
+#include "world/ordered_sum.hpp"
 
 namespace tripoint::heat {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "effects/heat/enthalpy.hpp"
-#include "effects/ordered_sum.hpp"
 #include "scene/phase_values.hpp"
+#include "world/ordered_sum.hpp"
 
 namespace tripoint::heat {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 
 #include "core/machine.hpp"
-#include "effects/fill.hpp"
-#include "effects/fusion.hpp"
 #include "effects/heat/enthalpy.hpp"
 #include "effects/heat/thermal_particles.hpp"
-#include "effects/ordered_sum.hpp"
 #include "scene/effect_rule.hpp"
+#include "solids/fusion.hpp"
+#include "world/fill.hpp"
+#include "world/ordered_sum.hpp"
 
 namespace tripoint::heat {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/fusion.hpp"
 #include "scene/geometry.hpp"
+#include "solids/fusion.hpp"
 
 namespace tripoint::heat {
 namespace {

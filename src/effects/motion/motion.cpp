@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/body_table.hpp"
-#include "effects/force_columns.hpp"
-#include "effects/ordered_sum.hpp"
+#include "world/body_table.hpp"
+#include "world/force_columns.hpp"
+#include "world/ordered_sum.hpp"
 
 namespace tripoint::motion {
 namespace {

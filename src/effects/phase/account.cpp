@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "effects/fusion.hpp"
+#include "solids/fusion.hpp"
 
 namespace tripoint::phase {
 namespace {

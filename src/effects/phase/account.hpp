@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 namespace tripoint::phase {
 

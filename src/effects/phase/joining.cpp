@@ -7,8 +7,8 @@
 #include <set>
 
 #include "core/defect.hpp"
-#include "effects/solid_particles.hpp"
 #include "scene/effect_rule.hpp"
+#include "solids/solid_particles.hpp"
 
 namespace tripoint::phase {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "effects/world.hpp"
 #include "sph/kernels.hpp"
+#include "world/world.hpp"
 
 /// Bonds and own pairs of what freezes (model 8.9).
 namespace tripoint::phase {

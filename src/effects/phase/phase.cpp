@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "effects/body_table.hpp"
 #include "effects/phase/softening.hpp"
 #include "effects/phase/transition.hpp"
-#include "effects/solid_particles.hpp"
+#include "solids/solid_particles.hpp"
+#include "world/body_table.hpp"
 
 namespace tripoint::phase {
 namespace {

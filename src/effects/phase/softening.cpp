@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/defect.hpp"
-#include "effects/fusion.hpp"
-#include "effects/solid_particles.hpp"
+#include "solids/fusion.hpp"
+#include "solids/solid_particles.hpp"
 
 namespace tripoint::phase {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 /// Solids whose stiffness falls as they melt: `softens`, and the printed band between t_solid and t_melt (Fig. 5).
 namespace tripoint::phase {

@@ -6,11 +6,11 @@
 #include <map>
 
 #include "core/defect.hpp"
-#include "effects/body_table.hpp"
-#include "effects/fusion.hpp"
-#include "effects/objects.hpp"
 #include "effects/phase/joining.hpp"
-#include "effects/solid_particles.hpp"
+#include "solids/fusion.hpp"
+#include "solids/objects.hpp"
+#include "solids/solid_particles.hpp"
+#include "world/body_table.hpp"
 
 namespace tripoint::phase {
 namespace {

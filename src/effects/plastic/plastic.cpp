@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "effects/ordered_sum.hpp"
 #include "effects/plastic/flow.hpp"
-#include "effects/solid_particles.hpp"
+#include "solids/solid_particles.hpp"
+#include "world/ordered_sum.hpp"
 
 namespace tripoint::plastic {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 /// Liquid that flows in: layers of one spacing, which travel through the inflow's shape at its speed and are free beyond it, so
 /// that what enters never overlaps.

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
-#include "effects/body_table.hpp"
-#include "effects/grip.hpp"
 #include "effects/prescribed/inflow.hpp"
 #include "scene/geometry.hpp"
+#include "solids/grip.hpp"
+#include "world/body_table.hpp"
 
 namespace tripoint::prescribed {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 namespace tripoint::rigid {
 

@@ -6,8 +6,8 @@
 #include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "effects/rigid/rotation.hpp"
-#include "effects/rows_loop.hpp"
 #include "scene/read_case.hpp"
+#include "world/rows_loop.hpp"
 
 namespace tripoint::rigid {
 namespace {

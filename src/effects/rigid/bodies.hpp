@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "effects/body_table.hpp"
+#include "world/body_table.hpp"
 
 /// Rows of the body table: made from their members, and read as one value.
 namespace tripoint::rigid {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "effects/world.hpp"
+#include "world/world.hpp"
 
 /// Bodies that unite and come apart: m, r_cm, I, v and L anew, so that mass, momentum and angular momentum are kept.
 namespace tripoint::rigid {

@@ -5,14 +5,14 @@
 #include <cmath>
 
 #include "core/errors.hpp"
-#include "effects/body_forces.hpp"
-#include "effects/grip.hpp"
 #include "effects/rigid/adopt.hpp"
 #include "effects/rigid/bodies.hpp"
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/geometry.hpp"
 #include "scene/read_case.hpp"
+#include "solids/body_forces.hpp"
+#include "solids/grip.hpp"
 
 namespace tripoint::rigid {
 namespace {

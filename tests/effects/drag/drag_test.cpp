@@ -10,9 +10,9 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "adapters/scene_json.hpp"
-#include "effects/declared_view.hpp"
-#include "effects/plan.hpp"
+#include "assembly/declared_view.hpp"
+#include "assembly/plan.hpp"
+#include "job/scene_json.hpp"
 #include "scene/expression.hpp"
 #include "scene/read_case.hpp"
 #include "step/simulation.hpp"

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/all_effects.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "scene/effect_rule.hpp"
+#include "world/body_table.hpp"
+
+#ifndef TRIPOINT_EFFECT_LIST
+#define TRIPOINT_EFFECT_LIST "effects/effect_list.inc"
+#endif
+
+namespace tripoint {
+
+#define TRIPOINT_EFFECT(name)                 \
+  namespace name {                            \
+  EffectSpec spec(const Scene&);              \
+  std::unique_ptr<Effect> make(const Scene&); \
+  std::vector<DefectEntry> defects();         \
+  }
+#include TRIPOINT_EFFECT_LIST
+#undef TRIPOINT_EFFECT
+
+namespace {
+
+struct Registered {
+  std::string_view name;
+  EffectSpec (*spec)(const Scene&);
+  std::unique_ptr<Effect> (*make)(const Scene&);
+  std::vector<DefectEntry> (*defects)();
+};
+
+/// In the order in which they run within a stage.
+constexpr Registered every_effect[] = {
+#define TRIPOINT_EFFECT(name) {#name, name::spec, name::make, name::defects},
+#include TRIPOINT_EFFECT_LIST
+#undef TRIPOINT_EFFECT
+};
+
+/// Whether this build has an effect: TRIPOINT_EFFECTS lists those that it has, between commas; without it it has all.
+constexpr bool in_build(const Registered& effect) {
+#ifdef TRIPOINT_EFFECTS
+  constexpr std::string_view list = TRIPOINT_EFFECTS;
+  for (std::size_t at = list.find(effect.name); at != list.npos; at = list.find(effect.name, at + 1))
+    if (list[at - 1] == ',' && list[at + effect.name.size()] == ',') return true;
+  return false;
+#else
+  return !effect.name.empty();
+#endif
+}
+
+/// Those of this build; what it leaves out is in no table, so that the linker leaves it out too.
+constexpr auto all_effects = [] {
+  std::array<Registered, static_cast<std::size_t>(std::ranges::count_if(every_effect, in_build))> list{};
+  std::ranges::copy_if(every_effect, list.begin(), in_build);
+  return list;
+}();
+
+const Registered* find(std::string_view name) {
+  const auto* place = std::ranges::find(all_effects, name, &Registered::name);
+  return place == std::end(all_effects) ? nullptr : place;
+}
+
+/// @throws InputError when two effects own a field, or one is read and owned by none
+void check_ownership(const std::vector<Active>& effects, bool periodic) {
+  struct Owned {
+    FieldInfo field;
+    std::string owner;
+  };
+  std::vector<Owned> owned;
+  for (const FieldInfo& f : common_fields(periodic)) owned.push_back({f, "particles"});
+  for (const FieldInfo& f : body_table_fields()) owned.push_back({f, "bodies"});
+  const auto owner_of = [&](const FieldInfo& f) { return std::ranges::find(owned, f, &Owned::field); };
+  for (const Active& a : effects) {
+    for (const FieldInfo& f : a.spec.owns) {
+      const auto other = owner_of(f);
+      if (other != owned.end()) {
+        throw InputError("the field " + std::string(f.name) + " is owned by two effects, " + other->owner + " and " + a.name);
+      }
+      owned.push_back({f, a.name});
+    }
+  }
+  for (const Active& a : effects) {
+    for (const FieldInfo& f : a.spec.reads) {
+      if (owner_of(f) != owned.end()) continue;
+      throw InputError("the effect " + a.name + " reads the field " + std::string(f.name) +
+                       ", which no effect of this scene owns");
+    }
+  }
+}
+
+/// What each effect may ask for: what it owns and reads, the table of bodies, and the forces of all where it sums them.
+void set_declared(std::vector<Active>& effects) {
+  std::vector<FieldInfo> forces;
+  for (const Active& a : effects)
+    for (const Force& f : a.spec.forces) forces.insert(forces.end(), {f.x, f.y, f.z});
+  for (Active& a : effects) {
+    a.declared.who = a.name;
+    const auto add = [&](const std::vector<FieldInfo>& fields) {
+      for (const FieldInfo& f : fields) a.declared.keys.push_back(f.key);
+    };
+    add(a.spec.owns), add(a.spec.reads), add(a.spec.reads_if_there), add(body_table_fields());
+    if (a.spec.sums_forces) add(forces);
+    std::ranges::sort(a.declared.keys);
+  }
+}
+
+/// @throws InputError when two effects declare a force's columns or an account, or there are more forces than sums have room for
+void check_forces(const std::vector<Active>& effects) {
+  std::vector<Account> seen;
+  std::size_t forces = 0;
+  const auto once = [&](const Account& a, const std::string& who) {
+    if (std::ranges::find(seen, a) != seen.end() || Bookings().has(a))
+      throw InputError("the account " + std::string(a.name) + " of the effect " + who + " is declared twice");
+    seen.push_back(a);
+  };
+  for (const Active& a : effects) {
+    for (const Force& f : a.spec.forces) {
+      ++forces;
+      if (std::ranges::find(a.spec.owns, FieldInfo(f.x)) == a.spec.owns.end())
+        throw InputError("the effect " + a.name + " makes the force " + std::string(f.x.name) + " and does not own it");
+      if (!f.stored && f.entry.empty())
+        throw InputError("the work of the force " + std::string(f.x.name) +
+                         " has no entry of the ledger, and no energy stores it");
+      once(f.work, a.name);
+      if (f.work_on_driven) once(*f.work_on_driven, a.name);
+      if (f.stored) once(f.stored->at_start, a.name);
+    }
+    for (const Account& one : a.spec.accounts) once(one, a.name);
+    for (const Account& one : a.spec.numerical) once(one, a.name);
+  }
+  if (forces > most_forces)
+    throw InputError("the effects of this scene make " + std::to_string(forces) + " forces, and sums have room for " +
+                     std::to_string(most_forces));
+}
+
+}  // namespace
+
+std::string missing_effect(const Scene& scene) {
+  for (const CalledEffect& called : needed_effects(scene)) {
+    if (!find(called.name)) return called.name;
+  }
+  return {};
+}
+
+std::vector<Active> active_effects(const Scene& scene) {
+  const std::vector<CalledEffect> calls = needed_effects(scene);
+  if (const std::string missing = missing_effect(scene); !missing.empty()) {
+    throw InputError("tripoint: the " + missing + " effect is not in this build");
+  }
+  std::vector<Active> list;
+  for (const Registered& r : all_effects) {
+    const auto call = std::ranges::find(calls, r.name, &CalledEffect::name);
+    if (call != calls.end()) list.push_back({std::string(r.name), call->why, r.spec(scene), r.make(scene), {}});
+  }
+  check_ownership(list, scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
+  check_forces(list);
+  set_declared(list);
+  return list;
+}
+
+Plan plan(const Scene& scene) {
+  Plan p;
+  const auto add = [&](const FieldInfo& f, const std::string& owner) {
+    p.fields.push_back({std::string(f.name), std::string(f.unit), std::string(to_string(f.per)), owner, f.bytes});
+    if (f.per == Per::particle) p.bytes_per_particle += f.bytes;
+  };
+  for (const FieldInfo& f : common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2])) add(f, "particles");
+  if (can_have_bodies(scene))
+    for (const FieldInfo& f : body_table_fields()) add(f, "bodies");
+  // What is called for and not in this build is listed all the same: explain says what a scene means.
+  for (const CalledEffect& c : needed_effects(scene)) {
+    if (!find(c.name)) p.effects.push_back({c.name, c.why + " (not in this build)", std::string(to_string(scene.mode))});
+  }
+  if (!p.effects.empty()) return p;
+  const std::vector<Active> active = active_effects(scene);
+  for (const CalledEffect& idle : idle_effects(scene)) {  // bodies that are driven call for the rigid effect too
+    if (std::ranges::find(active, idle.name, &Active::name) == active.end()) p.idle.push_back({idle.name, idle.why, {}});
+  }
+  for (const Active& a : active) {
+    p.effects.push_back({a.name, a.why, std::string(to_string(a.spec.mode))});
+    for (const FieldInfo& f : a.spec.owns) add(f, a.name);
+  }
+  return p;
+}
+
+std::vector<DefectEntry> registered_defects() {
+  std::vector<DefectEntry> list{
+      {"neighbours.seam", "pairs across a periodic boundary left out", "heat/cosine-mode"},
+      {"neighbours.support", "pairs beyond 1 - size of the support radius left out", "heat/lattice-sum"},
+      {"passes.copies", "over ranks, copies are not handed what a pair pass has summed", "coupling/over-ranks"},
+      {"time.first_kick", "first half kick left out: the leapfrog starts first order", "rigid/ballistic"},
+  };
+  for (const Registered& r : all_effects) {
+    const auto more = r.defects();
+    list.insert(list.end(), more.begin(), more.end());
+  }
+  return list;
+}
+
+void declare(World& world, const std::vector<Active>& effects) {
+  world.guarded = {{field::position_x, "position", Written::drift}, {field::position_y, "position", Written::drift},
+                   {field::position_z, "position", Written::drift}, {field::velocity_x, "velocity", Written::kick},
+                   {field::velocity_y, "velocity", Written::kick},  {field::velocity_z, "velocity", Written::kick}};
+  for (const Active& a : effects) {
+    for (const Force& f : a.spec.forces) {
+      world.forces.push_back(f);
+      world.booked.open(f.work);
+      world.booked.open(work_on_driven(f));
+      if (f.stored) world.booked.open(f.stored->at_start);
+    }
+    for (const Account& one : a.spec.accounts) world.booked.open(one);
+    for (const Account& one : a.spec.numerical) world.booked.open(one);
+    world.numerical.insert(world.numerical.end(), a.spec.numerical.begin(), a.spec.numerical.end());
+    world.guarded.insert(world.guarded.end(), a.spec.guards.begin(), a.spec.guards.end());
+  }
+  std::ranges::stable_sort(world.guarded, {}, &Guarded::written);
+}
+
+}  // namespace tripoint

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assembly/plan.hpp"
+#include "effects/effect.hpp"
+
+namespace tripoint {
+
+/// One effect that a scene has on.
+struct Active {
+  std::string name, why;
+  EffectSpec spec;
+  std::unique_ptr<Effect> effect;
+  DeclaredFields declared{};  ///< all that it may ask for
+};
+
+/// Effects that the scene calls for, in the order in which they run. @throws InputError naming one that is not in this build
+[[nodiscard]] std::vector<Active> active_effects(const Scene&);
+/// First effect that the scene calls for and this build does not have; empty = none.
+[[nodiscard]] std::string missing_effect(const Scene&);
+
+/// Puts the forces, accounts and guards that these effects declare into the world.
+void declare(World&, const std::vector<Active>&);
+
+}  // namespace tripoint

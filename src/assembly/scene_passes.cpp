@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/scene_passes.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "effects/fluid/material_numbers.hpp"
+#include "effects/fluid/walls.hpp"
+#include "passes/busy_clusters.hpp"
+#include "passes/pair_passes.hpp"
+#include "passes/run_pass.hpp"
+#include "scene/temperatures.hpp"
+
+namespace tripoint {
+namespace {
+
+/// Place of a form in its slot: 0 = off, 1 = as printed, 2 = corrected.
+int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_view effect, Term term) {
+  if (std::ranges::find(effects, effect, &Active::name) == effects.end()) return 0;
+  return scene.mode_of(term) == Mode::paper ? 1 : 2;
+}
+
+/// Fixed particles may sleep where every effect of the scene looks at none that is asleep, and no term works on every pair.
+std::optional<double> sleeps_beyond(const Scene& scene, const std::vector<Active>& effects, bool meets_all) {
+  constexpr std::array<std::string_view, 5> looks_at_awake{"rigid", "fluid", "motion", "prescribed", "heat"};
+  if (meets_all || scene.transport_velocity || !std::ranges::all_of(effects, [&](const Active& a) {
+        return std::ranges::find(looks_at_awake, a.name) != looks_at_awake.end();
+      }))
+    return {};
+  return fluid::numbers_of(scene).averages_walls ? fluid::reach_of_patches * scene.spacing : 0.0;
+}
+
+}  // namespace
+
+struct Passes::Impl {
+  int lanes;
+  PassFunction density, rates, heat;
+  PairKernels kernels;
+  bool meets_all;   ///< a term works on every pair, whatever meets there
+  bool leaves_own;  ///< the density leaves own pairs out
+  std::optional<double> sleeps_beyond;
+  BusyClusters busy{};
+};
+
+Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes, bool sums_all) {
+  const int heat = equal_temperature(scene) ? 0 : form_of(scene, effects, "heat", Term::heat),
+            pressure = form_of(scene, effects, "fluid", Term::pressure);
+  const bool summed = form_of(scene, effects, "density", Term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
+  const int density = summed ? 1 : form_of(scene, effects, "fluid", Term::density);
+  const int viscosity = scene.mode_of(Term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : 2;
+  const int flow = pressure == 0 ? 0 : 3 * (pressure - 1) + viscosity, moments = heat == 2 ? 1 : 0;
+  if (lanes == 0) lanes = density + flow + heat > 0 ? best_lanes() : 1;
+  const PairPasses passes = pair_passes(lanes);
+  const bool meets_all = heat + moments > 0 || summed || pressure == 0;
+  impl_ = std::make_unique<Impl>(
+      Impl{lanes, passes.density({density, moments}), passes.rates({flow, heat}), passes.rates({0, heat}),
+           pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene), sums_all || meets_all,
+           density == 2, sums_all ? std::nullopt : tripoint::sleeps_beyond(scene, effects, meets_all)});
+}
+Passes::~Passes() = default;
+Passes::Passes(Passes&&) noexcept = default;
+Passes& Passes::operator=(Passes&&) noexcept = default;
+
+int Passes::lanes() const { return impl_->lanes; }
+
+bool Passes::needed() const { return impl_->density.run != nullptr || impl_->rates.run != nullptr; }
+
+std::optional<double> Passes::sleeps_beyond() const { return impl_->sleeps_beyond; }
+
+void Passes::forget_clusters() { impl_->busy.forget(); }
+
+void Passes::run(PassName name, World& world) const {
+  if (!needed()) return;
+  Impl& i = *impl_;
+  const PassFunction& pass = name == PassName::density ? i.density : name == PassName::rates ? i.rates : i.heat;
+  if (!i.meets_all && name == PassName::density)
+    i.busy.sum_density(pass, world, i.kernels, i.leaves_own);
+  else if (!i.meets_all && name == PassName::rates)
+    i.busy.sum_rates(pass, world, i.kernels);
+  else
+    run_pass(pass, world.particles, *world.neighbours, i.kernels, world.threads);
+  static const bool kept_to_itself = defect_size("passes.copies") > 0.0;
+  if (pass.run && !kept_to_itself) world.refresh(pass.adds());
+}
+
+}  // namespace tripoint

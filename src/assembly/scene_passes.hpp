@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "assembly/all_effects.hpp"
+
+namespace tripoint {
+
+/// The fused pair passes, as the scene's modes choose them.
+class Passes {
+ public:
+  /// @param lanes particles of a cluster, 0 = what is fastest here: measured only where a pair is worked on at all
+  /// @param sums_all whether clusters in which nothing meets are summed over too
+  Passes(const Scene&, const std::vector<Active>&, int lanes, bool sums_all = false);
+  ~Passes();
+  Passes(Passes&&) noexcept;
+  Passes& operator=(Passes&&) noexcept;
+  [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
+  [[nodiscard]] int lanes() const;    ///< particles of a cluster that the neighbours must have
+  void run(PassName, World&) const;
+  /// How far around what something can reach fixed particles must be awake, for every bit to stay [m]; none: nothing may sleep.
+  [[nodiscard]] std::optional<double> sleeps_beyond() const;
+  /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work is found anew.
+  void forget_clusters();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tripoint

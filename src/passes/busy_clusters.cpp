@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "passes/busy_clusters.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+#include "passes/run_pass.hpp"
+#include "world/body_table.hpp"
+
+namespace tripoint {
+namespace {
+
+enum Work : std::uint8_t { none = 0, density = 1, rates = 2, density_is_still = 4 };
+
+/// Of each row whether it never moves: a member of a fixed rigid body.
+std::vector<char> fixed_rows(const World& world) {
+  std::vector<char> of_body;
+  for (std::size_t b = 0; b < world.bodies.size(); ++b)
+    of_body.push_back(is_rigid(world, b) && world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
+  const auto body = world.particles[field::body];
+  std::vector<char> fixed(world.particles.awake());
+  for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = body[i] >= 0 ? of_body[static_cast<std::size_t>(body[i])] : char{0};
+  return fixed;
+}
+
+/// What is to be done for a cluster. Two act on each other unless they are an own pair, or members of one group of 0 and above.
+/// @param acting of each entry of the cluster a bit, set where it acts on a member; zero until now
+Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed,
+             bool leaves_own, std::uint64_t* acting) {
+  const std::uint32_t first = c.first[cluster], past = c.first[cluster + 1];
+  const std::size_t start = c.start[cluster], end = c.start[cluster + 1];
+  const bool all_liquid = std::all_of(group.begin() + first, group.begin() + past, [](double g) { return g < 0.0; });
+  if (all_liquid && c.own.empty()) {  // everything acts on them
+    std::fill(acting, acting + (end - start + within_bits - 1) / within_bits, ~std::uint64_t{0});
+    return static_cast<Work>(density | rates);
+  }
+  bool any_acts = false, any_apart = false, any_moves = false;
+  const unsigned all = ~0u;
+  double asked = group[first];
+  unsigned of_another = 0;  // bits of the members whose group is not the one that was asked for
+  const auto look = [&](double g) {
+    asked = g, of_another = 0;
+    for (std::uint32_t i = first; i < past; ++i) of_another |= static_cast<unsigned>(group[i] != g) << (i - first);
+  };
+  look(asked);
+  const auto others = [&](double g) {
+    if (g != asked) look(g);
+    return of_another;
+  };
+  for (std::uint32_t i = first; i < past; ++i) any_moves = any_moves || fixed[i] == 0;
+  for (std::size_t e = start; e < end; ++e) {
+    const std::size_t j = Entry{c.entries[e]}.row();
+    any_moves = any_moves || fixed[j] == 0;
+    const unsigned apart = c.near[e] & (c.own.empty() ? ~0u : ~static_cast<unsigned>(c.own[e]));
+    const bool acts = (apart & (group[j] < 0.0 ? all : others(group[j]))) != 0;
+    any_apart = any_apart || apart != 0;
+    any_acts = any_acts || acts;
+    acting[(e - start) / within_bits] |= std::uint64_t{acts} << ((e - start) % within_bits);
+  }
+  const Work in_density = !any_moves ? density_is_still : any_acts || any_apart || !leaves_own ? density : none;
+  return static_cast<Work>(in_density | (any_acts ? rates : none));
+}
+
+}  // namespace
+
+void BusyClusters::find(World& world, bool leaves_own) {
+  Clusters& c = world.neighbours->clusters();
+  const auto group = world.particles[field::group];
+  const std::vector<char> fixed = fixed_rows(world);
+  std::vector<Work> work(c.size());
+  c.acting.assign(c.size() > 0 ? within_start(c.start.back(), c.size()) : 0, 0);
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t k = 0; k < c.size(); ++k)
+    work[k] = work_of(c, k, group, fixed, leaves_own, c.acting.data() + within_start(c.start[k], k));
+  in_density_ = {}, in_rates_ = {};
+  still_.clear();
+  for (std::uint32_t k = 0; k < c.size(); ++k) {
+    if ((work[k] & density) != 0) in_density_.clusters.push_back(k);
+    if ((work[k] & rates) != 0) in_rates_.clusters.push_back(k);
+    if ((work[k] & density_is_still) == 0) continue;
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) still_.push_back(i);
+  }
+  known_ = true;
+}
+
+/// What the density of fixed particles is where they meet nothing else, for when their lists are no longer made.
+void BusyClusters::learn_still(const PassFunction& pass, World& world, const PairKernels& kernels) {
+  Neighbours& n = *world.neighbours;
+  Particles& p = world.particles;
+  const Clusters& c = n.clusters();
+  std::vector<char> is_still(p.size(), 0);
+  for (const std::uint32_t one : n.still_ids()) is_still[p.row(one)] = 1;
+  std::vector<std::uint64_t> among(within_start(c.start.back(), c.size()), 0);
+  for (std::size_t k = 0; k < c.size(); ++k)
+    for (std::size_t e = c.start[k], from = within_start(c.start[k], k) * within_bits; e < c.start[k + 1]; ++e, ++from)
+      among[from / within_bits] |= std::uint64_t{is_still[Entry{c.entries[e]}.row()] != 0} << from % within_bits;
+  density_among_still_.clear();
+  std::vector<std::vector<double>> before;
+  for (const Field<double>* f : pass.adds()) before.emplace_back(p[*f].begin(), p[*f].end());
+  run_pass_among(pass, p, n, kernels, world.threads, among);
+  auto old = before.begin();
+  for (const Field<double>* f : pass.adds()) {
+    const auto column = p[*f];
+    for (const std::uint32_t one : n.still_ids()) density_among_still_.push_back(column[p.row(one)]);
+    std::ranges::copy(*old++, column.begin());
+  }
+  still_known_ = n.whole_lists();
+}
+
+/// Sums over all lists there are; who has none gets what it has among what is fixed.
+void BusyClusters::sum_listed(const PassFunction& pass, World& world, const PairKernels& kernels) const {
+  Neighbours& n = *world.neighbours;
+  Particles& p = world.particles;
+  const Clusters& c = n.clusters();
+  if (c.unlisted.empty()) return run_pass(pass, p, n, kernels, world.threads);
+  assert(still_known_ == n.whole_lists());
+  n.make_room_within();
+  run_pass_over(pass, p, n, kernels, world.threads, {c.listed, {}});
+  const auto id = p[field::id];
+  std::size_t from = 0;
+  for (const Field<double>* f : pass.adds()) {
+    const auto column = p[*f];
+    for (const std::uint32_t k : c.unlisted)
+      for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
+        column[i] = density_among_still_[from + n.still_place(static_cast<std::size_t>(id[i]))];
+    from += n.still_ids().size();
+  }
+}
+
+void BusyClusters::keep(const PassFunction& pass, const World& world) {
+  density_.clear();
+  for (const Field<double>* f : pass.adds()) {
+    const auto column = world.particles[*f];
+    for (const std::uint32_t i : still_) density_.push_back(column[i]);
+  }
+  placed_ = world.placed;
+}
+
+void BusyClusters::put_back(const PassFunction& pass, Particles& p) const {
+  auto kept = density_.begin();
+  for (const Field<double>* f : pass.adds()) {
+    const auto column = p[*f];
+    for (const std::uint32_t i : still_) column[i] = *kept++;
+  }
+}
+
+/// The first over new lists sums all, also because the passes that follow ask which pairs are within the support. So does the one
+/// after what is fixed was put to its place by its body's pose, which can move it by a rounding error.
+void BusyClusters::sum_density(const PassFunction& pass, World& world, const PairKernels& kernels, bool leaves_own) {
+  Particles& p = world.particles;
+  if (known_ && placed_ == world.placed) {
+    put_back(pass, p);
+    run_pass_over(pass, p, *world.neighbours, kernels, world.threads, in_density_);
+    return;
+  }
+  if (world.neighbours->may_rest_next() && still_known_ != world.neighbours->whole_lists()) learn_still(pass, world, kernels);
+  sum_listed(pass, world, kernels);
+  if (!known_) find(world, leaves_own);
+  keep(pass, world);
+}
+
+void BusyClusters::sum_rates(const PassFunction& pass, World& world, const PairKernels& kernels) const {
+  if (known_)
+    run_pass_over(pass, world.particles, *world.neighbours, kernels, world.threads, in_rates_);
+  else
+    run_pass(pass, world.particles, *world.neighbours, kernels, world.threads);
+}
+
+}  // namespace tripoint

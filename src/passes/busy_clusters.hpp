@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "passes/run_pass.hpp"
+#include "sph/pass.hpp"
+#include "world/world.hpp"
+
+namespace tripoint {
+
+/// Clusters that a pass has work in, and the entries of their lists that act: a dry wall and the inside of a body meet nothing,
+/// and cost nothing. What is left out keeps every bit: the forces between what never acts on each other are sums of zeros, and
+/// the density of what is fixed among what is fixed stays what the first pass over the present lists found. Of use where no term
+/// works on every pair, as heat does.
+class BusyClusters {
+ public:
+  /// The lists, the groups, the own pairs or the motion of bodies have changed: all is found anew.
+  void forget() { known_ = false; }
+  /// @param leaves_own whether the density terms leave own pairs out, as the corrected one does
+  void sum_density(const PassFunction&, World&, const PairKernels&, bool leaves_own);
+  /// After sum_density() over the same lists.
+  void sum_rates(const PassFunction&, World&, const PairKernels&) const;
+
+ private:
+  void find(World&, bool leaves_own);
+  void learn_still(const PassFunction&, World&, const PairKernels&);
+  void sum_listed(const PassFunction&, World&, const PairKernels&) const;
+  void keep(const PassFunction&, const World&);
+  void put_back(const PassFunction&, Particles&) const;
+
+  bool known_ = false;
+  ChosenClusters in_density_, in_rates_;
+  std::vector<std::uint32_t> still_;         ///< rows of the clusters whose density is kept
+  std::vector<double> density_;              ///< of each of them, one column after the other
+  bool placed_ = false;                      ///< World::placed as the density was kept
+  long still_known_ = -1;                    ///< Neighbours::whole_lists() that the next are of
+  std::vector<double> density_among_still_;  ///< of Neighbours::still_ids() among themselves, one column after the other
+};
+
+}  // namespace tripoint

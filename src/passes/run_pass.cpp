@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "passes/run_pass.hpp"
+
+#include <cassert>
+
+#include "core/defect.hpp"
+
+namespace tripoint {
+namespace {
+
+PassTask task_of(const Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
+  const auto x = positions(particles);
+  Clusters& c = neighbours.clusters();
+  static const double nearer = 1.0 - defect_size("neighbours.support");
+  const double support = nearer * neighbours.support();
+  return {x.x.data(),
+          x.y.data(),
+          x.z.data(),
+          nullptr,
+          c.first.data(),
+          c.start.data(),
+          c.entries.data(),
+          c.near.data(),
+          c.own.empty() ? nullptr : c.own.data(),
+          c.within.empty() ? nullptr : c.within.data(),
+          nullptr,
+          neighbours.shifts().data(),
+          nullptr,
+          nullptr,
+          c.size(),
+          support * support,
+          &kernels,
+          threads};
+}
+
+std::vector<double*> columns_of(const PassFunction& function, Particles& particles) {
+  std::vector<double*> columns;
+  for (const Field<double>* f : function.fields) columns.push_back(particles[*f].data());
+  return columns;
+}
+
+}  // namespace
+
+void run_pass(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
+              int threads) {
+  if (!function.run) return;
+  if (function.finds) neighbours.make_room_within();
+  PassTask task = task_of(particles, neighbours, kernels, threads);
+  const std::vector<double*> columns = columns_of(function, particles);
+  task.columns = columns.data();
+  function.run(task);
+}
+
+void run_pass_among(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
+                    int threads, const std::vector<std::uint64_t>& entries) {
+  PassTask task = task_of(particles, neighbours, kernels, threads);
+  const std::vector<double*> columns = columns_of(function, particles);
+  task.columns = columns.data(), task.within = nullptr, task.only = entries.data();
+  function.run(task);
+}
+
+void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
+                   int threads, const ChosenClusters& chosen) {
+  if (!function.run || chosen.clusters.empty()) return;
+  PassTask task = task_of(particles, neighbours, kernels, threads);
+  const std::vector<double*> columns = columns_of(function, particles);
+  task.columns = columns.data(), task.chosen = chosen.clusters.data(), task.count = chosen.clusters.size();
+  if (!chosen.members.empty()) task.members = chosen.members.data();
+  if (!function.finds && !neighbours.clusters().acting.empty()) task.only = neighbours.clusters().acting.data();
+  function.run(task);
+}
+
+ChosenClusters clusters_of(const Clusters& c, const std::vector<std::uint32_t>& rows) {
+  ChosenClusters chosen;
+  for (const std::uint32_t row : rows) {
+    const std::uint32_t cluster = c.of(row);
+    assert(chosen.clusters.empty() || chosen.clusters.back() <= cluster);
+    if (chosen.clusters.empty() || chosen.clusters.back() != cluster)
+      chosen.clusters.push_back(cluster), chosen.members.push_back(0);
+    chosen.members.back() = static_cast<std::uint8_t>(chosen.members.back() | 1u << (row - c.first[cluster]));
+  }
+  return chosen;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bonds and own pairs of the start.
+#include <algorithm>
+#include <cmath>
+
+#include "core/defect.hpp"
+#include "core/errors.hpp"
+#include "scene/effect_rule.hpp"
+#include "solids/solid_particles.hpp"
+
+namespace tripoint::solid {
+namespace {
+
+/// Which bodies are connected, by rows of the table: a deformable one with itself and with those that it is joined to.
+class Joins {
+ public:
+  explicit Joins(const World& world) : count_(world.bodies.size()), joined_(count_ * count_, 0) {
+    for (std::size_t b = 0; b < count_; ++b) {
+      if (!is_rigid(world, b)) set(b, b);
+      const auto source = static_cast<std::size_t>(world.bodies[field::body_source][b]);
+      for (const std::string& name : world.scene.bodies[source].joined_to) {
+        const auto other = static_cast<std::size_t>(std::ranges::find(world.body_names, name) - world.body_names.begin());
+        if (other == count_)
+          throw InputError("the body " + world.body_names[b] + " is joined to " + name +
+                           ", which is liquid: bonds need two solids");
+        if (!is_rigid(world, b) || !is_rigid(world, other)) set(b, other);
+      }
+    }
+  }
+  [[nodiscard]] bool any(std::size_t b) const { return std::find(row(b), row(b) + count_, 1) != row(b) + count_; }
+  [[nodiscard]] bool operator()(int a, int b) const {
+    return joined_[static_cast<std::size_t>(a) * count_ + static_cast<std::size_t>(b)] != 0;
+  }
+
+ private:
+  using Row = std::vector<char>::const_iterator;
+  [[nodiscard]] Row row(std::size_t b) const { return joined_.begin() + static_cast<std::ptrdiff_t>(b * count_); }
+  void set(std::size_t a, std::size_t b) { joined_[a * count_ + b] = joined_[b * count_ + a] = 1; }
+  std::size_t count_;
+  std::vector<char> joined_;
+};
+
+/// The particles that can have bonds: their ids, and a copy of their places to search in.
+struct Candidates {
+  std::vector<std::uint32_t> ids;
+  Particles places;
+};
+
+Candidates candidates_of(const World& world, const Joins& joined) {
+  Candidates found;
+  const Particles& p = world.particles;
+  const auto body = p[field::body];
+  for (std::uint32_t id = 0; id < p.size(); ++id) {
+    const int b = body[p.row(id)];
+    if (b >= 0 && joined.any(static_cast<std::size_t>(b))) found.ids.push_back(id);
+  }
+  found.places = Particles(found.ids.size(), common_fields(world.box.any()));
+  for (std::size_t n = 0; n < found.ids.size(); ++n) positions(found.places).set(n, p.position(p.row(found.ids[n])));
+  return found;
+}
+
+/// Bonds are told apart by the nearest image, so one must be shorter than half the box, also when stretched by 15 %.
+void refuse_narrow_box(const World& world) {
+  const double least = 2.0 * 1.15 * bond_reach(world.scene) * world.scene.spacing;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!world.box.periodic[a] || world.box.width[a] >= least) continue;
+    throw InputError(std::string("the periodic direction ") + "xyz"[a] + " is " + std::to_string(world.box.width[a]) +
+                     " m wide, and bonds of elastic bodies need " + std::to_string(least) +
+                     " m to be told apart: make the domain wider or the spacing smaller");
+  }
+}
+
+/// Which candidates are members of rigid bodies with a particle of a deformable body within reach: these own strain energy, and
+/// need their mates for it.
+std::vector<char> joints_of(const World& world, const Joins& joined, const Candidates& found, const Neighbours& near,
+                            double reach) {
+  std::vector<char> at_joint(found.ids.size(), 0);
+  const ElasticParticles is_elastic(world);
+  const auto body = world.particles[field::body];
+  const auto place = found.places[field::id];
+  for (std::size_t n = 0; n < found.ids.size(); ++n) {
+    const std::size_t i = world.particles.row(found.ids[n]);
+    if (is_elastic(i)) continue;
+    at_joint[n] = std::ranges::any_of(near.of(found.places.row(n)), [&](Entry e) {
+      const std::size_t j = world.particles.row(found.ids[static_cast<std::size_t>(place[e.row()])]);
+      return is_elastic(j) && joined(body[i], body[j]) && norm(separation(world, j, i)) < reach;
+    });
+  }
+  return at_joint;
+}
+
+void set_twins(Bonds& bonds, std::span<const std::uint32_t> ids) {
+  for (const std::uint32_t id : ids) {
+    for (Bond& b : bonds.edit(id)) {
+      const auto list = std::as_const(bonds).of(b.other);
+      b.twin = static_cast<std::uint32_t>(std::ranges::lower_bound(list, id, {}, &Bond::other) - list.begin());
+    }
+  }
+}
+
+}  // namespace
+
+ElasticityKernel bond_kernel(const Scene& scene) { return ElasticityKernel(bond_reach(scene) * scene.spacing); }
+
+Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
+  const double r = norm(x);
+  Bond b;
+  b.x = x;
+  b.gradient = (kernel.derivative(r) / r) * x;
+  b.weight = kernel.value(r);
+  return b;
+}
+
+double own_weight(const Scene& scene, double distance) {
+  static const double heavier = 1.0 + defect_size("elastic.own_pairs");
+  return heavier * WendlandC2(scene.support_ratio * scene.spacing).value(distance);
+}
+
+Vec3 separation(const World& world, std::size_t i, std::size_t j) {
+  return nearest_image(world.box, world.particles.position(j) - world.particles.position(i));
+}
+
+void connect_solids(World& world) {
+  if (!can_have_deformable_bodies(world.scene)) return;
+  const Joins joined(world);
+  Candidates found = candidates_of(world, joined);
+  if (found.ids.empty()) return;
+  refuse_narrow_box(world);
+  const bool meets = world.particles.has(field::force_x.name);  // without pressure own pairs have nothing to be kept from
+  const bool paper = world.scene.mode_of(Term::density) == Mode::paper;
+  const double reach = bond_reach(world.scene) * world.scene.spacing,
+               search = meets && !paper ? std::max(reach, world.support()) : reach;
+  Neighbours near(search, 0.0, world.box, world.threads);
+  near.update(found.places, 0.0);
+  const std::vector<char> at_joint = joints_of(world, joined, found, near, reach);
+  const ElasticityKernel kernel = bond_kernel(world.scene);
+  const auto body = world.particles[field::body];
+  const auto place = found.places[field::id];
+  for (std::size_t n = 0; n < found.ids.size(); ++n) {
+    const std::size_t row = found.places.row(n), i = world.particles.row(found.ids[n]);
+    std::vector<Bond> bonds;
+    std::vector<OwnPair> own;
+    for (const Entry e : near.of(row)) {
+      const auto other = static_cast<std::size_t>(place[e.row()]);
+      const std::size_t j = world.particles.row(found.ids[other]);
+      const bool mates = body[i] == body[j] && (at_joint[n] || at_joint[other]);
+      if (!joined(body[i], body[j]) && !mates) continue;
+      const Vec3 x = separation(world, j, i);
+      const double r = norm(x);
+      const bool bonded = r < reach;
+      if (bonded) bonds.push_back(bond_of(kernel, x)), bonds.back().other = found.ids[other];
+      if (meets && !mates && (bonded || !paper)) own.push_back({found.ids[other], paper ? 0.0 : own_weight(world.scene, r)});
+    }
+    std::ranges::sort(bonds, {}, &Bond::other);
+    std::ranges::sort(own, {}, &OwnPair::other);
+    world.bonds.replace(found.ids[n], bonds);
+    if (meets) world.own.replace(found.ids[n], own);
+  }
+  set_twins(world.bonds, found.ids);
+  world.bonds.compact();
+  world.own.compact();
+}
+
+}  // namespace tripoint::solid

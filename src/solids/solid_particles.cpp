@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solids/solid_particles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/defect.hpp"
+#include "scene/effect_rule.hpp"
+#include "scene/phase_values.hpp"
+#include "sph/surface_gradient.hpp"
+
+namespace tripoint::solid {
+namespace {
+
+constexpr int no_energy_rank = 3;  ///< members of rigid bodies without energy: their lists need no special form
+
+/// Which material's constants a particle's energy has, and how many times: its own, or for a member of a rigid body that of the
+/// elastic partner with the lowest id.
+void set_stiffness(World& world, const ElasticParticles& is_elastic, std::uint32_t id) {
+  Particles& p = world.particles;
+  const std::size_t i = p.row(id);
+  p[field::solid_material][i] = p[field::material][i];
+  p[field::solid_stiffness][i] = is_elastic(i) ? 1.0 : 0.0;
+  if (is_elastic(i) || p[field::body][i] < 0) return;
+  static const double looser = 1.0 - defect_size("elastic.joint");
+  std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
+  for (const Bond& b : std::as_const(world.bonds).of(id))
+    if (is_elastic(p.row(b.other))) lowest = std::min(lowest, b.other);
+  if (lowest == std::numeric_limits<std::uint32_t>::max()) return;
+  p[field::solid_material][i] = p[field::material][p.row(lowest)];
+  p[field::solid_stiffness][i] = looser * joint_stiffness;
+}
+
+/// v_i [m3]: m/rho0; printed (11) m_i / sum_j m_j W(x_ij), for particles that have all their body neighbours in the list.
+double volume_of(const World& world, bool paper, bool owns, std::uint32_t id) {
+  const std::size_t i = world.particles.row(id);
+  const auto m = world.particles[field::mass];
+  if (!paper || !owns) return m[i] / world.material_of(i).density;
+  double sum = m[i] * bond_kernel(world.scene).value(0.0);
+  for (const Bond& b : world.bonds.of(id)) sum += m[world.particles.row(b.other)] * b.weight;
+  return m[i] / sum;
+}
+
+/// M_i = sum_j v_j gradW(x_ij)(x_j - x_i)^T
+Symmetric moment_of(const World& world, std::uint32_t id) {
+  const auto volume = world.particles[field::solid_volume];
+  Symmetric M;
+  for (const Bond& b : world.bonds.of(id)) M = M + symmetric_part(-volume[world.particles.row(b.other)] * outer(b.gradient, b.x));
+  return M;
+}
+
+/// Sets the gradients of a list. @param to called as to(bond), its gradient [1/m4]
+template <class To>
+void set_gradients(World& world, std::uint32_t id, To to) {
+  const auto list = std::as_const(world.bonds).of(id);
+  if (std::ranges::all_of(list, [&](const Bond& b) { return b.gradient == to(b); }))
+    return;  // the list counts as changed where it is
+  for (Bond& b : world.bonds.edit(id)) b.gradient = to(b);
+}
+
+/// grad W(x_ij), whatever stood for it.
+void set_kernel_gradients(World& world, const ElasticityKernel& kernel, std::uint32_t id) {
+  set_gradients(world, id, [&](const Bond& b) { return bond_of(kernel, b.x).gradient; });
+}
+
+/// At a surface: grad W + M_i c_ij/v_j, so that d_ij = v_j A_i of it has the correction c_ij.
+void correct_for_bending(World& world, std::uint32_t id, double share, const Symmetric& moment, const Symmetric& A) {
+  const auto list = std::as_const(world.bonds).of(id);
+  const auto volume_of = [&](const Bond& b) { return world.particles[field::solid_volume][world.particles.row(b.other)]; };
+  std::vector<GradientPoint> points;
+  for (const Bond& b : list) points.push_back({-b.x, -volume_of(b) * dot(b.gradient, b.x) / dot(b.x, b.x)});
+  if (!at_surface(points)) return;
+  const std::vector<Vec3> correction = curvature_correction(points, A);
+  set_gradients(world, id, [&, first = list.data()](const Bond& b) {
+    const Vec3& c = correction[static_cast<std::size_t>(&b - first)];
+    return b.gradient + (share / volume_of(b)) * (moment * c);
+  });
+}
+
+bool is_regular(const World& world, std::uint32_t id) {
+  const auto rank = world.particles[field::shape_rank];
+  if (rank[world.particles.row(id)] != 3) return false;
+  return std::ranges::all_of(world.bonds.of(id), [&](const Bond& b) { return rank[world.particles.row(b.other)] == 3; });
+}
+
+/// What one energy U_k adds to K_ii, with d = d_ki: v_k (mu |d|^2 + (lambda + mu) d d^T).
+Symmetric stiffness(double volume, const ElasticConstants& c, const Vec3& d) {
+  const double isotropic = volume * c.mu * dot(d, d);
+  return (volume * (c.lambda + c.mu)) * square(d) + Symmetric{isotropic, isotropic, isotropic, 0.0, 0.0, 0.0};
+}
+
+/// lambda_max(K_ii)/m_i [1/s2]: how fast a particle swings while its neighbours stay, by its own energy and those of its
+/// partners.
+double frequency_of(const World& world, const ElasticForms& forms, std::uint32_t id) {
+  const Particles& p = world.particles;
+  const EnergyOwners owns(world);
+  const auto volume = p[field::solid_volume];
+  const std::size_t i = p.row(id);
+  const Symmetric A = shape_inverse_of(p, i);
+  Vec3 own;
+  Symmetric K;
+  double springs = 0.0;
+  for (const Bond& b : world.bonds.of(id)) {
+    const std::size_t j = p.row(b.other);
+    const auto spring = [&](std::size_t k, const Bond& of) {
+      return 0.5 * forms.hourglass() * forms.constants(world, k).young * volume[i] * volume[j] * of.weight / dot(of.x, of.x);
+    };
+    own += volume[j] * (A * b.gradient);
+    if (owns(i)) springs += spring(i, b);
+    if (!owns(j)) continue;
+    const Bond& twin = world.bonds.of(b.other)[b.twin];
+    springs += spring(j, twin);
+    K = K + stiffness(volume[j], forms.constants(world, j), volume[i] * (shape_inverse_of(p, j) * twin.gradient));
+  }
+  if (owns(i)) K = K + stiffness(volume[i], forms.constants(world, i), own);
+  return (largest_eigenvalue(K) + springs) / p[field::mass][i];
+}
+
+/// These ids and their partners, ascending, each once.
+std::vector<std::uint32_t> with_partners(const World& world, std::span<const std::uint32_t> ids) {
+  std::vector<std::uint32_t> all(ids.begin(), ids.end());
+  for (const std::uint32_t id : ids)
+    for (const Bond& b : world.bonds.of(id)) all.push_back(b.other);
+  std::ranges::sort(all);
+  all.erase(std::ranges::unique(all).begin(), all.end());
+  return all;
+}
+
+}  // namespace
+
+Symmetric shape_inverse_of(const Particles& p, std::size_t row) { return shape_inverses(p).at(row); }
+
+Symmetric plastic_strain_of(const Particles& p, std::size_t row) {
+  return p.has(field::plastic_strain_xx.name) ? plastic_strains(p).at(row) : Symmetric{};
+}
+
+void set_plastic_strain(Particles& p, std::size_t row, const Symmetric& e) { plastic_strains(p).set(row, e); }
+
+Symmetric strain_of(const Particles& p, std::size_t row) { return strains(p).at(row); }
+
+bool softens(const Scene& scene, const Material& m) {
+  if (turns_elastic(scene, m)) return true;
+  return m.t_melt && m.solid == "elastic" && (m.softens || has_printed_stage(scene, m));
+}
+
+ElasticForms::ElasticForms(const Scene& scene)
+    : paper_(scene.mode_of(Term::elastic) == Mode::paper),
+      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0
+                                                               : scene.hourglass * (1.0 - defect_size("elastic.hourglass"))),
+      bending_(paper_ ? 0.0 : kept_number(scene.values, key_row("scene", "bending")) * (1.0 - defect_size("elastic.bending"))),
+      factor_(paper_ ? 2.0 * (1.0 - defect_size("elastic.paper.factor")) : 1.0 - defect_size("elastic.force")) {
+  for (const Material& m : scene.materials) {
+    constants_.push_back(m.young_modulus && m.poisson_ratio ? elastic_constants(*m.young_modulus, *m.poisson_ratio)
+                                                            : ElasticConstants{});
+    softens_.push_back(softens(scene, m));
+  }
+}
+
+ElasticForms::Constants::Constants(const ElasticForms& forms, const World& world)
+    : forms_(forms), stiffness_(world.particles[field::solid_stiffness]), material_(world.particles[field::solid_material]) {
+  if (world.particles.has(field::stiffness_share.name)) share_ = world.particles[field::stiffness_share];
+}
+
+ElasticConstants ElasticForms::Constants::operator()(std::size_t row) const {
+  const auto m = static_cast<std::size_t>(material_[row]);
+  return (forms_.softens_[m] && !share_.empty() ? stiffness_[row] * share_[row] : stiffness_[row]) * forms_.constants_[m];
+}
+
+Symmetric ElasticForms::projector(const Symmetric& shape_inverse, int rank) const {
+  constexpr Symmetric all{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
+  static const double left_out = defect_size("elastic.projector");
+  const Symmetric P = range_projector(shape_inverse, rank);
+  return left_out == 0.0 ? P : P + left_out * (all - P);
+}
+
+Symmetric ElasticForms::strain(const Matrix3& F, const Symmetric& P, int rank) const {
+  static const double larger = 1.0 + defect_size("elastic.strain"), linear = defect_size("elastic.rotation");
+  Symmetric eps = larger * (paper_ ? strain_paper(F) : green_strain(F));
+  if (linear != 0.0) eps = eps - (0.5 * linear) * symmetric_part(transposed(F - identity3) * (F - identity3));
+  return rank == 3 ? eps : between(P, eps);
+}
+
+Symmetric ElasticForms::stress(const Symmetric& elastic_strain, const Symmetric& P, int rank, const ElasticConstants& c) const {
+  static const double stiffer = 1.0 + defect_size("elastic.stress"), paper_stiffer = 1.0 + defect_size("elastic.paper.stress");
+  static const bool unreduced = defect_size("elastic.reduced") > 0.0;
+  return (paper_ ? paper_stiffer : stiffer) * solid::stress(elastic_strain, P, unreduced && rank > 0 ? 3 : rank, c);
+}
+
+void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first) {
+  Particles& p = world.particles;
+  const ElasticForms forms(world.scene);
+  const ElasticParticles is_elastic(world);
+  const EnergyOwners owns(world);
+  const ElasticityKernel kernel = bond_kernel(world.scene);
+  static const double crooked = 1.0 + defect_size("elastic.shape");
+  for (const std::uint32_t id : ids) set_stiffness(world, is_elastic, id);
+  for (const std::uint32_t id : ids) p[field::solid_volume][p.row(id)] = volume_of(world, forms.paper(), owns(p.row(id)), id);
+  for (const std::uint32_t id : ids) {
+    const std::size_t i = p.row(id);
+    ShapeInverse shape{{}, owns(i) || world.bonds.of(id).empty() ? 0 : no_energy_rank};
+    if (owns(i) && forms.paper()) shape = {{1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3};
+    if (owns(i) && !forms.paper()) {
+      if (forms.bending() != 0.0) set_kernel_gradients(world, kernel, id);
+      const Symmetric moment = moment_of(world, id);
+      shape = shape_inverse(moment);
+      if (forms.bending() != 0.0 && shape.rank == 3) correct_for_bending(world, id, forms.bending(), moment, shape.inverse);
+    }
+    shape_inverses(p).set(i, crooked * shape.inverse);
+    p[field::shape_rank][i] = shape.rank;
+  }
+  const bool needs_frequency = !first && p.has(field::bond_frequency.name);
+  for (const std::uint32_t id : with_partners(world, ids)) {
+    const std::size_t i = p.row(id);
+    p[field::regular_bonds][i] = is_regular(world, id);
+    if (needs_frequency) p[field::bond_frequency][i] = frequency_of(world, forms, id);
+  }
+}
+
+Deformation deformation_of(const World& world, const ElasticForms& forms, std::uint32_t id) {
+  const Particles& p = world.particles;
+  const std::size_t i = p.row(id);
+  Deformation d;
+  d.rank = p[field::shape_rank][i];
+  if (!EnergyOwners(world)(i)) return d;
+  const auto volume = p[field::solid_volume];
+  const Symmetric A = shape_inverse_of(p, i);
+  Matrix3 sum;
+  for (const Bond& b : world.bonds.of(id)) {
+    const std::size_t j = p.row(b.other);
+    sum = sum + outer(separation(world, i, j) + b.x, volume[j] * b.gradient);
+  }
+  d.F = deformation_gradient(sum, A);
+  d.P = forms.projector(A, d.rank);
+  d.strain = forms.strain(d.F, d.P, d.rank);
+  return d;
+}
+
+Deformation deformation_of(const World& world, std::uint32_t id) { return deformation_of(world, ElasticForms(world.scene), id); }
+
+DeformationEnergy deformation_energy(const World& world, const ElasticForms& forms, std::uint32_t id) {
+  const Particles& p = world.particles;
+  const std::size_t i = p.row(id);
+  if (!EnergyOwners(world)(i)) return {};
+  const Deformation d = deformation_of(world, forms, id);
+  const auto volume = p[field::solid_volume];
+  const ElasticConstants c = forms.constants(world, i);
+  const Symmetric elastic = between(d.P, d.strain - plastic_strain_of(p, i));
+  DeformationEnergy energy{0.5 * volume[i] * contraction(elastic, forms.stress(elastic, d.P, d.rank, c)), 0.0};
+  if (forms.hourglass() == 0.0) return energy;
+  for (const Bond& b : world.bonds.of(id)) {
+    const std::size_t j = p.row(b.other);
+    const Vec3 r = separation(world, i, j), x = -b.x;
+    const Vec3 e = hourglass_residual(d.F, x, r);
+    const double flat = hourglass_residual_flat(d.strain, x, r);
+    energy.hourglass += 0.25 * forms.hourglass() * c.young * volume[i] * volume[j] * b.weight *
+                        (d.rank == 3 ? dot(e, e) / dot(x, x) : flat * flat);
+  }
+  return energy;
+}
+
+DeformationEnergy deformation_energy(const World& world, std::uint32_t id) {
+  return deformation_energy(world, ElasticForms(world.scene), id);
+}
+
+Quaternion orientation_of(const World& world, std::size_t body) {
+  if (!world.particles.has(field::shape_rank.name)) return {};
+  const ElasticForms forms(world.scene);
+  Matrix3 sum;
+  for (const std::size_t i : members(world, body)) {
+    if (!world.owns(i)) continue;
+    const Deformation d = deformation_of(world, forms, static_cast<std::uint32_t>(world.particles[field::id][i]));
+    sum = sum + world.particles[field::mass][i] * rotation_of(d.F, d.P, d.rank);
+  }
+  if (world.halo) {
+    std::array<double, 9> rows{sum.xx, sum.xy, sum.xz, sum.yx, sum.yy, sum.yz, sum.zx, sum.zy, sum.zz};
+    world.halo->add(rows);
+    sum = {rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8]};
+  }
+  return quaternion_of(rotation_of(sum, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3));
+}
+
+}  // namespace tripoint::solid

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "sph/kernels.hpp"
+#include "sph/solid.hpp"
+#include "world/body_table.hpp"
+
+/// What elasticity, plasticity, fracture and change of phase share: bonds and own pairs of a world, and how its particles are
+/// deformed. Particles are named by id.
+namespace tripoint::solid {
+
+/// A bond with this reference vector x_ij and its kernel (17); who it is with is set by connect().
+[[nodiscard]] Bond bond_of(const ElasticityKernel&, const Vec3& x_ij);
+[[nodiscard]] ElasticityKernel bond_kernel(const Scene&);
+/// W of the density kernel: the weight of an own pair at this distance [1/m3].
+[[nodiscard]] double own_weight(const Scene&, double distance);
+/// A difference of places [m] as the nearest images have it.
+[[nodiscard]] inline Vec3 nearest_image(const PeriodicBox& box, Vec3 d) {
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box.periodic[a]) d[a] -= box.width[a] * std::round(d[a] / box.width[a]);
+  return d;
+}
+/// r_j - r_i [m] of the nearest images. @param i,j rows
+[[nodiscard]] Vec3 separation(const World&, std::size_t i, std::size_t j);
+
+/// Bonds and own pairs within each deformable body of the scene, and to bodies that it is joined to.
+/// @throws InputError when a periodic direction is too narrow for bonds to be told apart
+void connect_solids(World&);
+
+/// Tells of rows whether they are particles of deformable bodies.
+class ElasticParticles {
+ public:
+  explicit ElasticParticles(const World& world) : body_(world.particles[field::body]), is_rigid_(world) {}
+  [[nodiscard]] bool operator()(std::size_t row) const { return body_[row] >= 0 && !is_rigid_(row); }
+
+ private:
+  std::span<const int> body_;
+  RigidMembers is_rigid_;
+};
+
+/// How many times as stiff a member of a rigid body is as the elastic partner that it is bonded to. Such members own strain
+/// energy too: force passes a cut by the stress on both sides of it, so that without theirs the joint bears twice the strain, and
+/// gives way as 2.5 spacings of the bar more would (as 0.9 with 1, 0.2 with 4, 0 with 10, at the price of the time step).
+inline constexpr double joint_stiffness = 4.0;
+
+/// Tells of rows whether they own strain energy: particles of deformable bodies, and members of rigid ones that are bonded to
+/// such. Valid as the lists were when shapes were last refreshed.
+class EnergyOwners {
+ public:
+  explicit EnergyOwners(const World& world) : stiffness_(world.particles[field::solid_stiffness]) {}
+  [[nodiscard]] bool operator()(std::size_t row) const { return stiffness_[row] > 0.0; }
+
+ private:
+  std::span<const double> stiffness_;
+};
+
+/// Volume, stiffness, A_i and rank of these particles by their present lists and bodies, zero where they own no strain energy;
+/// with their partners, which of them are regular and, where the scene can freeze, the frequency of each particle.
+/// @param first lists are those of the start: no frequency is needed
+void refresh_shapes(World&, std::span<const std::uint32_t> ids, bool first = false);
+
+/// How a particle of a deformable body is deformed, by its list and the places of now.
+struct Deformation {
+  Matrix3 F = identity3;
+  Symmetric P;       ///< projector on the range of M_i
+  Symmetric strain;  ///< total, within P
+  int rank = 0;
+};
+
+/// Whether the stiffness of this material falls as it melts: marked so, or, printed (Fig. 5), between t_solid and t_melt.
+[[nodiscard]] bool softens(const Scene&, const Material&);
+
+/// The scene's forms of elasticity, prepared once. Functions of one particle; `of` reads no column but bonds, volumes and A_i.
+class ElasticForms {
+ public:
+  explicit ElasticForms(const Scene&);
+  [[nodiscard]] bool paper() const noexcept { return paper_; }
+  /// Coefficient a of the hourglass energy, 0 = none.
+  [[nodiscard]] double hourglass() const noexcept { return hourglass_; }
+  /// Share of the correction for bending that gradients at surfaces have, 0 = none.
+  [[nodiscard]] double bending() const noexcept { return bending_; }
+  /// Constants of particles by rows, softened where their material softens; zero where they own no strain energy.
+  class Constants {
+   public:
+    [[nodiscard]] ElasticConstants operator()(std::size_t row) const;
+
+   private:
+    friend class ElasticForms;
+    Constants(const ElasticForms& forms, const World& world);
+    const ElasticForms& forms_;
+    std::span<const double> stiffness_, share_;
+    std::span<const int> material_;
+  };
+  [[nodiscard]] Constants constants(const World& world) const { return {*this, world}; }
+  [[nodiscard]] ElasticConstants constants(const World& world, std::size_t row) const { return constants(world)(row); }
+  [[nodiscard]] Symmetric projector(const Symmetric& shape_inverse, int rank) const;
+  /// Strain within P of a particle with this F.
+  [[nodiscard]] Symmetric strain(const Matrix3& F, const Symmetric& P, int rank) const;
+  /// S of the elastic strain P (eps - eps_p) P.
+  [[nodiscard]] Symmetric stress(const Symmetric& elastic_strain, const Symmetric& P, int rank, const ElasticConstants&) const;
+  /// What multiplies v F S d_ij in (12): 1, printed 2.
+  [[nodiscard]] double force_factor() const noexcept { return factor_; }
+
+ private:
+  bool paper_;
+  double hourglass_, bending_, factor_;
+  std::vector<ElasticConstants> constants_;  ///< of each material
+  std::vector<char> softens_;
+};
+
+/// Six columns of a symmetric field.
+template <class T>
+struct SymmetricColumns {
+  std::span<T> xx, yy, zz, yz, xz, xy;
+  [[nodiscard]] Symmetric at(std::size_t row) const { return {xx[row], yy[row], zz[row], yz[row], xz[row], xy[row]}; }
+  void set(std::size_t row, const Symmetric& e) const {
+    xx[row] = e.xx, yy[row] = e.yy, zz[row] = e.zz, yz[row] = e.yz, xz[row] = e.xz, xy[row] = e.xy;
+  }
+};
+template <class P>
+[[nodiscard]] auto shape_inverses(P& p) {
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
+      p[field::shape_inverse_xx], p[field::shape_inverse_yy], p[field::shape_inverse_zz],
+      p[field::shape_inverse_yz], p[field::shape_inverse_xz], p[field::shape_inverse_xy]};
+}
+template <class P>
+[[nodiscard]] auto strains(P& p) {
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::strain_xx], p[field::strain_yy],
+                                                                                        p[field::strain_zz], p[field::strain_yz],
+                                                                                        p[field::strain_xz], p[field::strain_xy]};
+}
+template <class P>
+[[nodiscard]] auto plastic_strains(P& p) {
+  return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
+      p[field::plastic_strain_xx], p[field::plastic_strain_yy], p[field::plastic_strain_zz],
+      p[field::plastic_strain_yz], p[field::plastic_strain_xz], p[field::plastic_strain_xy]};
+}
+[[nodiscard]] Symmetric shape_inverse_of(const Particles&, std::size_t row);
+/// eps_p, zero where nothing flows.
+[[nodiscard]] Symmetric plastic_strain_of(const Particles&, std::size_t row);
+/// To be called where the scene has plastic flow only.
+void set_plastic_strain(Particles&, std::size_t row, const Symmetric&);
+/// Total strain as the elastic effect last found it.
+[[nodiscard]] Symmetric strain_of(const Particles&, std::size_t row);
+
+[[nodiscard]] Deformation deformation_of(const World&, const ElasticForms&, std::uint32_t id);
+[[nodiscard]] Deformation deformation_of(const World&, std::uint32_t id);
+
+struct DeformationEnergy {
+  double elastic = 0.0, hourglass = 0.0;  ///< [J]
+  [[nodiscard]] double total() const noexcept { return elastic + hourglass; }
+};
+/// U_i (10) and the hourglass energy of a particle; zero unless it owns some.
+[[nodiscard]] DeformationEnergy deformation_energy(const World&, const ElasticForms&, std::uint32_t id);
+[[nodiscard]] DeformationEnergy deformation_energy(const World&, std::uint32_t id);
+
+/// Orientation of a deformable body: the rotation of the sum of its particles' rotations, weighted by mass. It starts at the
+/// identity, and again for a list that freezing has turned into the present frame.
+[[nodiscard]] Quaternion orientation_of(const World&, std::size_t body);
+
+}  // namespace tripoint::solid

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "world/world.hpp"
+
+/// The table of solid bodies, one row for each that ever existed: rigid ones move as one, deformable ones by their particles.
+namespace tripoint {
+
+/// Columns that every scene with solids has.
+[[nodiscard]] std::vector<FieldInfo> body_table_fields();
+/// Whether the scene has solid bodies, or can get some by freezing.
+[[nodiscard]] bool can_have_bodies(const Scene&);
+
+/// Whether it has, or can get by freezing, solids whose particles move by themselves.
+[[nodiscard]] bool can_have_deformable_bodies(const Scene&);
+
+/// Rows of the members of one body, in order of id.
+[[nodiscard]] std::vector<std::size_t> members(const World&, std::size_t body);
+[[nodiscard]] inline bool is_alive(const World& world, std::size_t body) { return world.bodies[field::body_alive][body] != 0; }
+/// Whether its particles move as one: a rigid body, or any that is fixed or prescribed.
+[[nodiscard]] inline bool is_rigid(const World& world, std::size_t body) {
+  return world.bodies[field::body_phase][body] == static_cast<int>(Phase::rigid);
+}
+
+/// A new row, alive, free, with identity orientation and no members yet. @return its row
+std::size_t add_body(World&, std::string_view name, Phase phase);
+/// One row for each solid body of the scene.
+void add_scene_bodies(World&);
+/// Row of the body with this name. @throws InputError when there is none, or it is gone
+[[nodiscard]] std::size_t body_row(const World&, std::string_view name);
+
+/// Tells of rows of particles whether they are members of rigid bodies; all others move by the forces on them alone. Valid until
+/// bodies are added or particles sorted anew.
+class RigidMembers {
+ public:
+  explicit RigidMembers(const World& world) : body_(world.particles[field::body]) {
+    if (world.bodies.size() > 0) phase_ = world.bodies[field::body_phase];
+  }
+  [[nodiscard]] bool operator()(std::size_t row) const {
+    return body_[row] >= 0 && phase_[static_cast<std::size_t>(body_[row])] == static_cast<int>(Phase::rigid);
+  }
+
+ private:
+  std::span<const int> body_, phase_;
+};
+
+/// What a deformable body does as a whole, from its members: L/I for its spin.
+struct WholeMotion {
+  double mass = 0.0;            ///< [kg]
+  Vec3 centre, velocity, spin;  ///< [m], [m/s], [rad/s]
+};
+/// @param place,velocity,mass of its members [m], [m/s], [kg]; none: all zero
+[[nodiscard]] WholeMotion whole_motion(std::span<const Vec3> place, std::span<const Vec3> velocity,
+                                       const std::vector<double>& mass);
+[[nodiscard]] WholeMotion whole_motion(const World&, std::size_t body);
+
+}  // namespace tripoint

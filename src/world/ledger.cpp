@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "world/ledger.hpp"
+
+#include "world/world.hpp"
+
+namespace tripoint {
+namespace {
+
+double paid_by_drivers(const Bookings& booked, const Force& f) { return f.work_on_driven ? booked[*f.work_on_driven] : 0.0; }
+
+double stored_now(const Ledger& ledger, const StoredEnergy& stored) {
+  double sum = 0.0;
+  for (const std::string_view entry : stored.entries)
+    if (const auto at = ledger.energy.find(std::string(entry)); at != ledger.energy.end()) sum += at->second;
+  return sum;
+}
+
+/// Every scene with forces tells these, 0 where it has no such force: reports put scenes side by side.
+void tell_common_entries(const World& world, Ledger& sum) {
+  for (const char* entry : {"viscous", stores_compression(world.scene) ? "compression" : "pressure_work"})
+    sum.energy.try_emplace(entry, 0.0);
+}
+
+/// What finite steps left of one force: 0 to round-off where its work is what it took from what it stores.
+double by_finite_steps(const World& world, const Force& f, const Ledger& sum) {
+  const StoredEnergy& stored = *f.stored;
+  const double change = stored_now(sum, stored) - world.booked[stored.at_start];
+  const double released = stored.released ? world.booked[*stored.released] : 0.0;
+  return change + released + (world.booked[f.work] + paid_by_drivers(world.booked, f));
+}
+
+}  // namespace
+
+bool stores_compression(const Scene& scene) {
+  const auto corrected = [&](Term term) { return scene.mode_of(term) == Mode::corrected; };
+  return corrected(Term::density) && corrected(Term::state) && corrected(Term::pressure) && !scene.transport_velocity;
+}
+
+void book_start(World& world, const Ledger& start) {
+  for (const Force& f : world.forces)
+    if (f.stored) world.booked[f.stored->at_start] = stored_now(start, *f.stored);
+  if (const auto potential = start.energy.find("potential"); potential != start.energy.end())
+    world.booked[account::start_potential] = potential->second - world.booked[account::driven_potential];
+}
+
+void close_ledger(const World& world, Ledger& sum) {
+  const Bookings& booked = world.booked;
+  if (!world.forces.empty()) {
+    tell_common_entries(world, sum);
+    double made = -0.0, on_driven = 0.0;  // -0.0 less nothing is -0.0, as the entry always began
+    for (const Account& a : world.numerical) made -= booked[a];
+    for (const Force& f : world.forces) {
+      on_driven += paid_by_drivers(booked, f);
+      if (f.stored)
+        made -= by_finite_steps(world, f, sum);
+      else
+        sum.energy[std::string(f.entry)] -= booked[f.work] + paid_by_drivers(booked, f);
+      if (f.stored && f.stored->released && !f.stored->released_to.empty() && booked[*f.stored->released] != 0.0)
+        sum.energy[std::string(f.stored->released_to)] += booked[*f.stored->released];
+    }
+    sum.energy["walls"] += on_driven;
+    const double potential = sum.energy["potential"] - booked[account::start_potential] - booked[account::driven_potential];
+    sum.energy["time_integration"] = made - (potential + booked[account::gravity_work]) - booked[account::rotation_drift];
+  }
+  sum.energy["merging"] += booked[account::merging];
+  sum.energy["walls"] += booked[account::walls];
+}
+
+}  // namespace tripoint

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "world/world.hpp"
+
+namespace tripoint {
+namespace detail {
+
+template <std::size_t n>
+std::array<double, n> total_of(const std::vector<std::array<double, n>>& blocks) {
+  std::array<double, n> total{};
+  for (const auto& part : blocks) {
+    for (std::size_t k = 0; k < n; ++k) total[k] += part[k];
+  }
+  return total;
+}
+
+}  // namespace detail
+
+/// Sums of add(i, sums) over i = 0..count-1 in fixed blocks, and then block after block: the same bits whatever the threads.
+/// @param blocks memory that is used again from call to call
+template <std::size_t n, class Add>
+[[nodiscard]] std::array<double, n> ordered_sums(std::size_t count, int threads, std::vector<std::array<double, n>>& blocks,
+                                                 Add add) {
+  constexpr std::size_t block = 1024;
+  blocks.assign((count + block - 1) / block, {});
+#pragma omp parallel for schedule(static) num_threads(threads) if (blocks.size() > 1)
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const std::size_t end = std::min(count, (b + 1) * block);
+    std::array<double, n> sum{};  // here and not in place, so that it can be kept in registers
+    for (std::size_t i = b * block; i < end; ++i) add(i, sum);
+    blocks[b] = sum;
+  }
+  return detail::total_of(blocks);
+}
+
+namespace detail {
+
+/// add() works on every row, copies too, and of these its sums are left out: they are their owners'.
+template <std::size_t n, class Add>
+[[nodiscard]] std::array<double, n> ordered_sums_of_own(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
+  return ordered_sums(world.particles.size(), world.threads, blocks, [&](std::size_t i, std::array<double, n>& sum) {
+    std::array<double, n> unused{};
+    add(i, world.owns(i) ? sum : unused);
+  });
+}
+
+}  // namespace detail
+
+/// The same over the rows that are awake, with the bits of a sum over all: what sleeps must add zeros.
+template <std::size_t n, class Add>
+[[nodiscard]] std::array<double, n> ordered_sums(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
+  const Particles& p = world.particles;
+  if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
+  if (p.awake() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
+  const std::span<const std::uint32_t> first = world.neighbours->row_blocks();
+  blocks.assign(first.size() - 1, {});
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (blocks.size() > 1)
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    std::array<double, n> sum{};
+    for (std::size_t i = first[b]; i < first[b + 1]; ++i) add(i, sum);
+    blocks[b] = sum;
+  }
+  return detail::total_of(blocks);
+}
+
+/// The same over all rows, those that sleep too.
+template <std::size_t n, class Add>
+[[nodiscard]] std::array<double, n> ordered_sums_of_all(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
+  const Particles& p = world.particles;
+  if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
+  if (p.awake() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
+  const std::vector<std::uint32_t> rows = world.neighbours->rows_in_order(p);
+  return ordered_sums(rows.size(), world.threads, blocks, [&](std::size_t k, std::array<double, n>& sum) { add(rows[k], sum); });
+}
+
+}  // namespace tripoint

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "particles/halo.hpp"
+#include "particles/neighbours.hpp"
+#include "particles/particles.hpp"
+#include "scene/scene.hpp"
+#include "world/account.hpp"
+#include "world/force.hpp"
+#include "world/guarded.hpp"
+#include "world/ledger.hpp"
+
+namespace tripoint {
+
+/// What the next step needs of those before, beside the columns: a checkpoint keeps it.
+struct Lagged {
+  double half_step = 0.0;                                         ///< length of the last kick of liquids [s]
+  double viscous_step = std::numeric_limits<double>::infinity();  ///< greatest stable step of viscosity, as last formed [s]
+  int viscous_age = 0;                                            ///< rates since it was formed
+};
+
+/// What changed its phase, its body or its lists in this step: written by phase change and fracture, followed by all. Ids, each
+/// once, ascending.
+struct Change {
+  std::vector<std::uint32_t> born;  ///< flowed in: new particles, whose columns are still zero
+  std::vector<std::uint32_t> melted, frozen;
+  std::vector<std::uint32_t> regrouped;        ///< of another phase or body than before
+  std::vector<std::uint32_t> relisted;         ///< with other bonds or own pairs than before
+  std::map<std::uint32_t, int> came_from;      ///< regrouped by phase change: row of the body before, -1 for liquid
+  std::vector<std::size_t> bodies;             ///< rows of bodies that gained or lost members, ascending
+  std::map<std::size_t, double> kinetic_lost;  ///< body row -> kinetic energy that joining cost [J], as the rigid effect finds it
+  [[nodiscard]] bool empty() const { return born.empty() && regrouped.empty() && relisted.empty() && bodies.empty(); }
+};
+
+/// All that a step changes, and what it works with.
+struct World {
+  Scene scene;
+  Particles particles;
+  Columns bodies;                       ///< one row for each solid body that ever existed
+  std::vector<std::string> body_names;  ///< of each row
+  PeriodicBox box;
+  Bonds bonds;                           ///< body neighbours of the members of solids
+  OwnPairs own;                          ///< members of deformable bodies that meet through their bonds alone
+  Change change;                         ///< of this step
+  std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
+  Bookings booked;
+  std::vector<Force> forces;       ///< that the effects make, in the order in which they are summed
+  std::vector<Account> numerical;  ///< what numerical terms take on purpose: no error of finite steps
+  std::vector<Guarded> guarded;    ///< columns that are looked at after every step, in the order in which it writes them
+  Lagged lagged;
+  double time = 0.0;       ///< [s]
+  double next_time = 0.0;  ///< end of the step that is being taken, exactly as the loop will set it [s]
+  int threads = 1;
+  std::optional<std::array<std::size_t, 3>> axis_order;  ///< rotation by NO_SQUISH in this order, to compare with
+  bool placed = false;  ///< members of all rigid bodies have been put to their places by the poses of these
+  bool moved = true;    ///< positions differ from those of the last rates
+
+  Halo* halo = nullptr;      ///< those that hold the rest of the scene; null: this process holds all
+  std::vector<char> copies;  ///< of each row, 1 where it is a copy of another's particle; empty where this process holds all
+
+  [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }
+  /// Whether a row is this process's own: what is summed over particles is summed over these.
+  [[nodiscard]] bool owns(std::size_t row) const { return copies.empty() || copies[row] == 0; }
+  /// Whether this process tells what all hold alike, as the energies of bodies.
+  [[nodiscard]] bool tells_of_bodies() const { return !halo || halo->is_first(); }
+  /// Copies take from their owners what a pair pass has summed.
+  void refresh(std::span<const Field<double>* const> columns) {
+    if (halo) halo->refresh(particles, columns);
+  }
+  /// Place of a particle that is not put back into a periodic box.
+  [[nodiscard]] Vec3 unwrapped(std::size_t row) const;
+  [[nodiscard]] const Material& material_of(std::size_t row) const {
+    return scene.materials[static_cast<std::size_t>(particles[field::material][row])];
+  }
+};
+
+inline Vec3 World::unwrapped(std::size_t row) const {
+  Vec3 r = particles.position(row);
+  if (!box.any()) return r;
+  const Vec3 n = images(particles).at(row);
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (box.periodic[a]) r[a] += n[a] * box.width[a];
+  }
+  return r;
+}
+
+}  // namespace tripoint
