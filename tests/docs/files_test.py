@@ -157,7 +157,7 @@ class Trajectory(unittest.TestCase):
 
     def test_terms_of_the_ledger_are_those_of_the_program(self):
         told = words("TERM", "holds")
-        code = "".join(file.read_text() for file in (SOURCE / "src" / "effects").rglob("*.cpp"))
+        code = "".join(file.read_text() for file in (SOURCE / "src").rglob("*.cpp"))
         known = set(re.findall(r'energy\["(\w+)"\]', code)) | set(re.findall(r'\.entry = "(\w+)"', code))
         self.assertEqual(told, known)
         written = {path.rpartition("energy_")[2] for _, path, _ in self.elements() if "/energy_" in path}
