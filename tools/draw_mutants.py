@@ -22,8 +22,8 @@ import tomllib
 
 ROOMS = ("src/effects", "adapters")
 FOLDERS = ("rigid", "fluid", "motion", "prescribed", "density", "elastic", "plastic", "fracture", "heat", "phase")
-# A line that carries no behaviour of the model: text for people, the registry of defects, declarations.
-PASSED_OVER = re.compile(r'^\s*(//|#|\*|using |namespace |template|struct |class |enum |static_assert|assert|\[\[nodiscard\]\]|public:|private:|case )|"|defect_size|throw |fmt::|static const|const_cast|operator|= default|= delete|make_unique|\bfor \(|\w&[,)]|std::vector<.*=|\w& \w+ = |nullptr|virtual |, \w+ = ')
+# A line that carries no behaviour of the model: text for people, declarations.
+PASSED_OVER = re.compile(r'^\s*(//|#|\*|using |namespace |template|struct |class |enum |static_assert|assert|\[\[nodiscard\]\]|public:|private:|case )|"|throw |fmt::|static const|const_cast|operator|= default|= delete|make_unique|\bfor \(|\w&[,)]|std::vector<.*=|\w& \w+ = |nullptr|virtual |, \w+ = ')
 OPERATORS = ((" + ", " - "), (" - ", " + "), (" * ", " / "), (" / ", " * "), (" < ", " >= "), (" > ", " <= "), (" <= ", " > "), (" >= ", " < "), (" && ", " || "), (" || ", " && "), (" += ", " -= "), (" -= ", " += "), (" == ", " != "), (" != ", " == "))
 
 
@@ -62,8 +62,7 @@ def draw(rng, tree):
     while True:
         path = rng.choice(sources(tree))
         lines = path.read_text().split("\n")
-        registry = next((n for n, text in enumerate(lines) if "defects() {" in text), len(lines))
-        candidates = [n for n in range(registry) if changes_of(lines[n])]
+        candidates = [n for n in range(len(lines)) if changes_of(lines[n])]
         if not candidates:
             continue
         n = rng.choice(candidates)

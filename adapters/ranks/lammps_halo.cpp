@@ -6,7 +6,6 @@
 #include <cstring>
 #include <type_traits>
 
-#include "core/defect.hpp"
 #include "core/errors.hpp"
 
 namespace tripoint::ranks {
@@ -58,8 +57,7 @@ double LammpsHalo::reach_of(const Particles& particles, const Bonds& bonds, cons
   double least = -longest_bond(particles, bonds, migrations_ == 0 ? particles.size() : owned(), box);
   std::string unused;
   take_least(least, unused);
-  static const double shorter = 1.0 - defect_size("ranks.reach");
-  return shorter * std::max(reach_, -least * (1.0 + 1e-9));
+  return std::max(reach_, -least * (1.0 + 1e-9));
 }
 
 /// Lists are written down once, with the numbers that ids are at the start: over ranks nobody changes them.

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "adapters/tripoint/tripoint_engine.hpp"
-#include "core/defect.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/temperatures.hpp"
 #include "solids/body_forces.hpp"
@@ -79,13 +78,11 @@ Snapshot snapshot_of(const Simulation& simulation) {
   s.material = by_id(p, field::material);
   s.mass = by_id(p, field::mass);
   const std::vector<BodyForces> forces = forces_on_bodies(world);
-  static const bool swapped = defect_size("bodies.force_axes") > 0.0;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     s.bodies.push_back(body_state(world, b));
     if (forces.empty() || !world.bodies[field::body_alive][b]) continue;
     s.bodies.back().force = forces[b].force();
     s.bodies.back().torque = forces[b].torque();
-    if (swapped) std::swap(s.bodies.back().force.y, s.bodies.back().force.z);
   }
   const Ledger sums = simulation.ledger();
   s.total_mass = sums.mass;

@@ -53,7 +53,6 @@ EngineInfo TripointEngine::info() const {
        "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"},
       {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"}};
   info.deterministic = true;
-  info.defects = registered_defects();
   return info;
 }
 

@@ -17,7 +17,6 @@ namespace tripoint {
   namespace name {                            \
   EffectSpec spec(const Scene&);              \
   std::unique_ptr<Effect> make(const Scene&); \
-  std::vector<DefectEntry> defects();         \
   }
 #include TRIPOINT_EFFECT_LIST
 #undef TRIPOINT_EFFECT
@@ -28,12 +27,11 @@ struct Registered {
   std::string_view name;
   EffectSpec (*spec)(const Scene&);
   std::unique_ptr<Effect> (*make)(const Scene&);
-  std::vector<DefectEntry> (*defects)();
 };
 
 /// In the order in which they run within a stage.
 constexpr Registered every_effect[] = {
-#define TRIPOINT_EFFECT(name) {#name, name::spec, name::make, name::defects},
+#define TRIPOINT_EFFECT(name) {#name, name::spec, name::make},
 #include TRIPOINT_EFFECT_LIST
 #undef TRIPOINT_EFFECT
 };
@@ -183,20 +181,6 @@ Plan plan(const Scene& scene) {
     for (const FieldInfo& f : a.spec.owns) add(f, a.name);
   }
   return p;
-}
-
-std::vector<DefectEntry> registered_defects() {
-  std::vector<DefectEntry> list{
-      {"neighbours.seam", "pairs across a periodic boundary left out", "heat/cosine-mode"},
-      {"neighbours.support", "pairs beyond 1 - size of the support radius left out", "heat/lattice-sum"},
-      {"passes.copies", "over ranks, copies are not handed what a pair pass has summed", "coupling/over-ranks"},
-      {"time.first_kick", "first half kick left out: the leapfrog starts first order", "rigid/ballistic"},
-  };
-  for (const Registered& r : all_effects) {
-    const auto more = r.defects();
-    list.insert(list.end(), more.begin(), more.end());
-  }
-  return list;
 }
 
 void declare(World& world, const std::vector<Active>& effects) {

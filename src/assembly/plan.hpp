@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "core/defect.hpp"
 #include "scene/scene.hpp"
 
 namespace tripoint {
@@ -26,8 +25,5 @@ struct Plan {
 };
 /// @throws InputError naming effect and field when a field is read and owned by none, or owned by two
 [[nodiscard]] Plan plan(const Scene&);
-
-/// Every defect that the physical terms register, of both modes (also listed by the production build).
-[[nodiscard]] std::vector<DefectEntry> registered_defects();
 
 }  // namespace tripoint

@@ -79,8 +79,7 @@ void Passes::run(PassName name, World& world) const {
     i.busy.sum_rates(pass, world, i.kernels);
   else
     run_pass(pass, world.particles, *world.neighbours, i.kernels, world.threads);
-  static const bool kept_to_itself = defect_size("passes.copies") > 0.0;
-  if (pass.run && !kept_to_itself) world.refresh(pass.adds());
+  if (pass.run) world.refresh(pass.adds());
 }
 
 }  // namespace tripoint

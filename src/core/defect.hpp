@@ -5,8 +5,9 @@
 #include <string_view>
 #include <vector>
 
-/// Run-time defects: faults that the self-test injects to prove that the gate sees them. They exist in the test build only
-/// (TRIPOINT_DEFECTS); in what users get, defect_size() is the constant 0 and costs nothing.
+/// Run-time defects: faults that the self-test injects to prove that the gate sees them. No source of the solver knows one:
+/// a folder's defects.toml says what can be broken there and how, and tools/break_sources.py writes broken copies of the files,
+/// which the self-test's engines are made of.
 namespace tripoint {
 
 /// What a physical term registers: the case that must turn red when it is broken.
@@ -27,8 +28,25 @@ inline double defect_size(std::string_view name) {
   if (equals == std::string::npos || std::string_view(active).substr(0, equals) != name) return 0.0;
   return std::strtod(active.c_str() + equals + 1, nullptr);
 }
-#else
-constexpr double defect_size(std::string_view) { return 0.0; }
+
+/// All that the defects.toml of solver and engine register. Its source is written by tools/break_sources.py.
+[[nodiscard]] std::vector<DefectEntry> registered_defects();
+
+/// A name as an argument of a template.
+template <std::size_t length>
+struct DefectName {
+  char text[length];
+  constexpr DefectName(const char (&name)[length]) {  // NOLINT(google-explicit-constructor): a literal stands for it
+    for (std::size_t k = 0; k < length; ++k) text[k] = name[k];
+  }
+};
+
+/// The same, looked up once: for formulas.
+template <DefectName name>
+double defect() {
+  static const double size = defect_size(name.text);
+  return size;
+}
 #endif
 
 }  // namespace tripoint

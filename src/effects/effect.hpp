@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/defect.hpp"
 #include "scene/initial_state.hpp"
 #include "world/field_groups.hpp"
 #include "world/world.hpp"

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numeric>
 
-#include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "core/machine.hpp"
 #include "particles/grid.hpp"
@@ -16,12 +15,6 @@ namespace {
 
 const char* const axis_names[] = {"x", "y", "z"};
 constexpr std::size_t rows_a_block = 1024;
-
-/// Whether this build drops pairs across a periodic boundary (a defect of the self-test).
-bool drops_periodic_pairs() {
-  static const bool drops = defect_size("neighbours.seam") > 0.0;
-  return drops;
-}
 
 /// @param listed rows that the last lists knew: of these, what sleeps is where it was
 void refuse_not_finite(const Particles& particles, double time, std::size_t listed) {
@@ -439,7 +432,6 @@ bool Neighbours::list_into(const Particles& particles, const Grid& grid, std::sp
         for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], x.at(i)[a]), high[a] = std::max(high[a], x.at(i)[a]);
       }
       grid.candidates(low, high, reach, box_, ranges);
-      if (drops_periodic_pairs()) std::erase_if(ranges, [](const CandidateRange& r) { return r.image != Entry::box_itself; });
       std::size_t candidates = 0;
       for (const CandidateRange& r : ranges) candidates += r.to - r.from;
       if (entries.size() < candidates) entries.resize(candidates), near.resize(candidates);

@@ -3,16 +3,13 @@
 
 #include <cassert>
 
-#include "core/defect.hpp"
-
 namespace tripoint {
 namespace {
 
 PassTask task_of(const Particles& particles, Neighbours& neighbours, const PairKernels& kernels, int threads) {
   const auto x = positions(particles);
   Clusters& c = neighbours.clusters();
-  static const double nearer = 1.0 - defect_size("neighbours.support");
-  const double support = nearer * neighbours.support();
+  const double support = neighbours.support();
   return {x.x.data(),
           x.y.data(),
           x.z.data(),

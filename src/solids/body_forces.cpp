@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/defect.hpp"
 #include "world/body_table.hpp"
 
 namespace tripoint {
@@ -16,11 +15,10 @@ bool moves(const World& world, std::size_t b) {
   return free || t[field::body_velocity][b] != Vec3{} || t[field::body_angular_velocity][b] != Vec3{};
 }
 
-/// A force that bodies feel: its place among World::forces, its columns, and how much of it and of its torque arrives.
+/// A force that bodies feel: its place among World::forces, and its columns.
 struct Felt {
   std::size_t number;
   Triple<const double> force;
-  double share, torque_share;
 };
 
 std::vector<Felt> felt_forces(const World& world) {
@@ -28,8 +26,7 @@ std::vector<Felt> felt_forces(const World& world) {
   for (std::size_t k = 0; k < world.forces.size(); ++k) {
     const Force& f = world.forces[k];
     if (f.feels != Feels::all) continue;
-    const auto share = [](std::string_view defect) { return defect.empty() ? 1.0 : 1.0 - defect_size(defect); };
-    list.push_back({k, triple(world.particles, f.x, f.y, f.z), share(f.body_force_defect), share(f.body_torque_defect)});
+    list.push_back({k, triple(world.particles, f.x, f.y, f.z)});
   }
   return list;
 }
@@ -44,17 +41,16 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
   const auto body = p[field::body];
   const auto centre = world.bodies[field::body_centre];
   const auto x = positions(p);
-  static const bool wrapped_arms = defect_size("bodies.arm") > 0.0;
-  const bool wraps = world.box.any() && !wrapped_arms;
+  const bool wraps = world.box.any();
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (body[i] < 0 || !world.owns(i) || !asked[static_cast<std::size_t>(body[i])]) continue;
     const auto b = static_cast<std::size_t>(body[i]);
     const Vec3 arm = (wraps ? world.unwrapped(i) : x.at(i)) - centre[b];
     for (const Felt& f : felt) {
-      const Vec3 force = f.share * f.force.at(i);
+      const Vec3 force = f.force.at(i);
       sums[b].forces[f.number] += force;
-      sums[b].torques[f.number] += f.torque_share * cross(arm, force);
+      sums[b].torques[f.number] += cross(arm, force);
     }
   }
 }
@@ -62,15 +58,13 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
 /// Every process has the members that are its own.
 void add_over_halo(const World& world, std::vector<BodyForces>& sums) {
   if (!world.halo || sums.empty()) return;
-  static const double kept = 1.0 - defect_size("bodies.over_ranks");
   std::vector<double> numbers;
   const auto each = [&](auto visit) {
     for (BodyForces& sum : sums)
       for (std::size_t k = 0; k < sum.count; ++k)
         for (Vec3* v : {&sum.forces[k], &sum.torques[k]}) visit(*v);
   };
-  const double share = world.halo->is_first() ? 1.0 : kept;
-  each([&](const Vec3& v) { numbers.insert(numbers.end(), {share * v.x, share * v.y, share * v.z}); });
+  each([&](const Vec3& v) { numbers.insert(numbers.end(), {v.x, v.y, v.z}); });
   world.halo->add(numbers);
   const double* from = numbers.data();
   each([&](Vec3& v) { v = {from[0], from[1], from[2]}, from += 3; });

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "scene/effect_rule.hpp"
 #include "solids/solid_particles.hpp"
@@ -111,10 +110,7 @@ Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
   return b;
 }
 
-double own_weight(const Scene& scene, double distance) {
-  static const double heavier = 1.0 + defect_size("elastic.own_pairs");
-  return heavier * WendlandC2(scene.support_ratio * scene.spacing).value(distance);
-}
+double own_weight(const Scene& scene, double distance) { return WendlandC2(scene.support_ratio * scene.spacing).value(distance); }
 
 Vec3 separation(const World& world, std::size_t i, std::size_t j) {
   return nearest_image(world.box, world.particles.position(j) - world.particles.position(i));

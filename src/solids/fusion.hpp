@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/defect.hpp"
 #include "scene/phase_values.hpp"
 #include "world/world.hpp"
 
@@ -22,26 +21,19 @@ struct Fusion {
 };
 
 /// Heat capacity of the solid [J/kg/K], by which the heat of a particle of any phase is counted. @pre the material holds heat
-[[nodiscard]] inline double solid_capacity(const Material& m) {
-  static const double scale = 1.0 + defect_size("heat.solid_capacity");
-  return m.solid_heat_capacity ? scale * *m.solid_heat_capacity : *m.heat_capacity;
-}
+[[nodiscard]] inline double solid_capacity(const Material& m) { return m.solid_heat_capacity.value_or(*m.heat_capacity); }
 
 /// Of a material: none where it does not melt. `paper` (Fig. 5) knows no latent heat and no hysteresis: T alone decides, at
 /// t_melt. An elastic solid is soft between t_solid and t_melt, and so is a rigid one that softens (`turns_elastic`); else it is
 /// rigid up to t_melt.
 [[nodiscard]] inline Fusion fusion_of(const Scene& scene, const Material& m) {
   if (!m.t_melt || !m.heat_capacity) return {};
-  static const double scale = 1.0 - defect_size("phase.latent");
-  static const bool no_loop = defect_size("phase.hysteresis") > 0.0;
   if (scene.mode_of(Term::phase) == Mode::paper) {
-    static const double later = defect_size("phase.paper.melting");
     const bool band = has_printed_stage(scene, m) && (m.solid == "elastic" || turns_elastic(scene, m));
-    return {*m.t_melt + later, band ? *m.t_solid + later : *m.t_melt + later, 0.0, band};
+    return {*m.t_melt, band ? *m.t_solid : *m.t_melt, 0.0, band};
   }
-  static const double earlier = defect_size("phase.freezing");
-  return {*m.t_melt, (no_loop ? *m.t_melt : m.t_solid.value_or(*m.t_melt)) - earlier,
-          scale * m.latent_heat.value_or(0.0) / solid_capacity(m), false, *m.heat_capacity / solid_capacity(m) - 1.0};
+  return {*m.t_melt, m.t_solid.value_or(*m.t_melt), m.latent_heat.value_or(0.0) / solid_capacity(m), false,
+          *m.heat_capacity / solid_capacity(m) - 1.0};
 }
 /// By row in Scene::materials.
 [[nodiscard]] inline std::vector<Fusion> fusions_of(const Scene& scene) {

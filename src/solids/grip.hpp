@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "core/defect.hpp"
 #include "scene/read_case.hpp"
 
 namespace tripoint {
@@ -8,9 +7,8 @@ namespace tripoint {
 /// Where a grip has brought a place by then, how fast that moves [m/s], and how the grip has turned [rad/s]: its keyframes move a
 /// frame, and all that it took moves with that frame. @param place as the grip took it [m]
 [[nodiscard]] inline PrescribedState carried(const Event& grip, const Vec3& place, double time) {
-  static const double slower = 1.0 - defect_size("prescribed.grip");
   const Keyframe& from = grip.keyframes.front();
-  PrescribedState s = prescribed_state(grip.keyframes, {}, {}, {}, from.time + slower * (time - from.time));
+  PrescribedState s = prescribed_state(grip.keyframes, {}, {}, {}, time);
   s.rotation = s.rotation * conjugate(from.rotation);
   const Vec3 arm = rotate(s.rotation, place - from.position);
   s.velocity += cross(s.angular_velocity, arm);

@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/defect.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
 #include "sph/surface_gradient.hpp"
@@ -25,13 +24,12 @@ void set_stiffness(World& world, const ElasticParticles& is_elastic, std::uint32
   p[field::solid_material][i] = p[field::material][i];
   p[field::solid_stiffness][i] = is_elastic(i) ? 1.0 : 0.0;
   if (is_elastic(i) || p[field::body][i] < 0) return;
-  static const double looser = 1.0 - defect_size("elastic.joint");
   std::uint32_t lowest = std::numeric_limits<std::uint32_t>::max();
   for (const Bond& b : std::as_const(world.bonds).of(id))
     if (is_elastic(p.row(b.other))) lowest = std::min(lowest, b.other);
   if (lowest == std::numeric_limits<std::uint32_t>::max()) return;
   p[field::solid_material][i] = p[field::material][p.row(lowest)];
-  p[field::solid_stiffness][i] = looser * joint_stiffness;
+  p[field::solid_stiffness][i] = joint_stiffness;
 }
 
 /// v_i [m3]: m/rho0; printed (11) m_i / sum_j m_j W(x_ij), for particles that have all their body neighbours in the list.
@@ -148,10 +146,9 @@ bool softens(const Scene& scene, const Material& m) {
 
 ElasticForms::ElasticForms(const Scene& scene)
     : paper_(scene.mode_of(Term::elastic) == Mode::paper),
-      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0
-                                                               : scene.hourglass * (1.0 - defect_size("elastic.hourglass"))),
-      bending_(paper_ ? 0.0 : kept_number(scene.values, key_row("scene", "bending")) * (1.0 - defect_size("elastic.bending"))),
-      factor_(paper_ ? 2.0 * (1.0 - defect_size("elastic.paper.factor")) : 1.0 - defect_size("elastic.force")) {
+      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0 : scene.hourglass),
+      bending_(paper_ ? 0.0 : kept_number(scene.values, key_row("scene", "bending"))),
+      factor_(paper_ ? 2.0 : 1.0) {
   for (const Material& m : scene.materials) {
     constants_.push_back(m.young_modulus && m.poisson_ratio ? elastic_constants(*m.young_modulus, *m.poisson_ratio)
                                                             : ElasticConstants{});
@@ -169,24 +166,15 @@ ElasticConstants ElasticForms::Constants::operator()(std::size_t row) const {
   return (forms_.softens_[m] && !share_.empty() ? stiffness_[row] * share_[row] : stiffness_[row]) * forms_.constants_[m];
 }
 
-Symmetric ElasticForms::projector(const Symmetric& shape_inverse, int rank) const {
-  constexpr Symmetric all{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
-  static const double left_out = defect_size("elastic.projector");
-  const Symmetric P = range_projector(shape_inverse, rank);
-  return left_out == 0.0 ? P : P + left_out * (all - P);
-}
+Symmetric ElasticForms::projector(const Symmetric& shape_inverse, int rank) const { return range_projector(shape_inverse, rank); }
 
 Symmetric ElasticForms::strain(const Matrix3& F, const Symmetric& P, int rank) const {
-  static const double larger = 1.0 + defect_size("elastic.strain"), linear = defect_size("elastic.rotation");
-  Symmetric eps = larger * (paper_ ? strain_paper(F) : green_strain(F));
-  if (linear != 0.0) eps = eps - (0.5 * linear) * symmetric_part(transposed(F - identity3) * (F - identity3));
+  const Symmetric eps = paper_ ? strain_paper(F) : green_strain(F);
   return rank == 3 ? eps : between(P, eps);
 }
 
 Symmetric ElasticForms::stress(const Symmetric& elastic_strain, const Symmetric& P, int rank, const ElasticConstants& c) const {
-  static const double stiffer = 1.0 + defect_size("elastic.stress"), paper_stiffer = 1.0 + defect_size("elastic.paper.stress");
-  static const bool unreduced = defect_size("elastic.reduced") > 0.0;
-  return (paper_ ? paper_stiffer : stiffer) * solid::stress(elastic_strain, P, unreduced && rank > 0 ? 3 : rank, c);
+  return solid::stress(elastic_strain, P, rank, c);
 }
 
 void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first) {
@@ -195,7 +183,6 @@ void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first
   const ElasticParticles is_elastic(world);
   const EnergyOwners owns(world);
   const ElasticityKernel kernel = bond_kernel(world.scene);
-  static const double crooked = 1.0 + defect_size("elastic.shape");
   for (const std::uint32_t id : ids) set_stiffness(world, is_elastic, id);
   for (const std::uint32_t id : ids) p[field::solid_volume][p.row(id)] = volume_of(world, forms.paper(), owns(p.row(id)), id);
   for (const std::uint32_t id : ids) {
@@ -208,7 +195,7 @@ void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first
       shape = shape_inverse(moment);
       if (forms.bending() != 0.0 && shape.rank == 3) correct_for_bending(world, id, forms.bending(), moment, shape.inverse);
     }
-    shape_inverses(p).set(i, crooked * shape.inverse);
+    shape_inverses(p).set(i, shape.inverse);
     p[field::shape_rank][i] = shape.rank;
   }
   const bool needs_frequency = !first && p.has(field::bond_frequency.name);

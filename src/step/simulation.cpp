@@ -233,8 +233,7 @@ long Simulation::steps_to(double time) const {
 void Simulation::step(double end) {
   world_.next_time = end;
   clock_.start();
-  static const bool no_first_kick = defect_size("time.first_kick") > 0.0;
-  const bool starts_late = steps_ == 0 && (no_first_kick || world_.scene.mode_of(Term::time) == Mode::paper);
+  const bool starts_late = steps_ == 0 && world_.scene.mode_of(Term::time) == Mode::paper;
   if (!starts_late) run(&Effect::kick, 0.5 * dt_);  // v of bodies; the paper's leapfrog starts without its half kick
   clock_.ends(Stage::kick);
   run(&Effect::drift, dt_);  // r; rotation (19)-(20); prescribed motion; T or H by its rate (21)

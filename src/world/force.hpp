@@ -29,7 +29,6 @@ struct Force {
   std::optional<StoredEnergy> stored{};
   std::string_view entry{};  ///< of the ledger, that takes the work of a force which no energy stores
   Feels feels = Feels::all;
-  std::string_view body_force_defect{}, body_torque_defect{};  ///< of its sums over bodies: they are times 1 - size
 };
 
 /// Where the work on what the scene moves is booked.

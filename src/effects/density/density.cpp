@@ -40,6 +40,4 @@ EffectSpec spec(const Scene&) {
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<DensityEffect>(); }
 
-std::vector<DefectEntry> defects() { return {}; }
-
 }  // namespace tripoint::density

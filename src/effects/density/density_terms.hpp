@@ -10,7 +10,8 @@ struct DensityPaper {
   using adds = Keys<field::density>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 1> sum) {
-    sum[0] += j[0] * g.kernels.poly6.value_of_square_inside(g.r2);
+    const V m_j = j[0];
+    sum[0] += m_j * g.kernels.poly6.value_of_square_inside(g.r2);
   }
 };
 

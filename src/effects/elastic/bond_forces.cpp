@@ -9,7 +9,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/defect.hpp"
 #include "world/failure.hpp"
 
 namespace tripoint::elastic {
@@ -196,8 +195,7 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
 
 /// What partners see of a particle is known where its list is whole: at its owner.
 void hand_deformed_to_copies(const World& world, Deformations& all) {
-  static const bool kept_to_itself = defect_size("elastic.copies") > 0.0;
-  if (!world.halo || kept_to_itself) return;
+  if (!world.halo) return;
   constexpr std::size_t each = sizeof(Deformed) / sizeof(double);
   static_assert(std::is_standard_layout_v<Deformed> && std::is_trivially_copyable_v<Column>);
   double* const first = all.deformed.empty() ? nullptr : &all.deformed.front().strained.x.x;

@@ -94,29 +94,10 @@ EffectSpec spec(const Scene& scene) {
   Force bonds{
       field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, {"elastic_work"}, Account{"wall_elastic_work"}};
   bonds.stored = StoredEnergy{{"elastic", "hourglass"}, {"start_deformation"}, account::deformation_released};
-  bonds.body_force_defect = "bodies.bonds";
   s.forces = {bonds};
   return s;
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Elastic>(scene); }
-
-std::vector<DefectEntry> defects() {
-  return {{"elastic.strain", "strain times 1 + size", "solid/tension"},
-          {"elastic.rotation", "that share of the quadratic part of Green's strain left out", "solid/rotation"},
-          {"elastic.stress", "stress times 1 + size", "solid/tension"},
-          {"elastic.force", "force of the strain energy (12) times 1 - size", "solid/tension"},
-          {"elastic.shape", "A_i times 1 + size", "solid/tension"},
-          {"elastic.joint", "strain energy of members of rigid bodies at joints times 1 - size", "solid/tension"},
-          {"elastic.projector", "that share of the missing directions added to P of sheets and chains", "solid/rotation-thin"},
-          {"elastic.reduced", "sheets and chains with the moduli of a solid", "solid/sheet"},
-          {"elastic.hourglass", "hourglass energy times 1 - size", "solid/tension-jitter"},
-          {"elastic.bending", "correction for bending of gradients at surfaces times 1 - size", "solid/slender-bar"},
-          {"elastic.own_pairs", "weight of own pairs in the number density times 1 + size", "solid/contact"},
-          {"elastic.paper.factor", "the printed factor 2 times 1 - size", "solid/tension"},
-          {"elastic.paper.stress", "printed stress times 1 + size", "solid/tension"},
-          {"elastic.copies", "over ranks, copies are not handed how their particles are deformed", "coupling/over-ranks"},
-          {"bodies.bonds", "forces and torques of bonds on bodies times 1 - size", "solid/heavy-tip"}};
-}
 
 }  // namespace tripoint::elastic

@@ -8,6 +8,5 @@ namespace tripoint::elastic {
 
 [[nodiscard]] EffectSpec spec(const Scene&);
 [[nodiscard]] std::unique_ptr<Effect> make(const Scene&);
-[[nodiscard]] std::vector<DefectEntry> defects();
 
 }  // namespace tripoint::elastic

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/defect.hpp"
 #include "effects/fluid/rule.hpp"
 #include "scene/effect_rule.hpp"
 #include "world/ordered_sum.hpp"
@@ -18,11 +17,9 @@ double bulk_viscosity(const Scene& scene) {
 
 void set_bulk_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
-  static const double thinner = 1.0 - defect_size("fluid.bulk_viscosity"), told = 1.0 - defect_size("fluid.bulk_viscosity.entry");
   const double dt = 2.0 * world.lagged.half_step;       // the step was begun by a half kick
   const bool flows = dt > 0.0 && world.change.empty();  // what is born changes densities at once
-  const double viscosity =
-      flows ? n.bulk_viscosity * thinner * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
+  const double viscosity = flows ? n.bulk_viscosity * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
   const auto delta = p[field::number_density], before = p[field::number_density_before], q = p[field::bulk_pressure];
   const auto rest = p[field::rest_density], m = p[field::mass], pressure = p[field::pressure], V = p[field::volume],
              group = p[field::group];
@@ -36,13 +33,12 @@ void set_bulk_pressure(World& world, const SceneNumbers& n) {
     q[i] = next;
     before[i] = delta[i];
   });
-  world.booked[taken_by_bulk_viscosity] += told * n.pressure_work * taken[0];
+  world.booked[taken_by_bulk_viscosity] += n.pressure_work * taken[0];
 }
 
 double bulk_viscous_step(const SceneNumbers& n) {
-  static const double longer = 1.0 + defect_size("fluid.bulk_viscosity.step");
   const double zeta = 2.12 * n.bulk_viscosity;  // of mixed liquids, which damp that much faster than one alone (damped_density)
-  return longer * 0.81 * (std::sqrt(zeta * zeta + 0.885 * 0.885) - zeta);
+  return 0.81 * (std::sqrt(zeta * zeta + 0.885 * 0.885) - zeta);
 }
 
 }  // namespace tripoint::fluid

@@ -141,8 +141,7 @@ void Fluid::set_own_density(World& world, std::size_t row) const {
 }
 
 void Fluid::adopt(World& world) {
-  static const double told = 1.0 - defect_size("fluid.phase_jump");
-  world.booked[compression_released] -= told * compression_jump(world, numbers_, kernels_, Groups(world), 0.5 * drifted_);
+  world.booked[compression_released] -= compression_jump(world, numbers_, kernels_, Groups(world), 0.5 * drifted_);
   for (const std::uint32_t id : world.change.born) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.regrouped) set_material(world, world.particles.row(id));
   for (const std::uint32_t id : world.change.relisted) set_own_density(world, world.particles.row(id));
@@ -239,7 +238,6 @@ std::vector<Force> forces_of(const Scene& scene) {
   Force viscous{
       field::viscous_force_x, field::viscous_force_y, field::viscous_force_z, {"viscous_work"}, Account{"wall_viscous_work"}};
   viscous.entry = "viscous";
-  for (Force* f : {&pressure, &viscous}) f->body_force_defect = "bodies.force", f->body_torque_defect = "bodies.torque";
   if (!uses_transport_velocity(scene)) return {pressure, viscous};
   Force transport{field::transport_force_x, field::transport_force_y, field::transport_force_z, {"transport_work"}};
   transport.entry = "transport";
@@ -279,46 +277,5 @@ EffectSpec spec(const Scene& scene) {
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fluid>(scene); }
-
-std::vector<DefectEntry> defects() {
-  return {
-      {"fluid.density", "number density times 1 + size", "fluid/hydrostatic"},
-      {"fluid.paper.density", "density (4) times 1 + size", "fluid/hydrostatic"},
-      {"fluid.pressure", "corrected pressure force times 1 + size", "fluid/hydrostatic"},
-      {"fluid.paper.pressure", "pressure force (7) times 1 + size", "fluid/hydrostatic"},
-      {"fluid.core", "reach of the core of pairs times 1 + size", "fluid/hydrostatic"},
-      {"walls.pressure", "pressure of walls on liquids times 1 - size", "fluid/still-water"},
-      {"fluid.surface", "part of its weight that the topmost layer of a liquid bears times 1 - size", "fluid/hydrostatic-ladder"},
-      {"walls.jitter", "share of what the jitter of walls does to their own number density left in", "fluid/hydrostatic"},
-      {"walls.places", "share of how far jitter puts fixed walls off their lattice left in what liquid feels of them",
-       "fluid/hydrostatic"},
-      {"walls.stiffness", "stiffness of walls times 1 - size", "fluid/hydrostatic-ladder"},
-      {"walls.clamp", "walls are not clamped: they pull where liquid is thin", "fluid/still-water"},
-      {"fluid.bulk_viscosity", "numerical bulk viscosity of liquids times 1 - size", "fluid/still-water"},
-      {"fluid.bulk_viscosity.entry", "share of what the numerical bulk viscosity takes left untold", "fluid/breathing-column"},
-      {"fluid.bulk_viscosity.step", "greatest step that the numerical bulk viscosity allows times 1 + size",
-       "fluid/breathing-column-thick"},
-      {"fluid.phase_jump", "share of 0..1 of the compression that changes of phase let go left untold", "phase/melt-elastic"},
-      {"fluid.state", "scaled pressure of (9) times 1 + size", "fluid/sound-wave"},
-      {"fluid.paper.state", "pressure (9) as printed times 1 + size", "fluid/sound-wave"},
-      {"fluid.viscosity.laplacian", "laplacian viscous force times 1 + size", "fluid/poiseuille"},
-      {"fluid.paper.viscosity", "viscous force (8) times 1 + size", "fluid/poiseuille"},
-      {"walls.velocity", "part of the mirrored velocity of walls left out", "fluid/poiseuille"},
-      {"fluid.viscosity.central", "part of the central viscous force along the velocity, not the line of centres",
-       "fluid/liquid-ball"},
-      {"fluid.viscosity.contact", "viscosity of solids that touch times 1 + size", "coupling/sliding-slab"},
-      {"fluid.paper.solid_viscosity", "viscosity of a solid in (8) times 1 + size", "phase/stage-viscosity"},
-      {"fluid.paper.stage_viscosity", "share of 0..1 of the change of a solid's viscosity between t_solid and t_melt left out",
-       "phase/stage-viscosity"},
-      {"fluid.viscosity.lag", "viscous forces see the velocity of `size` steps before", "fluid/viscous-order"},
-      {"fluid.viscosity.mean", "share of the arithmetic mean in the viscosity between two liquids", "fluid/two-viscosities"},
-      {"fluid.transport.background", "background pressure of the transport velocity times 1 - size", "fluid/taylor-green"},
-      {"fluid.transport.stress", "stress that the transport velocity carries times 1 - size", "fluid/taylor-green"},
-      {"bodies.force", "forces of liquids and contact on bodies times 1 - size", "coupling/floating-block-050"},
-      {"bodies.torque", "torques of liquids and contact on bodies times 1 - size", "coupling/oblique"},
-      {"bodies.force_axes", "y and z of the forces on bodies swapped in the frames", "solid/plastic-sheet"},
-      {"bodies.arm", "arms of torques to the image inside the box: wrong across a periodic boundary",
-       "coupling/oblique-periodic"}};
-}
 
 }  // namespace tripoint::fluid

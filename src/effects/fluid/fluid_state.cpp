@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "core/defect.hpp"
 #include "core/machine.hpp"
 #include "world/body_table.hpp"
 #include "world/failure.hpp"
@@ -34,14 +33,11 @@ void refuse_overlap(const World& world, const SceneNumbers& n) {
 void set_density(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const auto rho = p[field::density], m = p[field::mass], V = p[field::volume];
-  static const double denser = 1.0 + defect_size("fluid.density"), paper_denser = 1.0 + defect_size("fluid.paper.density");
   if (world.scene.mode_of(Term::density) == Mode::corrected) {
     const auto delta = p[field::number_density];
-    const double scale = denser / n.lattice_density;
+    const double scale = 1.0 / n.lattice_density;
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
     for (std::size_t i = 0; i < p.awake(); ++i) rho[i] = m[i] * (delta[i] * scale);
-  } else if (paper_denser != 1.0) {
-    for (double& value : rho) value *= paper_denser;
   }
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) V[i] = m[i] / rho[i];
@@ -51,12 +47,10 @@ void set_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure], group = p[field::group];
   const bool paper = world.scene.mode_of(Term::state) == Mode::paper;
-  static const double stiffer = 1.0 + defect_size("fluid.state"), paper_stiffer = 1.0 + defect_size("fluid.paper.state");
-  static const bool walls_pull = defect_size("walls.clamp") > 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {
-    const EquationOfState e = state_of(n, group[i], rest[i], world.scene.clamps() && !(walls_pull && group[i] == 0.0));
-    pressure[i] = paper ? paper_stiffer * pressure_paper(e, rho[i]) : stiffer * pressure_corrected(e, rho[i]);
+    const EquationOfState e = state_of(n, group[i], rest[i], world.scene.clamps());
+    pressure[i] = paper ? pressure_paper(e, rho[i]) : pressure_corrected(e, rho[i]);
   }
 }
 
@@ -79,8 +73,7 @@ void set_pressure_shares(World& world, const SceneNumbers& n) {
 
 void predict_velocities(World& world) {
   Particles& p = world.particles;
-  static const double late = defect_size("fluid.viscosity.lag");  // 1: the velocity of the whole step before
-  const double ahead = (1.0 - 2.0 * late) * world.lagged.half_step;
+  const double ahead = world.lagged.half_step;
   const Vec3 g = world.scene.gravity;
   const std::vector<Triple<const double>> forces = force_columns(world);
   const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);

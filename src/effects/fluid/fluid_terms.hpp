@@ -2,7 +2,6 @@
 #pragma once
 #include <type_traits>
 
-#include "core/defect.hpp"
 #include "sph/pass.hpp"
 
 /// Pair terms of liquids, and of everything that touches: density, pressure and viscosity, printed and corrected.
@@ -36,9 +35,9 @@ struct PressureCorrected {
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 2> i, std::span<const V, 2> j, std::span<V, 3> sum) {
-    static const double stronger = 1.0 + defect_size("fluid.pressure");
-    const V pressure = stronger * (i[0] + j[0]) * g.gradient;
-    const V f = where(g.apart & acts(i[1], j[1]), pressure - g.kernels.core.force_over_r(g.r, g.per_r2));
+    const V share_i = i[0], share_j = j[0], group_i = i[1], group_j = j[1];
+    const V pressure = (share_i + share_j) * g.gradient;
+    const V f = where(g.apart & acts(group_i, group_j), pressure - g.kernels.core.force_over_r(g.r, g.per_r2));
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;
@@ -52,9 +51,10 @@ struct PressurePaper {
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 3> i, std::span<const V, 3> j, std::span<V, 3> sum) {
-    static const double stronger = 1.0 + defect_size("fluid.paper.pressure");
-    const V share = (0.5 * stronger * i[0]) * (j[0] * (i[1] + j[1]));
-    const V f = where(g.apart & acts(i[2], j[2]), share * (g.kernels.spiky.derivative_inside(g.r) * (g.r * g.per_r2)));
+    const V V_i = i[0], p_i = i[1], group_i = i[2];
+    const V V_j = j[0], p_j = j[1], group_j = j[2];
+    const V share = (0.5 * V_i) * (V_j * (p_i + p_j));
+    const V f = where(g.apart & acts(group_i, group_j), share * (g.kernels.spiky.derivative_inside(g.r) * (g.r * g.per_r2)));
     sum[0] += f * g.dx;
     sum[1] += f * g.dy;
     sum[2] += f * g.dz;
@@ -65,9 +65,7 @@ struct PressurePaper {
 /// the scene's contact viscosity between solids (which is what `viscosity` of a solid holds).
 template <class V>
 [[nodiscard]] inline V pair_viscosity(V mu_i, V solid_i, V stick_i, V mu_j, V solid_j, V stick_j) noexcept {
-  static const double arithmetic = defect_size("fluid.viscosity.mean");
-  V liquids = harmonic_mean(mu_i, mu_j);
-  if (arithmetic != 0.0) liquids += arithmetic * (0.5 * (mu_i + mu_j) - liquids);
+  const V liquids = harmonic_mean(mu_i, mu_j);
   if (!any(solid_i + solid_j != 0.0)) return liquids;
   const MaskOf<V> is_solid_i = solid_i != 0.0, is_solid_j = solid_j != 0.0;
   const V with_j = is_solid_j ? 0.5 * (mu_i + mu_j) : mu_j * stick_i, without_j = is_solid_j ? mu_i * stick_j : liquids;
@@ -81,9 +79,11 @@ using ViscousForce = Keys<field::viscous_force_x, field::viscous_force_y, field:
 /// Adds G_ij (v_j - v_i) [N]. @param G [kg/s]
 template <class V>
 inline void drag(V G, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) noexcept {
-  sum[0] += G * (j[5] - i[5]);
-  sum[1] += G * (j[6] - i[6]);
-  sum[2] += G * (j[7] - i[7]);
+  const V vx_i = i[5], vy_i = i[6], vz_i = i[7];
+  const V vx_j = j[5], vy_j = j[6], vz_j = j[7];
+  sum[0] += G * (vx_j - vx_i);
+  sum[1] += G * (vy_j - vy_i);
+  sum[2] += G * (vz_j - vz_i);
 }
 
 /// Viscous force (8) as printed [N]: F_i = sum_j V_i V_j (mu_i + mu_j)/2 (v_j - v_i) lap W_visc.
@@ -94,9 +94,10 @@ struct ViscosityPaper {
   /// G_ij [kg/s]
   template <class V>
   static V coefficient(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j) {
-    static const double thicker = 1.0 + defect_size("fluid.paper.viscosity");
-    const V share = (0.5 * thicker * i[0]) * (j[0] * (i[1] + j[1]));
-    return where(g.apart & acts(i[4], j[4]), share * g.kernels.viscosity.laplacian_inside(g.r));
+    const V V_i = i[0], mu_i = i[1], group_i = i[4];
+    const V V_j = j[0], mu_j = j[1], group_j = j[4];
+    const V share = (0.5 * V_i) * (V_j * (mu_i + mu_j));
+    return where(g.apart & acts(group_i, group_j), share * g.kernels.viscosity.laplacian_inside(g.r));
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
@@ -112,10 +113,11 @@ struct ViscosityLaplacian {
   /// G_ij [kg/s]
   template <class V>
   static V coefficient(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j) {
-    static const double thicker = 1.0 + defect_size("fluid.viscosity.laplacian");
-    const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
-    const V share = (thicker * g.kernels.per_gradient_moment) * (i[0] * i[0] + j[0] * j[0]) * mu;
-    return where(g.apart & acts(i[4], j[4]), share * -g.gradient);
+    const V V_i = i[0], mu_i = i[1], solid_i = i[2], stick_i = i[3], group_i = i[4];
+    const V V_j = j[0], mu_j = j[1], solid_j = j[2], stick_j = j[3], group_j = j[4];
+    const V mu = pair_viscosity<V>(mu_i, solid_i, stick_i, mu_j, solid_j, stick_j);
+    const V share = g.kernels.per_gradient_moment * (V_i * V_i + V_j * V_j) * mu;
+    return where(g.apart & acts(group_i, group_j), share * -g.gradient);
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
@@ -131,23 +133,22 @@ struct ViscosityCentral {
   /// G_ij [kg/s], of the velocity along the line of centres
   template <class V>
   static V coefficient(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j) {
-    const V mu = pair_viscosity<V>(i[1], i[2], i[3], j[1], j[2], j[3]);
-    const V share = (10.0 * g.kernels.per_gradient_moment * i[0]) * (j[0] * mu);
-    return where(g.apart & acts(i[4], j[4]), share * -g.gradient);
+    const V V_i = i[0], mu_i = i[1], solid_i = i[2], stick_i = i[3], group_i = i[4];
+    const V V_j = j[0], mu_j = j[1], solid_j = j[2], stick_j = j[3], group_j = j[4];
+    const V mu = pair_viscosity<V>(mu_i, solid_i, stick_i, mu_j, solid_j, stick_j);
+    const V share = (10.0 * g.kernels.per_gradient_moment * V_i) * (V_j * mu);
+    return where(g.apart & acts(group_i, group_j), share * -g.gradient);
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
-    static const double askew = defect_size("fluid.viscosity.central");
     const V G = coefficient<V>(g, i, j);
-    const V dvx = j[5] - i[5], dvy = j[6] - i[6], dvz = j[7] - i[7];
+    const V vx_i = i[5], vy_i = i[6], vz_i = i[7];
+    const V vx_j = j[5], vy_j = j[6], vz_j = j[7];
+    const V dvx = vx_j - vx_i, dvy = vy_j - vy_i, dvz = vz_j - vz_i;
     const V along = G * ((dvx * g.dx + dvy * g.dy + dvz * g.dz) * g.per_r2);
     sum[0] += along * g.dx;
     sum[1] += along * g.dy;
     sum[2] += along * g.dz;
-    if (askew == 0.0) return;
-    sum[0] += askew * G * dvx;
-    sum[1] += askew * G * dvy;
-    sum[2] += askew * G * dvz;
   }
 };
 

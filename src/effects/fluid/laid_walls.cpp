@@ -6,8 +6,6 @@
 #include <numbers>
 #include <utility>
 
-#include "core/defect.hpp"
-
 namespace tripoint::fluid {
 namespace {
 
@@ -39,13 +37,12 @@ void LaidWalls::find_moves(World& world) {
       sums[first_of(i) + 2 * a] += std::cos(angle), sums[first_of(i) + 2 * a + 1] += std::sin(angle);
     }
   if (world.halo) world.halo->add(sums);
-  static const double put_back = 1.0 - defect_size("walls.places");
   moves_.assign(p.size(), {});
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t a = 0; a < 3 && fixed(i); ++a) {
       const double* sum = &sums[first_of(i) + 2 * a];
       const double place = x.at(i)[a] / dx - std::atan2(sum[1], sum[0]) / (2.0 * pi);
-      moves_[static_cast<std::size_t>(id[i])][a] = dx * put_back * to_a_millionth(std::round(place) - place);
+      moves_[static_cast<std::size_t>(id[i])][a] = dx * to_a_millionth(std::round(place) - place);
     }
 }
 
@@ -101,9 +98,8 @@ void LaidWalls::lay_forces(World& world, const PairKernels& kernels) {
   Particles& p = world.particles;
   const auto share = std::as_const(p)[field::pressure_share];
   const auto F = triple(p, field::force_x, field::force_y, field::force_z);
-  static const double stronger = 1.0 + defect_size("fluid.pressure");
   each_row(world, [&](std::size_t i, std::size_t j, const Vec3& d, const Vec3& from_lattice) {
-    const double pressure = stronger * (share[i] + share[j]);
+    const double pressure = share[i] + share[j];
     F.set(i, F.at(i) + pressure * (kernels.wendland.derivative_over_r(norm(from_lattice)) * from_lattice -
                                    kernels.wendland.derivative_over_r(norm(d)) * d));
   });

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "effects/fluid/bulk_viscosity.hpp"
 #include "effects/fluid/rule.hpp"
@@ -60,19 +59,18 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.overlap_density = 1.0 + moments.layer / moments.density;
   n.gradient_moment = moments.gradient;
   n.half_full = 0.5 * (1.0 + moments.layer / moments.density);
-  static const double lighter = 1.0 - defect_size("fluid.surface");
-  n.surface_head = lighter * surface_weight(scene) * norm(pressing_gravity(scene)) * scene.spacing;
+  n.surface_head = surface_weight(scene) * norm(pressing_gravity(scene)) * scene.spacing;
   n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);  // half of what a plane face has
   if (scene.mode_of(Term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
-  n.core_reach = 0.9 * (1.0 + defect_size("fluid.core")) * scene.spacing;
+  n.core_reach = 0.9 * scene.spacing;
   const bool corrected = std::ranges::all_of(std::array{Term::walls, Term::density, Term::pressure},
                                              [&](Term t) { return scene.mode_of(t) == Mode::corrected; });
   const bool freezes = calls_for(scene, "phase");
   n.averages_walls = corrected && !freezes &&
                      !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   // Half of what a wall particle sees is wall, which does not move: it reads half of the strain of the liquid.
-  if (n.averages_walls) n.wall_stiffness = 2.0 * (1.0 - defect_size("walls.stiffness"));
+  if (n.averages_walls) n.wall_stiffness = 2.0;
   return n;
 }
 

@@ -1,28 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/fluid/solid_viscosity.hpp"
 
-#include "core/defect.hpp"
 #include "scene/effect_rule.hpp"
 
 namespace tripoint::fluid {
 
 SolidViscosity::SolidViscosity(const Scene& scene) {
-  static const double rougher = 1.0 + defect_size("fluid.viscosity.contact"),
-                      thicker = 1.0 + defect_size("fluid.paper.solid_viscosity");
   const bool printed = scene.mode_of(Term::viscosity) == Mode::paper;
   for (const Material& m : scene.materials) {
-    const double own = printed ? thicker * value_of(m.values, "solid_viscosity") : 0.0;
+    const double own = printed ? value_of(m.values, "solid_viscosity") : 0.0;
     const bool stage = own > 0.0 && fusion_of(scene, m).soft_band && calls_for(scene, "phase");
-    of_.push_back({own > 0.0 ? own : rougher * scene.contact_viscosity, m.viscosity, stage});
+    of_.push_back({own > 0.0 ? own : scene.contact_viscosity, m.viscosity, stage});
     follows_ = follows_ || stage;
   }
 }
 
 double SolidViscosity::operator()(const World& world, std::size_t row) const {
-  static const double followed = 1.0 - defect_size("fluid.paper.stage_viscosity");
   const Particles& p = world.particles;
   const OfMaterial& m = of_[static_cast<std::size_t>(p[field::material][row])];
-  return m.stage ? viscosity_between(m.solid, m.liquid, followed * p[field::liquid_fraction][row]) : m.solid;
+  return m.stage ? viscosity_between(m.solid, m.liquid, p[field::liquid_fraction][row]) : m.solid;
 }
 
 }  // namespace tripoint::fluid

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/defect.hpp"
 #include "effects/fluid/transport_terms.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
@@ -28,10 +27,8 @@ void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels
   const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).transport;
   run_pass(pass, p, *world.neighbours, kernels, world.threads);
   world.refresh(pass.adds());
-  static const double weaker = 1.0 - defect_size("fluid.transport.background"),
-                      left = 1.0 - defect_size("fluid.transport.stress");
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it
-  const double background = weaker * pressure / n.lattice_density, stress = left / n.lattice_density;
+  const double background = pressure / n.lattice_density, stress = 1.0 / n.lattice_density;
   for (const Field<double>* f : {&field::background_x, &field::background_y, &field::background_z})
     for (double& value : p[*f]) value *= background;
   for (const Field<double>* f : {&field::transport_force_x, &field::transport_force_y, &field::transport_force_z})

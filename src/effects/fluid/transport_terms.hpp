@@ -15,15 +15,17 @@ struct TransportForces {
                     field::transport_force_y, field::transport_force_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 6> sum) {
-    const V b = (i[0] * i[0] + j[0] * j[0]) * g.gradient;
+    const V V_i = i[0], rho_i = i[1], vx_i = i[2], vy_i = i[3], vz_i = i[4], wx_i = i[5], wy_i = i[6], wz_i = i[7];
+    const V V_j = j[0], rho_j = j[1], vx_j = j[2], vy_j = j[3], vz_j = j[4], wx_j = j[5], wy_j = j[6], wz_j = j[7];
+    const V b = (V_i * V_i + V_j * V_j) * g.gradient;
     sum[0] += b * g.dx;
     sum[1] += b * g.dy;
     sum[2] += b * g.dz;
-    const V out_i = -0.5 * b * i[1] * (i[5] * g.dx + i[6] * g.dy + i[7] * g.dz);
-    const V out_j = -0.5 * b * j[1] * (j[5] * g.dx + j[6] * g.dy + j[7] * g.dz);
-    sum[3] += out_i * i[2] + out_j * j[2];
-    sum[4] += out_i * i[3] + out_j * j[3];
-    sum[5] += out_i * i[4] + out_j * j[4];
+    const V out_i = -0.5 * b * rho_i * (wx_i * g.dx + wy_i * g.dy + wz_i * g.dz);
+    const V out_j = -0.5 * b * rho_j * (wx_j * g.dx + wy_j * g.dy + wz_j * g.dz);
+    sum[3] += out_i * vx_i + out_j * vx_j;
+    sum[4] += out_i * vy_i + out_j * vy_j;
+    sum[5] += out_i * vz_i + out_j * vz_j;
   }
 };
 

@@ -15,11 +15,12 @@ struct WallExtrapolation {
   using adds = Keys<field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 5> i, std::span<const V, 5> j, std::span<V, 4> sum) {
-    const V w = (i[0] * (1.0 - j[0])) * (j[1] * -g.gradient);
+    const V solid_i = i[0], solid_j = j[0], mu_j = j[1], vx_j = j[2], vy_j = j[3], vz_j = j[4];
+    const V w = (solid_i * (1.0 - solid_j)) * (mu_j * -g.gradient);
     sum[0] += w;
-    sum[1] += w * j[2];
-    sum[2] += w * j[3];
-    sum[3] += w * j[4];
+    sum[1] += w * vx_j;
+    sum[2] += w * vy_j;
+    sum[3] += w * vz_j;
   }
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <compare>
 
-#include "core/defect.hpp"
 #include "effects/fluid/laid_walls.hpp"
 #include "effects/fluid/wall_terms.hpp"
 #include "passes/pair_passes.hpp"
@@ -81,7 +80,6 @@ void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKe
   const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
   const double dx = world.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
   const bool jittered = has_laid_walls(world.scene);
-  static const double put_back = 1.0 - defect_size("walls.jitter");
   at_face_.resize(p.size());
   if (jittered) excess_.assign(p.size(), 0.0);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
@@ -102,7 +100,7 @@ void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKe
     for (const Share& s : shares) wall += s.as_it_is, from_lattice += s.from_lattice;
     at_face_[static_cast<std::size_t>(id[i])] = wall < (1.0 - n.least_exposure) * full ? 1 : 0;
     if (jittered && frame_of(i) == fixed_frame)
-      excess_[static_cast<std::size_t>(id[i])] = put_back * to_a_millionth((wall - from_lattice) / full);
+      excess_[static_cast<std::size_t>(id[i])] = to_a_millionth((wall - from_lattice) / full);
   }
 }
 
@@ -215,10 +213,9 @@ void Walls::average_density(World& world, const SceneNumbers& n, const PairKerne
 /// The transpose of the mean, twice: who is in my patch has me in its own.
 void Walls::hand_down_shares(World& world) {
   const auto share = world.particles[field::pressure_share];
-  static const double weaker = 1.0 - defect_size("walls.pressure");
   for (std::size_t a = 0; a < awake_.size(); ++a) {
     const std::size_t k = awake_[a];
-    part_[k] = weaker * share[row_[a]] / members(k);
+    part_[k] = share[row_[a]] / members(k);
   }
   hand_to_copied_faces(world, part_);
   sum_patches(part_, world.threads, [&](std::size_t k, double sum) { part_again_[k] = sum / members(k); });
@@ -240,11 +237,10 @@ void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
   const auto moved = triple(p, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z);
   const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);
   const auto v = velocities(p);
-  static const double slip = 1.0 - defect_size("walls.velocity");
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t k = 0; k < wet_walls_.size(); ++k) {
     const std::size_t i = wet_walls_[k];
-    if (weight[i] > 0.0) seen.set(i, v.at(i) + slip * (v.at(i) - moved.at(i) / weight[i]));
+    if (weight[i] > 0.0) seen.set(i, v.at(i) + (v.at(i) - moved.at(i) / weight[i]));
   }
   world.refresh(seen_velocity);
 }

@@ -4,7 +4,6 @@
 #include <limits>
 #include <vector>
 
-#include "core/defect.hpp"
 #include "particles/pair_lists.hpp"
 #include "scene/scene.hpp"
 
@@ -25,11 +24,10 @@ namespace tripoint::fracture {
 class BondLimits {
  public:
   explicit BondLimits(const Scene& scene) : paper_(scene.mode_of(Term::elastic) == Mode::paper) {
-    static const double stretch = 1.0 + defect_size("fracture.stretch"), distance = 1.0 + defect_size("fracture.paper.distance");
     constexpr double never = std::numeric_limits<double>::infinity();
     for (const Material& m : scene.materials) {
       const std::optional<double>& given = paper_ ? m.fracture_distance : m.fracture_stretch;
-      limit_.push_back(given ? (paper_ ? distance * scene.spacing : stretch) * *given : never);
+      limit_.push_back(given ? (paper_ ? scene.spacing : 1.0) * *given : never);
     }
   }
   /// @param r r_i - r_j [m]   @param a,b materials of the two
@@ -43,10 +41,7 @@ class BondLimits {
   }
 
  private:
-  [[nodiscard]] double limit_of(std::size_t a, std::size_t b) const {
-    static const bool stronger = defect_size("fracture.weaker") > 0.0;
-    return stronger ? std::max(limit_[a], limit_[b]) : std::min(limit_[a], limit_[b]);
-  }
+  [[nodiscard]] double limit_of(std::size_t a, std::size_t b) const { return std::min(limit_[a], limit_[b]); }
 
   bool paper_;
   std::vector<double> limit_;  ///< of each material: [1], printed [m]

@@ -120,9 +120,8 @@ class Release {
       for (const std::uint32_t id : ids) keep_elastic_strain(id);
     double let_go = 0.0;
     for (const auto& [id, before] : before_) let_go += before.energy - solid::deformation_energy(world_, forms_, id).total();
-    static const double booked = 1.0 - defect_size("fracture.energy");
-    world_.booked[let_go_by_bonds] += booked * let_go;
-    world_.booked[account::deformation_released] += booked * let_go;
+    world_.booked[let_go_by_bonds] += let_go;
+    world_.booked[account::deformation_released] += let_go;
   }
 
  private:
@@ -139,9 +138,8 @@ class Release {
   /// A particle that has flowed and loses bonds sees another strain at once: eps_p goes with it, so that P (eps - eps_p) P does
   /// not jump. Without this the tear of a plastic bar creates energy.
   void keep_elastic_strain(std::uint32_t id) {
-    static const bool left_as_it_was = defect_size("fracture.plastic_strain") > 0.0;
     const Before& before = before_.at(id);
-    if (before.plastic == Symmetric{} || left_as_it_was) return;
+    if (before.plastic == Symmetric{}) return;
     const solid::Deformation d = solid::deformation_of(world_, forms_, id);
     solid::set_plastic_strain(world_.particles, world_.particles.row(id), between(d.P, d.strain - before.elastic));
   }
@@ -196,13 +194,5 @@ EffectSpec spec(const Scene& scene) {
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<Fracture>(scene); }
-
-std::vector<DefectEntry> defects() {
-  return {{"fracture.stretch", "bonds bear 1 + size times their stretch", "solid/torn-bar"},
-          {"fracture.paper.distance", "as printed: bonds bear 1 + size times their distance", "solid/torn-bar"},
-          {"fracture.weaker", "where two materials meet the higher limit holds", "solid/weak-joint"},
-          {"fracture.energy", "share of 0..1 of the energy let go that is not booked", "solid/torn-bar"},
-          {"fracture.plastic_strain", "plastic strain of what loses bonds stays as it was", "solid/torn-ductile"}};
-}
 
 }  // namespace tripoint::fracture

@@ -73,20 +73,4 @@ std::unique_ptr<Effect> make(const Scene& scene) {
   return std::make_unique<CorrectedHeat>();
 }
 
-std::vector<DefectEntry> defects() {
-  return {
-      {"heat.conductivity", "conductivity times 1 + size", "heat/cosine-mode"},
-      {"heat.solid_conductivity", "conductivity of the solid, where it has its own, times 1 + size", "textbook/freezing-water"},
-      {"heat.solid_capacity", "heat capacity of the solid, where it has its own, times 1 + size", "textbook/ice-in-water"},
-      {"heat.moment", "second-moment matrices left out", "heat/bar-3x3"},
-      {"heat.inflow", "what flows in is size kelvin hotter", "heat/inflow"},
-      {"heat.harmonic_mean", "arithmetic instead of harmonic mean of conductivities", "heat/two-conductivities"},
-      {"heat.one_sided", "size of 0..1: conductivity and moment lean to the receiving particle, so that energy is not kept",
-       "heat/step-insulated"},
-      {"heat.held", "temperatures that should be held are let go", "heat/held-ends"},
-      {"heat.first_order", "second stage of the time scheme left out: first order", "heat/temporal"},
-      {"heat.paper.diffusivity", "diffusivity of (21) as printed times 1 + size", "heat/cosine-mode"},
-      {"heat.paper.density", "rest density in the paper's diffusivity times 1 + size", "heat/cosine-mode"}};
-}
-
 }  // namespace tripoint::heat

@@ -9,6 +9,5 @@ namespace tripoint::heat {
 
 [[nodiscard]] EffectSpec spec(const Scene&);
 [[nodiscard]] std::unique_ptr<Effect> make(const Scene&);
-[[nodiscard]] std::vector<DefectEntry> defects();
 
 }  // namespace tripoint::heat

@@ -40,9 +40,8 @@ struct Conductivity {
   }
 };
 Conductivity conductivity_of(const Material& m) {
-  static const double factor = 1.0 + defect_size("heat.conductivity"), of_solid = 1.0 + defect_size("heat.solid_conductivity");
   if (!m.conductivity) return {};
-  return {factor * (m.solid_conductivity ? of_solid * *m.solid_conductivity : *m.conductivity), factor * *m.conductivity};
+  return {m.solid_conductivity.value_or(*m.conductivity), *m.conductivity};
 }
 
 /// A particle conducts as its phase does, or as what it becomes.
@@ -81,10 +80,9 @@ void add_heat(World& world, Stage stage, Change change) {
     for (const Material& one : world.scene.materials) conducts.push_back(conductivity_of(one));
   const auto k = p[field::conductivity];
   const auto phase = p[field::phase];
-  static const bool leaks = defect_size("heat.held") > 0.0;
   std::vector<std::array<double, 1>> blocks;
   const auto to_walls = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    if (held[i] && !leaks) {
+    if (held[i]) {
       sum[0] += change(i);
       return;
     }
@@ -98,7 +96,7 @@ void add_heat(World& world, Stage stage, Change change) {
     if (!conducts.empty()) k[i] = conducts[static_cast<std::size_t>(material[i])].of(phase[i], f[i]);
   });
   world.booked[account::walls] += to_walls[0];
-  if (!leaks) book_held(world, change);
+  book_held(world, change);
 }
 
 /// Least heat capacity of either phase over that of the solid, by material: a particle may change its phase within the step.
@@ -145,11 +143,6 @@ void CorrectedHeat::drift(World& world, double dt) {
 
 /// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1.
 bool CorrectedHeat::correct(World& world, double dt) {
-  static const bool skipped = defect_size("heat.first_order") > 0.0;
-  if (skipped) {
-    add_heat(world, Stage::last, [](std::size_t) { return 0.0; });
-    return false;
-  }
   const auto rate = world.particles[field::heat_rate], before = world.particles[field::heat_rate_before];
   add_heat(world, Stage::last, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
   return true;
@@ -168,13 +161,11 @@ void CorrectedHeat::clear(World& world, PassName pass) {
 void CorrectedHeat::state(World& world) {
   if (!world.moved) return;
   Particles& p = world.particles;
-  static const bool skipped = defect_size("heat.moment") > 0.0;
   const auto axx = p[field::moment_inverse_xx], ayy = p[field::moment_inverse_yy], azz = p[field::moment_inverse_zz];
   const auto ayz = p[field::moment_inverse_yz], axz = p[field::moment_inverse_xz], axy = p[field::moment_inverse_xy];
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    Symmetric a{1.0, 1.0, 1.0, 0.0, 0.0, 0.0};
-    if (!skipped) a = pseudo_inverse({axx[i], ayy[i], azz[i], ayz[i], axz[i], axy[i]}, moment_cut);
+    const Symmetric a = pseudo_inverse({axx[i], ayy[i], azz[i], ayz[i], axz[i], axy[i]}, moment_cut);
     axx[i] = a.xx, ayy[i] = a.yy, azz[i] = a.zz, ayz[i] = a.yz, axz[i] = a.xz, axy[i] = a.xy;
   }
 }

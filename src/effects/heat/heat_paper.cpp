@@ -38,12 +38,10 @@ void PaperHeat::load(World& world, const InitialState& initial) {
 }
 
 void PaperHeat::set_material(World& world, std::size_t row) const {
-  static const double density = 1.0 + defect_size("heat.paper.density");
-  static const double faster = 1.0 + defect_size("heat.paper.diffusivity");
   const Material& m = world.material_of(row);
-  const double own = *m.conductivity / (m.density * density * *m.heat_capacity);
+  const double own = *m.conductivity / (m.density * *m.heat_capacity);
   const double one = kept_number(world.scene.values, key_row("scene", "heat_constant"));  // 0 = none is given
-  world.particles[field::diffusivity][row] = faster * (one > 0.0 ? one : own);            // the paper's c [m2/s]
+  world.particles[field::diffusivity][row] = one > 0.0 ? one : own;                       // the paper's c [m2/s]
 }
 
 /// What flowed in brings its heat.

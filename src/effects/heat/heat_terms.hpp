@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "core/defect.hpp"
 #include "sph/pass.hpp"
 
 namespace tripoint {
@@ -28,7 +27,8 @@ struct HeatMoment {
                     field::moment_inverse_xz, field::moment_inverse_xy>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 6> sum) {
-    add_outer(j[0] * -g.gradient, g, sum);  // 1/2 V_j K
+    const V V_j = j[0];
+    add_outer(V_j * -g.gradient, g, sum);  // 1/2 V_j K
   }
 };
 
@@ -41,17 +41,15 @@ struct HeatFlowCorrected {
   using adds = Keys<field::heat_rate, field::conductance>;
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 9> i, std::span<const V, 9> j, std::span<V, 2> sum) {
-    static const bool harmonic_broken = defect_size("heat.harmonic_mean") > 0.0;
-    static const double one_sided = defect_size("heat.one_sided");  // share of the own value in the means
-    const V V_j = j[0], k_j = j[1], T_j = j[2], V_i = i[0], k_i = i[1], T_i = i[2];
-    V k = harmonic_mean(k_i, k_j);
-    if (harmonic_broken) k = 0.5 * (k_i + k_j);
-    if (one_sided > 0.0) k += one_sided * (k_i - k);
-    // e^T A e = r^T A r / r^2, with the sum of both matrices taken first, so that it is the same seen from i and from j.
-    const V along = (i[3] + j[3]) * (g.dx * g.dx) + (i[4] + j[4]) * (g.dy * g.dy) + (i[5] + j[5]) * (g.dz * g.dz) +
-                    2.0 * ((i[6] + j[6]) * (g.dy * g.dz) + (i[7] + j[7]) * (g.dx * g.dz) + (i[8] + j[8]) * (g.dx * g.dy));
-    V moment = along * g.per_r2;
-    if (one_sided > 0.0) moment *= 1.0 + one_sided * (i[3] - j[3]) / (i[3] + j[3]);
+    const V V_i = i[0], k_i = i[1], T_i = i[2];
+    const V V_j = j[0], k_j = j[1], T_j = j[2];
+    // A = pinv M_i + pinv M_j: the sum of both is taken first, so that it is the same seen from i and from j.
+    const V A_xx = i[3] + j[3], A_yy = i[4] + j[4], A_zz = i[5] + j[5];
+    const V A_yz = i[6] + j[6], A_xz = i[7] + j[7], A_xy = i[8] + j[8];
+    const V k = harmonic_mean(k_i, k_j);
+    const V rAr = A_xx * (g.dx * g.dx) + A_yy * (g.dy * g.dy) + A_zz * (g.dz * g.dz) +
+                  2.0 * (A_yz * (g.dy * g.dz) + A_xz * (g.dx * g.dz) + A_xy * (g.dx * g.dy));
+    const V moment = rAr * g.per_r2;  // e^T A e
     const V G = (V_i * V_j) * (k * moment) * -g.gradient;
     sum[0] += G * (T_j - T_i);
     sum[1] += G;

@@ -70,8 +70,7 @@ void set_melted(World& world, std::size_t row, double temperature) {
 
 double inflow_temperature(const World& world, std::size_t row) {
   const auto source = static_cast<std::size_t>(world.particles[field::source][row]);
-  static const double hotter = defect_size("heat.inflow");
-  return hotter + world.scene.inflows.at(source - world.scene.bodies.size()).temperature.value_or(not_a_number);
+  return world.scene.inflows.at(source - world.scene.bodies.size()).temperature.value_or(not_a_number);
 }
 
 void hold_temperature(World& world, const Happening& now, SetTemperature set) {

@@ -31,8 +31,7 @@ void FreeMotion::kick(World& world, double dt) {
   const std::vector<Triple<const double>> forces = force_columns(world);
   const auto m = p[field::mass];
   const RigidMembers is_member(world);
-  static const double heavier = 1.0 + defect_size("motion.gravity");
-  const Vec3 g = heavier * world.scene.gravity;
+  const Vec3 g = world.scene.gravity;
   const bool guided = p.has(field::driven.name);
   const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
   const auto sums = ordered_sums(world, blocks_, [&](std::size_t i, std::array<double, works>& work) {
@@ -125,9 +124,5 @@ EffectSpec spec(const Scene& scene) {
 }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<FreeMotion>(); }
-
-std::vector<DefectEntry> defects() {
-  return {{"motion.gravity", "gravity on liquids and deformable solids times 1 + size", "fluid/hydrostatic"}};
-}
 
 }  // namespace tripoint::motion

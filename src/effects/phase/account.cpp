@@ -11,10 +11,7 @@ namespace {
 
 /// Divides energy equally among particles. @param ids at least one
 void share(World& world, const std::vector<std::uint32_t>& ids, double joules) {
-  static const double kept = 1.0 - defect_size("phase.account");
-  static const bool to_one = defect_size("phase.share") > 0.0;
-  if (to_one) return give_heat(world, world.particles.row(ids.front()), kept * joules);
-  for (const std::uint32_t id : ids) give_heat(world, world.particles.row(id), kept * joules / static_cast<double>(ids.size()));
+  for (const std::uint32_t id : ids) give_heat(world, world.particles.row(id), joules / static_cast<double>(ids.size()));
 }
 
 /// What melted from, or froze to, the body in this step; all events where none did.

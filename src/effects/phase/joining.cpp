@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 
-#include "core/defect.hpp"
 #include "scene/effect_rule.hpp"
 #include "solids/solid_particles.hpp"
 
@@ -32,8 +31,7 @@ void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
 /// inverse also for chains and sheets. Printed, nothing is turned: beside a turned solid that strains it. @return F^-1 of what is
 /// left
 Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
-  static const bool skipped = defect_size("phase.frame") > 0.0;
-  if (skipped || world.scene.mode_of(Term::phase) == Mode::paper) return identity3;
+  if (world.scene.mode_of(Term::phase) == Mode::paper) return identity3;
   solid::refresh_shapes(world, std::array{id}, true);  // it may have lost bonds in this step; frequencies follow with all others
   const solid::Deformation before = solid::deformation_of(world, id);
   if (before.rank == 0) return identity3;
@@ -82,8 +80,6 @@ void bond(World& world, const std::vector<Joint>& joints) {
 
 void make_own_pairs(World& world, const std::vector<std::uint32_t>& frozen) {
   Particles& p = world.particles;
-  static const bool none = defect_size("phase.own_pairs") > 0.0;
-  if (none) return;
   if (!p.has(field::own_density.name) && !(has_deformable(world) && p.has(field::force_x.name))) return;
   const solid::ElasticParticles is_elastic(world);
   const auto body = p[field::body];

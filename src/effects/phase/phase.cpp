@@ -101,19 +101,4 @@ EffectSpec spec(const Scene& scene) {
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<PhaseChange>(scene); }
 
-std::vector<DefectEntry> defects() {
-  return {
-      {"phase.latent", "latent heat times 1 - size", "phase/stefan"},
-      {"phase.hysteresis", "freezing at t_melt: no hysteresis", "phase/hysteresis"},
-      {"phase.freezing", "freezing size kelvin below t_solid", "phase/hysteresis"},
-      {"phase.paper.melting", "the printed form melts and freezes size kelvin later", "phase/hysteresis"},
-      {"phase.paper.stage", "printed rigid matter turns elastic at the liquid fraction `size`, not at 0", "phase/rigid-stage"},
-      {"phase.merging", "what freezes joins nothing", "phase/freeze-merge"},
-      {"phase.own_pairs", "frozen solids press on themselves as on others", "phase/press-and-freeze"},
-      {"phase.frame", "new bonds of a turned or strained solid are written in the present frame", "phase/freeze-turned"},
-      {"phase.softening", "share of 0..1 of the softening left out", "phase/softening"},
-      {"phase.share", "heat of joining to the first of the particles that freeze, not to all alike", "phase/sticking-heat"},
-      {"phase.account", "share of 0..1 of the energy of joining that never becomes heat", "phase/freeze-merge"}};
-}
-
 }  // namespace tripoint::phase

@@ -10,6 +10,5 @@ namespace tripoint::phase {
 
 [[nodiscard]] EffectSpec spec(const Scene&);
 [[nodiscard]] std::unique_ptr<Effect> make(const Scene&);
-[[nodiscard]] std::vector<DefectEntry> defects();
 
 }  // namespace tripoint::phase

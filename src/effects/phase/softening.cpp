@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/defect.hpp"
 #include "solids/fusion.hpp"
 #include "solids/solid_particles.hpp"
 
@@ -11,9 +10,8 @@ namespace tripoint::phase {
 namespace {
 
 double share_of(const World& world, std::size_t row) {
-  static const double stiff = defect_size("phase.softening");
   if (!solid::softens(world.scene, world.material_of(row))) return 1.0;
-  return 1.0 - (1.0 - stiff) * world.particles[field::liquid_fraction][row];
+  return 1.0 - world.particles[field::liquid_fraction][row];
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <map>
 
-#include "core/defect.hpp"
 #include "effects/phase/joining.hpp"
 #include "solids/fusion.hpp"
 #include "solids/objects.hpp"
@@ -28,11 +27,10 @@ std::vector<Partner> partners_of(const World& world, std::uint32_t id) {
   const auto x = positions(p);
   const auto phase = p[field::phase];
   const double reach = joining_distance(world.scene);
-  static const bool aloof = defect_size("phase.merging") > 0.0;
   std::map<std::uint32_t, Vec3> nearest;
   for (const Entry e : world.neighbours->of(i)) {
     const std::size_t j = e.row();
-    if (j == i || aloof || phase[j] == static_cast<int>(Phase::liquid) || !may_join(world, j)) continue;
+    if (j == i || phase[j] == static_cast<int>(Phase::liquid) || !may_join(world, j)) continue;
     const Vec3 r = -1.0 * ((x.at(j) - x.at(i)) + world.neighbours->shift(e.image()));
     if (norm(r) >= reach) continue;
     const auto [at, first] = nearest.try_emplace(static_cast<std::uint32_t>(p[field::id][j]), r);
@@ -48,9 +46,8 @@ bool volumes_follow_lists(const World& world) { return world.scene.mode_of(Term:
 
 /// What a solid particle is at this liquid fraction, of a material that may turn.
 Phase solid_phase(const Scene& scene, const Material& m, double f) {
-  static const double later = defect_size("phase.paper.stage");
   if (m.solid != "rigid") return Phase::elastic;
-  return turns_elastic(scene, m) && f > later ? Phase::elastic : Phase::rigid;
+  return turns_elastic(scene, m) && f > 0.0 ? Phase::elastic : Phase::rigid;
 }
 
 class Transition {

@@ -29,11 +29,10 @@ class PlasticFlow : public Effect {
 };
 
 PlasticFlow::PlasticFlow(const Scene& scene) : forms_(scene) {
-  static const double later = 1.0 + defect_size("plastic.elastic_limit"), farther = 1.0 + defect_size("plastic.plastic_limit");
   for (const Material& m : scene.materials) {
     YieldLimits limits;
-    if (m.elastic_limit) limits.elastic = later * *m.elastic_limit;
-    if (m.plastic_limit) limits.plastic = farther * *m.plastic_limit;
+    if (m.elastic_limit) limits.elastic = *m.elastic_limit;
+    if (m.plastic_limit) limits.plastic = *m.plastic_limit;
     limits_.push_back(limits);
   }
 }
@@ -48,8 +47,7 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
   if (rank == 3 && flowed(strain, plastic, limits) == plastic) return 0.0;  // as nearly all do nearly always
   const Symmetric P = forms_.projector(solid::shape_inverse_of(p, row), rank), elastic = between(P, strain - plastic);
   const solid::ElasticConstants c = forms_.constants(world, row);
-  static const double sheet = 1.0 + defect_size("plastic.sheet");
-  const double yields = (rank == 2 ? sheet : 1.0) * yield_stress(c.mu, limits.elastic);
+  const double yields = yield_stress(c.mu, limits.elastic);
   const auto flat = [&] {
     return flowed_flat(elastic, forms_.stress(elastic, P, rank, c), plastic, rank, yields, limits.plastic);
   };
@@ -63,13 +61,12 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
 /// After the strain of the present time is known, before its stress.
 void PlasticFlow::state(World& world) {
   const solid::ElasticParticles is_elastic(world);
-  static const double booked = 1.0 - defect_size("plastic.dissipation");
   const auto lost =
       ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
         if (is_elastic(row) && world.owns(row)) sum[0] += flow(world, row);
       });
-  world.booked[dissipation] += booked * lost[0];
-  world.booked[account::deformation_released] += booked * lost[0];
+  world.booked[dissipation] += lost[0];
+  world.booked[account::deformation_released] += lost[0];
 }
 
 /// What melts forgets how it has flowed.
@@ -92,12 +89,5 @@ EffectSpec spec(const Scene& scene) {
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<PlasticFlow>(scene); }
-
-std::vector<DefectEntry> defects() {
-  return {{"plastic.elastic_limit", "flow begins at 1 + size times the elastic limit", "solid/plastic-cycle"},
-          {"plastic.dissipation", "share of 0..1 of the energy lost by flow that is not booked", "solid/plastic-cycle"},
-          {"plastic.sheet", "stress at which a sheet yields times 1 + size", "solid/plastic-sheet"},
-          {"plastic.plastic_limit", "flow ends at 1 + size times the plastic limit", "solid/plastic-chain"}};
-}
 
 }  // namespace tripoint::plastic

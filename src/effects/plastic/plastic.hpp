@@ -7,6 +7,5 @@ namespace tripoint::plastic {
 
 [[nodiscard]] EffectSpec spec(const Scene&);
 [[nodiscard]] std::unique_ptr<Effect> make(const Scene&);
-[[nodiscard]] std::vector<DefectEntry> defects();
 
 }  // namespace tripoint::plastic

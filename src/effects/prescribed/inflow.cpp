@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "scene/lattice.hpp"
 
@@ -31,9 +30,7 @@ Entrance::Entrance(const Scene& scene, std::size_t inflow)
   for (const Vec3& r : places)
     if (sign * r[along] < first + 0.5 * spacing_) section_.push_back(r);
   depth_ = last - first + spacing_;
-  static const double faster = 1.0 + defect_size("prescribed.inflow");
   speed_ = in.rate ? *in.rate / (static_cast<double>(section_.size()) * spacing_ * spacing_) : norm(v);
-  speed_ *= faster;
   velocity_ = (speed_ / norm(v)) * v;
 }
 

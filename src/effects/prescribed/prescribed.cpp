@@ -102,14 +102,13 @@ void Prescribed::happen(World& world, const Happening& now) {
   const int number = driven_grip + static_cast<int>(&event - world.scene.events.data());
   const auto inside = grips ? inside_of(*event.region, world.scene.spacing) : [](const Vec3&) { return true; };
   const RigidMembers is_member(world);
-  static const bool forgets = defect_size("prescribed.grip.place") > 0.0;
   const auto place = triple(p, field::grip_x, field::grip_y, field::grip_z);
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (is_member(i)) continue;
     if (grips && now.begins && body[i] >= 0 && inside(world.unwrapped(i))) {
       driven[i] = number;
-      if (!forgets) place.set(i, world.unwrapped(i));
+      place.set(i, world.unwrapped(i));
     } else if (grips && !now.begins && driven[i] == number) {
       driven[i] = 0;
     } else if (releases && driven[i] >= driven_grip &&
@@ -140,11 +139,5 @@ EffectSpec spec(const Scene& scene) {
 }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<Prescribed>(); }
-
-std::vector<DefectEntry> defects() {
-  return {{"prescribed.grip", "grips follow their keyframes 1 - size times as fast", "paper/fig-01-merge"},
-          {"prescribed.grip.place", "where a grip took its particles is forgotten", "solid/grip"},
-          {"prescribed.inflow", "layers flow in 1 + size times as fast", "paper/fig-12"}};
-}
 
 }  // namespace tripoint::prescribed

@@ -10,6 +10,5 @@ namespace tripoint::prescribed {
 
 [[nodiscard]] EffectSpec spec(const Scene&);
 [[nodiscard]] std::unique_ptr<Effect> make(const Scene&);
-[[nodiscard]] std::vector<DefectEntry> defects();
 
 }  // namespace tripoint::prescribed

@@ -3,7 +3,6 @@
 
 #include <map>
 
-#include "core/defect.hpp"
 #include "effects/rigid/bodies.hpp"
 
 namespace tripoint::rigid {
@@ -70,10 +69,9 @@ int Adoption::parent_of(std::size_t row, int now) const {
 }
 
 Vec3 Adoption::velocity_of(std::size_t row, int parent) const {
-  static const bool stands = defect_size("rigid.adopt.spin") > 0.0;
   const auto at = parent >= 0 ? before_.find(static_cast<std::size_t>(parent)) : before_.end();
   if (at == before_.end()) return world_.particles.velocity(row);
-  return stands ? at->second.motion.velocity : at->second.motion.velocity_at(world_.unwrapped(row));
+  return at->second.motion.velocity_at(world_.unwrapped(row));
 }
 
 /// What melted from a rigid body, or turned elastic, goes on as the body moved it.
@@ -138,8 +136,7 @@ void Adoption::run() {
   list_members();
   release();
   for (const auto& [b, rows] : rows_) measure_anew(b);
-  static const bool kept_back = defect_size("rigid.adopt.undelivered") > 0.0;
-  if (!kept_back) hand_over_undelivered();
+  hand_over_undelivered();
   for (const auto& [b, rows] : rows_) {
     if (rows.empty() || before_.at(b).driven) continue;
     update_spin(world_, b);

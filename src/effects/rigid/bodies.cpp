@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/read_case.hpp"
@@ -90,7 +89,6 @@ void update_spin(World& world, std::size_t b) {
     t[field::body_angular_velocity][b] = angular_velocity(q, t[field::body_inertia][b], L);
     return;
   }
-  static const double faster = 1.0 + defect_size("rigid.one_axis.spin");
   Vec3 omega;
   for (std::size_t a = 0; a < 3; ++a) {
     if (turns[a] == 0.0) continue;
@@ -98,7 +96,7 @@ void update_spin(World& world, std::size_t b) {
     axis[a] = 1.0;
     const Vec3 e = rotate_back(q, axis), I = t[field::body_inertia][b];
     const double about = e.x * e.x * I.x + e.y * e.y * I.y + e.z * e.z * I.z;
-    omega[a] = about > 0.0 ? faster * L[a] / about : 0.0;
+    omega[a] = about > 0.0 ? L[a] / about : 0.0;
   }
   t[field::body_angular_velocity][b] = omega;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/rigid/merge_split.hpp"
 
-#include "core/defect.hpp"
 #include "core/errors.hpp"
 #include "effects/rigid/bodies.hpp"
 #include "scene/geometry.hpp"
@@ -16,12 +15,11 @@ struct Momenta {
 };
 Momenta momenta_of(const World& world, const std::vector<std::size_t>& bodies, const Vec3& centre) {
   Momenta sum;
-  static const double orbital = 1.0 + defect_size("rigid.merge"), later = 1.0 - defect_size("rigid.merge.third");
-  for (std::size_t n = 0; n < bodies.size(); ++n) {
-    const BodyMotion m = motion_of(world, bodies[n]);
-    sum.kinetic += kinetic_energy(world, bodies[n]);
+  for (const std::size_t b : bodies) {
+    const BodyMotion m = motion_of(world, b);
+    sum.kinetic += kinetic_energy(world, b);
     sum.P += m.mass * m.velocity;
-    sum.L += (n < 2 ? 1.0 : later) * m.L + orbital * m.mass * cross(m.centre - centre, m.velocity);
+    sum.L += m.L + m.mass * cross(m.centre - centre, m.velocity);
   }
   return sum;
 }
@@ -128,10 +126,7 @@ void split(World& world, const Event& event) {
   add_body(world, event.name, Phase::rigid);
   measure(world, born);
   world.bodies[field::body_offset][born] = {};
-  static const double faster = 1.0 + defect_size("rigid.split");
-  Share new_share = share_of(world, members(world, born), parents, parent_of);
-  new_share.P *= faster;
-  hand_on(world, born, new_share);
+  hand_on(world, born, share_of(world, members(world, born), parents, parent_of));
   const auto deliver = [&](std::size_t b) {
     const BodyMotion m = motion_of(world, b);
     delivered += m.L + m.mass * cross(m.centre, m.velocity);

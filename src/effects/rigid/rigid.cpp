@@ -63,9 +63,8 @@ PrescribedState driven_state(const World& world, std::size_t b, double time) {
   const auto source = t[field::body_source][b];
   static const std::vector<Keyframe> none;
   const auto& keyframes = source >= 0 ? world.scene.bodies[static_cast<std::size_t>(source)].keyframes : none;
-  static const double faster = 1.0 + defect_size("rigid.prescribed");
   return prescribed_state(keyframes, t[field::body_start_centre][b], t[field::body_start_velocity][b],
-                          t[field::body_start_spin][b], faster * time);
+                          t[field::body_start_spin][b], time);
 }
 
 void drive(World& world, std::size_t b, double time) {
@@ -75,8 +74,7 @@ void drive(World& world, std::size_t b, double time) {
   t[field::body_orientation][b] = s.rotation;
   t[field::body_centre][b] = s.position + lever;
   t[field::body_angular_velocity][b] = s.angular_velocity;
-  static const double swung = 1.0 - defect_size("rigid.prescribed.lever");
-  t[field::body_velocity][b] = s.velocity + swung * cross(s.angular_velocity, lever);
+  t[field::body_velocity][b] = s.velocity + cross(s.angular_velocity, lever);
   t[field::body_angular_momentum][b] = spin_momentum(world, b);
 }
 
@@ -95,13 +93,11 @@ void turn(World& world, std::size_t b, double dt) {
   if (L == Vec3{}) return;
   Quaternion& orientation = t[field::body_orientation][b];
   if (t[field::body_turns][b] != Vec3{1.0, 1.0, 1.0}) {
-    static const double farther = 1.0 + defect_size("rigid.one_axis.turn");
-    orientation = normalised(from_rotation_vector(farther * dt * t[field::body_angular_velocity][b]) * orientation);
+    orientation = normalised(from_rotation_vector(dt * t[field::body_angular_velocity][b]) * orientation);
     return;
   }
   const Quaternion q = principal_to_world(world, b);
-  static const double lazier = 1.0 + defect_size("rigid.inertia");
-  const Vec3 I = lazier * t[field::body_inertia][b];
+  const Vec3 I = t[field::body_inertia][b];
   const auto turned = [&] {
     if (world.scene.mode_of(Term::rotation) == Mode::paper) return rotated_paper(q, I, L, dt);
     return world.axis_order ? rotated_no_squish(q, I, L, dt, *world.axis_order) : rotated_corrected(q, I, L, dt);
@@ -169,8 +165,7 @@ void RigidBodies::load(World& world, const InitialState& initial) {
 }
 
 void RigidBodies::kick(World& world, double dt) {
-  static const double factor = 1.0 + defect_size("rigid.gravity");
-  const Vec3 g = factor * world.scene.gravity;
+  const Vec3 g = world.scene.gravity;
   forces_on_moving_bodies(world, forces_);
   static const BodyForces none;
   bool any = false;
@@ -336,24 +331,5 @@ EffectSpec spec(const Scene& scene) {
 }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<RigidBodies>(); }
-
-std::vector<DefectEntry> defects() {
-  return {{"rigid.gravity", "gravity times 1 + size", "rigid/ballistic"},
-          {"rigid.inertia", "moments of inertia, as the rotation sees them, times 1 + size", "rigid/torque-free"},
-          {"rigid.rotation", "rotations about the axes in one sequence, not symmetric: first order", "rigid/torque-free"},
-          {"rigid.paper.rotation", "angle of each step of the paper's rotation times 1 + size", "rigid/torque-free"},
-          {"rigid.merge", "orbital part of L times 1 + size as bodies merge", "rigid/merge-in-flight"},
-          {"rigid.merge.third", "share of the spin of the third and later bodies of a merge that is lost", "rigid/merge-three"},
-          {"rigid.split", "velocity of the split part times 1 + size", "rigid/split-in-flight"},
-          {"rigid.one_axis.turn", "turn of a body that reaches through a periodic direction times 1 + size", "rigid/shaft"},
-          {"rigid.one_axis.spin", "angular velocity of such a body times 1 + size", "rigid/shaft"},
-          {"bodies.over_ranks", "over ranks, forces on the members that ranks but the first have, times 1 - size",
-           "coupling/over-ranks"},
-          {"rigid.truncated", "moment below which a body does not turn about an axis times 1 + size", "rigid/bent-chain"},
-          {"rigid.adopt.undelivered", "spin about such an axis is lost as particles leave the body", "phase/bent-chain-melts"},
-          {"rigid.prescribed.lever", "part of omega x lever left out of a prescribed body's velocity", "rigid/prescribed-merge"},
-          {"rigid.adopt.spin", "what melts off a turning body leaves with the velocity of its centre", "phase/split-by-melting"},
-          {"rigid.prescribed", "keyframes play 1 + size times as fast", "rigid/prescribed-board"}};
-}
 
 }  // namespace tripoint::rigid

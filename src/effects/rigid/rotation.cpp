@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/rigid/rotation.hpp"
 
-#include "core/defect.hpp"
-
 namespace tripoint {
 namespace {
 
@@ -28,16 +26,13 @@ double rotation_energy(const Quaternion& to_world, const Vec3& moments, const Ve
 }
 
 Quaternion rotated_paper(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt) noexcept {
-  static const double factor = 1.0 + defect_size("rigid.paper.rotation");
-  return normalised(from_rotation_vector(factor * dt * angular_velocity(to_world, moments, L)) * to_world);
+  return normalised(from_rotation_vector(dt * angular_velocity(to_world, moments, L)) * to_world);
 }
 
 Quaternion rotated_corrected(const Quaternion& to_world, const Vec3& moments, const Vec3& L, double dt) noexcept {
-  static const bool first_order = defect_size("rigid.rotation") > 0.0;
   const double isotropic = inverse(moments.y);  // moments ascend: y is the middle one
   const double least = inverse(moments.x) - isotropic, greatest = inverse(moments.z) - isotropic;
   Quaternion q = from_rotation_vector(isotropic * dt * L) * to_world;
-  if (first_order) return normalised(turned_about(0, turned_about(2, q, greatest, L, dt), least, L, dt));
   q = turned_about(2, q, greatest, L, 0.5 * dt);
   q = turned_about(0, q, least, L, dt);
   q = turned_about(2, q, greatest, L, 0.5 * dt);
@@ -57,8 +52,7 @@ Quaternion rotated_no_squish(const Quaternion& to_world, const Vec3& moments, co
 }
 
 Vec3 truncated(const Vec3& moments, double mass, double spacing) noexcept {
-  static const double coarser = 1.0 + defect_size("rigid.truncated");
-  const double least = coarser * 2e-3 * mass * spacing * spacing;
+  const double least = 2e-3 * mass * spacing * spacing;
   return {moments.x < least ? 0.0 : moments.x, moments.y < least ? 0.0 : moments.y, moments.z < least ? 0.0 : moments.z};
 }
 

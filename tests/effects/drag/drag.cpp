@@ -25,14 +25,13 @@ class LinearDrag : public Effect {
 
 /// Of the velocity at the end of the step, v/(1 + c dt/2) of that half a step before: the scheme is then of second order.
 void LinearDrag::bonds(World& world) {
-  static const double weaker = 1.0 - defect_size("drag.force");
   const auto F = triple(world.particles, force_x, force_y, force_z);
   const auto v = velocities(std::as_const(world.particles));
   const auto m = world.particles[field::mass];
   const auto material = world.particles[field::material];
   for (std::size_t i = 0; i < m.size(); ++i) {
     const double c = coefficient_[static_cast<std::size_t>(material[i])];
-    F.set(i, (-weaker * c * m[i] / (1.0 + c * half_step_)) * v.at(i));
+    F.set(i, (-c * m[i] / (1.0 + c * half_step_)) * v.at(i));
   }
 }
 
@@ -57,7 +56,5 @@ EffectSpec spec(const Scene&) {
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<LinearDrag>(scene); }
-
-std::vector<DefectEntry> defects() { return {{"drag.force", "drag times 1 - size", "drag/slowed-ball"}}; }
 
 }  // namespace tripoint::drag

@@ -12,6 +12,7 @@
 
 #include "assembly/declared_view.hpp"
 #include "assembly/plan.hpp"
+#include "core/defect.hpp"
 #include "job/scene_json.hpp"
 #include "scene/expression.hpp"
 #include "scene/read_case.hpp"
@@ -174,6 +175,9 @@ TEST(AddedEffect, IsTheExampleOfThePage) {
     code.erase(0, code.find('\n') + 1);
     EXPECT_NE(page.find("```cpp\n" + code + "```"), std::string::npos) << file << " differs from the page";
   }
+  std::string defects = text_of(root / "tests/effects/drag/defects.toml");
+  defects.erase(0, defects.find('\n') + 1);
+  EXPECT_NE(page.find("```toml\n" + defects + "```"), std::string::npos) << "defects.toml differs from the page";
   const std::string toml = text_of(root / "tests/effects/drag/slowed-ball.toml");
   EXPECT_NE(page.find("```toml\n" + toml + "```"), std::string::npos) << "the case differs from the page";
 }
