@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/effect_keys.hpp"
+#include "scene/library.hpp"
 #include "scene/nearest.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/readers.hpp"
@@ -61,6 +62,14 @@ std::optional<double> own_of_solid(TableReader& in, std::string_view key, std::s
 }
 
 }  // namespace
+
+void plain_name(TableReader& in, std::string_view key, const std::string& name) {
+  const bool plain = !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
+           c == ' ';
+  });
+  if (!plain) in.refuse(key, "write a name of 1 to 64 letters, digits, blanks, or any of _ - .");
+}
 
 std::string entry_name(const TomlNode& node, std::size_t number) {
   const auto* name = node.find("name");

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "scene/expression.hpp"
+#include "scene/library.hpp"
 #include "scene/nearest.hpp"
 #include "scene/readers.hpp"
 
@@ -17,7 +18,7 @@ using Kind = TomlNode::Kind;
 /// The `kind` of an inline table, one of the tables "<family>.<kind>" of the key table.
 std::string read_kind(const TomlNode& node, std::string_view family, const std::string& path) {
   std::vector<std::string> kinds;
-  for (const auto& t : table_infos())
+  for (const auto& t : scene_keys().tables())
     if (t.name.starts_with(family) && t.name.size() > family.size() && t.name[family.size()] == '.')
       kinds.emplace_back(t.name.substr(family.size() + 1));
   if (node.kind != Kind::table)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "scene/defaults.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint {
 
@@ -13,8 +15,7 @@ bool Scene::all_printed() const {
 
 double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? bond_reach(s) : 1.5; }
 
-Scene scene_for(const Case& c, const RunChoice& choice) {
-  Scene s = c.scene;
+Scene scene_for(Scene s, const RunChoice& choice) {
   if (choice.mode) s.mode = *choice.mode;
   for (std::size_t t = 0; t < term_count; ++t) s.modes[t] = s.modes_given[t].value_or(s.mode);
   if (choice.spacing) s.spacing = *choice.spacing;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "core/defect.hpp"
-#include "scene/read_case.hpp"
+#include "scene/motion.hpp"
 
 namespace tripoint {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/idle_keys.hpp"
+#include "validation/case/idle_keys.hpp"
 
 #include <fmt/format.h>
 

@@ -1,52 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/read_case.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
-#include "scene/case_document.hpp"
+#include "scene/defaults.hpp"
 #include "scene/effect_keys.hpp"
 #include "scene/geometry.hpp"
+#include "scene/library.hpp"
 #include "scene/nearest.hpp"
 #include "scene/readers.hpp"
 
+/// [scene], and everything else that is simulated.
 namespace tripoint {
 namespace {
-
-const TomlNode empty_table;
-
-/// "subject/name" of ".../subject/name.toml".
-std::string id_from(const std::string& file) {
-  std::error_code error;
-  const auto path = std::filesystem::absolute(file, error);
-  return path.parent_path().filename().string() + "/" + path.stem().string();
-}
-
-void read_head(const TomlNode& node, Case& c, Reading& reading) {
-  TableReader in(node, "case", "case", reading.decisions);
-  if (const auto id = in.maybe_text("id"))
-    c.id = *id;
-  else
-    in.ruled("id", "\"" + (c.id = id_from(c.file)) + "\"", "folder and name of the file");
-  const bool plain = !c.id.empty() && c.id.size() <= 128 && c.id.front() != '/' && c.id.find("..") == std::string::npos &&
-                     c.id.find_first_of("\\\"\n\r\t:*?<>|") == std::string::npos;
-  if (!plain)
-    in.refuse("id", "an id is a path like subject/case without .. or any of \\ \" : * ? < > |: it names folders of the report");
-  if (const auto title = in.maybe_text("title"))
-    c.title = *title;
-  else
-    in.ruled("title", "\"" + (c.title = c.id) + "\"", "the id");
-  c.requirement = in.text("requirement"), c.claims = in.text("claims"), c.kind = in.text("kind");
-  c.profiles = in.texts("profiles"), c.tags = in.texts("tags"), c.expect = in.text("expect");
-  if (in.has("modes")) {
-    c.modes.clear();
-    for (const auto& word : in.texts("modes")) c.modes.push_back(mode_from(word));
-    if (c.modes.empty()) in.refuse("modes", "name at least one of corrected, paper");
-  }
-}
 
 void read_modes(TableReader& in, Scene& s) {
   const auto* modes = in.composite("modes");
@@ -88,7 +55,7 @@ void read_domain(TableReader& in, Scene& s) {
 }
 
 /// [scene], but for spacing, which its bodies decide where it is not given.
-void read_scene(TableReader& in, Scene& s) {
+void read_scene_table(TableReader& in, Scene& s) {
   s.end_time = in.number("end_time");
   s.gravity = in.vector("gravity");
   s.mode = mode_from(in.text("mode"));
@@ -183,103 +150,30 @@ void read_materials(TableReader& top, Scene& s, Reading& reading) {
   }
 }
 
-void read_judgement(TableReader& top, Case& c, Reading& reading) {
-  if (const auto* engines = top.composite("engines")) {
-    if (engines->kind != TomlNode::Kind::table) top.refuse("engines", "write one table an engine: [engines.NAME]");
-    for (const auto& [name, node] : engines->members) c.engines.push_back(read_engine(node, name, reading));
-  }
-  if (const auto* reference = top.composite("reference")) {
-    c.reference = read_reference(*reference, "reference", reading);
-  } else {
-    c.reference.kind = "invariant";
-    top.ruled("reference.kind", "\"invariant\"", "no [reference]: only what every run must keep is known");
-  }
-  for (const auto* node : top.tables("metric")) c.metrics.push_back(read_metric(*node, reading));
-  std::size_t n = 0;
-  for (const auto* node : top.tables("study")) c.studies.push_back(read_study(*node, ++n, c.scene.end_time, reading));
-  n = 0;
-  for (const auto* node : top.tables("gate")) c.gates.push_back(read_gate(*node, ++n, reading));
-  n = 0;
-  for (const auto* node : top.tables("input")) c.inputs.push_back(read_input(*node, ++n, reading));
-  n = 0;
-  for (const auto* node : top.tables("defect")) c.defects.push_back(read_defect(*node, ++n, reading));
-  n = 0;
-  for (const auto* node : top.tables("harmless"))
-    c.harmless.push_back(TableReader(*node, "harmless", fmt::format("harmless.{}", ++n), reading.decisions).text("name"));
-}
-
-/// In the order of the reference page, whatever order the rules asked for.
-void sort_by_table(std::vector<Decision>& decisions) {
-  const auto tables = key_names("");
-  const auto rank = [&](const Decision& d) {
-    return std::find(tables.begin(), tables.end(), d.key.substr(0, d.key.find('.'))) - tables.begin();
-  };
-  std::stable_sort(decisions.begin(), decisions.end(), [&](const Decision& a, const Decision& b) { return rank(a) < rank(b); });
-}
-
-/// The case as one document, with the replacements of --set.
-TomlNode whole_document(const std::string& path, const std::vector<std::string>& set) {
-  TomlNode document = read_case_document(path);
-  for (const auto& s : set) apply_override(document, s);
-  if (!set.empty()) check_written_out(document);
-  return document;
-}
-
 }  // namespace
 
-std::string resolved_case(const CaseReading& reading, const std::vector<std::string>& set) {
-  TomlNode document = whole_document(reading.value.file, set), head, id;
-  if (auto* given = document.find("case")) head = std::move(*given);
-  std::erase_if(document.members, [](const auto& m) { return m.first == "case"; });
-  std::erase_if(head.members, [](const auto& m) { return m.first == "id"; });
-  id.kind = TomlNode::Kind::text, id.text = reading.value.id;
-  head.members.insert(head.members.begin(), {"id", std::move(id)});
-  document.members.insert(document.members.begin(), {"case", std::move(head)});
-  return document_text(document);
-}
-
-CaseReading read_case(const std::string& path, const std::vector<std::string>& set) {
-  Reading reading;
-  std::error_code error;
-  reading.folder = std::filesystem::absolute(path, error).parent_path().string();
-  const TomlNode document = whole_document(path, set);
-
-  CaseReading out;
-  Case& c = out.value;
-  c.file = path;
-  TableReader top(document, "", "", reading.decisions);
-  if (const long format = top.integer("format"); format != 1)
-    top.refuse("format", fmt::format("format {} is not known: write 1", format));
-  const auto* head = top.composite("case");
-  read_head(head ? *head : empty_table, c, reading);
+Scene read_scene(TableReader& top, Reading& reading) {
+  Scene s;
   // Materials come first: their faults are theirs, whatever else is missing.
-  read_materials(top, c.scene, reading);
+  read_materials(top, s, reading);
   const auto* scene = top.composite("scene");
   TableReader in(*scene, "scene", "scene", reading.decisions);
-  read_scene(in, c.scene);
-  for (const auto* node : top.tables("body")) c.scene.bodies.push_back(read_body(*node, c.scene.materials, reading));
-  if (c.scene.bodies.empty()) top.refuse("body", "the scene has no body: add a [[body]]");
-  resolve_spacing(in, c.scene);
-  resolve_modes(in, c.scene);
-  if (!(head && head->find("modes"))) {
-    c.modes = {c.scene.mode};
-    reading.decisions.push_back({"case.modes", fmt::format("[\"{}\"]", to_string(c.scene.mode)), "the scene's mode", false, {}});
-  }
+  read_scene_table(in, s);
+  for (const auto* node : top.tables("body")) s.bodies.push_back(read_body(*node, s.materials, reading));
+  if (s.bodies.empty()) top.refuse("body", "the scene has no body: add a [[body]]");
+  resolve_spacing(in, s);
+  resolve_modes(in, s);
   std::size_t n = 0;
-  for (const auto* node : top.tables("event")) c.scene.events.push_back(read_event(*node, ++n, reading));
+  for (const auto* node : top.tables("event")) s.events.push_back(read_event(*node, ++n, reading));
   n = 0;
-  for (const auto* node : top.tables("inflow")) c.scene.inflows.push_back(read_inflow(*node, ++n, c.scene.end_time, reading));
-  const bool flows = !c.scene.inflows.empty() || std::any_of(c.scene.bodies.begin(), c.scene.bodies.end(),
-                                                             [](const Body& b) { return b.phase == Phase::liquid; });
-  if (!c.scene.contact && flows)
+  for (const auto* node : top.tables("inflow")) s.inflows.push_back(read_inflow(*node, ++n, s.end_time, reading));
+  const bool flows =
+      !s.inflows.empty() || std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; });
+  if (!s.contact && flows)
     in.refuse("contact", "a liquid meets every solid by the same forces as solids meet each other: remove it");
-  if (const auto stiffness = default_stiffness(c.scene))
+  if (const auto stiffness = default_stiffness(s))
     reading.decisions.push_back({"material.stiffness", show(stiffness->value), stiffness->rule, false, {}});
-  read_judgement(top, c, reading);
-  check_references(c, reading);
-  out.decisions = std::move(reading.decisions);
-  sort_by_table(out.decisions);
-  return out;
+  return s;
 }
 
 }  // namespace tripoint
