@@ -100,10 +100,10 @@ void resolve_modes(TableReader& in, Scene& s) {
       in.refuse("support_ratio", fmt::format("{} spacings reach some {:.0f} neighbours: at most 10", s.support_ratio,
                                              4.19 * std::pow(s.support_ratio, 3)));
   } else {
-    s.support_ratio = paper ? 2.12 : 2.6;
+    s.support_ratio = s.default_support_ratio();
     in.ruled("support_ratio", show(s.support_ratio),
-             paper ? "every term is paper: about 40 neighbours by volume, as the paper has"
-                   : "some term is corrected: 2.6 for its Wendland kernel");
+             paper ? std::string("every term is paper: about 40 neighbours by volume, as the paper has")
+                   : fmt::format("some term is corrected: {} for its Wendland kernel", corrected_support));
   }
   if (const auto distance = in.maybe_number("merge_distance")) {
     s.merge_distance = *distance, s.merge_distance_given = true;

@@ -138,11 +138,17 @@ struct Inflow {
   std::optional<double> rate;  ///< [m3/s]
 };
 
+/// Support radius h/dx where a file says nothing: as the paper has it where every term is as printed, about 40 neighbours by
+/// volume; else that of the Wendland kernel, about 74.
+inline constexpr double printed_support = 2.12, corrected_support = 2.6;
+/// Reach over nearest and diagonal neighbours of the lattice [spacings].
+inline constexpr double lattice_reach = 1.5;
+
 struct Scene {
-  double end_time = 0.0;       ///< [s]
-  Vec3 gravity;                ///< [m/s2]
-  double spacing = 0.0;        ///< dx [m]
-  double support_ratio = 2.6;  ///< h/dx
+  double end_time = 0.0;                     ///< [s]
+  Vec3 gravity;                              ///< [m/s2]
+  double spacing = 0.0;                      ///< dx [m]
+  double support_ratio = corrected_support;  ///< h/dx
   Mode mode = Mode::corrected;
   std::array<Mode, term_count> modes{};                       ///< resolved for every term
   std::array<std::optional<Mode>, term_count> modes_given{};  ///< as the case file says, term by term
@@ -155,10 +161,10 @@ struct Scene {
   double output_interval = 0.0;  ///< [s]
   std::string viscosity_form = "central";
   bool transport_velocity = false;
-  bool settle = false;          ///< liquids are let down into equilibrium before time 0
-  double merge_distance = 1.5;  ///< [spacings]
+  bool settle = false;                    ///< liquids are let down into equilibrium before time 0
+  double merge_distance = lattice_reach;  ///< [spacings]
   bool merge_distance_given = false;
-  double hourglass = 1.0, contact_viscosity = 0.0;
+  double contact_viscosity = 0.0;
   bool contact = true;                 ///< false: solids pass through each other (contact = "none")
   bool recovers = false;               ///< a guard that trips sends the run back to a good state, with half the step
   std::vector<std::string> unguarded;  ///< guards that are off
@@ -173,6 +179,7 @@ struct Scene {
   [[nodiscard]] bool clamps() const { return mode_of(Term::clamp) == Mode::corrected; }
   /// Whether every term that has equations is as printed; the clamp has none.
   [[nodiscard]] bool all_printed() const;
+  [[nodiscard]] double default_support_ratio() const { return all_printed() ? printed_support : corrected_support; }
   /// @throws InputError when no material (body) of that name is there
   [[nodiscard]] const Material& material(std::string_view name) const;
   [[nodiscard]] const Body& body(std::string_view name) const;

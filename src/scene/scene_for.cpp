@@ -13,7 +13,7 @@ bool Scene::all_printed() const {
   return true;
 }
 
-double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? bond_reach(s) : 1.5; }
+double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? bond_reach(s) : lattice_reach; }
 
 Scene scene_for(Scene s, const RunChoice& choice) {
   if (choice.mode) s.mode = *choice.mode;
@@ -25,7 +25,7 @@ Scene scene_for(Scene s, const RunChoice& choice) {
   if (choice.support_ratio)
     s.support_ratio = *choice.support_ratio, s.support_ratio_given = true;
   else if (!s.support_ratio_given)
-    s.support_ratio = s.all_printed() ? 2.12 : 2.6;
+    s.support_ratio = s.default_support_ratio();
   if (!s.merge_distance_given) s.merge_distance = default_merge_distance(s);
   if (const auto stiffness = default_stiffness(s)) {
     for (Material& m : s.materials) m.stiffness = stiffness->value;

@@ -148,8 +148,9 @@ bool softens(const Scene& scene, const Material& m) {
 
 ElasticForms::ElasticForms(const Scene& scene)
     : paper_(scene.mode_of(Term::elastic) == Mode::paper),
-      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0
-                                                               : scene.hourglass * (1.0 - defect_size("elastic.hourglass"))),
+      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper
+                     ? 0.0
+                     : kept_number(scene.values, key_row("scene", "hourglass")) * (1.0 - defect_size("elastic.hourglass"))),
       bending_(paper_ ? 0.0 : kept_number(scene.values, key_row("scene", "bending")) * (1.0 - defect_size("elastic.bending"))),
       factor_(paper_ ? 2.0 * (1.0 - defect_size("elastic.paper.factor")) : 1.0 - defect_size("elastic.force")) {
   for (const Material& m : scene.materials) {

@@ -27,8 +27,7 @@ std::vector<EffectKey> keys() {
   using enum Range;
   return {
       {{"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "",
-        "coefficient of the energy against zero-energy modes"},
-       &Scene::hourglass},
+        "coefficient of the energy against zero-energy modes"}},
       {{"scene", "bond_reach", number, "", above_one, "2.12", "the paper's support, about 40 neighbours", "",
         "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
       {{"scene", "bending", number, "", fraction, "0", "it costs stiffness where particles are disordered", "",
