@@ -9,7 +9,8 @@
 #include "scene/geometry.hpp"
 #include "scene/library.hpp"
 #include "scene/nearest.hpp"
-#include "scene/readers.hpp"
+#include "scene/scene_records.hpp"
+#include "scene/value_reader.hpp"
 
 /// [scene], and everything else that is simulated.
 namespace tripoint {
@@ -41,11 +42,9 @@ void read_clamp(TableReader& in, Scene& s) {
   given = *clamp ? Mode::corrected : Mode::paper;
 }
 
-void read_domain(TableReader& in, Scene& s) {
-  s.min = in.maybe_vector("min"), s.max = in.maybe_vector("max");
+void check_domain(const TableReader& in, const Scene& s) {
   if (s.min.has_value() != s.max.has_value())
     in.refuse(s.min ? "min" : "max", fmt::format("a domain has two corners: give scene.{} too", s.min ? "max" : "min"));
-  for (const auto& word : in.texts("periodic")) s.periodic[static_cast<std::size_t>(word[0] - 'x')] = true;
   for (std::size_t a = 0; a < 3; ++a) {
     if (s.periodic[a] && !(s.min && s.max))
       in.refuse("periodic", fmt::format("direction {} repeats over the domain: give scene.min and scene.max", "xyz"[a]));
@@ -55,37 +54,31 @@ void read_domain(TableReader& in, Scene& s) {
 }
 
 /// [scene], but for spacing, which its bodies decide where it is not given.
-void read_scene_table(TableReader& in, Scene& s) {
-  s.end_time = in.number("end_time");
-  s.gravity = in.vector("gravity");
-  s.mode = mode_from(in.text("mode"));
+void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Reading& reading) {
+  read("end_time"), read("gravity"), read("mode");
   read_modes(in, s);
   read_clamp(in, s);
-  s.time_step = in.maybe_number("time_step");
+  read("time_step");
   if (s.time_step && *s.time_step > s.end_time)
     in.refuse("time_step", fmt::format("{} s is longer than end_time = {} s: shorten it", *s.time_step, s.end_time));
   if (s.time_step && s.end_time > most_steps * *s.time_step)
     in.refuse("time_step", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made; lengthen it",
                                        *s.time_step, s.end_time / *s.time_step, s.end_time, most_steps));
-  s.seed = static_cast<std::uint64_t>(in.integer("seed"));
-  s.jitter = in.number("jitter");
-  read_domain(in, s);
-  if (const auto interval = in.maybe_number("output_interval"))
-    s.output_interval = *interval;
-  else
+  read("seed"), read("jitter");
+  read("min"), read("max"), read("periodic");
+  check_domain(in, s);
+  if (read("output_interval"))
     in.ruled("output_interval", show(s.output_interval = s.end_time / 20.0), "a twentieth of end_time");
   if (s.output_interval > s.end_time)
     in.refuse("output_interval", fmt::format("{} s is longer than end_time = {} s: shorten it", s.output_interval, s.end_time));
   if (s.end_time / s.output_interval > 1e6)
     in.refuse("output_interval",
               fmt::format("{:.3g} frames would be written; at most 1e6: lengthen it", s.end_time / s.output_interval));
-  read_effect_keys(in, "scene", s);
-  s.settle = in.flag("settle");
-  s.contact = in.text("contact") == "auto";
-  s.recovers = in.text("on_failure") == "recover", s.unguarded = in.texts("unguarded");
+  read_effect_keys(in, "scene", s, reading);
+  read.rest();
 }
 
-void resolve_modes(TableReader& in, Scene& s) {
+void resolve_modes(TableReader& in, Scene& s, RecordReader<Scene>& read) {
   for (std::size_t t = 0; t < term_count; ++t) {
     s.modes[t] = s.modes_given[t].value_or(s.mode);
     if (!s.modes_given[t])
@@ -94,8 +87,8 @@ void resolve_modes(TableReader& in, Scene& s) {
   }
   if (!in.has("clamp")) in.ruled("clamp", s.clamps() ? "true" : "false", "as modes.clamp");
   const bool paper = s.all_printed();
-  if (const auto ratio = in.maybe_number("support_ratio")) {
-    s.support_ratio = *ratio, s.support_ratio_given = true;
+  if (!read("support_ratio")) {
+    s.support_ratio_given = true;
     if (s.support_ratio > 10.0)
       in.refuse("support_ratio", fmt::format("{} spacings reach some {:.0f} neighbours: at most 10", s.support_ratio,
                                              4.19 * std::pow(s.support_ratio, 3)));
@@ -105,8 +98,8 @@ void resolve_modes(TableReader& in, Scene& s) {
              paper ? std::string("every term is paper: about 40 neighbours by volume, as the paper has")
                    : fmt::format("some term is corrected: {} for its Wendland kernel", corrected_support));
   }
-  if (const auto distance = in.maybe_number("merge_distance")) {
-    s.merge_distance = *distance, s.merge_distance_given = true;
+  if (!read("merge_distance")) {
+    s.merge_distance_given = true;
   } else {
     s.merge_distance = default_merge_distance(s);
     in.ruled("merge_distance", show(s.merge_distance),
@@ -115,11 +108,8 @@ void resolve_modes(TableReader& in, Scene& s) {
   }
 }
 
-void resolve_spacing(TableReader& in, Scene& s) {
-  if (const auto spacing = in.maybe_number("spacing")) {
-    s.spacing = *spacing;
-    return;
-  }
+void resolve_spacing(TableReader& in, Scene& s, RecordReader<Scene>& read) {
+  if (!read("spacing")) return;
   double least = INFINITY;
   std::string which;
   for (const auto& b : s.bodies) {
@@ -158,11 +148,12 @@ Scene read_scene(TableReader& top, Reading& reading) {
   read_materials(top, s, reading);
   const auto* scene = top.composite("scene");
   TableReader in(*scene, "scene", "scene", reading.decisions);
-  read_scene_table(in, s);
+  RecordReader read(in, s, reading);
+  read_scene_table(in, s, read, reading);
   for (const auto* node : top.tables("body")) s.bodies.push_back(read_body(*node, s.materials, reading));
   if (s.bodies.empty()) top.refuse("body", "the scene has no body: add a [[body]]");
-  resolve_spacing(in, s);
-  resolve_modes(in, s);
+  resolve_spacing(in, s, read);
+  resolve_modes(in, s, read);
   std::size_t n = 0;
   for (const auto* node : top.tables("event")) s.events.push_back(read_event(*node, ++n, reading));
   n = 0;

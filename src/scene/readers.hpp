@@ -22,7 +22,7 @@ struct Reading {
 [[nodiscard]] Shape read_shape(const TomlNode&, const std::string& path, Reading&, int depth = 0);
 [[nodiscard]] TemperatureField read_temperature(const TomlNode&, const std::string& path, Reading&);
 [[nodiscard]] VelocityField read_velocity(const TomlNode&, const std::string& path, Reading&);
-[[nodiscard]] std::vector<Keyframe> read_keyframes(TableReader& owner, std::string_view key, Reading&);
+[[nodiscard]] std::vector<Keyframe> read_keyframes(TableReader& owner, const Key& key, Reading&);
 
 [[nodiscard]] Material read_material(const TomlNode&, Reading&);
 [[nodiscard]] Body read_body(const TomlNode&, const std::vector<Material>&, Reading&);
