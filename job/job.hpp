@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "job/reference_choice.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
+#include "scene/settings.hpp"
 
 /// What an engine is handed (JOB.json) and what it hands back (result.json), contract 1.
 namespace tripoint {

@@ -99,6 +99,19 @@ Quaternion JsonObject::quaternion(const std::string& key) const {
   return {v[0], v[1], v[2], v[3]};
 }
 
+std::array<Vec3, 3> JsonObject::rows(const std::string& key) const {
+  const std::string path = path_ + "." + key;
+  const auto found = value_->find(key);
+  if (found == value_->end() || !found->is_array() || found->size() != 3)
+    throw InputError(path + ": expected 3 rows of 3 numbers");
+  std::array<Vec3, 3> rows{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const json wrapped{{"row", (*found)[i]}};
+    rows[i] = JsonObject(wrapped, path).vector("row");
+  }
+  return rows;
+}
+
 Settings JsonObject::settings(const std::string& key) const {
   Settings out;
   if (!has(key)) return out;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
+
 #include <nlohmann/json_fwd.hpp>
 
 #include "job/job.hpp"
@@ -26,6 +28,7 @@ class JsonObject {
   [[nodiscard]] std::string text(const std::string& key) const;
   [[nodiscard]] Vec3 vector(const std::string& key) const;
   [[nodiscard]] Quaternion quaternion(const std::string& key) const;
+  [[nodiscard]] std::array<Vec3, 3> rows(const std::string& key) const;
   [[nodiscard]] std::vector<double> numbers(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
   [[nodiscard]] Settings settings(const std::string& key) const;

@@ -9,7 +9,7 @@
 #include "adapters/bullet/limits.hpp"
 #include "adapters/bullet/pieces.hpp"
 #include "adapters/bullet/presets.hpp"
-#include "scene/read_case.hpp"
+#include "scene/motion.hpp"
 
 namespace tripoint::bullet {
 

@@ -7,7 +7,7 @@
 
 #include "adapters/bullet/bullet_engine.hpp"
 #include "scene/geometry.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint::bullet {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "adapters/lammps/body_fit.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint::lammps {
 namespace {

@@ -7,7 +7,7 @@
 #include <exception>
 
 #include "program/bench/memory.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint::bench {

@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
+#include "validation/case/read_case.hpp"
 
 namespace tripoint::bench {
 namespace {

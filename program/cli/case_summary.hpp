@@ -4,7 +4,7 @@
 
 #include "assembly/plan.hpp"
 #include "program/bench/trial.hpp"
-#include "scene/scene.hpp"
+#include "validation/case/case.hpp"
 
 namespace tripoint {
 

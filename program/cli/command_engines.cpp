@@ -13,7 +13,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/read_case.hpp"
+#include "scene/library.hpp"
 #include "validation/harness/discover.hpp"
 #include "validation/harness/engine_check.hpp"
 

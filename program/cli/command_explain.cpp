@@ -15,8 +15,8 @@
 #include "program/cli/case_summary.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/case_document.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/case_document.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
 

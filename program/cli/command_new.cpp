@@ -13,7 +13,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "scene/nearest.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/schema.hpp"
 
 namespace tripoint {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/schema.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/references/reference.hpp"
 

@@ -11,7 +11,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/read_case.hpp"
+#include "scene/library.hpp"
 #include "validation/harness/report_files.hpp"
 
 namespace tripoint {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "assembly/plan.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/harness/discover.hpp"
 #include "validation/harness/plan_runs.hpp"
 

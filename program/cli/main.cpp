@@ -6,7 +6,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "program/cli/gate_judge.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "step/settle.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/verdict.hpp"

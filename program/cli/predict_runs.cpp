@@ -10,7 +10,8 @@
 #include "assembly/plan.hpp"
 #include "core/errors.hpp"
 #include "program/cli/common.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
+#include "validation/case/read_case.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

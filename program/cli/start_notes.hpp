@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "scene/read_case.hpp"
+#include "validation/case/preflight.hpp"
 
 namespace tripoint {
 

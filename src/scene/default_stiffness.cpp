@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/defaults.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/meeting.hpp"
-#include "scene/read_case.hpp"
 
 namespace tripoint {
 namespace {

@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "scene/effect_rule.hpp"
-#include "scene/table_reader.hpp"
+#include "scene/value_reader.hpp"
 
 /// The keys that effects bring, wherever a scene is read or written: the case file, and JSON in both directions.
 namespace tripoint {
@@ -34,17 +34,9 @@ void each_effect_key(Owner& owner, std::string_view table, Visit visit) {
 
 /// Reads the keys that effects have in a table. @throws InputError as TableReader does
 template <class Owner>
-void read_effect_keys(TableReader& in, std::string_view table, Owner& owner) {
-  each_effect_key(owner, table, [&]<class T>(const Key& key, T& value) {
-    if constexpr (std::is_same_v<T, double>)
-      value = in.number(key.name);
-    else if constexpr (std::is_same_v<T, bool>)
-      value = in.flag(key.name);
-    else if constexpr (std::is_same_v<T, std::string>)
-      value = in.text(key.name);
-    else
-      value = in.maybe_number(key.name);
-  });
+void read_effect_keys(TableReader& in, std::string_view table, Owner& owner, Reading& reading) {
+  ValueReader read(in, reading);
+  each_effect_key(owner, table, [&](const Key& key, auto& value) { read(key, value); });
 }
 
 }  // namespace tripoint

@@ -7,11 +7,20 @@
 #include <vector>
 
 #include "scene/key_table.hpp"
-#include "scene/read_case.hpp"
+#include "scene/scene.hpp"
 
 /// What an effect says of itself to whoever reads scenes and runs nothing. Each effect's rule stands in its folder, in rule.cpp;
 /// a build without the effect has its rule all the same.
 namespace tripoint {
+
+/// An effect that a scene calls for, and why.
+struct CalledEffect {
+  std::string name;  ///< fluid elastic plastic fracture rigid heat phase surface
+  std::string why;
+};
+[[nodiscard]] std::vector<CalledEffect> called_effects(const Scene&);
+/// The effects that a scene does without, and the proof that each can never act.
+[[nodiscard]] std::vector<CalledEffect> idle_effects(const Scene&);
 
 /// Effects that a scene has called for so far.
 class Called {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "scene/meeting.hpp"
-#include "scene/read_case.hpp"
+#include "scene/motion.hpp"
 
 namespace tripoint {
 namespace {

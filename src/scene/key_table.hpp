@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-/// The one list of what a case file may say. The reader's checks, the JSON Schema and the reference page come from it.
+/// The one list of what a scene may say. The reader's checks, the JSON Schema and the reference page come from it.
 namespace tripoint {
 
 enum class ValueType {
@@ -45,24 +45,36 @@ struct Key {
   [[nodiscard]] bool required() const { return fallback == "!"; }
 };
 
-/// Every key, in the order of the reference page.
-[[nodiscard]] std::span<const Key> key_table();
+/// A table of the list and what it is: title for the page, and how it is written.
+struct TableInfo {
+  std::string_view name, written, meaning;
+};
 
-/// Rows of one table. Empty = no such table.
-[[nodiscard]] std::vector<const Key*> keys_of(std::string_view table);
-[[nodiscard]] std::vector<std::string> key_names(std::string_view table);
-/// @pre the key exists
+/// Tables and their keys, in the order of the reference page.
+class KeyTable {
+ public:
+  KeyTable(std::vector<Key> rows, std::vector<TableInfo> tables) : rows_(std::move(rows)), tables_(std::move(tables)) {}
+  [[nodiscard]] const std::vector<Key>& rows() const { return rows_; }
+  [[nodiscard]] const std::vector<TableInfo>& tables() const { return tables_; }
+  /// Rows of one table. Empty = no such table.
+  [[nodiscard]] std::vector<const Key*> of(std::string_view table) const;
+  [[nodiscard]] std::vector<std::string> names(std::string_view table) const;
+  /// @pre the key exists
+  [[nodiscard]] const Key& row(std::string_view table, std::string_view name) const;
+
+ private:
+  std::vector<Key> rows_;
+  std::vector<TableInfo> tables_;
+};
+
+/// Every key of a scene, those of effects too. How a scene is judged has keys of its own (validation/case/case_keys.hpp).
+[[nodiscard]] const KeyTable& scene_keys();
+/// Row of scene_keys(). @pre the key exists
 [[nodiscard]] const Key& key_row(std::string_view table, std::string_view name);
 
 [[nodiscard]] std::vector<std::string> split_words(std::string_view words);
 [[nodiscard]] std::string_view type_text(ValueType);
 [[nodiscard]] std::string_view range_text(Range);  ///< "greater than 0" ...; "" for any
 [[nodiscard]] bool in_range(Range, double);
-
-/// A table of the list and what it is: title for the page, and how it is written.
-struct TableInfo {
-  std::string_view name, written, meaning;
-};
-[[nodiscard]] std::span<const TableInfo> table_infos();
 
 }  // namespace tripoint

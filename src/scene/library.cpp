@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "scene/library.hpp"
+
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
-
-#include "scene/readers.hpp"
 
 /// Where the program finds what it ships: beside the executable, so that any working folder serves.
 namespace tripoint {
@@ -24,13 +24,6 @@ std::string share_folder() {
   return folder;
 }
 
-std::string case_path(const std::string& path_or_id) {
-  std::error_code error;
-  if (fs::exists(path_or_id, error)) return path_or_id;
-  const auto shipped = fs::path(share_folder()) / "cases" / (path_or_id + ".toml");
-  return fs::is_regular_file(shipped, error) ? shipped.string() : path_or_id;
-}
-
 std::vector<std::string> library_names() {
   std::vector<std::string> names;
   std::error_code error;
@@ -38,31 +31,6 @@ std::vector<std::string> library_names() {
     if (file.path().extension() == ".toml") names.push_back(file.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
-}
-
-std::vector<Finding> library_values(const CaseReading& reading) {
-  std::vector<Finding> found;
-  for (const Material& m : reading.value.scene.materials) {
-    if (library_file(m.name).empty()) continue;
-    const std::string table = "material." + m.name + ".", from = "library, ";
-    std::string taken;
-    bool is_table = false;  // not the bare name in a body
-    SourcePlace place;
-    for (const Decision& d : reading.decisions) {
-      if (d.key.rfind(table, 0) != 0) continue;
-      const std::string key = d.key.substr(table.size());
-      if (d.given && key == "name") place = d.place;
-      is_table = is_table || (d.given && key != "name");
-      if (!d.given && d.reason.rfind(from, 0) == 0 && key != "source")
-        taken += (taken.empty() ? "" : ", ") + key + " = " + d.value;
-    }
-    if (is_table && !taken.empty())
-      found.push_back({false,
-                       "material \"" + m.name + "\" takes what it does not give from the library's material of that name: " +
-                           taken + "; name it otherwise to have none of these",
-                       place});
-  }
-  return found;
 }
 
 std::string library_file(const std::string& material) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <Eigen/Dense>
 
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint {
 namespace {

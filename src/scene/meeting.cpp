@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scene/expression.hpp"
-#include "scene/read_case.hpp"
+#include "scene/motion.hpp"
 
 namespace tripoint {
 namespace {

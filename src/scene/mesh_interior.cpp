@@ -5,9 +5,9 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "scene/library.hpp"
 #include "scene/mesh.hpp"
 #include "scene/mesh_field.hpp"
-#include "scene/read_case.hpp"
 
 namespace tripoint {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "scene/read_case.hpp"
+#include "scene/motion.hpp"
 
 namespace tripoint {
 namespace {

@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "scene/effect_keys.hpp"
+#include "scene/library.hpp"
 #include "scene/nearest.hpp"
 #include "scene/phase_values.hpp"
-#include "scene/readers.hpp"
+#include "scene/scene_records.hpp"
+#include "scene/value_reader.hpp"
 
 namespace tripoint {
 namespace {
@@ -52,15 +54,22 @@ void check_solid_keys(TableReader& in, const Material& m) {
     in.refuse("softens", "without t_melt the material does not melt: give t_melt too, or remove softens");
 }
 
-/// A value of the solid alone. Where the case gives a value of both phases, the library's of the solid is none of its.
-std::optional<double> own_of_solid(TableReader& in, std::string_view key, std::string_view both) {
-  const auto value = in.maybe_number(key);
-  if (!value || in.has(key) || !in.has(both)) return value;
+/// Where the case gives a value of both phases, the library's of the solid is none of its.
+void drop_of_library(TableReader& in, std::string_view key, std::string_view both, std::optional<double>& value) {
+  if (!value || in.has(key) || !in.has(both)) return;
   in.ruled(key, "none", fmt::format("{} is given, and is that of both phases", both));
-  return {};
+  value.reset();
 }
 
 }  // namespace
+
+void plain_name(TableReader& in, std::string_view key, const std::string& name) {
+  const bool plain = !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
+           c == ' ';
+  });
+  if (!plain) in.refuse(key, "write a name of 1 to 64 letters, digits, blanks, or any of _ - .");
+}
 
 std::string entry_name(const TomlNode& node, std::size_t number) {
   const auto* name = node.find("name");
@@ -70,7 +79,8 @@ std::string entry_name(const TomlNode& node, std::size_t number) {
 Material read_material(const TomlNode& node, Reading& reading) {
   TableReader in(node, "material", "material." + entry_name(node, 1), reading.decisions);
   Material m;
-  m.name = in.text("name");
+  RecordReader read(in, m, reading);
+  read("name");
   TomlNode library;
   if (const auto file = library_file(m.name); !file.empty()) {
     const TomlNode document = read_toml(file);
@@ -78,24 +88,24 @@ Material read_material(const TomlNode& node, Reading& reading) {
     const auto* source = library.find("source");
     in.fall_back_on(library, fmt::format("library, cases/materials/{}.toml{}", m.name, source ? ": " + source->text : ""));
   }
-  m.density = in.number("density");
-  read_effect_keys(in, "material", m);
-  m.stiffness = in.maybe_number("stiffness");
+  read("density");
+  read_effect_keys(in, "material", m, reading);
+  read("stiffness");
   if (const auto c = in.maybe_number("sound_speed")) {
     if (in.has("stiffness")) in.refuse("sound_speed", "stiffness is given too, and is its square: give one of them");
     m.stiffness = *c * *c;
     in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
   }
-  m.solid_conductivity = own_of_solid(in, "solid_conductivity", "conductivity"),
-  m.solid_heat_capacity = own_of_solid(in, "solid_heat_capacity", "heat_capacity");
+  read("solid_conductivity"), read("solid_heat_capacity");
+  drop_of_library(in, "solid_conductivity", "conductivity", m.solid_conductivity);
+  drop_of_library(in, "solid_heat_capacity", "heat_capacity", m.solid_heat_capacity);
   static_cast<void>(in.maybe_text("source"));
+  read.rest();
   check_solid_keys(in, m);
   if (m.t_melt && !m.t_solid)
     m.t_solid = m.t_melt, in.ruled("t_solid", show(*m.t_solid), "t_melt: no soft band and no hysteresis");
   if (m.t_melt && !m.latent_heat) m.latent_heat = 0.0, in.ruled("latent_heat", "0", "melts at once");
-  if (const auto solid = in.maybe_text("solid")) {
-    m.solid = *solid;
-  } else {
+  if (read("solid")) {
     m.solid = m.young_modulus ? "elastic" : "rigid";
     // A liquid that never freezes is no solid; the word then only says what it would be.
     if (m.viscosity > 0.0 && !m.young_modulus && !m.t_melt) m.solid = "elastic";
@@ -111,23 +121,18 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
   TableReader in(node, "body", "body." + entry_name(node, 1), reading.decisions);
   Body b;
   b.place = node.place;
-  b.name = in.text("name");
+  RecordReader read(in, b, reading);
+  read("name");
   plain_name(in, "name", b.name);
-  b.material = in.text("material");
+  read("material");
   const auto material = std::find_if(materials.begin(), materials.end(), [&](const Material& m) { return m.name == b.material; });
   if (material == materials.end()) {
     auto known = library_names();
     for (const auto& m : materials) known.push_back(m.name);
     in.refuse("material", fmt::format("no material is named \"{}\"{}", printable(b.material), suggestion(b.material, known)));
   }
-  b.shape = read_shape(*in.composite("shape"), in.path() + ".shape", reading);
-  if (const auto* t = in.composite("temperature"))
-    b.temperature = read_temperature(*t, in.path() + ".temperature", reading);
-  else
-    in.ruled("temperature", "none", std::string(key_row("body", "temperature").note));
-  if (const auto phase = in.maybe_text("phase")) {
-    b.phase = phase_from(*phase);
-  } else {
+  read("shape"), read("temperature");
+  if (read("phase")) {
     const auto [found, why] = phase_rule(*material, b.temperature);
     b.phase = found;
     in.ruled("phase", fmt::format("\"{}\"", to_string(found)), why);
@@ -138,16 +143,10 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
         fmt::format(
             "an elastic body needs young_modulus and poisson_ratio of its material \"{}\": give them, or write phase = \"rigid\"",
             b.material));
-  if (const auto* v = in.composite("velocity"))
-    b.velocity = read_velocity(*v, in.path() + ".velocity", reading);
-  else
-    in.ruled("velocity", "[0, 0, 0]", std::string(key_row("body", "velocity").note));
-  b.angular_velocity = in.vector("angular_velocity");
-  b.temperature_held = in.flag("temperature_held");
+  for (const char* key : {"velocity", "angular_velocity", "temperature_held"}) read(key);
   if (b.temperature_held && !b.temperature)
     in.refuse("temperature_held", "no temperature is given to hold: give temperature too");
-  b.motion = motion_from(in.text("motion"));
-  b.keyframes = read_keyframes(in, "keyframes", reading);
+  read("motion"), read("keyframes");
   if (!b.keyframes.empty() && (in.has("velocity") || in.has("angular_velocity")))
     in.refuse(in.has("velocity") ? "velocity" : "angular_velocity",
               "the keyframes of the body give its velocities: remove it, or the keyframes");
@@ -158,27 +157,22 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
               "a fixed body does not move: remove it, or write motion = \"prescribed\"");
   if (b.phase == Phase::rigid && b.velocity.kind != VelocityField::Kind::constant)
     in.refuse("velocity", "a rigid body has one velocity: write [x, y, z] and angular_velocity");
-  b.free_slip = in.text("slip") == "free";
-  if (const auto joins = in.maybe_flag("joins")) {
-    b.joins = *joins;
-  } else {
+  read("slip");
+  if (read("joins")) {
     b.joins = material->t_melt.has_value();
     in.ruled("joins", b.joins ? "true" : "false", b.joins ? "its material melts" : "its material does not melt");
   }
-  b.joined_to = in.texts("joined_to");
+  read.rest();
   return b;
 }
 
-std::vector<Keyframe> read_keyframes(TableReader& owner, std::string_view key, Reading& reading) {
+std::vector<Keyframe> read_keyframes(TableReader& owner, const Key& key, Reading& reading) {
   std::vector<Keyframe> frames;
-  const auto list = owner.tables(key);
+  const auto list = owner.tables(key.name);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    TableReader in(*list[i], "keyframe", fmt::format("{}.{}.{}", owner.path(), key, i + 1), reading.decisions);
+    TableReader in(*list[i], "keyframe", fmt::format("{}.{}.{}", owner.path(), key.name, i + 1), reading.decisions);
     Keyframe k;
-    k.time = in.number("time"), k.position = in.vector("position");
-    const auto q = in.numbers("rotation");
-    if (q.size() != 4) in.refuse("rotation", "write the quaternion [w, x, y, z]");
-    k.rotation = {q[0], q[1], q[2], q[3]};
+    RecordReader(in, k, reading).all();
     if (!(std::abs(norm(k.rotation) - 1.0) < 1e-3))
       in.refuse("rotation",
                 fmt::format("the quaternion has length {}: write one of length 1 (w = cos(angle/2))", norm(k.rotation)));
@@ -188,7 +182,7 @@ std::vector<Keyframe> read_keyframes(TableReader& owner, std::string_view key, R
                 fmt::format("{} s is not after the keyframe before it ({} s): times must rise", k.time, frames.back().time));
     frames.push_back(k);
   }
-  if (list.empty()) owner.ruled(key, "[]", std::string(key_row("body", "keyframes").note));
+  if (list.empty()) owner.ruled(key.name, std::string(key.fallback), std::string(key.note));
   return frames;
 }
 
@@ -211,15 +205,8 @@ Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in(node, "event", fmt::format("event.{}", entry_name(node, number)), reading.decisions);
   Event e;
   e.place = node.place;
-  e.time = in.number("time");
-  const auto kind = in.text("kind");
-  const auto kinds = split_words(key_row("event", "kind").words);
-  e.kind = static_cast<Event::Kind>(std::find(kinds.begin(), kinds.end(), kind) - kinds.begin());
-  e.name = in.maybe_text("name").value_or("");
-  e.bodies = in.texts("bodies");
-  if (const auto* region = in.composite("region")) e.region = read_shape(*region, in.path() + ".region", reading);
-  e.temperature = in.maybe_number("temperature"), e.until = in.maybe_number("until");
-  e.keyframes = read_keyframes(in, "keyframes", reading);
+  RecordReader(in, e, reading).all();
+  const auto kind = split_words(key_row("event", "kind").words).at(static_cast<std::size_t>(e.kind));
   if (e.until && !(*e.until > e.time)) in.refuse("until", "the event ends before it begins: until must be greater than time");
   const auto needs = [&](bool there, std::string_view key) {
     if (!there) in.refuse("", fmt::format("a {} event needs the key `{}`", kind, key));
@@ -243,19 +230,12 @@ Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
 Inflow read_inflow(const TomlNode& node, std::size_t number, double end_time, Reading& reading) {
   TableReader in(node, "inflow", fmt::format("inflow.{}", number), reading.decisions);
   Inflow f;
-  f.material = in.text("material");
-  f.shape = read_shape(*in.composite("shape"), in.path() + ".shape", reading);
-  f.velocity = in.vector("velocity");
+  RecordReader(in, f, reading).all([&](std::string_view key) {
+    if (key == "stop") f.stop = end_time, in.ruled("stop", show(end_time), "end_time");
+  });
   if (!(norm(f.velocity) > 0.0))
     in.refuse("velocity", "nothing flows in at rest: give a velocity, its direction serves where rate is given");
-  f.temperature = in.maybe_number("temperature");
-  f.start = in.number("start");
-  if (const auto stop = in.maybe_number("stop"))
-    f.stop = *stop;
-  else
-    f.stop = end_time, in.ruled("stop", show(end_time), "end_time");
   if (!(f.stop > f.start)) in.refuse("stop", "it ends before it begins: stop must be greater than start");
-  f.rate = in.maybe_number("rate");
   return f;
 }
 

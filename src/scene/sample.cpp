@@ -8,7 +8,8 @@
 
 #include "scene/expression.hpp"
 #include "scene/lattice.hpp"
-#include "scene/read_case.hpp"
+#include "scene/motion.hpp"
+#include "scene/sample.hpp"
 
 /// Particles of a scene at time 0: places on the lattice, mass rho0 dx^3, velocity and temperature by their fields.
 namespace tripoint {

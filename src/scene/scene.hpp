@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
 #include "core/errors.hpp"
@@ -139,11 +138,17 @@ struct Inflow {
   std::optional<double> rate;  ///< [m3/s]
 };
 
+/// Support radius h/dx where a file says nothing: as the paper has it where every term is as printed, about 40 neighbours by
+/// volume; else that of the Wendland kernel, about 74.
+inline constexpr double printed_support = 2.12, corrected_support = 2.6;
+/// Reach over nearest and diagonal neighbours of the lattice [spacings].
+inline constexpr double lattice_reach = 1.5;
+
 struct Scene {
-  double end_time = 0.0;       ///< [s]
-  Vec3 gravity;                ///< [m/s2]
-  double spacing = 0.0;        ///< dx [m]
-  double support_ratio = 2.6;  ///< h/dx
+  double end_time = 0.0;                     ///< [s]
+  Vec3 gravity;                              ///< [m/s2]
+  double spacing = 0.0;                      ///< dx [m]
+  double support_ratio = corrected_support;  ///< h/dx
   Mode mode = Mode::corrected;
   std::array<Mode, term_count> modes{};                       ///< resolved for every term
   std::array<std::optional<Mode>, term_count> modes_given{};  ///< as the case file says, term by term
@@ -156,10 +161,10 @@ struct Scene {
   double output_interval = 0.0;  ///< [s]
   std::string viscosity_form = "central";
   bool transport_velocity = false;
-  bool settle = false;          ///< liquids are let down into equilibrium before time 0
-  double merge_distance = 1.5;  ///< [spacings]
+  bool settle = false;                    ///< liquids are let down into equilibrium before time 0
+  double merge_distance = lattice_reach;  ///< [spacings]
   bool merge_distance_given = false;
-  double hourglass = 1.0, contact_viscosity = 0.0;
+  double contact_viscosity = 0.0;
   bool contact = true;                 ///< false: solids pass through each other (contact = "none")
   bool recovers = false;               ///< a guard that trips sends the run back to a good state, with half the step
   std::vector<std::string> unguarded;  ///< guards that are off
@@ -174,95 +179,10 @@ struct Scene {
   [[nodiscard]] bool clamps() const { return mode_of(Term::clamp) == Mode::corrected; }
   /// Whether every term that has equations is as printed; the clamp has none.
   [[nodiscard]] bool all_printed() const;
+  [[nodiscard]] double default_support_ratio() const { return all_printed() ? printed_support : corrected_support; }
   /// @throws InputError when no material (body) of that name is there
   [[nodiscard]] const Material& material(std::string_view name) const;
   [[nodiscard]] const Body& body(std::string_view name) const;
-};
-
-/// A value of a case file whose keys are free (function arguments, engine settings).
-using Setting = std::variant<bool, double, std::string, std::vector<double>>;
-using Settings = std::map<std::string, Setting>;
-
-struct EngineChoice {
-  std::string name;
-  bool required = false;
-  std::vector<std::string> presets;  ///< one row of the results each; empty = "default"
-  Settings settings;
-};
-
-struct ReferenceChoice {
-  std::string kind = "analytic";  ///< analytic discrete_exact mms self engine experiment invariant bound
-  std::string function;
-  std::string file;
-  std::string source;  ///< book, paper or derivation, printed in the report
-  Settings args;
-  double uncertainty = 0.0;  ///< standard uncertainty of the reference, in the metric's unit
-};
-
-struct MetricChoice {
-  std::string name, quantity, norm = "max", body, at = "end";
-  std::array<double, 2> window{0.0, 0.0};    ///< [s]; {0, 0} = all
-  double scale = 1.0;                        ///< error is divided by it
-  std::string unit;                          ///< of the scaled value, for people
-  std::optional<ReferenceChoice> reference;  ///< overrides the case's
-  SourcePlace place;
-};
-
-struct Study {
-  std::string axis;                                ///< spacing time_step support_ratio walkers iterations
-  std::vector<double> levels;                      ///< coarse to fine
-  std::vector<double> support_ratios, time_steps;  ///< refined together with the levels, one for each; empty = the case's own
-  double jitter = 0.0;
-  int seeds = 1;
-  std::string engine, mode;     ///< empty = all
-  std::string expect;           ///< class, empty = not judged
-  std::optional<double> order;  ///< formal
-  std::string metric;           ///< empty = every metric
-  SourcePlace place;
-};
-
-struct Gate {
-  std::string metric;                ///< a metric's name, or NAME.order
-  std::string engine, mode, preset;  ///< empty = all
-  std::optional<double> limit, at_least;
-  std::optional<std::array<double, 2>> band;
-  std::optional<double> level;  ///< of the study's axis; empty = every run
-  std::optional<double>
-      drift;  ///< share by which the value may move from its baseline before that turns red; empty = a tenth, and it warns
-  std::string reason, by, date;
-  SourcePlace place;
-};
-
-/// A number that the scene takes from a measurement, at one standard uncertainty below and above what the case says.
-struct UncertainInput {
-  std::string key;        ///< as of --set: material.water.viscosity
-  std::string low, high;  ///< TOML values, or numbers with a unit
-  SourcePlace place;
-};
-
-struct Defect {
-  std::string name;
-  double size = 0.0;
-  std::optional<double> smallest;  ///< least size that its gates were seen to catch; empty = not sought
-  std::vector<std::string> killed_by;
-  SourcePlace place;
-};
-
-struct Case {
-  std::string id, title, requirement, claims, kind = "verification";
-  std::vector<std::string> profiles{"commit"}, tags;
-  std::string expect = "pass";  ///< pass | diverges | defect
-  std::vector<Mode> modes{Mode::corrected};
-  Scene scene;
-  std::vector<EngineChoice> engines;
-  ReferenceChoice reference;
-  std::vector<MetricChoice> metrics;
-  std::vector<Study> studies;
-  std::vector<Gate> gates;
-  std::vector<UncertainInput> inputs;
-  std::vector<Defect> defects;
-  std::vector<std::string> harmless;
-  std::string file;  ///< the path it was read from
 };
 
 }  // namespace tripoint

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "scene/defaults.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint {
 
@@ -11,10 +13,9 @@ bool Scene::all_printed() const {
   return true;
 }
 
-double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? bond_reach(s) : 1.5; }
+double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? bond_reach(s) : lattice_reach; }
 
-Scene scene_for(const Case& c, const RunChoice& choice) {
-  Scene s = c.scene;
+Scene scene_for(Scene s, const RunChoice& choice) {
   if (choice.mode) s.mode = *choice.mode;
   for (std::size_t t = 0; t < term_count; ++t) s.modes[t] = s.modes_given[t].value_or(s.mode);
   if (choice.spacing) s.spacing = *choice.spacing;
@@ -24,7 +25,7 @@ Scene scene_for(const Case& c, const RunChoice& choice) {
   if (choice.support_ratio)
     s.support_ratio = *choice.support_ratio, s.support_ratio_given = true;
   else if (!s.support_ratio_given)
-    s.support_ratio = s.all_printed() ? 2.12 : 2.6;
+    s.support_ratio = s.default_support_ratio();
   if (!s.merge_distance_given) s.merge_distance = default_merge_distance(s);
   if (const auto stiffness = default_stiffness(s)) {
     for (Material& m : s.materials) m.stiffness = stiffness->value;

@@ -80,11 +80,11 @@ std::string show(const std::vector<double>& v) { return fmt::format("[{}]", fmt:
 std::string show(const std::vector<std::string>& v) { return v.empty() ? "[]" : fmt::format("[\"{}\"]", fmt::join(v, "\", \"")); }
 
 TableReader::TableReader(const TomlNode& node, std::string_view table, std::string path, std::vector<Decision>& decisions,
-                         std::vector<std::string> extra)
-    : node_(node), table_(table), path_(std::move(path)), decisions_(decisions), first_(decisions.size()) {
+                         std::vector<std::string> extra, const KeyTable& keys)
+    : node_(node), keys_(keys), table_(table), path_(std::move(path)), decisions_(decisions), first_(decisions.size()) {
   if (node.kind != Kind::table)
     throw InputError(node.place, fmt::format("`{}` must be a table, not {}", path_, kind_name(node.kind)));
-  auto known = key_names(table);
+  auto known = keys.names(table);
   known.insert(known.begin(), extra.begin(), extra.end());
   for (const auto& [key, value] : node.members)
     if (std::find(known.begin(), known.end(), key) == known.end()) {
@@ -111,7 +111,7 @@ void TableReader::refuse(std::string_view key, const std::string& what) const {
 
 TableReader::Found TableReader::find(std::string_view key) const {
   Found f;
-  f.row = &key_row(table_, key);
+  f.row = &keys_.row(table_, key);
   f.value = node_.find(key);
   f.from_case = f.value != nullptr;
   if (!f.value && library_) f.value = library_->find(key);

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "core/vec3.hpp"
+#include "scene/decision.hpp"
 #include "scene/key_table.hpp"
-#include "scene/read_case.hpp"
+#include "scene/settings.hpp"
 #include "scene/toml_node.hpp"
 
 namespace tripoint {
@@ -21,9 +22,9 @@ enum class Repeats { refused, allowed };
 class TableReader {
  public:
   /// @param table name in the key table   @param path how decisions and messages name it: "body.block"
-  /// @param extra keys that are allowed besides: "kind" of a shape
+  /// @param extra keys that are allowed besides: "kind" of a shape   @param keys the list that has the table
   TableReader(const TomlNode& node, std::string_view table, std::string path, std::vector<Decision>& decisions,
-              std::vector<std::string> extra = {});
+              std::vector<std::string> extra = {}, const KeyTable& keys = scene_keys());
 
   /// Values for keys that the case does not give, with the reason to print (the material library).
   void fall_back_on(const TomlNode& library, std::string reason);
@@ -74,6 +75,7 @@ class TableReader {
   }
 
   const TomlNode& node_;
+  const KeyTable& keys_;
   const TomlNode* library_ = nullptr;
   std::string table_, path_, library_reason_;
   std::vector<Decision>& decisions_;

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "scene/effect_rule.hpp"
-#include "scene/read_case.hpp"
 
 namespace tripoint {
 namespace {

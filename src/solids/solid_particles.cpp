@@ -146,7 +146,7 @@ bool softens(const Scene& scene, const Material& m) {
 
 ElasticForms::ElasticForms(const Scene& scene)
     : paper_(scene.mode_of(Term::elastic) == Mode::paper),
-      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0 : scene.hourglass),
+      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0 : kept_number(scene.values, key_row("scene", "hourglass"))),
       bending_(paper_ ? 0.0 : kept_number(scene.values, key_row("scene", "bending"))),
       factor_(paper_ ? 2.0 : 1.0) {
   for (const Material& m : scene.materials) {

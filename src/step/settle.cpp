@@ -24,7 +24,7 @@ constexpr int calm_cycles = 5;       ///< one after the other below `rest`: sing
 Scene still_scene(Scene s) {
   s.mode = Mode::corrected;
   s.modes.fill(Mode::corrected);
-  if (!s.support_ratio_given) s.support_ratio = 2.6;
+  if (!s.support_ratio_given) s.support_ratio = s.default_support_ratio();
   s.time_step.reset();
   s.transport_velocity = false, s.recovers = false;
   s.events.clear(), s.inflows.clear();

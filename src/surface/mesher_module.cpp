@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "core/errors.hpp"
-#include "scene/read_case.hpp"
+#include "scene/library.hpp"
 
 namespace tripoint {
 namespace {

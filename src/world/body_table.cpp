@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint {
 

@@ -6,6 +6,7 @@
 #include "adapters/bullet/bullet_engine.hpp"
 #include "adapters/bullet/presets.hpp"
 #include "adapters/scenes.hpp"
+#include "scene/motion.hpp"
 #include "validation/references/torque_free.hpp"
 
 namespace tripoint {

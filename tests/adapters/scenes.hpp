@@ -4,7 +4,7 @@
 #include <string>
 
 #include "job/job.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 
 /// Jobs as the harness makes them: the scene's own sampler, mass properties from the particles.
 namespace tripoint::test {

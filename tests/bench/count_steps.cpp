@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "assembly/plan.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "step/settle.hpp"
 #include "step/simulation.hpp"
+#include "validation/case/read_case.hpp"
 
 using namespace tripoint;
 

@@ -8,9 +8,10 @@
 #include <string>
 #include <string_view>
 
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "step/settle.hpp"
 #include "step/simulation.hpp"
+#include "validation/case/read_case.hpp"
 
 using namespace tripoint;
 

@@ -12,9 +12,10 @@
 #include <vector>
 
 #include "core/machine.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "state_after.hpp"
 #include "step/settle.hpp"
+#include "validation/case/read_case.hpp"
 
 using namespace tripoint;
 

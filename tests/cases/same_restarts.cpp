@@ -19,9 +19,10 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "step/settle.hpp"
 #include "step/simulation.hpp"
+#include "validation/case/read_case.hpp"
 
 using namespace tripoint;
 

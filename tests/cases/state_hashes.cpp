@@ -10,9 +10,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "state_after.hpp"
 #include "step/settle.hpp"
+#include "validation/case/read_case.hpp"
 
 using namespace tripoint;
 

@@ -52,7 +52,7 @@ TEST(ElasticBending, ForcesAreMinusTheGradientOfTheEnergy) {
       EXPECT_LT(worst_gradient_error(body), 1e-7) << bending << ": " << count[0] << count[1] << count[2];  // noise of differences
     }
   lab::Lab without = block({4, 4, 4});
-  without.scene.hourglass = 0.0;
+  without.scene.values["hourglass"] = 0.0;
   lab::Deformable body(without);
   body.place(bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);
@@ -111,7 +111,7 @@ struct PureBending {
 double energy_in_bending(int across, double bending) {
   const int length = 9;
   lab::Lab lab = block({length, across, across}, 0.0, bending);
-  lab.scene.hourglass = 0.0;
+  lab.scene.values["hourglass"] = 0.0;
   lab::Deformable body(lab);
   const double middle = 0.5 * (across - 1) * dx, curvature = 1e-6 / dx;
   body.place(PureBending{curvature, 0.3, middle, middle});

@@ -67,7 +67,7 @@ TEST(ElasticForce, AsPrintedIsTheGradientOfThePrintedEnergy) {
 
 TEST(ElasticForce, WithoutHourglassIsTheGradientToo) {
   lab::Lab lab = block({4, 4, 4});
-  lab.scene.hourglass = 0.0;
+  lab.scene.values["hourglass"] = 0.0;
   lab::Deformable body(lab);
   body.place(bent);
   EXPECT_LT(worst_gradient_error(body), 1e-7);

@@ -118,7 +118,7 @@ struct Modes {
 };
 Modes modes_of(double hourglass) {
   lab::Lab lab = lab::elastic_lab(dx, 0.3975);
-  lab.scene.hourglass = hourglass;
+  lab.scene.values["hourglass"] = hourglass;
   lab.add({.count = {12, 4, 3}, .phase = Phase::elastic});
   lab::Deformable body(lab);
   const auto n = static_cast<Eigen::Index>(3 * body.size());

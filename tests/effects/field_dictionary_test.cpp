@@ -13,7 +13,7 @@
 
 #include "assembly/all_effects.hpp"
 #include "assembly/plan.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/read_case.hpp"
 
 namespace tripoint {
 namespace {

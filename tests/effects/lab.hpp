@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "scene/initial_state.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "step/simulation.hpp"
 
 /// Small scenes built by hand, for tests of effects and of the step loop.

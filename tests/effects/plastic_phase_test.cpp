@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "effects/phase_lab.hpp"
+#include "scene/effect_rule.hpp"
 #include "solids/solid_particles.hpp"
 
 namespace tripoint {

@@ -8,7 +8,6 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
-#include "scene/read_case.hpp"
 #include "validation/harness/case_run.hpp"
 #include "validation/harness/selftest.hpp"
 

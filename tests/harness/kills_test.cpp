@@ -6,6 +6,7 @@
 
 #include "harness/fakes.hpp"
 #include "io/trajectory.hpp"
+#include "scene/sample.hpp"
 #include "validation/harness/run_one.hpp"
 
 namespace tripoint {

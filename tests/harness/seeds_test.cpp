@@ -4,6 +4,7 @@
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
+#include "scene/sample.hpp"
 #include "validation/harness/seeds.hpp"
 
 namespace tripoint {

@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "job/scene_json.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "step/simulation.hpp"
+#include "validation/case/read_case.hpp"
 
 using namespace tripoint;
 using Json = nlohmann::ordered_json;

@@ -3,6 +3,7 @@
 
 #include "references/measured.hpp"
 #include "references/scenes.hpp"
+#include "validation/case/case.hpp"
 
 namespace tripoint {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "scene/read_case.hpp"
+#include "validation/case/read_case.hpp"
 
 /// Case files for the tests of the scene, in a folder of their own that goes with the object.
 namespace tripoint::test {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "scene/read_case.hpp"
+#include "scene/defaults.hpp"
+#include "validation/case/read_case.hpp"
 
 namespace tripoint {
 namespace {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "case_file.hpp"
-#include "scene/case_document.hpp"
+#include "validation/case/case_document.hpp"
 
 /// What a case says by another, and where it says that wrongly.
 namespace tripoint::test {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a case says and no run of it can show is found before it runs.
-#include "scene/idle_keys.hpp"
+#include "validation/case/idle_keys.hpp"
 
 #include <gtest/gtest.h>
 
 #include "case_file.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint {
 namespace {

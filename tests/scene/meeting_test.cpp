@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "case_file.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint::test {
 namespace {

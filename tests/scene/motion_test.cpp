@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "scene/read_case.hpp"
+#include "scene/motion.hpp"
 
 namespace tripoint {
 namespace {

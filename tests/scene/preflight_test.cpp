@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "case_file.hpp"
+#include "scene/effect_rule.hpp"
+#include "scene/sample.hpp"
+#include "validation/case/preflight.hpp"
 
 namespace tripoint::test {
 namespace {

@@ -3,6 +3,7 @@
 
 #include "case_file.hpp"
 #include "full_case.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint::test {
 namespace {

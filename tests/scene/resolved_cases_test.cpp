@@ -6,7 +6,7 @@
 #include <map>
 
 #include "case_file.hpp"
-#include "scene/case_document.hpp"
+#include "validation/case/case_document.hpp"
 
 /// Every case of this repository: what `explain --resolved` prints is a case file, and the same case.
 namespace tripoint::test {

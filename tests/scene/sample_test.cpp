@@ -7,6 +7,7 @@
 
 #include "case_file.hpp"
 #include "scene/lattice.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint::test {
 namespace {

@@ -6,6 +6,10 @@
 
 #include "case_file.hpp"
 #include "scene/key_table.hpp"
+#include "scene/sample.hpp"
+#include "validation/case/case_keys.hpp"
+#include "validation/case/preflight.hpp"
+#include "validation/case/schema.hpp"
 
 namespace tripoint::test {
 namespace {
@@ -14,17 +18,17 @@ using json = nlohmann::json;
 
 TEST(KeyTable, NamesEveryKeyOnceWithAMeaningAndAReasonForItsDefault) {
   std::set<std::string> seen;
-  for (const auto& k : key_table()) {
+  for (const auto& k : case_keys().rows()) {
     EXPECT_TRUE(seen.insert(std::string(k.table) + "." + std::string(k.name)).second) << k.table << "." << k.name;
     EXPECT_FALSE(k.meaning.empty()) << k.name;
     EXPECT_TRUE(k.required() || !k.note.empty()) << k.table << "." << k.name;
   }
-  for (const auto& t : table_infos()) EXPECT_FALSE(keys_of(t.name).empty()) << t.name;
+  for (const auto& t : case_keys().tables()) EXPECT_FALSE(case_keys().of(t.name).empty()) << t.name;
 }
 
 TEST(Schema, HoldsEveryKeyOfTheTable) {
   const auto s = json::parse(case_schema());
-  for (const auto& k : key_table()) {
+  for (const auto& k : case_keys().rows()) {
     const auto& table = k.table.empty() ? s : s.at("$defs").at(std::string(k.table));
     ASSERT_TRUE(table.at("properties").contains(std::string(k.name))) << k.table << "." << k.name;
     EXPECT_FALSE(table.at("additionalProperties").get<bool>());
@@ -47,7 +51,7 @@ TEST(Schema, RefersOnlyToWhatItDefines) {
 
 TEST(ReferencePage, NamesEveryKeyOfTheTable) {
   const auto page = case_reference_page();
-  for (const auto& k : key_table()) EXPECT_NE(page.find("| `" + std::string(k.name) + "` |"), std::string::npos) << k.name;
+  for (const auto& k : case_keys().rows()) EXPECT_NE(page.find("| `" + std::string(k.name) + "` |"), std::string::npos) << k.name;
 }
 
 TEST(NewCase, RunsAsItIsAndNeedsNoOtherFile) {

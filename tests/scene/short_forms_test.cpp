@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "case_file.hpp"
-#include "scene/case_document.hpp"
+#include "validation/case/case_document.hpp"
 
 /// Gates within metrics, limits by level, invariants: each is the long form, written shorter.
 namespace tripoint::test {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "case_file.hpp"
+#include "scene/sample.hpp"
+#include "validation/case/preflight.hpp"
 
 namespace tripoint::test {
 namespace {

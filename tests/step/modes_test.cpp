@@ -9,8 +9,9 @@
 #include <fstream>
 
 #include "core/errors.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "step/simulation.hpp"
+#include "validation/case/read_case.hpp"
 
 namespace tripoint {
 namespace {

@@ -69,7 +69,7 @@ Point elastic(const char* parameter, double value, Lab lab) {
 
 Point hourglass(double stiffness) {
   Lab lab = lab::elastic_lab(1.0);
-  lab.scene.hourglass = stiffness;
+  lab.scene.values["hourglass"] = stiffness;
   lab.add({.count = {side, side, side}, .phase = Phase::elastic});
   return elastic("hourglass stiffness", stiffness, lab);
 }

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "core/durable_file.hpp"
-#include "scene/read_case.hpp"
+#include "scene/library.hpp"
 #include "validation/harness/baseline_propose.hpp"
 #include "validation/harness/baseline_rows.hpp"
 #include "validation/harness/foreign_text.hpp"

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "job/job.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/read_case.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;

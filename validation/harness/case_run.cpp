@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "scene/sample.hpp"
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/judge.hpp"

@@ -14,6 +14,7 @@
 #include "core/nesting.hpp"
 #include "io/foreign_file.hpp"
 #include "io/trajectory.hpp"
+#include "scene/sample.hpp"
 #include "validation/harness/run_one.hpp"
 
 namespace tripoint {

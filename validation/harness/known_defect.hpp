@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "scene/scene.hpp"
+#include "validation/case/case.hpp"
 
 namespace tripoint {
 

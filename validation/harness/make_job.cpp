@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/sample.hpp"
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/plan_runs.hpp"
 #include "validation/metrics/metric.hpp"

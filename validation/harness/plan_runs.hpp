@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "job/job.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/harness/discover.hpp"
 
 /// From a case to the list of its runs and their jobs.

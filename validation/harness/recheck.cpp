@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "scene/read_case.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/case_hash.hpp"
 #include "validation/harness/suite.hpp"

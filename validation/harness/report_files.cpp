@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/durable_file.hpp"
-#include "scene/read_case.hpp"
+#include "scene/library.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"

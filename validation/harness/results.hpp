@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "validation/case/case.hpp"
 #include "validation/harness/case_hash.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/metrics/order.hpp"

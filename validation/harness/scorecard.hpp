@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "validation/case/case.hpp"
 #include "validation/harness/discover.hpp"
 #include "validation/harness/results.hpp"
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/durable_file.hpp"
-#include "scene/read_case.hpp"
+#include "scene/library.hpp"
 #include "validation/harness/json_number.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"

@@ -7,8 +7,9 @@
 #include <set>
 
 #include "core/errors.hpp"
+#include "scene/library.hpp"
 #include "scene/nearest.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/read_case.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
 

@@ -13,6 +13,7 @@
 
 #include "core/errors.hpp"
 #include "scene/nearest.hpp"
+#include "scene/sample.hpp"
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/run_one.hpp"
 

@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "job/job.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/preflight.hpp"
+#include "validation/case/read_case.hpp"
 
 namespace tripoint {
 

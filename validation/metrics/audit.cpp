@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/read_case.hpp"
+#include "scene/motion.hpp"
 #include "validation/metrics/frame_error.hpp"
 #include "validation/metrics/frames.hpp"
 #include "validation/metrics/near_pairs.hpp"

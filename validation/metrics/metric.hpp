@@ -6,7 +6,7 @@
 
 #include "io/trajectory.hpp"
 #include "job/job.hpp"
-#include "scene/scene.hpp"
+#include "validation/case/case.hpp"
 #include "validation/references/reference.hpp"
 
 namespace tripoint {

@@ -21,6 +21,11 @@ std::string no_bending(const Scene& s) {
   return s.mode_of(Term::elastic) == Mode::paper ? "elasticity as printed has no second-order gradients" : "";
 }
 
+std::string no_hourglass(const Scene& s) {
+  const bool printed = s.mode_of(Term::hourglass) == Mode::paper || s.mode_of(Term::elastic) == Mode::paper;
+  return printed ? "elasticity as printed has no energy against zero-energy modes" : "";
+}
+
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
   using enum ValueType;
@@ -28,7 +33,8 @@ std::vector<EffectKey> keys() {
   return {
       {{"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "",
         "coefficient of the energy against zero-energy modes"},
-       &Scene::hourglass},
+       {},
+       no_hourglass},
       {{"scene", "bond_reach", number, "", above_one, "2.12", "the paper's support, about 40 neighbours", "",
         "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
       {{"scene", "bending", number, "", fraction, "0", "it costs stiffness where particles are disordered", "",

@@ -5,7 +5,7 @@
 
 #include "core/errors.hpp"
 #include "effects/rigid/rotation.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "world/rows_loop.hpp"
 
 namespace tripoint::rigid {

@@ -10,7 +10,7 @@
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/geometry.hpp"
-#include "scene/read_case.hpp"
+#include "scene/motion.hpp"
 #include "solids/body_forces.hpp"
 #include "solids/grip.hpp"
 

@@ -15,8 +15,10 @@
 #include "core/defect.hpp"
 #include "job/scene_json.hpp"
 #include "scene/expression.hpp"
-#include "scene/read_case.hpp"
+#include "scene/sample.hpp"
 #include "step/simulation.hpp"
+#include "validation/case/read_case.hpp"
+#include "validation/case/schema.hpp"
 
 namespace tripoint {
 namespace {

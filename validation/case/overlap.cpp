@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/overlap.hpp"
+#include "validation/case/overlap.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,9 +7,9 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
-#include "scene/overlap.hpp"
 #include "scene/phase_values.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/overlap.hpp"
+#include "validation/case/preflight.hpp"
 
 /// What can be told of a scene before anything runs.
 namespace tripoint {

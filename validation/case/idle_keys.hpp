@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include "scene/read_case.hpp"
+#include "validation/case/preflight.hpp"
 
 namespace tripoint {
 

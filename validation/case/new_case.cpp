@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "scene/read_case.hpp"
+#include "validation/case/schema.hpp"
 
 namespace tripoint {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/idle_keys.hpp"
+#include "validation/case/idle_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -308,7 +308,7 @@ class IdleKeys {
 
   void scene() {
     const Scene& s = case_.scene;
-    const bool flows = calls("fluid"), elastic = calls("elastic");
+    const bool flows = calls("fluid");
     if (s.transport_velocity && !flows)
       idle("transport_velocity", why_idle("fluid"));
     else if (s.transport_velocity && !corrected(Term::pressure))
@@ -319,13 +319,10 @@ class IdleKeys {
       idle("viscosity_form", "viscosity as printed has one form");
     if (!flows) idle("clamp", why_idle("fluid"));
     if (s.contact_viscosity > 0.0 && !flows) idle("contact_viscosity", why_idle("fluid"));
-    if (s.hourglass != 1.0 && !elastic)
-      idle("hourglass", why_idle("elastic"));
-    else if (s.hourglass != 1.0 && !(corrected(Term::hourglass) && corrected(Term::elastic)))
-      idle("hourglass", "elasticity as printed has no energy against zero-energy modes");
     for (const EffectRule& rule : effect_rules())
       for (const EffectKey& key : rule.keys)
-        if (key.row.table == "scene" && kept_number(s.values, key.row) != 0.0) effect_key(rule, key);
+        if (key.row.table == "scene" && (kept_number(s.values, key.row) != 0.0 || kept_number({}, key.row) != 0.0))
+          effect_key(rule, key);
     const bool breaks_up = calls("fracture") || std::ranges::any_of(s.events, [](const Event& e) {
                              return e.kind == Event::Kind::merge || e.kind == Event::Kind::split;
                            });

@@ -5,9 +5,9 @@
 #include <charconv>
 #include <optional>
 
-#include "scene/case_document.hpp"
-#include "scene/key_table.hpp"
 #include "scene/nearest.hpp"
+#include "validation/case/case_document.hpp"
+#include "validation/case/case_keys.hpp"
 
 /// The short forms of a case file, written out: gates within their metric, limits by level, invariants.
 namespace tripoint {
@@ -194,7 +194,7 @@ void add_reference(TomlNode& metric, std::optional<TomlNode> value, const Invari
 TomlNode metric_of(const std::string& name, TomlNode entry) {
   const Invariant& what = invariant_named(name, entry.key_place);
   const SourcePlace place = entry.place;
-  const auto metric_keys = key_names("metric"), gate_keys = key_names("gate");
+  const auto metric_keys = case_keys().names("metric"), gate_keys = case_keys().names("gate");
   const auto is_of = [](const auto& keys, const std::string& key) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
   };

@@ -45,6 +45,9 @@ void remove_keys(TomlNode& document, const TomlNode& remove);
 /// `invariants` become tables of `metric` and `gate`.
 void write_out_invariants(TomlNode& document);
 
+/// Puts "a.b=VALUE" into the document. Tables of an array are found by their `name`, or by their number from 1.
+void apply_override(TomlNode& document, const std::string& set);
+
 /// Whether a file says something by a short form, or by another file.
 [[nodiscard]] bool has_short_forms(const TomlNode& document);
 

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <optional>
 
-#include "scene/case_document.hpp"
-#include "scene/key_table.hpp"
+#include "scene/library.hpp"
 #include "scene/nearest.hpp"
-#include "scene/read_case.hpp"
+#include "validation/case/case_document.hpp"
+#include "validation/case/case_keys.hpp"
 
 /// What a case extends: which file that is, and the chain of such files.
 namespace tripoint {
@@ -46,7 +46,7 @@ fs::path real(const fs::path& path) {
 
 /// Tables of a case, and a scene or what has one: any other file is left unread, so that no message can quote it.
 void check_is_case(const TomlNode& document, const TomlNode& extends) {
-  const auto known = key_names("");
+  const auto known = case_keys().names("");
   const bool knows_all = std::all_of(document.members.begin(), document.members.end(), [&](const auto& m) {
     return std::find(known.begin(), known.end(), m.first) != known.end();
   });

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include "scene/case_document.hpp"
-#include "scene/key_table.hpp"
-#include "scene/read_case.hpp"
+#include "scene/scene.hpp"
 #include "scene/units.hpp"
+#include "validation/case/case_document.hpp"
+#include "validation/case/case_keys.hpp"
+#include "validation/case/schema.hpp"
 
 /// The reference page of the case file in Markdown, from the key table.
 namespace tripoint {
@@ -38,7 +39,7 @@ std::string default_cell(const Key& k) {
 std::string table_page(const TableInfo& t) {
   std::string out =
       fmt::format("## `{}`\n\n{}\n\n| key | value | default, and why | meaning |\n|---|---|---|---|\n", t.written, t.meaning);
-  for (const auto* k : keys_of(t.name))
+  for (const auto* k : case_keys().of(t.name))
     out += fmt::format("| `{}` | {} | {} | {} |\n", k->name, type_cell(*k), default_cell(*k), cell(k->meaning));
   return out + "\n";
 }
@@ -114,7 +115,7 @@ std::string case_reference_page() {
       "`material.NAME.density=900`, `study.1.levels=[0.1,0.05]`; tables without a name count from 1.\n\n",
       known_units());
   out += short_forms;
-  for (const auto& t : table_infos()) {
+  for (const auto& t : case_keys().tables()) {
     out += table_page(t);
     if (t.name == "invariants") out += invariants_page();
     if (t.name == "scene") {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "scene/case_document.hpp"
+#include "validation/case/case_document.hpp"
 
 /// A document as TOML that reads back as the same document.
 namespace tripoint {

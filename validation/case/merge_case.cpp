@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 
-#include "scene/case_document.hpp"
-#include "scene/key_table.hpp"
 #include "scene/nearest.hpp"
 #include "scene/table_reader.hpp"
+#include "validation/case/case_document.hpp"
+#include "validation/case/case_keys.hpp"
 
 /// How a case says less than the one that it extends: what it gives goes over it, what it removes goes.
 namespace tripoint {
@@ -49,7 +49,7 @@ void forget_bounds(TomlNode& base, const TomlNode& own) {
   if (std::none_of(bounds.begin(), bounds.end(), [&](auto key) { return own.find(key) != nullptr; })) return;
   for (const auto key : bounds) erase(base, key);
   if (own.find("gates"))  // of an invariant: they bring whatever else a gate says
-    for (const auto& key : key_names("gate")) erase(base, key);
+    for (const auto& key : case_keys().names("gate")) erase(base, key);
 }
 
 void merge_value(TomlNode& base, TomlNode own, const std::string& path);

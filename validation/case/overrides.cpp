@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "scene/library.hpp"
 #include "scene/nearest.hpp"
-#include "scene/readers.hpp"
+#include "validation/case/case_document.hpp"
+#include "validation/case/case_keys.hpp"
 
 namespace tripoint {
 namespace {
@@ -99,7 +101,7 @@ void apply_override(TomlNode& document, const std::string& set) {
     auto* next = at->find(parts[i]);
     if (!next) {
       TomlNode fresh;
-      const auto rows = at == &document ? keys_of("") : std::vector<const Key*>{};
+      const auto rows = at == &document ? case_keys().of("") : std::vector<const Key*>{};
       if (std::any_of(rows.begin(), rows.end(),
                       [&](const Key* k) { return k->name == parts[i] && k->type == ValueType::tables; }))
         fresh.kind = Kind::array;

@@ -7,19 +7,13 @@
 #include "scene/expression.hpp"
 #include "scene/nearest.hpp"
 #include "scene/readers.hpp"
+#include "validation/case/judge_readers.hpp"
 
 /// How a case is judged: engines, reference, metrics, studies, gates, defects.
 namespace tripoint {
-void plain_name(TableReader& in, std::string_view key, const std::string& name) {
-  const bool plain = !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.' ||
-           c == ' ';
-  });
-  if (!plain) in.refuse(key, "write a name of 1 to 64 letters, digits, blanks, or any of _ - .");
-}
 
 EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading& reading) {
-  TableReader in(node, "engines", "engines." + printable(name), reading.decisions);
+  TableReader in = case_table(node, "engines", "engines." + printable(name), reading);
   plain_name(in, "", name);
   EngineChoice e;
   e.name = name;
@@ -54,7 +48,7 @@ static void check_formulas(const TableReader& in, const Settings& args) {
 }
 
 ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Reading& reading) {
-  TableReader in(node, "reference", path, reading.decisions);
+  TableReader in = case_table(node, "reference", path, reading);
   ReferenceChoice r;
   r.kind = in.text("kind");
   r.function = in.maybe_text("function").value_or("");
@@ -85,7 +79,7 @@ ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Re
 }
 
 MetricChoice read_metric(const TomlNode& node, Reading& reading) {
-  TableReader in(node, "metric", "metric." + entry_name(node, 1), reading.decisions);
+  TableReader in = case_table(node, "metric", "metric." + entry_name(node, 1), reading);
   MetricChoice m;
   m.place = node.place;
   m.name = in.text("name");
@@ -111,7 +105,7 @@ std::vector<double> read_together(TableReader& in, std::string_view key, const S
 }
 
 Study read_study(const TomlNode& node, std::size_t number, double end_time, Reading& reading) {
-  TableReader in(node, "study", fmt::format("study.{}", number), reading.decisions);
+  TableReader in = case_table(node, "study", fmt::format("study.{}", number), reading);
   Study s;
   s.place = node.place;
   s.axis = in.text("axis"), s.levels = in.numbers_in(s.axis == "spacing" ? "m" : s.axis == "time_step" ? "s" : "", "levels");
@@ -142,7 +136,7 @@ Study read_study(const TomlNode& node, std::size_t number, double end_time, Read
 }
 
 Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
-  TableReader in(node, "gate", fmt::format("gate.{}", number), reading.decisions);
+  TableReader in = case_table(node, "gate", fmt::format("gate.{}", number), reading);
   Gate g;
   g.place = node.place;
   g.metric = in.text("metric"), g.engine = in.text("engine"), g.mode = in.text("mode"), g.preset = in.text("preset");
@@ -164,7 +158,7 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
 }
 
 UncertainInput read_input(const TomlNode& node, std::size_t number, Reading& reading) {
-  TableReader in(node, "input", fmt::format("input.{}", number), reading.decisions);
+  TableReader in = case_table(node, "input", fmt::format("input.{}", number), reading);
   UncertainInput u;
   u.place = node.place;
   u.key = in.text("key"), u.low = in.text("low"), u.high = in.text("high");
@@ -175,7 +169,7 @@ UncertainInput read_input(const TomlNode& node, std::size_t number, Reading& rea
 }
 
 Defect read_defect(const TomlNode& node, std::size_t number, Reading& reading) {
-  TableReader in(node, "defect", fmt::format("defect.{}", number), reading.decisions);
+  TableReader in = case_table(node, "defect", fmt::format("defect.{}", number), reading);
   Defect d;
   d.place = node.place;
   d.name = in.text("name"), d.size = in.number("size"), d.smallest = in.maybe_number("smallest"),

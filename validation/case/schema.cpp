@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "scene/key_table.hpp"
-#include "scene/read_case.hpp"
+#include "scene/scene.hpp"
+#include "validation/case/case_keys.hpp"
+#include "validation/case/schema.hpp"
 
 /// JSON Schema (2020-12) of the case file, from the key table.
 namespace tripoint {
@@ -48,7 +49,7 @@ json vector_schema(const Key& k) {
 /// One of the kinds of a family: shape.box, shape.sphere ...
 json kinds_of(const std::string& family) {
   json any = json::array();
-  for (const auto& t : table_infos())
+  for (const auto& t : case_keys().tables())
     if (t.name.starts_with(family + ".")) any.push_back(reference_to(t.name));
   return {{"anyOf", any}};
 }
@@ -119,7 +120,7 @@ json key_schema(const Key& k) {
 /// Keys that a table of a case that extends nothing must have.
 json required_keys(std::string_view name) {
   json list = json::array();
-  for (const auto* k : keys_of(name)) {
+  for (const auto* k : case_keys().of(name)) {
     // a material of the library brings its own density
     if (k->required() && !(name == "material" && k->name == "density")) list.push_back(k->name);
   }
@@ -131,7 +132,7 @@ bool can_be_partial(const Key& k) { return (k.type == ValueType::table || k.type
 /// Tables of a case that extends another may leave to that one what they need.
 json rule_of_whole_cases() {
   json needs{{"required", required_keys("")}, {"properties", json::object()}};
-  for (const auto* k : keys_of("")) {
+  for (const auto* k : case_keys().of("")) {
     const json list = can_be_partial(*k) ? required_keys(k->words) : json::array();
     if (list.empty() || k->words == "engines") continue;
     const json rule{{"required", list}};
@@ -141,7 +142,7 @@ json rule_of_whole_cases() {
 }
 
 bool is_always_whole(std::string_view name) {
-  const auto top = keys_of("");
+  const auto top = case_keys().of("");
   const bool of_the_top =
       std::any_of(top.begin(), top.end(), [&](const Key* k) { return can_be_partial(*k) && k->words == name; });
   return !name.empty() && !of_the_top && name != "gates" && name != "invariant";
@@ -152,7 +153,7 @@ json table_schema(std::string_view name) {
   json required = json::array();
   const auto dot = name.find('.');
   if (dot != std::string_view::npos) s["properties"]["kind"] = {{"const", name.substr(dot + 1)}}, required.push_back("kind");
-  for (const auto* k : keys_of(name)) s["properties"][std::string(k->name)] = key_schema(*k);
+  for (const auto* k : case_keys().of(name)) s["properties"][std::string(k->name)] = key_schema(*k);
   if (is_always_whole(name))
     for (const auto& key : required_keys(name)) required.push_back(key);
   if (!required.empty()) s["required"] = required;
@@ -169,7 +170,7 @@ std::string case_schema() {
   out.update(s);
   out["if"] = {{"not", {{"required", {"extends"}}}}};
   out["then"] = rule_of_whole_cases();
-  for (const auto& t : table_infos())
+  for (const auto& t : case_keys().tables())
     if (!t.name.empty())
       out["$defs"][std::string(t.name)] = table_schema(t.name), out["$defs"][std::string(t.name)]["description"] = t.meaning;
   json modes{{"type", "object"}, {"additionalProperties", false}, {"properties", json::object()}};

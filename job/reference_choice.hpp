@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+
+#include "scene/settings.hpp"
+
+namespace tripoint {
+
+/// The truth that a case names. The judge reads it, and of the engines `exact` alone.
+struct ReferenceChoice {
+  std::string kind = "analytic";  ///< analytic discrete_exact mms self engine experiment invariant bound
+  std::string function;
+  std::string file;
+  std::string source;  ///< book, paper or derivation, printed in the report
+  Settings args;
+  double uncertainty = 0.0;  ///< standard uncertainty of the reference, in the metric's unit
+};
+
+}  // namespace tripoint

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/name_checks.hpp"
+#include "scene/nearest.hpp"
+#include "scene/phase_values.hpp"
+#include "scene/readers.hpp"
+
+/// Rules between the tables of a scene: names that refer to each other, and what one key means for another.
+namespace tripoint {
+namespace {
+
+class Checker : NameChecks {
+ public:
+  Checker(const Scene& scene, const std::vector<Mode>& runs, const Reading& reading)
+      : NameChecks(reading), scene_(scene), runs_(runs) {}
+
+  void check() {
+    unique(scene_.materials, "material");
+    unique(scene_.bodies, "body");
+    bodies();
+    events();
+    kernel();
+    printed_heat();
+  }
+
+ private:
+  void bodies() const {
+    for (const auto& b : scene_.bodies) {
+      for (const auto& other : b.joined_to) {
+        known_body(scene_, other, fmt::format("body.{}.joined_to", b.name), b.place);
+        if (other == b.name)
+          throw InputError(place(fmt::format("body.{}.joined_to", b.name), b.place),
+                           fmt::format("body \"{}\" is joined to itself: remove it", b.name));
+      }
+      turning(b);
+      const Material& m = scene_.material(b.material);
+      if (b.temperature && !(m.conductivity && m.heat_capacity))
+        throw InputError(place(fmt::format("body.{}.temperature", b.name), b.place),
+                         fmt::format("body \"{}\" has a temperature, but its material \"{}\" lacks {}: give it (a conductivity "
+                                     "of 1e-12 W/m/K insulates), or remove the temperatures of all bodies",
+                                     b.name, m.name, m.conductivity ? "heat_capacity" : "conductivity"));
+      if (!b.keyframes.empty() && b.keyframes.back().time < scene_.end_time && b.keyframes.size() < 2)
+        throw InputError(place(fmt::format("body.{}.keyframes", b.name), b.place),
+                         fmt::format("body \"{}\" has one keyframe: give at least two, the motion lies between them", b.name));
+    }
+  }
+
+  /// A kernel of its own form belongs to each term: alone it cannot be another than what the scene runs.
+  void kernel() const {
+    const auto given = scene_.modes_given[static_cast<std::size_t>(Term::kernel)];
+    if (!given || std::all_of(runs_.begin(), runs_.end(), [&](Mode m) { return m == *given; })) return;
+    throw InputError(place("scene.modes.kernel", {}),
+                     "each term brings the kernel of its form (as printed poly6, spiky and the viscosity kernel, corrected "
+                     "Wendland C2), and none can have another: "
+                     "set the terms that are meant (modes.density, modes.pressure, modes.viscosity, modes.heat), or remove it");
+  }
+
+  /// (21) and Fig. 5 as printed know one conductivity and one heat capacity of a material.
+  void printed_heat() const {
+    const bool paper = std::any_of(runs_.begin(), runs_.end(), [](Mode m) { return m == Mode::paper; });
+    for (const Term term : {Term::heat, Term::phase}) {
+      const auto given = scene_.modes_given[static_cast<std::size_t>(term)];
+      if (given ? *given != Mode::paper : !paper) continue;
+      for (const auto& b : scene_.bodies) {
+        const Material& m = scene_.material(b.material);
+        if (!b.temperature || !has_two_phases(m)) continue;
+        throw InputError(
+            place(fmt::format("material.{}.{}", m.name, m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity"),
+                  b.place),
+            fmt::format("heat as printed knows one conductivity and one heat capacity of a material, and \"{}\" has others when "
+                        "solid: write modes.{} = \"corrected\", or leave solid_conductivity and solid_heat_capacity out",
+                        m.name, to_string(term)));
+      }
+    }
+  }
+
+  /// A rigid body that reaches across a periodic direction may only turn about that axis: else it would not meet itself.
+  void turning(const Body& b) const {
+    if (b.phase != Phase::rigid || b.angular_velocity == Vec3{}) return;
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (!scene_.periodic[a] || b.shape.kind != Shape::Kind::box) continue;
+      const bool across = b.shape.max[a] - b.shape.min[a] >= 0.999 * ((*scene_.max)[a] - (*scene_.min)[a]);
+      Vec3 other = b.angular_velocity;
+      other[a] = 0.0;
+      if (across && norm(other) > 0.0)
+        throw InputError(place(fmt::format("body.{}.angular_velocity", b.name), b.place),
+                         fmt::format("body \"{}\" reaches across the periodic direction {}: it can turn only about that axis",
+                                     b.name, "xyz"[a]));
+    }
+  }
+
+  void events() const {
+    std::vector<std::string> born;
+    for (const auto& e : scene_.events)
+      if (!e.name.empty()) born.push_back(e.name);
+    std::size_t n = 0;
+    std::vector<std::pair<std::string, double>> absorbed;
+    for (const auto& e : scene_.events)
+      for (std::size_t k = 1; e.kind == Event::Kind::merge && k < e.bodies.size(); ++k)
+        absorbed.emplace_back(e.bodies[k], e.time);
+    for (const auto& e : scene_.events) {
+      ++n;
+      const auto path = e.name.empty() ? fmt::format("event.{}", n) : "event." + e.name;
+      for (const auto& name : e.bodies) known_body(scene_, name, path + ".bodies", e.place, born);
+      acts_on(e, path);
+      if (e.time > scene_.end_time)
+        throw InputError(place(path + ".time", e.place),
+                         fmt::format("the event at {} s never comes: end_time is {} s; remove it, or lengthen the run", e.time,
+                                     scene_.end_time));
+      for (const auto& [name, time] : absorbed)
+        if (e.time > time && holds(e.bodies, name))
+          throw InputError(
+              place(path + ".bodies", e.place),
+              fmt::format("body \"{}\" is absorbed by a merge at {} s and is no more at {} s: name the body that absorbs it",
+                          printable(name), time, e.time));
+      if (e.kind == Event::Kind::heat &&
+          std::none_of(scene_.bodies.begin(), scene_.bodies.end(), [](const Body& b) { return b.temperature.has_value(); }))
+        throw InputError(place(path + ".temperature", e.place),
+                         "no body has a temperature, so that nothing can be heated: give every body one");
+      if (e.kind == Event::Kind::split && holds(names_of(scene_.bodies), e.name))
+        throw InputError(
+            place(path + ".name", e.place),
+            fmt::format("a body \"{}\" exists already: give the part that splits off another name", printable(e.name)));
+    }
+    n = 0;
+    for (const auto& f : scene_.inflows) {
+      ++n;
+      if (f.start >= scene_.end_time)
+        throw InputError(
+            place(fmt::format("inflow.{}.start", n), {}),
+            fmt::format("nothing flows in before end_time = {} s, since start = {} s: begin sooner, or remove the inflow",
+                        scene_.end_time, f.start));
+      if (!holds(names_of(scene_.materials), f.material))
+        throw InputError(place(fmt::format("inflow.{}.material", n), {}),
+                         fmt::format("no material is named \"{}\"{}", printable(f.material),
+                                     suggestion(f.material, names_of(scene_.materials))));
+    }
+  }
+
+  /// Bodies that this kind of event cannot act on, or only as what they are not.
+  void acts_on(const Event& e, const std::string& path) const {
+    for (const auto& b : scene_.bodies) {
+      if (!holds(e.bodies, b.name)) continue;
+      const auto refuse = [&](const std::string& why) {
+        throw InputError(place(path + ".bodies", e.place), fmt::format("body \"{}\" {}", b.name, why));
+      };
+      if ((e.kind == Event::Kind::merge || e.kind == Event::Kind::split) && b.phase == Phase::liquid)
+        refuse("is liquid: only solids merge and split");
+      if (e.kind == Event::Kind::release && b.phase == Phase::elastic && b.motion != Motion::free)
+        refuse(
+            "is elastic, and moves as a whole as long as its motion is not free, also after a release: make it free, and hold it "
+            "by an event until then");
+    }
+  }
+
+  const Scene& scene_;
+  const std::vector<Mode>& runs_;
+};
+
+}  // namespace
+
+void check_scene(const Scene& scene, const std::vector<Mode>& runs, const Reading& reading) {
+  Checker(scene, runs, reading).check();
+}
+
+}  // namespace tripoint

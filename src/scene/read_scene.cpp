@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/defaults.hpp"
+#include "scene/effect_keys.hpp"
+#include "scene/geometry.hpp"
+#include "scene/library.hpp"
+#include "scene/nearest.hpp"
+#include "scene/scene_records.hpp"
+#include "scene/value_reader.hpp"
+
+/// [scene], and everything else that is simulated.
+namespace tripoint {
+namespace {
+
+void read_modes(TableReader& in, Scene& s) {
+  const auto* modes = in.composite("modes");
+  if (!modes) return;
+  if (modes->kind != TomlNode::Kind::table)
+    in.refuse("modes", fmt::format("write modes.TERM = \"paper\" or \"corrected\", not {}", kind_name(modes->kind)));
+  for (const auto& [term, word] : modes->members) {
+    try {
+      if (word.kind != TomlNode::Kind::text)
+        throw InputError(fmt::format("must be \"corrected\" or \"paper\", not {}", kind_name(word.kind)));
+      s.modes_given[static_cast<std::size_t>(term_from(term))] = mode_from(word.text);
+    } catch (const InputError& e) {
+      throw InputError(word.key_place, fmt::format("`scene.modes.{}`: {}", printable(term), e.what()));
+    }
+    in.decisions().push_back({"scene.modes." + term, "\"" + word.text + "\"", "given", true, word.place});
+  }
+}
+
+/// `clamp = true` is modes.clamp = "corrected", whatever the mode.
+void read_clamp(TableReader& in, Scene& s) {
+  const auto clamp = in.maybe_flag("clamp");
+  if (!clamp) return;
+  std::optional<Mode>& given = s.modes_given[static_cast<std::size_t>(Term::clamp)];
+  if (given) in.refuse("clamp", "scene.modes.clamp says the same: remove one of them");
+  given = *clamp ? Mode::corrected : Mode::paper;
+}
+
+void check_domain(const TableReader& in, const Scene& s) {
+  if (s.min.has_value() != s.max.has_value())
+    in.refuse(s.min ? "min" : "max", fmt::format("a domain has two corners: give scene.{} too", s.min ? "max" : "min"));
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (s.periodic[a] && !(s.min && s.max))
+      in.refuse("periodic", fmt::format("direction {} repeats over the domain: give scene.min and scene.max", "xyz"[a]));
+    if (s.min && s.max && !((*s.max)[a] > (*s.min)[a]))
+      in.refuse("max", fmt::format("the domain has no extent along {}: max must be greater than min", "xyz"[a]));
+  }
+}
+
+/// [scene], but for spacing, which its bodies decide where it is not given.
+void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Reading& reading) {
+  read("end_time"), read("gravity"), read("mode");
+  read_modes(in, s);
+  read_clamp(in, s);
+  read("time_step");
+  if (s.time_step && *s.time_step > s.end_time)
+    in.refuse("time_step", fmt::format("{} s is longer than end_time = {} s: shorten it", *s.time_step, s.end_time));
+  if (s.time_step && s.end_time > most_steps * *s.time_step)
+    in.refuse("time_step", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made; lengthen it",
+                                       *s.time_step, s.end_time / *s.time_step, s.end_time, most_steps));
+  read("seed"), read("jitter");
+  read("min"), read("max"), read("periodic");
+  check_domain(in, s);
+  if (read("output_interval"))
+    in.ruled("output_interval", show(s.output_interval = s.end_time / 20.0), "a twentieth of end_time");
+  if (s.output_interval > s.end_time)
+    in.refuse("output_interval", fmt::format("{} s is longer than end_time = {} s: shorten it", s.output_interval, s.end_time));
+  if (s.end_time / s.output_interval > 1e6)
+    in.refuse("output_interval",
+              fmt::format("{:.3g} frames would be written; at most 1e6: lengthen it", s.end_time / s.output_interval));
+  read_effect_keys(in, "scene", s, reading);
+  read.rest();
+}
+
+void resolve_modes(TableReader& in, Scene& s, RecordReader<Scene>& read) {
+  for (std::size_t t = 0; t < term_count; ++t) {
+    s.modes[t] = s.modes_given[t].value_or(s.mode);
+    if (!s.modes_given[t])
+      in.ruled(fmt::format("modes.{}", to_string(static_cast<Term>(t))), fmt::format("\"{}\"", to_string(s.mode)),
+               "as scene.mode");
+  }
+  if (!in.has("clamp")) in.ruled("clamp", s.clamps() ? "true" : "false", "as modes.clamp");
+  const bool paper = s.all_printed();
+  if (!read("support_ratio")) {
+    s.support_ratio_given = true;
+    if (s.support_ratio > 10.0)
+      in.refuse("support_ratio", fmt::format("{} spacings reach some {:.0f} neighbours: at most 10", s.support_ratio,
+                                             4.19 * std::pow(s.support_ratio, 3)));
+  } else {
+    s.support_ratio = s.default_support_ratio();
+    in.ruled("support_ratio", show(s.support_ratio),
+             paper ? std::string("every term is paper: about 40 neighbours by volume, as the paper has")
+                   : fmt::format("some term is corrected: {} for its Wendland kernel", corrected_support));
+  }
+  if (!read("merge_distance")) {
+    s.merge_distance_given = true;
+  } else {
+    s.merge_distance = default_merge_distance(s);
+    in.ruled("merge_distance", show(s.merge_distance),
+             s.mode_of(Term::phase) == Mode::paper ? "phase is paper: whatever is within reach of its bonds"
+                                                   : "nearest and diagonal neighbours of the lattice");
+  }
+}
+
+void resolve_spacing(TableReader& in, Scene& s, RecordReader<Scene>& read) {
+  if (!read("spacing")) return;
+  double least = INFINITY;
+  std::string which;
+  for (const auto& b : s.bodies) {
+    const Vec3 e = bounds(b.shape).extent();
+    for (std::size_t a = 0; a < 3; ++a)
+      if (e[a] < least) least = e[a], which = b.name;
+  }
+  if (!std::isfinite(least) || !(least > 0.0))
+    in.refuse("spacing", "no body has a finite extent to take a tenth of: give scene.spacing");
+  s.spacing = least / 10.0;
+  in.ruled("spacing", show(s.spacing), fmt::format("a tenth of the smallest extent, {} m of body {}", least, which));
+}
+
+/// Materials of [[material]], then those of the library that a body or inflow names.
+void read_materials(TableReader& top, Scene& s, Reading& reading) {
+  for (const auto* node : top.tables("material")) s.materials.push_back(read_material(*node, reading));
+  for (const char* list : {"body", "inflow"}) {
+    if (!top.has(list)) continue;
+    for (const auto* node : top.tables(list)) {
+      const auto* name = node->find("material");
+      if (!name || name->kind != TomlNode::Kind::text || library_file(name->text).empty()) continue;
+      if (std::any_of(s.materials.begin(), s.materials.end(), [&](const Material& m) { return m.name == name->text; })) continue;
+      TomlNode entry;
+      entry.place = name->place;
+      entry.members.emplace_back("name", *name);
+      s.materials.push_back(read_material(entry, reading));
+    }
+  }
+}
+
+}  // namespace
+
+Scene read_scene(TableReader& top, Reading& reading) {
+  Scene s;
+  // Materials come first: their faults are theirs, whatever else is missing.
+  read_materials(top, s, reading);
+  const auto* scene = top.composite("scene");
+  TableReader in(*scene, "scene", "scene", reading.decisions);
+  RecordReader read(in, s, reading);
+  read_scene_table(in, s, read, reading);
+  for (const auto* node : top.tables("body")) s.bodies.push_back(read_body(*node, s.materials, reading));
+  if (s.bodies.empty()) top.refuse("body", "the scene has no body: add a [[body]]");
+  resolve_spacing(in, s, read);
+  resolve_modes(in, s, read);
+  std::size_t n = 0;
+  for (const auto* node : top.tables("event")) s.events.push_back(read_event(*node, ++n, reading));
+  n = 0;
+  for (const auto* node : top.tables("inflow")) s.inflows.push_back(read_inflow(*node, ++n, s.end_time, reading));
+  const bool flows =
+      !s.inflows.empty() || std::any_of(s.bodies.begin(), s.bodies.end(), [](const Body& b) { return b.phase == Phase::liquid; });
+  if (!s.contact && flows)
+    in.refuse("contact", "a liquid meets every solid by the same forces as solids meet each other: remove it");
+  if (const auto stiffness = default_stiffness(s))
+    reading.decisions.push_back({"material.stiffness", show(stiffness->value), stiffness->rule, false, {}});
+  return s;
+}
+
+}  // namespace tripoint

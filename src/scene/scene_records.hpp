@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "scene/record.hpp"
+#include "scene/scene.hpp"
+
+/// The keys of [scene], materials, bodies, events and inflows, each beside the member that keeps it. Effects bring more
+/// (effect_rule.hpp).
+namespace tripoint {
+namespace records {
+using enum ValueType;
+using enum Range;
+
+inline constexpr auto of_scene = std::make_tuple(
+    kept(&Scene::end_time, {"scene", "end_time", number, "s", positive, "!", "", "", "simulated time"}),
+    kept(&Scene::gravity, {"scene", "gravity", vector, "m/s2", any, "[0, 0, 0]", "free space: a case says when bodies fall", "",
+                           "acceleration of every free particle"}),
+    kept(&Scene::spacing, {"scene", "spacing", number, "m", positive, "=", "a tenth of the smallest extent of a body", "",
+                           "distance dx of the particles, the same in the whole scene"}),
+    kept(&Scene::support_ratio, {"scene", "support_ratio", number, "", above_one, "=",
+                                 "2.12 where every term is paper, else 2.6 (about 40 and 74 neighbours)", "",
+                                 "support radius of the kernel divided by the spacing, h/dx"}),
+    kept(&Scene::mode, {"scene", "mode", word, "", any, "\"corrected\"", "the best known form of each term", "corrected paper",
+                        "form of every term of the model"}),
+    Key{"scene", "modes", table, "", any, "=", "every term as `mode` says", "modes", "form of single terms of the model"},
+    Key{"scene", "clamp", flag, "", any, "=",
+        "modes.clamp: true where it is corrected, since negative pressure would glue bodies together; the paper prints none", "",
+        "no negative pressure"},
+    kept(&Scene::time_step, {"scene", "time_step", number_or_auto, "s", positive, "\"auto\"",
+                             "the least bound of the effects that are on", "", "time step, or \"auto\""}),
+    kept(&Scene::seed, {"scene", "seed", integer, "", not_negative, "1", "any number serves; kept so that runs repeat", "",
+                        "seed of jitter and walkers"}),
+    kept(&Scene::jitter, {"scene", "jitter", number, "", fraction, "0", "an undisturbed lattice", "",
+                          "random shift of each particle, uniform in +-jitter in each direction, in spacings"}),
+    kept(&Scene::min,
+         {"scene", "min", vector, "m", any, "", "no bounds: no direction is periodic", "", "lower corner of the domain"}),
+    kept(&Scene::max,
+         {"scene", "max", vector, "m", any, "", "no bounds: no direction is periodic", "", "upper corner of the domain"}),
+    kept(&Scene::periodic,
+         {"scene", "periodic", words, "", any, "[]", "open in every direction", "x y z", "periodic directions of the domain"}),
+    kept(&Scene::output_interval,
+         {"scene", "output_interval", number, "s", positive, "=", "a twentieth of end_time", "", "time between frames"}),
+    kept(&Scene::settle,
+         {"scene", "settle", flag, "", any, "false",
+          "liquids start on a lattice, which falls by a tenth of a spacing and breaks up", "",
+          "let the liquids down into equilibrium under gravity before time 0, between solids that stand where they start"}),
+    kept(&Scene::merge_distance,
+         {"scene", "merge_distance", number, "", positive, "=",
+          "1.5, nearest and diagonal neighbours of the lattice; where phase is paper 2.12, the reach of its bonds", "",
+          "how near a freezing particle joins, in spacings"},
+         {.later = true}),
+    kept(&Scene::contact,
+         {"scene", "contact", word, "", any, "\"auto\"", "solids meet wherever their paths can cross", "auto none",
+          "none: solids pass through each other, and nothing is paid for it; not in a scene that flows"},
+         {.yes = "auto"}),
+    kept(&Scene::recovers,
+         {"scene", "on_failure", word, "", any, "\"stop\"", "a run that has gone wrong is no result", "stop recover",
+          "what a guard does that trips: stop with exit code 7; or go back to the last good state and on with half the step, "
+          "counted in the results"},
+         {.yes = "recover"}),
+    kept(&Scene::unguarded,
+         {"scene", "unguarded", words, "", any, "[]", "every guard is on", "inversion overlap escape ledger time_step",
+          "guards that are off: det F <= 0; a solid or liquid pressed to more than two coinciding layers; a particle leaving "
+          "min..max; energy made or lost by the scheme; a time step that collapses"}));
+
+inline constexpr auto of_material = std::make_tuple(
+    kept(&Material::name, {"material", "name", text, "", any, "!", "", "",
+                           "its name; a name of the library brings the library's values, which keys here replace"}),
+    kept(&Material::density,
+         {"material", "density", number, "kg/m3", positive, "!", "", "", "rest density, one for both phases"}),
+    kept(&Material::stiffness,
+         {"material", "stiffness", number, "m2/s2", positive, "",
+          "taken from the speeds of the scene, or from elastic moduli, where something flows or solids can meet", "",
+          "k of p = k (rho - rho0), the square of the sound speed"}),
+    Key{"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "", "instead of stiffness: k is its square"},
+    kept(&Material::solid_conductivity,
+         {"material", "solid_conductivity", number, "W/m/K", positive, "", "conductivity is that of both phases", "",
+          "conductivity of the solid; `conductivity` is then that of the liquid; not as printed"}),
+    kept(&Material::solid_heat_capacity,
+         {"material", "solid_heat_capacity", number, "J/kg/K", positive, "", "heat_capacity is that of both phases", "",
+          "specific heat of the solid; `heat_capacity` is then that of the liquid, and `latent_heat` that at t_melt; not as "
+          "printed"}),
+    kept(&Material::solid, {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid",
+                            "elastic rigid", "what it is when solid"}),
+    Key{"material", "source", text, "", any, "", "the case's own values", "", "where the values come from"});
+
+inline constexpr auto of_body = std::make_tuple(
+    kept(&Body::name, {"body", "name", text, "", any, "!", "", "", "name of the body"}),
+    kept(&Body::material, {"body", "material", text, "", any, "!", "", "", "name of a [[material]], or of one of the library"}),
+    kept(&Body::phase, {"body", "phase", word, "", any, "=", "from the material and the temperature", "liquid elastic rigid",
+                        "phase at the start"}),
+    kept(&Body::shape, {"body", "shape", shape, "", any, "!", "", "", "region that the body fills"}),
+    kept(&Body::velocity,
+         {"body", "velocity", velocity, "m/s", any, "[0, 0, 0]", "at rest", "",
+          "velocity at the start; of a prescribed body constant for ever"},
+         {.in_job = "velocity_field"}),
+    kept(&Body::angular_velocity,
+         {"body", "angular_velocity", vector, "rad/s", any, "[0, 0, 0]", "no spin", "",
+          "angular velocity at the start about the centre of mass, in the world frame; for liquids too"}),
+    kept(&Body::temperature,
+         {"body", "temperature", temperature, "K", positive, "", "its heat is not followed", "", "temperature at the start"}),
+    kept(&Body::temperature_held, {"body", "temperature_held", flag, "", any, "false", "free to warm and cool", "",
+                                   "true: the temperature of the body never changes"}),
+    kept(&Body::motion, {"body", "motion", word, "", any, "\"free\"", "bodies move by their forces", "free fixed prescribed",
+                         "free: moved by forces; fixed: at rest; prescribed: moved by keyframes or constant velocities"}),
+    kept(&Body::keyframes, {"body", "keyframes", tables, "", any, "[]", "prescribed: constant velocity and angular_velocity",
+                            "keyframe", "motion of a prescribed body"}),
+    kept(&Body::free_slip,
+         {"body", "slip", word, "", any, "\"no\"", "liquid sticks to solids", "no free",
+          "no: liquid sticks to the body; free: liquid glides along it"},
+         {.yes = "free"}),
+    kept(&Body::joins, {"body", "joins", flag, "", any, "=", "true where the material melts", "",
+                        "true: matter that freezes in contact with the body joins it"}),
+    kept(&Body::joined_to, {"body", "joined_to", texts, "", any, "[]", "bonded to nothing", "",
+                            "bodies that the body is bonded to from the start"}));
+
+inline constexpr auto of_keyframe = std::make_tuple(
+    kept(&Keyframe::time,
+         {"keyframe", "time", number, "s", not_negative, "!", "", "", "time of the keyframe; keyframes are in rising order"}),
+    kept(&Keyframe::position,
+         {"keyframe", "position", vector, "m", any, "!", "", "", "position of the centre of mass; linear between keyframes"}),
+    kept(&Keyframe::rotation, {"keyframe", "rotation", numbers, "", any, "[1, 0, 0, 0]", "not turned", "",
+                               "rotation (w, x, y, z) since the start; slerp, less than half a turn between keyframes"}));
+
+inline constexpr auto of_event = std::make_tuple(
+    kept(&Event::time, {"event", "time", number, "s", not_negative, "!", "", "", "time at which the event begins"}),
+    kept(
+        &Event::kind,
+        {"event", "kind", word, "", any, "!", "", "merge split release heat hold grip",
+         "merge: bodies[0] absorbs the rest; split: members in region become body `name`; heat: holds `temperature` in region or "
+         "bodies until `until`; hold: pauses bodies; grip: moves solids in region by keyframes until release"}),
+    kept(&Event::name, {"event", "name", text, "", any, "=", "none", "", "name of the new body, or of the grip"}),
+    kept(&Event::bodies, {"event", "bodies", texts, "", any, "[]", "all in the region", "", "bodies that the event acts on"}),
+    kept(&Event::region, {"event", "region", shape, "", any, "", "everywhere", "", "region that the event acts in"}),
+    kept(&Event::temperature, {"event", "temperature", number, "K", positive, "", "none", "", "temperature that is held"}),
+    kept(&Event::until, {"event", "until", number, "s", positive, "", "to the end", "", "time at which the event ends"}),
+    kept(&Event::keyframes, {"event", "keyframes", tables, "", any, "[]", "none", "keyframe", "motion of the grip"}));
+
+inline constexpr auto of_inflow = std::make_tuple(
+    kept(&Inflow::material, {"inflow", "material", text, "", any, "!", "", "", "name of the material that flows in"}),
+    kept(&Inflow::shape, {"inflow", "shape", shape, "", any, "!", "", "", "region through which it enters"}),
+    kept(&Inflow::velocity, {"inflow", "velocity", vector, "m/s", any, "!", "", "", "velocity of what enters, along an axis"}),
+    kept(&Inflow::temperature,
+         {"inflow", "temperature", number, "K", positive, "", "its heat is not followed", "", "temperature of what enters"}),
+    kept(&Inflow::start,
+         {"inflow", "start", number, "s", not_negative, "0", "from the start", "", "time at which the inflow begins"}),
+    kept(&Inflow::stop, {"inflow", "stop", number, "s", positive, "=", "end_time", "", "time at which the inflow ends"}),
+    kept(&Inflow::rate, {"inflow", "rate", number, "m3/s", positive, "", "by the speed", "",
+                         "volume per second; replaces the magnitude of velocity"}));
+
+}  // namespace records
+
+template <>
+inline constexpr auto record<Scene> = records::of_scene;
+template <>
+inline constexpr auto record<Material> = records::of_material;
+template <>
+inline constexpr auto record<Body> = records::of_body;
+template <>
+inline constexpr auto record<Keyframe> = records::of_keyframe;
+template <>
+inline constexpr auto record<Event> = records::of_event;
+template <>
+inline constexpr auto record<Inflow> = records::of_inflow;
+
+}  // namespace tripoint

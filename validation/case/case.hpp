@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "job/reference_choice.hpp"
+#include "scene/scene.hpp"
+#include "scene/settings.hpp"
+
+/// The checked case: a scene, and how its runs are judged. SI, with every default filled in.
+namespace tripoint {
+
+struct EngineChoice {
+  std::string name;
+  bool required = false;
+  std::vector<std::string> presets;  ///< one row of the results each; empty = "default"
+  Settings settings;
+};
+
+struct MetricChoice {
+  std::string name, quantity, norm = "max", body, at = "end";
+  std::array<double, 2> window{0.0, 0.0};    ///< [s]; {0, 0} = all
+  double scale = 1.0;                        ///< error is divided by it
+  std::string unit;                          ///< of the scaled value, for people
+  std::optional<ReferenceChoice> reference;  ///< overrides the case's
+  SourcePlace place;
+};
+
+struct Study {
+  std::string axis;                                ///< spacing time_step support_ratio walkers iterations
+  std::vector<double> levels;                      ///< coarse to fine
+  std::vector<double> support_ratios, time_steps;  ///< refined together with the levels, one for each; empty = the case's own
+  double jitter = 0.0;
+  int seeds = 1;
+  std::string engine, mode;     ///< empty = all
+  std::string expect;           ///< class, empty = not judged
+  std::optional<double> order;  ///< formal
+  std::string metric;           ///< empty = every metric
+  SourcePlace place;
+};
+
+struct Gate {
+  std::string metric;                ///< a metric's name, or NAME.order
+  std::string engine, mode, preset;  ///< empty = all
+  std::optional<double> limit, at_least;
+  std::optional<std::array<double, 2>> band;
+  std::optional<double> level;  ///< of the study's axis; empty = every run
+  std::optional<double>
+      drift;  ///< share by which the value may move from its baseline before that turns red; empty = a tenth, and it warns
+  std::string reason, by, date;
+  SourcePlace place;
+};
+
+/// A number that the scene takes from a measurement, at one standard uncertainty below and above what the case says.
+struct UncertainInput {
+  std::string key;        ///< as of --set: material.water.viscosity
+  std::string low, high;  ///< TOML values, or numbers with a unit
+  SourcePlace place;
+};
+
+struct Defect {
+  std::string name;
+  double size = 0.0;
+  std::optional<double> smallest;  ///< least size that its gates were seen to catch; empty = not sought
+  std::vector<std::string> killed_by;
+  SourcePlace place;
+};
+
+struct Case {
+  std::string id, title, requirement, claims, kind = "verification";
+  std::vector<std::string> profiles{"commit"}, tags;
+  std::string expect = "pass";  ///< pass | diverges | defect
+  std::vector<Mode> modes{Mode::corrected};
+  Scene scene;
+  std::vector<EngineChoice> engines;
+  ReferenceChoice reference;
+  std::vector<MetricChoice> metrics;
+  std::vector<Study> studies;
+  std::vector<Gate> gates;
+  std::vector<UncertainInput> inputs;
+  std::vector<Defect> defects;
+  std::vector<std::string> harmless;
+  std::string file;  ///< the path it was read from
+};
+
+}  // namespace tripoint

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "validation/case/case_keys.hpp"
+
+#include <array>
+#include <span>
+
+#include "validation/case/case_document.hpp"
+
+namespace tripoint {
+namespace {
+
+using enum ValueType;
+using enum Range;
+constexpr std::string_view axes = "spacing time_step support_ratio walkers iterations";
+constexpr std::string_view references = "analytic discrete_exact mms self engine experiment invariant bound";
+constexpr std::string_view orders = "asymptotic preasymptotic plateau roundoff oscillating diverging noise-limited too-few";
+
+/// Before the scene's keys.
+constexpr auto keys_before = std::to_array<Key>({
+    {"", "format", integer, "", positive, "1", "the first version", "", "version of the case file"},
+    {"", "extends", text, "", any, "", "the case stands on its own", "",
+     "case whose keys hold where this file says nothing: a file of this folder, \"other.toml\", or a case's name"},
+    {"", "remove", texts, "", any, "", "all of it holds", "",
+     "what of the extended case does not hold: \"scene.jitter\", \"engines.lammps\", \"metric.overlap\" (and the gates on it), "
+     "\"study\""},
+    {"", "case", table, "", any, "=", "id from the file's place", "case", "what is shown, and how it is judged"},
+});
+
+/// Behind the scene's keys.
+constexpr auto keys_behind = std::to_array<Key>({
+    {"", "engines", table, "", any, "=", "every engine that can", "engines",
+     "engines of this case, one table for each: [engines.NAME]"},
+    {"", "reference", table, "", any, "=", "only the invariants are known", "reference", "the truth, where it is known"},
+    {"", "metric", tables, "", any, "=", "nothing is measured", "metric", "numbers computed from each run"},
+    {"", "invariants", table, "", any, "", "nothing but the metrics", "invariants",
+     "quantities that every run must keep: a metric and its gate on one line"},
+    {"", "study", tables, "", any, "=", "one run an engine", "study", "convergence studies"},
+    {"", "gate", tables, "", any, "=", "nothing is judged", "gate", "limits"},
+    {"", "input", tables, "", any, "=", "every number counts as exact", "input", "uncertain numbers"},
+    {"", "defect", tables, "", any, "=", "none", "defect", "faults that this case must catch"},
+    {"", "harmless", tables, "", any, "=", "none", "harmless", "changes that must not change any metric"},
+    // [case]
+    {"case", "id", text, "", any, "=", "folder and name of the file", "", "name of the case: subject/case"},
+    {"case", "title", text, "", any, "=", "the id", "", "title in one line"},
+    {"case", "requirement", text, "", any, "\"\"", "none is stated", "", "label of the requirement that the case shows"},
+    {"case", "claims", text, "", any, "\"\"", "none is stated", "", "statement that the gates prove"},
+    {"case", "kind", word, "", any, "\"verification\"", "against an exact solution", "verification validation comparison",
+     "kind of truth: verification: exact solution; validation: experiment; comparison: another engine"},
+    {"case", "profiles", words, "", any, "[\"commit\"]", "runs with every change", "commit nightly release acceptance",
+     "suites that the case belongs to; acceptance: it has a limit that any engine must hold"},
+    {"case", "tags", texts, "", any, "[]", "none", "", "words to select cases by"},
+    {"case", "expect", word, "", any, "\"pass\"", "a case is meant to pass", "pass diverges paper-diverges defect",
+     "what must be measured for the case to pass; paper-diverges: the printed form does, the corrected one does not"},
+    {"case", "modes", words, "", any, "=", "the scene's mode", "corrected paper",
+     "forms of the model that are run, one set of runs each"},
+    // [engines.NAME]
+    {"engines", "required", flag, "", any, "false", "its absence is a row of the report and no failure (tripoint: true)", "",
+     "true: the case fails where the engine is missing"},
+    {"engines", "preset", text_or_texts, "", any, "[]", "the engine's default", "",
+     "presets of the engine, one row of the results each"},
+    {"engines", "refuses", text, "", any, "", "it may take the case or refuse it", "",
+     "words of the refusal that is expected of the engine: it fails the case when it takes it, or refuses it for another reason"},
+    {"engines", "settings", settings, "", any, "{}", "the preset's own", "", "settings of the engine, by its own keys"},
+    // [reference]
+    {"reference", "kind", word, "", any, "\"analytic\"", "an exact solution", references, "kind of truth"},
+    {"reference", "function", text, "", any, "=", "none", "", "name of the exact solution"},
+    {"reference", "args", settings, "", any, "{}", "from the scene", "", "arguments of the function"},
+    {"reference", "file", text, "", any, "\"\"", "no data", "", "data beside the case: <case>.ref.*"},
+    {"reference", "source", text, "", any, "\"\"", "the function's own", "", "source of the truth: book, paper or derivation"},
+    {"reference", "uncertainty", number, "", not_negative, "0", "exact", "",
+     "standard uncertainty of the reference, in the metric's unit"},
+    // [[metric]]
+    {"metric", "name", text, "", any, "!", "", "", "name of the metric"},
+    {"metric", "quantity", text, "", any, "!", "", "",
+     "position orientation velocity angular_velocity temperature pressure density force torque phase_count body_count event_time "
+     "ledger.TERM"},
+    {"metric", "norm", text, "", any, "\"max\"", "the worst counts", "", "norm over samples and time: L1 L2 Linf max final ..."},
+    {"metric", "body", text, "", any, "\"\"", "all", "", "body whose samples count"},
+    {"metric", "at", text, "", any, "\"end\"", "where errors have grown", "", "time at which the metric is taken"},
+    {"metric", "window", numbers, "s", any, "[0, 0]", "all frames", "", "first and last time that count"},
+    {"metric", "scale", number, "", positive, "1", "in the quantity's own unit", "", "number that the error is divided by"},
+    {"metric", "unit", text, "", any, "\"\"", "the quantity's own", "", "unit of the scaled value, as the report prints it"},
+    {"metric", "reference", table, "", any, "=", "the case's", "reference", "reference of this metric alone"},
+    {"metric", "gates", tables, "", any, "", "gates stand in [[gate]]", "gates",
+     "gates of this metric, each without the key metric"},
+    {"metric", "limits", settings, "", any, "", "no limit by level", "",
+     "one gate for each level of the study, for all engines: { LEVEL = LIMIT, ... }"},
+    {"metric", "reason", text, "", any, "", "gates bring their own", "", "reason of `limits`"},
+    // [[study]]
+    {"study", "axis", word, "", any, "!", "", axes, "axis that is refined"},
+    {"study", "levels", numbers, "", any, "!", "", "", "values in the axis's own unit, coarse to fine"},
+    {"study", "support_ratios", numbers, "", any, "", "the case's own", "",
+     "support ratios that are refined together with the levels, one for each"},
+    {"study", "time_steps", numbers, "s", any, "", "the case's own", "",
+     "time steps that are refined together with the levels, one for each"},
+    {"study", "jitter", number, "", fraction, "0", "an undisturbed lattice", "", "jitter of the runs, in spacings"},
+    {"study", "seeds", integer, "", positive, "1", "one run a level", "",
+     "number of runs for each level, each with its own seed"},
+    {"study", "engine", text, "", any, "\"\"", "all", "", "engine that is refined"},
+    {"study", "mode", text, "", any, "\"\"", "all", "",
+     "form of our solver that is refined: corrected, paper; \"not paper\": every engine, and ours but in its printed form"},
+    {"study", "expect", word, "", any, "\"\"", "not judged", orders, "expected class of the convergence"},
+    {"study", "order", number, "", any, "", "not judged", "", "formal order"},
+    {"study", "metric", text, "", any, "\"\"", "every metric", "", "metric that is fitted"},
+    // [[gate]]
+    {"gate", "metric", text, "", any, "!", "", "", "a metric's name, NAME.order or NAME.statistical"},
+    {"gate", "engine", text, "", any, "\"\"", "all", "", "engine that the gate judges"},
+    {"gate", "mode", text, "", any, "\"\"", "all", "",
+     "form of our solver that is judged: corrected, paper; \"not paper\": every engine's runs but those of our printed form"},
+    {"gate", "preset", text, "", any, "\"\"", "all", "", "preset that the gate judges"},
+    {"gate", "limit", number, "", any, "", "none", "", "greatest magnitude of the value"},
+    {"gate", "at_least", number, "", any, "", "none", "", "least value"},
+    {"gate", "band", numbers, "", any, "", "none", "", "least and greatest value"},
+    {"gate", "level", number, "", any, "", "every run", "", "level of the study's axis that the gate judges"},
+    {"gate", "limits", settings, "", any, "", "none", "",
+     "instead of level and limit, one gate for each: { LEVEL = LIMIT, ... }"},
+    {"gate", "drift", number, "", positive, "", "a tenth, and it warns only", "",
+     "share by which the value may move from its accepted baseline; beyond it the gate is red"},
+    {"gate", "reason", text, "", any, "!", "", "",
+     "reason of the limit; \"known defect NAME: ...\" of a named engine's band excuses it from the acceptance limit on the "
+     "metric, which it must then exceed"},
+    {"gate", "by", text, "", any, "\"\"", "unsigned", "", "name of who set the limit"},
+    {"gate", "date", text, "", any, "\"\"", "undated", "", "date on which the limit was accepted"},
+    // [[input]], [[defect]], [[harmless]]
+    {"input", "key", text, "", any, "!", "", "", "key of the uncertain number, as --set names it: material.water.viscosity"},
+    {"input", "low", text, "", any, "!", "", "", "value less one standard uncertainty, as text: \"0.99e-3 Pa s\""},
+    {"input", "high", text, "", any, "!", "", "", "value plus one standard uncertainty"},
+    {"defect", "name", text, "", any, "!", "", "", "name of a registered defect: heat.conductivity ..."},
+    {"defect", "size", number, "", any, "!", "", "", "size of the defect"},
+    {"defect", "smallest", number, "", positive, "", "it is not sought", "",
+     "least size that the gates catch: the self-test finds it by bisection and fails where it has grown by more than a quarter"},
+    {"defect", "killed_by", text_or_texts, "", any, "[]", "any gate", "", "metrics whose gates must fail"},
+    {"harmless", "name", word, "", any, "!", "", "threads order ulp boost mirror rotation units",
+     "threads: 2 instead of 1; order: of the particles; ulp: of each coordinate; boost: a velocity added to all of a closed "
+     "scene; mirror: in x; rotation: x to y to z to x; units: powers of 2"},
+});
+
+constexpr auto tables_before = std::to_array<TableInfo>({
+    {"", "(top)", "The file. Numbers are SI, or texts with a unit: \"3 mm\", \"1.2 g/cm3\", \"20 degC\"."},
+    {"case", "[case]", "What the case shows, and how it is judged."},
+});
+constexpr auto tables_behind = std::to_array<TableInfo>({
+    {"engines", "[engines.NAME]",
+     "Each engine and preset is one row of the results. [engines.all] is no engine: its settings go to every engine, of which an "
+     "engine's own go before: `friction` (Coulomb's coefficient) and `restitution` of every pair of bodies."},
+    {"reference", "[reference]", "The truth that metrics are compared with."},
+    {"metric", "[[metric]]", "A number computed from each run."},
+    {"gates", "[[metric]] gates = [{...}]",
+     "A gate within its metric: what [[gate]] has, less `metric`, which only says NAME.order or NAME.statistical."},
+    {"invariants", "[invariants]", "Quantities that a run must keep, each by its name: `ledger = 1e-9`, or a table."},
+    {"invariant", "[invariants.NAME]",
+     "A quantity that a run must keep: keys of its metric, and those of its gate or `gates`. quantity and norm are the name's."},
+    {"study", "[[study]]", "Runs at several levels of one axis: a convergence study."},
+    {"gate", "[[gate]]", "A limit that decides between pass and fail."},
+    {"input", "[[input]]",
+     "An uncertain number. The case's own run is repeated with the number at both ends; half the difference of a metric is its "
+     "input uncertainty."},
+    {"defect", "[[defect]]", "A fault that this case must catch."},
+    {"harmless", "[[harmless]]",
+     "A change without physical effect. `tripoint gate selftest` runs the changed scene; no verdict and no metric may change."},
+});
+
+/// A gate within its metric has the keys of a gate, an invariant those of a metric and of a gate.
+void add_short_forms(std::vector<Key>& list) {
+  std::vector<Key> more;
+  for (Key key : list) {
+    if (key.table != "gate") continue;
+    key.table = "gates";
+    if (key.name == "metric") key.fallback = "=", key.note = "the metric that holds it";
+    more.push_back(key);
+  }
+  for (const Invariant& one : invariants())
+    more.push_back({"invariants", one.name, invariant, "", any, "", "it is not measured", "", one.meaning});
+  more.push_back({"invariant", "value", number, "", any, "=", "0; required by body_count", "",
+                  "what the quantity is compared with; only of overlap, body_count and toggles"});
+  for (Key key : list) {
+    const bool of_metric = key.table == "metric" && key.name != "quantity" && key.name != "limits",
+               of_gate = key.table == "gate" && key.name != "metric";
+    if (!of_gate && (!of_metric || key.name == "reason")) continue;
+    key.table = "invariant";
+    if (key.name == "name") key.fallback = "=", key.note = "the invariant's";
+    if (key.name == "norm") key.fallback = "=", key.note = "the invariant's";
+    if (key.name == "reason")
+      key.fallback = "=", key.note = "round-off, of mass, momentum, angular_momentum and ledger; required by the others";
+    more.push_back(key);
+  }
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+template <class T>
+std::vector<T> around(std::span<const T> before, const std::vector<T>& scene, std::span<const T> behind) {
+  std::vector<T> list(before.begin(), before.end());
+  list.insert(list.end(), scene.begin(), scene.end());
+  list.insert(list.end(), behind.begin(), behind.end());
+  return list;
+}
+
+KeyTable all_keys() {
+  std::vector<Key> keys = around<Key>(keys_before, scene_keys().rows(), keys_behind);
+  add_short_forms(keys);
+  return {std::move(keys), around<TableInfo>(tables_before, scene_keys().tables(), tables_behind)};
+}
+
+}  // namespace
+
+const KeyTable& case_keys() {
+  static const KeyTable keys = all_keys();
+  return keys;
+}
+
+}  // namespace tripoint

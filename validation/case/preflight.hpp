@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <string>
+#include <vector>
+
+#include "core/errors.hpp"
+#include "scene/initial_state.hpp"
+#include "validation/case/read_case.hpp"
+
+namespace tripoint {
+
+/// One finding of the pre-flight check.
+struct Finding {
+  bool error = false;  ///< else a warning
+  std::string what;    ///< with what to do
+  SourcePlace place;
+};
+/// Overlaps and gaps, bodies under-resolved or of wrong mass, spins that move nothing, a time step above a bound: without running
+/// anything.
+[[nodiscard]] std::vector<Finding> preflight(const Case&, const Scene&, const InitialState&);
+
+/// One warning for each [[material]] of the case that bears the name of one of the library and takes values from it.
+[[nodiscard]] std::vector<Finding> library_values(const CaseReading&);
+
+}  // namespace tripoint
