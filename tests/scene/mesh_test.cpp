@@ -7,6 +7,7 @@
 
 #include "case_file.hpp"
 #include "scene/mesh.hpp"
+#include "scene/sample.hpp"
 
 namespace tripoint::test {
 namespace {
