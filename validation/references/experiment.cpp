@@ -237,7 +237,7 @@ void check_data_files(const Case& value) {
   const auto check = [](const ReferenceChoice& choice) {
     if (choice.function == "table")
       (void)read_table(choice.file);
-    else if (choice.kind == "experiment")
+    else if (choice.kind == ReferenceKind::experiment)
       (void)read_experiment(choice.file);
   };
   check(value.reference);
@@ -246,7 +246,7 @@ void check_data_files(const Case& value) {
 }
 
 ReferenceChoice with_source_of_file(ReferenceChoice choice) {
-  if ((choice.kind != "experiment" && choice.function != "table") || !choice.source.empty()) return choice;
+  if ((choice.kind != ReferenceKind::experiment && choice.function != "table") || !choice.source.empty()) return choice;
   try {
     const auto file = choice.function == "table" ? read_table(choice.file) : read_experiment(choice.file);
     choice.source = file.source;
