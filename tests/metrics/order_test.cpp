@@ -64,7 +64,8 @@ TEST(Order, NamesAPlateauAndItsLevel) {
   // The printed heat operator at 10/20/40/80 a wavelength, three digits.
   EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.108, -0.081, -0.074, -0.072}, {}, 2.0).fit_class, FitClass::plateau);
   // Errors that grow to a floor, and errors that change sign on their way to one.
-  EXPECT_EQ(fit_order({1. / 20, 1. / 40, 1. / 80, 1. / 160}, {2.0e-2, 3.7e-2, 4.2e-2, 4.3e-2}, {}, 2.0).fit_class, FitClass::plateau);
+  EXPECT_EQ(fit_order({1. / 20, 1. / 40, 1. / 80, 1. / 160}, {2.0e-2, 3.7e-2, 4.2e-2, 4.3e-2}, {}, 2.0).fit_class,
+            FitClass::plateau);
   EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.046, 0.007, 0.021, 0.025}, {}, 2.0).fit_class, FitClass::plateau);
 }
 
@@ -93,7 +94,8 @@ TEST(Order, DoesNotCallAnotherOrderAsymptotic) {
   const auto h = levels(0.1, 4);
   EXPECT_EQ(fit_order(h, errors(h, [](double x) { return x; }), {}, 2.0).fit_class, FitClass::preasymptotic);
   EXPECT_EQ(fit_order(h, errors(h, [](double x) { return std::pow(x, 3); }), {}, 2.0).fit_class, FitClass::preasymptotic);
-  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return x * x + 400 * std::pow(x, 4); }), {}, 2.0).fit_class, FitClass::preasymptotic);
+  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return x * x + 400 * std::pow(x, 4); }), {}, 2.0).fit_class,
+            FitClass::preasymptotic);
 }
 
 TEST(GridConvergence, BoundsTheErrorOfASecondOrderSeries) {

@@ -84,7 +84,8 @@ Order fit_order(const List& step, const List& error, const List& uncertainty, do
   if (!std::all_of(error.begin(), error.end(), finite)) return sized(FitClass::diverging, nan, nan, nan, nan);
   if (std::all_of(error.begin(), error.end(), [](double e) { return std::abs(e) <= roundoff; }))
     return sized(FitClass::roundoff, nan, nan, nan, 0.0);
-  if (std::any_of(error.begin(), error.end(), [](double e) { return e == 0.0; })) return sized(FitClass::oscillating, nan, nan, nan, nan);
+  if (std::any_of(error.begin(), error.end(), [](double e) { return e == 0.0; }))
+    return sized(FitClass::oscillating, nan, nan, nan, nan);
 
   const auto plain = fit_power_law(step, error);
   const auto with = [&](FitClass name) {
@@ -95,7 +96,8 @@ Order fit_order(const List& step, const List& error, const List& uncertainty, do
   if (lost_in_noise(error, uncertainty)) return with(FitClass::noise_limited);
   const auto floored = fit_floored_power_law(step, error);
   if (has_floor(floored, plain, error))
-    return sized(FitClass::plateau, floored.order.value, floored.order.low, floored.order.high, floored.coefficient, floored.floor.value);
+    return sized(FitClass::plateau, floored.order.value, floored.order.low, floored.order.high, floored.coefficient,
+                 floored.floor.value);
   if (plain.order.high < 0.0 || (plain.order.value < 0.0 && monotone(error))) return with(FitClass::diverging);
   if (changes_sign(error) || !monotone(error)) return with(FitClass::oscillating);
   const Order fit = with(FitClass::asymptotic);
