@@ -34,8 +34,10 @@ json reference_json(const ReferenceChoice& r) {
 }
 
 ReferenceChoice reference_from(const JsonObject& o) {
-  return {o.text_or("kind", "analytic"), o.text_or("function", ""), o.text_or("file", ""),
-          o.text_or("source", ""),       o.settings("args"),        o.number_or("uncertainty", 0.0)};
+  const auto kind = o.text_or("kind", "analytic");
+  if (!find_word<ReferenceKind>(kind)) throw InputError(o.path() + ".kind: `" + printable(kind) + "` is no kind of reference");
+  return {from_word<ReferenceKind>(kind), o.text_or("function", ""), o.text_or("file", ""),
+          o.text_or("source", ""),        o.settings("args"),        o.number_or("uncertainty", 0.0)};
 }
 
 json gauges_json(const std::vector<JobGauge>& gauges) {
@@ -156,12 +158,24 @@ std::string text_hash(const std::string& text) {
 
 void write_job(const std::string& path, const Job& job) { write_durably(path, job_text(job)); }
 
+namespace {
+
+/// What an engine may say of its own run; the other ends are not its own to tell.
+Status status_from(const JsonObject& o, const std::string& path) {
+  const auto word = o.text("status");
+  for (const auto status : {Status::ok, Status::refused, Status::diverged, Status::error})
+    if (to_string(status) == word) return status;
+  throw InputError(path + ": status: `" + printable(word) + "` is none that an engine may give (ok, refused, diverged, error)");
+}
+
+}  // namespace
+
 Result read_result(const std::string& path) {
   const json value = parse(path);
   const JsonObject o(value, "result");
   if (o.has("contract") && o.integer("contract") != 1) throw InputError(path + ": is not of contract 1");
   Result r;
-  r.status = o.text("status");
+  r.status = status_from(o, path);
   r.message = o.text_or("message", "");
   r.time_reached = o.number_or("time_reached", 0.0);
   r.steps = whole_number<long>(o.number_or("steps", 0.0));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "job/reference_choice.hpp"
+#include "job/status.hpp"
 #include "scene/initial_state.hpp"
 #include "scene/scene.hpp"
 #include "scene/settings.hpp"
@@ -90,7 +91,7 @@ struct Divergence {
 
 /// Contents of result.json.
 struct Result {
-  std::string status = "ok";  ///< ok | refused | diverged | error
+  Status status = Status::ok;  ///< ok, refused, diverged or error
   std::string message;
   double time_reached = 0.0;
   long steps = 0;
@@ -103,6 +104,7 @@ struct Result {
   std::map<std::string, double> extra;  ///< further numbers, under "extra"
 };
 
+/// @throws InputError naming the file and the key that is missing, of the wrong kind, or a status that no engine may give
 [[nodiscard]] Result read_result(const std::string& path);
 /// Writes to a temporary name, fsyncs and renames: the engine's last act.
 void write_result(const std::string& path, const Result&);

@@ -3,12 +3,19 @@
 #include <string>
 
 #include "scene/settings.hpp"
+#include "scene/words.hpp"
 
 namespace tripoint {
 
+/// Where a truth comes from.
+enum class ReferenceKind { analytic, discrete_exact, mms, self, engine, experiment, invariant, bound };
+constexpr WordTable<8> word_table(ReferenceKind) {
+  return {"kind of reference", {"analytic", "discrete_exact", "mms", "self", "engine", "experiment", "invariant", "bound"}};
+}
+
 /// The truth that a case names. The judge reads it, and of the engines `exact` alone.
 struct ReferenceChoice {
-  std::string kind = "analytic";  ///< analytic discrete_exact mms self engine experiment invariant bound
+  ReferenceKind kind = ReferenceKind::analytic;
   std::string function;
   std::string file;
   std::string source;  ///< book, paper or derivation, printed in the report

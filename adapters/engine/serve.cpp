@@ -146,22 +146,22 @@ class Run {
     try {
       if (restartable_) catch_stops();
       result_.message = refusal(engine_, job_);
-      if (!result_.message.empty()) return finish("refused", Exit::refused);
-      if (!sets_up()) return finish("refused", Exit::refused);
+      if (!result_.message.empty()) return finish(Status::refused, Exit::refused);
+      if (!sets_up()) return finish(Status::refused, Exit::refused);
       step_to_the_end();
-      return finish("ok", Exit::ok);
+      return finish(Status::ok, Exit::ok);
     } catch (const Interrupted& e) {
       result_.message = fmt::format("interrupted at t = {:.9g} s; continue with --resume {}", e.time, e.checkpoint);
       result_.time_reached = e.time;
       account();
-      return finish("error", Exit::interrupted);
+      return finish(Status::error, Exit::interrupted);
     } catch (const Diverged& e) {
       tell_failure(e);
       account();
-      return finish("diverged", Exit::diverged);
+      return finish(Status::diverged, Exit::diverged);
     } catch (const std::exception& e) {
       result_.message = e.what();
-      const int code = finish("error", Exit::failed);
+      const int code = finish(Status::error, Exit::failed);
       std::fflush(nullptr);
       ::_exit(code);  // HDF5's own clean-up crashes after a failed write
     }
@@ -295,7 +295,7 @@ class Run {
 
   void account() { engine_.account(result_); }
 
-  int finish(const char* status, int code) {
+  int finish(Status status, int code) {
     result_.status = status;
     if (!result_.message.empty()) fmt::print(stderr, "{}: {}\n", status, result_.message);
     try {

@@ -65,7 +65,7 @@ int supervise(const std::string& job_path, int (*child)(int, char**), int argc, 
   const std::string words = output.empty() || std::filesystem::exists(result, ignored) ? "" : last_error(log);
   if (words.empty()) return WEXITSTATUS(status);
   Result failed;
-  failed.status = "error";
+  failed.status = Status::error;
   failed.message = words;
   fmt::print(stderr, "error: {}\n", words);
   write_result(result, failed);

@@ -28,7 +28,7 @@ void follow(const Job& job) {
 }
 
 /// Leaves what ended this rank to the process that started mpiexec, and ends the others.
-[[noreturn]] void give_up(const Job& job, int rank, const char* status, const std::string& message, int code,
+[[noreturn]] void give_up(const Job& job, int rank, Status status, const std::string& message, int code,
                           std::optional<Divergence> divergence = {}) {
   Result failed;
   failed.status = status;
@@ -43,11 +43,11 @@ void follow_or_give_up(const Job& job, int rank) {
   try {
     follow(job);
   } catch (const Diverged& e) {
-    give_up(job, rank, "diverged", e.what(), 7, Divergence{e.particle, e.body, e.field, e.stage, e.time, e.guard, "", ""});
+    give_up(job, rank, Status::diverged, e.what(), 7, Divergence{e.particle, e.body, e.field, e.stage, e.time, e.guard, "", ""});
   } catch (const InputError& e) {
-    give_up(job, rank, "refused", std::string("tripoint-mpi: ") + e.what(), 4);
+    give_up(job, rank, Status::refused, std::string("tripoint-mpi: ") + e.what(), 4);
   } catch (const std::exception& e) {
-    give_up(job, rank, "error", e.what(), 1);
+    give_up(job, rank, Status::error, e.what(), 1);
   }
 }
 
@@ -65,10 +65,10 @@ int be_a_rank(char* program, char* job_path) {
     return code;
   } catch (const std::exception& e) {  // before there are ranks
     Result failed;
-    failed.status = dynamic_cast<const InputError*>(&e) ? "refused" : "error";
+    failed.status = dynamic_cast<const InputError*>(&e) ? Status::refused : Status::error;
     failed.message = std::string("tripoint-mpi: ") + e.what();
     write_result(failure_file(job.output, 0), failed);
-    return failed.status == "refused" ? 4 : 1;
+    return failed.status == Status::refused ? 4 : 1;
   }
 }
 

@@ -95,7 +95,7 @@ Result result_of_failure(const std::string& output, int count, int status) {
     return failed;
   }
   Result failed;
-  failed.status = "error";
+  failed.status = Status::error;
   const Ended ended = first_to_end(log_of(output));
   failed.message = fmt::format("the ranks ended without a result; mpiexec {} {}",
                                WIFSIGNALED(status) ? "was ended by signal" : "gave exit code",
@@ -110,7 +110,7 @@ Result result_of_failure(const std::string& output, int count, int status) {
 }
 
 int exit_code_of(const Result& result) {
-  return result.status == "ok" ? 0 : result.status == "refused" ? 4 : result.status == "diverged" ? 7 : 1;
+  return result.status == Status::ok ? 0 : result.status == Status::refused ? 4 : result.status == Status::diverged ? 7 : 1;
 }
 
 }  // namespace

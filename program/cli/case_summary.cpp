@@ -69,7 +69,7 @@ std::string judged_by(const Case& c) {
   std::set<std::string> metrics;
   for (const auto& g : c.gates) metrics.insert(g.metric);
   return fmt::format("{} gate{} on {}{}", c.gates.size(), c.gates.size() == 1 ? "" : "s", fmt::join(metrics, ", "),
-                     c.expect == "pass" ? "" : "; expected: " + c.expect);
+                     c.expect == Expect::pass ? "" : fmt::format("; expected: {}", c.expect));
 }
 
 std::string engines_of(const Case& c) {

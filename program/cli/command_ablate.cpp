@@ -136,7 +136,7 @@ int ablate(const Options& o) {
   std::vector<Case> cases;
   for (auto& c : select_cases(o.filter)) {
     const bool runs_so = std::find(c.modes.begin(), c.modes.end(), Mode::corrected) != c.modes.end();
-    if (runs_so && c.expect != "diverges" && !terms_of(c.scene).empty()) cases.push_back(corrected(std::move(c)));
+    if (runs_so && c.expect != Expect::diverges && !terms_of(c.scene).empty()) cases.push_back(corrected(std::move(c)));
   }
   if (cases.empty()) throw InputError("ablate: no case runs corrected");
   make_folder(o.out);

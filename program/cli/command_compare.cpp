@@ -66,8 +66,8 @@ int code_of_runs(const CaseResult& result) {
   if (interrupted()) return exit_interrupted;
   int code = exit_pass;
   for (const auto& e : result.engines) {
-    if (e.status == "diverged") return exit_diverged;
-    if (e.status != "ok") say(fmt::format("{} {}: {}", e.name, e.status, e.reason)), code = exit_missing;
+    if (e.status == Status::diverged) return exit_diverged;
+    if (e.status != Status::ok) say(fmt::format("{} {}: {}", e.name, e.status, e.reason)), code = exit_missing;
   }
   return code;
 }

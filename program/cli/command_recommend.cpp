@@ -151,7 +151,7 @@ LadderPoint make_recommended(const Options& o, Case value, const Recommendation&
   for (const auto& engine : result.engines)
     for (const auto& run : engine.runs) {
       const auto v = measured(run, metric);
-      if (run.status != "ok") throw EngineError(fmt::format("the recommended run is {}: {}", run.status, run.reason));
+      if (run.status != Status::ok) throw EngineError(fmt::format("the recommended run is {}: {}", run.status, run.reason));
       if (engine.preset == r.ladder->preset && v)
         return {r.level, 0.0, std::abs(v->value) + 2.0 * v->uncertainty.combined(), run.cost.cpu_s, run.cost.pairs};
     }

@@ -122,7 +122,7 @@ int releases(const ReleasesOptions& o) {
   print(releases_markdown(table));
   for (const auto& r : table.releases)
     for (const auto& e : r.result.engines)
-      if (e.status != "ok") say(fmt::format("{} {} ({}) {}: {}", e.name, r.engine.version, e.preset, e.status, e.reason));
+      if (e.status != Status::ok) say(fmt::format("{} {} ({}) {}: {}", e.name, r.engine.version, e.preset, e.status, e.reason));
   return is_worse(table) ? exit_fail : exit_pass;
 }
 

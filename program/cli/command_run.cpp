@@ -99,9 +99,10 @@ std::string way_on(const RunOptions& o) {
 }
 
 int code_of(const RunOptions& o, const Outcome& outcome) {
-  if (outcome.status == "ok") return exit_pass;
-  if (outcome.status == "refused" && !o.resume.empty()) return exit_bad_input;  // it ran before: the checkpoint does not fit
-  return outcome.status == "diverged" ? exit_diverged : interrupted() ? exit_interrupted : exit_missing;
+  if (outcome.status == Status::ok) return exit_pass;
+  if (outcome.status == Status::refused && !o.resume.empty())
+    return exit_bad_input;  // it ran before: the checkpoint does not fit
+  return outcome.status == Status::diverged ? exit_diverged : interrupted() ? exit_interrupted : exit_missing;
 }
 
 /// What the case allows the metric in this run; empty where it sets nothing.

@@ -34,7 +34,7 @@ std::string schema() {
   json names = json::array(), functions = json::array();
   for (const auto& f : reference_functions()) {
     json args = json::array();
-    for (const auto& a : f.args) args.push_back({{"name", a.name}, {"unit", a.unit}, {"meaning", a.meaning}});
+    for (const auto& a : f.args) args.push_back({{"name", a.name}, {"type", a.type}, {"unit", a.unit}, {"meaning", a.meaning}});
     names.push_back(f.name);
     functions.push_back({{"name", f.name}, {"kind", f.kind}, {"meaning", f.meaning}, {"source", f.source}, {"args", args}});
   }

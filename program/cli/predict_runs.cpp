@@ -95,7 +95,7 @@ Outcome PredictRuns::run(const Prepared& p, int ranks, double end) {
   Outcome outcome = run_one(request);
   std::error_code none;
   for (const char* large : {"particles.h5", "trajectory.h5", "trajectory.xdmf"}) fs::remove(fs::path(folder) / large, none);
-  if (outcome.status != "ok")
+  if (outcome.status != Status::ok)
     throw EngineError(fmt::format("{} on {} ranks, {}: {}{}{}", p.value.id, ranks, p.label, outcome.status,
                                   outcome.reason.empty() ? "" : ": ", outcome.reason));
   if (outcome.result.steps < 1) throw EngineError(fmt::format("{}: the engine made no step", p.value.id));

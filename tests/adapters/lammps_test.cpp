@@ -49,7 +49,7 @@ TEST(Lammps, PutsItsErrorIntoTheResult) {
   p.job.settings["commands"] = std::string("pair_style nosuch");
   const Outcome out = test::run(debian, p);
   EXPECT_EQ(out.exit_code, 1);
-  EXPECT_EQ(out.result.status, "error");
+  EXPECT_EQ(out.result.status, Status::error);
   EXPECT_NE(out.result.message.find("nosuch"), std::string::npos) << out.result.message;
 }
 
@@ -63,7 +63,7 @@ TEST(Lammps, IsLeftOpenWhereItDivergesAndMpiHasEnded) {
       folder.at("dump.mpiio");
   const Outcome out = test::run(debian, p);
   EXPECT_EQ(out.exit_code, 7) << out.log;
-  EXPECT_EQ(out.result.status, "diverged");
+  EXPECT_EQ(out.result.status, Status::diverged);
   EXPECT_NE(out.result.message.find("not finite"), std::string::npos) << out.result.message;
 }
 
@@ -78,14 +78,14 @@ Outcome passing(double aside) {
 }
 
 TEST(Lammps, RefusesBodiesThatFlyIntoEachOther) {
-  EXPECT_EQ(passing(0.0).result.status, "refused");
+  EXPECT_EQ(passing(0.0).result.status, Status::refused);
   EXPECT_NE(passing(0.0).result.message.find("left and right meet"), std::string::npos) << passing(0.0).result.message;
-  EXPECT_EQ(passing(0.4).result.status, "ok") << passing(0.4).result.message;
+  EXPECT_EQ(passing(0.4).result.status, Status::ok) << passing(0.4).result.message;
 }
 
 TEST(Lammps, StopsWhereBodiesWouldPassThroughEachOther) {
   const Outcome corners = passing(0.15);
-  EXPECT_EQ(corners.result.status, "error");
+  EXPECT_EQ(corners.result.status, Status::error);
   EXPECT_NE(corners.result.message.find("left and right touch"), std::string::npos) << corners.result.message;
 }
 
@@ -96,7 +96,7 @@ TEST(Lammps, SaysWhyItRefuses) {
   p.job.scene.events = {merge};
   const Outcome out = test::run(debian, p);
   EXPECT_EQ(out.exit_code, 4);
-  EXPECT_EQ(out.result.status, "refused");
+  EXPECT_EQ(out.result.status, Status::refused);
   EXPECT_NE(out.result.message.find("no merge"), std::string::npos);
 }
 

@@ -333,7 +333,7 @@ TEST(Ranks, EndWithTheLastWordsOfOneThatWasKilled) {
   EXPECT_EQ(code, 1) << "124 is a hang";
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(100));
   const Result result = read_result(folder.at("result.json"));
-  EXPECT_EQ(result.status, "error");
+  EXPECT_EQ(result.status, Status::error);
   EXPECT_NE(result.message.find("rank 1 of 2 was ended by signal 9"), std::string::npos) << result.message;
   EXPECT_NE(result.message.find("its last words: t = "), std::string::npos) << result.message;
 }
@@ -357,7 +357,7 @@ TEST(Ranks, TellWhichParticleDiverged) {
 void expect_refused(Prepared p, const std::string& word) {
   const Outcome out = run_on(2, p);
   EXPECT_EQ(out.exit_code, 4) << word;
-  EXPECT_EQ(out.result.status, "refused");
+  EXPECT_EQ(out.result.status, Status::refused);
   EXPECT_NE(out.result.message.find(word), std::string::npos) << out.result.message;
 }
 

@@ -12,7 +12,8 @@ using namespace tripoint;
 
 namespace {
 
-constexpr const char* states[] = {"ok", "ok", "ok", "ok", "refused", "missing", "diverged", "killed", "timeout", "error", ""};
+constexpr Status states[] = {Status::ok,       Status::ok,     Status::ok,      Status::ok,    Status::refused, Status::missing,
+                             Status::diverged, Status::killed, Status::timeout, Status::error, Status::error};
 constexpr const char* modes[] = {"corrected", "paper", ""};
 
 Gate made_gate(fuzz::Bytes& bytes) {
@@ -37,7 +38,7 @@ RunRow made_run(fuzz::Bytes& bytes, unsigned k) {
 
 CaseResult made_case(fuzz::Bytes& bytes) {
   CaseResult c;
-  c.id = "fuzz/one", c.kind = "verification";
+  c.id = "fuzz/one", c.kind = CaseKind::verification;
   c.metrics.resize(1);
   c.metrics[0].name = "error";
   for (unsigned k = 0, n = bytes.one_of(4); k < n; ++k) c.gates.push_back(made_gate(bytes));
@@ -88,23 +89,23 @@ bool all_hold(const CaseResult& c) {
 }
 
 bool is_broken(const RunRow& run) {
-  return run.status == "killed" || run.status == "timeout" || run.status == "error" || run.status.empty() || !run.comparable;
+  return run.status == Status::killed || run.status == Status::timeout || run.status == Status::error || !run.comparable;
 }
 
 void check_case(fuzz::Bytes& bytes) {
   CaseResult c = made_case(bytes);
   judge(c, false);
-  if (c.verdict == "PASS") {
+  if (c.verdict == CaseVerdict::pass) {
     fuzz::expect(c.exit_code == 0, "PASS ends with 0");
     fuzz::expect(all_hold(c), "a case passes where each of its gates has a finite value that holds, and at least one has");
     for (const auto& engine : c.engines)
       for (const auto& run : engine.runs) {
         fuzz::expect(run.comparable, "a case with a run of another scene does not pass");
-        fuzz::expect(run.status != "diverged", "a case with a run that diverged does not pass");
-        fuzz::expect(!engine.required || run.status == "ok", "a required engine that did not end well does not pass");
+        fuzz::expect(run.status != Status::diverged, "a case with a run that diverged does not pass");
+        fuzz::expect(!engine.required || run.status == Status::ok, "a required engine that did not end well does not pass");
       }
   }
-  if (c.verdict != "PASS" || c.gates.empty()) return;
+  if (c.verdict != CaseVerdict::pass || c.gates.empty()) return;
   for (auto& engine : c.engines)  // one number goes: nothing that a gate looked at may be missing
     for (auto& run : engine.runs)
       if (!engine.gates.empty() && run.metrics.count("error")) {
@@ -116,7 +117,7 @@ void check_case(fuzz::Bytes& bytes) {
         const bool looked_at = std::any_of(c.gates.begin(), c.gates.end(), [&](const Gate& g) {
           return g.metric == "error" && (g.engine.empty() || g.engine == engine.name) && fits_mode(g, run.knobs.mode);
         });
-        fuzz::expect(!looked_at || is_broken(run) || run.status != "ok" || worse.verdict != "PASS",
+        fuzz::expect(!looked_at || is_broken(run) || run.status != Status::ok || worse.verdict != CaseVerdict::pass,
                      "a value that is not finite does not pass");
       }
 }

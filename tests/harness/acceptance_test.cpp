@@ -84,7 +84,7 @@ TEST(KnownDefect, OfOnePresetExcusesNoOther) {
   r.cases[0].gates.push_back(g);
   judge(r);
   EXPECT_EQ(r.exit_code, exit_fail);
-  EXPECT_EQ(r.cases[0].engines[2].gates[0].verdict, "fail");
+  EXPECT_EQ(r.cases[0].engines[2].gates[0].verdict, Verdict::fail);
 }
 
 TEST(AcceptanceOrder, OfRoundOffIsNoneAndHoldsForEveryEngineAlone) {
@@ -113,7 +113,7 @@ TEST(NotPaper, StudiesLeaveOutOurPrintedFormOnly) {
 TEST(Scorecard, HoldsErrorLimitCostAndRank) {
   const auto card = card_of(with(0.08));
   const auto& stone = of(card, "stone");
-  EXPECT_EQ(stone.verdict, "pass");
+  EXPECT_EQ(stone.verdict, Score::pass);
   EXPECT_EQ(stone.error, 0.08);
   EXPECT_EQ(stone.allowed, "limit 0.1");
   EXPECT_NEAR(stone.share, 0.8, 1e-12);
@@ -131,24 +131,24 @@ TEST(Scorecard, EqualErrorsShareAPlace) {
 }
 
 TEST(Scorecard, TellsFailRefusedCrashedAndKnownDefectsApart) {
-  EXPECT_EQ(of(card_of(with(0.2)), "stone").verdict, "fail");
+  EXPECT_EQ(of(card_of(with(0.2)), "stone").verdict, Score::fail);
   auto r = with(0.3);
   r.cases[0].gates.push_back(declared("stone", 0.2, 0.4));
-  EXPECT_EQ(of(card_of(r), "stone").verdict, "known defect");
+  EXPECT_EQ(of(card_of(r), "stone").verdict, Score::known_defect);
   EXPECT_NE(of(card_of(r), "stone").reason.find("no-term"), std::string::npos);
   r = with(0.05);
   auto& run = r.cases[0].engines[1].runs[0];
-  run.status = "refused", run.reason = "knows no heat";
-  EXPECT_EQ(of(card_of(r), "stone").verdict, "refused");
+  run.status = Status::refused, run.reason = "knows no heat";
+  EXPECT_EQ(of(card_of(r), "stone").verdict, Score::refused);
   EXPECT_EQ(of(card_of(r), "stone").reason, "knows no heat");
-  run.status = "timeout";
-  EXPECT_EQ(of(card_of(r), "stone").verdict, "crashed");
+  run.status = Status::timeout;
+  EXPECT_EQ(of(card_of(r), "stone").verdict, Score::crashed);
 }
 
 TEST(Scorecard, WhatNoAcceptanceLimitLooksAtIsNotJudged) {
   auto r = with(0.05);
   r.cases[0].gates[0].engine = "tripoint";
-  EXPECT_EQ(of(card_of(r), "stone").verdict, "not judged");
+  EXPECT_EQ(of(card_of(r), "stone").verdict, Score::not_judged);
 }
 
 TEST(Scorecard, SaysWhoIsRightWhereTwoDiffer) {
@@ -164,12 +164,12 @@ TEST(Scorecard, SaysWhoIsRightWhereTwoDiffer) {
 TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
   auto r = green();
   auto& mine = engine(r);
-  mine.name = "mine", mine.required = false, mine.runs[0].status = "refused", mine.runs[0].reason = "knows no heat";
+  mine.name = "mine", mine.required = false, mine.runs[0].status = Status::refused, mine.runs[0].reason = "knows no heat";
   EXPECT_EQ(exit_of(r), exit_missing);  // nobody chose: a case that no gate judges
   r.only_engines = r.asked = {"mine"};
   judge(r);
   EXPECT_EQ(r.exit_code, exit_missing);  // it ran no case at all
-  EXPECT_EQ(r.verdict, "REFUSED");
+  EXPECT_EQ(r.verdict, CaseVerdict::refused);
   ASSERT_EQ(r.problems.size(), 1U);
   EXPECT_NE(r.problems[0].find("refuses the one case, and nothing of it is judged"), std::string::npos) << r.problems[0];
   EXPECT_NE(r.problems[0].find("knows no heat"), std::string::npos) << r.problems[0];
@@ -179,15 +179,15 @@ TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
   r.cases.push_back(other), r.planned.push_back(other.id);
   judge(r);
   EXPECT_EQ(r.exit_code, exit_pass);
-  EXPECT_EQ(r.cases[0].verdict, "REFUSED");
+  EXPECT_EQ(r.cases[0].verdict, CaseVerdict::refused);
   r.cases[0].engines[0].required = true;
   judge(r);
   EXPECT_EQ(r.exit_code, exit_missing);
-  EXPECT_EQ(r.verdict, "MISSING");
+  EXPECT_EQ(r.verdict, CaseVerdict::missing);
 }
 
 /// `green()` beside a second engine of whom the case says that it refuses, "no heat" being part of its reason.
-Results expected_to_refuse(const std::string& status, const std::string& reason) {
+Results expected_to_refuse(Status status, const std::string& reason) {
   auto r = with(0.05);
   auto& stone = r.cases[0].engines[1];
   stone.refuses = "no heat", stone.runs[0].status = status, stone.runs[0].reason = reason;
@@ -195,29 +195,29 @@ Results expected_to_refuse(const std::string& status, const std::string& reason)
 }
 
 TEST(ExpectedRefusal, HoldsWhereTheEngineRefusesForThatReason) {
-  const auto r = expected_to_refuse("refused", "it knows no heat");
+  const auto r = expected_to_refuse(Status::refused, "it knows no heat");
   EXPECT_EQ(exit_of(r), exit_pass);
-  EXPECT_EQ(of(card_of(r), "stone").verdict, "refused");
+  EXPECT_EQ(of(card_of(r), "stone").verdict, Score::refused);
   EXPECT_EQ(of(card_of(r), "stone").reason, "as expected: it knows no heat");
   EXPECT_NE(scorecard_text(card_of(r), {"stone"}).find("refused, as expected: it knows no heat"), std::string::npos);
 }
 
 TEST(ExpectedRefusal, OfWhoTakesTheCaseIsRedThoughEveryLimitHolds) {
-  auto r = expected_to_refuse("ok", "");
+  auto r = expected_to_refuse(Status::ok, "");
   judge(r);
   EXPECT_EQ(r.exit_code, exit_fail);
   EXPECT_NE(r.cases[0].problems.at(0).find("take the declaration away"), std::string::npos);
-  EXPECT_EQ(of(card_of(r), "stone").verdict, "fail");
+  EXPECT_EQ(of(card_of(r), "stone").verdict, Score::fail);
 }
 
 TEST(ExpectedRefusal, ForAnotherReasonIsRed) {
-  EXPECT_EQ(exit_of(expected_to_refuse("refused", "it knows no liquid")), exit_fail);
-  EXPECT_EQ(of(card_of(expected_to_refuse("refused", "it knows no liquid")), "stone").verdict, "fail");
+  EXPECT_EQ(exit_of(expected_to_refuse(Status::refused, "it knows no liquid")), exit_fail);
+  EXPECT_EQ(of(card_of(expected_to_refuse(Status::refused, "it knows no liquid")), "stone").verdict, Score::fail);
 }
 
 TEST(ExpectedRefusal, OfWhoIsNotHereIsNoFailure) {
-  auto r = expected_to_refuse("missing", "");
-  r.cases[0].engines[1].status = "missing", r.cases[0].engines[1].runs.clear();
+  auto r = expected_to_refuse(Status::missing, "");
+  r.cases[0].engines[1].status = Status::missing, r.cases[0].engines[1].runs.clear();
   EXPECT_EQ(exit_of(r), exit_pass);
 }
 
@@ -228,10 +228,10 @@ TEST(ExpectedRefusal, IsASettingThatIsKeptBack) {
 
 TEST(Scorecard, LeavesOutWhoIsNotHereUnlessAskedFor) {
   auto r = with(0.05);
-  r.cases[0].engines[1].runs.clear(), r.cases[0].engines[1].status = "missing";
+  r.cases[0].engines[1].runs.clear(), r.cases[0].engines[1].status = Status::missing;
   EXPECT_EQ(card_of(r).engines.size(), 1U);
   r.asked = {"stone"};
-  EXPECT_EQ(of(card_of(r), "stone").verdict, "missing");
+  EXPECT_EQ(of(card_of(r), "stone").verdict, Score::missing);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ constexpr const char* required = "[engines.fake]\nrequired = true\n";
 /// What the fake engine does, and what its row must say.
 struct ChildFault {
   const char* what;
-  const char* status;
+  Status status;
   const char* words;         ///< of the reason
   double wall_limit = 60.0;  ///< [s]
   int code = exit_missing;   ///< of the suite
@@ -83,36 +83,37 @@ TEST_P(ChildFaults, AreARowThatSaysWhyAndNeverAPass) {
   EXPECT_NE(c.engines[0].reason.find(GetParam().words), std::string::npos) << c.engines[0].reason;
 }
 
-INSTANTIATE_TEST_SUITE_P(Ends, ChildFaults,
-                         ::testing::Values(ChildFault{"dies at info", "missing", "--info was killed by signal 9"},
-                                           ChildFault{"dies at check", "error", "--check was killed by signal 9"},
-                                           ChildFault{"dies at once", "killed", "was killed by signal 9"},
-                                           ChildFault{"leaves half a result", "error", "result.json"},
-                                           ChildFault{"dies after its result", "error", "says ok but was killed by signal 9"},
-                                           ChildFault{"stops itself", "timeout", "was stopped after 1 s", 1.0},
-                                           ChildFault{"hides among its parents and hangs", "timeout", "was stopped after 1 s",
-                                                      1.0}));
+INSTANTIATE_TEST_SUITE_P(
+    Ends, ChildFaults,
+    ::testing::Values(ChildFault{"dies at info", Status::missing, "--info was killed by signal 9"},
+                      ChildFault{"dies at check", Status::error, "--check was killed by signal 9"},
+                      ChildFault{"dies at once", Status::killed, "was killed by signal 9"},
+                      ChildFault{"leaves half a result", Status::error, "result.json"},
+                      ChildFault{"dies after its result", Status::error, "says ok but was killed by signal 9"},
+                      ChildFault{"stops itself", Status::timeout, "was stopped after 1 s", 1.0},
+                      ChildFault{"hides among its parents and hangs", Status::timeout, "was stopped after 1 s", 1.0}));
 
 INSTANTIATE_TEST_SUITE_P(
     Lies, ChildFaults,
-    ::testing::Values(ChildFault{"says OK", "error", "OK"}, ChildFault{"speaks contract 2", "error", "is not of contract 1"},
-                      ChildFault{"ends at no time", "error", "result.json"},
-                      ChildFault{"says that it diverged", "diverged", "it gives no place", 60.0, exit_diverged},
-                      ChildFault{"floods its answer", "refused", "--check did not print {can, reason}"}));
+    ::testing::Values(ChildFault{"says OK", Status::error, "OK"},
+                      ChildFault{"speaks contract 2", Status::error, "is not of contract 1"},
+                      ChildFault{"ends at no time", Status::error, "result.json"},
+                      ChildFault{"says that it diverged", Status::diverged, "it gives no place", 60.0, exit_diverged},
+                      ChildFault{"floods its answer", Status::refused, "--check did not print {can, reason}"}));
 
 INSTANTIATE_TEST_SUITE_P(Files, ChildFaults,
-                         ::testing::Values(ChildFault{"leaves half a line", "error", "cells, the header has"},
-                                           ChildFault{"leaves half of an H5MD file", "error", "trajectory.h5"},
-                                           ChildFault{"leaves a folder as result", "error", "no regular file"},
-                                           ChildFault{"leaves a result alone", "error", "trajectory.csv: cannot be read"},
-                                           ChildFault{"leaves a frame out", "error", "no frame at t = 0.25"},
-                                           ChildFault{"one value is not a number", "error", "not finite"},
-                                           ChildFault{"one value is infinite", "error", "not finite"},
-                                           ChildFault{"a time is not a number", "error", "the time is not finite"},
-                                           ChildFault{"names a body that is not there", "error", "is not one of"},
-                                           ChildFault{"names a body below the first", "error", "is not one of"},
-                                           ChildFault{"names half a body", "error", "is not one of"},
-                                           ChildFault{"numbers its particles past the last", "error", "is not one of"}));
+                         ::testing::Values(ChildFault{"leaves half a line", Status::error, "cells, the header has"},
+                                           ChildFault{"leaves half of an H5MD file", Status::error, "trajectory.h5"},
+                                           ChildFault{"leaves a folder as result", Status::error, "no regular file"},
+                                           ChildFault{"leaves a result alone", Status::error, "trajectory.csv: cannot be read"},
+                                           ChildFault{"leaves a frame out", Status::error, "no frame at t = 0.25"},
+                                           ChildFault{"one value is not a number", Status::error, "not finite"},
+                                           ChildFault{"one value is infinite", Status::error, "not finite"},
+                                           ChildFault{"a time is not a number", Status::error, "the time is not finite"},
+                                           ChildFault{"names a body that is not there", Status::error, "is not one of"},
+                                           ChildFault{"names a body below the first", Status::error, "is not one of"},
+                                           ChildFault{"names half a body", Status::error, "is not one of"},
+                                           ChildFault{"numbers its particles past the last", Status::error, "is not one of"}));
 
 /// What is no fault of the engine's result does not cost it its pass.
 TEST(HarmlessChildEvents, LeaveAGoodResultGood) {
@@ -128,16 +129,16 @@ TEST(StaleOutput, ATrajectoryOfAnEarlierRunIsNotJudged) {
   ASSERT_EQ(fly(folder, "nothing").exit_code, exit_pass);
   ASSERT_TRUE(std::filesystem::exists(folder / "out/runs/test/flight/fake/base/trajectory.csv"));
   const auto c = fly(folder, "leaves a result alone", required);
-  EXPECT_EQ(c.engines.at(0).status, "error");
+  EXPECT_EQ(c.engines.at(0).status, Status::error);
   EXPECT_EQ(c.exit_code, exit_missing);
 }
 
 /// Which start of a child fails, and what the row must say then.
 struct Moment {
   int start;
-  const char* status;
+  Status status;
 };
-constexpr Moment moments[] = {{1, "missing"}, {2, "error"}, {3, "error"}};  // --info, --check, --run
+constexpr Moment moments[] = {{1, Status::missing}, {2, Status::error}, {3, Status::error}};  // --info, --check, --run
 
 TEST(Starts, AChildThatCannotBeStartedIsARowWithTheSystemsWords) {
   for (const int error : {EAGAIN, ENOMEM, ENOEXEC})

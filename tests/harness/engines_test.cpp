@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Engines that do something wrong: the suite goes on, and the row says what it was.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -19,13 +20,13 @@ EngineRow row_of(const std::string& wrong, double wall_limit = 60.0) {
 
 TEST(Engines, AnEngineThatIsKilledInMidRunIsARowThatNamesTheSignal) {
   const auto row = row_of("is killed");
-  EXPECT_EQ(row.status, "killed");
+  EXPECT_EQ(row.status, Status::killed);
   EXPECT_NE(row.reason.find("signal 9"), std::string::npos) << row.reason;
 }
 
 TEST(Engines, AnEngineThatHangsIsStoppedAtItsLimit) {
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(row_of("hangs", 1.0).status, "timeout");
+  EXPECT_EQ(row_of("hangs", 1.0).status, Status::timeout);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15));
 }
 
@@ -40,16 +41,16 @@ TEST(Engines, AFloodOnStderrIsCutToAMegabyteAndDoesNotStopTheRun) {
 
 TEST(Engines, AnErrorOfTheEngineIsGivenInItsOwnWords) {
   const auto row = row_of("ends with an error");
-  EXPECT_EQ(row.status, "killed");  // no result.json, whatever the exit code
+  EXPECT_EQ(row.status, Status::killed);  // no result.json, whatever the exit code
   EXPECT_NE(row.reason.find("Unrecognized fix style"), std::string::npos) << row.reason;
 }
 
-TEST(Engines, ATornResultIsAnError) { EXPECT_EQ(row_of("torn result").status, "error"); }
+TEST(Engines, ATornResultIsAnError) { EXPECT_EQ(row_of("torn result").status, Status::error); }
 
 TEST(Engines, ARefusalCarriesItsReasonAndFailsOnlyWhereTheEngineIsRequired) {
   const TestFolder folder;
   const auto must = fly(folder, "refuses", required);
-  EXPECT_EQ(must.engines.at(0).status, "refused");
+  EXPECT_EQ(must.engines.at(0).status, Status::refused);
   EXPECT_EQ(must.engines.at(0).reason, "it has no conduction");
   EXPECT_EQ(must.exit_code, exit_missing);
 }
@@ -63,14 +64,14 @@ TEST(Engines, AnAbsentEngineThatIsNotRequiredChangesNoExitCode) {
   const auto c = run_suite({value}, {ask_engine(fake_engine(folder, "nothing"))}, options).cases.at(0);
   ASSERT_EQ(c.engines.size(), 2u);
   EXPECT_EQ(c.engines[0].name, "gone");
-  EXPECT_EQ(c.engines[0].status, "missing");
+  EXPECT_EQ(c.engines[0].status, Status::missing);
   EXPECT_FALSE(c.engines[0].reason.empty());
   EXPECT_EQ(c.exit_code, exit_pass);
 }
 
 TEST(Engines, AnEngineWhoseLibraryIsMissingSaysSoInItsRow) {
   const auto row = row_of("not there");
-  EXPECT_EQ(row.status, "missing");
+  EXPECT_EQ(row.status, Status::missing);
   EXPECT_EQ(row.reason, "its library is not installed");
 }
 
@@ -102,10 +103,10 @@ TEST(Engines, OneEngineThatFailsDoesNotStopTheOthers) {
                 options)
           .cases.at(0);
   ASSERT_EQ(c.engines.size(), 2u);
-  EXPECT_EQ(c.engines[0].name + " " + c.engines[0].status, "good ok");
-  EXPECT_EQ(c.engines[1].name + " " + c.engines[1].status, "bad killed");
+  EXPECT_EQ(fmt::format("{} {}", c.engines[0].name, c.engines[0].status), "good ok");
+  EXPECT_EQ(fmt::format("{} {}", c.engines[1].name, c.engines[1].status), "bad killed");
   EXPECT_EQ(c.exit_code, exit_missing);  // the gate is for every engine, and one of them broke off
-  EXPECT_EQ(c.engines[0].gates.at(0).verdict + " " + c.engines[1].gates.at(0).verdict, "pass missing");
+  EXPECT_EQ(fmt::format("{} {}", c.engines[0].gates.at(0).verdict, c.engines[1].gates.at(0).verdict), "pass missing");
 }
 
 TEST(Engines, AnEngineThatHoldsAnotherSceneIsNotComparable) {

@@ -30,8 +30,8 @@ Results hostile_results() {
   e.runs[0].metrics = {{hostile, value(0.05)}};
   e.name = e.version = e.preset = hostile;
   EngineRow other = e, gone = e;
-  other.runs[0].status = "error", other.reason = other.runs[0].reason = hostile;
-  gone.name = std::string(hostile) + "3", gone.status = "missing", gone.required = false, gone.runs.clear();
+  other.runs[0].status = Status::error, other.reason = other.runs[0].reason = hostile;
+  gone.name = std::string(hostile) + "3", gone.status = Status::missing, gone.required = false, gone.runs.clear();
   c.engines = {e, other, gone};
   r.asked = {hostile};
   r.tool.commit = r.tool.compiler = r.tool.cpu = r.profile = hostile;

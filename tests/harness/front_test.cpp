@@ -72,7 +72,7 @@ TEST(Front, WhatLiesMoreThanTwiceBeyondTheMeasuredIsNotPromised) {
 
 TEST(Front, ARunThatFailedIsNoPointOfTheFront) {
   auto c = second_order();
-  c.engines[0].runs[1].status = "diverged";
+  c.engines[0].runs[1].status = Status::diverged;
   EXPECT_EQ(ladders_of(c, "error")[0].points.size(), 3u);
 }
 
@@ -81,15 +81,15 @@ TEST(Uncertainty, OfTheGridCountsAgainstAnExperimentAndNotAgainstTheTruth) {
   auto& c = r.cases[0];
   c.studies[0].order = 2.0;
   c.gates = {limit("error", 0.3)};
-  c.reference.kind = "analytic";
+  c.reference.kind = ReferenceKind::analytic;
   judge(r);
   EXPECT_EQ(engine(r).gates.back().uncertainty, 0.0);
-  c.reference.kind = "experiment";
+  c.reference.kind = ReferenceKind::experiment;
   judge(r);
   EXPECT_NEAR(engine(r).gates.back().budget.numerical, 0.5 * 1.25 * 2.5e-3, 1e-8);  // second order to a limit of 0
   c.gates[0].limit = 3.0e-3;                                                        // the finest is 2.5e-3 + 2 * 1.56e-3
   judge(r);
-  EXPECT_EQ(engine(r).gates.back().verdict, "inconclusive");
+  EXPECT_EQ(engine(r).gates.back().verdict, Verdict::inconclusive);
 }
 
 TEST(Uncertainty, OfAnInputIsHalfOfWhatItsEndsMove) {
@@ -103,7 +103,7 @@ TEST(Uncertainty, OfAnInputIsHalfOfWhatItsEndsMove) {
   ASSERT_EQ(engine(r).gates.size(), 1u);  // the ends themselves are not judged
   EXPECT_NEAR(engine(r).gates[0].budget.input, 0.004, 1e-15);
   EXPECT_NEAR(engine(r).gates[0].uncertainty, 0.004, 1e-15);
-  engine(r).runs.back().status = "killed", engine(r).runs.back().reason = "it was";
+  engine(r).runs.back().status = Status::killed, engine(r).runs.back().reason = "it was";
   judge(r);
   EXPECT_NE(r.exit_code, exit_pass);  // an end that gave no value leaves the uncertainty unknown
 }
@@ -116,7 +116,7 @@ TEST(Uncertainty, OfAnInputOfACaseIsMeasuredByTwoMoreRuns) {
   options.out = folder / "out", options.selection.engines = {"fake"};
   const auto result = run_suite({value}, {ask_engine(fake_engine(folder, "nothing"))}, options).cases.at(0);
   ASSERT_EQ(result.engines.at(0).runs.size(), 3u);
-  EXPECT_EQ(result.engines[0].status, "ok") << result.engines[0].reason;
+  EXPECT_EQ(result.engines[0].status, Status::ok) << result.engines[0].reason;
   EXPECT_LT(result.engines[0].gates.at(0).budget.input, 1e-12);  // against the truth of its own scene an input moves nothing
 }
 

@@ -101,11 +101,11 @@ TEST(Slack, LimitsOfRoundOffAndCountsHaveNoneToGive) {
 
 TEST(Slack, OrdersAndClassesHaveNoRoomToTighten) {
   GateRow row;
-  row.metric = "error.order", row.verdict = "pass", row.value = 2.0, row.gate.at_least = 0.1;
+  row.metric = "error.order", row.verdict = Verdict::pass, row.value = 2.0, row.gate.at_least = 0.1;
   EXPECT_FALSE(slack_of({}, row).has_value());
   row.metric = "error";
   EXPECT_TRUE(slack_of({}, row).has_value());
-  row.expect = "asymptotic";
+  row.expect = FitClass::asymptotic;
   EXPECT_FALSE(slack_of({}, row).has_value());
 }
 

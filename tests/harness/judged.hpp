@@ -25,7 +25,7 @@ inline RunRow run_with(const std::map<std::string, MetricValue>& metrics) {
 /// One engine, one run, one metric `error` below its limit of 0.1: green as it stands.
 inline Results green() {
   CaseResult c;
-  c.id = "test/one", c.title = "One", c.kind = "verification";
+  c.id = "test/one", c.title = "One", c.kind = CaseKind::verification;
   c.gates = {limit("error", 0.1)};
   c.metrics.resize(1);
   c.metrics[0].name = "error";

@@ -66,7 +66,7 @@ TEST(Limits, WhatIsNoNumberNeverPasses) {
     EXPECT_EQ(judge_limit(value, 0.0, 1.0), Verdict::fail);
     EXPECT_EQ(judge_at_least(value, 0.0, 1.0), Verdict::fail);
     EXPECT_EQ(judge_band(value, 0.0, -1.0, 1.0), Verdict::fail);
-    EXPECT_EQ(equivalence(value, 0.0, 1.0), "unresolved");
+    EXPECT_EQ(equivalence(value, 0.0, 1.0), Equivalence::unresolved);
   }
   EXPECT_EQ(judge_limit(0.0, 0.0, nan), Verdict::fail);
   EXPECT_EQ(judge_at_least(0.0, 0.0, nan), Verdict::fail);
@@ -76,26 +76,26 @@ TEST(Limits, WhatIsNoNumberNeverPasses) {
     EXPECT_EQ(judge_limit(0.0, u, 1.0), Verdict::inconclusive);
     EXPECT_EQ(judge_at_least(2.0, u, 1.0), Verdict::inconclusive);
     EXPECT_EQ(judge_band(0.0, u, -1.0, 1.0), Verdict::inconclusive);
-    EXPECT_EQ(equivalence(0.0, u, 1.0), "unresolved");
+    EXPECT_EQ(equivalence(0.0, u, 1.0), Equivalence::unresolved);
   }
   EXPECT_EQ(judge_at_least(infinity, 0.0, infinity), Verdict::fail);
   EXPECT_EQ(judge_limit(1e300, 0.0, infinity), Verdict::pass);  // no ceiling is no limit that is not a number
 }
 
 TEST(Limits, TwoEnginesAreEqualWithinTheMarginOnly) {
-  EXPECT_EQ(equivalence(0.0, 0.0, 1.0), "equivalent");
-  EXPECT_EQ(equivalence(0.25, 0.125, 1.0), "equivalent");  // 0.25 = 2 u
-  EXPECT_EQ(equivalence(over(0.25), 0.125, 1.0), "negligible but real");
-  EXPECT_EQ(equivalence(-over(0.25), 0.125, 1.0), "negligible but real");
-  EXPECT_EQ(equivalence(0.75, 0.125, 1.0), "negligible but real");
-  EXPECT_EQ(equivalence(-0.75, 0.125, 1.0), "negligible but real");
-  EXPECT_EQ(equivalence(over(0.75), 0.125, 1.0), "unresolved");
-  EXPECT_EQ(equivalence(-over(0.75), 0.125, 1.0), "unresolved");
-  EXPECT_EQ(equivalence(1.25, 0.125, 1.0), "unresolved");
-  EXPECT_EQ(equivalence(-1.25, 0.125, 1.0), "unresolved");
-  EXPECT_EQ(equivalence(over(1.25), 0.125, 1.0), "different");
-  EXPECT_EQ(equivalence(-over(1.25), 0.125, 1.0), "different");
-  for (const double margin : {0.0, -1.0, nan}) EXPECT_EQ(equivalence(0.0, 0.0, margin), "unresolved");
+  EXPECT_EQ(equivalence(0.0, 0.0, 1.0), Equivalence::equivalent);
+  EXPECT_EQ(equivalence(0.25, 0.125, 1.0), Equivalence::equivalent);  // 0.25 = 2 u
+  EXPECT_EQ(equivalence(over(0.25), 0.125, 1.0), Equivalence::negligible);
+  EXPECT_EQ(equivalence(-over(0.25), 0.125, 1.0), Equivalence::negligible);
+  EXPECT_EQ(equivalence(0.75, 0.125, 1.0), Equivalence::negligible);
+  EXPECT_EQ(equivalence(-0.75, 0.125, 1.0), Equivalence::negligible);
+  EXPECT_EQ(equivalence(over(0.75), 0.125, 1.0), Equivalence::unresolved);
+  EXPECT_EQ(equivalence(-over(0.75), 0.125, 1.0), Equivalence::unresolved);
+  EXPECT_EQ(equivalence(1.25, 0.125, 1.0), Equivalence::unresolved);
+  EXPECT_EQ(equivalence(-1.25, 0.125, 1.0), Equivalence::unresolved);
+  EXPECT_EQ(equivalence(over(1.25), 0.125, 1.0), Equivalence::different);
+  EXPECT_EQ(equivalence(-over(1.25), 0.125, 1.0), Equivalence::different);
+  for (const double margin : {0.0, -1.0, nan}) EXPECT_EQ(equivalence(0.0, 0.0, margin), Equivalence::unresolved);
 }
 
 Gate gate_of(std::optional<double> limit, std::optional<double> at_least, std::optional<std::array<double, 2>> band) {
@@ -115,7 +115,7 @@ TEST(GateEdges, TheWorstOfWhatAGateAsksIsItsVerdict) {
   EXPECT_EQ(verdict_of(gate_of({}, {}, std::array{0.25, 0.4}), 0.5, 0.0), Verdict::fail);
 }
 
-Order interval(double low, double value, double high) { return {value, low, high, "asymptotic", 0.0, 0.0}; }
+Order interval(double low, double value, double high) { return {value, low, high, FitClass::asymptotic, 0.0, 0.0}; }
 
 TEST(GateEdges, AnOrderPassesWithItsWholeInterval) {
   const auto least = gate_of({}, 1.5, {});
@@ -197,12 +197,12 @@ TEST(ExitCodes, EachHasItsWord) {
   for (const auto& [verdict, word] :
        {std::pair{Verdict::pass, "pass"}, std::pair{Verdict::fail, "fail"}, std::pair{Verdict::inconclusive, "inconclusive"},
         std::pair{Verdict::missing, "missing"}, std::pair{Verdict::diverged, "diverged"}})
-    EXPECT_STREQ(to_string(verdict), word);
+    EXPECT_EQ(to_string(verdict), word);
 }
 
 GateRow passed(double value, double u, const Gate& gate) {
   GateRow row;
-  row.metric = "error", row.verdict = "pass", row.value = value, row.uncertainty = u, row.gate = gate;
+  row.metric = "error", row.verdict = Verdict::pass, row.value = value, row.uncertainty = u, row.gate = gate;
   return row;
 }
 
@@ -220,7 +220,7 @@ TEST(SlackEdges, IsTheLimitOverWhatIsUsedAndWhatIsUsedOverTheLeast) {
   EXPECT_EQ(of(0.0, 0.0, gate_of(roundoff_limit, {}, {})), -1.0);
   EXPECT_EQ(of(0.0, 0.0, gate_of(above(roundoff_limit), {}, {})), infinity);
   auto row = passed(0.1, 0.0, gate_of(1.0, {}, {}));
-  row.verdict = "fail";
+  row.verdict = Verdict::fail;
   EXPECT_FALSE(slack_of({}, row).has_value());
 }
 

@@ -173,7 +173,7 @@ TEST(NeverFailsGate, Way28AnOptionalEngineThatCrashesOrRefusesWhatItOnceRanIsRed
   refused.cases[0].exit_code = exit_pass;  // another engine's gates are green
   EXPECT_TRUE(says(baseline_remarks(refused), "judges nothing any more", "GONE"));
   auto missing = suite.run("nothing");
-  missing.cases[0].engines[0].status = "missing", missing.cases[0].engines[0].runs.clear(),
+  missing.cases[0].engines[0].status = Status::missing, missing.cases[0].engines[0].runs.clear(),
   missing.cases[0].engines[0].gates.clear();
   missing.cases[0].exit_code = exit_pass;
   EXPECT_TRUE(baseline_remarks(missing).empty());
@@ -199,7 +199,7 @@ TEST(NeverFailsGate, Way29ResultsThatAreNotThoseOfTheCaseAreNotJudged) {
   red("has no value of travelled", [](CaseResult& c) { c.engines[0].runs[0].metrics.erase("travelled"); });
   red("is not the max of its series", [](CaseResult& c) { c.engines[0].runs[0].metrics.at("position").value = 1e-11; });
   red("the reference is another", [](CaseResult& c) { c.reference.uncertainty = 1.0; });
-  red("expects", [](CaseResult& c) { c.expect = "diverges"; });
+  red("expects", [](CaseResult& c) { c.expect = Expect::diverges; });
   auto r = suite.r;
   write_text(suite.folder / "cases/test/second.toml", flight_case());
   EXPECT_TRUE(says(recheck_remarks(r), "is not in them: validate again", "CHANGED"));

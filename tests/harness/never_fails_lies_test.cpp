@@ -54,7 +54,7 @@ TEST(NeverFailsLies, Way47ATrajectoryThatIsALinkIsNotTheEnginesOwn) {
             .cases.at(0);
     EXPECT_EQ(c.exit_code, exit_missing) << wrong;
     EXPECT_NE(c.engines.at(1).reason.find("is a link to another file"), std::string::npos) << c.engines.at(1).reason;
-    EXPECT_EQ(c.engines.at(0).status, "ok") << c.engines.at(0).reason;
+    EXPECT_EQ(c.engines.at(0).status, Status::ok) << c.engines.at(0).reason;
   }
 }
 
@@ -74,16 +74,16 @@ TEST(NeverFailsLies, Way52AColumnOfOtherTimesThanThePlacesIsNotOfTheFrame) {
 
 TEST(NeverFailsLies, Way49AnotherEnginesDivergenceDoesNotStandForTheOneThatIsRequired) {
   auto r = green();
-  r.cases[0].expect = "diverges", r.cases[0].gates.clear();
+  r.cases[0].expect = Expect::diverges, r.cases[0].gates.clear();
   auto other = engine(r);
-  other.name = "mine", other.required = false, other.runs[0].status = "diverged";
+  other.name = "mine", other.required = false, other.runs[0].status = Status::diverged;
   r.cases[0].engines.push_back(other);
   EXPECT_EQ(exit_of(r), exit_fail);
-  engine(r).runs[0].status = "diverged";
+  engine(r).runs[0].status = Status::diverged;
   EXPECT_EQ(exit_of(r), exit_pass);
   for (auto& e : r.cases[0].engines) e.required = false;
   EXPECT_EQ(exit_of(r), exit_pass);
-  engine(r).runs[0].status = "ok";  // none is required: all that ran are meant
+  engine(r).runs[0].status = Status::ok;  // none is required: all that ran are meant
   EXPECT_EQ(exit_of(r), exit_fail);
 }
 
@@ -92,7 +92,7 @@ TEST(NeverFailsLies, Way50AnEngineThatWasAskedForAndRefusesThePartThatItWouldFai
   auto& e = engine(r);
   e.required = false;
   auto finest = e.runs[0];
-  finest.base = false, finest.status = "refused", finest.reason = "too fine", finest.group = "fine", finest.metrics.clear();
+  finest.base = false, finest.status = Status::refused, finest.reason = "too fine", finest.group = "fine", finest.metrics.clear();
   e.runs.push_back(finest);
   EXPECT_EQ(exit_of(r), exit_pass) << "an engine that nobody asked for may";
   r.asked = {"tripoint"};

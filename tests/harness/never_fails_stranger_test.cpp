@@ -59,7 +59,7 @@ TEST(NeverFailsStranger, Way32AnEngineThatWritesIntoTheSharedParticlesIsAnErrorA
   EXPECT_EQ(c.exit_code, exit_missing);
   EXPECT_NE(c.engines.at(0).reason.find("the particles that all engines start from were changed"), std::string::npos)
       << c.engines.at(0).reason;
-  EXPECT_EQ(c.engines.at(1).status, "ok") << c.engines.at(1).reason;
+  EXPECT_EQ(c.engines.at(1).status, Status::ok) << c.engines.at(1).reason;
 }
 
 TEST(NeverFailsStranger, Way33AnEngineThatTakesTheNameOfAnotherIsRefusedByName) {
@@ -128,7 +128,7 @@ TEST(NeverFailsStranger, Way42AGateForAPresetThatNobodyHasIsNotExcusedByAChoiceO
 TEST(NeverFailsStranger, Way43AnOptionalEngineThatBreaksOffIsAFailedTestAndNotASkippedOne) {
   auto r = green();
   auto second = engine(r);
-  second.name = "second", second.required = false, second.runs[0].status = "killed", second.runs[0].reason = "signal 11";
+  second.name = "second", second.required = false, second.runs[0].status = Status::killed, second.runs[0].reason = "signal 11";
   r.cases[0].engines.push_back(second);
   judge(r);
   EXPECT_EQ(r.exit_code, exit_missing);

@@ -39,8 +39,8 @@ TEST(NeverFails, Way03AShorterTrajectoryIsNotJudgedOnItsLength) {
   const TestFolder folder;
   const auto c = fly(folder, "stops early", "[engines.fake]\nrequired = true\n");
   EXPECT_EQ(c.exit_code, exit_missing);
-  EXPECT_EQ(c.engines.at(0).status, "error");
-  EXPECT_TRUE(c.engines.at(0).gates.empty() || c.engines.at(0).gates[0].verdict == "missing");
+  EXPECT_EQ(c.engines.at(0).status, Status::error);
+  EXPECT_TRUE(c.engines.at(0).gates.empty() || c.engines.at(0).gates[0].verdict == Verdict::missing);
 }
 
 TEST(NeverFails, Way04AMissingMetricIsNotSkipped) {
@@ -108,7 +108,7 @@ TEST(NeverFails, Way11AnErrorThatGrowsIsNotAnOrder) {
 TEST(NeverFails, Way12AnEngineThatExitsZeroWithoutAResultIsKilled) {
   const TestFolder folder;
   const auto c = fly(folder, "leaves no result", "[engines.fake]\nrequired = true\n");
-  EXPECT_EQ(c.engines.at(0).status, "killed");
+  EXPECT_EQ(c.engines.at(0).status, Status::killed);
   EXPECT_EQ(c.exit_code, exit_missing);
   EXPECT_EQ(fly(folder, "says ok and exits 3", "[engines.fake]\nrequired = true\n").exit_code, exit_missing);
 }
@@ -127,7 +127,7 @@ TEST(NeverFails, Way14TheResultOfAnEarlierRunIsNotJudged) {
   const auto stale = folder / "out/runs/test/flight/fake/base/result.json";
   ASSERT_TRUE(std::filesystem::exists(stale));
   const auto c = fly(folder, "leaves no result", "[engines.fake]\nrequired = true\n");
-  EXPECT_EQ(c.engines.at(0).status, "killed");
+  EXPECT_EQ(c.engines.at(0).status, Status::killed);
   EXPECT_EQ(c.exit_code, exit_missing);
 }
 
@@ -154,11 +154,11 @@ TEST(NeverFails, Way15AnEmptySuiteAShadowedIdAndATagOfNothingAreErrors) {
 
 TEST(NeverFails, Way16AFailedRunAWrongUnitAndAShiftedTimeAxisAreSeen) {
   auto r = study_of({1.6e-1, 4.0e-2, 1.0e-2, 2.5e-3, 6.0e-4});
-  engine(r).runs[4].status = "killed";  // dropping it would leave four good levels
+  engine(r).runs[4].status = Status::killed;  // dropping it would leave four good levels
   EXPECT_EQ(exit_of(r), exit_missing);
   r = study_of({1.6e-1, 4.0e-2, 1.0e-2, 2.5e-3});
   engine(r).runs.push_back(engine(r).runs[3]);
-  engine(r).runs[4].status = "killed";  // nor is a replica dropped that failed, of an engine that nobody requires
+  engine(r).runs[4].status = Status::killed;  // nor is a replica dropped that failed, of an engine that nobody requires
   engine(r).required = false;
   EXPECT_EQ(exit_of(r), exit_missing);
   for (const char* wrong : {"millimetres", "shifted time axis"}) {
@@ -194,11 +194,11 @@ TEST(NeverFails, Way17AnEngineThatWasAskedForDoesNotPassUnjudged) {
 }
 
 TEST(NeverFails, Way18AnEngineThatWasAskedForAndIsNotThereOrDidNotRunDoesNotPass) {
-  for (const char* status : {"missing", "refused", "killed", "timeout", "error"}) {
+  for (const auto status : {Status::missing, Status::refused, Status::killed, Status::timeout, Status::error}) {
     auto r = with_stranger("");
     auto& mine = r.cases[0].engines[1];
     mine.status = status, mine.reason = "why";
-    if (mine.status == "missing")
+    if (mine.status == Status::missing)
       mine.runs.clear();
     else
       mine.runs[0].status = status, mine.runs[0].reason = "why";

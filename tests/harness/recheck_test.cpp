@@ -68,13 +68,13 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
                     gate = "the gate on position, limit 1e-10, is not in them", held = "they hold a gate on ",
                     study = "the study over spacing is not in them", reference = "the reference is another";
   const std::vector<std::pair<std::vector<std::string>, Change>> table{
-      {{"expects \"diverges\", and the file says \"pass\""}, [](CaseResult& c) { c.expect = "diverges"; }},
+      {{"expects \"diverges\", and the file says \"pass\""}, [](CaseResult& c) { c.expect = Expect::diverges; }},
       {{"the scene was another when it was run"}, [](CaseResult& c) { c.hashes->scene += "x"; }},
       {{"the reference, or its data, were others when it was run"}, [](CaseResult& c) { c.hashes->reference += "x"; }},
       {{"the metric late was another when it was run"}, [](CaseResult& c) { c.hashes->metrics["late"] += "x"; }},
       {{}, [](CaseResult& c) { c.hashes->metrics.clear(); }},
       {{}, [](CaseResult& c) { c.hashes.reset(); }},
-      {{reference}, [](CaseResult& c) { c.reference.kind = "mms"; }},
+      {{reference}, [](CaseResult& c) { c.reference.kind = ReferenceKind::mms; }},
       {{reference}, [](CaseResult& c) { c.reference.function = "resting"; }},
       {{reference}, [](CaseResult& c) { c.reference.file = "other.csv"; }},
       {{reference}, [](CaseResult& c) { c.reference.args["x"] = 1.0; }},
@@ -112,7 +112,7 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
       {{study}, [](CaseResult& c) { c.studies[0].seeds = 2; }},
       {{study}, [](CaseResult& c) { c.studies[0].engine = "other"; }},
       {{study}, [](CaseResult& c) { c.studies[0].mode = "paper"; }},
-      {{study}, [](CaseResult& c) { c.studies[0].expect = "asymptotic"; }},
+      {{study}, [](CaseResult& c) { c.studies[0].expect = FitClass::asymptotic; }},
       {{study}, [](CaseResult& c) { c.studies[0].order = 1.0; }},
       {{study}, [](CaseResult& c) { c.studies[0].metric = "late"; }},
   };
@@ -133,7 +133,7 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
 
 TEST(RecheckParts, PointAtTheLineOfTheFileOrAtItsFirst) {
   Flown f;
-  f.r.cases[0].gates.pop_back(), f.r.cases[0].expect = "diverges";
+  f.r.cases[0].gates.pop_back(), f.r.cases[0].expect = Expect::diverges;
   const auto list = recheck_remarks(f.r);
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[0].place.file, f.file.file);
@@ -144,7 +144,7 @@ TEST(RecheckParts, PointAtTheLineOfTheFileOrAtItsFirst) {
 
 TEST(RecheckParts, AFileOfAnotherCaseEndsTheComparison) {
   Flown f;
-  f.r.cases[0].id = "test/other", f.r.cases[0].expect = "diverges";
+  f.r.cases[0].id = "test/other", f.r.cases[0].expect = Expect::diverges;
   const auto list = recheck_remarks(f.r);
   ASSERT_EQ(list.size(), 1u);
   EXPECT_NE(list[0].text.find("is that of test/flight"), std::string::npos);
@@ -167,12 +167,12 @@ TEST(RecheckParts, EnginesAndRunsThatAreNotThereAreNamed) {
   });
   only("", [](Flown& f) {
     f.row("exact").preset = "its own";
-    f.row("exact").status = "missing";
+    f.row("exact").status = Status::missing;
   });  // the case names no preset of it
   only("tripoint is required, and they say that it is not", [](Flown& f) { f.row("tripoint").required = false; });
   only("", [](Flown& f) { f.row("exact").required = true; });
   only("the run corrected-spacing=0.05 of tripoint is not in them", [](Flown& f) { f.row("tripoint").runs.pop_back(); });
-  only("", [](Flown& f) { f.row("tripoint").status = "missing", f.row("tripoint").runs.clear(); });
+  only("", [](Flown& f) { f.row("tripoint").status = Status::missing, f.row("tripoint").runs.clear(); });
   only("", [](Flown& f) {
     f.r.only_engines = {"tripoint"};
     std::erase_if(f.r.cases[0].engines, [](const auto& e) { return e.name != "tripoint"; });
@@ -212,7 +212,7 @@ TEST(RecheckParts, AValueIsTheNormOfItsSeriesToRoundOff) {
   EXPECT_EQ(remark(with("late", 2.5)), "2.5 of late in tripoint corrected is not the final of its series, 2");
   EXPECT_EQ(remark(with("position", std::nan(""))), "");  // fails by itself
   EXPECT_EQ(remark([](RunRow& run) { run.metrics.erase("late"); }), "tripoint has no value of late in its run corrected");
-  EXPECT_EQ(remark([](RunRow& run) { run.metrics.erase("late"), run.status = "killed"; }), "");
+  EXPECT_EQ(remark([](RunRow& run) { run.metrics.erase("late"), run.status = Status::killed; }), "");
   EXPECT_EQ(remark([](RunRow& run) { run.metrics.at("late").series.clear(), run.metrics.at("late").value = 9.0; }),
             "");  // nothing to compare with
 }

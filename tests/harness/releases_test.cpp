@@ -9,7 +9,7 @@
 namespace tripoint {
 namespace {
 
-Release release(const std::string& version, double error, double order, const std::string& gate_verdict = "pass",
+Release release(const std::string& version, double error, double order, Verdict gate_verdict = Verdict::pass,
                 const std::string& build = "double precision") {
   Release r;
   r.engine.name = "stone", r.engine.version = version, r.engine.build = build;
@@ -51,14 +51,14 @@ TEST(Releases, WithinTheMarginAndWithinRoundOffNothingChanged) {
   EXPECT_EQ(changes_between(release("1", 1.0e-3, 2.0), release("2", 1.51e-3, 2.0), 1.5).size(), 1U);
   EXPECT_TRUE(changes_between(release("1", 1e-16, 2.0), release("2", 9e-12, 2.0), 1.5).empty());
   EXPECT_EQ(changes_between(release("1", 1e-7, 1.0), release("2", 8e-6, 1.0), 1.5).size(), 1U);
-  EXPECT_TRUE(changes_between(release("1", 1e-7, 1.0, "pass", "single precision"),
-                              release("2", 8e-6, 1.0, "pass", "single precision"), 1.5)
+  EXPECT_TRUE(changes_between(release("1", 1e-7, 1.0, Verdict::pass, "single precision"),
+                              release("2", 8e-6, 1.0, Verdict::pass, "single precision"), 1.5)
                   .empty());
 }
 
 TEST(Releases, AMetricAgainstAnotherSchemeIsNoError) {
   auto from = release("1", 1e-3, 1.0), to = release("2", 1.0, 1.0);
-  to.result.metrics[0].reference.emplace().kind = "discrete_exact";
+  to.result.metrics[0].reference.emplace().kind = ReferenceKind::discrete_exact;
   EXPECT_TRUE(changes_between(from, to, 1.5).empty());
 }
 
@@ -71,15 +71,16 @@ TEST(Releases, AnErrorThatIsNoLongerFiniteIsWorse) {
 TEST(Releases, TheLastIsComparedWithTheFirst) {
   EXPECT_TRUE(is_worse(table({release("1", 1e-3, 1.0), release("2", 1e-6, 2.0), release("3", 2e-3, 1.0)})));
   EXPECT_FALSE(is_worse(table({release("1", 1e-3, 1.0), release("2", 5e-1, 0.0), release("3", 1e-3, 1.0)})));
-  EXPECT_TRUE(is_worse(table({release("1", 1e-3, 1.0), release("2", 1e-3, 1.0, "fail")}))) << "a gate turned red";
-  EXPECT_FALSE(is_worse(table({release("1", 1e-3, 1.0, "fail"), release("2", 1e-3, 1.0, "fail")}))) << "it was red before";
+  EXPECT_TRUE(is_worse(table({release("1", 1e-3, 1.0), release("2", 1e-3, 1.0, Verdict::fail)}))) << "a gate turned red";
+  EXPECT_FALSE(is_worse(table({release("1", 1e-3, 1.0, Verdict::fail), release("2", 1e-3, 1.0, Verdict::fail)})))
+      << "it was red before";
   auto gone = table({release("1", 1e-3, 1.0), release("2", 1e-3, 1.0)});
-  gone.releases[1].result.engines[0].status = "diverged";
+  gone.releases[1].result.engines[0].status = Status::diverged;
   EXPECT_TRUE(is_worse(gone));
 }
 
 TEST(Releases, TheMarkdownShowsErrorAndOrderOfEachReleaseAndWhatChanged) {
-  const auto text = releases_markdown(table({release("1", 2.2e-4, 2.0), release("2", 6.5e-9, 4.0, "fail")}));
+  const auto text = releases_markdown(table({release("1", 2.2e-4, 2.0), release("2", 6.5e-9, 4.0, Verdict::fail)}));
   for (const auto* wanted : {"| stone 1 | 0.00022 (2.0) |", "| stone 2 | 6.5e-09 (4.0) |",
                              "1 -> 2, RK4 angle: 0.00022 -> 6.5e-09, 3.38e+04 times better; order 2.0 -> 4.0",
                              "| stone 2 | 0 of 1 | RK4 angle: 0.2 is above limit 0.1 |"})

@@ -50,7 +50,7 @@ TEST(ResultsFile, AStoredVerdictIsNotTrusted) {
   judge(r);
   error(r).value = 1.0;  // the rows still say pass
   auto stored = written_and_read(r);
-  EXPECT_EQ(stored.verdict, "PASS");
+  EXPECT_EQ(stored.verdict, CaseVerdict::pass);
   judge(stored);
   EXPECT_EQ(stored.exit_code, exit_fail);
 }
@@ -105,10 +105,10 @@ TEST(Judge, AnEngineThatNobodyRequiresMayNotRefuseOneSeedOfARun) {
   other.name = "other", other.required = false;
   other.runs[0].metrics["error"] = value(7.0);  // far above the limit
   other.runs.push_back(run_with({}));
-  other.runs[1].status = "refused";
+  other.runs[1].status = Status::refused;
   r.cases[0].engines.push_back(other);
   EXPECT_EQ(exit_of(r), exit_missing);  // the failing seed is not hidden by the one that was refused
-  r.cases[0].engines[1].runs[0].status = "refused";
+  r.cases[0].engines[1].runs[0].status = Status::refused;
   EXPECT_EQ(exit_of(r), exit_pass);  // a run may be refused as a whole
 }
 
@@ -124,8 +124,8 @@ TEST(Judge, AnEngineThatWasAskedForAndThatNoGateNamesIsToldHowManyCasesItRan) {
   EXPECT_NE(r.problems[0].find("other was asked for, ran 1 case, and is not judged"), std::string::npos) << r.problems[0];
 }
 
-TEST(Judge, AStatusThatNobodyKnowsIsNoRefusal) {
-  for (const char* status : {"", "fine", "OK", "killed"}) {
+TEST(Judge, ARunThatBrokeOffIsNoRefusal) {
+  for (const auto status : {Status::killed, Status::timeout, Status::error}) {
     auto r = green();
     r.cases[0].engines.push_back(engine(r));
     r.cases[0].engines[1].name = "other", r.cases[0].engines[1].required = false, r.cases[0].engines[1].runs[0].status = status;
@@ -135,34 +135,34 @@ TEST(Judge, AStatusThatNobodyKnowsIsNoRefusal) {
 
 TEST(Judge, ADivergenceThatTheCaseDeclaresPassesAndItsAbsenceFails) {
   auto r = green();
-  r.cases[0].expect = "diverges";
-  engine(r).runs[0].status = "diverged";
+  r.cases[0].expect = Expect::diverges;
+  engine(r).runs[0].status = Status::diverged;
   EXPECT_EQ(exit_of(r), exit_pass);
-  engine(r).runs[0].status = "ok";
+  engine(r).runs[0].status = Status::ok;
   EXPECT_EQ(exit_of(r), exit_fail);
-  r.cases[0].expect = "pass";
-  engine(r).runs[0].status = "diverged";
+  r.cases[0].expect = Expect::pass;
+  engine(r).runs[0].status = Status::diverged;
   EXPECT_EQ(exit_of(r), exit_diverged);
 }
 
 TEST(Judge, WhereThePrintedFormIsDeclaredToDivergeTheCorrectedOneMayNot) {
   auto r = green();
-  r.cases[0].expect = "paper-diverges";
+  r.cases[0].expect = Expect::paper_diverges;
   RunRow printed = engine(r).runs[0];
-  printed.knobs.mode = "paper", printed.status = "diverged";
+  printed.knobs.mode = "paper", printed.status = Status::diverged;
   engine(r).runs[0].knobs.mode = "corrected";
   engine(r).runs.push_back(printed);
   for (Gate& gate : r.cases[0].gates) gate.mode = "corrected";
   EXPECT_EQ(exit_of(r), exit_pass);
-  engine(r).runs[1].status = "ok";
+  engine(r).runs[1].status = Status::ok;
   EXPECT_EQ(exit_of(r), exit_fail) << "the declaration is stale";
-  engine(r).runs[1].status = "diverged", engine(r).runs[0].status = "diverged";
+  engine(r).runs[1].status = Status::diverged, engine(r).runs[0].status = Status::diverged;
   EXPECT_EQ(exit_of(r), exit_diverged);
 }
 
 TEST(Judge, ADeclaredDefectNeedsAGateThatMeasuresIt) {
   auto r = green();
-  r.cases[0].expect = "defect";
+  r.cases[0].expect = Expect::defect;
   EXPECT_EQ(exit_of(r), exit_missing);  // a ceiling alone is passed by no defect too
   r.cases[0].gates[0].limit.reset();
   r.cases[0].gates[0].band = {0.04, 0.06};
@@ -190,9 +190,9 @@ TEST(Judge, AGateLooksOnlyAtItsModeLevelAndEngine) {
 TEST(Judge, TheClassThatAStudyDeclaresMustBeFound) {
   auto r = study_of({1.6e-1, 4.0e-2, 1.0e-2, 2.5e-3});
   r.cases[0].studies[0].order = 2.0;
-  r.cases[0].studies[0].expect = "asymptotic";
+  r.cases[0].studies[0].expect = FitClass::asymptotic;
   EXPECT_EQ(exit_of(r), exit_pass);
-  r.cases[0].studies[0].expect = "plateau";
+  r.cases[0].studies[0].expect = FitClass::plateau;
   EXPECT_EQ(exit_of(r), exit_fail);
 }
 

@@ -34,9 +34,9 @@ Results whole_results() {
   r.filter_known = true, r.seed_given = true, r.what = {"cases/a", "cases/b"}, r.only_engines = {"tripoint", "exact"},
   r.asked = {"bullet"}, r.planned = {"test/one", "test/two"};
   auto& c = r.cases[0];
-  c.kind = "validation", c.requirement = "R1", c.claims = "it holds", c.file = "cases/test/one.toml",
-  c.repeat = "tripoint validate one", c.expect = "defect", c.tags = {"x", "y"};
-  c.reference = {"discrete_exact",
+  c.kind = CaseKind::validation, c.requirement = "R1", c.claims = "it holds", c.file = "cases/test/one.toml",
+  c.repeat = "tripoint validate one", c.expect = Expect::defect, c.tags = {"x", "y"};
+  c.reference = {ReferenceKind::discrete_exact,
                  "beam",
                  "beam.csv",
                  "a book",
@@ -45,7 +45,7 @@ Results whole_results() {
   c.metrics = {{"error", "position", "L2", "cube", "all", {0.40, 0.41}, 42.0, "mm", {}, {}}};
   Study s;
   s.axis = "spacing", s.levels = {0.2, 0.1}, s.jitter = 0.43, s.seeds = 44, s.engine = "tripoint", s.mode = "corrected",
-  s.expect = "asymptotic", s.order = 2.0, s.metric = "error", s.place = {"one.toml", 45, 0};
+  s.expect = FitClass::asymptotic, s.order = 2.0, s.metric = "error", s.place = {"one.toml", 45, 0};
   c.studies = {s};
   Gate g;
   g.metric = "error", g.engine = "tripoint", g.mode = "not paper", g.preset = "tuned", g.limit = 46.0, g.at_least = 47.0,
@@ -57,8 +57,8 @@ Results whole_results() {
   e.required = true, e.refuses = "no gas", e.reason = "the engine's reason";
   e.runs = {whole_run()};
   c.engines = {e};
-  c.equivalence = {{"a1", "b1", "error", 53.0, 54.0, 55.0, 56.0, 57.0, "equivalent"},
-                   {"a2", "b2", "error", 58.0, 59.0, {}, 60.0, 61.0, "no margin is set"}};
+  c.equivalence = {{"a1", "b1", "error", 53.0, 54.0, 55.0, 56.0, 57.0, Equivalence::equivalent},
+                   {"a2", "b2", "error", 58.0, 59.0, {}, 60.0, 61.0, Equivalence::no_margin}};
   c.ledger = {{"kinetic", 62.0}, {"heat", not_a_number}};
   c.timing_rounds = 63, c.timing_floor = 1.64;
   c.hashes = CaseHashes{"the scene", "the reference", {{"error", "its hash"}}, {}, {}};
@@ -74,7 +74,7 @@ TEST(WholeResults, AreReadAsTheyWereWritten) {
   auto stored = read_results(folder / "results.json");
   EXPECT_EQ(stored.verdict, r.verdict);
   EXPECT_EQ(stored.exit_code, r.exit_code);
-  stored.verdict.clear();
+  stored.verdict = CaseVerdict::interrupted;
   judge(stored);
   EXPECT_EQ(results_text(stored), text);
 }
@@ -107,7 +107,7 @@ TEST(WholeResults, WhatIsAbsentIsTakenForTheLeastThatItCanMean) {
   EXPECT_EQ(r.asked, (std::vector<std::string>{"tripoint"}));  // an older file does not say who was asked for
   EXPECT_FALSE(r.interrupted || r.filter_known || r.seed_given);
   const auto& c = r.cases.at(0);
-  EXPECT_EQ(c.expect, "pass");
+  EXPECT_EQ(c.expect, Expect::pass);
   EXPECT_FALSE(c.hashes.has_value());
   EXPECT_EQ(c.timing_rounds, 0);
   EXPECT_EQ(c.reference.uncertainty, 0.0);
@@ -123,10 +123,10 @@ TEST(WholeResults, WhatIsAbsentIsTakenForTheLeastThatItCanMean) {
   EXPECT_FALSE(c.equivalence[0].margin.has_value());
   const auto& e = c.engines.at(0);
   EXPECT_FALSE(e.required);
-  EXPECT_EQ(e.status, "error");
+  EXPECT_EQ(e.status, Status::error);
   EXPECT_EQ(e.reason, "the results give no status");
   const auto& run = e.runs.at(0);
-  EXPECT_EQ(run.status, "error");
+  EXPECT_EQ(run.status, Status::error);
   EXPECT_EQ(run.reason, "the results give no status");
   EXPECT_FALSE(run.base);
   EXPECT_TRUE(run.comparable);
@@ -160,6 +160,29 @@ TEST(WholeResults, PartsOfAnotherKindAreNoValues) {
   EXPECT_EQ(m.at("b").uncertainty.numerical, 0.0);
   EXPECT_EQ(m.at("b").series.at(0), 1.0);
   EXPECT_TRUE(std::isnan(m.at("b").series.at(1)));
+}
+
+/// The place and the word; an unknown word is never taken for another.
+TEST(WholeResults, AnUnknownWordIsAnErrorThatSaysWhereItStands) {
+  const auto why = [](const std::string& cases) {
+    try {
+      (void)read_text(R"({"format": 1, "cases": )" + cases + "}");
+      return std::string("it was read");
+    } catch (const InputError& e) {
+      return std::string(e.what());
+    }
+  };
+  for (const auto& [cases, place] :
+       {std::pair{R"([{"engines": [{"status": "ok"}, {"status": "ok", "runs": [{"status": "ok"}, {"status": "fine"}]}]}])",
+                  "results.json: cases[0].engines[1].runs[1].status: `fine` is no status of a run"},
+        std::pair{R"([{}, {"engines": [{"status": "OK"}]}])", "results.json: cases[1].engines[0].status: `OK` is no status"},
+        std::pair{R"([{"expect": "fail"}])", "cases[0].expect: `fail` is no expectation"},
+        std::pair{R"([{"kind": "proof"}])", "cases[0].kind: `proof` is no kind of case"},
+        std::pair{R"([{"reference": {"kind": "exact"}}])", "cases[0].reference.kind: `exact` is no kind of reference"},
+        std::pair{R"([{"studies": [{"expect": "flat"}]}])", "cases[0].studies[0].expect: `flat` is no class of convergence"},
+        std::pair{R"([{"equivalence": [{"verdict": "same"}]}])", "cases[0].equivalence[0].verdict: `same` is no verdict"}})
+    EXPECT_NE(why(cases).find(place), std::string::npos) << why(cases);
+  EXPECT_NE(why(R"([], "verdict": "GREEN")").find("verdict: `GREEN` is no verdict of a case"), std::string::npos);
 }
 
 TEST(WholeResults, ARefusedFileIsToldWhy) {

@@ -47,10 +47,10 @@ TEST(Seeds, AGateThatTurnsWithOneOfThemIsAFalseAlarm) {
 }
 
 TEST(Seeds, ADivergenceThatTheCaseDeclaresIsNoAlarmAndAnotherIs) {
-  for (const auto& [expect, code] : {std::pair{"diverges", exit_pass}, std::pair{"pass", exit_selftest}}) {
+  for (const auto& [expect, code] : {std::pair{Expect::diverges, exit_pass}, std::pair{Expect::pass, exit_selftest}}) {
     auto r = green();
     r.cases[0].expect = expect, r.cases[0].gates.clear();
-    engine(r).runs[0].status = "diverged", engine(r).runs[0].metrics.clear();
+    engine(r).runs[0].status = Status::diverged, engine(r).runs[0].metrics.clear();
     judge(r);
     SeedsOutcome all;
     add_seed(r.cases[0], 1, all);

@@ -40,16 +40,16 @@ TEST(SmallestDefect, AnIntervalIsNotLeftByANumberThatIsNotFinite) {
 }
 
 TEST(SmallestDefect, HasGrownWhenALimitIsLoosenedByMoreThanAQuarter) {
-  EXPECT_STREQ(against_stored(0.024, 0.02), "held");
-  EXPECT_STREQ(against_stored(0.026, 0.02), "GREW");
-  EXPECT_STREQ(against_stored(0.01, 0.02), "shrank");
+  EXPECT_EQ(against_stored(0.024, 0.02), Size::held);
+  EXPECT_EQ(against_stored(0.026, 0.02), Size::grew);
+  EXPECT_EQ(against_stored(0.01, 0.02), Size::shrank);
 }
 
 TEST(SmallestDefect, IsInTheTableAndTheDocumentOfTheSelfTest) {
   SelftestOutcome outcome;
   SmallestOutcome s;
   s.defect = "heat.conductivity", s.case_id = "heat/cosine-mode", s.metric = "rate", s.size = 0.0052, s.hidden = 0.005,
-  s.stored = 0.004, s.verdict = "GREW", s.place = {"cases/heat/cosine-mode.toml", 7, 1};
+  s.stored = 0.004, s.verdict = Size::grew, s.place = {"cases/heat/cosine-mode.toml", 7, 1};
   outcome.smallest = {s};
   EXPECT_NE(selftest_table(outcome).find("GREW        heat.conductivity"), std::string::npos) << selftest_table(outcome);
   EXPECT_NE(selftest_table(outcome).find("cosine-mode.toml:7"), std::string::npos);

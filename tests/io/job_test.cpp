@@ -103,9 +103,24 @@ TEST(Job, RefusesTextThatIsNoJson) {
   std::filesystem::remove(path);
 }
 
+TEST(Result, AStatusThatIsNotAnEnginesOwnIsRefusedByName) {
+  const std::string path = temporary("status.json");
+  for (const std::string word : {"OK", "fine", "killed", "missing", ""}) {
+    std::ofstream(path) << R"({"contract": 1, "status": ")" << word << "\"}";
+    try {
+      (void)read_result(path);
+      ADD_FAILURE() << word;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find("status: `" + word + "` is none that an engine may give"), std::string::npos)
+          << e.what();
+    }
+  }
+  std::filesystem::remove(path);
+}
+
 TEST(Result, ReadsBackWhatWasWritten) {
   Result r;
-  r.status = "diverged";
+  r.status = Status::diverged;
   r.message = "particle 7: velocity is not finite";
   r.steps = 12;
   r.pairs = 3e9;

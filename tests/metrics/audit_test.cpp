@@ -14,7 +14,7 @@ using namespace test;
 /// A body on a principal axis, one frame a turn.
 Prepared spinning(double turns_a_frame) {
   auto s = block({0.0, 0.0, 10.0}, turns_a_frame * 2.0 * pi / 10.0 * 5.0, 5);
-  s.job.reference.kind = "invariant", s.job.reference.function = "";
+  s.job.reference.kind = ReferenceKind::invariant, s.job.reference.function = "";
   return s;
 }
 

@@ -131,7 +131,7 @@ TEST(GateThatNeverFails, UnderPredictionFailsToo) {
 TEST(GateThatNeverFails, ADivergingStudyHasANegativeOrder) {
   const auto fit = fit_order({0.1, 0.05, 0.025, 0.0125}, {1e-4, 4e-4, 1.6e-3, 6.4e-3}, {}, 2.0);
   EXPECT_EQ(judge_at_least(fit.value, 0.0, 1.8), Verdict::fail);
-  EXPECT_EQ(fit.fit_class, "diverging");
+  EXPECT_EQ(fit.fit_class, FitClass::diverging);
 }
 
 TEST(GateThatNeverFails, AShiftedOrShortTimeAxisIsFound) {

@@ -29,7 +29,7 @@ TEST(Order, FindsTheOrderOfAPowerLawWithItsInterval) {
   const auto fit = fit_order(h, errors(h, [](double x) { return 3.0 * x * x; }), {}, 2.0);
   EXPECT_NEAR(fit.value, 2.0, 1e-12);
   EXPECT_NEAR(fit.coefficient, 3.0, 1e-10);
-  EXPECT_EQ(fit.fit_class, "asymptotic");
+  EXPECT_EQ(fit.fit_class, FitClass::asymptotic);
   EXPECT_LE(fit.low, fit.value);
   EXPECT_GE(fit.high, fit.value);
 }
@@ -42,7 +42,7 @@ TEST(Order, CoversTheTrueOrderInNinetyFiveOfAHundredNoisyStudies) {
   const int studies = 2000;
   for (int n = 0; n < studies; ++n) {
     const auto fit = fit_order(h, errors(h, [&](double x) { return x * x * std::exp(noise(random)); }), {}, 2.0);
-    if (fit.fit_class == "plateau") continue;  // the few where noise looks like a floor
+    if (fit.fit_class == FitClass::plateau) continue;  // the few where noise looks like a floor
     covered += fit.low <= 2.0 && 2.0 <= fit.high ? 1 : 0;
   }
   EXPECT_NEAR(covered / double(studies), 0.95, 0.03);  // binomial 3 sigma 0.015, and the dropped plateaus
@@ -53,47 +53,49 @@ TEST(Order, ReproducesTheIntervalOfTheKnownHeatStudy) {
   const auto fit = fit_order({1.0 / 20, 1.0 / 40, 1.0 / 80, 1.0 / 160}, {6.58e-2, 1.63e-2, 4.06e-3, 1.02e-3}, {}, 2.0);
   EXPECT_NEAR(fit.value, 2.004, 0.003);
   EXPECT_NEAR(fit.high - fit.value, 0.009, 0.012);
-  EXPECT_EQ(fit.fit_class, "asymptotic");
+  EXPECT_EQ(fit.fit_class, FitClass::asymptotic);
 }
 
 TEST(Order, NamesAPlateauAndItsLevel) {
   const auto h = levels(0.1, 4);
   const auto fit = fit_order(h, errors(h, [](double x) { return -(0.0714 + 3.6 * x * x); }), {}, 2.0);
-  EXPECT_EQ(fit.fit_class, "plateau");
+  EXPECT_EQ(fit.fit_class, FitClass::plateau);
   EXPECT_NEAR(fit.floor, -0.0714, 1e-6);
   // The printed heat operator at 10/20/40/80 a wavelength, three digits.
-  EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.108, -0.081, -0.074, -0.072}, {}, 2.0).fit_class, "plateau");
+  EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.108, -0.081, -0.074, -0.072}, {}, 2.0).fit_class, FitClass::plateau);
   // Errors that grow to a floor, and errors that change sign on their way to one.
-  EXPECT_EQ(fit_order({1. / 20, 1. / 40, 1. / 80, 1. / 160}, {2.0e-2, 3.7e-2, 4.2e-2, 4.3e-2}, {}, 2.0).fit_class, "plateau");
-  EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.046, 0.007, 0.021, 0.025}, {}, 2.0).fit_class, "plateau");
+  EXPECT_EQ(fit_order({1. / 20, 1. / 40, 1. / 80, 1. / 160}, {2.0e-2, 3.7e-2, 4.2e-2, 4.3e-2}, {}, 2.0).fit_class,
+            FitClass::plateau);
+  EXPECT_EQ(fit_order({0.1, 0.05, 0.025, 0.0125}, {-0.046, 0.007, 0.021, 0.025}, {}, 2.0).fit_class, FitClass::plateau);
 }
 
 TEST(Order, DoesNotHideDivergenceBehindAMagnitude) {
   const auto h = levels(0.1, 4);
   const auto fit = fit_order(h, errors(h, [](double x) { return 1e-3 / (x * x); }), {}, 2.0);
   EXPECT_NEAR(fit.value, -2.0, 1e-10);
-  EXPECT_EQ(fit.fit_class, "diverging");
+  EXPECT_EQ(fit.fit_class, FitClass::diverging);
   EXPECT_EQ(fit_order(levels(0.1, 6), {1e-4, 6e-4, 5e-4, 4e-3, 3e-2, 2e-1}, {}, 2.0).fit_class,
-            "diverging");  // not monotone, yet below 0 at 95 %
-  EXPECT_EQ(fit_order(h, {1e-2, 1e-3, nan, 1e-5}, {}, 2.0).fit_class, "diverging");
+            FitClass::diverging);  // not monotone, yet below 0 at 95 %
+  EXPECT_EQ(fit_order(h, {1e-2, 1e-3, nan, 1e-5}, {}, 2.0).fit_class, FitClass::diverging);
   EXPECT_TRUE(std::isnan(fit_order(h, {1e-2, 1e-3, nan, 1e-5}, {}, 2.0).value));
 }
 
 TEST(Order, TellsTooFewNoiseRoundoffAndOscillation) {
   const auto h3 = levels(0.1, 3), h4 = levels(0.1, 4);
-  EXPECT_EQ(fit_order(h3, {4e-2, 1e-2, 2.5e-3}, {}, 2.0).fit_class, "too-few");
-  EXPECT_EQ(fit_order({0.1}, {1.0}, {}, 2.0).fit_class, "too-few");
-  EXPECT_EQ(fit_order(h4, {4e-2, 1e-2, 2.5e-3, 6e-4}, {2e-3, 2e-3, 2e-3, 2e-3}, 2.0).fit_class, "noise-limited");
-  EXPECT_EQ(fit_order(h4, {1e-15, 3e-15, 2e-15, 0.0}, {}, 2.0).fit_class, "roundoff");
-  EXPECT_EQ(fit_order(h4, {1e-2, -5e-3, 4e-3, -1e-3}, {}, 2.0).fit_class, "oscillating");
-  EXPECT_EQ(fit_order(h4, {1e-2, 0.0, 4e-3, 1e-3}, {}, 2.0).fit_class, "oscillating");
+  EXPECT_EQ(fit_order(h3, {4e-2, 1e-2, 2.5e-3}, {}, 2.0).fit_class, FitClass::too_few);
+  EXPECT_EQ(fit_order({0.1}, {1.0}, {}, 2.0).fit_class, FitClass::too_few);
+  EXPECT_EQ(fit_order(h4, {4e-2, 1e-2, 2.5e-3, 6e-4}, {2e-3, 2e-3, 2e-3, 2e-3}, 2.0).fit_class, FitClass::noise_limited);
+  EXPECT_EQ(fit_order(h4, {1e-15, 3e-15, 2e-15, 0.0}, {}, 2.0).fit_class, FitClass::roundoff);
+  EXPECT_EQ(fit_order(h4, {1e-2, -5e-3, 4e-3, -1e-3}, {}, 2.0).fit_class, FitClass::oscillating);
+  EXPECT_EQ(fit_order(h4, {1e-2, 0.0, 4e-3, 1e-3}, {}, 2.0).fit_class, FitClass::oscillating);
 }
 
 TEST(Order, DoesNotCallAnotherOrderAsymptotic) {
   const auto h = levels(0.1, 4);
-  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return x; }), {}, 2.0).fit_class, "preasymptotic");
-  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return std::pow(x, 3); }), {}, 2.0).fit_class, "preasymptotic");
-  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return x * x + 400 * std::pow(x, 4); }), {}, 2.0).fit_class, "preasymptotic");
+  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return x; }), {}, 2.0).fit_class, FitClass::preasymptotic);
+  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return std::pow(x, 3); }), {}, 2.0).fit_class, FitClass::preasymptotic);
+  EXPECT_EQ(fit_order(h, errors(h, [](double x) { return x * x + 400 * std::pow(x, 4); }), {}, 2.0).fit_class,
+            FitClass::preasymptotic);
 }
 
 TEST(GridConvergence, BoundsTheErrorOfASecondOrderSeries) {
@@ -139,12 +141,12 @@ TEST(Verdict, JudgesASignedErrorOnBothSides) {
 }
 
 TEST(Equivalence, NeedsAMarginAndKnowsFourAnswers) {
-  EXPECT_EQ(equivalence(0.01, 0.01, 0.1), "equivalent");
-  EXPECT_EQ(equivalence(0.05, 0.01, 0.1), "negligible but real");
-  EXPECT_EQ(equivalence(-0.3, 0.01, 0.1), "different");
-  EXPECT_EQ(equivalence(0.09, 0.01, 0.1), "unresolved");
-  EXPECT_EQ(equivalence(nan, 0.01, 0.1), "unresolved");
-  EXPECT_EQ(equivalence(0.0, 0.01, 0.0), "unresolved");
+  EXPECT_EQ(equivalence(0.01, 0.01, 0.1), Equivalence::equivalent);
+  EXPECT_EQ(equivalence(0.05, 0.01, 0.1), Equivalence::negligible);
+  EXPECT_EQ(equivalence(-0.3, 0.01, 0.1), Equivalence::different);
+  EXPECT_EQ(equivalence(0.09, 0.01, 0.1), Equivalence::unresolved);
+  EXPECT_EQ(equivalence(nan, 0.01, 0.1), Equivalence::unresolved);
+  EXPECT_EQ(equivalence(0.0, 0.01, 0.0), Equivalence::unresolved);
 }
 
 }  // namespace

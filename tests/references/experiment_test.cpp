@@ -87,7 +87,7 @@ TEST(Experiment, IsAReferenceThatKnowsWhatItsFileHoldsAndNoMore) {
   const auto measured = make_reference(test::experiment(file), block.job, block.initial);
   ASSERT_NE(measured->measured("front"), nullptr);
   EXPECT_EQ(measured->measured("speed"), nullptr);
-  EXPECT_EQ(measured->number("axis"), 0.0);
+  EXPECT_EQ(measured->measuring().axis, 0U);
   EXPECT_TRUE(measured->at(1.0).position.empty());
   EXPECT_THROW((void)make_reference(test::experiment(file, "w"), block.job, block.initial), InputError);
   EXPECT_EQ(with_source_of_file(test::experiment(file)).source,

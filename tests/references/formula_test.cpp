@@ -46,7 +46,7 @@ TEST(ExpressionReference, IsAFieldOfPlaceAndTime) {
 TEST(ExpressionReference, IsANumberInTimeOrTheFieldAtItsProbe) {
   const auto curve = made("expression", {{"value", std::string("3*t^2")}, {"axis", std::string("z")}});
   EXPECT_EQ(*curve->number_at("value", 2.0), 12.0);
-  EXPECT_EQ(*curve->number("axis"), 2.0);
+  EXPECT_EQ(*curve->measuring().axis, 2U);
   const auto probe = made("expression", {{"temperature", std::string("x*t")},
                                          {"velocity_x", std::string("z")},
                                          {"axis", std::string("x")},
@@ -84,7 +84,7 @@ TEST(TableReference, IsANumberInTimeWithTheUncertaintyOfItsFile) {
   EXPECT_DOUBLE_EQ(*truth->number_at("value", 2.0), 3.0);
   EXPECT_FALSE(truth->number_at("value", 2.1));  // beyond the table nothing is known
   EXPECT_DOUBLE_EQ(*truth->uncertainty("centre", 1.0), 0.02);
-  EXPECT_EQ(*truth->number("axis"), 0.0);
+  EXPECT_EQ(*truth->measuring().axis, 0U);
 }
 
 TEST(TableReference, IsAFieldAlongAnAxis) {

@@ -328,7 +328,7 @@ TEST(References, AreListedWithArgumentsForTheSchema) {
 TEST(Invariant, KnowsNoPositionsSoThatAFrozenRunCannotLookPerfect) {
   const auto s = test::block({1, 2, 3}, 1.0, 2);
   ReferenceChoice choice;
-  choice.kind = "invariant";
+  choice.kind = ReferenceKind::invariant;
   const auto reference = make_reference(choice, s.job, s.initial);
   EXPECT_TRUE(reference->at(1.0).position.empty());
   EXPECT_TRUE(reference->at(1.0).temperature.empty());

@@ -9,6 +9,7 @@
 #include "job/reference_choice.hpp"
 #include "scene/scene.hpp"
 #include "scene/settings.hpp"
+#include "validation/case/case_words.hpp"
 
 /// The checked case: a scene, and how its runs are judged. SI, with every default filled in.
 namespace tripoint {
@@ -35,10 +36,10 @@ struct Study {
   std::vector<double> support_ratios, time_steps;  ///< refined together with the levels, one for each; empty = the case's own
   double jitter = 0.0;
   int seeds = 1;
-  std::string engine, mode;     ///< empty = all
-  std::string expect;           ///< class, empty = not judged
-  std::optional<double> order;  ///< formal
-  std::string metric;           ///< empty = every metric
+  std::string engine, mode;        ///< empty = all
+  std::optional<FitClass> expect;  ///< empty = not judged
+  std::optional<double> order;     ///< formal
+  std::string metric;              ///< empty = every metric
   SourcePlace place;
 };
 
@@ -70,9 +71,10 @@ struct Defect {
 };
 
 struct Case {
-  std::string id, title, requirement, claims, kind = "verification";
+  std::string id, title, requirement, claims;
+  CaseKind kind = CaseKind::verification;
   std::vector<std::string> profiles{"commit"}, tags;
-  std::string expect = "pass";  ///< pass | diverges | defect
+  Expect expect = Expect::pass;
   std::vector<Mode> modes{Mode::corrected};
   Scene scene;
   std::vector<EngineChoice> engines;

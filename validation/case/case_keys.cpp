@@ -4,7 +4,9 @@
 #include <array>
 #include <span>
 
+#include "job/reference_choice.hpp"
 #include "validation/case/case_document.hpp"
+#include "validation/case/case_words.hpp"
 
 namespace tripoint {
 namespace {
@@ -12,8 +14,6 @@ namespace {
 using enum ValueType;
 using enum Range;
 constexpr std::string_view axes = "spacing time_step support_ratio walkers iterations";
-constexpr std::string_view references = "analytic discrete_exact mms self engine experiment invariant bound";
-constexpr std::string_view orders = "asymptotic preasymptotic plateau roundoff oscillating diverging noise-limited too-few";
 
 /// Before the scene's keys.
 constexpr auto keys_before = std::to_array<Key>({
@@ -44,12 +44,12 @@ constexpr auto keys_behind = std::to_array<Key>({
     {"case", "title", text, "", any, "=", "the id", "", "title in one line"},
     {"case", "requirement", text, "", any, "\"\"", "none is stated", "", "label of the requirement that the case shows"},
     {"case", "claims", text, "", any, "\"\"", "none is stated", "", "statement that the gates prove"},
-    {"case", "kind", word, "", any, "\"verification\"", "against an exact solution", "verification validation comparison",
+    {"case", "kind", word, "", any, "\"verification\"", "against an exact solution", word_line<CaseKind>,
      "kind of truth: verification: exact solution; validation: experiment; comparison: another engine"},
     {"case", "profiles", words, "", any, "[\"commit\"]", "runs with every change", "commit nightly release acceptance",
      "suites that the case belongs to; acceptance: it has a limit that any engine must hold"},
     {"case", "tags", texts, "", any, "[]", "none", "", "words to select cases by"},
-    {"case", "expect", word, "", any, "\"pass\"", "a case is meant to pass", "pass diverges paper-diverges defect",
+    {"case", "expect", word, "", any, "\"pass\"", "a case is meant to pass", word_line<Expect>,
      "what must be measured for the case to pass; paper-diverges: the printed form does, the corrected one does not"},
     {"case", "modes", words, "", any, "=", "the scene's mode", "corrected paper",
      "forms of the model that are run, one set of runs each"},
@@ -62,7 +62,7 @@ constexpr auto keys_behind = std::to_array<Key>({
      "words of the refusal that is expected of the engine: it fails the case when it takes it, or refuses it for another reason"},
     {"engines", "settings", settings, "", any, "{}", "the preset's own", "", "settings of the engine, by its own keys"},
     // [reference]
-    {"reference", "kind", word, "", any, "\"analytic\"", "an exact solution", references, "kind of truth"},
+    {"reference", "kind", word, "", any, "\"analytic\"", "an exact solution", word_line<ReferenceKind>, "kind of truth"},
     {"reference", "function", text, "", any, "=", "none", "", "name of the exact solution"},
     {"reference", "args", settings, "", any, "{}", "from the scene", "", "arguments of the function"},
     {"reference", "file", text, "", any, "\"\"", "no data", "", "data beside the case: <case>.ref.*"},
@@ -99,7 +99,7 @@ constexpr auto keys_behind = std::to_array<Key>({
     {"study", "engine", text, "", any, "\"\"", "all", "", "engine that is refined"},
     {"study", "mode", text, "", any, "\"\"", "all", "",
      "form of our solver that is refined: corrected, paper; \"not paper\": every engine, and ours but in its printed form"},
-    {"study", "expect", word, "", any, "\"\"", "not judged", orders, "expected class of the convergence"},
+    {"study", "expect", word, "", any, "\"\"", "not judged", word_line<FitClass>, "expected class of the convergence"},
     {"study", "order", number, "", any, "", "not judged", "", "formal order"},
     {"study", "metric", text, "", any, "\"\"", "every metric", "", "metric that is fitted"},
     // [[gate]]

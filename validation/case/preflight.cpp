@@ -191,7 +191,7 @@ class Preflight {
     if (scene_.time_step && *scene_.time_step > bound) {
       auto what = fmt::format("time_step = {} s is above the bound of {} {:.4g} s: shorten it, or write \"auto\"",
                               *scene_.time_step, which, bound);
-      findings_.push_back({case_.expect != "diverges", std::move(what), {case_.file, 0, 0}});
+      findings_.push_back({case_.expect != Expect::diverges, std::move(what), {case_.file, 0, 0}});
     }
     for (const auto& study : case_.studies)
       if (study.axis == "time_step" && study.levels.front() > bound)

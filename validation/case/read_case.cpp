@@ -37,8 +37,8 @@ void read_head(const TomlNode& node, Case& c, Reading& reading) {
     c.title = *title;
   else
     in.ruled("title", "\"" + (c.title = c.id) + "\"", "the id");
-  c.requirement = in.text("requirement"), c.claims = in.text("claims"), c.kind = in.text("kind");
-  c.profiles = in.texts("profiles"), c.tags = in.texts("tags"), c.expect = in.text("expect");
+  c.requirement = in.text("requirement"), c.claims = in.text("claims"), c.kind = from_word<CaseKind>(in.text("kind"));
+  c.profiles = in.texts("profiles"), c.tags = in.texts("tags"), c.expect = from_word<Expect>(in.text("expect"));
   if (in.has("modes")) {
     c.modes.clear();
     for (const auto& word : in.texts("modes")) c.modes.push_back(mode_from(word));
@@ -54,7 +54,7 @@ void read_judgement(TableReader& top, Case& c, Reading& reading) {
   if (const auto* reference = top.composite("reference")) {
     c.reference = read_reference(*reference, "reference", reading);
   } else {
-    c.reference.kind = "invariant";
+    c.reference.kind = ReferenceKind::invariant;
     top.ruled("reference.kind", "\"invariant\"", "no [reference]: only what every run must keep is known");
   }
   for (const auto* node : top.tables("metric")) c.metrics.push_back(read_metric(*node, reading));

@@ -50,20 +50,21 @@ static void check_formulas(const TableReader& in, const Settings& args) {
 ReferenceChoice read_reference(const TomlNode& node, const std::string& path, Reading& reading) {
   TableReader in = case_table(node, "reference", path, reading);
   ReferenceChoice r;
-  r.kind = in.text("kind");
+  r.kind = from_word<ReferenceKind>(in.text("kind"));
   r.function = in.maybe_text("function").value_or("");
-  const bool formula = r.kind == "analytic" || r.kind == "discrete_exact" || r.kind == "mms";
+  const bool formula =
+      r.kind == ReferenceKind::analytic || r.kind == ReferenceKind::discrete_exact || r.kind == ReferenceKind::mms;
   if (formula && r.function.empty())
     in.refuse(in.has("function") ? "function" : "kind",
               fmt::format("a reference of kind \"{}\" needs the key `function`: the exact solution's name", r.kind));
   r.args = in.settings("args");
   if (r.function == "expression") check_formulas(in, r.args);
   r.file = in.text("file");
-  if (r.kind == "experiment" && r.file.empty())
+  if (r.kind == ReferenceKind::experiment && r.file.empty())
     in.refuse("kind", "a reference of kind \"experiment\" needs the key `file`: the data beside the case");
   if (r.function == "table" && r.file.empty())
     in.refuse("function", "a reference by `table` needs the key `file`: the table beside the case");
-  if (!r.file.empty() && r.kind != "experiment" && r.function != "table")
+  if (!r.file.empty() && r.kind != ReferenceKind::experiment && r.function != "table")
     in.refuse("file",
               "data are read by kind = \"experiment\" and by function = \"table\": write one of them, or remove the file");
   if (!r.file.empty()) {
@@ -130,8 +131,8 @@ Study read_study(const TomlNode& node, std::size_t number, double end_time, Read
   if (seeds > most_seeds)
     in.refuse("seeds", fmt::format("{} runs for each level are more than the {} that can be planned", seeds, most_seeds));
   s.seeds = static_cast<int>(seeds);
-  s.engine = in.text("engine"), s.mode = in.text("mode"), s.expect = in.text("expect"), s.order = in.maybe_number("order"),
-  s.metric = in.text("metric");
+  s.engine = in.text("engine"), s.mode = in.text("mode"), s.order = in.maybe_number("order"), s.metric = in.text("metric");
+  if (const auto word = in.text("expect"); !word.empty()) s.expect = from_word<FitClass>(word);
   return s;
 }
 

@@ -70,14 +70,14 @@ AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, c
   AdoptedRow row;
   row.preset = first.preset, row.status = first.status, row.reason = first.reason;
   const auto* base = base_run(first);
-  if (!base || base->status != "ok" || !base->comparable) return row;
+  if (!base || base->status != Status::ok || !base->comparable) return row;
   const double round_off = engine.build.find("single") == std::string::npos ? double_round_off : single_round_off;
   for (const auto& metric : runs.front().metrics) {
     std::vector<double> values;
     double uncertainty = 0.0;
     for (const auto& c : runs) {
       const auto* run = run_of(c, first.preset);
-      const auto value = run && run->status == "ok" ? measured(*run, metric.name) : std::nullopt;
+      const auto value = run && run->status == Status::ok ? measured(*run, metric.name) : std::nullopt;
       values.push_back(value ? value->value : not_a_number);
       if (value) uncertainty = std::max(uncertainty, value->uncertainty.combined());
     }
@@ -93,8 +93,8 @@ AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, c
     row.gates.push_back(gate);
   }
   for (const auto& order : first.order)
-    if (std::isfinite(order.order.low) && std::isfinite(order.order.high) && order.order.fit_class != "roundoff" &&
-        order.order.fit_class != "noise-limited")
+    if (std::isfinite(order.order.low) && std::isfinite(order.order.high) && order.order.fit_class != FitClass::roundoff &&
+        order.order.fit_class != FitClass::noise_limited)
       row.gates.push_back(adopted_order_gate(order));
   for (auto& gate : row.gates)
     gate.engine = engine.name, gate.preset = row.preset == "default" ? "" : row.preset, gate.date = o.date;
@@ -150,7 +150,7 @@ Case case_to_adopt(Case value, const EngineEntry& engine) {
   if (engine.name != "tripoint") value.engines.push_back(ours);
   value.modes = {Mode::corrected}, value.gates.clear(), value.defects.clear(), value.harmless.clear();
   std::erase_if(value.studies, [](const Study& s) { return !s.engine.empty() || (!s.mode.empty() && s.mode != "not paper"); });
-  for (auto& s : value.studies) s.expect.clear(), s.mode.clear();
+  for (auto& s : value.studies) s.expect.reset(), s.mode.clear();
   return value;
 }
 
@@ -161,7 +161,7 @@ std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>& cases, const 
     const auto value = case_to_adopt(source, engine);
     std::vector<CaseResult> runs{run_once(value, engine, o, "first", {})};
     const bool ran = std::any_of(runs[0].engines.begin(), runs[0].engines.end(),
-                                 [](const auto& e) { return base_run(e) && base_run(e)->status == "ok"; });
+                                 [](const auto& e) { return base_run(e) && base_run(e)->status == Status::ok; });
     if (ran) {
       runs.push_back(run_once(value, engine, o, "repeat", {}));
       const int seeds = has_chance(value, engine) ? o.seeds : 0;
@@ -172,8 +172,9 @@ std::vector<AdoptedCase> measure_to_adopt(const std::vector<Case>& cases, const 
     for (const auto& e : runs[0].engines)
       if (e.name == engine.name) adopted.rows.push_back(row_of(runs, e, engine, o));
     for (const auto& row : adopted.rows) {
-      say(fmt::format("{} {}: {}", value.id, label_of(engine.name, row.preset),
-                      row.status == "ok" ? fmt::format("{} gates", row.gates.size()) : row.status + ", " + row.reason));
+      say(fmt::format(
+          "{} {}: {}", value.id, label_of(engine.name, row.preset),
+          row.status == Status::ok ? fmt::format("{} gates", row.gates.size()) : fmt::format("{}, {}", row.status, row.reason)));
       for (const auto& note : row.notes) say("  " + note);
     }
     list.push_back(std::move(adopted));

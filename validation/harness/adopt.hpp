@@ -22,7 +22,8 @@ struct AdoptOptions {
 /// One preset of the engine in one case: everything that was measured, by repeats and seeds.
 struct AdoptedRow {
   std::string preset;
-  std::string status, reason;  ///< of the case's own run
+  Status status = Status::ok;  ///< of the case's own run
+  std::string reason;
   std::vector<Gate> gates;
   std::vector<std::string> lost;   ///< metrics without a finite value: they are left out of the written case
   std::vector<std::string> notes;  ///< what the repeat showed

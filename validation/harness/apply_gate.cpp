@@ -68,7 +68,7 @@ GateRow new_row(const Gate& gate, const std::string& mode) {
 
 GateRow missing_row(const Gate& gate, const std::string& why) {
   auto row = new_row(gate, gate.mode);
-  row.verdict = to_string(Verdict::missing), row.why = why;
+  row.verdict = Verdict::missing, row.why = why;
   return row;
 }
 
@@ -77,7 +77,7 @@ void judge_value(GateRow& row, const MetricValue& metric) {
   row.budget = metric.uncertainty;
   row.uncertainty = metric.uncertainty.combined();
   const auto verdict = verdict_of(row.gate, row.value, row.uncertainty);
-  row.verdict = to_string(verdict);
+  row.verdict = verdict;
   if (verdict == Verdict::pass) return;
   if (!std::isfinite(row.value))
     row.why = "not finite" + (metric.note.empty() ? std::string() : ": " + metric.note);
@@ -87,7 +87,7 @@ void judge_value(GateRow& row, const MetricValue& metric) {
 
 /// An engine may refuse a run, but not one seed of it: what the other seeds gave would be judged by nobody.
 bool any_ok(const Group& group) {
-  return std::any_of(group.runs.begin(), group.runs.end(), [](const auto* run) { return run->status == "ok"; });
+  return std::any_of(group.runs.begin(), group.runs.end(), [](const auto* run) { return run->status == Status::ok; });
 }
 
 /// @return false when the group gives no row: its run failed, and the engine's row says so
@@ -96,16 +96,17 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
   if (!row.level && group.levels.size() == 1) row.level = group.levels.begin()->second;
   std::vector<MetricValue> values;
   for (const auto* run : group.runs) {
-    if (run->status != "ok" || !run->comparable) {
-      if (!engine.required && !any_ok(group) && run->comparable && run->status != "diverged" && !crashed(*run)) return false;
-      row.verdict = to_string(run->status == "diverged" ? Verdict::diverged : Verdict::missing);
-      row.why = run->reason.empty() ? run->status : run->reason;
+    if (run->status != Status::ok || !run->comparable) {
+      if (!engine.required && !any_ok(group) && run->comparable && run->status != Status::diverged && !crashed(*run))
+        return false;
+      row.verdict = run->status == Status::diverged ? Verdict::diverged : Verdict::missing;
+      row.why = run->reason.empty() ? std::string(to_string(run->status)) : run->reason;
       engine.gates.push_back(row);
       return true;
     }
     auto value = measured(*run, gate.metric);
     if (!value) {
-      row.verdict = to_string(Verdict::missing), row.why = "the run has no metric of this name";
+      row.verdict = Verdict::missing, row.why = "the run has no metric of this name";
       engine.gates.push_back(row);
       return true;
     }
@@ -127,7 +128,8 @@ bool has_mode(const EngineRow& engine, const Gate& gate) {
 /// Runs that the engine refused, and none that it broke off: then it owes no order.
 bool declined(const EngineRow& engine) {
   if (std::any_of(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return crashed(r); })) return false;
-  return std::any_of(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != "ok" || !r.comparable; });
+  return std::any_of(engine.runs.begin(), engine.runs.end(),
+                     [](const auto& r) { return r.status != Status::ok || !r.comparable; });
 }
 
 /// Whether a study of the case makes this engine run at the gate's level (any level, if it names none).
@@ -146,12 +148,13 @@ Applied judge_order(const CaseResult& result, const Gate& gate, EngineRow& engin
     auto row = new_row(gate, order.mode);
     row.value = order.order.value, row.low = order.order.low, row.high = order.order.high, row.fit_class = order.order.fit_class;
     // An engine that is exact has no order to show: where any engine is asked for one at least, errors of round-off will do.
-    const bool exact = gate.engine.empty() && gate.at_least && !gate.band && !gate.limit && order.order.fit_class == "roundoff";
+    const bool exact =
+        gate.engine.empty() && gate.at_least && !gate.band && !gate.limit && order.order.fit_class == FitClass::roundoff;
     const auto verdict = exact ? Verdict::pass : verdict_of(gate, order.order);
-    row.verdict = to_string(verdict);
+    row.verdict = verdict;
     if (verdict != Verdict::pass)
-      row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low, *row.high, row.fit_class,
-                            describe(gate));
+      row.why = fmt::format("order {:.3g}, 95 % interval {:.3g} to {:.3g}, {}, {}", row.value, *row.low, *row.high,
+                            *row.fit_class, describe(gate));
     engine.gates.push_back(row);
     judged = true;
   }
@@ -225,15 +228,15 @@ Applied apply_expected_class(const CaseResult& result, const Study& study, Engin
                                                       : result.metrics.front().name;
   Gate gate;
   gate.metric = metric + ".order", gate.engine = engine.name, gate.mode = study.mode, gate.place = study.place;
-  gate.reason = fmt::format("the study over {} declares the class {}", study.axis, study.expect);
+  gate.reason = fmt::format("the study over {} declares the class {}", study.axis, *study.expect);
   auto applied = Applied::not_applicable;
   for (const auto& order : fit_orders(result, engine, study)) {
     if (order.metric != metric) continue;
     auto row = new_row(gate, order.mode);
     row.value = order.order.value, row.low = order.order.low, row.high = order.order.high;
     row.expect = study.expect, row.fit_class = order.order.fit_class;
-    row.verdict = to_string(row.fit_class == study.expect ? Verdict::pass : Verdict::fail);
-    if (row.fit_class != study.expect) row.why = fmt::format("converges as {}, declared is {}", row.fit_class, study.expect);
+    row.verdict = row.fit_class == study.expect ? Verdict::pass : Verdict::fail;
+    if (row.fit_class != study.expect) row.why = fmt::format("converges as {}, declared is {}", *row.fit_class, *study.expect);
     engine.gates.push_back(row);
     applied = Applied::judged;
   }

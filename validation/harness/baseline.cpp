@@ -81,6 +81,13 @@ Gate edges_of(const AcceptedGate& accepted) {
   return gate;
 }
 
+std::optional<FitClass> fit_class(const TomlNode& from) {
+  const auto word = text(from, "class");
+  if (word.empty()) return {};
+  if (const auto found = find_word<FitClass>(word)) return found;
+  throw InputError(from.place, "class: `" + printable(word) + "` is no class of convergence");
+}
+
 /// What a row leaves out follows from the rest of it: the words and the room from the edges, the first baseline's figures from
 /// today's.
 AcceptedGate read_gate(const TomlNode& from) {
@@ -90,7 +97,7 @@ AcceptedGate read_gate(const TomlNode& from) {
   g.limit = maybe_number(from, "limit"), g.at_least = maybe_number(from, "at_least"), g.drift = maybe_number(from, "drift");
   g.band = maybe_band(from);
   g.value = number(from, "value"), g.uncertainty = number(from, "uncertainty");
-  g.measures = text(from, "measures"), g.fit_class = text(from, "class");
+  g.measures = text(from, "measures"), g.fit_class = fit_class(from);
   g.allows = from.find("allows") ? text(from, "allows") : describe(edges_of(g));
   g.room = maybe_number(from, "room").value_or(room_of(edges_of(g)));
   g.first_room = maybe_number(from, "first_room").value_or(g.room);
@@ -208,7 +215,7 @@ std::string row_of(const AcceptedGate& g) {
   row.say_unless(room_of(edges_of(g)), "room", g.room);
   row.say("value", g.value);
   row.say_unless(0.0, "uncertainty", g.uncertainty);
-  row.say("class", g.fit_class);
+  if (g.fit_class) row.say("class", std::string(to_string(*g.fit_class)));
   row.say_unless(g.room, "first_room", g.first_room), row.say_unless(g.value, "first_value", g.first_value);
   row.say_unless(0.0, "loosened", g.loosened);
   row.say("measures", g.measures);

@@ -19,7 +19,7 @@ struct AcceptedGate {
   std::optional<double> level;
   double room = 0.0;                           ///< how much it lets pass, one number: room_of()
   double value = 0.0, uncertainty = 0.0;       ///< in the row that uses most of it
-  std::string fit_class;                       ///< of an order
+  std::optional<FitClass> fit_class;           ///< of an order
   double first_room = 0.0, first_value = 0.0;  ///< of the first baseline: against creep
   double loosened = 0.0;                       ///< sum of ln(new/old) of every loosening since then; tightening takes nothing off
   std::optional<double> limit, at_least, drift;  ///< each edge as it was accepted; baselines of older versions have only `allows`

@@ -24,6 +24,8 @@ double room_of(const Gate& gate) {
 
 namespace {
 
+std::string class_word(const AcceptedGate& g) { return g.fit_class ? std::string(to_string(*g.fit_class)) : std::string(); }
+
 constexpr double change_seen = 0.1, cost_seen = 0.01;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* decide = ": tripoint gate accept --reason says who decided and why";
@@ -49,12 +51,12 @@ void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePl
          infinity, "CHANGED"});
   if (now.fit_class != old.fit_class)
     list.push_back(
-        {false, 0, place, title, fmt::format("converges as {}, accepted was {}", now.fit_class, old.fit_class), 1.0, {}});
+        {false, 0, place, title, fmt::format("converges as {}, accepted was {}", class_word(now), class_word(old)), 1.0, {}});
 }
 
 void compare_value(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
                    std::vector<Remark>& list) {
-  if (now.metric.ends_with(".order") || !now.fit_class.empty()) return;
+  if (now.metric.ends_with(".order") || now.fit_class) return;
   const auto title = title_of(c, now);
   const double noise = 2.0 * (now.uncertainty + old.uncertainty) + roundoff_limit;
   if (now.drift) {

@@ -28,10 +28,10 @@ std::string metric_of(const std::string& gated) {
 
 AcceptedGate gate_of(const EngineRow& e, const GateRow& row, const std::optional<CaseHashes>& hashes) {
   AcceptedGate g;
-  g.metric = row.expect.empty() ? row.metric : row.metric + " is " + row.expect;
+  g.metric = row.expect ? fmt::format("{} is {}", row.metric, *row.expect) : row.metric;
   g.engine = e.name, g.preset = e.preset == "default" ? "" : e.preset, g.mode = row.mode, g.level = row.level;
-  g.allows = row.expect.empty() ? describe(row.gate) : "class " + row.expect;
-  g.room = row.expect.empty() ? room_of(row.gate) : 1.0;
+  g.allows = row.expect ? fmt::format("class {}", *row.expect) : describe(row.gate);
+  g.room = row.expect ? 1.0 : room_of(row.gate);
   g.value = row.value, g.uncertainty = row.uncertainty, g.fit_class = row.fit_class;
   g.limit = row.gate.limit, g.at_least = row.gate.at_least, g.band = row.gate.band, g.drift = row.gate.drift;
   if (!hashes) return g;
@@ -56,7 +56,7 @@ std::string hash_of_file(const CaseResult& c) {
   return text_hash({std::istreambuf_iterator<char>(in), {}});
 }
 
-bool is_accepted(const GateRow& row) { return std::isfinite(row.value) && row.verdict == "pass"; }
+bool is_accepted(const GateRow& row) { return std::isfinite(row.value) && row.verdict == Verdict::pass; }
 
 std::vector<AcceptedGate> gates_of(const CaseResult& c, const std::optional<CaseHashes>& hashes) {
   std::vector<AcceptedGate> list;
@@ -70,7 +70,7 @@ std::vector<AcceptedCost> costs_of(const CaseResult& c, const Tool& tool) {
   std::vector<AcceptedCost> list;
   for (const auto& e : c.engines)
     for (const auto& r : e.runs)
-      if (r.status == "ok" && (r.cost.pairs > 0.0 || r.cost.steps > 0.0))
+      if (r.status == Status::ok && (r.cost.pairs > 0.0 || r.cost.steps > 0.0))
         list.push_back({run_name(e, r), r.cost.pairs, r.cost.steps, r.cost.instructions, counted_on(tool, r)});
   return list;
 }
@@ -87,10 +87,10 @@ bool is_absent(const CaseResult& c, const AcceptedGate& g, bool engines_were_cho
   const auto row = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) {
     return e.name == g.engine && (e.preset == "default" ? "" : e.preset) == g.preset;
   });
-  if (row != c.engines.end()) return row->status == "missing";
+  if (row != c.engines.end()) return row->status == Status::missing;
   const auto of_name = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) { return e.name == g.engine; });
   if (of_name != c.engines.end())
-    return of_name->status == "missing";  // an engine that is not there has not said which presets it has
+    return of_name->status == Status::missing;  // an engine that is not there has not said which presets it has
   return engines_were_chosen;
 }
 

@@ -66,10 +66,10 @@ EngineRow row_of(const EnginePlan& plan) {
   if (plan.entry)
     row.version = plan.entry->version, row.library_path = plan.entry->library_path, row.library_hash = plan.entry->library_hash;
   if (!plan.entry)
-    row.status = "missing",
+    row.status = Status::missing,
     row.reason = fmt::format("there is no engine-{} beside the program or in TRIPOINT_ENGINE_PATH", plan.name);
   else if (!plan.entry->available)
-    row.status = "missing", row.reason = plan.entry->reason;
+    row.status = Status::missing, row.reason = plan.entry->reason;
   return row;
 }
 
@@ -185,11 +185,12 @@ void describe_run(CaseRun& run, const Result& result, const SuiteOptions& option
 /// A run that somebody else has made. Its frames are read where engines are compared by them.
 void take_row(const CaseRuns& all, CaseRun& run, RunRow row, const SuiteOptions& options) {
   run.row = std::move(row), run.kept = true;
-  if (!run.plan.base || run.row.status != "ok") return;
+  if (!run.plan.base || run.row.status != Status::ok) return;
   ProcessEnd end;
   end.how = ProcessEnd::How::exited;
   const auto outcome = read_back(request_of(all, run, options), end);
-  if (outcome.status != "ok") run.row.status = "error", run.row.reason = "its frames are not as it left them: " + outcome.reason;
+  if (outcome.status != Status::ok)
+    run.row.status = Status::error, run.row.reason = "its frames are not as it left them: " + outcome.reason;
   run.trajectory = outcome.trajectory;
 }
 
@@ -202,7 +203,7 @@ std::string run_id(const CaseRuns& all, const CaseRun& run, const SuiteOptions& 
   return text_hash(text);
 }
 
-void give_up(CaseRun& run, const std::string& status, const std::string& reason, const SuiteOptions& options) {
+void give_up(CaseRun& run, Status status, const std::string& reason, const SuiteOptions& options) {
   describe_run(run, {}, options);
   run.row.status = status, run.row.reason = reason;
 }

@@ -55,7 +55,7 @@ void add_runs(CaseRuns&, const SuiteOptions&);
 [[nodiscard]] std::string run_id(const CaseRuns&, const CaseRun&, const SuiteOptions&);
 
 /// A row for a run that could not be made: its knobs, with a status and a reason.
-void give_up(CaseRun&, const std::string& status, const std::string& reason, const SuiteOptions&);
+void give_up(CaseRun&, Status status, const std::string& reason, const SuiteOptions&);
 
 /// Makes one run and fills its row; its metrics are evaluated here.
 void make_run(const CaseRuns&, CaseRun&, const SuiteOptions&);

@@ -58,13 +58,13 @@ int seeds_of(const EngineRow& e, const GateRow& g) {
 }
 
 Row row_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
-  auto row = new_row(c, e, g.mode, g.expect.empty() ? g.metric : g.metric + " class");
+  auto row = new_row(c, e, g.mode, g.expect ? g.metric + " class" : g.metric);
   row.change.level = g.level, row.gate = g.gate;
   if (!g.gate.place.file.empty()) row.change.place = g.gate.place;
   auto& s = row.standing;
   s.value = g.value, s.verdict = g.verdict, s.fit_class = g.fit_class, s.seeds = seeds_of(e, g);
-  s.allows = g.expect.empty() ? describe(g.gate) : "class " + g.expect;
-  s.used = g.expect.empty() ? used_of(g.gate, g.value) : not_a_number;
+  s.allows = g.expect ? fmt::format("class {}", *g.expect) : describe(g.gate);
+  s.used = g.expect ? not_a_number : used_of(g.gate, g.value);
   s.noise =
       g.low && g.high ? 0.25 * (*g.high - *g.low) : g.budget.statistical;  // a 95 % interval is four standard deviations wide
   return row;
@@ -73,7 +73,7 @@ Row row_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
 /// Metrics of the case's own run that no gate judges.
 void add_unjudged(const CaseResult& c, const EngineRow& e, std::vector<Row>& rows) {
   for (const auto& run : e.runs) {
-    if (!run.base || !run.input.empty() || run.status != "ok") continue;
+    if (!run.base || !run.input.empty() || run.status != Status::ok) continue;
     for (const auto& [name, value] : run.metrics) {
       const bool judged = std::any_of(e.gates.begin(), e.gates.end(),
                                       [&](const auto& g) { return g.metric == name && g.mode == run.knobs.mode; });
@@ -130,8 +130,8 @@ double noise_between(const Standing& base, const Standing& head, double again) {
 
 void settle_class(MetricChange& c) {
   if (c.base->fit_class == c.head->fit_class) return;
-  c.change = c.head->verdict == "pass" ? 0.0 : infinity;
-  c.trend = c.head->verdict == "pass" ? Trend::same : Trend::worse;
+  c.change = c.head->verdict == Verdict::pass ? 0.0 : infinity;
+  c.trend = c.head->verdict == Verdict::pass ? Trend::same : Trend::worse;
   c.noise_from = "a class has no size";
 }
 
@@ -147,7 +147,7 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
   if (!c.base || !c.head) return static_cast<void>(c.trend = c.head ? Trend::appeared : Trend::gone);
   c.limit_changed = c.base->allows != c.head->allows;
   c.looser = c.limit_changed && (c.head->allows.empty() || room_of(head_gate) > room_of(base_gate) * (1.0 + 1e-9));
-  if (!c.base->fit_class.empty() && std::isnan(c.base->used) && std::isnan(c.head->used)) return settle_class(c);
+  if (c.base->fit_class && std::isnan(c.base->used) && std::isnan(c.head->used)) return settle_class(c);
   const Gate& gate =
       c.base->allows.empty() ? head_gate : base_gate;  // a change that loosens a limit is measured by the limit that was there
   const double unit = unit_of(gate);
@@ -158,7 +158,7 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
   } else {
     c.change = now - before;
     c.noise = noise_between(*c.base, *c.head, again) / unit;
-    c.noise_from = source_of_noise(*c.base, *c.head, !c.head->fit_class.empty(), again);
+    c.noise_from = source_of_noise(*c.base, *c.head, c.head->fit_class.has_value(), again);
     if (is_roundoff(gate) && c.noise < 1.0) c.noise = 1.0, c.noise_from = "round-off";
   }
   if (std::abs(c.change) > std::max(c.noise, least_change)) c.trend = c.change > 0.0 ? Trend::worse : Trend::better;
@@ -243,7 +243,7 @@ std::vector<Remark> change_remarks(const Comparison& all, bool no_worse) {
                     std::isfinite(c.change) ? 1.0 + std::abs(c.change) : infinity, no_worse ? word : ""});
   };
   for (const auto& c : all.changes) {
-    if (c.trend == Trend::worse && c.head->verdict == "pass")
+    if (c.trend == Trend::worse && c.head->verdict == Verdict::pass)
       say(c, exit_fail,
           fmt::format("is worse than the base by {} of its limit, and within it: {}, {} of {}; noise {}", change_text(c),
                       values_text(c), used_text(c), c.base->allows, noise_text(c)),

@@ -23,7 +23,8 @@ struct Standing {
   double noise = 0.0;  ///< standard uncertainty by chance, in the metric's unit
   int seeds = 1;       ///< runs that the value is the mean of
   std::string allows;  ///< "limit 0.01"; empty = no gate
-  std::string verdict, fit_class;
+  Verdict verdict = Verdict::missing;
+  std::optional<FitClass> fit_class;
 };
 
 /// One metric of one engine in one case, judged (a row for each gate) or not.

@@ -12,7 +12,9 @@ namespace {
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("no value"); }
 std::string share(double value) { return std::isnan(value) ? std::string("-") : fmt::format("{:.3g}", value); }
 
-std::string value_of(const Standing& s) { return s.fit_class.empty() || std::isfinite(s.used) ? number(s.value) : s.fit_class; }
+std::string value_of(const Standing& s) {
+  return !s.fit_class || std::isfinite(s.used) ? number(s.value) : std::string(to_string(*s.fit_class));
+}
 
 /// Base beside head; one alone where the other has none; one where both read the same.
 std::string pair_of(const std::optional<Standing>& base, const std::optional<Standing>& head,

@@ -27,7 +27,7 @@ Count gates_of(const Results& r) {
   Count n;
   for (const auto& c : r.cases)
     for (const auto& e : c.engines)
-      for (const auto& g : e.gates) ++n.all, n.green += g.verdict == "pass";
+      for (const auto& g : e.gates) ++n.all, n.green += g.verdict == Verdict::pass;
   return n;
 }
 
@@ -131,7 +131,7 @@ std::string engines_of(const Results& results) {
   std::map<std::string, std::string> versions;
   for (const auto& c : results.cases)
     for (const auto& e : c.engines)
-      if (e.name != "exact" && e.status == "ok") versions[e.name] = e.version;
+      if (e.name != "exact" && e.status == Status::ok) versions[e.name] = e.version;
   std::string text;
   for (const auto& [name, version] : versions) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version);
   return text;

@@ -51,7 +51,7 @@ void compare_pair(const CaseRuns& all, const CaseRun& a, const CaseRun& b, std::
                        margin_of(*all.value, metric.name),
                        error_a->second.value,
                        error_b->second.value,
-                       "no margin is set"};
+                       Equivalence::no_margin};
     if (row.margin) row.verdict = equivalence(row.difference, row.uncertainty, *row.margin);
     rows.push_back(row);
   }

@@ -155,13 +155,13 @@ bool check_scene(const CheckScene& scene, const EngineEntry& engine, const fs::p
   const std::string what = scene.name + ": ";
   const auto p = prepare(scene, engine, folder);
   const auto outcome = run(scene, engine, p, folder, scene.name + "-1");
-  if (outcome.status == "refused") {
+  if (outcome.status == Status::refused) {
     checks.add(what + "refused, with a reason", !outcome.reason.empty() && outcome.reason != "it gives no reason", "no reason");
     return false;
   }
   check_result_file(what, folder / (scene.name + "-1") / "result.json", checks);
-  if (!checks.add(what + "runs to the end; times, ids, masses and read-back scene are those of the job", outcome.status == "ok",
-                  outcome.status + ": " + outcome.reason))
+  if (!checks.add(what + "runs to the end; times, ids, masses and read-back scene are those of the job",
+                  outcome.status == Status::ok, outcome.status + ": " + outcome.reason))
     return true;
   check_metrics(what, p, outcome, checks);
   if (!engine.deterministic) return true;

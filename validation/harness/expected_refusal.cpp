@@ -12,12 +12,13 @@ std::string declared_refusal(const Settings& settings) {
 }
 
 bool refuses_as_expected(const EngineRow& e) {
-  return !e.refuses.empty() && e.status == "refused" && e.reason.find(e.refuses) != std::string::npos;
+  return !e.refuses.empty() && e.status == Status::refused && e.reason.find(e.refuses) != std::string::npos;
 }
 
 std::string broken_refusal(const EngineRow& e) {
-  if (e.refuses.empty() || e.status == "missing" || refuses_as_expected(e)) return {};
-  if (e.status == "refused") return fmt::format("refuses for another reason than the declared \"{}\": {}", e.refuses, e.reason);
+  if (e.refuses.empty() || e.status == Status::missing || refuses_as_expected(e)) return {};
+  if (e.status == Status::refused)
+    return fmt::format("refuses for another reason than the declared \"{}\": {}", e.refuses, e.reason);
   return fmt::format("is declared to refuse (\"{}\"), and is {}: take the declaration away, or find what has changed", e.refuses,
                      e.status);
 }

@@ -61,7 +61,7 @@ std::string run_hash(const RunRequest& request, const std::string& job) {
 }
 
 void record_finished(const RunRequest& request, const std::string& hash, const ProcessEnd& end, const Outcome& outcome) {
-  if (outcome.status != "ok" && outcome.status != "diverged") return;
+  if (outcome.status != Status::ok && outcome.status != Status::diverged) return;
   const nlohmann::ordered_json record{{"run", hash},
                                       {"files", hash_of_files(request)},
                                       {"status", outcome.status},
@@ -85,7 +85,7 @@ std::optional<Outcome> finished_run(const RunRequest& request, const std::string
     end.how = ProcessEnd::How::exited, end.code = record.at("code");
     end.cpu_s = record.at("cpu_s"), end.wall_s = record.at("wall_s"), end.peak_bytes = record.at("peak_bytes");
     Outcome outcome = read_back(request, end);
-    if (outcome.status != record.at("status").get<std::string>()) return {};
+    if (to_string(outcome.status) != record.at("status").get<std::string>()) return {};
     outcome.cost.instructions = record.at("instructions"), outcome.cost.counted_by = record.at("counted_by");
     outcome.kept = true;
     return outcome;

@@ -21,7 +21,7 @@ std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, cons
   LadderPoint point;
   for (const auto* run : runs) {
     const auto value = measured(*run, metric);
-    if (run->status != "ok" || !value || !std::isfinite(value->value)) return {};
+    if (run->status != Status::ok || !value || !std::isfinite(value->value)) return {};
     values.push_back(*value);
     point.cpu_s += run->cost.cpu_s / static_cast<double>(runs.size()),
         point.pairs += run->cost.pairs / static_cast<double>(runs.size());

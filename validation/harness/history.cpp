@@ -26,7 +26,7 @@ Json gates_of(const CaseResult& c) {
   Json list = Json::array();
   for (const auto& e : c.engines)
     for (const auto& g : e.gates) {
-      if (!g.expect.empty()) continue;  // a class has no size
+      if (g.expect) continue;  // a class has no size
       list.push_back({{"engine", e.name},
                       {"preset", e.preset},
                       {"mode", g.mode},
@@ -44,7 +44,7 @@ Json costs_of(const CaseResult& c) {
   Json list = Json::array();
   for (const auto& e : c.engines)
     for (const auto& r : e.runs)
-      if (r.status == "ok")
+      if (r.status == Status::ok)
         list.push_back({{"engine", e.name},
                         {"run", r.group},
                         {"seed", r.knobs.seed},

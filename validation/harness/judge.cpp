@@ -26,25 +26,25 @@ struct Findings {
 
 /// The row says what its worst run says; a row that claims to be ok and has no run is a hole in the results.
 void settle_status(const CaseResult& result, EngineRow& engine, Findings& findings) {
-  if (engine.runs.empty() && engine.status == "ok") {
-    engine.status = "error", engine.reason = "the results hold no run of it";
+  if (engine.runs.empty() && engine.status == Status::ok) {
+    engine.status = Status::error, engine.reason = "the results hold no run of it";
     findings.add(exit_missing, label_of(engine.name, engine.preset) + ": " + engine.reason);
   }
   for (const auto& run : engine.runs) {
-    if (run.status == "diverged" && !may_diverge(result, run.knobs.mode))
+    if (run.status == Status::diverged && !may_diverge(result, run.knobs.mode))
       findings.add(exit_diverged, fmt::format("{}{}{} diverged: {}", label_of(engine.name, engine.preset),
                                               run.knobs.mode.empty() ? "" : " ", run.knobs.mode, run.reason));
     if (!run.comparable) findings.add(exit_missing, label_of(engine.name, engine.preset) + " is not comparable: " + run.reason);
   }
   const auto bad =
-      std::find_if(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != "ok" || !r.comparable; });
+      std::find_if(engine.runs.begin(), engine.runs.end(), [](const auto& r) { return r.status != Status::ok || !r.comparable; });
   if (!engine.runs.empty()) {
-    engine.status = bad == engine.runs.end() ? "ok" : bad->status == "ok" ? "error" : bad->status;
-    engine.reason = bad == engine.runs.end() ? "" : bad->reason.empty() ? bad->status : bad->reason;
+    engine.status = bad == engine.runs.end() ? Status::ok : bad->status == Status::ok ? Status::error : bad->status;
+    engine.reason = bad == engine.runs.end() ? "" : bad->reason.empty() ? std::string(to_string(bad->status)) : bad->reason;
   }
   if (const auto broken = broken_refusal(engine); !broken.empty())
     findings.add(exit_fail, label_of(engine.name, engine.preset) + " " + broken);
-  if (engine.required && engine.status != "ok" && engine.status != "diverged")
+  if (engine.required && engine.status != Status::ok && engine.status != Status::diverged)
     findings.add(exit_missing,
                  fmt::format("{} is required and is {}: {}", label_of(engine.name, engine.preset), engine.status, engine.reason));
 }
@@ -71,10 +71,10 @@ Applied apply_excused(const CaseResult& result, const Gate& gate, const Gate& de
   tried.gates.clear();
   const auto applied = apply_gate(result, gate, tried);
   const bool holds = !tried.gates.empty() && std::all_of(tried.gates.begin(), tried.gates.end(),
-                                                         [](const GateRow& row) { return row.verdict == "pass"; });
+                                                         [](const GateRow& row) { return row.verdict == Verdict::pass; });
   for (auto& row : tried.gates) {
     if (!holds) continue;
-    row.verdict = "fail";
+    row.verdict = Verdict::fail;
     row.why = fmt::format("holds the limit, though {} declares the defect {}: take the declaration away",
                           to_string(declared.place), known_defect(declared));
     engine.gates.push_back(row);
@@ -109,7 +109,7 @@ bool is_refused(const CaseResult& result, bool engines_were_chosen) {
   const auto is_judge = [](const EngineRow& e) { return e.name == "exact"; };  // the truth is no engine that could take the case
   if (!engines_were_chosen || std::all_of(result.engines.begin(), result.engines.end(), is_judge)) return false;
   return std::all_of(result.engines.begin(), result.engines.end(),
-                     [&](const EngineRow& e) { return is_judge(e) || (e.status == "refused" && !e.required); });
+                     [&](const EngineRow& e) { return is_judge(e) || (e.status == Status::refused && !e.required); });
 }
 
 void count_gates(CaseResult& result, Findings& findings) {
@@ -118,17 +118,17 @@ void count_gates(CaseResult& result, Findings& findings) {
     for (const auto& row : engine.gates) {
       ++judged;
       two_sided += row.gate.band || row.gate.at_least;
-      if (row.verdict == "fail")
+      if (row.verdict == Verdict::fail)
         findings.codes.insert(exit_fail);
-      else if (row.verdict == "inconclusive")
+      else if (row.verdict == Verdict::inconclusive)
         findings.codes.insert(exit_inconclusive);
-      else if (row.verdict == "diverged")
+      else if (row.verdict == Verdict::diverged)
         findings.codes.insert(may_diverge(result, row.mode) ? exit_pass : exit_diverged);
-      else if (row.verdict != "pass")
+      else if (row.verdict != Verdict::pass)
         findings.codes.insert(exit_missing);
     }
-  if (judged == 0 && result.expect != "diverges") findings.add(exit_missing, "no gate judges this case");
-  if (result.expect == "defect" && two_sided == 0)
+  if (judged == 0 && result.expect != Expect::diverges) findings.add(exit_missing, "no gate judges this case");
+  if (result.expect == Expect::defect && two_sided == 0)
     findings.add(exit_missing, "declares a defect, which only a gate with band or at_least can measure, and has none");
 }
 
@@ -140,13 +140,13 @@ void check_divergence(const CaseResult& result, Findings& findings) {
   int asked = 0;
   for (const auto& engine : result.engines) {
     const auto due = [&](const RunRow& run) {
-      return may_diverge(result, run.knobs.mode) && (run.status == "ok" || run.status == "diverged");
+      return may_diverge(result, run.knobs.mode) && (run.status == Status::ok || run.status == Status::diverged);
     };
     if ((some_required ? !engine.required : engine.name == "exact") || std::none_of(engine.runs.begin(), engine.runs.end(), due))
       continue;
     ++asked;
     if (std::none_of(engine.runs.begin(), engine.runs.end(),
-                     [&](const RunRow& run) { return due(run) && run.status == "diverged"; }))
+                     [&](const RunRow& run) { return due(run) && run.status == Status::diverged; }))
       findings.add(exit_fail, label_of(engine.name, engine.preset) + " is declared to diverge, and no run of it did");
   }
   if (asked == 0) findings.add(exit_fail, "is declared to diverge, and no run did");
@@ -171,7 +171,7 @@ void check_planned(const Results& results, std::vector<std::string>& problems, s
 }  // namespace
 
 bool may_diverge(const CaseResult& result, const std::string& mode) {
-  return result.expect == "diverges" || (result.expect == "paper-diverges" && mode == "paper");
+  return result.expect == Expect::diverges || (result.expect == Expect::paper_diverges && mode == "paper");
 }
 
 void judge(CaseResult& result, bool engines_were_chosen) {
@@ -186,16 +186,16 @@ void judge(CaseResult& result, bool engines_were_chosen) {
   }
   for (const auto& gate : result.gates) apply_to_all(result, gate, engines_were_chosen, findings);
   for (const auto& study : result.studies)
-    if (!study.expect.empty())
+    if (study.expect)
       for (auto& engine : result.engines) apply_expected_class(result, study, engine);
   for (const auto& engine : result.engines)
-    if (engine.required && is_unjudged(engine) && result.expect != "diverges")
+    if (engine.required && is_unjudged(engine) && result.expect != Expect::diverges)
       findings.add(exit_missing, label_of(engine.name, engine.preset) + " is required, and no gate of the case judges it");
   const bool refused = is_refused(result, engines_were_chosen);
   if (!refused) count_gates(result, findings);
   check_divergence(result, findings);
   result.exit_code = first_of(findings.codes);
-  result.verdict = refused && result.exit_code == exit_pass ? "REFUSED" : verdict_word(result.exit_code);
+  result.verdict = refused && result.exit_code == exit_pass ? CaseVerdict::refused : verdict_of(result.exit_code);
 }
 
 void judge(Results& results) {
@@ -207,11 +207,12 @@ void judge(Results& results) {
   }
   check_planned(results, results.problems, codes);
   // Nothing is wrong but that who was asked takes no case: nobody passes unjudged, and nothing of it is missing either.
-  const bool all_refused = codes == std::set<int>{exit_pass} && std::all_of(results.cases.begin(), results.cases.end(),
-                                                                            [](const auto& c) { return c.verdict == "REFUSED"; });
+  const bool all_refused =
+      codes == std::set<int>{exit_pass} &&
+      std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return c.verdict == CaseVerdict::refused; });
   for (const auto& what : unanswered(results)) results.problems.push_back(what), codes.insert(exit_missing);
   results.exit_code = first_of(codes);
-  results.verdict = all_refused ? "REFUSED" : verdict_word(results.exit_code);
+  results.verdict = all_refused ? CaseVerdict::refused : verdict_of(results.exit_code);
 }
 
 }  // namespace tripoint

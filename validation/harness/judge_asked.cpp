@@ -22,16 +22,16 @@ Answer answer_of(const Results& results, const std::string& name) {
     for (const auto& e : c.engines) {
       if (e.name != name) continue;
       ++a.rows;
-      a.missing += e.status == "missing";
-      a.refused += e.status == "refused";
-      a.ran +=
-          std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "ok" || r.status == "diverged"; });
-      a.judged += std::any_of(e.gates.begin(), e.gates.end(), [](const auto& g) { return g.verdict != "missing"; });
-      if (e.status != "ok" && a.why.empty()) a.why = e.status + " in " + c.id + ": " + e.reason;
-      const auto refused = std::find_if(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "refused"; });
-      const bool some_ran = std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == "ok"; });
+      a.missing += e.status == Status::missing;
+      a.refused += e.status == Status::refused;
+      a.ran += std::any_of(e.runs.begin(), e.runs.end(),
+                           [](const auto& r) { return r.status == Status::ok || r.status == Status::diverged; });
+      a.judged += std::any_of(e.gates.begin(), e.gates.end(), [](const auto& g) { return g.verdict != Verdict::missing; });
+      if (e.status != Status::ok && a.why.empty()) a.why = fmt::format("{} in {}: {}", e.status, c.id, e.reason);
+      const auto refused = std::find_if(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == Status::refused; });
+      const bool some_ran = std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.status == Status::ok; });
       if (refused != e.runs.end() && some_ran && a.partly.empty()) a.partly = fmt::format("{} ({})", c.id, refused->reason);
-      if ((e.status == "killed" || e.status == "timeout" || e.status == "error") && a.crashed.empty())
+      if ((e.status == Status::killed || e.status == Status::timeout || e.status == Status::error) && a.crashed.empty())
         a.crashed = fmt::format("{} in {}: {}", e.status, c.id, e.reason);
     }
   return a;
@@ -43,10 +43,13 @@ bool is_part(const std::string& shard) { return !shard.empty() && !shard.ends_wi
 }  // namespace
 
 bool crashed(const RunRow& run) {
-  return run.status != "ok" && run.status != "refused" && run.status != "missing" && run.status != "diverged";
+  return run.status != Status::ok && run.status != Status::refused && run.status != Status::missing &&
+         run.status != Status::diverged;
 }
 
-bool is_unjudged(const EngineRow& engine) { return engine.name != "exact" && engine.status == "ok" && engine.gates.empty(); }
+bool is_unjudged(const EngineRow& engine) {
+  return engine.name != "exact" && engine.status == Status::ok && engine.gates.empty();
+}
 
 std::vector<std::string> unanswered(const Results& results) {
   std::vector<std::string> list;

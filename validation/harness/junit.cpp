@@ -21,13 +21,13 @@ std::string name_of(const GateRow& g, const EngineRow& e) {
   std::string name = e.preset == "default" ? e.name : e.name + "(" + e.preset + ")";
   if (!g.mode.empty()) name += " " + g.mode;
   name += " " + g.metric;
-  if (!g.expect.empty()) name += " is " + g.expect;
+  if (g.expect) name += fmt::format(" is {}", *g.expect);
   if (g.level) name += fmt::format(" at {:g}", *g.level);
   return name;
 }
 
 TestCase test_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
-  TestCase t{c.id, name_of(g, e), {}, g.verdict != "pass", false};
+  TestCase t{c.id, name_of(g, e), {}, g.verdict != Verdict::pass, false};
   t.body = fmt::format(
       "<properties><property name=\"value\" value=\"{:g}\"/><property name=\"uncertainty\" value=\"{:g}\"/><property "
       "name=\"limit\" value=\"{}\"/></properties>",
@@ -41,12 +41,12 @@ TestCase test_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
 std::vector<TestCase> tests_of(const CaseResult& c) {
   std::vector<TestCase> tests;
   for (const auto& e : c.engines) {
-    if (e.status != "ok") {
+    if (e.status != Status::ok) {
       const bool broke_off = std::any_of(e.runs.begin(), e.runs.end(), [](const auto& r) { return crashed(r); });
-      const bool counts = e.required || e.status == "diverged" || broke_off;
+      const bool counts = e.required || e.status == Status::diverged || broke_off;
       tests.push_back({c.id, e.name + " runs",
-                       counts ? fmt::format("<failure type=\"{}\" message=\"{}\"/>", xml(e.status), xml(e.reason))
-                              : fmt::format("<skipped message=\"{}: {}\"/>", xml(e.status), xml(e.reason)),
+                       counts ? fmt::format("<failure type=\"{}\" message=\"{}\"/>", xml(to_string(e.status)), xml(e.reason))
+                              : fmt::format("<skipped message=\"{}: {}\"/>", xml(to_string(e.status)), xml(e.reason)),
                        counts, !counts});
     }
     if (is_unjudged(e))

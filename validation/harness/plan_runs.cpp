@@ -170,8 +170,8 @@ std::string study_axis(const Study& study) {
 
 bool has_states(const ReferenceChoice& reference) {
   if (reference.function == "expression" || reference.function == "table") return false;  // a field of place, not of particles
-  return !reference.function.empty() &&
-         (reference.kind == "analytic" || reference.kind == "discrete_exact" || reference.kind == "mms");
+  return !reference.function.empty() && (reference.kind == ReferenceKind::analytic ||
+                                         reference.kind == ReferenceKind::discrete_exact || reference.kind == ReferenceKind::mms);
 }
 
 std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {

@@ -30,7 +30,7 @@ MetricValue at_level(const EngineRow& engine, const Study& study, const std::str
     if (run.knobs.mode != mode || at == run.levels.end() || !same_level(at->second, level) || !has_jitter_of(engine, study, run))
       continue;
     const auto value = measured(run, metric);
-    if (run.status != "ok" || !run.comparable || !value) return {not_a_number, {}, "a level has no value", {}, {}};
+    if (run.status != Status::ok || !run.comparable || !value) return {not_a_number, {}, "a level has no value", {}, {}};
     values.push_back(*value);
   }
   return values.empty() ? MetricValue{not_a_number, {}, "a level was not run", {}, {}} : pooled(values);
@@ -96,7 +96,7 @@ MetricValue pooled(const std::vector<MetricValue>& values) {
 }
 
 double numerical_uncertainty(const CaseResult& result, const EngineRow& engine, const RunRow& run, const std::string& metric) {
-  static constexpr std::array<std::string_view, 3> uncertain{"experiment", "self", "engine"};
+  static constexpr std::array uncertain{ReferenceKind::experiment, ReferenceKind::self, ReferenceKind::engine};
   if (std::find(uncertain.begin(), uncertain.end(), result.reference.kind) == uncertain.end()) return 0.0;
   double sum = 0.0;  // space and time add up
   for (const auto& order : engine.order) {
@@ -113,7 +113,7 @@ double input_uncertainty(const EngineRow& engine, const RunRow& run, const std::
   for (const auto& r : engine.runs) {
     if (r.input.empty() || r.knobs.mode != run.knobs.mode) continue;
     const auto value = measured(r, metric);
-    ends[r.input.substr(0, r.input.find('='))].push_back(r.status == "ok" && value ? value->value : not_a_number);
+    ends[r.input.substr(0, r.input.find('='))].push_back(r.status == Status::ok && value ? value->value : not_a_number);
   }
   double squares = 0.0;
   for (const auto& [key, values] : ends)

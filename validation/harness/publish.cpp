@@ -33,7 +33,7 @@ Badge badge_of(const Results& results, const GateVerdict& verdict) {
   int all = 0, green = 0;
   for (const auto& c : results.cases)
     for (const auto& e : c.engines)
-      for (const auto& g : e.gates) ++all, green += g.verdict == "pass";
+      for (const auto& g : e.gates) ++all, green += g.verdict == Verdict::pass;
   const std::string count = fmt::format("{}/{} gates", green, all);
   if (verdict.code == exit_pass) return {count, "#2e7d32"};
   const bool open = verdict.code == exit_inconclusive || verdict.code == exit_cost || verdict.code == exit_interrupted;

@@ -124,7 +124,7 @@ class Recheck {
         continue;
       }
       if (plan.required && !at->required) say({}, fmt::format("{} is required, and they say that it is not", plan.name));
-      if (at->status != "missing") runs(plan, *at);
+      if (at->status != Status::missing) runs(plan, *at);
     }
   }
 
@@ -140,7 +140,7 @@ class Recheck {
     for (const auto& e : stored_.engines)
       for (const auto& run : e.runs)
         for (const auto& m : file_.metrics) {
-          if (run.status != "ok") continue;
+          if (run.status != Status::ok) continue;
           const auto at = run.metrics.find(m.name);
           if (at == run.metrics.end()) {
             say(m.place, fmt::format("{} has no value of {} in its run {}", label_of(e.name, e.preset), m.name, run.group));

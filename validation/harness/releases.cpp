@@ -21,14 +21,15 @@ double round_off(const EngineEntry& engine) { return engine.build.find("single")
 
 /// A metric against the exact solution of another scheme says what an engine is, not how far it is off.
 bool is_of_a_scheme(const CaseResult& c, const std::string& metric) {
-  return std::any_of(c.metrics.begin(), c.metrics.end(),
-                     [&](const auto& m) { return m.name == metric && m.reference && m.reference->kind == "discrete_exact"; });
+  return std::any_of(c.metrics.begin(), c.metrics.end(), [&](const auto& m) {
+    return m.name == metric && m.reference && m.reference->kind == ReferenceKind::discrete_exact;
+  });
 }
 
 bool lost_a_row(const CaseResult& from, const CaseResult& to) {
   return std::any_of(from.engines.begin(), from.engines.end(), [&](const auto& e) {
     const auto* after = row_of(to, e.preset);
-    return e.status == "ok" && (!after || after->status != "ok");
+    return e.status == Status::ok && (!after || after->status != Status::ok);
   });
 }
 
@@ -50,10 +51,10 @@ std::vector<std::string> gates_turned_red(const Release& from, const Release& to
   for (const auto& e : to.result.engines) {
     const auto* before = row_of(from.result, e.preset);
     for (const auto& g : e.gates) {
-      if (g.verdict == "pass" || !before) continue;
+      if (g.verdict == Verdict::pass || !before) continue;
       const bool was_green = std::any_of(before->gates.begin(), before->gates.end(), [&](const auto& b) {
         return b.metric == g.metric && b.level == g.level && b.gate.place.line == g.gate.place.line &&
-               b.gate.place.file == g.gate.place.file && b.verdict == "pass";
+               b.gate.place.file == g.gate.place.file && b.verdict == Verdict::pass;
       });
       if (was_green) list.push_back(fmt::format("{} {}: {}", e.preset, g.metric, g.why));
     }

@@ -48,7 +48,7 @@ std::string cell(const Release& r, const std::string& preset, const std::string&
   for (const auto& e : r.result.engines) {
     if (e.preset != preset) continue;
     const auto* base = base_run(e);
-    if (e.status != "ok" || !base || !base->metrics.contains(metric)) return e.status;
+    if (e.status != Status::ok || !base || !base->metrics.contains(metric)) return std::string(to_string(e.status));
     const double order = observed_order(e, metric);
     return fmt::format("{:.3g}", base->metrics.at(metric).value) + (std::isfinite(order) ? fmt::format(" ({:.1f})", order) : "");
   }
@@ -96,8 +96,8 @@ std::string gates_of(const ReleaseTable& t) {
     std::string red;
     for (const auto& e : r.result.engines)
       for (const auto& g : e.gates) {
-        ++all, good += g.verdict == "pass";
-        if (g.verdict != "pass") red += fmt::format("{}{} {}: {}", red.empty() ? "" : "; ", e.preset, g.metric, g.why);
+        ++all, good += g.verdict == Verdict::pass;
+        if (g.verdict != Verdict::pass) red += fmt::format("{}{} {}: {}", red.empty() ? "" : "; ", e.preset, g.metric, g.why);
       }
     any = any || all > 0;
     text +=

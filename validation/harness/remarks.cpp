@@ -14,10 +14,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-int code_of(const std::string& verdict) {
-  if (verdict == "fail") return exit_fail;
-  if (verdict == "inconclusive") return exit_inconclusive;
-  return verdict == "diverged" ? exit_diverged : exit_missing;
+int code_of(Verdict verdict) {
+  if (verdict == Verdict::fail) return exit_fail;
+  if (verdict == Verdict::inconclusive) return exit_inconclusive;
+  return verdict == Verdict::diverged ? exit_diverged : exit_missing;
 }
 
 Remark remark_on(const CaseResult& c, const EngineRow& e, const GateRow& row) {
@@ -59,7 +59,7 @@ std::vector<Remark> verdict_remarks(const Results& results) {
     for (const auto& p : c.problems) list.push_back({true, c.exit_code, {c.file, 1, 0}, c.id, p, infinity, {}});
     for (const auto& e : c.engines)
       for (const auto& row : e.gates)
-        if (row.verdict != "pass") list.push_back(remark_on(c, e, row));
+        if (row.verdict != Verdict::pass) list.push_back(remark_on(c, e, row));
   }
   for (const auto& p : results.problems) list.push_back({true, results.exit_code, {}, "the results", p, infinity, {}});
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.excess > b.excess; });
@@ -69,7 +69,7 @@ std::vector<Remark> verdict_remarks(const Results& results) {
 std::string verdict_word(int exit_code, const Results& results, const std::vector<Remark>& list) {
   std::string word;
   if (exit_code == exit_pass) return verdict_word(exit_code);
-  if (results.exit_code == exit_code) return results.verdict.empty() ? verdict_word(exit_code) : results.verdict;
+  if (results.exit_code == exit_code) return std::string(to_string(results.verdict));
   for (const auto& r : list) {
     if (!r.error || r.code != exit_code) continue;
     if (r.word.empty() || (!word.empty() && r.word != word)) return verdict_word(exit_code);

@@ -91,7 +91,7 @@ std::string notes_text(const Results& results) {
   for (const auto& c : results.cases) {
     std::set<std::string> absent;  // each once a case, however many presets it has
     for (const auto& e : c.engines) {
-      if (e.status == "missing" && absent.insert(e.name).second) ++missing[e.name];
+      if (e.status == Status::missing && absent.insert(e.name).second) ++missing[e.name];
       if (is_unjudged(e)) ++unjudged[label_of(e.name, e.preset)];
     }
   }

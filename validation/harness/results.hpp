@@ -5,8 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "job/status.hpp"
 #include "validation/case/case.hpp"
 #include "validation/harness/case_hash.hpp"
+#include "validation/harness/verdict.hpp"
 #include "validation/metrics/metric.hpp"
 #include "validation/metrics/order.hpp"
 
@@ -47,8 +49,9 @@ struct RunRow {
   bool base = false;                     ///< the case's own resolution
   std::string group;                     ///< runs of one group differ by seed only; empty = alone
   std::string input;                     ///< "key=VALUE" where the run is one end of an uncertain input
-  std::string status = "ok", reason;     ///< ok refused missing diverged killed timeout error
-  bool comparable = true;                ///< false: the engine read back another scene than it was given
+  Status status = Status::ok;
+  std::string reason;      ///< of a status that is not ok, and what a run that is ok has to say
+  bool comparable = true;  ///< false: the engine read back another scene than it was given
   std::map<std::string, MetricValue> metrics;
   Cost cost;
   std::string state_hash, time_step_bound;
@@ -72,10 +75,10 @@ struct GateRow {
   double uncertainty = 0.0;         ///< standard
   Uncertainty budget;               ///< what it is made of
   std::optional<double> low, high;  ///< an order's 95 % interval
-  std::string verdict;              ///< pass fail inconclusive missing diverged
-  std::string why;                  ///< one sentence for a verdict that is not pass
-  std::string expect, fit_class;    ///< class of convergence: as a study declares it, and as fitted
-  Gate gate;                        ///< limit, band, reason, file and line
+  Verdict verdict = Verdict::missing;
+  std::string why;                            ///< one sentence for a verdict that is not pass
+  std::optional<FitClass> expect, fit_class;  ///< as a study declares it, and as fitted
+  Gate gate;                                  ///< limit, band, reason, file and line
 };
 
 /// One row of the matrix: an engine with a preset.
@@ -84,7 +87,8 @@ struct EngineRow {
   std::string library_path, library_hash;  ///< of the engine's own library, as it told; empty = it told none
   bool required = false;
   std::string refuses;  ///< words of the refusal that the case declares; empty = it declares none
-  std::string status = "ok", reason;
+  Status status = Status::ok;
+  std::string reason;
   std::vector<RunRow> runs;
   std::vector<OrderRow> order;
   std::vector<GateRow> gates;
@@ -95,7 +99,7 @@ struct EquivalenceRow {
   double difference = 0.0, uncertainty = 0.0;
   std::optional<double> margin;         ///< the limit that the case sets for this metric
   double error_a = 0.0, error_b = 0.0;  ///< to truth
-  std::string verdict;
+  Equivalence verdict = Equivalence::no_margin;
 };
 
 /// CPU seconds of two engines (presets, modes) at the case's own resolution.
@@ -106,7 +110,10 @@ struct TimingPair {
 };
 
 struct CaseResult {
-  std::string id, title, kind, requirement, claims, file, verdict, expect = "pass";
+  std::string id, title, requirement, claims, file;
+  CaseKind kind = CaseKind::verification;
+  Expect expect = Expect::pass;
+  CaseVerdict verdict = CaseVerdict::missing;
   int exit_code = 0;
   std::vector<std::string> tags;  ///< as declared
   ReferenceChoice reference;
@@ -131,7 +138,8 @@ struct Tool {
 struct Results {
   int format = 1;
   Tool tool;
-  std::string command, profile, verdict, date;
+  std::string command, profile, date;
+  CaseVerdict verdict = CaseVerdict::missing;
   std::uint64_t seed = 1;
   int exit_code = 0;
   std::string history;               ///< file of JSON lines, relative to results.json; empty = none is kept

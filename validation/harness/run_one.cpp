@@ -23,7 +23,7 @@ namespace {
 constexpr double read_limit = 300.0;                                 // [s], for a foreign trajectory
 constexpr double check_limit = 60.0, check_limit_a_particle = 1e-4;  // [s]: --check runs nothing, but may set up the scene
 
-Outcome failed(Outcome outcome, const std::string& status, const std::string& reason) {
+Outcome failed(Outcome outcome, Status status, const std::string& reason) {
   outcome.status = status;
   outcome.reason = reason;
   outcome.trajectory.reset();
@@ -104,7 +104,7 @@ void take_cost(Outcome& outcome, const ProcessEnd& end) {
 
 /// A second run in a folder of its own, of which nothing but the count is kept.
 void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& outcome) {
-  if (request.engine->name == "exact" || outcome.status != "ok" || outcome.cost.instructions > 0.0 ||
+  if (request.engine->name == "exact" || outcome.status != Status::ok || outcome.cost.instructions > 0.0 ||
       !(outcome.cost.cpu_s < request.count_below))
     return;
   const fs::path folder = fs::path(request.folder) / "callgrind";
@@ -178,14 +178,14 @@ Outcome read_trajectory_of(const RunRequest& request, Outcome outcome) {
   const auto& job = *request.job;
   const double end = job.times.back();
   if (!(std::abs(outcome.result.time_reached - end) <= 1e-9 * end))
-    return failed(outcome, "error", fmt::format("time not reached: {:g} s of {:g} s", outcome.result.time_reached, end));
+    return failed(outcome, Status::error, fmt::format("time not reached: {:g} s of {:g} s", outcome.result.time_reached, end));
   outcome.trajectory = read_any_trajectory(request);
   outcome.cost.particles = alive_at_the_end(*outcome.trajectory);
   if (const auto wrong = audit(job, *request.initial, *outcome.trajectory); !wrong.empty())
-    return failed(outcome, "error", wrong);
+    return failed(outcome, Status::error, wrong);
   if (const auto other = audit_scene(job, outcome.result.readback); !other.empty()) {
     outcome.comparable = false;
-    return failed(outcome, "error", "not comparable: " + other);
+    return failed(outcome, Status::error, "not comparable: " + other);
   }
   return outcome;
 }
@@ -196,29 +196,30 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
   Outcome outcome;
   take_cost(outcome, end);
   using How = ProcessEnd::How;
-  if (end.how == How::not_started) return failed(outcome, "error", describe(end));
-  if (end.how == How::timed_out) return failed(outcome, "timeout", describe(end) + last_words(end.log_tail));
+  if (end.how == How::not_started) return failed(outcome, Status::error, describe(end));
+  if (end.how == How::timed_out) return failed(outcome, Status::timeout, describe(end) + last_words(end.log_tail));
   const fs::path file = fs::path(request.folder) / "result.json";
-  if (end.how == How::interrupted) return failed(outcome, "killed", describe(end) + words_of_the_interrupted(file));
-  if (!fs::exists(file)) return failed(outcome, "killed", describe(end) + " without a result" + last_words(end.log_tail));
+  if (end.how == How::interrupted) return failed(outcome, Status::killed, describe(end) + words_of_the_interrupted(file));
+  if (!fs::exists(file)) return failed(outcome, Status::killed, describe(end) + " without a result" + last_words(end.log_tail));
   try {
     outcome.result = read_result(file.string());
     take_cost(outcome, end);
     const auto& r = outcome.result;
-    if (r.status == "refused") return failed(outcome, "refused", r.message.empty() ? "it gives no reason" : r.message);
-    if (r.status == "diverged")
-      return failed(outcome, "diverged",
+    if (r.status == Status::refused)
+      return failed(outcome, Status::refused, r.message.empty() ? "it gives no reason" : r.message);
+    if (r.status == Status::diverged)
+      return failed(outcome, Status::diverged,
                     r.divergence        ? describe(*r.divergence) + (r.message.empty() ? "" : ": " + r.message)
                     : r.message.empty() ? "it gives no place"
                                         : r.message);
-    if (r.status != "ok")
-      return failed(outcome, "error", (r.message.empty() ? "status " + r.status : r.message) + last_words(end.log_tail));
+    if (r.status != Status::ok)
+      return failed(outcome, Status::error, (r.message.empty() ? "status error" : r.message) + last_words(end.log_tail));
     if (end.how != How::exited || end.code != 0)
-      return failed(outcome, "error", "says ok but " + describe(end) + last_words(end.log_tail));
+      return failed(outcome, Status::error, "says ok but " + describe(end) + last_words(end.log_tail));
     if (r.extra.contains("recoveries")) outcome.reason = r.message;
     return read_trajectory_of(request, outcome);
   } catch (const std::exception& e) {
-    return failed(outcome, "error", e.what());
+    return failed(outcome, Status::error, e.what());
   }
 }
 
@@ -226,15 +227,15 @@ Outcome ask(const RunRequest& request) {
   try {
     prepare_folder(request);
   } catch (const std::exception& e) {
-    return failed({}, "error", std::string("the job could not be written: ") + e.what());
+    return failed({}, Status::error, std::string("the job could not be written: ") + e.what());
   }
   const auto check =
       run_process(call(request, "--check", check_limit + check_limit_a_particle * static_cast<double>(request.initial->size())));
-  if (check.how == ProcessEnd::How::interrupted) return failed({}, "killed", describe(check));
-  if (check.how == ProcessEnd::How::timed_out) return failed({}, "timeout", "--check " + describe(check));
+  if (check.how == ProcessEnd::How::interrupted) return failed({}, Status::killed, describe(check));
+  if (check.how == ProcessEnd::How::timed_out) return failed({}, Status::timeout, "--check " + describe(check));
   if (check.how != ProcessEnd::How::exited || check.code != 0)
-    return failed({}, "error", "--check " + describe(check) + last_words(check.log_tail));
-  if (const auto reason = refusal_in(check.output); !reason.empty()) return failed({}, "refused", reason);
+    return failed({}, Status::error, "--check " + describe(check) + last_words(check.log_tail));
+  if (const auto reason = refusal_in(check.output); !reason.empty()) return failed({}, Status::refused, reason);
   return {};
 }
 
@@ -245,7 +246,7 @@ Outcome run_one(const RunRequest& request) {
   if (request.keep_finished) {
     if (auto kept = finished_run(request, hash)) return std::move(*kept);
   }
-  if (auto answer = ask(request); answer.status != "ok") return answer;
+  if (auto answer = ask(request); answer.status != Status::ok) return answer;
   auto spec = call(request, "--run", request.wall_limit);
   spec.log = (fs::path(request.folder) / "log.txt").string();
   std::error_code none;
@@ -254,7 +255,8 @@ Outcome run_one(const RunRequest& request) {
   const auto end = run_process(spec);
   auto outcome = read_back(request, end);
   if (particles_were_changed(request))
-    return failed(outcome, "error", "the particles that all engines start from were changed while it ran: they are for reading");
+    return failed(outcome, Status::error,
+                  "the particles that all engines start from were changed while it ran: they are for reading");
   count_instructions(request, spec, outcome);
   record_finished(request, hash, end, outcome);
   return outcome;
@@ -269,7 +271,7 @@ MetricValue metric_of(const Case& value, const MetricChoice& choice, const Job& 
   } catch (const InputError&) {
     if (choice.norm != "drift" || choice.reference) throw;
     ReferenceChoice none;
-    none.kind = "invariant";
+    none.kind = ReferenceKind::invariant;
     reference = make_reference(none, job, initial);
   }
   return evaluate(choice, job, initial, trajectory, *reference);

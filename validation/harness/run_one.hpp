@@ -30,7 +30,8 @@ struct RunRequest {
 };
 
 struct Outcome {
-  std::string status = "ok", reason;  ///< as in results.json
+  Status status = Status::ok;
+  std::string reason;  ///< as in results.json
   bool comparable = true;
   bool kept = false;                             ///< of an earlier run, not made again
   Result result;                                 ///< of the engine, where there is one

@@ -39,7 +39,7 @@ const RunRow* own_run(const EngineRow& e) {
 
 double error_of(const EngineRow& e, const Gate* gate) {
   const auto* run = own_run(e);
-  if (!gate || !run || run->status != "ok" || !run->comparable) return not_a_number;
+  if (!gate || !run || run->status != Status::ok || !run->comparable) return not_a_number;
   const auto value = measured(*run, gate->metric);
   return value ? value->value : not_a_number;
 }
@@ -82,28 +82,47 @@ void observed(const EngineRow& e, ScoreRow& row) {
   if (chosen) row.order = chosen->order.value, row.order_metric = chosen->metric, row.order_class = chosen->order.fit_class;
 }
 
-std::string why(const GateRow& g) { return g.metric + ": " + (g.why.empty() ? g.verdict : g.why); }
+std::string why(const GateRow& g) { return g.metric + ": " + (g.why.empty() ? std::string(to_string(g.verdict)) : g.why); }
+
+Score score_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::pass:
+      return Score::pass;
+    case Verdict::fail:
+      return Score::fail;
+    case Verdict::inconclusive:
+      return Score::inconclusive;
+    case Verdict::missing:
+      return Score::not_judged;
+    case Verdict::diverged:
+      break;
+  }
+  return Score::diverged;
+}
 
 void settle(const EngineRow& e, ScoreRow& row) {
-  const auto set = [&](const std::string& verdict, const std::string& reason) { row.verdict = verdict, row.reason = reason; };
-  if (const auto broken = broken_refusal(e); !broken.empty()) return set("fail", broken);
-  if (refuses_as_expected(e)) return set("refused", "as expected: " + e.reason);
-  if (e.status == "missing" || e.status == "refused") return set(e.status, e.reason);
-  if (e.status == "killed" || e.status == "timeout" || e.status == "error") return set("crashed", e.status + ": " + e.reason);
+  const auto set = [&](Score verdict, const std::string& reason) { row.verdict = verdict, row.reason = reason; };
+  if (const auto broken = broken_refusal(e); !broken.empty()) return set(Score::fail, broken);
+  if (refuses_as_expected(e)) return set(Score::refused, "as expected: " + e.reason);
+  if (e.status == Status::missing) return set(Score::missing, e.reason);
+  if (e.status == Status::refused) return set(Score::refused, e.reason);
+  if (e.status == Status::killed || e.status == Status::timeout || e.status == Status::error)
+    return set(Score::crashed, fmt::format("{}: {}", e.status, e.reason));
   const GateRow* known = nullptr;
   bool judged = false;
-  for (const char* bad : {"diverged", "fail", "missing", "inconclusive"})
+  for (const auto bad : {Verdict::diverged, Verdict::fail, Verdict::missing, Verdict::inconclusive})
     for (const auto& g : e.gates)
-      if (g.mode != "paper" && g.verdict == bad) return set(g.verdict == "missing" ? "not judged" : g.verdict, why(g));
+      if (g.mode != "paper" && g.verdict == bad) return set(score_of(bad), why(g));
   for (const auto& g : e.gates) {
     if (g.mode == "paper") continue;
     judged = judged || is_acceptance(g.gate);
     if (!known_defect(g.gate).empty() && !known) known = &g;
   }
-  if (known) return set("known defect", fmt::format("{} ({}: {:.3g})", known_defect(known->gate), known->metric, known->value));
-  if (e.status == "diverged") return set("diverged", e.reason);
-  if (!judged) return set("not judged", "no acceptance limit fits its runs");
-  set("pass", "");
+  if (known)
+    return set(Score::known_defect, fmt::format("{} ({}: {:.3g})", known_defect(known->gate), known->metric, known->value));
+  if (e.status == Status::diverged) return set(Score::diverged, e.reason);
+  if (!judged) return set(Score::not_judged, "no acceptance limit fits its runs");
+  set(Score::pass, "");
 }
 
 ScoreRow row_of(const CaseResult& c, const EngineRow& e) {
@@ -117,11 +136,12 @@ ScoreRow row_of(const CaseResult& c, const EngineRow& e) {
     place(c, gate, e, row);
   }
   observed(e, row);
-  if (const auto* run = own_run(e); run && run->status == "ok") {
+  if (const auto* run = own_run(e); run && run->status == Status::ok) {
     conservation(c, *run, row);
     row.cpu_s = run->cost.cpu_s;
     for (const auto& ours : c.engines)
-      if (const auto* base = own_run(ours); ours.name == "tripoint" && base && base->status == "ok" && base->cost.cpu_s > 0.0)
+      if (const auto* base = own_run(ours);
+          ours.name == "tripoint" && base && base->status == Status::ok && base->cost.cpu_s > 0.0)
         row.cost = row.cpu_s / base->cost.cpu_s;
   }
   settle(e, row);
@@ -181,7 +201,8 @@ EngineScore& score_of(Scorecard& card, const EngineRow& e) {
 
 /// An engine that is missing everywhere was not asked for and is not here: it has no score.
 bool is_absent(const EngineScore& s, const std::vector<std::string>& asked) {
-  return s.count("missing") == static_cast<int>(s.rows.size()) && std::find(asked.begin(), asked.end(), s.engine) == asked.end();
+  return s.count(Score::missing) == static_cast<int>(s.rows.size()) &&
+         std::find(asked.begin(), asked.end(), s.engine) == asked.end();
 }
 
 }  // namespace
@@ -193,7 +214,7 @@ const Gate* ranking_gate(const CaseResult& c) {
   return at == c.gates.end() ? nullptr : &*at;
 }
 
-int EngineScore::count(const std::string& verdict) const {
+int EngineScore::count(Score verdict) const {
   return static_cast<int>(std::count_if(rows.begin(), rows.end(), [&](const auto& r) { return r.verdict == verdict; }));
 }
 

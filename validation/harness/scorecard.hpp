@@ -12,17 +12,24 @@
 /// An engine judged by the limits that any engine must hold: a row a case, totals, and its place among the engines that ran.
 namespace tripoint {
 
+/// What the limits that any engine must hold say of an engine in a case.
+enum class Score { pass, fail, known_defect, inconclusive, diverged, crashed, not_judged, refused, missing };
+constexpr WordTable<9> word_table(Score) {
+  return {"score", {"pass", "fail", "known defect", "inconclusive", "diverged", "crashed", "not judged", "refused", "missing"}};
+}
+
 /// One case of one engine and preset. What is not there is NaN, 0 or empty.
 struct ScoreRow {
   std::string case_id, title;
-  std::string verdict;          ///< pass, fail, known defect, inconclusive, diverged, crashed, refused, missing, not judged
+  Score verdict = Score::missing;
   std::string reason;           ///< of a verdict that is not pass: what failed, why it was refused; of a known defect its name
   std::string metric, unit;     ///< the metric by which engines are ranked: that of the first acceptance limit of the case
   double error = not_a_number;  ///< its value at the case's own resolution, scaled
   std::string allowed;          ///< "limit 0.05": the acceptance limit on it
   double share = not_a_number;  ///< of that limit that is used
   double order = not_a_number;  ///< observed, of a study of the case
-  std::string order_metric, order_class;
+  std::string order_metric;
+  std::optional<FitClass> order_class;
   double drift = not_a_number;  ///< the largest of the case's laws of conservation, scaled
   std::string drift_metric;
   double cpu_s = not_a_number;  ///< of the run at the case's own resolution [CPU s]
@@ -35,12 +42,13 @@ struct EngineScore {
   std::string engine, preset, version;
   std::vector<ScoreRow> rows;
   [[nodiscard]] std::string label() const { return label_of(engine, preset); }
-  [[nodiscard]] int count(const std::string& verdict) const;
+  [[nodiscard]] int count(Score) const;
 };
 
 /// An engine of a case in which engines disagree: how far it is off the truth, and with which setting.
 struct Witness {
-  std::string label, verdict;
+  std::string label;
+  Score verdict = Score::missing;
   double error = not_a_number;
   std::string words;  ///< the vendor's own on preset and settings, with their source; empty = the engine gives none
 };
@@ -55,7 +63,8 @@ struct Disagreement {
 };
 
 struct Scorecard {
-  std::string command, verdict, date, commit;
+  std::string command, date, commit;
+  CaseVerdict verdict = CaseVerdict::missing;
   int exit_code = 0;
   std::vector<EngineScore> engines;
   std::vector<Disagreement> disagreements;

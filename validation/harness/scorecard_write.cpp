@@ -22,10 +22,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr double page_limit = 120.0;     // [s]
 constexpr std::size_t most_in_full = 4;  // engines whose rows the terminal shows; of more it shows the totals
-constexpr std::array<const char*, 9> verdicts{"pass",    "fail",       "known defect", "inconclusive", "diverged",
-                                              "crashed", "not judged", "refused",      "missing"};
 
-bool ran(const ScoreRow& r) { return r.verdict != "refused" && r.verdict != "missing"; }
+bool ran(const ScoreRow& r) { return r.verdict != Score::refused && r.verdict != Score::missing; }
 
 std::string figure(double value, const char* form = "{:.3g}") {
   return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-";
@@ -36,7 +34,7 @@ std::string error_cell(const ScoreRow& r) {
 }
 
 std::string order_cell(const ScoreRow& r) {
-  return std::isfinite(r.order) ? fmt::format("{:.1f}", r.order) : r.order_class.empty() ? "-" : r.order_class;
+  return std::isfinite(r.order) ? fmt::format("{:.1f}", r.order) : r.order_class ? std::string(to_string(*r.order_class)) : "-";
 }
 
 std::string drift_cell(const ScoreRow& r) {
@@ -54,8 +52,8 @@ std::string cell(std::string text) {
 /// "12 pass, 1 fail, 14 refused": what does not occur is left out, but for pass and fail.
 std::string tally(const EngineScore& s) {
   std::string text;
-  for (const auto* v : verdicts)
-    if (const int n = s.count(v); n > 0 || v == verdicts[0] || v == verdicts[1])
+  for (const auto v : all_of<Score>())
+    if (const int n = s.count(v); n > 0 || v == Score::pass || v == Score::fail)
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", n, v);
   return text;
 }
@@ -76,7 +74,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> refusals(const Eng
   std::vector<std::pair<std::string, std::vector<std::string>>> list;
   for (const auto& r : s.rows) {
     if (ran(r)) continue;
-    const auto words = r.verdict + (r.reason.starts_with("as expected: ") ? ", " : ": ") + r.reason;
+    const auto words = fmt::format("{}{}{}", r.verdict, r.reason.starts_with("as expected: ") ? ", " : ": ", r.reason);
     const auto at = std::find_if(list.begin(), list.end(), [&](const auto& l) { return l.first == words; });
     if (at == list.end())
       list.push_back({words, {r.case_id}});
@@ -160,7 +158,7 @@ Json json(const ScoreRow& r) {
           {"share", number(r.share)},
           {"order", number(r.order)},
           {"order_metric", r.order_metric},
-          {"order_class", r.order_class},
+          {"order_class", r.order_class ? to_string(*r.order_class) : ""},
           {"drift", number(r.drift)},
           {"drift_metric", r.drift_metric},
           {"cpu_s", number(r.cpu_s)},
@@ -172,7 +170,7 @@ Json json(const ScoreRow& r) {
 Json json(const EngineScore& s) {
   Json rows = Json::array(), totals = Json::object();
   for (const auto& r : s.rows) rows.push_back(json(r));
-  for (const auto* v : verdicts) totals[v] = s.count(v);
+  for (const auto v : all_of<Score>()) totals[std::string(to_string(v))] = s.count(v);
   return {{"engine", s.engine}, {"preset", s.preset}, {"label", s.label()}, {"version", s.version},
           {"totals", totals},   {"first", firsts(s)}, {"cpu_s", cpu_of(s)}, {"rows", rows}};
 }

@@ -27,7 +27,7 @@ constexpr std::uint64_t seeds_apart = 1000;  // from the case's own seed, beyond
 /// order
 SeedOutcome& outcome_for(const CaseResult& c, const EngineRow& e, const GateRow& row, SeedsOutcome& all,
                          std::set<const SeedOutcome*>& taken) {
-  const auto allows = row.expect.empty() ? describe(row.gate) : "class " + row.expect;
+  const auto allows = row.expect ? fmt::format("class {}", *row.expect) : describe(row.gate);
   for (auto& g : all.gates)
     if (!taken.count(&g) && g.case_id == c.id && g.engine == label_of(e.name, e.preset) && g.mode == row.mode &&
         g.metric == row.metric && g.level == row.level && g.allows == allows) {
@@ -68,15 +68,15 @@ void add_seed(const CaseResult& c, std::uint64_t seed, SeedsOutcome& all) {
   std::set<const SeedOutcome*> taken;
   for (const auto& e : c.engines) {
     for (const auto& run : e.runs)
-      if (run.status != "ok" && run.status != "refused" && run.status != "missing" &&
-          !(run.status == "diverged" && may_diverge(c, run.knobs.mode)))
+      if (run.status != Status::ok && run.status != Status::refused && run.status != Status::missing &&
+          !(run.status == Status::diverged && may_diverge(c, run.knobs.mode)))
         all.problems.push_back(
             fmt::format("{} {} seed {}: {} {}", c.id, label_of(e.name, e.preset), seed, run.status, run.reason));
     for (const auto& row : e.gates) {
-      if (row.verdict == "missing") continue;  // a level that chance has no hand in
+      if (row.verdict == Verdict::missing) continue;  // a level that chance has no hand in
       auto& g = outcome_for(c, e, row, all, taken);
       g.values.push_back(row.value);
-      if (row.verdict != "pass") g.alarms.push_back(seed);
+      if (row.verdict != Verdict::pass) g.alarms.push_back(seed);
     }
   }
 }

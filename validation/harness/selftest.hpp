@@ -7,6 +7,7 @@
 #include "validation/harness/discover.hpp"
 #include "validation/harness/harmless.hpp"
 #include "validation/harness/results.hpp"
+#include "validation/harness/smallest.hpp"
 
 /// Proof that the gates can fail, and only where they should: faults are put into the test build of our solver and must turn the
 /// gates red that say so; changes that physics does not feel must leave them green.
@@ -46,10 +47,10 @@ struct SmallestOutcome {
   double size = not_a_number;                 ///< at which it is red; NaN = it is green up to the declared size
   double hidden = 0.0;                        ///< a size at most 5 % less at which it is green
   double stored = 0.0;                        ///< as the case states
-  std::string verdict;                        ///< held, shrank, GREW, UNSEEN
+  Size verdict = Size::unseen;
   int runs = 0;
   SourcePlace place;
-  [[nodiscard]] bool holds() const { return verdict == "held" || verdict == "shrank"; }
+  [[nodiscard]] bool holds() const { return verdict == Size::held || verdict == Size::shrank; }
 };
 
 struct SelftestOutcome {

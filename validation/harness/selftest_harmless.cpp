@@ -47,9 +47,10 @@ void compare_metrics(const RunRow& a, const RunRow& b, HarmlessOutcome& outcome,
 /// Gates that looked at these runs; those of levels that were not run are missing in both.
 void compare_gates(const EngineRow& engine, const char* when, HarmlessOutcome& outcome, int& judged) {
   for (const auto& row : engine.gates) {
-    if (row.verdict == "missing") continue;
+    if (row.verdict == Verdict::missing) continue;
     ++judged;
-    if (row.verdict != "pass") blame(outcome, fmt::format("{} is {} {} it, at {:.3g}", row.metric, row.verdict, when, row.value));
+    if (row.verdict != Verdict::pass)
+      blame(outcome, fmt::format("{} is {} {} it, at {:.3g}", row.metric, row.verdict, when, row.value));
   }
 }
 
@@ -64,9 +65,9 @@ HarmlessOutcome judge_harmless(const HarmlessChange& change, const CaseResult& w
       if (engine.name != other.name || engine.preset != other.preset) continue;
       for (const auto& run : engine.runs) {
         const auto* changed = same_run(other, run);
-        if (run.status != "ok" || !changed || changed->status != "ok")
+        if (run.status != Status::ok || !changed || changed->status != Status::ok)
           blame(outcome, fmt::format("{}run is {} without and {} with{}", mode_of(run), run.status,
-                                     changed ? changed->status : "missing", changed ? " " + changed->reason : ""));
+                                     changed ? changed->status : Status::missing, changed ? " " + changed->reason : ""));
         else
           compare_metrics(run, *changed, outcome, most);
         if (changed && change.tolerance == 0.0 && run.state_hash != changed->state_hash)

@@ -59,7 +59,8 @@ std::vector<std::string> judged_modes(const CaseResult& result, const std::strin
   std::vector<std::string> modes;
   for (const auto& engine : result.engines)
     for (const auto& row : engine.gates)
-      if (row.metric == metric && row.verdict != "missing" && std::find(modes.begin(), modes.end(), row.mode) == modes.end())
+      if (row.metric == metric && row.verdict != Verdict::missing &&
+          std::find(modes.begin(), modes.end(), row.mode) == modes.end())
         modes.push_back(row.mode);
   return modes;
 }
@@ -75,11 +76,11 @@ Seen look(const CaseResult& result, const std::string& metric, const std::string
   Seen seen;
   for (const auto& engine : result.engines)
     for (const auto& row : engine.gates) {
-      if (row.metric != metric || row.mode != mode || row.verdict == "missing")
+      if (row.metric != metric || row.mode != mode || row.verdict == Verdict::missing)
         continue;  // levels that the defect's gates do not need were not run
       seen.any = true;
-      seen.all_green = seen.all_green && row.verdict == "pass";
-      seen.red = seen.red || row.verdict == "fail" || row.verdict == "diverged";
+      seen.all_green = seen.all_green && row.verdict == Verdict::pass;
+      seen.red = seen.red || row.verdict == Verdict::fail || row.verdict == Verdict::diverged;
       seen.words += fmt::format("{}{} {:.3g} {}", seen.words.empty() ? "" : ", ", metric, row.value, row.verdict);
     }
   return seen;

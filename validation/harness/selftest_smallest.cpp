@@ -34,9 +34,9 @@ SmallestOutcome bisect(const Case& value, const Defect& defect, const EngineEntr
   outcome.runs = found.runs, outcome.hidden = found.hidden;
   if (found.size) outcome.size = *found.size;
   if (!found.size)
-    outcome.verdict = "UNSEEN";
+    outcome.verdict = Size::unseen;
   else if (!found.found)
-    outcome.verdict = "NEVER GREEN";
+    outcome.verdict = Size::never_green;
   else
     outcome.verdict = against_stored(*found.size, outcome.stored);
   return outcome;

@@ -41,8 +41,8 @@ std::string key_of(const CaseResult& c, const Gate& g) {
 
 /// A limit that every engine must hold may be used by one that is not here: how slack it is then cannot be told.
 bool some_engine_is_absent(const CaseResult& c, const Gate& g) {
-  return g.engine.empty() &&
-         std::any_of(c.engines.begin(), c.engines.end(), [](const auto& e) { return e.name != "exact" && e.status != "ok"; });
+  return g.engine.empty() && std::any_of(c.engines.begin(), c.engines.end(),
+                                         [](const auto& e) { return e.name != "exact" && e.status != Status::ok; });
 }
 
 Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool engines_were_chosen) {
@@ -63,7 +63,7 @@ Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool eng
 
 std::optional<double> slack_of(const CaseResult& c, const GateRow& row) {
   const Gate& g = row.gate;
-  if (row.verdict != "pass" || !row.expect.empty() || row.metric.ends_with(".order") || !std::isfinite(row.value)) return {};
+  if (row.verdict != Verdict::pass || row.expect || row.metric.ends_with(".order") || !std::isfinite(row.value)) return {};
   double used = std::abs(row.value) + 2.0 * row.uncertainty;
   const double most = ceiling(g), least = floor_of(g);
   if (most <= roundoff_limit) return {};

@@ -36,9 +36,9 @@ SmallestVisible smallest_visible(double start, double greatest, const std::funct
   return result;
 }
 
-const char* against_stored(double now, double stored) {
-  if (now > smallest_growth * stored) return "GREW";
-  return now * smallest_growth < stored ? "shrank" : "held";
+Size against_stored(double now, double stored) {
+  if (now > smallest_growth * stored) return Size::grew;
+  return now * smallest_growth < stored ? Size::shrank : Size::held;
 }
 
 }  // namespace tripoint

@@ -3,6 +3,8 @@
 #include <functional>
 #include <optional>
 
+#include "scene/words.hpp"
+
 /// The least size of a defect that a gate sees, whichever its sign, by bisection.
 namespace tripoint {
 
@@ -25,7 +27,14 @@ constexpr double smallest_growth = 1.25;
 /// @param greatest no size beyond it is tried
 [[nodiscard]] SmallestVisible smallest_visible(double start, double greatest, const std::function<bool(double)>& seen);
 
-/// "GREW", "shrank" or "held", against the stored size.
-[[nodiscard]] const char* against_stored(double now, double stored);
+/// The least visible size beside the one that the case states: UNSEEN where no gate turns red, NEVER GREEN where it is red at
+/// every size.
+enum class Size { held, shrank, grew, unseen, never_green };
+constexpr WordTable<5> word_table(Size) {
+  return {"verdict on a smallest size", {"held", "shrank", "GREW", "UNSEEN", "NEVER GREEN"}};
+}
+
+/// Grew, shrank or held, against the stored size.
+[[nodiscard]] Size against_stored(double now, double stored);
 
 }  // namespace tripoint

@@ -16,14 +16,14 @@ std::string engines_of(const CaseResult& c) {
   std::string list;
   std::vector<std::string> absent;
   for (const auto& e : c.engines) {
-    if (e.status == "missing" && !e.required) {
+    if (e.status == Status::missing && !e.required) {
       if (absent.empty() || absent.back() != e.name) absent.push_back(e.name);
       continue;
     }
     list += fmt::format("{}{}{}", list.empty() ? "" : ", ", label_of(e.name, e.preset),
-                        e.status != "ok" ? ": " + e.status
-                        : is_unjudged(e) ? ": not judged"
-                                         : "");
+                        e.status != Status::ok ? fmt::format(": {}", e.status)
+                        : is_unjudged(e)       ? ": not judged"
+                                               : "");
   }
   return absent.empty() ? list : fmt::format("{}{}not here: {}", list, list.empty() ? "" : "; ", fmt::join(absent, " "));
 }
@@ -31,7 +31,7 @@ std::string engines_of(const CaseResult& c) {
 int green(const CaseResult& c, int& all) {
   int passed = 0;
   for (const auto& e : c.engines)
-    for (const auto& g : e.gates) ++all, passed += g.verdict == "pass";
+    for (const auto& g : e.gates) ++all, passed += g.verdict == Verdict::pass;
   return passed;
 }
 
@@ -46,7 +46,7 @@ std::string not_green(const CaseResult& c) {
   for (const auto& p : c.problems) text += fmt::format("- **{}**: {}\n", markdown(c.id), markdown(p));
   for (const auto& e : c.engines) {
     for (const auto& g : e.gates)
-      if (g.verdict != "pass")
+      if (g.verdict != Verdict::pass)
         text +=
             fmt::format("- **{}** {}\n", markdown(c.id),
                         markdown(fmt::format("{}{} {} {}: {} ({}; limit because: {})", e.name, g.mode.empty() ? "" : " " + g.mode,
@@ -54,8 +54,9 @@ std::string not_green(const CaseResult& c) {
     if (is_unjudged(e))
       text += fmt::format("- {} {} ran and is not judged: no gate of the case names it or every engine\n", markdown(c.id),
                           markdown(label_of(e.name, e.preset)));
-    if (e.status != "ok")
-      text += fmt::format("- {} {} {}: {}\n", markdown(c.id), markdown(e.name), markdown(e.status), markdown(e.reason));
+    if (e.status != Status::ok)
+      text +=
+          fmt::format("- {} {} {}: {}\n", markdown(c.id), markdown(e.name), markdown(to_string(e.status)), markdown(e.reason));
   }
   return text;
 }
@@ -70,7 +71,7 @@ std::string case_line(const CaseResult& c) {
   for (const auto& p : c.problems) line += "\n              " + one_line(p);
   for (const auto& e : c.engines)
     for (const auto& g : e.gates)
-      if (g.verdict != "pass")
+      if (g.verdict != Verdict::pass)
         line += "\n              " + one_line(fmt::format("{}: {}{} {}: {}: {}", to_string(g.gate.place), e.name,
                                                           g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, g.why));
   return line;

@@ -95,7 +95,7 @@ void time_case(const Case& value, const std::vector<EngineEntry>& found, int rou
   alone.out = (fs::path(options.out) / "timing").string(), alone.jobs = 1, alone.resume = false, alone.count_below = 0.0;
   alone.wanted = [&](const EnginePlan& engine, const RunPlan& plan) {
     const auto* row = engine.name == "exact" || !plan.input.empty() ? nullptr : row_of(result, engine, plan);
-    return row && row->status == "ok";
+    return row && row->status == Status::ok;
   };
   auto all = prepare_case(value, found, alone);
   auto runs = timed_runs(all, result);
@@ -106,7 +106,7 @@ void time_case(const Case& value, const std::vector<EngineEntry>& found, int rou
     for (auto& timed : runs) {
       const std::string bits = timed.row->state_hash;
       make_run(all, *timed.run, alone);
-      const bool same = timed.run->row.status == "ok" &&
+      const bool same = timed.run->row.status == Status::ok &&
                         (timed.run->row.state_hash == bits || !all.engines[timed.run->engine].entry->deterministic);
       const double seconds = same ? timed.run->row.cost.cpu_s : not_a_number;
       if (timed.part != Timed::Part::second) timed.row->cost.repeats.push_back(seconds);

@@ -174,7 +174,7 @@ void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, 
   if (const auto broken = broken_refusal(row); !broken.empty())
     return findings.push_back(
         {true, fmt::format("engine {} {}", label_of(engine.name, engine.preset), broken), {value.file, 0, 0}});
-  if (answer.status == "ok" || refuses_as_expected(row)) return;
+  if (answer.status == Status::ok || refuses_as_expected(row)) return;
   const std::string what =
       fmt::format("engine {}{}{}: {}: {}", engine.name, engine.preset == "default" ? "" : " " + engine.preset,
                   run.base ? "" : ", run " + run.label, answer.status, answer.reason);

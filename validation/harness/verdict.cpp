@@ -10,27 +10,10 @@ int first_of(const std::set<int>& codes) {
   return exit_pass;
 }
 
-std::string verdict_word(int exit_code) {
-  switch (exit_code) {
-    case exit_pass:
-      return "PASS";
-    case exit_fail:
-      return "FAIL";
-    case exit_bad_input:
-      return "BAD INPUT";
-    case exit_inconclusive:
-      return "INCONCLUSIVE";
-    case exit_missing:
-      return "MISSING";
-    case exit_selftest:
-      return "SELF-TEST FAILED";
-    case exit_cost:
-      return "COST REGRESSION";
-    case exit_diverged:
-      return "DIVERGED";
-    default:
-      return "INTERRUPTED";
-  }
+CaseVerdict verdict_of(int exit_code) {
+  return exit_code >= exit_pass && exit_code <= exit_diverged ? static_cast<CaseVerdict>(exit_code) : CaseVerdict::interrupted;
 }
+
+std::string verdict_word(int exit_code) { return std::string(to_string(verdict_of(exit_code))); }
 
 }  // namespace tripoint

@@ -3,6 +3,8 @@
 #include <set>
 #include <string>
 
+#include "scene/words.hpp"
+
 /// Exit codes of the contract and the words that go with them.
 namespace tripoint {
 
@@ -21,7 +23,16 @@ enum ExitCode : int {
 /// Of several at once the first of 5 2 7 4 1 3 6; of none, 0.
 [[nodiscard]] int first_of(const std::set<int>& codes);
 
-/// PASS FAIL INCONCLUSIVE MISSING DIVERGED ...: PASS goes with 0 and nothing else.
+/// What is said of a case, or of a whole: a word for each exit code. PASS goes with 0; refused goes with 0 too, where no engine
+/// that was asked takes the case.
+enum class CaseVerdict { pass, fail, bad_input, inconclusive, missing, selftest, cost, diverged, interrupted, refused };
+constexpr WordTable<10> word_table(CaseVerdict) {
+  return {"verdict of a case",
+          {"PASS", "FAIL", "BAD INPUT", "INCONCLUSIVE", "MISSING", "SELF-TEST FAILED", "COST REGRESSION", "DIVERGED",
+           "INTERRUPTED", "REFUSED"}};
+}
+[[nodiscard]] CaseVerdict verdict_of(int exit_code);
+/// Its word.
 [[nodiscard]] std::string verdict_word(int exit_code);
 
 }  // namespace tripoint

@@ -96,7 +96,7 @@ FrameError object_count(const FramePair& f) {
   if (auto why = no_solids(f); !why.empty()) return problem(why);
   std::vector<std::size_t> parent(f.now.position.size()), members;
   std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const bool any_phase = f.in.reference.number("phase").has_value();
+  const bool any_phase = f.in.reference.measuring().phase.has_value();
   for (std::size_t i = 0; i < parent.size(); ++i)
     if (is_alive(f.now, i) && takes(f.in, i) && (any_phase ? of_stated_phase(f.in, f.now, i) : f.now.phase[i] != 0))
       members.push_back(i);

@@ -44,11 +44,11 @@ struct Fronts {
 
 /// Fronts at the measured times, by straight lines between output times; never beyond them.
 Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames) {
-  const auto axis = in.reference.number("axis");
+  const auto axis = in.reference.measuring().axis;
   const auto* curve = in.reference.measured("front");
   if (!axis || !curve) return {{}, {}, {}, {}, "the reference has no measured front, or names no axis along which it runs"};
   std::vector<double> t, x;
-  for (const auto* s : frames) t.push_back(s->time), x.push_back(front_of(in, *s, static_cast<std::size_t>(*axis)));
+  for (const auto* s : frames) t.push_back(s->time), x.push_back(front_of(in, *s, *axis));
   Fronts f;
   for (std::size_t n = 0; n < curve->time.size(); ++n) {
     const auto next = std::lower_bound(t.begin(), t.end(), curve->time[n]);

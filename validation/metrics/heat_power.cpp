@@ -100,7 +100,7 @@ std::optional<Spread> spread_of(const MetricInput& in, const Snapshot& s, std::s
 
 /// Half of what the mean square distance grows a second, as long as no heat has come to a wall [Einstein 1905].
 MetricValue diffusivity_by_spread(const MetricInput& in, const Frames& frames) {
-  const auto axis = in.reference.number("axis");
+  const auto axis = in.reference.measuring().axis;
   const auto base = in.reference.number("value");
   if (!axis || !in.reference.number("diffusivity"))
     return not_formed(
@@ -110,8 +110,7 @@ MetricValue diffusivity_by_spread(const MetricInput& in, const Frames& frames) {
   const Snapshot &begin = *frames.front(), &end = *frames.back();
   for (const auto* s : {&begin, &end})
     if (s->temperature.size() != s->position.size()) return not_formed("the trajectory has no temperature");
-  const auto a = spread_of(in, begin, static_cast<std::size_t>(*axis), *base),
-             b = spread_of(in, end, static_cast<std::size_t>(*axis), *base);
+  const auto a = spread_of(in, begin, *axis, *base), b = spread_of(in, end, *axis, *base);
   if (!a || !b) return not_formed("no heat lies above the stated base");
   const double D = 0.5 * (b->square - a->square) / (end.time - begin.time), truth = *in.reference.number("diffusivity");
   MetricValue v;

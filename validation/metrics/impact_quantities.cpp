@@ -71,7 +71,8 @@ double lowest(const Shape& shape, const Vec3& centre, const BodyState& at, const
 }
 
 FrameError sunk(const FramePair& f) {
-  const auto axis = f.in.reference.number("axis"), level = f.in.reference.number_at("value", f.now.time);
+  const auto axis = f.in.reference.measuring().axis;
+  const auto level = f.in.reference.number_at("value", f.now.time);
   if (!axis || !level)
     return problem("sunk needs the floor: reference = {function = \"stated\", args = {axis = \"z\", value = 0.0}}");
   const auto body = job_body(f.in);
@@ -80,8 +81,8 @@ FrameError sunk(const FramePair& f) {
       !finite(f.now.bodies[static_cast<std::size_t>(row)].position))
     return problem("the trajectory does not have the body");
   Vec3 up;
-  up[static_cast<std::size_t>(*axis)] = f.in.job.scene.gravity[static_cast<std::size_t>(*axis)] > 0.0 ? -1.0 : 1.0;
-  const double floor = *level * up[static_cast<std::size_t>(*axis)];
+  up[*axis] = f.in.job.scene.gravity[*axis] > 0.0 ? -1.0 : 1.0;
+  const double floor = *level * up[*axis];
   const double depth = floor - lowest(f.in.job.scene.body(f.in.choice.body).shape, f.in.job.bodies[body].properties.centre,
                                       f.now.bodies[static_cast<std::size_t>(row)], up);
   return std::isfinite(depth) ? single(std::max(0.0, depth)) : problem("sunk knows boxes, spheres, meshes and unions of them");

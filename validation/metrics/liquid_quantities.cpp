@@ -32,11 +32,12 @@ FrameError at_interface(const FramePair& f, std::vector<double> Snapshot::*colum
   const auto &run = f.now.*column, &truth = f.truth.*column;
   if (run.size() < f.in.initial.size()) return problem(std::string("the trajectory has no ") + what);
   if (truth.size() < f.in.initial.size()) return problem(std::string("the reference does not know the ") + what);
-  const auto axis = f.in.reference.number("axis"), place = f.in.reference.number("interface");
+  const auto axis = f.in.reference.measuring().axis;
+  const auto place = f.in.reference.number("interface");
   if (!axis || !place) return problem("the reference knows no interface");
   double sum = 0.0, count = 0.0;
   for (std::size_t i = 0; i < f.in.initial.size(); ++i) {
-    const double away = std::abs(f.in.initial.position[i][static_cast<std::size_t>(*axis)] - *place);
+    const double away = std::abs(f.in.initial.position[i][*axis] - *place);
     if (!takes(f.in, i) || std::isnan(truth[i]) || away > f.in.job.scene.spacing) continue;
     sum += run[i] - truth[i], count += 1.0;
   }
@@ -49,34 +50,37 @@ FrameError interface_density(const FramePair& f) { return at_interface(f, &Snaps
 /// keel). (The top layer of particles is no measure: it lies up to 0.2 dx low.)
 FrameError draught(const FramePair& f) {
   const auto number = [&](const char* name) { return f.in.reference.number(name); };
-  const auto truth = number("draught"), axis = number("axis"), up = number("up"), floor = number("floor"),
-             pool = number("pool_area"), block = number("block_area"), volume = number("liquid_volume"), below = number("keel");
+  const auto axis = f.in.reference.measuring().axis;
+  const auto truth = number("draught"), up = number("up"), floor = number("floor"), pool = number("pool_area"),
+             block = number("block_area"), volume = number("liquid_volume"), below = number("keel");
   if (!truth || !axis || !up || !floor || !pool || !block || !volume || !below) return problem("the reference knows no draught");
   const long row = body_row(f.in);
   if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size())
     return problem("draught: the metric must name the floating body");
   const auto& body = f.now.bodies[static_cast<std::size_t>(row)];
   if (!finite(body.position)) return problem("the floating body is not finite");
-  const double keel = *up * body.position[static_cast<std::size_t>(*axis)] - *below;
+  const double keel = *up * body.position[*axis] - *below;
   const double level = (*volume + *pool * *floor - *block * keel) / (*pool - *block);
   return single(level - keel - *truth);
 }
 
 /// Torque on a body about the reference's axis minus the true one, with its sign.
 FrameError axial_torque(const FramePair& f) {
-  const auto truth = f.in.reference.number("torque"), axis = f.in.reference.number("axis");
+  const auto truth = f.in.reference.number("torque");
+  const auto axis = f.in.reference.measuring().axis;
   if (!truth || !axis) return problem("the reference knows no torque");
   const long row = body_row(f.in);
   if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size())
     return problem("axial_torque: the metric must name a solid body");
-  return single(f.now.bodies[static_cast<std::size_t>(row)].torque[static_cast<std::size_t>(*axis)] - *truth);
+  return single(f.now.bodies[static_cast<std::size_t>(row)].torque[*axis] - *truth);
 }
 
 /// Half the extent of the liquid along the axis, half a spacing included at each end, minus the true half length.
 FrameError half_length(const FramePair& f) {
-  const auto truth = f.in.reference.number("half_length"), axis = f.in.reference.number("axis");
+  const auto truth = f.in.reference.number("half_length");
+  const auto axis = f.in.reference.measuring().axis;
   if (!truth || !axis) return problem("the reference knows no half length");
-  const auto k = static_cast<std::size_t>(*axis);
+  const std::size_t k = *axis;
   double low = 1e300, high = -1e300;
   for (std::size_t i = 0; i < f.in.initial.size(); ++i) {
     if (!takes(f.in, i)) continue;

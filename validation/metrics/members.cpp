@@ -18,9 +18,9 @@ FrameError against_truth(const FramePair& f, const char* quantity, double measur
 bool is_alive(const Snapshot& s, std::size_t i) { return i >= s.id.size() || s.id[i] != -1; }
 
 bool of_stated_phase(const MetricInput& in, const Snapshot& s, std::size_t i) {
-  const auto phase = in.reference.number("phase");
+  const auto phase = in.reference.measuring().phase;
   if (!phase) return true;
-  return *phase == 3.0 ? s.phase[i] != 0 : s.phase[i] == static_cast<int>(*phase);
+  return *phase == MeasuredPhase::solid ? s.phase[i] != 0 : s.phase[i] == static_cast<int>(*phase);
 }
 
 double particle_mass(const MetricInput& in, const Snapshot& s, std::size_t i) {
@@ -53,12 +53,12 @@ std::size_t job_body(const MetricInput& in) {
 }
 
 std::size_t other_body(const MetricInput& in) {
-  const auto other = in.reference.number("other");
+  const auto other = in.reference.measuring().other;
   if (!other)
     throw InputError(
         in.choice.place,
         "metric `" + in.choice.name + "` needs a second body: reference = {function = \"stated\", args = {other = \"NAME\"}}");
-  return static_cast<std::size_t>(*other);
+  return *other;
 }
 
 RigidBody motion_of(const MetricInput& in, const Snapshot& s, const std::vector<std::size_t>& members) {

@@ -42,7 +42,7 @@ Line fit(const std::vector<double>& t, const std::vector<double>& y) {
 
 /// Speeds of the metric's body along the reference's axis; what hinders, or an empty text.
 std::string speeds(const MetricInput& in, const Frames& frames, std::vector<double>& t, std::vector<double>& v) {
-  const auto axis = in.reference.number("axis");
+  const auto axis = in.reference.measuring().axis;
   const long row = body_row(in);
   if (!axis) return "the reference names no axis";
   if (row < 0) return "the metric must name a solid body";
@@ -50,7 +50,7 @@ std::string speeds(const MetricInput& in, const Frames& frames, std::vector<doub
     if (static_cast<std::size_t>(row) >= s->bodies.size() || !finite(s->bodies[static_cast<std::size_t>(row)].velocity))
       return "the trajectory does not have the body";
     t.push_back(s->time);
-    v.push_back(s->bodies[static_cast<std::size_t>(row)].velocity[static_cast<std::size_t>(*axis)]);
+    v.push_back(s->bodies[static_cast<std::size_t>(row)].velocity[*axis]);
   }
   return t.size() < 3 ? "three output times or more are needed" : "";
 }
@@ -89,9 +89,8 @@ MetricValue touch_time(const MetricInput& in, const Frames& frames) {
 
 /// Which way the particles of a standing wave swing: as the reference says, else along the wave vector.
 Vec3 swing_direction(const MetricInput& in, const Vec3& k) {
-  const auto x = in.reference.number("polarisation.x"), y = in.reference.number("polarisation.y"),
-             z = in.reference.number("polarisation.z");
-  return x && y && z ? Vec3{*x, *y, *z} : (1.0 / norm(k)) * k;
+  const auto wave = in.reference.measuring().wave;
+  return wave && wave->polarisation ? *wave->polarisation : (1.0 / norm(k)) * k;
 }
 
 /// Amplitude of the mode in the velocities along a direction, at the particles' own places.
@@ -110,13 +109,12 @@ double mode_amplitude(const MetricInput& in, const Snapshot& s, const Vec3& k, d
 /// Square of the mode's frequency over the true one, minus 1: of a damped swing a(t) at equal times, a[n+1] + q a[n-1] = 2
 /// sqrt(q) cos(w dt) a[n] (Prony's method), both coefficients by least squares.
 MetricValue frequency_squared(const MetricInput& in, const Frames& frames) {
-  const auto number = [&](const char* name) { return in.reference.number(name); };
-  const auto truth = number("frequency"), kx = number("wave_vector.x"), ky = number("wave_vector.y"),
-             kz = number("wave_vector.z"), phase = number("phase");
-  if (!truth || !kx || !ky || !kz || !phase) return unformed("the reference does not know the frequency of a wave");
+  const auto truth = in.reference.number("frequency");
+  const auto wave = in.reference.measuring().wave;
+  if (!truth || !wave) return unformed("the reference does not know the frequency of a wave");
   if (frames.size() < 6) return unformed("a frequency needs six output times or more");
   std::vector<double> a;
-  for (const auto* s : frames) a.push_back(mode_amplitude(in, *s, {*kx, *ky, *kz}, *phase));
+  for (const auto* s : frames) a.push_back(mode_amplitude(in, *s, wave->wave_vector, wave->phase));
   double ss = 0.0, sp = 0.0, pp = 0.0, sn = 0.0, pn = 0.0;  // of now, previous and next
   for (std::size_t n = 1; n + 1 < a.size(); ++n)
     ss += a[n] * a[n], sp += a[n] * a[n - 1], pp += a[n - 1] * a[n - 1], sn += a[n] * a[n + 1], pn += a[n - 1] * a[n + 1];
@@ -161,7 +159,8 @@ MetricValue spin_rate(const MetricInput& in, const Frames& frames) {
 
 /// Of the centre of mass of the metric's body along the stated axis: a sine about an offset by least squares.
 MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
-  const auto axis = in.reference.number("axis"), truth = in.reference.number("value");
+  const auto axis = in.reference.measuring().axis;
+  const auto truth = in.reference.number("value");
   if (!axis || !truth) return unformed("the reference states no axis, or no frequency as its value");
   if (frames.size() < 8) return unformed("a swing needs eight output times or more");
   std::vector<double> t, y;
@@ -170,8 +169,7 @@ MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
     for (std::size_t i = 0; i < in.initial.size(); ++i)
       if (takes(in, i))
         mass += in.initial.mass[i],
-            moment += in.initial.mass[i] *
-                      displacement(in.job.scene, s->position[i], in.initial.position[i])[static_cast<std::size_t>(*axis)];
+            moment += in.initial.mass[i] * displacement(in.job.scene, s->position[i], in.initial.position[i])[*axis];
     t.push_back(s->time), y.push_back(moment / mass);
   }
   const Swing swing = fit_swing(t, y, 2.0 * std::numbers::pi * *truth);

@@ -68,7 +68,7 @@ bool has_floor(const FlooredPowerLaw& floored, const PowerLaw& plain, const List
   return changes_sign(e) || akaike(floored.residual, e.size(), 3) < akaike(plain.residual, e.size(), 2);
 }
 
-Order sized(const char* name, double p, double low, double high, double coefficient, double floor = 0.0) {
+Order sized(FitClass name, double p, double low, double high, double coefficient, double floor = 0.0) {
   Order order;
   order.value = p, order.low = low, order.high = high;
   order.fit_class = name;
@@ -80,26 +80,28 @@ Order sized(const char* name, double p, double low, double high, double coeffici
 
 Order fit_order(const List& step, const List& error, const List& uncertainty, double formal) {
   const auto finite = [](double x) { return std::isfinite(x); };
-  if (step.size() != error.size() || step.size() < 2) return sized("too-few", nan, nan, nan, nan);
-  if (!std::all_of(error.begin(), error.end(), finite)) return sized("diverging", nan, nan, nan, nan);
+  if (step.size() != error.size() || step.size() < 2) return sized(FitClass::too_few, nan, nan, nan, nan);
+  if (!std::all_of(error.begin(), error.end(), finite)) return sized(FitClass::diverging, nan, nan, nan, nan);
   if (std::all_of(error.begin(), error.end(), [](double e) { return std::abs(e) <= roundoff; }))
-    return sized("roundoff", nan, nan, nan, 0.0);
-  if (std::any_of(error.begin(), error.end(), [](double e) { return e == 0.0; })) return sized("oscillating", nan, nan, nan, nan);
+    return sized(FitClass::roundoff, nan, nan, nan, 0.0);
+  if (std::any_of(error.begin(), error.end(), [](double e) { return e == 0.0; }))
+    return sized(FitClass::oscillating, nan, nan, nan, nan);
 
   const auto plain = fit_power_law(step, error);
-  const auto with = [&](const char* name) {
+  const auto with = [&](FitClass name) {
     return sized(name, plain.order.value, plain.order.low, plain.order.high, plain.coefficient);
   };
-  if (step.size() < 4) return with("too-few");
-  if (std::abs(error.back()) <= roundoff) return with("roundoff");
-  if (lost_in_noise(error, uncertainty)) return with("noise-limited");
+  if (step.size() < 4) return with(FitClass::too_few);
+  if (std::abs(error.back()) <= roundoff) return with(FitClass::roundoff);
+  if (lost_in_noise(error, uncertainty)) return with(FitClass::noise_limited);
   const auto floored = fit_floored_power_law(step, error);
   if (has_floor(floored, plain, error))
-    return sized("plateau", floored.order.value, floored.order.low, floored.order.high, floored.coefficient, floored.floor.value);
-  if (plain.order.high < 0.0 || (plain.order.value < 0.0 && monotone(error))) return with("diverging");
-  if (changes_sign(error) || !monotone(error)) return with("oscillating");
-  const Order fit = with("asymptotic");
-  return asymptotic(fit, step, error, formal) ? fit : with("preasymptotic");
+    return sized(FitClass::plateau, floored.order.value, floored.order.low, floored.order.high, floored.coefficient,
+                 floored.floor.value);
+  if (plain.order.high < 0.0 || (plain.order.value < 0.0 && monotone(error))) return with(FitClass::diverging);
+  if (changes_sign(error) || !monotone(error)) return with(FitClass::oscillating);
+  const Order fit = with(FitClass::asymptotic);
+  return asymptotic(fit, step, error, formal) ? fit : with(FitClass::preasymptotic);
 }
 
 }  // namespace tripoint

@@ -3,13 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "validation/case/case_words.hpp"
+
 namespace tripoint {
 
-/// Observed order of convergence with its 95 % interval and class (docs: asymptotic preasymptotic plateau roundoff oscillating
-/// diverging noise-limited too-few).
+/// Observed order of convergence with its 95 % interval and class.
 struct Order {
   double value = 0.0, low = 0.0, high = 0.0;  ///< signed; low <= value <= high
-  std::string fit_class;
+  FitClass fit_class = FitClass::too_few;
   double coefficient = 0.0, floor = 0.0;  ///< error = floor + coefficient h^value
 };
 /// @param step refinement variable, coarse to fine, decreasing (spacing, time step, or 1/levels)
@@ -28,7 +29,9 @@ struct Order {
                                                                  const std::vector<double>& value, double formal);
 
 enum class Verdict { pass, fail, inconclusive, missing, diverged };
-[[nodiscard]] const char* to_string(Verdict);
+constexpr WordTable<5> word_table(Verdict) {
+  return {"verdict of a gate", {"pass", "fail", "inconclusive", "missing", "diverged"}};
+}
 
 /// Against a limit on |value|: pass iff |value| + k u <= limit, fail iff |value| - k u > limit, else inconclusive; a non-finite
 /// value fails.
@@ -37,7 +40,13 @@ enum class Verdict { pass, fail, inconclusive, missing, diverged };
 [[nodiscard]] Verdict judge_at_least(double value, double u, double least, double k = 2.0);
 [[nodiscard]] Verdict judge_band(double value, double u, double low, double high, double k = 2.0);
 
-/// Two engines' difference against a margin: equivalent | different | negligible but real | unresolved.
-[[nodiscard]] std::string equivalence(double difference, double u, double margin, double k = 2.0);
+/// What two engines are to each other by the margin that the case sets for their difference.
+enum class Equivalence { equivalent, different, negligible, unresolved, no_margin };
+constexpr WordTable<5> word_table(Equivalence) {
+  return {"verdict on two engines", {"equivalent", "different", "negligible but real", "unresolved", "no margin is set"}};
+}
+
+/// Two engines' difference against a margin; unresolved where one of the three is no number.
+[[nodiscard]] Equivalence equivalence(double difference, double u, double margin, double k = 2.0);
 
 }  // namespace tripoint

@@ -120,7 +120,7 @@ FrameError stated_phase_count(const FramePair& f) {
 
 /// Largest difference in the number of particles of one phase.
 FrameError phase_count(const FramePair& f) {
-  if (f.truth.phase.empty() && f.in.reference.number("phase")) return stated_phase_count(f);
+  if (f.truth.phase.empty() && f.in.reference.measuring().phase) return stated_phase_count(f);
   if (auto why = unequal(f.now.phase, f.truth.phase, "phase"); !why.empty()) return problem(why);
   double count[3] = {0, 0, 0};
   for (std::size_t i = 0; i < f.now.phase.size(); ++i) {

@@ -40,14 +40,10 @@ struct Box {
 
 /// What hinders, or an empty text.
 std::string box_of(const FramePair& f, Box& box) {
-  const char* low[] = {"low.x", "low.y", "low.z"};
-  const char* high[] = {"high.x", "high.y", "high.z"};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto a = f.in.reference.number(low[k]), b = f.in.reference.number(high[k]);
-    if (!a || !b) return "mass_in_region needs a box: reference = {function = \"stated\", args = {min = [...], max = [...]}}";
-    box.low[k] = *a, box.high[k] = *b;
-  }
-  if (f.in.reference.number("follows").value_or(0.0) == 0.0) return {};
+  const auto measuring = f.in.reference.measuring();
+  if (!measuring.box) return "mass_in_region needs a box: reference = {function = \"stated\", args = {min = [...], max = [...]}}";
+  box.low = measuring.box->low, box.high = measuring.box->high;
+  if (!measuring.follows) return {};
   const long row = body_row(f.in);
   if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size() ||
       !finite(f.now.bodies[static_cast<std::size_t>(row)].position))
@@ -61,7 +57,7 @@ FrameError mass_in_region(const FramePair& f) {
   Box box;
   if (auto why = no_phases(f.now); !why.empty()) return problem(why);
   if (auto why = box_of(f, box); !why.empty()) return problem(why);
-  const bool outside = f.in.reference.number("outside").value_or(0.0) != 0.0;
+  const bool outside = f.in.reference.measuring().outside;
   return against_truth(f, "mass_in_region", mass_where(f, [&](std::size_t i) {
                          return (box.body || takes(f.in, i)) && box.holds(f.now.position[i]) != outside;
                        }));
@@ -71,14 +67,14 @@ FrameError mass_in_region(const FramePair& f) {
 
 /// Volume that has changed phase over the bar's cross-section: finer than a particle where it holds a liquid fraction.
 std::string front(const FramePair& f, double& place, double& truth) {
-  const auto bar = f.in.reference.number("bar"), area = f.in.reference.number("area"), melts = f.in.reference.number("melts"),
-             exact = f.in.reference.number_at("front_position", f.now.time);
+  const auto [bar, melts] = std::pair{f.in.reference.measuring().bar, f.in.reference.measuring().melts};
+  const auto area = f.in.reference.number("area"), exact = f.in.reference.number_at("front_position", f.now.time);
   if (!bar || !area || !melts || !exact) return "the reference knows no front";
   if (auto why = no_phases(f.now); !why.empty() && f.now.liquid_fraction.empty()) return why;
   long double volume = 0;
-  for (const auto i : sampled(f.in, static_cast<std::size_t>(*bar))) {
+  for (const auto i : sampled(f.in, *bar)) {
     const double liquid = i < f.now.liquid_fraction.size() ? f.now.liquid_fraction[i] : f.now.phase[i] == 0 ? 1.0 : 0.0;
-    volume += static_cast<long double>(rest_volume(f.in, i)) * (*melts > 0.0 ? liquid : 1.0 - liquid);
+    volume += static_cast<long double>(rest_volume(f.in, i)) * (*melts ? liquid : 1.0 - liquid);
   }
   place = double(volume) / *area, truth = *exact;
   return {};

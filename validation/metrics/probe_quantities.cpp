@@ -27,12 +27,12 @@ Column column_of(const MetricInput& in, const Snapshot& s, Of what) {
   if (what == Of::temperature) return given(s.temperature, "temperature");
   if (what == Of::pressure) return given(s.pressure, "pressure");
   if (what == Of::density) return given(s.density, "density");
-  const auto axis = in.reference.number("axis");
+  const auto axis = in.reference.measuring().axis;
   if (!axis)
     return {{}, "a component of velocity needs its axis: reference = {function = \"stated\", args = {axis = \"x\", ...}}"};
   if (s.velocity.size() != s.position.size()) return {{}, "the trajectory has no velocity"};
   Column out;
-  for (const Vec3& v : s.velocity) out.value.push_back(v[static_cast<std::size_t>(*axis)]);
+  for (const Vec3& v : s.velocity) out.value.push_back(v[*axis]);
   return out;
 }
 
@@ -79,7 +79,7 @@ FrameError against_stated_or_field(const FramePair& f, const char* quantity, Rea
 }
 
 FrameError probe(const FramePair& f, Of what, const char* quantity) {
-  const auto point = stated_point(f.in.reference);
+  const auto point = f.in.reference.measuring().point;
   if (!point)
     return problem(std::string(quantity) +
                    " needs the probe's place: reference = {function = \"stated\", args = {point = [x, y, z], value = ...}}");
@@ -97,13 +97,12 @@ FrameError probe(const FramePair& f, Of what, const char* quantity) {
 
 /// Whether a place is in the stated box; everywhere is where none is stated.
 bool in_region(const MetricInput& in, const Vec3& r) {
-  const char* low[] = {"low.x", "low.y", "low.z"};
-  const char* high[] = {"high.x", "high.y", "high.z"};
-  if (!in.reference.number(low[0])) return true;
+  const auto measuring = in.reference.measuring();
+  if (!measuring.box) return true;
+  const auto& [low, high] = *measuring.box;
   bool inside = true;
-  for (std::size_t k = 0; k < 3; ++k)
-    inside = inside && r[k] >= *in.reference.number(low[k]) && r[k] <= *in.reference.number(high[k]);
-  return inside != (in.reference.number("outside").value_or(0.0) != 0.0);
+  for (std::size_t k = 0; k < 3; ++k) inside = inside && r[k] >= low[k] && r[k] <= high[k];
+  return inside != measuring.outside;
 }
 
 FrameError mean(const FramePair& f, Of what, const char* quantity) {
@@ -129,13 +128,13 @@ FrameError mean(const FramePair& f, Of what, const char* quantity) {
 
 /// Way of a point of matter since the start, along the stated axis: read from the particles that began around it.
 FrameError displacement_of_point(const FramePair& f) {
-  const auto point = stated_point(f.in.reference);
-  const auto axis = f.in.reference.number("axis");
+  const auto point = f.in.reference.measuring().point;
+  const auto axis = f.in.reference.measuring().axis;
   if (!point || !axis)
     return problem(
         "displacement needs a place at the start and an axis: reference = {function = \"stated\", args = {point = [x, y, z], "
         "axis = \"x\", value = ...}}");
-  const auto along = static_cast<std::size_t>(*axis);
+  const std::size_t along = *axis;
   std::vector<std::size_t> particles;
   std::vector<double> way(f.in.initial.size(), 0.0);
   for (std::size_t i = 0; i < f.in.initial.size(); ++i) {
@@ -148,13 +147,13 @@ FrameError displacement_of_point(const FramePair& f) {
 }
 
 FrameError centre(const FramePair& f) {
-  const auto axis = f.in.reference.number("axis");
+  const auto axis = f.in.reference.measuring().axis;
   if (!axis) return problem("centre needs an axis: reference = {function = \"stated\", args = {axis = \"z\", value = ...}}");
   long double sum = 0, mass = 0;
   for (std::size_t i = 0; i < f.now.position.size(); ++i) {
     if (!counts(f.in, f.now, i)) continue;
     const long double m = particle_mass(f.in, f.now, i);
-    sum += m * f.now.position[i][static_cast<std::size_t>(*axis)], mass += m;
+    sum += m * f.now.position[i][*axis], mass += m;
   }
   if (!(mass > 0)) return problem("the metric takes no particle that is alive");
   return against_truth(f, "centre", double(sum / mass));

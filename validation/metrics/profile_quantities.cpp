@@ -15,11 +15,7 @@ struct Layer {
   bool one_count = true;  ///< all its particles show one count of walkers
 };
 
-std::optional<std::size_t> axis_of_profile(const MetricInput& in) {
-  const auto axis = in.reference.number("axis");
-  if (!axis || !(*axis >= 0.0 && *axis <= 2.0)) return {};
-  return static_cast<std::size_t>(*axis);
-}
+std::optional<std::size_t> axis_of_profile(const MetricInput& in) { return in.reference.measuring().axis; }
 
 std::map<long, Layer> layers(const FramePair& f, std::size_t axis) {
   std::map<long, Layer> list;

@@ -51,12 +51,11 @@ Amplitude project(const MetricInput& in, const Snapshot& s, const std::vector<do
 /// Rate of ln amplitude over time by least squares. The frames of one run of walkers are correlated, so their standard errors are
 /// added by size, not in squares: an upper bound.
 MetricValue decay_rate(const MetricInput& in, const Frames& frames) {
-  const auto number = [&](const char* name) { return in.reference.number(name); };
-  const auto rate = number("decay_rate");
-  const auto kx = number("wave_vector.x"), ky = number("wave_vector.y"), kz = number("wave_vector.z"), phase = number("phase");
-  if (!rate || !kx || !ky || !kz || !phase) return unformed("the reference does not know the decay rate of a mode");
+  const auto rate = in.reference.number("decay_rate");
+  const auto wave = in.reference.measuring().wave;
+  if (!rate || !wave) return unformed("the reference does not know the decay rate of a mode");
   if (frames.size() < 2) return unformed("a rate needs two output times or more");
-  const auto shape = mode_shape(in, {*kx, *ky, *kz}, *phase);
+  const auto shape = mode_shape(in, wave->wave_vector, wave->phase);
   std::vector<double> t, y, u;
   double sign = 1.0;  // of the first amplitude
   for (const auto* s : frames) {
@@ -142,12 +141,12 @@ MetricValue count_change_time(const Frames& frames, double truth) {
 
 MetricValue event_time(const MetricInput& in, const Frames& frames) {
   auto truth = in.reference.number("event_time");
-  const auto row = in.reference.number("flip_body");
+  const auto row = in.reference.measuring().flip_body;
   if (!truth) truth = in.reference.number("value");
   if (!truth) return unformed("the reference does not know the time of an event");
   if (!row) return count_change_time(frames, *truth);
   std::vector<double> times;
-  if (auto why = find_flips(in, frames, static_cast<std::size_t>(*row), times); !why.empty()) return unformed(why);
+  if (auto why = find_flips(in, frames, *row, times); !why.empty()) return unformed(why);
   if (times.empty()) return unformed("the body never flips");
   MetricValue v;
   v.value = times.front() - *truth;
@@ -156,10 +155,11 @@ MetricValue event_time(const MetricInput& in, const Frames& frames) {
 }
 
 MetricValue event_count(const MetricInput& in, const Frames& frames) {
-  const auto truth = in.reference.number("flip_count"), row = in.reference.number("flip_body");
+  const auto truth = in.reference.number("flip_count");
+  const auto row = in.reference.measuring().flip_body;
   if (!truth || !row) return unformed("the reference does not know the number of events");
   std::vector<double> times;
-  if (auto why = find_flips(in, frames, static_cast<std::size_t>(*row), times); !why.empty()) return unformed(why);
+  if (auto why = find_flips(in, frames, *row, times); !why.empty()) return unformed(why);
   MetricValue v;
   v.value = static_cast<double>(times.size()) - *truth;
   return v;

@@ -16,9 +16,9 @@ struct Extent {
 };
 
 Extent extent_of(const MetricInput& in) {
-  const auto bar = in.reference.number("bar"), axis = in.reference.number("axis");
-  if (!axis) throw InputError(in.choice.place, "metric `" + in.choice.name + "`: its reference names no axis");
-  Extent e{bar ? static_cast<std::size_t>(*bar) : job_body(in), static_cast<std::size_t>(*axis), 1e300, -1e300};
+  const auto measuring = in.reference.measuring();
+  if (!measuring.axis) throw InputError(in.choice.place, "metric `" + in.choice.name + "`: its reference names no axis");
+  Extent e{measuring.bar ? *measuring.bar : job_body(in), *measuring.axis, 1e300, -1e300};
   const double half = 0.5 * in.job.scene.spacing;
   for (const auto i : sampled(in, e.bar)) {
     const double x = in.initial.position[i][e.axis];
@@ -70,13 +70,9 @@ std::pair<Eigen::Vector3d, double> at_frequency(const std::vector<double>& t, co
 }  // namespace
 
 Measured deflection(const MetricInput& in, const Snapshot& s) {
-  const char* names[] = {"direction.x", "direction.y", "direction.z"};
-  Vec3 direction;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto component = in.reference.number(names[k]);
-    if (!component) return unknown("the reference knows no direction of deflection");
-    direction[k] = *component;
-  }
+  const auto measuring = in.reference.measuring();
+  if (!measuring.direction) return unknown("the reference knows no direction of deflection");
+  const Vec3 direction = *measuring.direction;
   const long row = body_row(in);
   if (row >= 0 && in.job.bodies[job_body(in)].phase == Phase::rigid) {
     if (static_cast<std::size_t>(row) >= s.bodies.size() || !finite(s.bodies[static_cast<std::size_t>(row)].position))
@@ -85,11 +81,10 @@ Measured deflection(const MetricInput& in, const Snapshot& s) {
                                         in.job.bodies[job_body(in)].properties.centre)),
             "", true};
   }
-  const auto end = in.reference.number("end");
-  if (!end) return unknown("the reference knows no free end");
+  if (!measuring.free_end_is_high) return unknown("the reference knows no free end");
   const auto e = extent_of(in);
   const double dx = in.job.scene.spacing;
-  const auto last = *end > 0.0 ? layer(in, e, e.high - dx, e.high) : layer(in, e, e.low, e.low + dx);
+  const auto last = *measuring.free_end_is_high ? layer(in, e, e.high - dx, e.high) : layer(in, e, e.low, e.low + dx);
   return last.empty() ? unknown("the bar has no particles at its free end")
                       : Measured{dot(direction, moved(in, s, last)), "", false};
 }

@@ -12,22 +12,6 @@ bool usable(double u) { return u >= 0.0 && std::isfinite(u); }
 
 }  // namespace
 
-const char* to_string(Verdict v) {
-  switch (v) {
-    case Verdict::pass:
-      return "pass";
-    case Verdict::fail:
-      return "fail";
-    case Verdict::inconclusive:
-      return "inconclusive";
-    case Verdict::missing:
-      return "missing";
-    case Verdict::diverged:
-      return "diverged";
-  }
-  return "missing";
-}
-
 Verdict judge_limit(double value, double u, double limit, double k) {
   if (!judged(value, limit)) return Verdict::fail;
   if (!usable(u)) return Verdict::inconclusive;
@@ -49,12 +33,12 @@ Verdict judge_band(double value, double u, double low, double high, double k) {
   return value + k * u < low || value - k * u > high ? Verdict::fail : Verdict::inconclusive;
 }
 
-std::string equivalence(double difference, double u, double margin, double k) {
-  if (!std::isfinite(difference) || !usable(u) || !(margin > 0.0)) return "unresolved";
+Equivalence equivalence(double difference, double u, double margin, double k) {
+  if (!std::isfinite(difference) || !usable(u) || !(margin > 0.0)) return Equivalence::unresolved;
   const double low = difference - k * u, high = difference + k * u;
-  if (low > margin || high < -margin) return "different";
-  if (low < -margin || high > margin) return "unresolved";
-  return std::abs(difference) > k * u ? "negligible but real" : "equivalent";
+  if (low > margin || high < -margin) return Equivalence::different;
+  if (low < -margin || high > margin) return Equivalence::unresolved;
+  return std::abs(difference) > k * u ? Equivalence::negligible : Equivalence::equivalent;
 }
 
 }  // namespace tripoint

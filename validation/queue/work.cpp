@@ -132,7 +132,7 @@ class Crew {
     auto all = prepared(job, options);
     auto& run = all.runs.front();
     if (losses >= most_losses)
-      give_up(run, "killed", fmt::format("its worker was lost {} times", losses), options);
+      give_up(run, Status::killed, fmt::format("its worker was lost {} times", losses), options);
     else
       make_run(all, run, options);
     if (interrupted()) return worker.release(job.id);

@@ -14,9 +14,9 @@ class AddedMass : public LiquidReference {
         axis_(axis),
         up_(in.job.scene.gravity[axis] > 0.0 ? -1.0 : 1.0),
         acceleration_(acceleration) {}
+  [[nodiscard]] Measuring measuring() const override { return {.axis = axis_}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "acceleration") return acceleration_;
-    if (quantity == "axis") return static_cast<double>(axis_);
     if (quantity == "up") return up_;
     return {};
   }
@@ -59,7 +59,7 @@ ReferenceEntry added_mass_entry() {
            "Landau & Lifshitz, Fluid Mechanics, section 11: the added mass of a sphere is half of the liquid it displaces; in a "
            "concentric shell 1/2 (1 + 3 (R/R_wall)^3) to lowest order",
            "start of a sphere in still liquid: upward at (1 - s)/(s + 1/2) g, s the ratio of densities",
-           {{"body", "", "the sphere; default the scene's only free body"},
+           {{"body", "", "the sphere; default the scene's only free body", ArgumentType::word},
             {"radius_over_wall", "1", "radius of the sphere over that of a concentric wall; default 0: far walls"}}},
           make_added_mass};
 }

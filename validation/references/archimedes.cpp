@@ -6,12 +6,13 @@
 namespace tripoint {
 namespace {
 
-/// A body floats where it displaces its own weight. Numbers: draught [m]; for the metric of that name the pool: axis, up (+1,
-/// -1), floor [m], pool_area, block_area [m2], liquid_volume [m3], keel [m] (bottom of the body below its centre).
+/// A body floats where it displaces its own weight. Numbers: draught [m]; for the metric of that name the pool: up (+1, -1),
+/// floor [m], pool_area, block_area [m2], liquid_volume [m3], keel [m] (bottom of the body below its centre).
 class Archimedes : public LiquidReference {
  public:
-  Archimedes(const ReferenceInput& in, std::map<std::string, double, std::less<>> numbers)
-      : LiquidReference(in.job, in.initial), numbers_(std::move(numbers)) {}
+  Archimedes(const ReferenceInput& in, std::size_t axis, std::map<std::string, double, std::less<>> numbers)
+      : LiquidReference(in.job, in.initial), axis_(axis), numbers_(std::move(numbers)) {}
+  [[nodiscard]] Measuring measuring() const override { return {.axis = axis_}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     const auto found = numbers_.find(quantity);
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
@@ -21,6 +22,7 @@ class Archimedes : public LiquidReference {
   [[nodiscard]] LiquidState state(const Vec3&, double, std::size_t) const override { return {}; }
 
  private:
+  std::size_t axis_;
   std::map<std::string, double, std::less<>> numbers_;
 };
 
@@ -44,9 +46,8 @@ std::unique_ptr<Reference> make_archimedes(const ReferenceInput& in) {
   const double ratio = material_of_body(job, block).density / material_of_body(job, liquid).density;
   if (ratio >= 1.0) throw InputError("archimedes: body `" + job.bodies[block].name + "` sinks");
   const double volume = job.bodies[liquid].properties.mass / material_of_body(job, liquid).density;
-  return std::make_unique<Archimedes>(in,
+  return std::make_unique<Archimedes>(in, axis,
                                       std::map<std::string, double, std::less<>>{{"draught", ratio * box.length()},
-                                                                                 {"axis", static_cast<double>(axis)},
                                                                                  {"up", up},
                                                                                  {"floor", up > 0.0 ? water.low : -water.high},
                                                                                  {"pool_area", pool},
@@ -62,7 +63,7 @@ ReferenceEntry archimedes_entry() {
            "analytic",
            "Archimedes, On Floating Bodies: a floating body displaces its own weight",
            "draught of a floating box in a pool that is periodic across gravity",
-           {{"body", "", "the floating body; default the scene's only free one"}}},
+           {{"body", "", "the floating body; default the scene's only free one", ArgumentType::word}}},
           make_archimedes};
 }
 

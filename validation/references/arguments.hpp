@@ -13,15 +13,19 @@ namespace tripoint {
 /// The arguments that a case gives a reference function; what it leaves out is taken from the scene.
 class Arguments {
  public:
-  /// @throws InputError for an argument that the function does not have, with the nearest one that it has
+  /// @throws InputError for an argument that the function does not have, with the nearest one that it has, and for one that is
+  /// not of its type
   Arguments(const ReferenceChoice&, const ReferenceFunction&);
   /// @throws InputError when the argument is there and is of another kind
   [[nodiscard]] std::optional<double> number(const std::string& name) const;
   [[nodiscard]] std::optional<Vec3> vector(const std::string& name) const;
   [[nodiscard]] std::optional<std::string> word(const std::string& name) const;
   [[nodiscard]] std::optional<bool> flag(const std::string& name) const;
+  /// 0, 1, 2 of "x", "y", "z". @throws InputError for any other word
+  [[nodiscard]] std::optional<std::size_t> axis(const std::string& name) const;
 
  private:
+  void check(const ReferenceArgument&) const;
   template <class T>
   [[nodiscard]] std::optional<T> get(const std::string& name, const char* kind) const;
   std::string function_;

@@ -27,9 +27,9 @@ class Bouncing : public Reference {
     box.velocity[scene_.axis] = scene_.up * now.speed;
     return out;
   }
+  [[nodiscard]] Measuring measuring() const override { return {.axis = scene_.axis}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "touch_time") return until_touch(start_);
-    if (quantity == "axis") return static_cast<double>(scene_.axis);
     return {};
   }
 

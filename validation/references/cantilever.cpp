@@ -99,8 +99,7 @@ std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
                       : in.job.scene.gravity[across] < 0.0 ? -1.0
                                                            : 1.0;
 
-  Numbers n{{"bar", static_cast<double>(bar)}, {"axis", static_cast<double>(axis)}, {"end", end}};
-  n["direction.x"] = direction.x, n["direction.y"] = direction.y, n["direction.z"] = direction.z;
+  Numbers n;
   n["frequency"] = beam_frequency(beam, tip);
   if (const double load = dot(in.job.scene.gravity, direction); load != 0.0) {
     n["deflection"] = beam_sag(beam, tip, load, length - 0.5 * in.job.scene.spacing).displacement;
@@ -113,7 +112,8 @@ std::unique_ptr<Reference> make_cantilever(const ReferenceInput& in) {
       in,
       beam_sag(beam, tip, 1.0, length - 0.5 * in.job.scene.spacing).displacement / beam_sag(beam, tip, 1.0, length).displacement,
       n);
-  return std::make_unique<Cantilever>(std::move(n));
+  return std::make_unique<Cantilever>(std::move(n),
+                                      Measuring{.axis = axis, .bar = bar, .direction = direction, .free_end_is_high = end > 0.0});
 }
 
 }  // namespace
@@ -125,15 +125,15 @@ ReferenceEntry cantilever_entry() {
            "1966",
            "static sag and lowest frequency of an elastic box clamped at one end by a fixed or prescribed solid body, small "
            "deflections; with a rigid tip too",
-           {{"body", "", "the beam; default the scene's only free elastic body"},
-            {"tip", "", "name of a rigid body at the free end; default none"},
+           {{"body", "", "the beam; default the scene's only free elastic body", ArgumentType::word},
+            {"tip", "", "name of a rigid body at the free end; default none", ArgumentType::word},
             {"length", "m", "free length; default of the beam's box"},
-            {"direction", "", "of the deflection; default gravity's, without gravity the thinner side"},
+            {"direction", "", "of the deflection; default gravity's, without gravity the thinner side", ArgumentType::vector},
             {"frequency", "Hz", "published, in the place of Timoshenko's"},
             {"deflection", "m", "published mean deflection of the free end, likewise; read half a spacing inside"},
             {"amplitude", "m",
              "published amplitude of its swing, likewise; default its speed at the start over the frequency, in the lowest mode"},
-            {"plane_strain", "", "default true where the third direction is periodic"},
+            {"plane_strain", "", "default true where the third direction is periodic", ArgumentType::flag},
             {"shear_coefficient", "", "default 10 (1 + nu)/(12 + 11 nu), in plane strain with nu/(1 - nu) for nu"}}},
           make_cantilever};
 }

@@ -24,6 +24,7 @@ class CarriedCosine : public Reference {
   }
   /// Of places at the start, where the particles' temperatures belong.
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override { return still_->number(quantity); }
+  [[nodiscard]] Measuring measuring() const override { return still_->measuring(); }
 
  private:
   std::unique_ptr<Reference> still_;

@@ -64,7 +64,7 @@ double corrected_lattice_damping(const Vec3& k, double dx, double h) {
 
 ReferenceEntry cosine_mode_lattice_entry() {
   auto args = cosine_arguments();
-  args.push_back({"form", "", "paper or corrected; default the run's mode of the heat term"});
+  args.push_back({"form", "", "paper or corrected; default the run's mode of the heat term", ArgumentType::word});
   args.push_back({"support_ratio", "", "h/dx; default the run's"});
   return {{"cosine_mode_lattice", "discrete_exact",
            "eigenvalue of the conduction operator on the cubic lattice: model (21) or section 8.6",

@@ -69,7 +69,7 @@ std::vector<ReferenceArgument> sum_arguments() {
   for (std::size_t n = 1; n <= most_waves; ++n) {
     const auto tail = "_" + std::to_string(n);
     list.push_back({"amplitude" + tail, "K", "of wave " + std::to_string(n)});
-    list.push_back({"wave_vector" + tail, "rad/m", "of wave " + std::to_string(n) + ", in any direction"});
+    list.push_back({"wave_vector" + tail, "rad/m", "of wave " + std::to_string(n) + ", in any direction", ArgumentType::vector});
     list.push_back({"phase" + tail, "rad", "of wave " + std::to_string(n) + "; default 0"});
   }
   return list;

@@ -20,7 +20,7 @@ double CosineWave::shape(const Vec3& r) const { return std::cos(dot(wave_vector,
 std::vector<ReferenceArgument> cosine_arguments() {
   return {{"mean", "K", "default of the body's cosine"},
           {"amplitude", "K", "default of the body's cosine"},
-          {"wave_vector", "rad/m", "default of the body's cosine"},
+          {"wave_vector", "rad/m", "default of the body's cosine", ArgumentType::vector},
           {"phase", "rad", "default of the body's cosine"}};
 }
 
@@ -63,17 +63,15 @@ double DecayingCosine::temperature(const Vec3& place, double time) const {
 
 std::optional<double> DecayingCosine::number(std::string_view quantity) const {
   if (quantity == "decay_rate") return rate_;
-  if (quantity == "phase") return wave_.phase;
-  if (quantity == "wave_vector.x") return wave_.wave_vector.x;
-  if (quantity == "wave_vector.y") return wave_.wave_vector.y;
-  if (quantity == "wave_vector.z") return wave_.wave_vector.z;
-  if (quantity == "axis") {
-    std::size_t k = 0;
-    for (std::size_t i = 1; i < 3; ++i)
-      if (std::abs(wave_.wave_vector[i]) > std::abs(wave_.wave_vector[k])) k = i;
-    return static_cast<double>(k);
-  }
   return {};
+}
+
+/// The axis is the one along which the wave is shortest.
+Measuring DecayingCosine::measuring() const {
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (std::abs(wave_.wave_vector[i]) > std::abs(wave_.wave_vector[k])) k = i;
+  return {.axis = k, .wave = MeasuredWave{wave_.wave_vector, wave_.phase, {}}};
 }
 
 }  // namespace tripoint

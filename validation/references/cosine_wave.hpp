@@ -21,11 +21,12 @@ struct CosineWave {
 /// @throws InputError unless whole waves fit each periodic direction and the wave is level at each insulated end
 void refuse_open_ends(const CosineWave&, const ReferenceInput&);
 
-/// The wave, its amplitude falling as exp(-rate t). Numbers: decay_rate [1/s], wave_vector.x, .y, .z [rad/m], phase [rad], axis.
+/// The wave, its amplitude falling as exp(-rate t). Numbers: decay_rate [1/s], and the wave itself.
 class DecayingCosine : public HeatReference {
  public:
   DecayingCosine(const ReferenceInput&, const CosineWave&, double rate, HeldEnds = HeldEnds::refused);
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override;
+  [[nodiscard]] Measuring measuring() const override;
 
  protected:
   [[nodiscard]] double temperature(const Vec3& place, double time) const override;

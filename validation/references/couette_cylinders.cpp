@@ -12,9 +12,9 @@ class CouetteCylinders : public LiquidReference {
  public:
   CouetteCylinders(const ReferenceInput& in, const Vec3& centre, double A, double B, double torque)
       : LiquidReference(in.job, in.initial), centre_(centre), A_(A), B_(B), torque_(torque) {}
+  [[nodiscard]] Measuring measuring() const override { return {.axis = 2}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "torque") return torque_;
-    if (quantity == "axis") return 2.0;
     return {};
   }
 
@@ -54,7 +54,7 @@ ReferenceEntry couette_cylinders_entry() {
            "steady flow between a turning inner and a fixed outer cylinder about z",
            {{"inner_radius", "m", "of the turning cylinder; needed"},
             {"outer_radius", "m", "of the fixed one; needed"},
-            {"body", "", "the turning cylinder; default the only prescribed body"}}},
+            {"body", "", "the turning cylinder; default the only prescribed body", ArgumentType::word}}},
           make_cylinders};
 }
 

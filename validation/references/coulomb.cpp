@@ -64,8 +64,11 @@ class OnPlane : public Reference {
   }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "event_time" && std::isfinite(motion_.slip_ends())) return motion_.slip_ends();
+    return {};
+  }
+  [[nodiscard]] Measuring measuring() const override {
     for (std::size_t k = 0; k < 3; ++k)
-      if (quantity == "axis" && std::abs(scene_.along[k]) == 1.0) return static_cast<double>(k);
+      if (std::abs(scene_.along[k]) == 1.0) return {.axis = k};
     return {};
   }
 

@@ -31,9 +31,9 @@ class ElasticCollision : public Reference {
     }
     return out;
   }
+  [[nodiscard]] Measuring measuring() const override { return {.axis = axis_}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "event_time" || quantity == "touch_time") return touch_;
-    if (quantity == "axis") return static_cast<double>(axis_);
     return {};
   }
 

@@ -18,16 +18,11 @@ class ElasticWave : public Reference {
     out.time = time;
     return out;
   }
+  [[nodiscard]] Measuring measuring() const override {
+    return {.wave = MeasuredWave{start_.wave_vector, start_.phase, (1.0 / norm(start_.amplitude)) * start_.amplitude}};
+  }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    const Vec3 direction = (1.0 / norm(start_.amplitude)) * start_.amplitude;
     if (quantity == "frequency") return frequency_;
-    if (quantity == "phase") return start_.phase;
-    if (quantity == "wave_vector.x") return start_.wave_vector.x;
-    if (quantity == "wave_vector.y") return start_.wave_vector.y;
-    if (quantity == "wave_vector.z") return start_.wave_vector.z;
-    if (quantity == "polarisation.x") return direction.x;
-    if (quantity == "polarisation.y") return direction.y;
-    if (quantity == "polarisation.z") return direction.z;
     return {};
   }
 
@@ -63,10 +58,11 @@ ReferenceEntry elastic_wave_entry() {
        "gradient moment (17)",
        "a standing wave in an elastic body that starts as a cosine of velocity: along the wave vector E, E/(1 - nu^2) or the "
        "P-wave modulus by what holds the sides, across it the shear modulus",
-       {{"body", "", "default the scene's only free elastic body"},
+       {{"body", "", "default the scene's only free elastic body", ArgumentType::word},
         {"sides", "",
-         "free, plane_strain (one direction held) or confined (both); default by the periodic directions across the wave vector"},
-        {"form", "", "paper or corrected; default the run's mode of the elastic term"},
+         "free, plane_strain (one direction held) or confined (both); default by the periodic directions across the wave vector",
+         ArgumentType::word},
+        {"form", "", "paper or corrected; default the run's mode of the elastic term", ArgumentType::word},
         {"support_ratio", "", "h/dx of the printed form; default the run's"}}},
       make_wave};
 }

@@ -18,9 +18,9 @@ class EllipticDrop : public LiquidReference {
         radius_(radius),
         density_(density),
         end_(in.job.scene.end_time) {}
+  [[nodiscard]] Measuring measuring() const override { return {.axis = 1}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "half_length") return elliptic_drop(rate_, radius_, end_).b;
-    if (quantity == "axis") return 1.0;
     return {};
   }
 

@@ -183,18 +183,16 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// What was measured: curves in time. Numbers: axis (0, 1, 2).
+/// What was measured: curves in time.
 class Experiment : public Reference {
  public:
-  Experiment(ExperimentFile file, std::optional<double> axis) : file_(std::move(file)), axis_(axis) {}
+  Experiment(ExperimentFile file, std::optional<std::size_t> axis) : file_(std::move(file)), axis_(axis) {}
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
     out.time = time;
     return out;
   }
-  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    return quantity == "axis" ? axis_ : std::nullopt;
-  }
+  [[nodiscard]] Measuring measuring() const override { return {.axis = axis_}; }
   [[nodiscard]] const MeasuredCurve* measured(std::string_view column) const override {
     const auto found = file_.curves.find(std::string(column));
     return found == file_.curves.end() ? nullptr : &found->second;
@@ -202,18 +200,12 @@ class Experiment : public Reference {
 
  private:
   ExperimentFile file_;
-  std::optional<double> axis_;
+  std::optional<std::size_t> axis_;
 };
 
 std::unique_ptr<Reference> make_experiment(const ReferenceInput& in) {
-  std::optional<double> axis;
-  if (const auto word = in.args.word("axis")) {
-    if (*word != "x" && *word != "y" && *word != "z")
-      throw InputError("argument `axis` of reference function experiment must be \"x\", \"y\" or \"z\"");
-    axis = (*word)[0] - 'x';
-  }
   if (in.file.empty()) throw InputError("reference function experiment needs the key `file`: the data beside the case");
-  return std::make_unique<Experiment>(read_experiment(in.file), axis);
+  return std::make_unique<Experiment>(read_experiment(in.file), in.args.axis("axis"));
 }
 
 }  // namespace
@@ -237,7 +229,7 @@ void check_data_files(const Case& value) {
   const auto check = [](const ReferenceChoice& choice) {
     if (choice.function == "table")
       (void)read_table(choice.file);
-    else if (choice.kind == "experiment")
+    else if (choice.kind == ReferenceKind::experiment)
       (void)read_experiment(choice.file);
   };
   check(value.reference);
@@ -246,7 +238,7 @@ void check_data_files(const Case& value) {
 }
 
 ReferenceChoice with_source_of_file(ReferenceChoice choice) {
-  if ((choice.kind != "experiment" && choice.function != "table") || !choice.source.empty()) return choice;
+  if ((choice.kind != ReferenceKind::experiment && choice.function != "table") || !choice.source.empty()) return choice;
   try {
     const auto file = choice.function == "table" ? read_table(choice.file) : read_experiment(choice.file);
     choice.source = file.source;
@@ -263,7 +255,7 @@ ReferenceEntry experiment_entry() {
            "experiment",
            "the source that the data file states",
            "measured values in time, from the file beside the case",
-           {{"axis", "", "x, y or z: along which the measured length runs"}}},
+           {{"axis", "", "x, y or z: along which the measured length runs", ArgumentType::axis}}},
           make_experiment};
 }
 

@@ -4,21 +4,22 @@
 namespace tripoint {
 
 std::vector<ReferenceArgument> truth_fields() {
-  return {{"value", "", "formula of t: what a quantity that is a single number is compared with, in its unit"},
-          {"temperature", "K", "formula of the true temperature at x, y, z and t"},
-          {"pressure", "Pa", "formula of the true pressure"},
-          {"density", "kg/m3", "formula of the true density"},
-          {"velocity_x", "m/s", "formula of the x component of velocity; a component that is not given is 0 where one is"},
-          {"velocity_y", "m/s", "formula of its y component"},
-          {"velocity_z", "m/s", "formula of its z component"}};
+  return {
+      {"value", "", "formula of t: what a quantity that is a single number is compared with, in its unit", ArgumentType::formula},
+      {"temperature", "K", "formula of the true temperature at x, y, z and t", ArgumentType::formula},
+      {"pressure", "Pa", "formula of the true pressure", ArgumentType::formula},
+      {"density", "kg/m3", "formula of the true density", ArgumentType::formula},
+      {"velocity_x", "m/s", "formula of the x component of velocity; a component that is not given is 0 where one is",
+       ArgumentType::formula},
+      {"velocity_y", "m/s", "formula of its y component", ArgumentType::formula},
+      {"velocity_z", "m/s", "formula of its z component", ArgumentType::formula}};
 }
 
-std::string field_of_probe(std::string_view quantity, const Numbers& numbers) {
+std::string field_of_probe(std::string_view quantity, const Measuring& measuring) {
   for (const std::string_view field : {"temperature", "pressure", "density"})
     if (quantity == std::string(field) + "_at") return std::string(field);
-  const auto axis = numbers.find("axis");
-  if (quantity != "velocity_at" || axis == numbers.end()) return {};
-  return std::string("velocity_") + static_cast<char>('x' + static_cast<int>(axis->second));
+  if (quantity != "velocity_at" || !measuring.axis) return {};
+  return std::string("velocity_") + static_cast<char>('x' + *measuring.axis);
 }
 
 Snapshot fields_beside(const Snapshot& now, const FieldOf& field) {

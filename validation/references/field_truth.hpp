@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "validation/references/number_table.hpp"
+#include "validation/references/reference.hpp"
 
 /// Truths that a case states as fields of place, by the names of their columns: temperature, pressure, density, velocity_x,
 /// velocity_y, velocity_z.
@@ -15,7 +15,7 @@ namespace tripoint {
 [[nodiscard]] std::vector<ReferenceArgument> truth_fields();
 
 /// Column of the field that a probe reads ("temperature_at", "velocity_at" along the stated axis); empty for any other quantity.
-[[nodiscard]] std::string field_of_probe(std::string_view quantity, const Numbers&);
+[[nodiscard]] std::string field_of_probe(std::string_view quantity, const Measuring&);
 
 /// The truth of a frame where its particles are. @param field gives a column's function of place, or nothing where it is not
 /// known

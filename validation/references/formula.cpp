@@ -12,10 +12,9 @@ namespace {
 /// Formulas that a case writes itself: a number in time, or fields of place and time.
 class Formula : public Reference {
  public:
-  Formula(Numbers numbers, std::map<std::string, Expression, std::less<>> formulas)
-      : numbers_(std::move(numbers)), formulas_(std::move(formulas)) {
-    if (const auto point = stated_point(*this)) point_ = *point;
-  }
+  Formula(Numbers numbers, Measuring measuring, std::map<std::string, Expression, std::less<>> formulas)
+      : numbers_(std::move(numbers)), measuring_(std::move(measuring)), formulas_(std::move(formulas)) {}
+  [[nodiscard]] Measuring measuring() const override { return measuring_; }
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
     out.time = time;
@@ -34,9 +33,9 @@ class Formula : public Reference {
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
   }
   [[nodiscard]] std::optional<double> number_at(std::string_view quantity, double time) const override {
-    const auto field = quantity == "value" ? std::string(quantity) : field_of_probe(quantity, numbers_);
+    const auto field = quantity == "value" ? std::string(quantity) : field_of_probe(quantity, measuring_);
     const auto found = formulas_.find(field);
-    return found == formulas_.end() ? number_of(quantity) : std::optional(found->second(point_, time));
+    return found == formulas_.end() ? number_of(quantity) : std::optional(found->second(measuring_.point.value_or(Vec3{}), time));
   }
 
  private:
@@ -45,8 +44,8 @@ class Formula : public Reference {
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
   }
   Numbers numbers_;
+  Measuring measuring_;
   std::map<std::string, Expression, std::less<>> formulas_;
-  Vec3 point_;
 };
 
 std::unique_ptr<Reference> make_formula(const ReferenceInput& in) {
@@ -64,7 +63,7 @@ std::unique_ptr<Reference> make_formula(const ReferenceInput& in) {
     throw InputError(
         "reference function expression needs a formula: `value` of t for a single number, or `temperature`, `pressure`, "
         "`density`, `velocity_x` ... of x, y, z and t for a field");
-  return std::make_unique<Formula>(measuring_numbers(in, "expression"), std::move(formulas));
+  return std::make_unique<Formula>(stated_numbers(in, "expression"), stated_measuring(in, "expression"), std::move(formulas));
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ class Hydrostatic : public LiquidReference {
         sound2_(sound * sound),
         layers_(std::move(layers)) {}
 
+  [[nodiscard]] Measuring measuring() const override { return {.axis = axis_}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    if (quantity == "axis") return static_cast<double>(axis_);
     if (quantity == "bottom_pressure") return weight_above(layers_.front().low);
     if (layers_.size() > 1 && quantity == "interface") return up_ * layers_.back().low;
     if (layers_.size() > 1 && quantity == "interface_pressure") return weight_above(layers_.back().low);
@@ -101,9 +101,10 @@ ReferenceEntry hydrostatic_entry() {
            "liquid at rest, in layers stacked along gravity",
            {{"factor", "1",
              "of the whole pressure: what an equation that tends to 1/factor of the pressure gradient has to read; default 1"},
-            {"compressed", "true or false",
+            {"compressed", "",
              "the one layer is compressed by its weight, at the speed of sound of the scene: its surface has fallen; default "
-             "false"}}},
+             "false",
+             ArgumentType::flag}}},
           make_hydrostatic};
 }
 

@@ -15,9 +15,8 @@ class KnownStretch : public Reference {
     out.time = time;
     return out;
   }
+  [[nodiscard]] Measuring measuring() const override { return {.axis = axis_, .bar = bar_}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    if (quantity == "bar") return static_cast<double>(bar_);
-    if (quantity == "axis") return static_cast<double>(axis_);
     if (quantity == "stretch") return stretch_;
     return {};
   }
@@ -55,7 +54,7 @@ ReferenceEntry spinning_rod_entry() {
            "analytic",
            "Timoshenko & Goodier, Theory of Elasticity: rod in rotation, u = rho w^2 (R^2 x - x^3/3)/(2 E)",
            "steady stretch of a slender elastic box that spins about its centre across its length, small strains",
-           {{"body", "", "the rod; default the scene's only free elastic body"}}},
+           {{"body", "", "the rod; default the scene's only free elastic body", ArgumentType::word}}},
           make_rod};
 }
 
@@ -64,7 +63,8 @@ ReferenceEntry pressed_block_entry() {
            "analytic",
            "Hooke: strain -p (1 - 2 nu)/E under pressure from all sides",
            "stretch of an elastic block under an even pressure, small strains",
-           {{"pressure", "Pa", "on all sides; required"}, {"body", "", "the block; default the scene's only free elastic body"}}},
+           {{"pressure", "Pa", "on all sides; required"},
+            {"body", "", "the block; default the scene's only free elastic body", ArgumentType::word}}},
           make_pressed};
 }
 

@@ -47,7 +47,7 @@ ReferenceEntry liquid_ball_entry() {
        "analytic",
        "rigid rotation has no rate of strain; the printed form: 1/2 sum_ij of (8)'s torques over a homogeneous ball, 5 nu/R^2",
        "a free ball of liquid set in rigid rotation",
-       {{"form", "", "corrected (no torque) or paper (the printed form's own braking); default corrected"}}},
+       {{"form", "", "corrected (no torque) or paper (the printed form's own braking); default corrected", ArgumentType::word}}},
       make_ball};
 }
 

@@ -62,9 +62,9 @@ const std::vector<ReferenceFunction>& reference_functions() {
 }
 
 std::unique_ptr<Reference> make_reference(const ReferenceChoice& choice, const Job& job, const InitialState& initial) {
-  const std::string name =
-      choice.function.empty() && (choice.kind == "invariant" || choice.kind == "experiment") ? choice.kind : choice.function;
-  if (name.empty()) throw InputError("the reference of kind " + choice.kind + " names no function: no truth to compare with");
+  const bool by_kind = choice.kind == ReferenceKind::invariant || choice.kind == ReferenceKind::experiment;
+  const std::string kind(to_string(choice.kind)), name = choice.function.empty() && by_kind ? kind : choice.function;
+  if (name.empty()) throw InputError("the reference of kind " + kind + " names no function: no truth to compare with");
   const auto& entries = all_references();
   const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& e) { return e.function.name == name; });
   if (found == entries.end()) {

@@ -11,11 +11,9 @@ namespace tripoint {
 
 [[nodiscard]] std::vector<ReferenceArgument> measuring_arguments();
 
-/// Numbers: axis, phase (3 = any solid), other (row in the job's bodies), gauge, outside, follows, stated_frequency [Hz], low.x
-/// ... high.z and point.x ... point.z [m]. @throws InputError naming the function and the argument that is wrong
-[[nodiscard]] Numbers measuring_numbers(const ReferenceInput&, const std::string& function);
-
-/// The place of the case's probe, if it states one [m].
-[[nodiscard]] std::optional<Vec3> stated_point(const Reference&);
+/// What the case states of where and of what. @throws InputError naming the function and the argument that is wrong
+[[nodiscard]] Measuring stated_measuring(const ReferenceInput&, const std::string& function);
+/// Numbers: gauge [1], stated_frequency [Hz], diffusivity [m2/s]. @throws InputError likewise
+[[nodiscard]] Numbers stated_numbers(const ReferenceInput&, const std::string& function);
 
 }  // namespace tripoint

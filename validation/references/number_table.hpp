@@ -12,7 +12,8 @@ using Numbers = std::map<std::string, double, std::less<>>;
 /// A reference that knows numbers by name and no states: its snapshots hold their time alone.
 class NumberTable : public Reference {
  public:
-  explicit NumberTable(Numbers numbers) : numbers_(std::move(numbers)) {}
+  explicit NumberTable(Numbers numbers, Measuring measuring = {})
+      : numbers_(std::move(numbers)), measuring_(std::move(measuring)) {}
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
     out.time = time;
@@ -22,9 +23,11 @@ class NumberTable : public Reference {
     const auto found = numbers_.find(quantity);
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
   }
+  [[nodiscard]] Measuring measuring() const override { return measuring_; }
 
  private:
   Numbers numbers_;
+  Measuring measuring_;
 };
 
 }  // namespace tripoint

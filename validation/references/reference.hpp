@@ -8,12 +8,45 @@
 
 #include "io/trajectory.hpp"
 #include "job/job.hpp"
+#include "scene/words.hpp"
 
 namespace tripoint {
 
 /// What an experiment saw of a quantity, in SI.
 struct MeasuredCurve {
   std::vector<double> time, value, uncertainty;  ///< times rise; standard uncertainty of each value
+};
+
+/// Particles of which phase a quantity takes; solid: elastic or rigid.
+enum class MeasuredPhase { liquid, elastic, rigid, solid };
+constexpr WordTable<4> word_table(MeasuredPhase) { return {"phase", {"liquid", "elastic", "rigid", "solid"}}; }
+
+/// cos(wave_vector.r + phase), and which way particles swing in it, where that is not along the wave.
+struct MeasuredWave {
+  Vec3 wave_vector;  ///< [rad/m]
+  double phase = 0.0;
+  std::optional<Vec3> polarisation = {};  ///< unit vector
+};
+
+struct MeasuredBox {
+  Vec3 low, high;  ///< [m]
+};
+
+/// Of what, along what and where a quantity is measured. Empty: the reference does not say.
+struct Measuring {
+  std::optional<std::size_t> axis = {};       ///< 0, 1, 2 = x, y, z
+  std::optional<std::size_t> bar = {};        ///< row in Job::bodies of the body that is measured
+  std::optional<std::size_t> other = {};      ///< row in Job::bodies of the second of a pair
+  std::optional<std::size_t> flip_body = {};  ///< row in Snapshot::bodies
+  std::optional<MeasuredPhase> phase = {};    ///< particles that count; empty = all
+  std::optional<MeasuredBox> box = {};
+  bool outside = false;                       ///< what is not in the box
+  bool follows = false;                       ///< the box moves and turns with the metric's body
+  std::optional<Vec3> point = {};             ///< of a probe [m]
+  std::optional<Vec3> direction = {};         ///< of a deflection, unit vector
+  std::optional<bool> free_end_is_high = {};  ///< of a beam
+  std::optional<bool> melts = {};             ///< of a front: what it leaves behind is liquid
+  std::optional<MeasuredWave> wave = {};
 };
 
 /// Truth, as far as it is known: what an exact (or exactly discrete) solution says of this job's particles and bodies.
@@ -31,6 +64,8 @@ class Reference {
     (void)quantity;
     return {};
   }
+  /// What is no number: directions, bodies, places and switches.
+  [[nodiscard]] virtual Measuring measuring() const { return {}; }
   /// Measured values by the name of their column; nullptr when it has none.
   [[nodiscard]] virtual const MeasuredCurve* measured(std::string_view column) const {
     (void)column;
@@ -48,9 +83,16 @@ class Reference {
   }
 };
 
+/// What an argument is: a number with its unit, three numbers, true or false, x y or z, a word or name, a formula.
+enum class ArgumentType { number, vector, flag, axis, word, formula };
+constexpr WordTable<6> word_table(ArgumentType) {
+  return {"type of argument", {"number", "vector", "flag", "axis", "word", "formula"}};
+}
+
 /// One argument of a reference function, for the schema and the reference page.
 struct ReferenceArgument {
   std::string name, unit, meaning;  ///< the meaning says the default taken from the scene
+  ArgumentType type = ArgumentType::number;
 };
 struct ReferenceFunction {
   std::string name, kind, source, meaning;

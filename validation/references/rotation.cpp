@@ -26,11 +26,11 @@ class FlipTime : public RigidFlight {
     first_ = chosen->spin.flips(job.scene.end_time + *interval).front();
     interval_ = *interval;
   }
+  [[nodiscard]] Measuring measuring() const override { return {.flip_body = static_cast<std::size_t>(body_row_)}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "event_time") return first_;
     if (quantity == "flip_count") return static_cast<double>(flips_.size());
     if (quantity == "flip_interval") return interval_;
-    if (quantity == "flip_body") return static_cast<double>(body_row_);
     return {};
   }
 
@@ -76,7 +76,7 @@ ReferenceEntry flip_time_entry() {
            "analytic",
            landau,
            "first time at which the spin about the middle principal axis changes sign, and how often it does",
-           {{"body", "", "name of the body; default the first free one"}}},
+           {{"body", "", "name of the body; default the first free one", ArgumentType::word}}},
           make_flip_time};
 }
 

@@ -12,12 +12,9 @@ class SoundWave : public LiquidReference {
  public:
   SoundWave(const ReferenceInput& in, const VelocityField& start, double sound_speed, double density)
       : LiquidReference(in.job, in.initial), start_(start), c_(sound_speed), density_(density) {}
+  [[nodiscard]] Measuring measuring() const override { return {.wave = MeasuredWave{start_.wave_vector, start_.phase, {}}}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     if (quantity == "frequency") return frequency();
-    if (quantity == "phase") return start_.phase;
-    if (quantity == "wave_vector.x") return start_.wave_vector.x;
-    if (quantity == "wave_vector.y") return start_.wave_vector.y;
-    if (quantity == "wave_vector.z") return start_.wave_vector.z;
     return {};
   }
 

@@ -9,9 +9,9 @@ namespace {
 using Stated = NumberTable;
 
 std::unique_ptr<Reference> make_stated(const ReferenceInput& in) {
-  Numbers n = measuring_numbers(in, "stated");
+  Numbers n = stated_numbers(in, "stated");
   if (const auto value = in.args.number("value")) n["value"] = *value;
-  return std::make_unique<Stated>(std::move(n));
+  return std::make_unique<Stated>(std::move(n), stated_measuring(in, "stated"));
 }
 
 }  // namespace

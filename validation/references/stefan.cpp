@@ -43,11 +43,11 @@ class Stefan : public Reference {
     }
     return out;
   }
+  [[nodiscard]] Measuring measuring() const override {
+    return {.axis = course_.axis, .bar = course_.bar, .melts = course_.melts};
+  }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    if (quantity == "bar") return static_cast<double>(course_.bar);
-    if (quantity == "axis") return static_cast<double>(course_.axis);
     if (quantity == "area") return course_.area;
-    if (quantity == "melts") return course_.melts ? 1.0 : 0.0;
     if (quantity == "lambda") return lambda_;
     if (quantity == "stefan_number") return front_.stefan_number();
     return {};
@@ -166,8 +166,8 @@ ReferenceEntry stefan_entry() {
            "Carslaw & Jaeger, Conduction of Heat in Solids, 1959, section 11.2: Stefan's problem in Neumann's similarity "
            "solution, X = 2 lambda sqrt(D t), each phase with its own conductivity and heat capacity",
            "melting of a bar from a held hot wall, or freezing from a cold one: front, temperatures, liquid fractions and phases",
-           {{"wall", "", "the held body; default the scene's only one"},
-            {"body", "", "the bar; default the scene's only body that can melt"},
+           {{"wall", "", "the held body; default the scene's only one", ArgumentType::word},
+            {"body", "", "the bar; default the scene's only body that can melt", ArgumentType::word},
             {"place", "m", "of the surface along the bar; default the bar's face towards the wall"},
             {"latent_heat", "J/kg", "default the material's"}}},
           make_stefan};

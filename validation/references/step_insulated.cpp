@@ -12,8 +12,8 @@ class StepBar : public HeatReference {
  public:
   StepBar(const ReferenceInput& in, const StepImages& step, double behind, double ahead, double cell)
       : HeatReference(in.job, in.initial), step_(step), behind_(behind), ahead_(ahead), cell_(cell) {}
+  [[nodiscard]] Measuring measuring() const override { return {.axis = step_.bar.axis}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    if (quantity == "axis") return static_cast<double>(step_.bar.axis);
     if (quantity == "diffusivity") return step_.diffusivity;
     return {};
   }
@@ -51,15 +51,15 @@ std::unique_ptr<Reference> make_step(const ReferenceInput& in) {
 }  // namespace
 
 ReferenceEntry step_insulated_entry() {
-  return {
-      {"step_insulated",
-       "analytic",
-       "Carslaw & Jaeger, Conduction of Heat in Solids, 1959: method of images with the error function",
-       "a step of temperature in a bar with insulated ends, or in a periodic one (then with the second step at the seam)",
-       {{"place", "m", "of the step along its axis; default the point of the body's step"},
-        {"diffusivity", "m2/s", "k/(rho c_p); default of the bodies' material"},
-        {"cell_average", "", "means over cells of one spacing instead of values at points; default true for runs by walkers"}}},
-      make_step};
+  return {{"step_insulated",
+           "analytic",
+           "Carslaw & Jaeger, Conduction of Heat in Solids, 1959: method of images with the error function",
+           "a step of temperature in a bar with insulated ends, or in a periodic one (then with the second step at the seam)",
+           {{"place", "m", "of the step along its axis; default the point of the body's step"},
+            {"diffusivity", "m2/s", "k/(rho c_p); default of the bodies' material"},
+            {"cell_average", "", "means over cells of one spacing instead of values at points; default true for runs by walkers",
+             ArgumentType::flag}}},
+          make_step};
 }
 
 }  // namespace tripoint

@@ -22,8 +22,9 @@ double between(const std::vector<double>& x, const std::vector<double>& y, doubl
 /// A table beside the case: a number in time, or fields along an axis that do not change.
 class Table : public Reference {
  public:
-  Table(Numbers numbers, ExperimentFile file, std::string column)
-      : numbers_(std::move(numbers)), file_(std::move(file)), column_(std::move(column)) {}
+  Table(Numbers numbers, Measuring measuring, ExperimentFile file, std::string column)
+      : numbers_(std::move(numbers)), measuring_(std::move(measuring)), file_(std::move(file)), column_(std::move(column)) {}
+  [[nodiscard]] Measuring measuring() const override { return measuring_; }
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
     out.time = time;
@@ -44,9 +45,9 @@ class Table : public Reference {
   }
   [[nodiscard]] std::optional<double> number_at(std::string_view quantity, double time) const override {
     if (quantity == "value" && in_time()) return known(between(curve().time, curve().value, time));
-    const auto field = in_time() ? file_.curves.end() : file_.curves.find(field_of_probe(quantity, numbers_));
+    const auto field = in_time() ? file_.curves.end() : file_.curves.find(field_of_probe(quantity, measuring_));
     if (field == file_.curves.end()) return number(quantity);
-    const auto point = stated_point(*this);
+    const auto& point = measuring_.point;
     return point
                ? known(between(field->second.time, field->second.value, (*point)[static_cast<std::size_t>(file_.first[0] - 'x')]))
                : std::nullopt;
@@ -72,6 +73,7 @@ class Table : public Reference {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
   }
   Numbers numbers_;
+  Measuring measuring_;
   ExperimentFile file_;
   std::string column_;
 };
@@ -93,7 +95,8 @@ std::unique_ptr<Reference> make_table(const ReferenceInput& in) {
   ExperimentFile file = read_table(in.file);
   if (file.first == "time") {
     auto column = column_of(in, file);
-    return std::make_unique<Table>(measuring_numbers(in, "table"), std::move(file), std::move(column));
+    return std::make_unique<Table>(stated_numbers(in, "table"), stated_measuring(in, "table"), std::move(file),
+                                   std::move(column));
   }
   if (in.args.word("column"))
     throw InputError("argument `column` of reference function table is of a table in time: a table along " + file.first +
@@ -104,14 +107,15 @@ std::unique_ptr<Reference> make_table(const ReferenceInput& in) {
   for (const auto& [name, curve] : file.curves)
     if (std::find(fields.begin(), fields.end(), name) == fields.end())
       throw InputError(in.file + ": no field is named `" + printable(name) + "`" + suggestion(name, fields));
-  return std::make_unique<Table>(measuring_numbers(in, "table"), std::move(file), "");
+  return std::make_unique<Table>(stated_numbers(in, "table"), stated_measuring(in, "table"), std::move(file), "");
 }
 
 }  // namespace
 
 ReferenceEntry table_entry() {
-  std::vector<ReferenceArgument> args{
-      {"column", "", "of a table in time: the column that the quantity is compared with; default the only one"}};
+  std::vector<ReferenceArgument> args{{"column", "",
+                                       "of a table in time: the column that the quantity is compared with; default the only one",
+                                       ArgumentType::word}};
   for (const auto& a : measuring_arguments()) args.push_back(a);
   return {{"table", "analytic", "the source that the file states",
            "values in time, or along x, y or z, from the csv file beside the case (key `file`), straight lines between its rows; "

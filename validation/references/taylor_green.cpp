@@ -71,8 +71,8 @@ ReferenceEntry taylor_green_entry() {
            "a square of periodic vortices, at rest or carried along",
            {{"speed", "m/s", "greatest speed of the vortices; default of the liquid's velocity"},
             {"wavelength", "m", "side of their cell; default of the liquid's velocity"},
-            {"origin", "m", "where their pattern begins; default 0"},
-            {"carried", "m/s", "velocity that carries all of it along; default 0"}}},
+            {"origin", "m", "where their pattern begins; default 0", ArgumentType::vector},
+            {"carried", "m/s", "velocity that carries all of it along; default 0", ArgumentType::vector}}},
           make_vortices};
 }
 

@@ -57,9 +57,8 @@ class Tension : public Reference {
     out.energy["plastic"] = s.dissipated * bar_.area * bar_.length;
     return out;
   }
+  [[nodiscard]] Measuring measuring() const override { return {.axis = bar_.axis, .bar = bar_.row}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    if (quantity == "bar") return static_cast<double>(bar_.row);
-    if (quantity == "axis") return static_cast<double>(bar_.axis);
     if (quantity == "area") return bar_.area;
     if (quantity == "gauge") return bar_.gauge;
     if (quantity == "stretch_gauge") return bar_.stretch_gauge;
@@ -166,11 +165,12 @@ ReferenceEntry tension_entry() {
            "as printed with the lattice's gradient moment (17)",
            "reaction, stretch, stored and dissipated energy of an elastic box between two held ends, driven by keyframes, to the "
            "tear",
-           {{"body", "", "the bar; default the scene's only free elastic body"},
+           {{"body", "", "the bar; default the scene's only free elastic body", ArgumentType::word},
             {"length", "m", "between the held ends; default of the bar's box"},
             {"area", "m2", "cross-section; default of the bar's box or the periodic domain"},
-            {"sides", "", "free, plane_strain (one direction held) or confined (both); default by the periodic directions"},
-            {"form", "", "paper or corrected; default the run's mode of the elastic term"},
+            {"sides", "", "free, plane_strain (one direction held) or confined (both); default by the periodic directions",
+             ArgumentType::word},
+            {"form", "", "paper or corrected; default the run's mode of the elastic term", ArgumentType::word},
             {"support_ratio", "", "h/dx of the printed form; default the run's"},
             {"gauge", "",
              "middle share of the length over which stretches are measured; default 0.5 for the modulus, 1 for others"}}},

@@ -13,9 +13,9 @@ class Contact : public HeatReference {
  public:
   Contact(const ReferenceInput& in, std::size_t axis, const TwoLayers& layers)
       : HeatReference(in.job, in.initial), axis_(axis), layers_(layers), solution_(layers) {}
+  [[nodiscard]] Measuring measuring() const override { return {.axis = axis_}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
     const auto& s = layers_;
-    if (quantity == "axis") return static_cast<double>(axis_);
     if (quantity == "contact_temperature")
       return (s.effusivity_low * s.start_low + s.effusivity_high * s.start_high) / (s.effusivity_low + s.effusivity_high);
     return {};

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "scene/words.hpp"
+
+namespace tripoint {
+
+/// How a run ended. An engine says ok, refused, diverged or error of itself; that it is missing, was killed or ran out of time
+/// is what the harness saw.
+enum class Status { ok, refused, missing, diverged, killed, timeout, error };
+
+constexpr WordTable<7> word_table(Status) {
+  return {"status of a run", {"ok", "refused", "missing", "diverged", "killed", "timeout", "error"}};
+}
+
+}  // namespace tripoint
