@@ -4,7 +4,7 @@
 
     image_root.py [--keep DIR] [--profile NAME]     as root; --keep leaves the image's root in DIR, --profile runs the suite's profile in it too
 
-It knows FROM, RUN (with a cache mount), COPY (with --from), WORKDIR, ENV and CMD in the forms that the file uses, and refuses any other. What a root lacks to
+It knows ARG, FROM, RUN (with a cache mount), COPY (with --from), WORKDIR, ENV and CMD in the forms that the file uses, and refuses any other. What a root lacks to
 reach this machine's registries (hosts, certificates, proxies, pip settings) is given to it as tools/test-fresh.sh does, and counts as the machine's, not the image's; so does CI, with which warnings are errors.
 """
 import argparse
@@ -94,6 +94,7 @@ class Root:
 class Image:
     def __init__(self, folder, cache):
         self.folder, self.cache, self.stages, self.root = folder, cache, {}, None
+        self.arguments = {}  # by name: as the file gives them
 
     def make(self):
         for word, rest in instructions(SOURCE / "Dockerfile"):
@@ -106,7 +107,15 @@ class Image:
     def refuse(self, rest):
         raise SystemExit(f"image: this instruction of the Dockerfile is not known here: {rest}")
 
+    def do_arg(self, rest):
+        name, _, value = rest.partition("=")
+        if self.root:  # of a stage: its instructions see it
+            self.root.environment[name] = value
+        else:
+            self.arguments[name] = value
+
     def do_from(self, rest):
+        rest = re.sub(r"\$\{(\w+)\}", lambda found: self.arguments[found[1]], rest)
         image, *name = re.fullmatch(r"(\S+)(?: AS (\S+))?", rest).groups()
         self.root = Root(self.folder / f"stage{len(self.stages)}", image)
         self.stages[name[0] or str(len(self.stages))] = self.root
@@ -125,6 +134,8 @@ class Image:
         stage = re.match(r"--from=(\S+)\s+", rest)
         sources, target = (words := rest[stage.end():].split() if stage else rest.split())[:-1], words[-1]
         to = self.root.folder / target.lstrip("/")
+        if target.endswith("/"):
+            to.mkdir(parents=True, exist_ok=True)
         for source in sources:
             if stage:
                 self.copy(self.stages[stage[1]].folder / source.lstrip("/"), to)

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing and nothing else: Debian 12's packages by apt, engines' wheels from PyPI into .venv.
-#   tools/setup.sh [build|validate|test|peers|readers|schedulers|fuzz]     build is what compiles, test adds the test tools, peers what `make bench-peers` compares with,
-#   readers what reads our exported files in a test, schedulers Snakemake and GNU parallel for another, fuzz the compiler with a fuzzer; a second run only rechecks
+#   tools/setup.sh [build|validate|test|peers|readers|schedulers|fuzz|checks]     build is what compiles, test adds the test tools, peers what `make bench-peers` compares with,
+#   readers what reads our exported files in a test, schedulers Snakemake and GNU parallel for another, fuzz the compiler with a fuzzer, checks what
+#   tools/checks.sh asks for; a second run only rechecks
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -13,7 +14,7 @@ wheel=(python3-venv ca-certificates)                                            
 tests=(libgtest-dev libgmock-dev clang-format-14 git bubblewrap python3-yaml weasyprint valgrind)  # `make test` only
 peers=(libglvnd0)                                                                                   # `make bench-peers` only
 
-fuzzer=(clang-16 libclang-rt-16-dev libomp-16-dev)                                                  # `make fuzz` only
+fuzzer=(clang-16 libclang-rt-16-dev libomp-16-dev)                                                  # `make fuzz` and tools/checks.sh
 schedulers=(parallel)                                                                               # tests of `tripoint suite` only
 
 say() { printf 'setup: %s\n' "$*" >&2; }
@@ -124,9 +125,10 @@ case ${1:-validate} in
   test) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${tests[@]}" ;;
   peers) install_packages "${core[@]}" "${report[@]}" "${wheel[@]}" "${peers[@]}" ;;
   fuzz) install_packages "${core[@]}" "${fuzzer[@]}" && exit ;;
+  checks) install_packages "${core[@]}" "${report[@]}" "${tests[@]}" "${fuzzer[@]}" clang-tidy-14 && exit ;;
   readers) install_packages "${wheel[@]}" && install_readers && exit ;;
   schedulers) install_packages "${wheel[@]}" "${schedulers[@]}" && install_schedulers && exit ;;
-  *) say "usage: tools/setup.sh [build|validate|test|peers|readers|schedulers|fuzz]"; exit 2 ;;
+  *) say "usage: tools/setup.sh [build|validate|test|peers|readers|schedulers|fuzz|checks]"; exit 2 ;;
 esac
 install_wheels
 [[ ${1:-validate} != peers ]] || install_peers

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 
@@ -13,7 +14,15 @@ namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
+constexpr std::uintmax_t most_read = std::uintmax_t{256}
+                                     << 20;  // what the greatest mesh may have; no other file may have as much
+
+/// What a file holds. Of one that every reader refuses for its size, its size: a stranger's case may name one that fits in no
+/// memory.
 std::string text_of(const fs::path& file) {
+  std::error_code none;
+  const std::uintmax_t size = fs::file_size(file, none);
+  if (!none && size > most_read) return "more than is read: " + std::to_string(size);
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
