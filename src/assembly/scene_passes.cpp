@@ -2,7 +2,6 @@
 #include "assembly/scene_passes.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "effects/fluid/material_numbers.hpp"
 #include "effects/fluid/walls.hpp"
@@ -20,13 +19,10 @@ int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_
   return scene.mode_of(term) == Mode::paper ? 1 : 2;
 }
 
-/// Fixed particles may sleep where every effect of the scene looks at none that is asleep, and no term works on every pair.
+/// Fixed particles may sleep where every effect of the scene skips those that do, and no term works on every pair.
 std::optional<double> sleeps_beyond(const Scene& scene, const std::vector<Active>& effects, bool meets_all) {
-  constexpr std::array<std::string_view, 5> looks_at_awake{"rigid", "fluid", "motion", "prescribed", "heat"};
-  if (meets_all || scene.transport_velocity || !std::ranges::all_of(effects, [&](const Active& a) {
-        return std::ranges::find(looks_at_awake, a.name) != looks_at_awake.end();
-      }))
-    return {};
+  const bool all_skip = std::ranges::all_of(effects, [](const Active& a) { return a.spec.skips_sleeping; });
+  if (meets_all || scene.transport_velocity || !all_skip) return {};
   return fluid::numbers_of(scene).averages_walls ? fluid::reach_of_patches * scene.spacing : 0.0;
 }
 

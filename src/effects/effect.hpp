@@ -25,6 +25,7 @@ struct EffectSpec {
   std::vector<Guarded> guards{};            ///< of its columns those that are looked at after every step
   std::vector<FieldInfo> reads_if_there{};  ///< of others, where the scene has them
   bool sums_forces = false;                 ///< it reads World::forces of all effects
+  bool skips_sleeping = false;              ///< it looks at no particle that sleeps: fixed, and out of reach of all others
 };
 
 /// Greatest stable step of an effect, and what sets it.

@@ -258,6 +258,7 @@ EffectSpec spec(const Scene& scene) {
           {fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
   s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
   s.sums_forces = true;
+  s.skips_sleeping = true;
   const bool damps = bulk_viscosity(scene) > 0.0;
   const auto own = [&](std::initializer_list<FieldInfo> more) { s.owns.insert(s.owns.end(), more); };
   if (scene.mode_of(Term::density) == Mode::corrected) own({field::number_density});

@@ -54,7 +54,11 @@ EffectSpec spec_of_form(const Scene& scene) {
 }  // namespace
 
 EffectSpec spec(const Scene& scene) {
-  if (equal_temperature(scene)) return {"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material, field::phase}};
+  if (equal_temperature(scene)) {
+    EffectSpec idle{"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material, field::phase}};
+    idle.skips_sleeping = true;
+    return idle;
+  }
   EffectSpec s = spec_of_form(scene);
   s.guards = {{field::temperature, "temperature", Written::drift, "K, below absolute zero"}};
   if (s.mode == Mode::paper)

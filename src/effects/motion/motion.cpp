@@ -120,6 +120,7 @@ EffectSpec spec(const Scene& scene) {
                fields::joined({fields::position(), fields::velocity(), {field::mass, field::body}})};
   s.reads_if_there = fields::joined({fields::image(), fields::shift(), {field::driven}});
   s.sums_forces = true;
+  s.skips_sleeping = true;
   return s;
 }
 

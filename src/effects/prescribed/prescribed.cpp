@@ -135,6 +135,7 @@ EffectSpec spec(const Scene& scene) {
                                fields::velocity(),
                                {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
   s.reads_if_there = fields::image();
+  s.skips_sleeping = true;
   return s;
 }
 

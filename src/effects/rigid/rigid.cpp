@@ -327,6 +327,7 @@ EffectSpec spec(const Scene& scene) {
                fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body}})};
   s.reads_if_there = fields::image();
   s.sums_forces = true;
+  s.skips_sleeping = true;
   return s;
 }
 
