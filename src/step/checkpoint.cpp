@@ -186,9 +186,10 @@ Checkpoint Simulation::state() const {
   kept.whole["step/pairs"] = {static_cast<std::int64_t>(world_.bonds.pairs()), static_cast<std::int64_t>(world_.own.pairs())};
   kept.real["step/booked"] = plain(world_.booked.values());
   kept.real["step/undelivered_spin"] = plain(world_.booked.undelivered_spin);
-  kept.real["step/time"] = {world_.time, world_.next_time, dt_, pairs_, bound_.dt, stretch_.start, stretch_.end};
+  const Schedule::Stretch& stretch = schedule_.stretch();
+  kept.real["step/time"] = {world_.time, world_.next_time, dt_, pairs_, bound_.dt, stretch.start, stretch.end};
   kept.text["step/bound"] = {bound_.name};
-  kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(next_moment_), stretch_.count, stretch_.done,
+  kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(schedule_.moments_past()), stretch.count, stretch.done,
                               world_.moved ? 1 : 0};
   const Lagged& lagged = world_.lagged;
   kept.real["step/lagged"] = {lagged.half_step, lagged.viscous_step, static_cast<double>(lagged.viscous_age)};
@@ -214,13 +215,16 @@ void Simulation::restore(const Checkpoint& kept) {
     throw InputError("the checkpoint was written by a solver of another layout: it lacks or changes \"" + here[n] + "\"");
   }
   const std::vector<double>& t = take(kept.real, "step/time", 7);
-  world_.time = t[0], world_.next_time = t[1], dt_ = t[2], pairs_ = t[3], bound_.dt = t[4], stretch_.start = t[5],
-  stretch_.end = t[6];
+  world_.time = t[0];
+  world_.next_time = t[1];
+  dt_ = t[2];
+  pairs_ = t[3];
+  bound_.dt = t[4];
   bound_.name = take(kept.text, "step/bound", 1)[0];
   const std::vector<std::int64_t>& n = take(kept.whole, "step/count", 5);
-  steps_ = n[0], next_moment_ = static_cast<std::size_t>(n[1]), stretch_.count = n[2], stretch_.done = n[3],
+  steps_ = n[0];
   world_.moved = n[4] != 0;
-  if (next_moment_ > moments_.size()) throw InputError("the checkpoint has seen more events than the scene has");
+  schedule_.restore(static_cast<std::size_t>(n[1]), {t[5], t[6], n[2], n[3]});
   std::ranges::copy(take(kept.real, "step/booked", world_.booked.values().size()), world_.booked.values().begin());
   const std::vector<double>& spin = take(kept.real, "step/undelivered_spin", 3);
   world_.booked.undelivered_spin = {spin[0], spin[1], spin[2]};

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <array>
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "assembly/all_effects.hpp"
-#include "assembly/declared_view.hpp"
 #include "assembly/scene_passes.hpp"
 #include "core/checkpoint.hpp"
 #include "scene/initial_state.hpp"
 #include "step/guard.hpp"
 #include "step/recovery.hpp"
+#include "step/schedule.hpp"
+#include "step/sharing.hpp"
 #include "step/stage_clock.hpp"
 #include "step/thread_choice.hpp"
 #include "world/world.hpp"
@@ -32,7 +32,7 @@ struct SimulationOptions {
   StageSeconds* stage_seconds = nullptr;  ///< where to add what each stage takes; it must outlive the simulation
 };
 
-/// A scene in motion: kick, drift, kick, with the effects that it calls for.
+/// A scene in motion: kick, drift, kick, with the effects that it calls for. The step itself is in step.cpp.
 class Simulation {
  public:
   /// @throws InputError when an effect is missing, a bound forbids the scene's time step, or the scene lacks what an effect needs
@@ -64,72 +64,48 @@ class Simulation {
   [[nodiscard]] std::string time_step_set_by() const;
 
  private:
-  struct Moment {  ///< an event's begin or end
-    double time;
-    std::size_t event;
-    bool begins;
-  };
-  /// Equal steps towards one end: planned when they begin, so a continued run keeps to the plan that it was cut in.
-  struct Stretch {
-    double start = 0.0, end = 0.0;  ///< [s]
-    long count = 0, done = 0;
-    [[nodiscard]] double next_end(double dt) const {
-      return done + 1 == count ? end : start + static_cast<double>(done + 1) * dt;
-    }
-  };
+  // step.cpp
+  void move_on(double time);
+  void choose_step(double stop);
+  void step(double end);
+  void form_rates();
+  void change();
+  void find_neighbours();
+  void correct();
+  void check();
+  void run(Stage, double dt = 0.0);
+  void pass(PassName);
+  void sum(PassName);
+  [[nodiscard]] bool leaves_out_first_kick() const;
+  void happen_until_now();
+  // set_up.cpp
   void set_up(const Scene&, const InitialState&);
   void load(const InitialState&);
-  void restore(const Checkpoint&);
-  [[nodiscard]] Checkpoint state() const;
-  void move_on(double time);
-  void choose_threads(std::chrono::steady_clock::time_point begin);
-  void check();
+  // going_back.cpp
   void keep_good_state();
   void go_back(const Diverged&);
+  // checkpoint.cpp
   [[nodiscard]] std::vector<std::string> layout() const;
-  void plan_events();
-  void happen_until_now();
-  [[nodiscard]] bool stretch_is_over(double stop) const;
-  void plan_stretch(double stop);
-  [[nodiscard]] long steps_to(double time) const;
-  void step(double end);
-  void update_rates();
+  [[nodiscard]] Checkpoint state() const;
+  void restore(const Checkpoint&);
+  // simulation.cpp
+  void set_bound();
   [[nodiscard]] Resting resting() const;
-  void change();
-  void update_lists();
-  [[nodiscard]] bool outdated() const;
-  void follow_halo();
-  void mark_copies();
-  void pass(PassName);
-  [[nodiscard]] Ledger own_ledger() const;
-  [[nodiscard]] TimeStepBound next_bound() const;
-  void refuse_large_step() const;
-  template <class... Args>
-  void run(void (Effect::*stage)(World&, Args...), Args... args) {
-    for (const Active& a : effects_) {
-      const DeclaredView view(world_, a);
-      (a.effect.get()->*stage)(world_, args...);
-    }
-  }
 
   World world_;
   SimulationOptions options_;
-  StageClock clock_{options_.stage_seconds};
   ThreadChoice threads_{options_.threads};
-  long pushed_aside_ = 0;  ///< as counted after the last step
   std::vector<Active> effects_;
   Passes passes_;
-  std::vector<Moment> moments_;  ///< in order of time
-  std::size_t next_moment_ = 0;
-  Stretch stretch_;
-  double dt_ = 0.0, pairs_ = 0.0;
-  TimeStepBound bound_;
+  Sharing sharing_{options_.skin};
+  Schedule schedule_;
+  double dt_ = 0.0;      ///< length of the steps of this stretch [s]
+  double pairs_ = 0.0;   ///< directed pairs that rate passes have visited
+  TimeStepBound bound_;  ///< as last asked for
   long steps_ = 0;
   GuardMemory guards_;
   Enclosure enclosure_;
   Recovery recovery_;
-  std::vector<Vec3>
-      shared_at_;       ///< where particles were when they were last shared out, by row; of scenes without neighbour lists
   InitialState start_;  ///< what a run that recovers is set up from again; else empty
 };
 

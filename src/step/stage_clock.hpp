@@ -14,25 +14,24 @@ inline constexpr std::array<std::string_view, 11> stage_names{"kick",  "drift", 
 /// Wall seconds that each stage took since they were last set to zero, in the order of Stage.
 using StageSeconds = std::array<double, stage_names.size()>;
 
-/// Gives the time since its last call to the stage that just ended. Without a sink it never looks at the clock: two readings cost
-/// more than a step of a few particles.
-class StageClock {
+/// Adds the time from here to the end of the block to a stage. Without a sink it never looks at the clock: two readings cost more
+/// than a step of a few particles.
+class StageTimer {
  public:
-  explicit StageClock(StageSeconds* sink = nullptr) : sink_(sink) {}
-  void start() {
-    if (sink_) last_ = Clock::now();
+  StageTimer(StageSeconds* sink, Stage stage) : sink_(sink), stage_(stage) {
+    if (sink_) begin_ = Clock::now();
   }
-  void ends(Stage stage) {
-    if (!sink_) return;
-    const auto now = Clock::now();
-    (*sink_)[static_cast<std::size_t>(stage)] += std::chrono::duration<double>(now - last_).count();
-    last_ = now;
+  ~StageTimer() {
+    if (sink_) (*sink_)[static_cast<std::size_t>(stage_)] += std::chrono::duration<double>(Clock::now() - begin_).count();
   }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
 
  private:
   using Clock = std::chrono::steady_clock;
   StageSeconds* sink_;
-  Clock::time_point last_{};
+  Stage stage_;
+  Clock::time_point begin_{};
 };
 
 }  // namespace tripoint

@@ -13,12 +13,19 @@ constexpr double busy =
     20.0;  ///< times a second that a thread is pushed aside on a machine that has other work; alone it is a few
 constexpr double much_less = 0.9;  ///< a change must save a tenth
 
-}  // namespace
-
+/// How often threads of this process lost their core to others until now.
 long times_pushed_aside() {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
   return used.ru_nivcsw;
+}
+
+}  // namespace
+
+void ThreadChoice::end_step() {
+  const long pushed = times_pushed_aside();
+  took(std::chrono::duration<double>(Clock::now() - begin_).count(), pushed - pushed_aside_);
+  pushed_aside_ = pushed;
 }
 
 void ThreadChoice::took(double seconds, long pushed_aside) {

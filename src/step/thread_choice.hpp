@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <chrono>
 
 namespace tripoint {
 
@@ -14,6 +15,9 @@ class ThreadChoice {
   /// @param seconds wall time that it took   @param pushed_aside how often a thread of this process lost its core to others
   /// meanwhile
   void took(double seconds, long pushed_aside);
+  /// The same, measured from begin_step() to end_step().
+  void begin_step() { begin_ = Clock::now(); }
+  void end_step();
 
  private:
   /// Steps with the same threads, long enough to be compared with others.
@@ -23,6 +27,7 @@ class ThreadChoice {
     [[nodiscard]] bool is_long_enough() const noexcept { return steps >= 4 && seconds >= 0.05; }
     [[nodiscard]] double step() const noexcept { return seconds / static_cast<double>(steps); }
   };
+  using Clock = std::chrono::steady_clock;
   void judge();
 
   int most_, now_;
@@ -31,9 +36,8 @@ class ThreadChoice {
   double other_ = 0.0;     ///< a step with the choice before, while trying [s]
   double settled_ = 0.0;   ///< since the last comparison [s]
   double patience_ = 0.0;  ///< from one comparison to the next; longer while nothing changes [s]
+  Clock::time_point begin_{};
+  long pushed_aside_ = 0;  ///< times, as counted after the last step
 };
-
-/// How often threads of this process lost their core to others until now.
-[[nodiscard]] long times_pushed_aside();
 
 }  // namespace tripoint

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <vector>
+
+#include "assembly/all_effects.hpp"
+#include "assembly/declared_view.hpp"
+
+namespace tripoint {
+
+/// Visits the effects of a scene in the order of the one list; each sees the columns that it has declared, and no other.
+/// @param visit called as visit(Effect&)
+template <class Visit>
+void for_each_effect(const World& world, const std::vector<Active>& effects, Visit visit) {
+  for (const Active& a : effects) {
+    const DeclaredView view(world, a);
+    visit(*a.effect);
+  }
+}
+
+}  // namespace tripoint

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "step/ledger_sum.hpp"
+
+#include "step/each_effect.hpp"
+
+namespace tripoint {
+
+Ledger own_ledger(const World& world, const std::vector<Active>& effects) {
+  Ledger sum;
+  const auto m = world.particles[field::mass];
+  for (std::size_t id = 0; id < m.size(); ++id)
+    if (const std::size_t row = world.particles.row(id); world.owns(row)) sum.mass += m[row];
+  for_each_effect(world, effects, [&](const Effect& effect) { effect.add_to(world, sum); });
+  close_ledger(world, sum);
+  return sum;
+}
+
+Ledger ledger_of_all(const World& world, const std::vector<Active>& effects) {
+  Ledger sum = own_ledger(world, effects);
+  if (!world.halo) return sum;
+  std::vector<double> numbers{sum.mass};
+  for (const Vec3* v : {&sum.momentum, &sum.angular_momentum}) numbers.insert(numbers.end(), {v->x, v->y, v->z});
+  for (const auto& [entry, energy] : sum.energy) numbers.push_back(energy);
+  world.halo->add(numbers);
+  sum.mass = numbers[0];
+  sum.momentum = {numbers[1], numbers[2], numbers[3]};
+  sum.angular_momentum = {numbers[4], numbers[5], numbers[6]};
+  std::size_t next = 7;
+  for (auto& [entry, energy] : sum.energy) energy = numbers[next++];
+  return sum;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "step/resting.hpp"
+
+#include <algorithm>
+
+#include "world/body_table.hpp"
+
+namespace tripoint {
+
+Resting fixed_bodies(const World& world, double beyond) {
+  Resting rest{std::vector<char>(world.bodies.size()), beyond};
+  for (std::size_t b = 0; b < rest.bodies.size(); ++b) {
+    if (!is_alive(world, b) || !is_rigid(world, b)) continue;
+    rest.bodies[b] = world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed);
+    if (!rest.bodies[b] && !world.placed) return {};  // as it moves for the first time, all are put to their places
+  }
+  if (std::ranges::find(rest.bodies, 1) == rest.bodies.end()) return {};
+  return rest;
+}
+
+}  // namespace tripoint

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The world of a scene before its first step: fields, particles, bodies, bonds, neighbours.
+#include <algorithm>
+
+#include "core/errors.hpp"
+#include "scene/effect_rule.hpp"
+#include "solids/solid_particles.hpp"
+#include "step/each_effect.hpp"
+#include "step/simulation.hpp"
+#include "world/body_table.hpp"
+
+namespace tripoint {
+namespace {
+
+PeriodicBox box_of(const Scene& scene) {
+  PeriodicBox box;
+  box.periodic = scene.periodic;
+  if (!box.any()) return box;
+  if (!scene.min || !scene.max) throw InputError("a periodic scene needs the domain's min and max");
+  box.min = *scene.min;
+  box.width = *scene.max - *scene.min;
+  return box;
+}
+
+/// Whether no particle can ever move: then lists need no skin and are never built anew.
+bool is_static(const Scene& scene, const InitialState& initial) {
+  const auto at_rest = [](const Vec3& v) { return v == Vec3{}; };
+  if (!scene.inflows.empty()) return false;
+  if (std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid && b.motion != Motion::fixed; }))
+    return false;
+  if (calls_for(scene, "phase")) return false;
+  const bool all_fixed = std::ranges::all_of(scene.bodies, [](const Body& b) { return b.motion == Motion::fixed; });
+  if (all_fixed) return scene.events.empty();
+  const bool none_prescribed = std::ranges::none_of(scene.bodies, [](const Body& b) { return b.motion == Motion::prescribed; });
+  return none_prescribed && at_rest(scene.gravity) && std::ranges::all_of(initial.velocity, at_rest) && scene.events.empty();
+}
+
+/// Whether liquids and what is fixed are all that there is, laid at rest.
+bool is_still(const Scene& scene, const InitialState& initial) {
+  const auto rests = [](const Body& b) { return b.phase == Phase::liquid || b.motion == Motion::fixed; };
+  return scene.inflows.empty() && scene.events.empty() && std::ranges::all_of(scene.bodies, rests) &&
+         std::ranges::all_of(initial.velocity, [](const Vec3& v) { return v == Vec3{}; });
+}
+
+std::vector<FieldInfo> fields_of(const Scene& scene, const std::vector<Active>& effects) {
+  std::vector<FieldInfo> fields = common_fields(scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
+  if (can_have_bodies(scene)) {
+    const std::vector<FieldInfo> table = body_table_fields();
+    fields.insert(fields.end(), table.begin(), table.end());
+  }
+  for (const Active& a : effects) fields.insert(fields.end(), a.spec.owns.begin(), a.spec.owns.end());
+  return fields;
+}
+
+}  // namespace
+
+void Simulation::set_up(const Scene& scene, const InitialState& initial) {
+  world_.scene = scene;
+  world_.threads = options_.threads;
+  world_.axis_order = options_.axis_order;
+  world_.box = box_of(scene);
+  world_.halo = options_.halo;
+  declare(world_, effects_);
+  guards_.still = is_still(scene, initial);
+  load(initial);
+  enclosure_ = enclosure_of(scene, initial);
+  if (passes_.needed()) {
+    PeriodicBox seen = world_.box;
+    for (std::size_t a = 0; a < 3 && world_.halo; ++a) seen.periodic[a] = seen.periodic[a] && !world_.halo->splits()[a];
+    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), seen,
+                              options_.threads, passes_.lanes());
+  }
+  schedule_ = Schedule(scene.events);
+}
+
+void Simulation::load(const InitialState& initial) {
+  const std::vector<FieldInfo> fields = fields_of(world_.scene, effects_);
+  world_.particles = Particles(initial.size(), fields);
+  world_.bodies = Columns(0, Per::body, fields);
+  Particles& p = world_.particles;
+  const auto x = positions(p), v = velocities(p);
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    x.set(i, initial.position[i]);
+    v.set(i, initial.velocity[i]);
+    p[field::mass][i] = initial.mass[i];
+    p[field::phase][i] = initial.phase[i];
+    p[field::body][i] = initial.body[i];
+    p[field::material][i] = initial.material[i];
+    p[field::source][i] = initial.source[i];
+  }
+  add_scene_bodies(world_);
+  solid::connect_solids(world_);
+  for_each_effect(world_, effects_, [&](Effect& effect) { effect.load(world_, initial); });
+}
+
+}  // namespace tripoint

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The step: kick, drift, kick (docs/model.md, chapter 9). What a stage does is in the effects; here is the order.
+#include <cassert>
+
+#include "step/each_effect.hpp"
+#include "step/guard.hpp"
+#include "step/ledger_sum.hpp"
+#include "step/simulation.hpp"
+#include "step/step_length.hpp"
+
+namespace tripoint {
+
+/// Rates and dt_ hold for the time on entry, and again on exit, at `end` [s].
+void Simulation::step(double end) {
+  world_.next_time = end;
+  if (!leaves_out_first_kick()) run(Stage::kick, 0.5 * dt_);  // v of particles, v and L of rigid bodies (18)
+  run(Stage::drift, dt_);  // r; rotation (19), (20); prescribed motion; T or H by its rate (21)
+  world_.time = end;
+  form_rates();
+  correct();                    // second stage of heat
+  run(Stage::kick, 0.5 * dt_);  // by the rates of `end`
+  ++steps_;
+  check();
+}
+
+/// All rates of the present state: forces, torques and flows of heat.
+void Simulation::form_rates() {
+  change();                                   // Fig. 5: melt, solidify, merge, split, fracture, before any rate of the new time
+  find_neighbours();                          // lists, where a particle has moved by half the skin
+  if (world_.moved) pass(PassName::density);  // (4), moments: of places only
+  run(Stage::state);                          // (9), walls; strain and stress (11), (14), (15), plastic flow
+  world_.moved = false;
+  pass(PassName::rates);  // (7), (8), (21)
+  run(Stage::bonds);      // (12), hourglass
+}
+
+/// One step towards `time` [s], then the events of its end.
+void Simulation::move_on(double time) {
+  choose_step(schedule_.stop_before(time));
+  step(schedule_.next_end(dt_));
+  schedule_.count_step();
+  happen_until_now();
+  if (world_.scene.recovers && steps_ % Recovery::steps_between_states == 0) keep_good_state();
+}
+
+/// Steps stay equal up to `stop` [s], but for a bound that has shrunk below them.
+void Simulation::choose_step(double stop) {
+  const StageTimer timer(options_.stage_seconds, Stage::bound);
+  if (!schedule_.needs_plan(stop) && !(least_bound(world_, effects_).dt < dt_)) return;
+  set_bound();
+  check_step(world_, bound_, guards_);
+  dt_ = schedule_.plan(world_.time, stop, steps_to(world_, stop, bound_, recovery_.share()));
+}
+
+/// One stage of all effects.
+void Simulation::run(Stage stage, double dt) {
+  const StageTimer timer(options_.stage_seconds, stage);
+  for_each_effect(world_, effects_, [&](Effect& effect) {
+    switch (stage) {
+      case Stage::kick:
+        return effect.kick(world_, dt);
+      case Stage::drift:
+        return effect.drift(world_, dt);
+      case Stage::state:
+        return effect.state(world_);
+      case Stage::bonds:
+        return effect.bonds(world_);
+      default:
+        assert(false && "this stage is more than one call of each effect");
+    }
+  });
+}
+
+/// One pass over pairs.
+void Simulation::pass(PassName name) {
+  const StageTimer timer(options_.stage_seconds, name == PassName::density ? Stage::density : Stage::rates);
+  sum(name);
+}
+
+void Simulation::sum(PassName name) {
+  if (!passes_.needed()) return;
+  for_each_effect(world_, effects_, [&](Effect& effect) { effect.clear(world_, name); });
+  passes_.run(name, world_);
+  if (name != PassName::density) pairs_ += static_cast<double>(world_.neighbours->entries());
+}
+
+/// What changes its phase, its body or its lists: decided by some effects, followed by all, and then settled.
+void Simulation::change() {
+  const StageTimer timer(options_.stage_seconds, Stage::change);
+  world_.change = {};
+  for_each_effect(world_, effects_, [&](Effect& effect) { effect.change(world_); });
+  if (world_.change.empty()) return;
+  for_each_effect(world_, effects_, [&](Effect& effect) { effect.adopt(world_); });
+  for_each_effect(world_, effects_, [&](Effect& effect) { effect.settle(world_); });
+  world_.moved = true;
+}
+
+void Simulation::find_neighbours() {
+  const StageTimer timer(options_.stage_seconds, Stage::search);
+  sharing_.follow(world_, effects_);
+  if (!world_.neighbours) return;
+  world_.neighbours->update(world_.particles, world_.time, [this] { return resting(); });
+  if (world_.halo && !world_.neighbours->marked()) mark_copies(world_);
+  if (world_.neighbours->marked() && world_.change.empty()) return;
+  world_.neighbours->mark_own(world_.particles, world_.own);
+  passes_.forget_clusters();
+}
+
+/// The second stage of two-stage schemes, and where one asks for it the rates of heat at the predicted state.
+void Simulation::correct() {
+  const StageTimer timer(options_.stage_seconds, Stage::correct);
+  bool again = false;
+  for_each_effect(world_, effects_, [&](Effect& effect) { again = effect.correct(world_, dt_) || again; });
+  if (again) sum(PassName::heat);
+}
+
+/// Guards, none of which changes anything; energy is summed over all particles and bonds, so only now and then.
+void Simulation::check() {
+  constexpr long steps_between_ledgers = 128, steps_between_looks = 32;
+  const StageTimer timer(options_.stage_seconds, Stage::check);
+  check_finite(world_);
+  if (enclosure_.given || steps_ % steps_between_looks == 0) check_escape(world_, enclosure_);
+  for_each_effect(world_, effects_, [&](const Effect& effect) { effect.check(world_); });
+  if (steps_ % steps_between_ledgers != 0) return;
+  double start_potential = world_.booked[account::start_potential];
+  if (world_.halo) world_.halo->add({&start_potential, 1});
+  check_energy(world_, ledger(), start_potential, dt_, guards_);
+}
+
+/// The paper's leapfrog starts a run so.
+bool Simulation::leaves_out_first_kick() const { return steps_ == 0 && world_.scene.mode_of(Term::time) == Mode::paper; }
+
+/// Events of the present time, between two steps: the state is whole, and rates are then formed anew.
+void Simulation::happen_until_now() {
+  bool any = false;
+  while (const Schedule::Moment* const m = schedule_.next_until(world_.time)) {
+    const Happening now{world_.scene.events[m->event], m->begins};
+    for_each_effect(world_, effects_, [&](Effect& effect) { effect.happen(world_, now); });
+    any = true;
+  }
+  if (!any) return;
+  world_.moved = true;
+  passes_.forget_clusters();
+  form_rates();
+  check_finite(world_);
+}
+
+}  // namespace tripoint

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "step/step_length.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "step/each_effect.hpp"
+#include "step/guard.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr double most_steps = 1e12;  ///< of a run: years on any machine, and still far below what a counter holds
+
+}  // namespace
+
+TimeStepBound least_bound(const World& world, const std::vector<Active>& effects) {
+  TimeStepBound least;
+  for_each_effect(world, effects, [&](const Effect& effect) {
+    const TimeStepBound bound = effect.max_dt(world);
+    tighten(least, bound.dt, bound.name);
+  });
+  if (world.halo) world.halo->take_least(least.dt, least.name);
+  return least;
+}
+
+long steps_to(const World& world, double time, const TimeStepBound& bound, double share) {
+  const auto& given = world.scene.time_step;
+  const double length = time - world.time, most = share * given.value_or(bound.dt);
+  if (length > most_steps * most) refuse_small_step(world, most, length, given ? "scene" : bound.name);
+  return std::max(1L, static_cast<long>(std::ceil(length / most - 1e-9)));
+}
+
+void refuse_above_bound(const World& world, double step, const TimeStepBound& bound, bool begun) {
+  if (step <= bound.dt * (1.0 + 1e-9)) return;
+  if (begun) refuse_step(world, step, bound.dt, bound.name);
+  throw InputError(
+      fmt::format("time_step {:.4g} s is above the bound of {}, {:.4g} s: make it smaller, or run all the same with "
+                  "[engines.tripoint] settings = {{ force_time_step = true }}",
+                  step, bound.name, bound.dt));
+}
+
+void refuse_endless_run(const Scene& scene, const TimeStepBound& first) {
+  const double step = scene.time_step.value_or(first.dt);
+  if (scene.end_time <= most_steps * step) return;
+  throw InputError(
+      fmt::format("the run would take {:.3g} steps: its first step is {:.3g} s, set by {}, and it ends at {:.3g} s; at most "
+                  "{:.0e} can be made",
+                  scene.end_time / step, step, scene.time_step ? "the scene" : first.name, scene.end_time, most_steps));
+}
+
+}  // namespace tripoint
