@@ -23,7 +23,6 @@ struct Star {
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     const auto any = [&] { return uniform(random); };
     const auto vector = [&] { return Vec3{any(), any(), any()}; };
-    const auto column = [&](Column& c) { c = {any(), any(), any(), any()}; };
     const auto bond = [&](double slope) {
       Bond b;
       b.x = vector(), b.gradient = slope * b.x, b.weight = any();
@@ -33,8 +32,10 @@ struct Star {
     lists.follow(bonds);
     places.resize(partners + 1), deformed.resize(partners + 1);
     for (Place& p : places) p = {vector(), 1.0 + any()};
-    for (Deformed& d : deformed)
-      for (Column* c : {&d.strained.x, &d.strained.y, &d.strained.z, &d.T.x, &d.T.y, &d.T.z}) column(*c);
+    for (Deformed& d : deformed) {
+      d.measure = {{any(), any(), any(), any()}, {any(), any(), any(), any()}, {any(), any(), any(), any()}};
+      d.T = {{any(), any(), any(), any()}, {any(), any(), any(), any()}, {any(), any(), any(), any()}};
+    }
   }
   [[nodiscard]] std::vector<Vec3> results(const BondSums& sum) const {
     const PeriodicWidths box{{0.5, 0.6, 0.7, 1.0}, {1.0, 1.2, 1.4, 0.0}};

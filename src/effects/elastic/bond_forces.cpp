@@ -37,7 +37,7 @@ Matrix3 flat_hourglass(const World& world, const Deformations& all, std::uint32_
   return -1.0 * (F * sum);
 }
 
-/// Sets T = (v F S + H) A, where H is until then, and the force of each particle's own energy on it.
+/// Sets T = (v F S + H) A, and the force of each particle's own energy on it.
 class Stresses {
  public:
   Stresses(World& world, const ElasticForms& forms, Deformations& all)
@@ -46,16 +46,13 @@ class Stresses {
         constants_(forms.constants(world)),
         force_(triple(world.particles, field::elastic_force_x, field::elastic_force_y, field::elastic_force_z)) {}
   void none(std::size_t row) { force_.set(row, {}); }
-  /// @param total strain   @param elastic the same less what has flowed   @param A shape inverse   @param P projector on its
+  /// @param now F - I and H   @param elastic strain less what has flowed   @param A shape inverse   @param P projector on its
   /// range
-  void set(std::size_t row, std::size_t id, const Symmetric& total, const Symmetric& elastic, const Symmetric& A,
+  void set(std::size_t row, std::size_t id, const BeforeFlow& now, const Symmetric& elastic, const Symmetric& A,
            const Symmetric& P, int rank) {
-    Deformed& i = all_.deformed[id];
     const Symmetric S = forms_.stress(elastic, P, rank, constants_(row));
-    const Matrix3 T =
-        ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + Matrix3(i.strained)) * S) + Matrix3(i.T)) * A;
-    i.T = T;
-    if (rank != 3) i.strained = full(total);
+    const Matrix3 T = ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + now.G) * S) + now.H) * A;
+    elastic::set(all_.deformed[id].T, T);
     force_.set(row, T * all_.reference[id].gradient + all_.hourglass_force[id]);
   }
 
@@ -67,7 +64,7 @@ class Stresses {
 };
 
 /// det F of a solid.
-double volume_ratio(const Deformed& i) { return determinant(identity3 + Matrix3(i.strained)); }
+double volume_ratio(const Deformed& i) { return determinant(identity3 + matrix(i.measure)); }
 
 bool flows(const World& world) { return world.particles.has(field::plastic_strain_xx.name); }
 
@@ -102,25 +99,29 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
     const int rank = rank_of[row];
     const double volume = all.places[id].volume;
     const Symmetric A = shape.at(row), P = forms.projector(A, rank);
-    const Matrix3 F = solid::deformation_gradient(sums.displacement, A), G = F - identity3;
+    const Matrix3 F = solid::deformation_gradient(sums.displacement, A);
+    BeforeFlow now{F - identity3, {}};
     const Symmetric strain = forms.strain(F, P, rank);
     strain_of.set(row, strain);
     Deformed& i = all.deformed[id];
     i = {};
-    i.strained = G;
+    elastic::set(i.measure, rank == 3 ? now.G : full(strain));
     all.hourglass_force[id] = {};
-    if (hourglass) {
-      const double stiff = 0.5 * forms.hourglass() * constants(row).young;
-      i.set_hourglass(rank == 3 ? stiff : 0.0, rank == 3 ? 0.0 : stiff, volume);
-      if (rank == 3) {
-        i.T = (stiff * volume) * (G * reference.moment + sums.swept);
-        all.hourglass_force[id] = (volume * stiff) * (G * reference.hourglass + sums.residual);
-      } else {
-        i.T = flat_hourglass(world, all, id, stiff, strain, P, F);
-      }
+    const double stiff = hourglass ? 0.5 * forms.hourglass() * constants(row).young : 0.0;
+    if (hourglass && rank == 3) {
+      i.T.x.hourglass = stiff;
+      i.measure.x.hourglass_energy = volume * stiff;
+      now.H = (stiff * volume) * (now.G * reference.moment + sums.swept);
+      all.hourglass_force[id] = (volume * stiff) * (now.G * reference.hourglass + sums.residual);
+    } else if (hourglass) {
+      i.T.y.hourglass = stiff;
+      now.H = flat_hourglass(world, all, id, stiff, strain, P, F);
     }
     if (rank == 3) least = std::min(least, volume_ratio(i));
-    if (at_once) stresses.set(row, id, strain, strain, A, P, rank);
+    if (at_once)
+      stresses.set(row, id, now, strain, A, P, rank);
+    else
+      all.before_flow[id] = now;
   }
   all.least_volume_ratio = least;
 }
@@ -136,9 +137,9 @@ void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (!owns(row) || !world.owns(row)) continue;
     const int rank = rank_of[row];
-    const Symmetric A = shape.at(row), P = forms.projector(A, rank), total = strain_of.at(row),
-                    elastic = total - plastic_of.at(row);
-    stresses.set(row, static_cast<std::size_t>(id_of[row]), total, rank == 3 ? elastic : between(P, elastic), A, P, rank);
+    const Symmetric A = shape.at(row), P = forms.projector(A, rank), elastic = strain_of.at(row) - plastic_of.at(row);
+    const auto id = static_cast<std::size_t>(id_of[row]);
+    stresses.set(row, id, all.before_flow[id], rank == 3 ? elastic : between(P, elastic), A, P, rank);
   }
 }
 
@@ -146,12 +147,13 @@ void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
 Vec3 force_of(const Deformations& all, std::uint32_t k, std::uint32_t l, const Bond& of_k, const Vec3& r_lk) {
   const Deformed& d = all.deformed[k];
   const double volume = all.places[l].volume;
-  Vec3 f = -volume * (Matrix3(d.T) * of_k.gradient);
+  Vec3 f = -volume * (matrix(d.T) * of_k.gradient);
   const double w = all.places[k].volume * volume * of_k.weight / dot(of_k.x, of_k.x);
-  if (d.solid_hourglass() != 0.0)
-    f += (d.solid_hourglass() * w) * solid::hourglass_residual(identity3 + Matrix3(d.strained), -of_k.x, r_lk);
-  if (d.flat_hourglass() != 0.0)
-    f -= (d.flat_hourglass() * w * solid::hourglass_residual_flat(symmetric_part(d.strained), -of_k.x, r_lk)) * r_lk;
+  const double solid_hourglass = d.T.x.hourglass, flat_hourglass = d.T.y.hourglass;
+  const Matrix3 measure = matrix(d.measure);
+  if (solid_hourglass != 0.0) f += (solid_hourglass * w) * solid::hourglass_residual(identity3 + measure, -of_k.x, r_lk);
+  if (flat_hourglass != 0.0)
+    f -= (flat_hourglass * w * solid::hourglass_residual_flat(symmetric_part(measure), -of_k.x, r_lk)) * r_lk;
   return f;
 }
 
@@ -197,8 +199,8 @@ void add_all(World& world, const ElasticForms& forms, const Deformations& all) {
 void hand_deformed_to_copies(const World& world, Deformations& all) {
   if (!world.halo) return;
   constexpr std::size_t each = sizeof(Deformed) / sizeof(double);
-  static_assert(std::is_standard_layout_v<Deformed> && std::is_trivially_copyable_v<Column>);
-  double* const first = all.deformed.empty() ? nullptr : &all.deformed.front().strained.x.x;
+  static_assert(std::is_standard_layout_v<Deformed> && std::is_trivially_copyable_v<Deformed>);
+  double* const first = all.deformed.empty() ? nullptr : &all.deformed.front().measure.x.x;
   world.halo->refresh({first, all.deformed.size() * each}, each);
 }
 
@@ -211,6 +213,7 @@ bool set_places(World& world, Deformations& all) {
   all.places.resize(p.size());
   all.deformed.resize(p.size());
   all.hourglass_force.resize(p.size());
+  if (flows(world)) all.before_flow.resize(p.size());
   all.reference.resize(p.size());
   all.owns.resize(p.size());
   const solid::EnergyOwners owns(world);

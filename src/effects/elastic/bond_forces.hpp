@@ -7,6 +7,12 @@
 /// id.
 namespace tripoint::elastic {
 
+/// What waits for plastic flow, which comes between strain and stress.
+struct BeforeFlow {
+  Matrix3 G;  ///< F - I [1]
+  Matrix3 H;  ///< sum_j c_ij (F x_ji - r_ji) x_ji^T of the hourglass energy [N m]
+};
+
 /// Memory of the passes. `reference` is kept until bonds, volumes or owners change; the rest is filled anew each step.
 struct Deformations {
   BondLists lists;
@@ -14,6 +20,7 @@ struct Deformations {
   AlignedVector<Deformed> deformed;      ///< by id, of what has bonds or owns strain energy
   std::vector<ReferenceSums> reference;  ///< by id, the same
   std::vector<Vec3> hourglass_force;     ///< by id: force of a particle's own hourglass energy on it, of a solid [N]
+  std::vector<BeforeFlow> before_flow;   ///< by id, where matter can flow between strain and stress; else empty
   double least_volume_ratio = 1.0;       ///< least det F of a solid
   std::vector<char> owns;                ///< by id, 1 where it owns strain energy
 };

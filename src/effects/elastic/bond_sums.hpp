@@ -25,18 +25,14 @@ struct Quad {
 };
 #endif
 
-/// A column of a matrix; a number that has nothing to do with it may be stored in the fourth lane.
+/// A column of a matrix, as wide as a vector of four.
 struct alignas(sizeof(Quad)) Column {
-  double x = 0.0, y = 0.0, z = 0.0, fourth = 0.0;
+  double x = 0.0, y = 0.0, z = 0.0, unused = 0.0;
   operator Vec3() const noexcept { return {x, y, z}; }
 };
 /// A matrix by columns.
 struct Columned {
   Column x, y, z;
-  Columned& operator=(const Matrix3& a) noexcept {
-    x.x = a.xx, x.y = a.yx, x.z = a.zx, y.x = a.xy, y.y = a.yy, y.z = a.zy, z.x = a.xz, z.y = a.yz, z.z = a.zz;
-    return *this;
-  }
   operator Matrix3() const noexcept { return {x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z}; }
 };
 
@@ -46,22 +42,44 @@ struct alignas(sizeof(Quad)) Place {
   double volume = 0.0;
 };
 
-/// What the partners of a particle see of it: three lines of the cache.
+/// What the partners of a particle see of it: two matrices by columns, and the moduli of its hourglass energy, in three lines of
+/// the cache. Each line is read as two vectors of four.
 struct alignas(vector_bytes) Deformed {
-  Columned strained;  ///< F - I; with the stress, that of a sheet or chain becomes its strain
-  Columned
-      T;  ///< H until the stress is known, then (v F S + H) A: force of i on j is -v_j T gradW(x_ij), and of the residual [N m]
-  /// a E/2 where the hourglass energy is that of a solid, else 0 [Pa].
-  [[nodiscard]] double solid_hourglass() const noexcept { return T.x.fourth; }
-  /// a E/2 where it is that of a sheet or chain, else 0 [Pa].
-  [[nodiscard]] double flat_hourglass() const noexcept { return T.y.fourth; }
-  /// v_i solid_hourglass() [J].
-  [[nodiscard]] double hourglass_energy() const noexcept { return strained.x.fourth; }
-  /// @param solid,flat a E/2 of the one form that holds, 0 of the other [Pa]   @param volume v_i [m3]
-  void set_hourglass(double solid, double flat, double volume) noexcept {
-    T.x.fourth = solid, T.y.fourth = flat, strained.x.fourth = volume * solid;
-  }
+  struct alignas(sizeof(Quad)) ColumnAndEnergy {
+    double x = 0.0, y = 0.0, z = 0.0;
+    double hourglass_energy = 0.0;  ///< v_i a E/2 where the hourglass energy is that of a solid, else 0 [J]
+  };
+  struct alignas(sizeof(Quad)) ColumnAndSolid {
+    double x = 0.0, y = 0.0, z = 0.0;
+    double hourglass = 0.0;  ///< a E/2 where the hourglass energy is that of a solid, else 0 [Pa]
+  };
+  struct alignas(sizeof(Quad)) ColumnAndFlat {
+    double x = 0.0, y = 0.0, z = 0.0;
+    double hourglass = 0.0;  ///< a E/2 where it is that of a sheet or chain, else 0 [Pa]
+  };
+  /// What the hourglass energy measures bonds by: F - I of a solid, the strain of a sheet or chain.
+  struct Measure {
+    ColumnAndEnergy x;
+    Column y, z;
+  } measure;
+  /// (v F S + H) A: the force of i on j is -v_j T gradW(x_ij), and that of the residual [N m].
+  struct Traction {
+    ColumnAndSolid x;
+    ColumnAndFlat y;
+    Column z;
+  } T;
 };
+/// Measure or Traction as a matrix.
+template <class Columns>
+[[nodiscard]] inline Matrix3 matrix(const Columns& a) noexcept {
+  return {a.x.x, a.y.x, a.z.x, a.x.y, a.y.y, a.z.y, a.x.z, a.y.z, a.z.z};
+}
+template <class Columns>
+inline void set(Columns& to, const Matrix3& a) noexcept {
+  to.x.x = a.xx, to.x.y = a.yx, to.x.z = a.zx;
+  to.y.x = a.xy, to.y.y = a.yy, to.y.z = a.zy;
+  to.z.x = a.xz, to.z.y = a.yz, to.z.z = a.zz;
+}
 static_assert(sizeof(Deformed) == 3 * vector_bytes);
 
 /// Half of the box and the box where a direction is periodic, infinity and 0 where it is not [m].
@@ -226,12 +244,12 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
     if constexpr (hourglass) {
       Quads G;
       Quad u, r;
-      load(G.x, &j.strained.x), load(G.y, &j.strained.y), load(G.z, &j.strained.z);
+      load(G.x, &j.measure.x), load(G.y, &j.measure.y), load(G.z, &j.measure.z);
       load(u, &bond), load(r, &places[list.other[n]]);
       r = i - r;
       nearest<periodic>(r, box);
       u += r;
-      of_hourglass -= (j.hourglass_energy() * bond.hourglass) * (x.x * G.x + x.y * G.y + x.z * G.z + u);
+      of_hourglass -= (j.measure.x.hourglass_energy * bond.hourglass) * (x.x * G.x + x.y * G.y + x.z * G.z + u);
     }
   }
   store(&out.stress, stress), store(&out.hourglass, of_hourglass);
