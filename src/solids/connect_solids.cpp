@@ -112,8 +112,10 @@ Bond bond_of(const ElasticityKernel& kernel, const Vec3& x) {
 
 double own_weight(const Scene& scene, double distance) { return WendlandC2(scene.support_ratio * scene.spacing).value(distance); }
 
-Vec3 separation(const World& world, std::size_t i, std::size_t j) {
-  return nearest_image(world.box, world.particles.position(j) - world.particles.position(i));
+Vec3 separation(const World& world, std::size_t i, std::size_t j, double back) {
+  const Particles& p = world.particles;
+  const auto place = [&](std::size_t row) { return back == 0.0 ? p.position(row) : p.position(row) - back * p.velocity(row); };
+  return nearest_image(world.box, place(j) - place(i));
 }
 
 void connect_solids(World& world) {

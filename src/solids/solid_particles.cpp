@@ -206,7 +206,7 @@ void refresh_shapes(World& world, std::span<const std::uint32_t> ids, bool first
   }
 }
 
-Deformation deformation_of(const World& world, const ElasticForms& forms, std::uint32_t id) {
+Deformation deformation_of(const World& world, const ElasticForms& forms, std::uint32_t id, double back) {
   const Particles& p = world.particles;
   const std::size_t i = p.row(id);
   Deformation d;
@@ -217,7 +217,7 @@ Deformation deformation_of(const World& world, const ElasticForms& forms, std::u
   Matrix3 sum;
   for (const Bond& b : world.bonds.of(id)) {
     const std::size_t j = p.row(b.other);
-    sum = sum + outer(separation(world, i, j) + b.x, volume[j] * b.gradient);
+    sum = sum + outer(separation(world, i, j, back) + b.x, volume[j] * b.gradient);
   }
   d.F = deformation_gradient(sum, A);
   d.P = forms.projector(A, d.rank);
@@ -227,11 +227,11 @@ Deformation deformation_of(const World& world, const ElasticForms& forms, std::u
 
 Deformation deformation_of(const World& world, std::uint32_t id) { return deformation_of(world, ElasticForms(world.scene), id); }
 
-DeformationEnergy deformation_energy(const World& world, const ElasticForms& forms, std::uint32_t id) {
+DeformationEnergy deformation_energy(const World& world, const ElasticForms& forms, std::uint32_t id, double back) {
   const Particles& p = world.particles;
   const std::size_t i = p.row(id);
   if (!EnergyOwners(world)(i)) return {};
-  const Deformation d = deformation_of(world, forms, id);
+  const Deformation d = deformation_of(world, forms, id, back);
   const auto volume = p[field::solid_volume];
   const ElasticConstants c = forms.constants(world, i);
   const Symmetric elastic = between(d.P, d.strain - plastic_strain_of(p, i));
@@ -239,7 +239,7 @@ DeformationEnergy deformation_energy(const World& world, const ElasticForms& for
   if (forms.hourglass() == 0.0) return energy;
   for (const Bond& b : world.bonds.of(id)) {
     const std::size_t j = p.row(b.other);
-    const Vec3 r = separation(world, i, j), x = -b.x;
+    const Vec3 r = separation(world, i, j, back), x = -b.x;
     const Vec3 e = hourglass_residual(d.F, x, r);
     const double flat = hourglass_residual_flat(d.strain, x, r);
     energy.hourglass += 0.25 * forms.hourglass() * c.young * volume[i] * volume[j] * b.weight *

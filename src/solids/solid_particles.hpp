@@ -24,7 +24,8 @@ namespace tripoint::solid {
   return d;
 }
 /// r_j - r_i [m] of the nearest images. @param i,j rows
-[[nodiscard]] Vec3 separation(const World&, std::size_t i, std::size_t j);
+/// @param back a time [s]: places are r - back v, as they were so long before
+[[nodiscard]] Vec3 separation(const World&, std::size_t i, std::size_t j, double back = 0.0);
 
 /// Bonds and own pairs within each deformable body of the scene, and to bodies that it is joined to.
 /// @throws InputError when a periodic direction is too narrow for bonds to be told apart
@@ -146,7 +147,8 @@ void set_plastic_strain(Particles&, std::size_t row, const Symmetric&);
 /// Total strain as the elastic effect last found it.
 [[nodiscard]] Symmetric strain_of(const Particles&, std::size_t row);
 
-[[nodiscard]] Deformation deformation_of(const World&, const ElasticForms&, std::uint32_t id);
+/// @param back as separation() has it [s]
+[[nodiscard]] Deformation deformation_of(const World&, const ElasticForms&, std::uint32_t id, double back = 0.0);
 [[nodiscard]] Deformation deformation_of(const World&, std::uint32_t id);
 
 struct DeformationEnergy {
@@ -154,7 +156,7 @@ struct DeformationEnergy {
   [[nodiscard]] double total() const noexcept { return elastic + hourglass; }
 };
 /// U_i (10) and the hourglass energy of a particle; zero unless it owns some.
-[[nodiscard]] DeformationEnergy deformation_energy(const World&, const ElasticForms&, std::uint32_t id);
+[[nodiscard]] DeformationEnergy deformation_energy(const World&, const ElasticForms&, std::uint32_t id, double back = 0.0);
 [[nodiscard]] DeformationEnergy deformation_energy(const World&, std::uint32_t id);
 
 /// Orientation of a deformable body: the rotation of the sum of its particles' rotations, weighted by mass. It starts at the

@@ -2,7 +2,6 @@
 #include "effects/phase/phase.hpp"
 
 #include <utility>
-#include <vector>
 
 #include "effects/phase/softening.hpp"
 #include "effects/phase/transition.hpp"
@@ -36,19 +35,10 @@ class PhaseChange : public Effect {
 /// What a particle's bonds store half a drift back; nothing where no body can deform. Of the kicks around a drift the first has
 /// the forces of before the change and the second those of after it: what the change itself lets go is, to second order in the
 /// step, the difference half way.
-Account::Energy energy_of(World& world, double back) {
+Account::Energy energy_of(const World& world, double back) {
   if (!world.particles.has(field::shape_rank.name)) return [](std::uint32_t) { return 0.0; };
   return [&world, back, forms = solid::ElasticForms(world.scene)](std::uint32_t id) {
-    const auto x = positions(world.particles), v = velocities(world.particles);
-    std::vector<std::pair<std::size_t, Vec3>> places{{world.particles.row(id), {}}};
-    for (const Bond& bond : std::as_const(world.bonds).of(id)) places.emplace_back(world.particles.row(bond.other), Vec3{});
-    for (auto& [row, place] : places) {
-      place = x.at(row);
-      x.set(row, place - back * v.at(row));
-    }
-    const double energy = solid::deformation_energy(world, forms, id).total();
-    for (const auto& [row, place] : places) x.set(row, place);
-    return energy;
+    return solid::deformation_energy(world, forms, id, back).total();
   };
 }
 
