@@ -161,7 +161,7 @@ bool check_scene(const CheckScene& scene, const EngineEntry& engine, const fs::p
   }
   check_result_file(what, folder / (scene.name + "-1") / "result.json", checks);
   if (!checks.add(what + "runs to the end; times, ids, masses and read-back scene are those of the job",
-                  outcome.status == Status::ok, outcome.status + ": " + outcome.reason))
+                  outcome.status == Status::ok, fmt::format("{}: {}", outcome.status, outcome.reason)))
     return true;
   check_metrics(what, p, outcome, checks);
   if (!engine.deterministic) return true;

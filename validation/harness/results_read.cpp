@@ -100,7 +100,7 @@ class Reader {
   void operator()(const char* key, T& to, const T& /*what is written*/) const {
     (*this)(key, to);
   }
-  void operator()(const char* key, Measured<double> to) const { to.value = number(member(key)); }
+  void operator()(const char* key, NumberOrNull<double> to) const { to.value = number(member(key)); }
   void operator()(const char* key, Stated<double> to) const {
     if (from_.is_object() && from_.contains(key)) to.value = number(member(key));
   }

@@ -23,7 +23,7 @@ class Writer {
     to_[key] = json(instead);
   }
   template <class T>
-  void operator()(const char* key, Measured<T> m) {
+  void operator()(const char* key, NumberOrNull<T> m) {
     to_[key] = number(m.value);
   }
   template <class T>

@@ -103,9 +103,10 @@ std::string totals_text(const Scorecard& card) {
   std::string text = fmt::format("\n{:34} {:>5} {:>5} {:>6} {:>8} {:>8} {:>8} {:>6} {:>9}\n", "engine", "pass", "fail", "known",
                                  "refused", "missing", "crashed", "first", "CPU s");
   for (const auto& s : card.engines)
-    text += fmt::format("{:34} {:5} {:5} {:6} {:8} {:8} {:8} {:6} {:9.2f}\n", s.label(), s.count("pass"),
-                        s.count("fail") + s.count("inconclusive") + s.count("not judged"), s.count("known defect"),
-                        s.count("refused"), s.count("missing"), s.count("crashed") + s.count("diverged"), firsts(s), cpu_of(s));
+    text += fmt::format("{:34} {:5} {:5} {:6} {:8} {:8} {:8} {:6} {:9.2f}\n", s.label(), s.count(Score::pass),
+                        s.count(Score::fail) + s.count(Score::inconclusive) + s.count(Score::not_judged),
+                        s.count(Score::known_defect), s.count(Score::refused), s.count(Score::missing),
+                        s.count(Score::crashed) + s.count(Score::diverged), firsts(s), cpu_of(s));
   return text;
 }
 
@@ -114,9 +115,10 @@ std::string totals_markdown(const Scorecard& card) {
       "| engine | pass | fail | known defect | refused | missing | crashed | first | CPU s "
       "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& s : card.engines)
-    text += fmt::format("| {} {} | {} | {} | {} | {} | {} | {} | {} | {:.1f} |\n", s.label(), s.version, s.count("pass"),
-                        s.count("fail") + s.count("inconclusive") + s.count("not judged"), s.count("known defect"),
-                        s.count("refused"), s.count("missing"), s.count("crashed") + s.count("diverged"), firsts(s), cpu_of(s));
+    text += fmt::format("| {} {} | {} | {} | {} | {} | {} | {} | {} | {:.1f} |\n", s.label(), s.version, s.count(Score::pass),
+                        s.count(Score::fail) + s.count(Score::inconclusive) + s.count(Score::not_judged),
+                        s.count(Score::known_defect), s.count(Score::refused), s.count(Score::missing),
+                        s.count(Score::crashed) + s.count(Score::diverged), firsts(s), cpu_of(s));
   return text;
 }
 
