@@ -12,7 +12,6 @@
 #include <sstream>
 
 #include "scene/nearest.hpp"
-#include "validation/case/case.hpp"
 #include "validation/references/functions.hpp"
 
 namespace tripoint {

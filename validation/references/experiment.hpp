@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/case/case.hpp"
 #include "validation/references/reference.hpp"
 
 /// Measured data: a table beside the case, `<case>.ref.csv`, that says where it comes from, in what unit and how well it is
