@@ -4,6 +4,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -79,6 +80,12 @@ int print_info(const Engine& engine) {
 std::string refusal(const Engine& engine, const Job& job) {
   if (!job.resume.empty() && !dynamic_cast<const Restartable*>(&engine))
     return engine.info().name + ": cannot continue from a checkpoint";
+  if (std::ranges::any_of(job.scene.materials,
+                          [](const Material& m) { return value_of(m.values, "surface_temperature") > 0.0; })) {
+    const EngineInfo info = engine.info();
+    if (std::ranges::find(info.capabilities, "surface-temperature") == info.capabilities.end())
+      return info.name + ": is not told to hold the temperature of a surface (surface_temperature)";
+  }
   return engine.refusal(job);
 }
 

@@ -40,10 +40,27 @@ EngineInfo TripointEngine::info() const {
   info.build = TRIPOINT_BUILD;
   std::error_code ignored;
   info.library_path = std::filesystem::read_symlink("/proc/self/exe", ignored).string();  // the solver is this program
-  info.capabilities = {"rigid-free-flight", "gravity",  "merge",   "split",     "release", "hold",
-                       "prescribed",        "periodic", "heat",    "heat-held", "paper",   "corrected",
-                       "restart",           "liquid",   "contact", "viscosity", "walls",   "transport-velocity",
-                       "elastic",           "phase"};
+  info.capabilities = {"rigid-free-flight",
+                       "gravity",
+                       "merge",
+                       "split",
+                       "release",
+                       "hold",
+                       "prescribed",
+                       "periodic",
+                       "heat",
+                       "heat-held",
+                       "paper",
+                       "corrected",
+                       "restart",
+                       "liquid",
+                       "contact",
+                       "viscosity",
+                       "walls",
+                       "transport-velocity",
+                       "elastic",
+                       "phase",
+                       "surface-temperature"};
   info.presets = {"default"};
   for (const char* axes : {"012", "021", "102", "120", "201", "210"}) info.presets.push_back(std::string(no_squish) + axes);
   info.settings = {

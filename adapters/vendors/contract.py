@@ -185,8 +185,15 @@ def _result(status: str, message: str, time_reached: float, outcome: Outcome, sp
             "state_hash": outcome.state_hash, "readback": outcome.readback, "divergence": None}
 
 
+def _refusal(engine: Engine, job: Job) -> str:
+    """What no vendor's adapter takes, then what this engine refuses."""
+    if any(material.get("surface_temperature") for material in job.scene["materials"]):
+        return f"{engine.name} is not told to hold the temperature of a surface (surface_temperature)"
+    return engine.refusal(job)
+
+
 def _run(engine: Engine, job: Job) -> int:
-    reason = engine.refusal(job)
+    reason = _refusal(engine, job)
     nothing = Outcome(readback={"gravity": job.scene["gravity"], "bodies": []})
     if reason:
         write_result(job, _result("refused", reason, 0.0, nothing, (0.0, 0.0)))
@@ -215,7 +222,7 @@ def serve(engine: Engine, words: Sequence[str]) -> int:
         if verb == "--info":
             return _answer(engine.info())
         if verb == "--check":
-            reason = engine.refusal(read_job(path))
+            reason = _refusal(engine, read_job(path))
             return _answer({"can": not reason, "reason": reason})
         if verb == "--run":
             return _run(engine, read_job(path))

@@ -33,6 +33,8 @@ TemperatureRange temperatures_of(const Scene& s) {
   TemperatureRange range;
   for (const auto& b : s.bodies)
     if (b.temperature) add(range, *b.temperature);
+  for (const auto& b : s.bodies)
+    if (const double held = value_of(s.material(b.material).values, "surface_temperature"); held > 0.0) add(range, held);
   for (const auto& f : s.inflows)
     if (f.temperature) add(range, *f.temperature);
   for (const auto& e : s.events)

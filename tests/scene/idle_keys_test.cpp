@@ -146,8 +146,8 @@ TEST(IdleKeys, FindLimitsOfTheFormThatDoesNotRun) {
 
 TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   for (const char* key : {"transport_velocity = true", "viscosity_form = 'laplacian'", "clamp = false", "contact_viscosity = 3",
-                          "bulk_viscosity = 0.1", "surface_weight = 0.4", "hourglass = 5", "bending = 1", "merge_distance = 1.2",
-                          "modes.heat = 'paper'", "modes.elastic = 'paper'"})
+                          "bulk_viscosity = 0.1", "surface_weight = 0.4", "surface_exchange = 0", "hourglass = 5", "bending = 1",
+                          "merge_distance = 1.2", "modes.heat = 'paper'", "modes.elastic = 'paper'"})
     EXPECT_EQ(found(scene(key) + cube(), "changes nothing"), "warning") << key;
   const auto pool = ink + body("pool", "ink", "liquid", 0.0);
   for (const char* key : {"viscosity_form = 'laplacian'", "clamp = false", "modes.walls = 'paper'"})

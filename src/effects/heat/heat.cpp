@@ -6,6 +6,7 @@
 #include "effects/heat/heat_corrected.hpp"
 #include "effects/heat/heat_equal.hpp"
 #include "effects/heat/heat_paper.hpp"
+#include "effects/heat/held_surface.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/temperatures.hpp"
 #include "world/body_table.hpp"
@@ -26,7 +27,8 @@ void refuse_printed(const Scene& scene) {
 /// Whether heat that is given to solids from outside is counted body by body.
 bool books_bodies(const Scene& scene) {
   if (!can_have_bodies(scene)) return false;
-  return std::ranges::any_of(scene.bodies, [](const Body& b) { return b.temperature_held && b.phase != Phase::liquid; }) ||
+  return has_held_surfaces(scene) ||
+         std::ranges::any_of(scene.bodies, [](const Body& b) { return b.temperature_held && b.phase != Phase::liquid; }) ||
          std::ranges::any_of(scene.events, [](const Event& e) { return e.kind == Event::Kind::heat; });
 }
 
@@ -73,6 +75,7 @@ EffectSpec spec(const Scene& scene) {
 std::unique_ptr<Effect> make(const Scene& scene) {
   if (const auto temperature = equal_temperature(scene)) return std::make_unique<EqualHeat>(*temperature);
   refuse_printed(scene);
+  refuse_held_surfaces(scene);
   if (scene.mode_of(Term::heat) == Mode::paper) return std::make_unique<PaperHeat>();
   return std::make_unique<CorrectedHeat>();
 }

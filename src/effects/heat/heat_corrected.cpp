@@ -62,8 +62,6 @@ double set_temperature(World& world, std::size_t row, double temperature) {
   return p[field::enthalpy][row] - before;
 }
 
-enum class Stage { first, last };
-
 /// H_i += change(i), T from H, and with the last stage f; what a held particle would have taken goes to the walls. Of the first
 /// stage only T is taken: f follows the heat of the whole step, whatever the way between.
 template <class Change>
@@ -114,6 +112,7 @@ std::vector<double> least_capacities(const World& world) {
 
 void CorrectedHeat::load(World& world, const InitialState& initial) {
   load_common(world, initial);
+  surfaces_.load(world, initial);
   for (std::size_t i = 0; i < world.particles.size(); ++i) set_material(world, i);
 }
 
@@ -138,11 +137,13 @@ void CorrectedHeat::adopt(World& world) {
 void CorrectedHeat::drift(World& world, double dt) {
   const auto rate = world.particles[field::heat_rate];
   std::ranges::copy(rate, world.particles[field::heat_rate_before].begin());
+  surfaces_.book(world, Stage::first, dt);
   add_heat(world, Stage::first, [&](std::size_t i) { return dt * rate[i]; });
 }
 
 /// Second stage: H = 1/2 H_old + 1/2 (H_1 + dt dH/dt(H_1)), written as a change of H_1.
 bool CorrectedHeat::correct(World& world, double dt) {
+  surfaces_.book(world, Stage::last, dt);
   const auto rate = world.particles[field::heat_rate], before = world.particles[field::heat_rate_before];
   add_heat(world, Stage::last, [&](std::size_t i) { return 0.5 * dt * (rate[i] - before[i]); });
   return true;
@@ -155,6 +156,7 @@ void CorrectedHeat::clear(World& world, PassName pass) {
   } else {
     for (const auto* f : HeatMoment::adds::list) fill(p[*f], 0.0, world.threads);
   }
+  surfaces_.start_sums(world, pass);
 }
 
 /// pinv M_i of every particle, in the place of the M_i that the density pass has just summed.

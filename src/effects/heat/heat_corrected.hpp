@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/effect.hpp"
+#include "effects/heat/held_surface.hpp"
 
 namespace tripoint::heat {
 
@@ -21,6 +22,8 @@ class CorrectedHeat : public Effect {
 
  private:
   void set_material(World&, std::size_t row) const;
+
+  HeldSurfaces surfaces_;
 };
 
 }  // namespace tripoint::heat

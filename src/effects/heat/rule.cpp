@@ -24,6 +24,14 @@ std::string no_constant(const Scene& s) {
   return s.mode_of(Term::heat) == Mode::paper ? "" : "heat is corrected, and conducts by what the materials say";
 }
 
+std::string no_held_surface(const Scene& s) {
+  return any_material(s, [](const Material& m) { return value_of(m.values, "surface_temperature") > 0.0; })
+             ? ""
+             : "no material has a surface_temperature";
+}
+
+std::string as_printed(const Scene& s) { return s.mode_of(Term::heat) == Mode::paper ? "heat as printed knows no surfaces" : ""; }
+
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
   using enum ValueType;
@@ -38,6 +46,17 @@ std::vector<EffectKey> keys() {
        &Material::conductivity},
       {{"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"},
        &Material::heat_capacity},
+      {{"scene", "surface_exchange", number, "", not_negative, "1", "surfaces exchange heat where they lie", "",
+        "1: surface_temperature acts at the surface (model 8.6); 0: the outermost particles are held at that temperature"},
+       {},
+       no_held_surface,
+       true},
+      {{"material", "surface_temperature", number, "K", not_negative, "0", "nothing passes through surfaces", "",
+        "temperature at which the surfaces of fixed bodies of the material are held, where they touch no other body and lie "
+        "within the "
+        "domain: a body that scene.min or scene.max cuts has a plane of symmetry there (model 8.6); 0: none"},
+       {},
+       as_printed},
   };
 }
 

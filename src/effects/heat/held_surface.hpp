@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "effects/effect.hpp"
+
+namespace tripoint::heat {
+
+/// Of the two-stage scheme.
+enum class Stage { first, last };
+
+/// Temperature at which a body's surface is held [K].
+[[nodiscard]] std::optional<double> surface_temperature(const Scene&, const Body&);
+[[nodiscard]] bool has_held_surfaces(const Scene&);
+
+/// @throws InputError naming a body whose held surface cannot be computed: one that moves, melts or is as printed
+void refuse_held_surfaces(const Scene&);
+
+/// Surfaces of bodies whose temperature is held (model 8.6). What is missing of a particle's neighbourhood beyond the surface is
+/// filled with the places of the lattice there, whose temperature is linear along the way through the surface [Gibou, Fedkiw,
+/// Cheng, Kang 2002]. So the surface lies where the shape has it, and not half a spacing further in or out.
+///
+/// What is kept here follows from the particles as they were laid, and a run that goes on finds it again.
+class HeldSurfaces {
+ public:
+  /// Finds the places beyond. Where scene.surface_exchange is 0 the outermost particles are held at the surface's temperature.
+  void load(World&, const InitialState&);
+  /// Sums of a pass start with the share of what lies beyond, not with 0: of the pass of densities M_i, of others the flow of
+  /// heat [W] and the conductance [W/K].
+  void start_sums(World&, PassName) const;
+  /// What holds the surfaces has given the heat of a stage: account `walls`, and what each body was given. Before the stage.
+  /// @param dt length of the step [s]
+  void book(World&, Stage, double dt);
+
+ private:
+  /// A particle with places beyond a held surface in its support.
+  struct Near {
+    std::uint32_t id = 0;
+    double temperature = 0.0;          ///< of the surface [K]
+    std::array<double, 6> moment{};    ///< sum 1/2 V K r r^T of the places: xx, yy, zz, yz, xz, xy
+    std::array<double, 6> exchange{};  ///< sum V_i V K e e^T over the share of the way that lies within the body [m]
+  };
+  /// Conductance to the surface, k M_i^+ : exchange [W/K].
+  [[nodiscard]] static double conductance(const Particles&, std::size_t row, const Near&);
+  [[nodiscard]] static double flow(const Particles&, std::size_t row, const Near&);
+
+  std::vector<Near> near_;            ///< by id, ascending
+  std::vector<double> flows_before_;  ///< of the first stage of the step that is being taken [W]
+};
+
+}  // namespace tripoint::heat
