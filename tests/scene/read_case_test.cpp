@@ -56,7 +56,7 @@ TEST(ReadCase, ReadsEveryKeyOfTheContract) {
   EXPECT_EQ(*c.scene.inflows.at(0).rate, 2e-3 / 60.0);
   EXPECT_EQ(c.engines.at(0).presets, (std::vector<std::string>{"default", "impact"}));
   EXPECT_EQ(std::get<double>(c.engines.at(1).settings.at("walkers")), 1000.0);
-  EXPECT_EQ(c.metrics.at(1).reference->kind, "bound");
+  EXPECT_EQ(c.metrics.at(1).reference->kind, ReferenceKind::bound);
   EXPECT_EQ(c.studies.at(0).levels, (std::vector<double>{0.1, 0.05, 0.025}));
   EXPECT_EQ((*c.gates.at(1).band)[1], 2.2);
   EXPECT_EQ(c.defects.at(0).killed_by, (std::vector<std::string>{"error"}));

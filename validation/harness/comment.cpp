@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -107,8 +108,7 @@ std::string not_green(const GateVerdict& verdict, const CommentOptions& o) {
 std::string most_used(const Results& results, const CommentOptions& o) {
   auto all = compare_results(results, results, {});
   std::erase_if(all.changes, [](const auto& c) { return !std::isfinite(c.head->used); });
-  std::stable_sort(all.changes.begin(), all.changes.end(),
-                   [](const auto& a, const auto& b) { return a.head->used > b.head->used; });
+  std::ranges::stable_sort(all.changes, std::greater{}, [](const auto& c) { return c.head ? c.head->used : 0.0; });
   if (all.changes.empty()) return "";
   std::string text = "| case | metric | value | of the limit |\n|---|---|---|---|\n";
   for (std::size_t k = 0; k < std::min(o.most, all.changes.size()); ++k) {
