@@ -8,7 +8,8 @@ namespace tripoint {
 /// is 0.
 template <class T>
 [[nodiscard]] constexpr T whole_number(double v) noexcept {
-  constexpr double end = 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1);  // one past the greatest, exactly
+  // One past the greatest, exactly: the division leaves no rest that counts.
+  constexpr double end = 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1);  // NOLINT(bugprone-integer-division)
   if (v >= end) return std::numeric_limits<T>::max();
   if (std::numeric_limits<T>::is_signed ? v < -end : v < 0.0) return std::numeric_limits<T>::min();
   return v == v ? static_cast<T>(v) : T{0};
