@@ -47,10 +47,10 @@ def load(root):
         if data:
             raise Wrong(f"{path}: unknown {', '.join(data)}: only [[defect]] and [[change]] stand here")
         names, used = {name for name, _, _ in own}, {name for _, _, broken in here for name in USED.findall(broken)}
-        for name in sorted(names - used):
-            raise Wrong(f"{path}: no [[change]] uses defect<\"{name}\">()")
         for name in sorted(used - names):
             raise Wrong(f"{path}: defect<\"{name}\">() is used, and no [[defect]] has that name")
+        for name in sorted(names - used):
+            raise Wrong(f"{path}: no [[change]] uses defect<\"{name}\">()")
         defects += own
         for file, text, broken in here:
             place = (path.parent / file).relative_to(root).as_posix()

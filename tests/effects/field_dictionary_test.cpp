@@ -62,7 +62,7 @@ std::map<std::string, std::set<std::string>> owners() {
 
 /// The fields that src/particles/catalogue.hpp declares.
 Dictionary catalogue() {
-  static const std::regex declaration("Field<(\\w+)> ([^;]*);"), one("\\w+\\{\"([^\"]+)\", \"([^\"]+)\"(, Per::(\\w+))?\\}");
+  static const std::regex declaration("Field<(\\w+)> ([^;]*);"), one("\\w+\\{\"([^\"]+)\", \"([^\"]+)\"(,\\s+Per::(\\w+))?\\}");
   const std::string text = text_of(fs::path(TRIPOINT_SOURCE_DIR) / "src/particles/catalogue.hpp");
   const auto owned_by = owners();
   Dictionary all;

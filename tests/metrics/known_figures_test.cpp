@@ -20,10 +20,11 @@ using test::Still;
 
 using Numbers = std::map<std::string, double, std::less<>>;
 
-/// A truth that is one state at all times, and the numbers that a test gives it.
+/// A truth that is one state at all times, and what a test gives it: numbers, and what they are measured along.
 class Known : public Reference {
  public:
-  Known(Snapshot state, Numbers numbers) : state_(std::move(state)), numbers_(std::move(numbers)) {}
+  Known(Snapshot state, Numbers numbers, Measuring measuring = {})
+      : state_(std::move(state)), numbers_(std::move(numbers)), measuring_(measuring) {}
   [[nodiscard]] Snapshot at(double time) const override {
     auto state = state_;
     state.time = time;
@@ -33,15 +34,23 @@ class Known : public Reference {
     const auto found = numbers_.find(quantity);
     return found == numbers_.end() ? std::nullopt : std::optional(found->second);
   }
+  [[nodiscard]] Measuring measuring() const override { return measuring_; }
 
  private:
   Snapshot state_;
   Numbers numbers_;
+  Measuring measuring_;
 };
 
+Measuring along(std::size_t axis) {
+  Measuring m;
+  m.axis = axis;
+  return m;
+}
+
 /// The value of a run beside a truth that is the run's start as it was prepared.
-MetricValue value(const Still& f, const MetricChoice& choice, const Numbers& numbers = {}) {
-  const Known truth(Still(f.s).run.frames.front(), numbers);
+MetricValue value(const Still& f, const MetricChoice& choice, const Numbers& numbers = {}, const Measuring& measuring = {}) {
+  const Known truth(Still(f.s).run.frames.front(), numbers, measuring);
   return evaluate(choice, f.s.job, f.s.initial, f.run, truth);
 }
 
@@ -61,6 +70,7 @@ struct Figure {
   double figure = 0.0;
   Numbers numbers;
   Change change;
+  std::optional<std::size_t> axis = {};  ///< that the truth is measured along
 };
 
 const std::vector<Figure>& figures() {
@@ -166,17 +176,14 @@ const std::vector<Figure>& figures() {
       {"axial_torque",
        "right",
        2.5,
-       {{"torque", 4.5}, {"axis", 2.0}},
+       {{"torque", 4.5}},
        [](Snapshot&, Snapshot& s) {
          s.bodies[1].torque = {1, 2, 7};
-       }},
+       },
+       2},
       // four layers from -0.35 to -0.05 m and half a spacing at both ends: 0.2 m
-      {"half_length", "left", -0.1, {{"half_length", 0.3}, {"axis", 0.0}}, [](Snapshot&, Snapshot&) {}},
-      {"half_length",
-       "left",
-       0.25,
-       {{"half_length", 0.2}, {"axis", 0.0}},
-       [](Snapshot&, Snapshot& s) { s.position[2].x = -0.85; }},
+      {"half_length", "left", -0.1, {{"half_length", 0.3}}, [](Snapshot&, Snapshot&) {}, 0},
+      {"half_length", "left", 0.25, {{"half_length", 0.2}}, [](Snapshot&, Snapshot& s) { s.position[2].x = -0.85; }, 0},
       {"spin_ratio",
        "left",
        -1.5,
@@ -196,7 +203,9 @@ TEST(KnownFigures, OfOneFrame) {
     row.change(f.run.frames.front(), f.run.frames.back());
     auto choice = metric(row.quantity, "final", row.body);
     choice.window = {0.9, 1.0};
-    const auto v = value(f, choice, row.numbers);
+    Measuring measuring;
+    measuring.axis = row.axis;
+    const auto v = value(f, choice, row.numbers, measuring);
     EXPECT_NEAR(v.value, row.figure, 1e-12) << row.quantity << ": " << v.note;
   }
 }
@@ -234,7 +243,7 @@ TEST(KnownFigures, OfAProfileAndItsIsotherm) {
   Snapshot truth = f.run.frames.front();
   auto& last = f.run.frames.back();
   const auto of = [&](const char* quantity, const char* norm, const char* body) {
-    return evaluate(metric(quantity, norm, body), f.s.job, f.s.initial, f.run, Known(truth, {{"axis", 0.0}})).value;
+    return evaluate(metric(quantity, norm, body), f.s.job, f.s.initial, f.run, Known(truth, {}, along(0))).value;
   };
   for (double& T : last.temperature) T += 2.0;
   EXPECT_NEAR(of("front", "final", ""), -0.02, 1e-12);
@@ -288,7 +297,7 @@ TEST(KnownFigures, OfASwayAreOneForAnyAxisAndAnyStart) {
   auto f = still_blocks(100);
   for (auto& frame : f.run.frames) f.shift(frame, 1, {0.3, 0.02 + 0.01 * std::sin(2.0 * pi * 3.6 * frame.time), 0.0});
   const auto of = [&](double stated) {
-    return value(f, metric("sway_frequency", "final", "right"), {{"axis", 1.0}, {"value", stated}}).value;
+    return value(f, metric("sway_frequency", "final", "right"), {{"value", stated}}, along(1)).value;
   };
   EXPECT_NEAR(of(3.6), 0.0, 1e-7);  // golden section: square root of round-off
   EXPECT_NEAR(of(3.0), 0.2, 1e-7);
@@ -308,18 +317,14 @@ TEST(KnownFigures, OfASwingAreItsAmplitudeFrequencyAndSag) {
   for (auto& frame : f.run.frames)
     for (std::size_t i = 0; i < f.s.initial.size(); ++i)
       if (f.s.initial.source[i] == 0) frame.position[i].z -= 0.003 + 0.005 * std::sin(2.0 * pi * 6.0 * frame.time);
-  const Numbers numbers{{"bar", 0},
-                        {"axis", 0},
-                        {"end", 1},
-                        {"direction.x", 0},
-                        {"direction.y", 0},
-                        {"direction.z", -1},
-                        {"frequency", 2.0 * pi * 5.0},
-                        {"amplitude", 0.004},
-                        {"deflection", 0.002}};
-  EXPECT_NEAR(value(f, metric("swing_amplitude", "final"), numbers).value, 0.25, 1e-6);
-  EXPECT_NEAR(value(f, metric("frequency", "final"), numbers).value, 0.2, 1e-6);
-  EXPECT_NEAR(value(f, metric("sag", "final"), numbers).value, 0.5, 1e-6);
+  const Numbers numbers{{"frequency", 2.0 * pi * 5.0}, {"amplitude", 0.004}, {"deflection", 0.002}};
+  Measuring bar = along(0);
+  bar.bar = 0;
+  bar.direction = Vec3{0.0, 0.0, -1.0};
+  bar.free_end_is_high = true;
+  EXPECT_NEAR(value(f, metric("swing_amplitude", "final"), numbers, bar).value, 0.25, 1e-6);
+  EXPECT_NEAR(value(f, metric("frequency", "final"), numbers, bar).value, 0.2, 1e-6);
+  EXPECT_NEAR(value(f, metric("sag", "final"), numbers, bar).value, 0.5, 1e-6);
 }
 
 TEST(KnownFigures, OfTogglesCountAChangeInTheFirstIntervalToo) {
