@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The self-test's copies of sources: files that a folder's defects.toml changes are written to build/broken (tools/break_sources.py), and found there before the
 # true ones. Nothing else is compiled of them, so what users get has no trace of a defect.
+if(NOT TRIPOINT_TESTS AND NOT TRIPOINT_SELFTEST)
+  return()  # a build of the program alone needs no Python
+endif()
 find_program(TRIPOINT_PYTHON3 NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 set(break_sources ${TRIPOINT_PYTHON3} -B ${PROJECT_SOURCE_DIR}/tools/break_sources.py)
 
