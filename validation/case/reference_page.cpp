@@ -111,7 +111,8 @@ std::string case_reference_page() {
       "`cases/<subject>/<case>.toml`. An unknown key, a wrong unit or a number out of range is refused with file, line, "
       "column and the nearest known key.\n\nUnits known by name: {} (with the prefixes n u m c d h k M G where that is usual), "
       "combined as `kg/m3`, `W/m/K`, `J/(kg K)`, `m s^-2`.\n\n"
-      "On the command line `--set a.b=VALUE` replaces any key: `scene.spacing=0.01`, `body.NAME.velocity=[1,0,0]`, "
+      "`run`, `check`, `explain` and `predict` take `--set a.b=VALUE`, which replaces any key: `scene.spacing=0.01`, "
+      "`body.NAME.velocity=[1,0,0]`, "
       "`material.NAME.density=900`, `study.1.levels=[0.1,0.05]`; tables without a name count from 1.\n\n",
       known_units());
   out += short_forms;

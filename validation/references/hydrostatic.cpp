@@ -101,7 +101,7 @@ ReferenceEntry hydrostatic_entry() {
            "liquid at rest, in layers stacked along gravity",
            {{"factor", "1",
              "of the whole pressure: what an equation that tends to 1/factor of the pressure gradient has to read; default 1"},
-            {"compressed", "",
+            {"compressed", "true or false",
              "the one layer is compressed by its weight, at the speed of sound of the scene: its surface has fallen; default "
              "false",
              ArgumentType::flag}}},
