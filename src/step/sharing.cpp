@@ -18,7 +18,6 @@ bool Sharing::outdated(const World& world) const {
 }
 
 void Sharing::follow(World& world, const std::vector<Active>& effects) {
-  if (!world.halo) return;
   double any = outdated(world) ? -1.0 : 0.0;
   std::string unused;
   world.halo->take_least(any, unused);

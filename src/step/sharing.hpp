@@ -6,7 +6,7 @@
 
 namespace tripoint {
 
-/// Shares a scene's particles out among the processes that hold it (World::halo). Nothing to do where one process holds all.
+/// Shares a scene's particles out among the processes that hold it. @pre World::halo: one process alone has nothing to share
 class Sharing {
  public:
   /// @param skin how far a particle may move before it is shared out again, twice over and in support radii

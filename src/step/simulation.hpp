@@ -73,7 +73,7 @@ class Simulation {
   void find_neighbours();
   void correct();
   void check();
-  void run(Stage, double dt = 0.0);
+  [[gnu::always_inline]] inline void run(Stage, double dt = 0.0);
   void pass(PassName);
   void sum(PassName);
   [[nodiscard]] bool leaves_out_first_kick() const;
