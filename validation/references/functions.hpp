@@ -45,6 +45,7 @@ struct ReferenceEntry {
 [[nodiscard]] ReferenceEntry resting_entry();
 [[nodiscard]] ReferenceEntry bouncing_entry();
 [[nodiscard]] ReferenceEntry elliptic_drop_entry();
+[[nodiscard]] ReferenceEntry collapsing_column_entry();
 [[nodiscard]] ReferenceEntry taylor_green_entry();
 [[nodiscard]] ReferenceEntry couette_cylinders_entry();
 [[nodiscard]] ReferenceEntry cosine_carried_entry();

@@ -33,6 +33,7 @@ const std::vector<ReferenceEntry>& all_references() {
                                                    rolling_entry(),
                                                    landing_entry(),
                                                    elliptic_drop_entry(),
+                                                   collapsing_column_entry(),
                                                    taylor_green_entry(),
                                                    couette_cylinders_entry(),
                                                    cosine_carried_entry(),
