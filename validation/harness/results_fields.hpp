@@ -17,31 +17,43 @@
 ///   v.end(status, reason)        how a row ended; a row without a status counts as an error
 namespace tripoint {
 
+// Each has a deduction guide: clang 16 deduces no template argument of an aggregate without one.
+
 /// A number that may be none: null, and read as NaN where there is no number.
 template <class T>
 struct NumberOrNull {
   T& value;
 };
+template <class T>
+NumberOrNull(T&) -> NumberOrNull<T>;
 /// The same with "finite": false beside it, so that nobody takes a null for a missing key.
 template <class T>
 struct Judged {
   T& value;
 };
+template <class T>
+Judged(T&) -> Judged<T>;
 /// A number that may not be stated: what is absent leaves the default, null is NaN.
 template <class T>
 struct Stated {
   T& value;
 };
+template <class T>
+Stated(T&) -> Stated<T>;
 /// null where the number is not above zero, or the text is empty.
 template <class T>
 struct OrNull {
   T& value;
 };
+template <class T>
+OrNull(T&) -> OrNull<T>;
 /// Left out where it is empty.
 template <class T>
 struct IfAny {
   T& value;
 };
+template <class T>
+IfAny(T&) -> IfAny<T>;
 
 template <class V, class R>
 concept Fields = requires(V& v, R& r) {
