@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What an experiment saw, with its uncertainty, the engines over it, and what is left between them.
 
-The points are those of the reference's file. An engine's value at a point is the point plus the judged difference of results.json, so nothing is formed anew.
+The points are those of the file of the case's reference; a metric that has a reference of its own is not drawn. An engine's value at a point is the point plus the judged difference of results.json, so nothing is formed anew.
 """
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ QUANTITY = {"front_lead": "front"}  # quantity of a metric -> column of the refe
 def draw(case, trajectories, notes):
     if text(case.reference.get("kind")) != "experiment":
         return None
-    found = [(metric, column) for metric in case.metrics for column in [QUANTITY.get(text(metric.get("quantity")))] if column]
+    found = [(metric, column) for metric in case.metrics for column in [QUANTITY.get(text(metric.get("quantity")))] if column and not metric.get("reference")]
     if not found:
         return None
     truth = read(Path(text(case.reference.get("file"))), {column for _, column in found})

@@ -173,7 +173,7 @@ void fields(V& v, RecordOf<ReferenceChoice> auto& r) {
 template <class V>
 void fields(V& v, RecordOf<MetricChoice> auto& m) {
   v("name", m.name), v("quantity", m.quantity), v("norm", m.norm), v("body", m.body), v("at", m.at);
-  v("window", m.window), v("scale", m.scale), v("unit", m.unit);
+  v("window", m.window), v("scale", m.scale), v("unit", m.unit), v("reference", m.reference);
 }
 
 template <class V>

@@ -93,7 +93,9 @@ class Reader {
     const Reader inner(member(key));
     within(key, [&] { fields(inner, to); });
   }
-  void operator()(const char* key, std::optional<CaseHashes>& to) const {
+  template <class T>
+  requires Fields<const Reader, T>
+  void operator()(const char* key, std::optional<T>& to) const {
     if (member(key).is_object()) (*this)(key, to.emplace());
   }
   template <class T>

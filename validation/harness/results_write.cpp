@@ -57,8 +57,10 @@ class Writer {
     each(inner);
     to_[key] = std::move(inner.to_);
   }
-  void operator()(const char* key, const std::optional<CaseHashes>& hashes) {
-    if (hashes) to_[key] = json(*hashes);
+  template <class T>
+  requires Fields<Writer, const T>
+  void operator()(const char* key, const std::optional<T>& record) {
+    if (record) to_[key] = json(*record);
   }
   void end(Status status, const std::string& reason) { (*this)("status", status), (*this)("reason", reason); }
 
