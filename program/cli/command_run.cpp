@@ -112,7 +112,7 @@ std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& 
   for (const auto& g : value.gates) {
     const bool of_level = !g.level || std::any_of(run.levels.begin(), run.levels.end(),
                                                   [&](const auto& l) { return same_level(l.second, *g.level); });
-    const bool ours = (g.engine.empty() || g.engine == plan.name) && (g.mode.empty() || g.mode == run.mode) &&
+    const bool ours = (g.engine.empty() || g.engine == plan.name) && fits(g.mode, run.mode) &&
                       (g.preset.empty() || g.preset == plan.preset);
     if (g.metric != metric || !ours || !of_level) continue;
     if (g.limit && *g.limit > 0.0)

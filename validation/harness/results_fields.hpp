@@ -99,7 +99,7 @@ void fields(V& v, RecordOf<RunRow> auto& r) {
 
 template <class V>
 void fields(V& v, RecordOf<OrderRow> auto& o) {
-  v("metric", o.metric), v("axis", o.axis), v("mode", OrNull{o.mode});
+  v("metric", o.metric), v("axis", o.axes), v("mode", OrNull{o.mode});
   v("value", o.order.value), v("low", o.order.low), v("high", o.order.high), v("class", o.order.fit_class);
   v("formal", OrNull{o.formal}), v("coefficient", NumberOrNull{o.order.coefficient}), v("floor", NumberOrNull{o.order.floor});
   v("step", o.step), v("error", o.error), v("uncertainty", o.uncertainty), v("numerical", o.numerical);
@@ -166,7 +166,7 @@ void fields(V& v, RecordOf<MetricChoice> auto& m) {
 
 template <class V>
 void fields(V& v, RecordOf<Study> auto& s) {
-  v("axis", s.axis), v("levels", s.levels), v("jitter", s.jitter), v("seeds", s.seeds), v("engine", s.engine);
+  v("axis", s.axes), v("levels", s.levels), v("jitter", s.jitter), v("seeds", s.seeds), v("engine", s.engine);
   v("mode", s.mode), v("expect", s.expect), v("order", s.order), v("metric", s.metric), fields(v, s.place);
 }
 
