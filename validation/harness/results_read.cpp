@@ -95,7 +95,7 @@ class Reader {
   void operator()(const char* key, std::map<StudyAxes, double>& to) const {
     std::map<std::string, double> levels;
     (*this)(key, levels);
-    for (const auto& [words, level] : levels) within(key, [&, w = words] { to[study_axes_from(w)] = level; });
+    for (const auto& one : levels) within(key, [&] { to[study_axes_from(one.first)] = one.second; });
   }
   template <class T>
   requires Fields<const Reader, T>
