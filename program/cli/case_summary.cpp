@@ -83,7 +83,7 @@ std::string engines_of(const Case& c) {
 std::string studies_of(const Case& c) {
   std::vector<std::string> studies;
   for (const auto& s : c.studies)
-    studies.push_back(fmt::format("{} levels of {}{}{}", s.levels.size(), s.axis, s.engine.empty() ? "" : " on ", s.engine));
+    studies.push_back(fmt::format("{} levels of {}{}{}", s.levels.size(), s.axes.axis, s.engine.empty() ? "" : " on ", s.engine));
   return fmt::format("{}", fmt::join(studies, ", "));
 }
 

@@ -131,17 +131,21 @@ std::string number_text(const Json& run, const std::string& metric) {
   return v.is_number() ? fmt::format("{:.4g}", v.get<double>()) : run["status"].get<std::string>();
 }
 
-int ablate(const Options& o) {
-  catch_interrupts();
+/// Cases that run corrected, and in which something can be put back.
+std::vector<Case> cases_of(const Options& o) {
   std::vector<Case> cases;
   for (auto& c : select_cases(o.filter)) {
     const bool runs_so = std::find(c.modes.begin(), c.modes.end(), Mode::corrected) != c.modes.end();
     if (runs_so && c.expect != Expect::diverges && !terms_of(c.scene).empty()) cases.push_back(corrected(std::move(c)));
   }
   if (cases.empty()) throw InputError("ablate: no case runs corrected");
-  make_folder(o.out);
-  const auto base = round(cases, "corrected", o);
-  std::map<std::string, Json> terms;
+  return cases;
+}
+
+/// By case: its run without each piece, where that has other bits than the corrected run.
+std::map<std::string, Json> runs_without_pieces(const std::vector<Case>& cases, const std::map<std::string, Json>& base,
+                                                const Options& o) {
+  std::map<std::string, Json> found;
   for (const Piece& piece : all_pieces()) {
     if (interrupted()) break;
     std::vector<Case> chosen;
@@ -149,26 +153,40 @@ int ablate(const Options& o) {
       if (can_act(piece, c.scene)) chosen.push_back(without(piece, c));
     for (auto& [id, run] : round(chosen, piece.name, o)) {
       const bool acts = base.count(id) && run["state_hash"] != base.at(id)["state_hash"];
-      if (acts) terms[id][piece.name] = run;
+      if (acts) found[id][piece.name] = run;
     }
   }
+  return found;
+}
+
+Json json_of(const Case& c, const Json& whole, const Json& without_pieces) {
+  Json metrics = Json::array();
+  for (const auto& m : c.metrics) metrics.push_back({{"name", m.name}, {"unit", m.unit}, {"quantity", m.quantity}});
+  return {{"id", c.id}, {"title", c.title}, {"metrics", metrics}, {"corrected", whole}, {"printed", without_pieces}};
+}
+
+void print_case(const Case& c, const Json& whole, const Json& without_pieces) {
+  print_line(c.id);
+  for (const auto& m : c.metrics) {
+    print(fmt::format("  {:24} corrected {:>12}", one_line(m.name), number_text(whole, m.name)));
+    for (const auto& [piece, run] : without_pieces.items()) print(fmt::format("  {} {:>10}", piece, number_text(run, m.name)));
+    print("\n");
+  }
+}
+
+int ablate(const Options& o) {
+  catch_interrupts();
+  const std::vector<Case> cases = cases_of(o);
+  make_folder(o.out);
+  const auto base = round(cases, "corrected", o);
+  const auto printed = runs_without_pieces(cases, base, o);
   Json document = Json::array();
   for (const auto& c : cases) {
     if (!base.count(c.id)) continue;
-    Json metrics = Json::array();
-    for (const auto& m : c.metrics) metrics.push_back({{"name", m.name}, {"unit", m.unit}, {"quantity", m.quantity}});
-    document.push_back({{"id", c.id},
-                        {"title", c.title},
-                        {"metrics", metrics},
-                        {"corrected", base.at(c.id)},
-                        {"printed", terms.count(c.id) ? terms[c.id] : Json::object()}});
-    print_line(c.id);
-    for (const auto& m : c.metrics) {
-      print(fmt::format("  {:24} corrected {:>12}", one_line(m.name), number_text(base.at(c.id), m.name)));
-      if (terms.count(c.id))
-        for (const auto& [term, run] : terms[c.id].items()) print(fmt::format("  {} {:>10}", term, number_text(run, m.name)));
-      print("\n");
-    }
+    const Json none = Json::object();
+    const Json& without_pieces = printed.count(c.id) ? printed.at(c.id) : none;
+    document.push_back(json_of(c, base.at(c.id), without_pieces));
+    print_case(c, base.at(c.id), without_pieces);
   }
   write_durably(
       (fs::path(o.out) / "ablation.json").string(),

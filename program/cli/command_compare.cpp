@@ -96,9 +96,9 @@ int compare(const CompareOptions& o) {
 
 Study study_for(const Case& value, const ConvergeOptions& o) {
   Study study;
-  study.axis = o.axis, study.engine = o.engine, study.levels = o.levels;
+  study.axes.axis = from_word<Axis>(o.axis), study.engine = o.engine, study.levels = o.levels;
   for (const auto& s : value.studies)
-    if (s.axis == o.axis && study.levels.empty() && (s.engine.empty() || s.engine == o.engine))
+    if (s.axes.axis == study.axes.axis && study.levels.empty() && (s.engine.empty() || s.engine == o.engine))
       study.levels = s.levels, study.order = s.order, study.jitter = s.jitter, study.seeds = s.seeds;
   if (study.levels.empty())
     throw InputError(
@@ -109,7 +109,7 @@ Study study_for(const Case& value, const ConvergeOptions& o) {
 }
 
 void print_order(const OrderRow& o) {
-  print_line(fmt::format("{}{}{} over {}", o.metric, o.mode.empty() ? "" : ", ", o.mode, o.axis));
+  print_line(fmt::format("{}{}{} over {}", o.metric, o.mode == JudgedMode::none ? "" : ", ", o.mode, to_string(o.axes)));
   for (std::size_t k = 0; k < o.step.size(); ++k) {
     const bool ratio = k > 0 && o.error[k] != 0.0;
     print_line(fmt::format("  {:<12.5g} {:12.5g}  +- {:<9.2g} {}", o.step[k], o.error[k], o.uncertainty[k],
@@ -153,9 +153,7 @@ void add_converge(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("converge", converge_description);
   auto o = std::make_shared<ConvergeOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
-  command->add_option("--axis", o->axis, "what is refined")
-      ->check(CLI::IsMember({"spacing", "time_step", "support_ratio", "walkers", "iterations"}))
-      ->capture_default_str();
+  command->add_option("--axis", o->axis, "what is refined")->check(CLI::IsMember(axis_words()))->capture_default_str();
   command->add_option("--levels", o->levels, "a,b,c: coarse to fine")->delimiter(',')->allow_extra_args(false);
   command->add_option("--engine", o->engine, "name or path")->capture_default_str();
   command->add_option("--out", o->out, "folder of the report and the runs (default: report-converge/CASE)");

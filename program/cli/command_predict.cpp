@@ -144,39 +144,54 @@ void measure(PredictRuns& runs, const std::vector<const Prepared*>& prepared, st
     line->measured_efficiency = each * line->prediction.particles / (line->prediction.ranks * line->measured->best_wall());
 }
 
+/// A line of the report that is also run, and what is run for it.
+struct ToMeasure {
+  std::size_t line;
+  const Prepared* prepared;
+};
+
+/// The line of the scene as it is on these ranks; where there is none it is added.
+std::size_t line_on(PredictionReport& r, const Prepared& base, int ranks) {
+  const auto particles = static_cast<double>(base.initial.size());
+  const auto found = std::find_if(r.lines.begin(), r.lines.end(), [&](const auto& l) {
+    return l.prediction.ranks == ranks && l.prediction.particles == particles;
+  });
+  if (found != r.lines.end()) return static_cast<std::size_t>(found - r.lines.begin());
+  r.lines.push_back(line_of(r, base.cloud, whole_of(base.cloud, particles), ranks, particles));
+  return r.lines.size() - 1;
+}
+
+/// Weak scaling: the scene with finer particles, so that each rank has as many as one has of the scene as it is.
+Prepared add_weak_line(PredictionReport& r, PredictRuns& runs, const Prepared& base, int ranks) {
+  Prepared p =
+      runs.prepare(fmt::format("weak-{}", ranks), {fmt::format("scene.spacing={:.17g}", base.scene.spacing / std::cbrt(ranks))});
+  p.cloud.reach = base.cloud.reach * p.scene.spacing / base.scene.spacing;
+  const auto particles = static_cast<double>(p.initial.size());
+  r.lines.push_back(line_of(r, p.cloud, whole_of(p.cloud, particles), ranks, particles));
+  r.lines.back().weak = true;
+  return p;
+}
+
 void add_lines(PredictionReport& r, PredictRuns& runs, const Options& o, const Prepared& base) {
   const auto sampled = static_cast<double>(base.initial.size());
-  const std::vector<double> numbers = o.particles.empty() ? std::vector<double>{sampled} : o.particles;
-  for (const double particles : numbers) {
+  for (const double particles : o.particles.empty() ? std::vector<double>{sampled} : o.particles) {
     const predict::Share whole = whole_of(base.cloud, particles);
     for (const int ranks : o.ranks) r.lines.push_back(line_of(r, base.cloud, whole, ranks, particles));
   }
+  std::vector<ToMeasure> measured;
+  for (const int ranks : o.measure) measured.push_back({line_on(r, base, ranks), &base});
   std::vector<Prepared> weak;
-  weak.reserve(o.measure.size() + o.ranks.size());
-  std::vector<const Prepared*> prepared{&base};
-  std::vector<std::size_t> measured;
-  for (const int ranks : o.measure) {
-    auto found = std::find_if(r.lines.begin(), r.lines.end(),
-                              [&](const auto& l) { return l.prediction.ranks == ranks && l.prediction.particles == sampled; });
-    if (found == r.lines.end())
-      r.lines.push_back(line_of(r, base.cloud, whole_of(base.cloud, sampled), ranks, sampled)), found = r.lines.end() - 1;
-    measured.push_back(static_cast<std::size_t>(found - r.lines.begin())), prepared.push_back(&base);
-  }
+  weak.reserve(o.measure.size() + o.ranks.size());  // places of its entries are kept below
   for (const int ranks : o.weak ? (o.measure.empty() ? o.ranks : o.measure) : std::vector<int>{}) {
     if (ranks == 1) continue;
-    weak.push_back(runs.prepare(fmt::format("weak-{}", ranks),
-                                {fmt::format("scene.spacing={:.17g}", base.scene.spacing / std::cbrt(ranks))}));
-    Prepared& p = weak.back();
-    p.cloud.reach = base.cloud.reach * p.scene.spacing / base.scene.spacing;
-    const auto particles = static_cast<double>(p.initial.size());
-    r.lines.push_back(line_of(r, p.cloud, whole_of(p.cloud, particles), ranks, particles));
-    r.lines.back().weak = true;
-    if (!o.measure.empty()) measured.push_back(r.lines.size() - 1), prepared.push_back(&p);
+    weak.push_back(add_weak_line(r, runs, base, ranks));
+    measured.push_back({r.lines.size() - 1, &weak.back()});
   }
   if (o.measure.empty()) return;
-  std::vector<PredictedLine*> lines;
-  for (const std::size_t n : measured) lines.push_back(&r.lines[n]);
   for (Prepared& p : weak) runs.choose_end(p);
+  std::vector<const Prepared*> prepared{&base};
+  std::vector<PredictedLine*> lines;
+  for (const ToMeasure& m : measured) prepared.push_back(m.prepared), lines.push_back(&r.lines[m.line]);
   measure(runs, prepared, lines, o.repeats);
 }
 

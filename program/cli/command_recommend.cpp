@@ -66,10 +66,10 @@ Case case_of(const Options& o) {
   value.gates.clear(), value.inputs.clear();
   if (!o.levels.empty()) {
     Study study;
-    study.axis = o.axis.empty() ? "spacing" : o.axis, study.levels = o.levels, study.metric = o.metric;
+    study.axes.axis = o.axis.empty() ? Axis::spacing : from_word<Axis>(o.axis), study.levels = o.levels, study.metric = o.metric;
     value.studies = {study};
   }
-  if (!o.axis.empty()) std::erase_if(value.studies, [&](const Study& s) { return s.axis != o.axis; });
+  if (!o.axis.empty()) std::erase_if(value.studies, [&](const Study& s) { return to_string(s.axes.axis) != o.axis; });
   if (value.studies.empty())
     throw InputError(o.what + ": has no study to read a front from: name --axis and --levels a,b,c, coarse to fine");
   return value;
@@ -108,7 +108,7 @@ CaseResult read_case_of(const std::string& path, const std::string& id) {
 
 bool is_coarse(const Case& value, const RunPlan& run, std::size_t count) {
   return std::any_of(value.studies.begin(), value.studies.end(), [&](const Study& s) {
-    const auto at = run.levels.find(s.axis);
+    const auto at = run.levels.find({s.axes.axis});
     if (at == run.levels.end()) return false;
     for (std::size_t k = 0; k < std::min(count, s.levels.size()); ++k)
       if (same_level(s.levels[k], at->second)) return true;
@@ -116,9 +116,7 @@ bool is_coarse(const Case& value, const RunPlan& run, std::size_t count) {
   });
 }
 
-std::string name_of(const Ladder& l) {
-  return fmt::format("{}{}{}", label_of(l.engine, l.preset), l.mode.empty() ? "" : " ", l.mode);
-}
+std::string name_of(const Ladder& l) { return label_of(l.engine, l.preset) + after_blank(l.mode); }
 
 void print_ladders(const std::vector<Ladder>& ladders, const std::string& metric) {
   print(fmt::format("measured front of {}\n  {:28} {:14} {:>12} {:>12} {:>10} {:>12}\n", metric, "engine", "axis", "level",
@@ -136,16 +134,17 @@ double factor_between(double a, double b) {
 /// The recommended run itself.
 LadderPoint make_recommended(const Options& o, Case value, const Recommendation& r, const std::string& metric) {
   Study only;
-  only.axis = r.ladder->axis, only.levels = {r.level}, only.engine = r.ladder->engine, only.mode = r.ladder->mode;
+  only.axes.axis = r.ladder->axis, only.levels = {r.level}, only.engine = r.ladder->engine, only.mode = r.ladder->mode;
   for (const auto& s : value.studies)
-    if (s.axis == only.axis && (s.engine.empty() || s.engine == only.engine) && (s.mode.empty() || s.mode == only.mode))
+    if (s.axes.axis == only.axes.axis && (s.engine.empty() || s.engine == only.engine) &&
+        (s.mode == JudgedMode::none || s.mode == only.mode))
       only.jitter = s.jitter, only.seeds = s.seeds;
   value.studies = {only};
-  if (!only.mode.empty()) value.modes = {mode_from(only.mode)};
+  if (only.mode != JudgedMode::none) value.modes = {mode_from(to_string(only.mode))};
   auto chosen = o;
   chosen.engines = only.engine, chosen.out = o.out + "/recommended";
   const auto result = measure(chosen, value, [&](const RunPlan& run) {
-    const auto at = run.levels.find(only.axis);
+    const auto at = run.levels.find(only.axes);
     return at != run.levels.end() && same_level(at->second, only.levels[0]);
   });
   for (const auto& engine : result.engines)
@@ -231,7 +230,7 @@ int plan_for(Options o) {
                       name_of(l), l.axis, "-", slope));
       continue;
     }
-    const bool upward = l.axis == "walkers" || l.axis == "iterations" || l.axis == "support_ratio";
+    const bool upward = refines_upward(l.axis);
     if (fine.step > farthest * step) {
       print_line(
           fmt::format("  {:28} {:14} {:>12}  out of reach: its error falls as the level to the {:.2g}, which would take {:.2g}, "
@@ -252,8 +251,7 @@ void add_common(CLI::App& command, Options& o, const std::string& name) {
   command.add_option("CASE", o.what, "a case file or id")->required();
   command.add_option("--metric", o.metric, "which metric (default: that of the case's first study)");
   command.add_option("--engines", o.engines, "only these engines, A,B");
-  command.add_option("--axis", o.axis, "only this axis")
-      ->check(CLI::IsMember({"spacing", "time_step", "support_ratio", "walkers", "iterations"}));
+  command.add_option("--axis", o.axis, "only this axis")->check(CLI::IsMember(axis_words()));
   command.add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")
       ->delimiter(',')
       ->allow_extra_args(false);

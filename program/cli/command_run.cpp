@@ -112,8 +112,8 @@ std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& 
   for (const auto& g : value.gates) {
     const bool of_level = !g.level || std::any_of(run.levels.begin(), run.levels.end(),
                                                   [&](const auto& l) { return same_level(l.second, *g.level); });
-    const bool ours = (g.engine.empty() || g.engine == plan.name) && (g.mode.empty() || g.mode == run.mode) &&
-                      (g.preset.empty() || g.preset == plan.preset);
+    const bool ours =
+        (g.engine.empty() || g.engine == plan.name) && fits(g.mode, run.mode) && (g.preset.empty() || g.preset == plan.preset);
     if (g.metric != metric || !ours || !of_level) continue;
     if (g.limit && *g.limit > 0.0)
       text += fmt::format("  limit {:.4g} ({:.3g} % of it)", *g.limit,
@@ -196,27 +196,15 @@ EnginePlan plan_for(const Case& value, const std::vector<EngineEntry>& engines, 
   return plan;
 }
 
-int run(RunOptions o) {
-  catch_interrupts();
-  if (!o.until.empty()) o.set.push_back("scene.end_time=" + o.until);
-  const CaseReading reading = read_case(shown_path(case_file(o.what)), o.set);
-  const Case& value = reading.value;
+/// What the command leaves open: where the run goes on, and which folder it is in.
+void fill_in(RunOptions& o, const Case& value) {
   if (!o.resume.empty()) o.resume = checkpoint_file(o.resume);
   if (o.out.empty() && !o.resume.empty()) o.out = fs::path(o.resume).parent_path().string();
   if (o.out.empty()) o.out = "runs/" + value.id + "/" + o.engine.substr(o.engine.rfind('/') + 1);
-  const auto words = sort_engine_words({o.engine});
-  const auto engines = discover_engines(words.paths);
-  const auto plan = plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);
-  const auto& base = plan.runs.front();
-  const Scene scene = scene_of(value, base);
-  if (scene.settle && !o.quiet)
-    say("letting the liquids down into equilibrium, which takes as long as some thousand steps (scene.settle)");
-  const auto initial = sample(scene);
-  auto job = make_job(value, plan, base, scene, initial);
-  if (!o.quiet) say_findings(reading, scene, initial, job);
-  job.threads = o.threads;
-  job.resume = o.resume;
-  if (!o.checkpoint_interval.empty()) job.settings["checkpoint_interval"] = seconds_of(o.checkpoint_interval);
+}
+
+/// Runs the job in its folder, and shows how far it is.
+Outcome run_shown(const EnginePlan& plan, const Job& job, const InitialState& initial, const RunOptions& o) {
   make_folder(o.out);
   RunRequest request;
   request.engine = plan.entry, request.job = &job, request.initial = &initial, request.wall_limit = o.wall_limit;
@@ -224,14 +212,36 @@ int run(RunOptions o) {
   fs::remove(request.particles);
   write_particles(request.particles, initial);
   if (!o.quiet)
-    say(fmt::format("{} on {} {}: {} particles to t = {:g} s", value.id, plan.name, plan.entry->version, initial.size(),
-                    scene.end_time));
+    say(fmt::format("{} on {} {}: {} particles to t = {:g} s", job.case_id, plan.name, plan.entry->version, initial.size(),
+                    job.scene.end_time));
   RunProgress progress(progress_form(o.progress, o.quiet, isatty(2) == 1));
   request.progress = [&](double done) { progress.at(done); };
   request.status = [&](const std::string& status) { progress.at(status); };
   if (const auto seconds = progress.interval(); !seconds.empty()) request.environment["TRIPOINT_STATUS"] = seconds;
-  const auto outcome = run_one(request);
+  auto outcome = run_one(request);
   progress.end();
+  return outcome;
+}
+
+int run(RunOptions o) {
+  catch_interrupts();
+  if (!o.until.empty()) o.set.push_back("scene.end_time=" + o.until);
+  const CaseReading reading = read_case(shown_path(case_file(o.what)), o.set);
+  const Case& value = reading.value;
+  fill_in(o, value);
+  const auto words = sort_engine_words({o.engine});
+  const auto engines = discover_engines(words.paths);
+  const auto plan = plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);
+  const Scene scene = scene_of(value, plan.runs.front());
+  if (scene.settle && !o.quiet)
+    say("letting the liquids down into equilibrium, which takes as long as some thousand steps (scene.settle)");
+  const auto initial = sample(scene);
+  auto job = make_job(value, plan, plan.runs.front(), scene, initial);
+  if (!o.quiet) say_findings(reading, scene, initial, job);
+  job.threads = o.threads;
+  job.resume = o.resume;
+  if (!o.checkpoint_interval.empty()) job.settings["checkpoint_interval"] = seconds_of(o.checkpoint_interval);
+  const auto outcome = run_shown(plan, job, initial, o);
   std::map<std::string, MetricValue> metrics;
   if (outcome.trajectory) metrics = evaluate_all(value, job, initial, *outcome.trajectory);
   if (o.json)

@@ -117,9 +117,8 @@ void fit_threads(SuiteOptions& suite) {
   suite.threads = each;
 }
 
-int validate(ValidateOptions o) {
-  catch_interrupts();
-  fit_threads(o.suite);
+/// Which cases are run, and with which seed.
+void choose_cases(ValidateOptions& o) {
   if (!o.shard.empty()) {
     const auto part = read_shard(o.shard);
     o.filter.shard = part.i, o.filter.shards = part.n;
@@ -127,6 +126,35 @@ int validate(ValidateOptions o) {
   if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
   o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";
   if (o.seed_given) o.suite.selection.seed = o.seed;
+}
+
+/// The runs of all cases, and their times where these are asked for.
+Results run_all(const std::vector<Case>& cases, const std::vector<EngineEntry>& engines, const ValidateOptions& o) {
+  auto results = run_suite(cases, engines, o.suite);
+  if (o.timing <= 0) return results;
+  for (auto& c : results.cases)
+    for (const auto& value : cases)
+      if (value.id == c.id && !interrupted()) time_case(value, engines, o.timing, o.suite, c);
+  return results;
+}
+
+/// What was asked for, so that the results can be judged by who has nothing but them.
+void describe_call(Results& results, const ValidateOptions& o) {
+  results.command = command_line(), results.profile = o.filter.profile, results.date = date_now(), results.shard = o.shard;
+  results.what = o.filter.what, results.tag = o.filter.tag;
+  results.filter_known = !o.last_failed && o.filter.substring.empty();  // else it is a part, and nobody can say of what
+}
+
+void keep_history(Results& results, const ValidateOptions& o) {
+  const auto file = o.history.empty() ? (std::filesystem::path(o.suite.out) / "history.jsonl").string() : o.history;
+  append_history(file, history_lines(results));
+  results.history = std::filesystem::relative(std::filesystem::absolute(file), std::filesystem::absolute(o.suite.out)).string();
+}
+
+int validate(ValidateOptions o) {
+  catch_interrupts();
+  fit_threads(o.suite);
+  choose_cases(o);
   if (o.sandbox) sandbox_strangers();
   auto cases = cases_of(o);
   const auto engines = engines_asked_for(o.engines, o.engine, o.suite.selection);
@@ -135,20 +163,10 @@ int validate(ValidateOptions o) {
   say(fmt::format("{} case{}, {} engines, into {}", cases.size(), cases.size() == 1 ? "" : "s", engines.size(), o.suite.out));
   o.suite.say = [](const std::string& line) { say(line); };
   if (!o.json) o.suite.on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
-  auto results = run_suite(cases, engines, o.suite);
-  if (o.timing > 0)
-    for (auto& c : results.cases)
-      for (const auto& value : cases)
-        if (value.id == c.id && !interrupted()) time_case(value, engines, o.timing, o.suite, c);
-  results.command = command_line(), results.profile = o.filter.profile, results.date = date_now(), results.shard = o.shard;
-  results.what = o.filter.what, results.tag = o.filter.tag;
-  results.filter_known = !o.last_failed && o.filter.substring.empty();  // else it is a part, and nobody can say of what
-  judge(results);                                                       // a shard is asked less than a whole suite
-  if (o.keep_history) {
-    const auto file = o.history.empty() ? (std::filesystem::path(o.suite.out) / "history.jsonl").string() : o.history;
-    append_history(file, history_lines(results));
-    results.history = std::filesystem::relative(std::filesystem::absolute(file), std::filesystem::absolute(o.suite.out)).string();
-  }
+  auto results = run_all(cases, engines, o);
+  describe_call(results, o);
+  judge(results);  // a shard is asked less than a whole suite
+  if (o.keep_history) keep_history(results, o);
   if (!o.page)
     write_results(results, o.suite.out);
   else if (const auto missing = write_report(results, o.suite.out); !missing.empty())

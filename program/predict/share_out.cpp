@@ -30,6 +30,34 @@ Seen seen_by(const std::vector<double>& at, std::size_t n, double x, double reac
   return s;
 }
 
+/// By direction and part: where its ranks see the particle at r; in the part that has it as its own, its place comes first.
+using SeenBy = std::array<std::vector<Seen>, 3>;
+SeenBy seen_by_all(const Cloud& cloud, const Cuts& cuts, Vec3 r) {
+  SeenBy seen;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const bool wraps = cloud.periodic[a] && cuts.cut(a);
+    const double width = wraps ? cloud.max[a] - cloud.min[a] : 0.0;
+    if (wraps) r[a] -= std::floor((r[a] - cloud.min[a]) / width) * width;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(cuts.grid[a]); ++n) {
+      Seen s = cuts.cut(a) ? seen_by(cuts.at[a], n, r[a], cloud.reach, width) : Seen{true, {}};
+      if (s.own) s.copies.insert(s.copies.begin(), r[a]);
+      seen[a].push_back(std::move(s));
+    }
+  }
+  return seen;
+}
+
+/// Adds a particle to the rank that sees it so in each direction: as its own, and as copies.
+void hold(const Seen& x, const Seen& y, const Seen& z, std::vector<Vec3>& held, Share& share) {
+  for (const double at_z : z.copies)
+    for (const double at_y : y.copies)
+      for (const double at_x : x.copies) held.push_back({at_x, at_y, at_z});
+  const bool own = x.own && y.own && z.own;
+  const double all = static_cast<double>(x.copies.size() * y.copies.size() * z.copies.size());
+  share.own += own ? 1.0 : 0.0;
+  share.copies += own ? all - 1.0 : all;
+}
+
 }  // namespace
 
 std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::array<bool, 3>& seen, const Vec3& min,
@@ -57,29 +85,13 @@ Shares share_out(const Cloud& cloud, int ranks) {
   shares.grid = cuts.grid, shares.messages = messages_of(cuts, cloud.reach);
   std::vector<std::vector<Vec3>> held(static_cast<std::size_t>(ranks));
   shares.ranks.resize(held.size());
-  std::array<std::vector<Seen>, 3> seen;
-  for (std::size_t a = 0; a < 3; ++a) seen[a].resize(static_cast<std::size_t>(cuts.grid[a]));
-  for (Vec3 r : cloud.position) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      const bool wraps = cloud.periodic[a] && cuts.cut(a);
-      const double width = wraps ? cloud.max[a] - cloud.min[a] : 0.0;
-      if (wraps) r[a] -= std::floor((r[a] - cloud.min[a]) / width) * width;
-      for (std::size_t n = 0; n < seen[a].size(); ++n) {
-        seen[a][n] = cuts.cut(a) ? seen_by(cuts.at[a], n, r[a], cloud.reach, width) : Seen{true, {}};
-        if (seen[a][n].own) seen[a][n].copies.insert(seen[a][n].copies.begin(), r[a]);
-      }
-    }
+  for (const Vec3& r : cloud.position) {
+    const SeenBy seen = seen_by_all(cloud, cuts, r);
     std::size_t rank = 0;
     for (const Seen& z : seen[2])
       for (const Seen& y : seen[1])
         for (const Seen& x : seen[0]) {
-          const bool own = x.own && y.own && z.own;
-          for (const double at_z : z.copies)
-            for (const double at_y : y.copies)
-              for (const double at_x : x.copies) held[rank].push_back({at_x, at_y, at_z});
-          const double all = static_cast<double>(x.copies.size() * y.copies.size() * z.copies.size());
-          shares.ranks[rank].own += own ? 1.0 : 0.0;
-          shares.ranks[rank].copies += own ? all - 1.0 : all;
+          hold(x, y, z, held[rank], shares.ranks[rank]);
           ++rank;
         }
   }

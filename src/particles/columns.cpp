@@ -8,7 +8,7 @@ constexpr std::size_t padding = vector_bytes / sizeof(double);  ///< rows beyond
 
 }  // namespace
 
-Columns::Columns(std::size_t rows, Per per, std::span<const FieldInfo> fields) : rows_(rows), per_(per) {
+Columns::Columns(std::size_t rows, Per per, std::span<const FieldInfo> fields) : rows_(rows) {
   for (const FieldInfo& f : fields) {
     if (f.per != per || find(f.key)) continue;
     const std::size_t n = rows + padding;

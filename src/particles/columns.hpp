@@ -107,7 +107,6 @@ class Columns {
 
   mutable const DeclaredFields* declared_ = nullptr;
   std::size_t rows_ = 0;
-  Per per_ = Per::particle;
   std::vector<Column> columns_;
   static constexpr std::size_t places_of_keys = 512;   ///< more than twice as many as there are fields: few keys share a place
   std::array<std::uint8_t, places_of_keys> number_{};  ///< open addressing: 1 + the column whose key has, or shares, this place

@@ -149,6 +149,32 @@ void restore_bodies(World& world, const Checkpoint& kept) {
   restore_columns(world.bodies, "bodies/", kept);
 }
 
+/// @param here layout() of this solver  @throws InputError naming the first line that differs
+void refuse_another_layout(const Checkpoint& kept, const std::vector<std::string>& here) {
+  const auto there = kept.text.find("step/layout");
+  if (there != kept.text.end() && there->second == here) return;
+  const auto differs = [&](std::size_t n) {
+    return there == kept.text.end() || n >= there->second.size() || there->second[n] != here[n];
+  };
+  std::size_t n = 0;
+  while (n + 1 < here.size() && !differs(n)) ++n;
+  throw InputError("the checkpoint was written by a solver of another layout: it lacks or changes \"" + here[n] + "\"");
+}
+
+void restore_booked(Bookings& booked, const Checkpoint& kept) {
+  std::ranges::copy(take(kept.real, "step/booked", booked.values().size()), booked.values().begin());
+  const std::vector<double>& spin = take(kept.real, "step/undelivered_spin", 3);
+  booked.undelivered_spin = {spin[0], spin[1], spin[2]};
+}
+
+void restore_all_pairs(World& world, const Checkpoint& kept) {
+  restore_pairs(world.bonds, "bonds", kept);
+  restore_pairs(world.own, "own_pairs", kept);
+  const std::vector<std::int64_t>& pairs = take(kept.whole, "step/pairs", 2);
+  if (pairs[0] != static_cast<std::int64_t>(world.bonds.pairs()) || pairs[1] != static_cast<std::int64_t>(world.own.pairs()))
+    throw InputError("the checkpoint lacks some of its bonds or own pairs");
+}
+
 }  // namespace
 
 /// Every effect and field with its carrier and type: two checkpoints of one layout hold the same arrays.
@@ -204,16 +230,7 @@ Checkpoint Simulation::state() const {
 }
 
 void Simulation::restore(const Checkpoint& kept) {
-  const std::vector<std::string> here = layout();
-  const auto there = kept.text.find("step/layout");
-  if (there == kept.text.end() || there->second != here) {
-    const auto differs = [&](std::size_t n) {
-      return there == kept.text.end() || n >= there->second.size() || there->second[n] != here[n];
-    };
-    std::size_t n = 0;
-    while (n + 1 < here.size() && !differs(n)) ++n;
-    throw InputError("the checkpoint was written by a solver of another layout: it lacks or changes \"" + here[n] + "\"");
-  }
+  refuse_another_layout(kept, layout());
   const std::vector<double>& t = take(kept.real, "step/time", 7);
   world_.time = t[0];
   world_.next_time = t[1];
@@ -225,18 +242,12 @@ void Simulation::restore(const Checkpoint& kept) {
   steps_ = n[0];
   world_.moved = n[4] != 0;
   schedule_.restore(static_cast<std::size_t>(n[1]), {t[5], t[6], n[2], n[3]});
-  std::ranges::copy(take(kept.real, "step/booked", world_.booked.values().size()), world_.booked.values().begin());
-  const std::vector<double>& spin = take(kept.real, "step/undelivered_spin", 3);
-  world_.booked.undelivered_spin = {spin[0], spin[1], spin[2]};
+  restore_booked(world_.booked, kept);
   if (const auto ids = kept.whole.find("particles/id"); ids != kept.whole.end())
     while (world_.particles.size() < ids->second.size()) world_.particles.append();  // those that had flowed in
   const std::vector<std::uint32_t> order = row_order(kept, world_.particles.size());
   world_.particles.permute(order);  // rows were in order of id
-  restore_pairs(world_.bonds, "bonds", kept);
-  restore_pairs(world_.own, "own_pairs", kept);
-  const std::vector<std::int64_t>& pairs = take(kept.whole, "step/pairs", 2);
-  if (pairs[0] != static_cast<std::int64_t>(world_.bonds.pairs()) || pairs[1] != static_cast<std::int64_t>(world_.own.pairs()))
-    throw InputError("the checkpoint lacks some of its bonds or own pairs");
+  restore_all_pairs(world_, kept);
   if (world_.neighbours) {
     restore_lists(world_, kept, order);
     world_.neighbours->mark_own(world_.particles, world_.own);

@@ -29,6 +29,19 @@ TEST(ArchitecturePage, HasTheMapOfTheRooms) {
   }
 }
 
+TEST(ArchitecturePage, DrawsEveryRoom) {
+  const std::string page = text_of(root() / "docs/architecture.md");
+  const auto begin = page.find("```mermaid");
+  const std::string picture = page.substr(begin, page.find("```\n", begin + 3) - begin);
+  ASSERT_GT(picture.size(), 1000U);
+  for (const auto& [room, others] : map_of_rooms()) {
+    std::string name = room.substr(room.rfind('/') + 1);
+    if (name == "*") name = "NAME";
+    EXPECT_TRUE(std::regex_search(picture, std::regex("\\[\"[^\"]*\\b" + name + "\\b[^\"]*\"\\]")))
+        << "the picture of docs/architecture.md has no box that names the room " << room;
+  }
+}
+
 /// Everything that the page may name: the text of the code, and names of files.
 struct Named {
   std::string code;

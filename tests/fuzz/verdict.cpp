@@ -14,7 +14,7 @@ namespace {
 
 constexpr Status states[] = {Status::ok,       Status::ok,     Status::ok,      Status::ok,    Status::refused, Status::missing,
                              Status::diverged, Status::killed, Status::timeout, Status::error, Status::error};
-constexpr const char* modes[] = {"corrected", "paper", ""};
+constexpr JudgedMode modes[] = {JudgedMode::corrected, JudgedMode::paper, JudgedMode::none};
 
 Gate made_gate(fuzz::Bytes& bytes) {
   Gate g;

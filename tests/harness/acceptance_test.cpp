@@ -103,11 +103,11 @@ TEST(AcceptanceOrder, BelowTheLeastIsRed) {
 
 TEST(NotPaper, StudiesLeaveOutOurPrintedFormOnly) {
   Study s;
-  s.mode = "not paper";
-  EXPECT_TRUE(applies(s, "tripoint", "corrected"));
-  EXPECT_FALSE(applies(s, "tripoint", "paper"));
-  EXPECT_TRUE(applies(s, "stone", ""));
-  EXPECT_FALSE(applies(s, "exact", ""));
+  s.mode = JudgedMode::not_paper;
+  EXPECT_TRUE(applies(s, "tripoint", JudgedMode::corrected));
+  EXPECT_FALSE(applies(s, "tripoint", JudgedMode::paper));
+  EXPECT_TRUE(applies(s, "stone", JudgedMode::none));
+  EXPECT_FALSE(applies(s, "exact", JudgedMode::none));
 }
 
 TEST(Scorecard, HoldsErrorLimitCostAndRank) {

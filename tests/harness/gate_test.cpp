@@ -316,8 +316,8 @@ TEST(Baselines, GatesAtLevelsFindTheirOwn) {
   Kept kept;
   auto& runs = engine(kept.r).runs;
   runs.push_back(runs[0]);
-  runs[1].group = "fine", runs[1].levels = {{"spacing", 0.05}};
-  runs[0].levels = {{"spacing", 0.1}};
+  runs[1].group = "fine", runs[1].levels = {{{Axis::spacing}, 0.05}};
+  runs[0].levels = {{{Axis::spacing}, 0.1}};
   auto& gates = kept.r.cases[0].gates;
   gates.push_back(gates[0]);
   gates[0].level = 0.1, gates[1].level = 0.05;

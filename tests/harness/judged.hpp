@@ -50,12 +50,12 @@ inline int exit_of(Results r) {
 inline Results study_of(const std::vector<double>& errors) {
   auto r = green();
   Study s;
-  s.axis = "spacing", s.metric = "error";
+  s.axes = {Axis::spacing}, s.metric = "error";
   engine(r).runs.clear();
   double spacing = 0.1;
   for (const double e : errors) {
     auto run = run_with({{"error", value(e)}});
-    run.base = false, run.knobs.spacing = spacing, run.levels = {{"spacing", spacing}},
+    run.base = false, run.knobs.spacing = spacing, run.levels = {{{Axis::spacing}, spacing}},
     run.group = "spacing=" + std::to_string(spacing);
     engine(r).runs.push_back(run);
     s.levels.push_back(spacing);

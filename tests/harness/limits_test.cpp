@@ -149,13 +149,13 @@ TEST(GateEdges, ADescriptionHoldsEachFigure) {
 
 TEST(GateEdges, AModeFitsByNameAndNotPaperFitsAllOthers) {
   Gate g;
-  EXPECT_TRUE(fits_mode(g, "paper") && fits_mode(g, "corrected") && fits_mode(g, ""));
-  g.mode = "paper";
-  EXPECT_TRUE(fits_mode(g, "paper"));
-  EXPECT_FALSE(fits_mode(g, "corrected"));
-  g.mode = "not paper";
-  EXPECT_FALSE(fits_mode(g, "paper"));
-  EXPECT_TRUE(fits_mode(g, "corrected") && fits_mode(g, ""));
+  EXPECT_TRUE(fits_mode(g, JudgedMode::paper) && fits_mode(g, JudgedMode::corrected) && fits_mode(g, JudgedMode::none));
+  g.mode = JudgedMode::paper;
+  EXPECT_TRUE(fits_mode(g, JudgedMode::paper));
+  EXPECT_FALSE(fits_mode(g, JudgedMode::corrected));
+  g.mode = JudgedMode::not_paper;
+  EXPECT_FALSE(fits_mode(g, JudgedMode::paper));
+  EXPECT_TRUE(fits_mode(g, JudgedMode::corrected) && fits_mode(g, JudgedMode::none));
 }
 
 TEST(GateEdges, AKnownDefectIsOneWordBeforeAColon) {

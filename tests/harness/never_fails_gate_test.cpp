@@ -264,19 +264,19 @@ TEST(NeverFailsGate, Way54AMetricWhoseOwnReferenceWasAnotherIsSeenThoughItIsPutB
 TEST(NeverFailsGate, Way34TheRedRowOfThePrintedFormDoesNotStandForTheCorrectedOne) {
   auto r = green();
   auto paper = engine(r).runs[0];
-  engine(r).runs[0].knobs.mode = "corrected", paper.knobs.mode = "paper", paper.group = "paper";
+  engine(r).runs[0].knobs.mode = JudgedMode::corrected, paper.knobs.mode = JudgedMode::paper, paper.group = "paper";
   paper.metrics["error"].value = 5.0;
   engine(r).runs.push_back(paper);
-  r.cases[0].gates[0].mode = "corrected", r.cases[0].gates[0].limit = 1e9;
+  r.cases[0].gates[0].mode = JudgedMode::corrected, r.cases[0].gates[0].limit = 1e9;
   auto printed = limit("error", 0.1);
-  printed.mode = "paper";
+  printed.mode = JudgedMode::paper;
   r.cases[0].gates.push_back(printed);
   judge(r);
   const auto& c = r.cases[0];
-  EXPECT_EQ(decisive_mode(c, "error", "fluid.state"), "corrected");
-  EXPECT_FALSE(look(c, "error", "corrected").red);
-  EXPECT_TRUE(look(c, "error", "paper").red);
-  EXPECT_EQ(decisive_mode(c, "error", "fluid.paper.state"), "paper");
+  EXPECT_EQ(decisive_mode(c, "error", "fluid.state"), JudgedMode::corrected);
+  EXPECT_FALSE(look(c, "error", JudgedMode::corrected).red);
+  EXPECT_TRUE(look(c, "error", JudgedMode::paper).red);
+  EXPECT_EQ(decisive_mode(c, "error", "fluid.paper.state"), JudgedMode::paper);
 }
 
 TEST(NeverFailsGate, Way35ADefectWhoseOwnCaseIsGoneIsAProblem) {

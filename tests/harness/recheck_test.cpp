@@ -27,7 +27,6 @@ Results results_of(const Case& file) {
   c.id = file.id, c.file = file.file, c.expect = file.expect, c.reference = with_source_of_file(file.reference),
   c.metrics = file.metrics, c.gates = file.gates;
   c.studies = file.studies;
-  for (auto& s : c.studies) s.axis = study_axis(s);
   c.hashes = case_hashes(file.file);
   for (const auto& plan : plan_runs(file, {}, {})) {
     EngineRow e;
@@ -80,7 +79,7 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
       {{reference}, [](CaseResult& c) { c.reference.args["x"] = 1.0; }},
       {{reference}, [](CaseResult& c) { c.reference.uncertainty = 0.1; }},
       {{another}, [](CaseResult& c) { c.metrics[0].quantity = "velocity"; }},
-      {{another}, [](CaseResult& c) { c.metrics[0].norm = "final"; }},
+      {{another}, [](CaseResult& c) { c.metrics[0].norm = Norm::final; }},
       {{another}, [](CaseResult& c) { c.metrics[0].body = "cube"; }},
       {{another}, [](CaseResult& c) { c.metrics[0].at = "all"; }},
       {{another}, [](CaseResult& c) { c.metrics[0].scale = 2.0; }},
@@ -92,7 +91,7 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
       {{"the metric late is not in them"}, [](CaseResult& c) { c.metrics.pop_back(); }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].metric = "late"; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].engine = "other"; }},
-      {{gate, held}, [](CaseResult& c) { c.gates[0].mode = "paper"; }},
+      {{gate, held}, [](CaseResult& c) { c.gates[0].mode = JudgedMode::paper; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].preset = "tuned"; }},
       {{gate, held + "position, limit 1, that the file does not"}, [](CaseResult& c) { c.gates[0].limit = 1.0; }},
       {{gate, held}, [](CaseResult& c) { c.gates[0].at_least = 1.0; }},
@@ -106,12 +105,12 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
       {{held + "late, band 0.5 to 2, that"}, [](CaseResult& c) { c.gates.push_back(c.gates[1]); }},
       {{"the gate on late"}, [](CaseResult& c) { c.gates.pop_back(); }},
       {{study}, [](CaseResult& c) { c.studies.clear(); }},
-      {{study}, [](CaseResult& c) { c.studies[0].axis = "time_step"; }},
+      {{study}, [](CaseResult& c) { c.studies[0].axes = {Axis::time_step}; }},
       {{study}, [](CaseResult& c) { c.studies[0].levels[1] = 0.025; }},
       {{study}, [](CaseResult& c) { c.studies[0].jitter = 0.1; }},
       {{study}, [](CaseResult& c) { c.studies[0].seeds = 2; }},
       {{study}, [](CaseResult& c) { c.studies[0].engine = "other"; }},
-      {{study}, [](CaseResult& c) { c.studies[0].mode = "paper"; }},
+      {{study}, [](CaseResult& c) { c.studies[0].mode = JudgedMode::paper; }},
       {{study}, [](CaseResult& c) { c.studies[0].expect = FitClass::asymptotic; }},
       {{study}, [](CaseResult& c) { c.studies[0].order = 1.0; }},
       {{study}, [](CaseResult& c) { c.studies[0].metric = "late"; }},

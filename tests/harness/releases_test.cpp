@@ -20,7 +20,8 @@ Release release(const std::string& version, double error, double order, Verdict 
   run.metrics["angle"].value = error;
   e.runs.push_back(run);
   OrderRow fit;
-  fit.metric = "angle", fit.axis = "time_step", fit.order.value = order, fit.step = {0.02, 0.01}, fit.error = {4 * error, error};
+  fit.metric = "angle", fit.axes = {Axis::time_step}, fit.order.value = order, fit.step = {0.02, 0.01},
+  fit.error = {4 * error, error};
   e.order.push_back(fit);
   GateRow gate;
   gate.metric = "angle", gate.verdict = gate_verdict, gate.why = "0.2 is above limit 0.1";

@@ -149,10 +149,10 @@ TEST(Judge, WhereThePrintedFormIsDeclaredToDivergeTheCorrectedOneMayNot) {
   auto r = green();
   r.cases[0].expect = Expect::paper_diverges;
   RunRow printed = engine(r).runs[0];
-  printed.knobs.mode = "paper", printed.status = Status::diverged;
-  engine(r).runs[0].knobs.mode = "corrected";
+  printed.knobs.mode = JudgedMode::paper, printed.status = Status::diverged;
+  engine(r).runs[0].knobs.mode = JudgedMode::corrected;
   engine(r).runs.push_back(printed);
-  for (Gate& gate : r.cases[0].gates) gate.mode = "corrected";
+  for (Gate& gate : r.cases[0].gates) gate.mode = JudgedMode::corrected;
   EXPECT_EQ(exit_of(r), exit_pass);
   engine(r).runs[1].status = Status::ok;
   EXPECT_EQ(exit_of(r), exit_fail) << "the declaration is stale";
@@ -180,7 +180,7 @@ TEST(Judge, AGateLooksOnlyAtItsModeLevelAndEngine) {
   r.cases[0].gates[0].level = 0.07;  // no such level: judges nothing
   EXPECT_EQ(exit_of(r), exit_missing);
   r = green();
-  r.cases[0].gates[0].mode = "paper";  // no such run
+  r.cases[0].gates[0].mode = JudgedMode::paper;  // no such run
   EXPECT_EQ(exit_of(r), exit_missing);
   r = green();
   r.cases[0].gates[0].engine = "bullet";

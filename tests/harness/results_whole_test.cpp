@@ -16,8 +16,8 @@ namespace {
 
 RunRow whole_run() {
   RunRow r;
-  r.knobs = {0.01, 0.02, 2.5, 3.0, 4.0, "paper", 5, 6, 0.07};
-  r.levels = {{"spacing", 0.11}, {"walkers", 12.0}};
+  r.knobs = {0.01, 0.02, 2.5, 3.0, 4.0, JudgedMode::paper, 5, 6, 0.07};
+  r.levels = {{{Axis::spacing, false, true}, 0.11}, {{Axis::walkers}, 12.0}};
   r.base = true, r.group = "the group", r.input = "material.water.viscosity=2", r.reason = "the reason", r.comparable = false;
   r.metrics["error"] = {0.13, {0.14, 0.15, 0.16, 0.17}, "the note", {0.18, 0.19}, {0.20, 0.21}};
   r.metrics["other"].value = not_a_number;
@@ -42,14 +42,15 @@ Results whole_results() {
                  "a book",
                  {{"a", 36.0}, {"b", true}, {"c", std::string("word")}, {"d", std::vector<double>{37.0, 38.0}}},
                  39.0};
-  c.metrics = {{"error", "position", "L2", "cube", "all", {0.40, 0.41}, 42.0, "mm", {}, {}}};
+  c.metrics = {{"error", "position", "cube", "all", Norm::L2, {0.40, 0.41}, 42.0, "mm", {}, {}}};
   Study s;
-  s.axis = "spacing", s.levels = {0.2, 0.1}, s.jitter = 0.43, s.seeds = 44, s.engine = "tripoint", s.mode = "corrected",
-  s.expect = FitClass::asymptotic, s.order = 2.0, s.metric = "error", s.place = {"one.toml", 45, 0};
+  s.axes = {Axis::spacing, true, false}, s.levels = {0.2, 0.1}, s.jitter = 0.43, s.seeds = 44, s.engine = "tripoint",
+  s.mode = JudgedMode::corrected, s.expect = FitClass::asymptotic, s.order = 2.0, s.metric = "error",
+  s.place = {"one.toml", 45, 0};
   c.studies = {s};
   Gate g;
-  g.metric = "error", g.engine = "tripoint", g.mode = "not paper", g.preset = "tuned", g.limit = 46.0, g.at_least = 47.0,
-  g.band = {48.0, 49.0}, g.level = 50.0, g.drift = 51.0;
+  g.metric = "error", g.engine = "tripoint", g.mode = JudgedMode::not_paper, g.preset = "tuned", g.limit = 46.0,
+  g.at_least = 47.0, g.band = {48.0, 49.0}, g.level = 50.0, g.drift = 51.0;
   g.reason = "a reason", g.by = "somebody", g.date = "2026-11-21", g.place = {"one.toml", 52, 0};
   c.gates = {g};
   EngineRow e;
@@ -180,6 +181,11 @@ TEST(WholeResults, AnUnknownWordIsAnErrorThatSaysWhereItStands) {
         std::pair{R"([{"kind": "proof"}])", "cases[0].kind: `proof` is no kind of case"},
         std::pair{R"([{"reference": {"kind": "exact"}}])", "cases[0].reference.kind: `exact` is no kind of reference"},
         std::pair{R"([{"studies": [{"expect": "flat"}]}])", "cases[0].studies[0].expect: `flat` is no class of convergence"},
+        std::pair{R"([{"studies": [{"axis": "spacing+walkers"}]}])", "cases[0].studies[0].axis: `spacing+walkers` is no axis"},
+        std::pair{R"([{"gates": [{"mode": "printed"}]}])", "cases[0].gates[0].mode: `printed` is no mode"},
+        std::pair{R"([{"metrics": [{"norm": "L3"}]}])", "cases[0].metrics[0].norm: `L3` is no norm"},
+        std::pair{R"([{"engines": [{"runs": [{"levels": {"space": 1}}]}]}])",
+                  "cases[0].engines[0].runs[0].levels: `space` is no axis"},
         std::pair{R"([{"equivalence": [{"verdict": "same"}]}])", "cases[0].equivalence[0].verdict: `same` is no verdict"}})
     EXPECT_NE(why(cases).find(place), std::string::npos) << why(cases);
   EXPECT_NE(why(R"([], "verdict": "GREEN")").find("verdict: `GREEN` is no verdict of a case"), std::string::npos);

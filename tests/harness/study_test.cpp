@@ -30,8 +30,8 @@ TEST(Studies, WhatIsRefinedTogetherIsALadderOfItsOwn) {
   const auto plan = plan_runs(value, {ours}, only).at(0);
   int alone = 0, joint = 0;
   for (const auto& run : plan.runs) {
-    alone += run.levels.count("spacing") > 0;
-    if (const auto at = run.levels.find("spacing+support_ratio+time_step"); at != run.levels.end()) {
+    alone += run.levels.count({Axis::spacing}) > 0;
+    if (const auto at = run.levels.find({Axis::spacing, true, true}); at != run.levels.end()) {
       ++joint;
       const auto scene = scene_of(value, run);
       EXPECT_EQ(scene.spacing, at->second);
@@ -54,8 +54,8 @@ TEST(Studies, WithAnotherNumberOfCompanionsThanLevelsAreRefused) {
 
 TEST(Studies, AJointLadderIsFittedOverItsSpacing) {
   auto r = study_of({1.6e-1, 4.0e-2, 1.0e-2, 2.5e-3});
-  for (auto& run : engine(r).runs) run.levels = {{"spacing+time_step", run.levels.begin()->second}};
-  r.cases[0].studies[0].axis = "spacing+time_step";
+  for (auto& run : engine(r).runs) run.levels = {{{Axis::spacing, false, true}, run.levels.begin()->second}};
+  r.cases[0].studies[0].axes = {Axis::spacing, false, true};
   judge(r);
   ASSERT_EQ(engine(r).order.size(), 1u);
   EXPECT_NEAR(engine(r).order[0].order.value, 2.0, 1e-9);  // an exact power

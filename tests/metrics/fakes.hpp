@@ -25,7 +25,7 @@ inline MetricChoice metric(const std::string& quantity, const std::string& norm,
   MetricChoice choice;
   choice.name = "m";
   choice.quantity = quantity;
-  choice.norm = norm;
+  choice.norm = from_word<Norm>(norm);
   choice.body = body;
   return choice;
 }

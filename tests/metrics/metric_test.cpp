@@ -25,6 +25,11 @@ TEST(Metric, IsNothingForThePerfectRun) {
   EXPECT_LT(std::abs(heat.value(metric("front", "final")).value), 1e-12);
 }
 
+TEST(Metric, EachNormIsExplainedByItsOwnWord) {
+  ASSERT_EQ(metric_norms().size(), all_of<Norm>().size());
+  for (const Norm norm : all_of<Norm>()) EXPECT_EQ(metric_norms()[static_cast<std::size_t>(norm)].name, to_string(norm));
+}
+
 TEST(Metric, MeasuresAKnownShift) {
   Trial t(test::thrown_block(), "torque_free");
   for (auto& r : t.run.frames.back().position) r += Vec3{0.003, 0, 0.004};

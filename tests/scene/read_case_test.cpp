@@ -139,6 +139,29 @@ TEST(ReadCase, RefusesWhatCannotBeMeant) {
       {"lacks conductivity"});
 }
 
+TEST(ReadCase, RefusesAWordThatTheJudgeDoesNotKnow) {
+  const std::string metric = six_lines + "[[metric]]\nname='way'\nquantity='position'\n";
+  expect_refused(metric + "norm='L3'\n", {"case.toml:10", "metric.way.norm", "\"L3\" is none of: L1, L2, L2raw, Linf"});
+  expect_refused(metric + "[[study]]\naxis='space'\nlevels=[2,1]\n", {"case.toml:11", "study.1.axis", "\"space\" is none of"});
+  expect_refused(metric + "[[study]]\naxis='spacing'\nlevels=[2,1]\nmode='printed'\n",
+                 {"case.toml:13", "study.1.mode", "unknown mode \"printed\": write corrected, paper or \"not paper\""});
+  expect_refused(metric + "[[gate]]\nmetric='way'\nlimit=1\nreason='r'\nmode='not printed'\n",
+                 {"case.toml:14", "gate.1.mode", "unknown mode \"not printed\""});
+  const auto r = read_text(metric + "norm='L2'\n[[study]]\naxis='spacing'\nlevels=[2,1]\ntime_steps=[2,1]\nmode='not paper'\n");
+  EXPECT_EQ(r.value.metrics.at(0).norm, Norm::L2);
+  EXPECT_EQ(r.value.studies.at(0).mode, JudgedMode::not_paper);
+  EXPECT_EQ(to_string(r.value.studies[0].axes), "spacing+time_step");
+}
+
+TEST(ReadCase, TheJudgesWordsForModesAreThoseOfTheScene) {
+  for (const Mode mode : {Mode::corrected, Mode::paper}) EXPECT_TRUE(find_word<JudgedMode>(to_string(mode))) << to_string(mode);
+  for (const Axis axis : all_of<Axis>())
+    for (const bool both : {false, true}) {
+      const StudyAxes axes{axis, both, !both};
+      EXPECT_EQ(study_axes_from(to_string(axes)), axes) << to_string(axes);
+    }
+}
+
 TEST(ReadCase, RefusesATruthThatIsNoFormulaAndATableWithoutAFile) {
   const std::string metric = six_lines + "[[metric]]\nname='speed'\nquantity='velocity_at'\n";
   EXPECT_EQ(refusal(metric + "reference={function='expression',args={value='3*t',axis='x',point=[0,0,0]}}\n"), "");

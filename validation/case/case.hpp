@@ -10,6 +10,7 @@
 #include "scene/scene.hpp"
 #include "scene/settings.hpp"
 #include "validation/case/case_words.hpp"
+#include "validation/case/study_axes.hpp"
 
 /// The checked case: a scene, and how its runs are judged. SI, with every default filled in.
 namespace tripoint {
@@ -22,7 +23,8 @@ struct EngineChoice {
 };
 
 struct MetricChoice {
-  std::string name, quantity, norm = "max", body, at = "end";
+  std::string name, quantity, body, at = "end";
+  Norm norm = Norm::max;
   std::array<double, 2> window{0.0, 0.0};    ///< [s]; {0, 0} = all
   double scale = 1.0;                        ///< error is divided by it
   std::string unit;                          ///< of the scaled value, for people
@@ -31,12 +33,13 @@ struct MetricChoice {
 };
 
 struct Study {
-  std::string axis;                                ///< spacing time_step support_ratio walkers iterations
+  StudyAxes axes;
   std::vector<double> levels;                      ///< coarse to fine
   std::vector<double> support_ratios, time_steps;  ///< refined together with the levels, one for each; empty = the case's own
   double jitter = 0.0;
   int seeds = 1;
-  std::string engine, mode;        ///< empty = all
+  std::string engine;  ///< empty = all
+  JudgedMode mode = JudgedMode::none;
   std::optional<FitClass> expect;  ///< empty = not judged
   std::optional<double> order;     ///< formal
   std::string metric;              ///< empty = every metric
@@ -44,8 +47,9 @@ struct Study {
 };
 
 struct Gate {
-  std::string metric;                ///< a metric's name, or NAME.order
-  std::string engine, mode, preset;  ///< empty = all
+  std::string metric;          ///< a metric's name, or NAME.order
+  std::string engine, preset;  ///< empty = all
+  JudgedMode mode = JudgedMode::none;
   std::optional<double> limit, at_least;
   std::optional<std::array<double, 2>> band;
   std::optional<double> level;  ///< of the study's axis; empty = every run

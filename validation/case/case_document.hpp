@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/toml_node.hpp"
+#include "validation/case/case_words.hpp"
 
 /// A case file as one plain document: what it extends is merged in, and its short forms are written out as [[metric]] and
 /// [[gate]]. The reader of a case then knows one form alone. Every value keeps the file and the line that it was written in.
@@ -57,7 +58,8 @@ void check_written_out(const TomlNode& document);
 
 /// A quantity that a run must keep, by the name that `invariants` knows it by.
 struct Invariant {
-  std::string_view name, quantity, norm;
+  std::string_view name, quantity;
+  Norm norm;
   std::string_view value;   ///< what it is compared with: "" by the case's reference, "!" must be given, else the default
   std::string_view reason;  ///< of its limit where the case gives none; "" it must be given
   std::string_view meaning;

@@ -13,7 +13,6 @@ namespace {
 
 using enum ValueType;
 using enum Range;
-constexpr std::string_view axes = "spacing time_step support_ratio walkers iterations";
 
 /// Before the scene's keys.
 constexpr auto keys_before = std::to_array<Key>({
@@ -74,7 +73,7 @@ constexpr auto keys_behind = std::to_array<Key>({
     {"metric", "quantity", text, "", any, "!", "", "",
      "position orientation velocity angular_velocity temperature pressure density force torque phase_count body_count event_time "
      "ledger.TERM"},
-    {"metric", "norm", text, "", any, "\"max\"", "the worst counts", "", "norm over samples and time: L1 L2 Linf max final ..."},
+    {"metric", "norm", word, "", any, "\"max\"", "the worst counts", word_line<Norm>, "norm over samples and time"},
     {"metric", "body", text, "", any, "\"\"", "all", "", "body whose samples count"},
     {"metric", "at", text, "", any, "\"end\"", "where errors have grown", "", "time at which the metric is taken"},
     {"metric", "window", numbers, "s", any, "[0, 0]", "all frames", "", "first and last time that count"},
@@ -87,7 +86,7 @@ constexpr auto keys_behind = std::to_array<Key>({
      "one gate for each level of the study, for all engines: { LEVEL = LIMIT, ... }"},
     {"metric", "reason", text, "", any, "", "gates bring their own", "", "reason of `limits`"},
     // [[study]]
-    {"study", "axis", word, "", any, "!", "", axes, "axis that is refined"},
+    {"study", "axis", word, "", any, "!", "", word_line<Axis>, "axis that is refined"},
     {"study", "levels", numbers, "", any, "!", "", "", "values in the axis's own unit, coarse to fine"},
     {"study", "support_ratios", numbers, "", any, "", "the case's own", "",
      "support ratios that are refined together with the levels, one for each"},

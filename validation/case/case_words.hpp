@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <string>
+
 #include "scene/words.hpp"
 
 /// The words that a case file has for what the judge tells apart.
@@ -18,6 +20,37 @@ enum class FitClass { asymptotic, preasymptotic, plateau, roundoff, oscillating,
 constexpr WordTable<8> word_table(FitClass) {
   return {"class of convergence",
           {"asymptotic", "preasymptotic", "plateau", "roundoff", "oscillating", "diverging", "noise-limited", "too-few"}};
+}
+
+/// What a study refines.
+enum class Axis { spacing, time_step, support_ratio, walkers, iterations };
+constexpr WordTable<5> word_table(Axis) {
+  return {"axis of a study", {"spacing", "time_step", "support_ratio", "walkers", "iterations"}};
+}
+
+/// How a metric makes one number of errors in space and time; metric_norms() says what each does.
+enum class Norm { L1, L2, L2raw, Linf, chi, max, rms, L2mean, mean, stationary, final, drift, frequency, slope };
+constexpr WordTable<14> word_table(Norm) {
+  return {
+      "norm of a metric",
+      {"L1", "L2", "L2raw", "Linf", "chi", "max", "rms", "L2mean", "mean", "stationary", "final", "drift", "frequency", "slope"}};
+}
+/// Whether a norm is of one frame (then `at` chooses it), or over time (then `window` does).
+[[nodiscard]] constexpr bool is_spatial(Norm norm) {
+  return norm == Norm::L1 || norm == Norm::L2 || norm == Norm::L2raw || norm == Norm::Linf || norm == Norm::chi;
+}
+
+/// Of a run: the form of the model that our solver made it in; none of a foreign engine. Of a gate or a study: the runs that it
+/// is of; none = all, not paper = every engine's but ours in the printed form. In the order of the words.
+enum class JudgedMode { none, corrected, not_paper, paper };
+constexpr WordTable<4> word_table(JudgedMode) { return {"mode", {"", "corrected", "not paper", "paper"}}; }
+/// Whether a run of one mode is of what is wanted.
+[[nodiscard]] constexpr bool fits(JudgedMode wanted, JudgedMode run) {
+  return wanted == JudgedMode::none || (wanted == JudgedMode::not_paper ? run != JudgedMode::paper : run == wanted);
+}
+/// " paper": as a part of a sentence; nothing where there is none.
+[[nodiscard]] inline std::string after_blank(JudgedMode mode) {
+  return mode == JudgedMode::none ? std::string() : " " + std::string(to_string(mode));
 }
 
 }  // namespace tripoint

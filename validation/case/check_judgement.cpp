@@ -34,7 +34,7 @@ class JudgementChecker : NameChecks {
       const auto path = fmt::format("study.{}", ++n);
       known_engine(s.engine, path + ".engine", s.place);
       if (!s.metric.empty()) known_metric(s.metric, path + ".metric", s.place);
-      if (s.mode != "not paper") known_mode(s.mode, path + ".mode", s.place);
+      known_mode(s.mode, path + ".mode", s.place);
     }
     n = 0;
     for (const auto& g : case_.gates) gate(g, fmt::format("gate.{}", ++n));
@@ -66,12 +66,9 @@ class JudgementChecker : NameChecks {
                      fmt::format("`{}`: no [[metric]] is named \"{}\"{}", key, printable(name), suggestion(name, known)));
   }
 
-  void known_mode(const std::string& mode, const std::string& key, const SourcePlace& table) const {
-    if (mode.empty()) return;
-    if (mode != "corrected" && mode != "paper")
-      throw InputError(place(key, table),
-                       fmt::format("`{}`: unknown mode \"{}\": write corrected, paper or \"not paper\"", key, printable(mode)));
-    if (std::find(case_.modes.begin(), case_.modes.end(), mode_from(mode)) == case_.modes.end())
+  void known_mode(JudgedMode mode, const std::string& key, const SourcePlace& table) const {
+    if (mode == JudgedMode::none || mode == JudgedMode::not_paper) return;
+    if (std::find(case_.modes.begin(), case_.modes.end(), mode_from(to_string(mode))) == case_.modes.end())
       throw InputError(place(key, table),
                        fmt::format("`{}`: this case does not run mode \"{}\": add it to case.modes", key, mode));
   }
@@ -79,7 +76,7 @@ class JudgementChecker : NameChecks {
   void gate(const Gate& g, const std::string& path) const {
     known_metric(g.metric, path + ".metric", g.place);
     known_engine(g.engine, path + ".engine", g.place);
-    if (g.mode != "not paper") known_mode(g.mode, path + ".mode", g.place);
+    known_mode(g.mode, path + ".mode", g.place);
     known_defect(g, path);
     if (g.metric.ends_with(".order") && case_.studies.empty() && !holds(names_of(case_.metrics), g.metric))
       throw InputError(place(path + ".metric", g.place),

@@ -352,14 +352,14 @@ class IdleKeys {
 
   void judgement() {
     const bool exact = std::ranges::any_of(case_.engines, [](const EngineChoice& e) { return e.name == "exact"; });
-    const auto reads_it = [](const MetricChoice& m) { return !m.reference && m.norm != "drift"; };
+    const auto reads_it = [](const MetricChoice& m) { return !m.reference && m.norm != Norm::drift; };
     if (const auto place = given("reference.function");
         !place.file.empty() && !exact && !case_.metrics.empty() && std::ranges::none_of(case_.metrics, reads_it))
       warn(place,
            "[reference] is compared with nothing: each metric has a reference of its own, or measures a drift from the start");
     for (const MetricChoice& m : case_.metrics) {
       const auto place = given("metric." + m.name + ".at");
-      const bool in_space = names({"L1", "L2", "L2raw", "Linf", "chi"}, m.norm);
+      const bool in_space = is_spatial(m.norm);
       if (!place.file.empty() && m.at != "end" && !in_space)
         warn(place, fmt::format("metric \"{}\": the norm {} is over all output times of the window, and reads no `at`: give a "
                                 "window, or a norm in space (L1 L2 L2raw Linf chi)",
@@ -390,8 +390,9 @@ class IdleKeys {
                                  "never below 0; write a positive number, or a band",
                                  g.metric, *g.limit));
     const auto m = std::ranges::find(case_.metrics, g.metric, &MetricChoice::name);
-    const bool never_negative =
-        m != case_.metrics.end() && names({"L1", "L2", "L2raw", "L2mean", "max", "rms", "drift", "chi"}, m->norm);
+    static constexpr std::array of_sizes{Norm::L1,  Norm::L2,  Norm::L2raw, Norm::L2mean,
+                                         Norm::max, Norm::rms, Norm::drift, Norm::chi};
+    const bool never_negative = m != case_.metrics.end() && std::ranges::find(of_sizes, m->norm) != of_sizes.end();
     if (never_negative && g.at_least && *g.at_least <= 0.0 && !g.limit && !g.band)
       error(g.place, fmt::format("the gate on \"{}\" passes anything: at least {} is asked, and the norm {} is never below 0; "
                                  "write a positive number, or a limit",

@@ -194,7 +194,7 @@ class Preflight {
       findings_.push_back({case_.expect != Expect::diverges, std::move(what), {case_.file, 0, 0}});
     }
     for (const auto& study : case_.studies)
-      if (study.axis == "time_step" && study.levels.front() > bound)
+      if (study.axes.axis == Axis::time_step && study.levels.front() > bound)
         warn(study.place, fmt::format("the study's first time step {} s is above the bound of {} {:.4g} s: leave it out",
                                       study.levels.front(), which, bound));
     if (scene_.time_step && scene_.end_time / *scene_.time_step > 1e8)

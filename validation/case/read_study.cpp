@@ -85,7 +85,8 @@ MetricChoice read_metric(const TomlNode& node, Reading& reading) {
   m.place = node.place;
   m.name = in.text("name");
   plain_name(in, "name", m.name);
-  m.quantity = in.text("quantity"), m.norm = in.text("norm"), m.body = in.text("body"), m.at = in.text("at");
+  m.quantity = in.text("quantity"), m.norm = from_word<Norm>(in.text("norm"));
+  m.body = in.text("body"), m.at = in.text("at");
   const auto window = in.numbers("window");
   if (window.size() != 2 || (in.has("window") && !(window[1] > window[0] && window[0] >= 0.0)))
     in.refuse("window", "write [from, to] in s, 0 <= from < to");
@@ -95,13 +96,20 @@ MetricChoice read_metric(const TomlNode& node, Reading& reading) {
   return m;
 }
 
+JudgedMode read_mode(TableReader& in) {
+  const auto word = in.text("mode");
+  if (const auto mode = find_word<JudgedMode>(word)) return *mode;
+  in.refuse("mode", fmt::format("unknown mode \"{}\": write corrected, paper or \"not paper\"", printable(word)));
+}
+
 /// What is refined together with the levels of a study: one positive number for each of them.
 std::vector<double> read_together(TableReader& in, std::string_view key, const Study& study) {
   const auto values = in.maybe_numbers(key);
   if (!values) return {};
   if (values->size() != study.levels.size() || std::any_of(values->begin(), values->end(), [](double v) { return !(v > 0.0); }))
     in.refuse(key, fmt::format("write one number greater than 0 for each of the {} levels", study.levels.size()));
-  if (std::string(key).starts_with(study.axis)) in.refuse(key, fmt::format("{} is the axis of this study already", study.axis));
+  if (const Axis axis = study.axes.axis; key.starts_with(to_string(axis)))
+    in.refuse(key, fmt::format("{} is the axis of this study already", axis));
   return *values;
 }
 
@@ -109,29 +117,31 @@ Study read_study(const TomlNode& node, std::size_t number, double end_time, Read
   TableReader in = case_table(node, "study", fmt::format("study.{}", number), reading);
   Study s;
   s.place = node.place;
-  s.axis = in.text("axis"), s.levels = in.numbers_in(s.axis == "spacing" ? "m" : s.axis == "time_step" ? "s" : "", "levels");
+  const auto axis = from_word<Axis>(in.text("axis"));
+  s.axes.axis = axis, s.levels = in.numbers_in(axis == Axis::spacing ? "m" : axis == Axis::time_step ? "s" : "", "levels");
   if (s.levels.size() < 2)
     in.refuse("levels", "a study has at least two levels, and at least three for an order with its interval");
-  const bool refines_upward = s.axis == "walkers" || s.axis == "iterations" || s.axis == "support_ratio";
+  const bool upward = refines_upward(axis);
   for (std::size_t i = 0; i < s.levels.size(); ++i) {
     if (!(s.levels[i] > 0.0))
       in.refuse("levels",
                 fmt::format("level {} is {}: write numbers greater than 0, in the axis's own unit", i + 1, s.levels[i]));
-    if (i > 0 && (refines_upward ? s.levels[i] <= s.levels[i - 1] : s.levels[i] >= s.levels[i - 1]))
-      in.refuse("levels", fmt::format("write the levels from coarse to fine: for {} that is {}", s.axis,
-                                      refines_upward ? "rising" : "falling"));
+    if (i > 0 && (upward ? s.levels[i] <= s.levels[i - 1] : s.levels[i] >= s.levels[i - 1]))
+      in.refuse("levels",
+                fmt::format("write the levels from coarse to fine: for {} that is {}", axis, upward ? "rising" : "falling"));
   }
-  if (s.axis == "time_step" && end_time > most_steps * s.levels.back())
+  if (axis == Axis::time_step && end_time > most_steps * s.levels.back())
     in.refuse("levels", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made",
                                     s.levels.back(), end_time / s.levels.back(), end_time, most_steps));
   s.support_ratios = read_together(in, "support_ratios", s), s.time_steps = read_together(in, "time_steps", s);
+  s.axes.support_ratio = !s.support_ratios.empty(), s.axes.time_step = !s.time_steps.empty();
   s.jitter = in.number("jitter");
   constexpr long most_seeds = 1000;
   const long seeds = in.integer("seeds");
   if (seeds > most_seeds)
     in.refuse("seeds", fmt::format("{} runs for each level are more than the {} that can be planned", seeds, most_seeds));
   s.seeds = static_cast<int>(seeds);
-  s.engine = in.text("engine"), s.mode = in.text("mode"), s.order = in.maybe_number("order"), s.metric = in.text("metric");
+  s.engine = in.text("engine"), s.mode = read_mode(in), s.order = in.maybe_number("order"), s.metric = in.text("metric");
   if (const auto word = in.text("expect"); !word.empty()) s.expect = from_word<FitClass>(word);
   return s;
 }
@@ -140,7 +150,7 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in = case_table(node, "gate", fmt::format("gate.{}", number), reading);
   Gate g;
   g.place = node.place;
-  g.metric = in.text("metric"), g.engine = in.text("engine"), g.mode = in.text("mode"), g.preset = in.text("preset");
+  g.metric = in.text("metric"), g.engine = in.text("engine"), g.mode = read_mode(in), g.preset = in.text("preset");
   g.limit = in.maybe_number("limit"), g.at_least = in.maybe_number("at_least");
   if (const auto band = in.maybe_numbers("band")) {
     if (band->size() != 2 || !((*band)[0] <= (*band)[1])) in.refuse("band", "write [low, high] with low <= high");

@@ -214,7 +214,7 @@ TomlNode metric_of(const std::string& name, TomlNode entry) {
   }
   if (!metric.find("name")) metric.members.insert(metric.members.begin(), {"name", text_node(what.name, place)});
   metric.members.emplace_back("quantity", text_node(what.quantity, place));
-  if (!metric.find("norm")) metric.members.emplace_back("norm", text_node(what.norm, place));
+  if (!metric.find("norm")) metric.members.emplace_back("norm", text_node(to_string(what.norm), place));
   add_reference(metric, std::move(value), what);
   auto* gates = metric.find("gates");
   if (gates && !gate.members.empty())
@@ -291,15 +291,15 @@ void check_written_out(const TomlNode& document) {
 
 const std::vector<Invariant>& invariants() {
   static const std::vector<Invariant> list{
-      {"mass", "mass", "drift", "", "round-off", "no mass is made or lost"},
-      {"momentum", "momentum", "drift", "", "round-off", "forces come in pairs that sum to zero"},
-      {"angular_momentum", "angular_momentum", "drift", "", "round-off", "forces of pairs turn nothing"},
-      {"ledger", "ledger.residual", "drift", "", "round-off", "all entries of the ledger of energy sum to zero"},
-      {"time_integration", "ledger.time_integration", "drift", "", "", "energy that the time step alone makes"},
-      {"energy_gain", "energy_gain", "max", "", "", "free bodies only lose kinetic and potential energy"},
-      {"overlap", "overlap", "max", "0", "", "depth of a solid in another [spacings], above `value`"},
-      {"body_count", "body_count", "final", "!", "", "number of solid bodies alive at the end, from `value`"},
-      {"toggles", "toggles", "final", "0", "", "returns of a particle to a phase that it had left, above `value`"},
+      {"mass", "mass", Norm::drift, "", "round-off", "no mass is made or lost"},
+      {"momentum", "momentum", Norm::drift, "", "round-off", "forces come in pairs that sum to zero"},
+      {"angular_momentum", "angular_momentum", Norm::drift, "", "round-off", "forces of pairs turn nothing"},
+      {"ledger", "ledger.residual", Norm::drift, "", "round-off", "all entries of the ledger of energy sum to zero"},
+      {"time_integration", "ledger.time_integration", Norm::drift, "", "", "energy that the time step alone makes"},
+      {"energy_gain", "energy_gain", Norm::max, "", "", "free bodies only lose kinetic and potential energy"},
+      {"overlap", "overlap", Norm::max, "0", "", "depth of a solid in another [spacings], above `value`"},
+      {"body_count", "body_count", Norm::final, "!", "", "number of solid bodies alive at the end, from `value`"},
+      {"toggles", "toggles", Norm::final, "0", "", "returns of a particle to a phase that it had left, above `value`"},
   };
   return list;
 }

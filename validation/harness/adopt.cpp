@@ -149,8 +149,10 @@ Case case_to_adopt(Case value, const EngineEntry& engine) {
   value.engines = {choice};
   if (engine.name != "tripoint") value.engines.push_back(ours);
   value.modes = {Mode::corrected}, value.gates.clear(), value.defects.clear(), value.harmless.clear();
-  std::erase_if(value.studies, [](const Study& s) { return !s.engine.empty() || (!s.mode.empty() && s.mode != "not paper"); });
-  for (auto& s : value.studies) s.expect.reset(), s.mode.clear();
+  std::erase_if(value.studies, [](const Study& s) {
+    return !s.engine.empty() || (s.mode != JudgedMode::none && s.mode != JudgedMode::not_paper);
+  });
+  for (auto& s : value.studies) s.expect.reset(), s.mode = JudgedMode::none;
   return value;
 }
 

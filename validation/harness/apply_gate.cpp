@@ -38,8 +38,8 @@ bool is_at_level(const RunRow& run, const std::optional<double>& level) {
 
 /// Runs that differ by seed only, in the order in which they were planned.
 struct Group {
-  std::string mode;
-  std::map<std::string, double> levels;
+  JudgedMode mode = JudgedMode::none;
+  std::map<StudyAxes, double> levels;
   std::vector<const RunRow*> runs;
 };
 
@@ -59,7 +59,7 @@ std::vector<Group> groups_for(const Gate& gate, const EngineRow& engine) {
   return groups;
 }
 
-GateRow new_row(const Gate& gate, const std::string& mode) {
+GateRow new_row(const Gate& gate, JudgedMode mode) {
   GateRow row;
   row.metric = gate.metric, row.mode = mode, row.level = gate.level, row.gate = gate;
   row.value = not_a_number;
@@ -121,7 +121,7 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
 }
 
 bool has_mode(const EngineRow& engine, const Gate& gate) {
-  return gate.mode.empty() ||
+  return gate.mode == JudgedMode::none ||
          std::any_of(engine.runs.begin(), engine.runs.end(), [&](const auto& r) { return fits_mode(gate, r.knobs.mode); });
 }
 
@@ -136,7 +136,7 @@ bool declined(const EngineRow& engine) {
 bool level_is_due(const CaseResult& result, const Gate& gate, const EngineRow& engine) {
   return std::any_of(result.studies.begin(), result.studies.end(), [&](const Study& s) {
     if (engine.name == "exact" || (!s.engine.empty() && s.engine != engine.name)) return false;
-    if (!s.mode.empty() && !fits_mode(gate, s.mode)) return false;
+    if (s.mode != JudgedMode::none && !fits_mode(gate, s.mode)) return false;
     return !gate.level || std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, *gate.level); });
   });
 }
@@ -186,10 +186,7 @@ Verdict verdict_of(const Gate& gate, const Order& order) {
   return verdict;
 }
 
-bool fits_mode(const Gate& gate, const std::string& mode) {
-  if (gate.mode == "not paper") return mode != "paper";
-  return gate.mode.empty() || gate.mode == mode;
-}
+bool fits_mode(const Gate& gate, JudgedMode mode) { return fits(gate.mode, mode); }
 
 std::string describe(const Gate& gate) {
   std::string text;
@@ -228,7 +225,7 @@ Applied apply_expected_class(const CaseResult& result, const Study& study, Engin
                                                       : result.metrics.front().name;
   Gate gate;
   gate.metric = metric + ".order", gate.engine = engine.name, gate.mode = study.mode, gate.place = study.place;
-  gate.reason = fmt::format("the study over {} declares the class {}", study.axis, *study.expect);
+  gate.reason = fmt::format("the study over {} declares the class {}", to_string(study.axes), *study.expect);
   auto applied = Applied::not_applicable;
   for (const auto& order : fit_orders(result, engine, study)) {
     if (order.metric != metric) continue;

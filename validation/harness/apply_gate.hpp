@@ -25,7 +25,7 @@ Applied apply_expected_class(const CaseResult&, const Study&, EngineRow&);
 
 /// Whether a gate looks at runs of a form of the model. "not paper" is every engine's, other engines' too, but not our printed
 /// form.
-[[nodiscard]] bool fits_mode(const Gate&, const std::string& mode);
+[[nodiscard]] bool fits_mode(const Gate&, JudgedMode mode);
 
 /// "limit 1e-3", "at least 1.8", "band 0.9 to 1.1".
 [[nodiscard]] std::string describe(const Gate&);

@@ -88,11 +88,17 @@ std::optional<FitClass> fit_class(const TomlNode& from) {
   throw InputError(from.place, "class: `" + printable(word) + "` is no class of convergence");
 }
 
+JudgedMode mode(const TomlNode& from) {
+  const auto word = text(from, "mode");
+  if (const auto found = find_word<JudgedMode>(word)) return *found;
+  throw InputError(from.place, "mode: `" + printable(word) + "` is no mode of a gate");
+}
+
 /// What a row leaves out follows from the rest of it: the words and the room from the edges, the first baseline's figures from
 /// today's.
 AcceptedGate read_gate(const TomlNode& from) {
   AcceptedGate g;
-  g.metric = text(from, "metric"), g.engine = text(from, "engine"), g.preset = text(from, "preset"), g.mode = text(from, "mode");
+  g.metric = text(from, "metric"), g.engine = text(from, "engine"), g.preset = text(from, "preset"), g.mode = mode(from);
   g.level = maybe_number(from, "level");
   g.limit = maybe_number(from, "limit"), g.at_least = maybe_number(from, "at_least"), g.drift = maybe_number(from, "drift");
   g.band = maybe_band(from);
@@ -207,7 +213,7 @@ std::string row_of(const AcceptedGate& g) {
   Row row;
   row.say("metric", g.metric), row.say("engine", g.engine);
   if (g.preset != "default") row.say("preset", g.preset);
-  row.say("mode", g.mode);
+  row.say("mode", std::string(to_string(g.mode)));
   row.say("level", g.level), row.say("limit", g.limit), row.say("at_least", g.at_least);
   if (g.band) row.add("band", fmt::format("[{}, {}]", number((*g.band)[0]), number((*g.band)[1])));
   row.say("drift", g.drift);

@@ -15,7 +15,8 @@ namespace tripoint {
 
 /// One gate as it was accepted: what it judges, what it allows, what was measured then.
 struct AcceptedGate {
-  std::string metric, engine, preset, mode, allows;  ///< allows: "limit 0.01", as the gate describes itself
+  std::string metric, engine, preset, allows;  ///< allows: "limit 0.01", as the gate describes itself
+  JudgedMode mode = JudgedMode::none;
   std::optional<double> level;
   double room = 0.0;                           ///< how much it lets pass, one number: room_of()
   double value = 0.0, uncertainty = 0.0;       ///< in the row that uses most of it

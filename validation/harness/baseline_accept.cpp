@@ -70,8 +70,8 @@ std::string changes(const Baseline* before, const Baseline& after) {
   for (std::size_t k = 0; k < after.gates.size(); ++k) {
     const auto& now = after.gates[k];
     const auto* old = counterpart(after.gates, k, before->gates);
-    const std::string name = one_line(fmt::format("{} {}{}{} {}{}", after.id, now.engine, now.mode.empty() ? "" : " ", now.mode,
-                                                  now.metric, now.level ? fmt::format(" at {:g}", *now.level) : ""));
+    const std::string name = one_line(fmt::format("{} {}{} {}{}", after.id, now.engine, after_blank(now.mode), now.metric,
+                                                  now.level ? fmt::format(" at {:g}", *now.level) : ""));
     if (!old) {
       text += fmt::format("{}: new, {}\n", name, now.allows);
       continue;

@@ -31,7 +31,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* decide = ": tripoint gate accept --reason says who decided and why";
 
 std::string title_of(const CaseResult& c, const AcceptedGate& g) {
-  return fmt::format("{} {}{}{} {}", c.id, g.engine, g.mode.empty() ? "" : " ", g.mode, g.metric);
+  return fmt::format("{} {}{} {}", c.id, g.engine, after_blank(g.mode), g.metric);
 }
 
 /// What the gate allows and what it measures, against what was accepted.

@@ -228,7 +228,6 @@ CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   result.claims = value.claims, result.file = value.file, result.expect = value.expect,
   result.reference = with_source_of_file(value.reference), result.tags = value.tags;
   result.metrics = value.metrics, result.studies = value.studies, result.gates = value.gates;
-  for (auto& study : result.studies) study.axis = study_axis(study), study.support_ratios.clear(), study.time_steps.clear();
   result.hashes = all.hashes;
   result.repeat = repeat_command(value, options);
   for (std::size_t e = 0; e < all.engines.size(); ++e) {

@@ -21,7 +21,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// What makes two rows the same metric; `nth` tells gates apart that judge the same row.
-using Key = std::tuple<std::string, std::string, std::string, std::string, double, int>;
+using Key = std::tuple<std::string, std::string, JudgedMode, std::string, double, int>;
 
 struct Row {
   Key key;
@@ -36,7 +36,7 @@ std::string unit_of(const CaseResult& c, const std::string& metric) {
   return at == c.metrics.end() ? "" : at->unit;
 }
 
-Row new_row(const CaseResult& c, const EngineRow& e, const std::string& mode, const std::string& metric) {
+Row new_row(const CaseResult& c, const EngineRow& e, JudgedMode mode, const std::string& metric) {
   Row row;
   row.change.case_id = c.id, row.change.engine = label_of(e.name, e.preset), row.change.mode = mode, row.change.metric = metric;
   row.change.unit = unit_of(c, metric), row.change.place = {c.file, 1, 0};

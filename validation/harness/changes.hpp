@@ -29,7 +29,8 @@ struct Standing {
 
 /// One metric of one engine in one case, judged (a row for each gate) or not.
 struct MetricChange {
-  std::string case_id, engine, mode, metric, unit;  ///< engine with its preset
+  std::string case_id, engine, metric, unit;  ///< engine with its preset
+  JudgedMode mode = JudgedMode::none;
   std::optional<double> level;
   SourcePlace place;  ///< of the limit; of the case file where there is none
   std::optional<Standing> base, head;

@@ -42,8 +42,7 @@ std::string word_of(Trend trend) {
 }
 
 std::string name_of(const MetricChange& c) {
-  return fmt::format("{}{}{} {}{}", c.engine, c.mode.empty() ? "" : " ", c.mode, c.metric,
-                     c.level ? fmt::format(" at {:g}", *c.level) : "");
+  return fmt::format("{}{} {}{}", c.engine, after_blank(c.mode), c.metric, c.level ? fmt::format(" at {:g}", *c.level) : "");
 }
 
 std::string values_text(const MetricChange& c) {

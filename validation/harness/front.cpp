@@ -11,12 +11,8 @@
 namespace tripoint {
 namespace {
 
-bool refines_upward(const std::string& axis) { return axis == "walkers" || axis == "iterations" || axis == "support_ratio"; }
-double step_of(const std::string& axis, double level) { return refines_upward(axis) ? 1.0 / level : level; }
-
 /// Replicas of one level as one point: mean value with its uncertainty, mean seconds.
-std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, const std::string& axis, double level,
-                                    const std::string& metric) {
+std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, Axis axis, double level, const std::string& metric) {
   std::vector<MetricValue> values;
   LadderPoint point;
   for (const auto* run : runs) {
@@ -34,10 +30,10 @@ std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, cons
 }
 
 /// Runs that differ from the finest of an axis in nothing else: a level of another axis is not of this ladder.
-bool only_along(const RunRow& run, const std::string& axis, const EngineRow& engine) {
+bool only_along(const RunRow& run, const StudyAxes& axes, const EngineRow& engine) {
   if (run.levels.size() == 1) return true;
   return run.base || std::all_of(run.levels.begin(), run.levels.end(), [&](const auto& l) {
-           return l.first == axis || std::any_of(engine.runs.begin(), engine.runs.end(), [&](const RunRow& b) {
+           return l.first == axes || std::any_of(engine.runs.begin(), engine.runs.end(), [&](const RunRow& b) {
                     const auto at = b.levels.find(l.first);
                     return b.base && at != b.levels.end() && same_level(at->second, l.second);
                   });
@@ -86,16 +82,16 @@ std::vector<Ladder> ladders_of(const CaseResult& result, const std::string& metr
   std::vector<Ladder> ladders;
   for (const auto& engine : result.engines) {
     if (engine.name == "exact") continue;
-    std::map<std::pair<std::string, std::string>, std::map<double, std::vector<const RunRow*>>>
+    std::map<std::pair<JudgedMode, StudyAxes>, std::map<double, std::vector<const RunRow*>>>
         groups;  // (mode, axis) -> step -> runs
     for (const auto& run : engine.runs)
-      for (const auto& [axis, level] : run.levels)
-        if (run.input.empty() && axis.find('+') == std::string::npos && only_along(run, axis, engine))
-          groups[{run.knobs.mode, axis}][-step_of(axis, level)].push_back(&run);
+      for (const auto& [axes, level] : run.levels)
+        if (run.input.empty() && axes.alone() && only_along(run, axes, engine))
+          groups[{run.knobs.mode, axes}][-step_of(axes.axis, level)].push_back(&run);
     for (const auto& [key, levels] : groups) {
-      Ladder ladder{engine.name, engine.preset, key.first, key.second, {}};
+      Ladder ladder{engine.name, engine.preset, key.first, key.second.axis, {}};
       for (const auto& [negative, runs] : levels)
-        if (const auto point = point_of(runs, key.second, runs.front()->levels.at(key.second), metric))
+        if (const auto point = point_of(runs, ladder.axis, runs.front()->levels.at(key.second), metric))
           ladder.points.push_back(*point);
       if (ladder.points.size() >= 2) ladders.push_back(std::move(ladder));
     }
@@ -114,9 +110,9 @@ std::vector<double> possible_levels(const Scene& scene, const Ladder& ladder) {
   const double coarsest = ladder.points.front().step, finest = 0.5 * ladder.points.back().step;
   std::vector<double> levels;
   for (const auto& p : ladder.points) levels.push_back(p.level);
-  if (ladder.axis == "spacing" || ladder.axis == "time_step") {
+  if (ladder.axis == Axis::spacing || ladder.axis == Axis::time_step) {
     std::vector<double> lengths;
-    if (ladder.axis == "time_step")
+    if (ladder.axis == Axis::time_step)
       lengths = {scene.output_interval};
     else {
       for (const auto& b : scene.bodies) lengths_of(b.shape, lengths);
@@ -133,7 +129,7 @@ std::vector<double> possible_levels(const Scene& scene, const Ladder& ladder) {
         levels.push_back(whole / n);
   } else {
     for (double step = coarsest; step >= finest; step /= std::pow(2.0, 0.125))
-      levels.push_back(ladder.axis == "support_ratio" ? 1.0 / step : std::ceil(1.0 / step));
+      levels.push_back(ladder.axis == Axis::support_ratio ? 1.0 / step : std::ceil(1.0 / step));
   }
   std::erase_if(levels, [&](double l) { return step_of(ladder.axis, l) > coarsest * (1.0 + 1e-9); });
   return levels;

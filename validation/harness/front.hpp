@@ -20,7 +20,9 @@ struct LadderPoint {
 
 /// Runs of one engine, preset and mode that differ along one axis only, coarse to fine.
 struct Ladder {
-  std::string engine, preset, mode, axis;
+  std::string engine, preset;
+  JudgedMode mode = JudgedMode::none;
+  Axis axis = Axis::spacing;
   std::vector<LadderPoint> points;
 };
 

@@ -32,8 +32,8 @@ void settle_status(const CaseResult& result, EngineRow& engine, Findings& findin
   }
   for (const auto& run : engine.runs) {
     if (run.status == Status::diverged && !may_diverge(result, run.knobs.mode))
-      findings.add(exit_diverged, fmt::format("{}{}{} diverged: {}", label_of(engine.name, engine.preset),
-                                              run.knobs.mode.empty() ? "" : " ", run.knobs.mode, run.reason));
+      findings.add(exit_diverged, fmt::format("{}{} diverged: {}", label_of(engine.name, engine.preset),
+                                              after_blank(run.knobs.mode), run.reason));
     if (!run.comparable) findings.add(exit_missing, label_of(engine.name, engine.preset) + " is not comparable: " + run.reason);
   }
   const auto bad =
@@ -135,7 +135,7 @@ void count_gates(CaseResult& result, Findings& findings) {
 /// Each engine that the case requires must diverge, and where it requires none each that ran: another's word does not stand for
 /// it.
 void check_divergence(const CaseResult& result, Findings& findings) {
-  if (!may_diverge(result, "paper")) return;
+  if (!may_diverge(result, JudgedMode::paper)) return;
   const bool some_required = std::any_of(result.engines.begin(), result.engines.end(), [](const auto& e) { return e.required; });
   int asked = 0;
   for (const auto& engine : result.engines) {
@@ -170,8 +170,8 @@ void check_planned(const Results& results, std::vector<std::string>& problems, s
 
 }  // namespace
 
-bool may_diverge(const CaseResult& result, const std::string& mode) {
-  return result.expect == Expect::diverges || (result.expect == Expect::paper_diverges && mode == "paper");
+bool may_diverge(const CaseResult& result, JudgedMode mode) {
+  return result.expect == Expect::diverges || (result.expect == Expect::paper_diverges && mode == JudgedMode::paper);
 }
 
 void judge(CaseResult& result, bool engines_were_chosen) {

@@ -48,10 +48,10 @@ void judge(CaseResult&, bool engines_were_chosen);
 [[nodiscard]] bool crashed(const RunRow&);
 
 /// Whether the case declares that this form of the model diverges.
-[[nodiscard]] bool may_diverge(const CaseResult&, const std::string& mode);
+[[nodiscard]] bool may_diverge(const CaseResult&, JudgedMode mode);
 
 /// Whether a study of the case says that this engine runs at levels.
-[[nodiscard]] bool applies(const Study&, const std::string& engine, const std::string& mode);
+[[nodiscard]] bool applies(const Study&, const std::string& engine, JudgedMode mode);
 
 /// Two levels are the same to 1e-9 of their size.
 [[nodiscard]] bool same_level(double a, double b);

@@ -19,8 +19,7 @@ struct TestCase {
 
 std::string name_of(const GateRow& g, const EngineRow& e) {
   std::string name = e.preset == "default" ? e.name : e.name + "(" + e.preset + ")";
-  if (!g.mode.empty()) name += " " + g.mode;
-  name += " " + g.metric;
+  name += after_blank(g.mode) + " " + g.metric;
   if (g.expect) name += fmt::format(" is {}", *g.expect);
   if (g.level) name += fmt::format(" at {:g}", *g.level);
   return name;

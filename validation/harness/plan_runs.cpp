@@ -57,25 +57,43 @@ std::vector<EngineChoice> engines_of(const Case& value, const std::vector<Engine
 }
 
 /// The value that the case's own resolution has on an axis.
-std::optional<double> own_level(const Scene& scene, const RunPlan& run, const std::string& axis) {
-  if (axis == "spacing") return scene.spacing;
-  if (axis == "time_step") return scene.time_step;
-  if (axis == "support_ratio") return scene.support_ratio;
-  return axis == "walkers" ? run.walkers : run.iterations;
+std::optional<double> own_level(const Scene& scene, const RunPlan& run, Axis axis) {
+  switch (axis) {
+    case Axis::spacing:
+      return scene.spacing;
+    case Axis::time_step:
+      return scene.time_step;
+    case Axis::support_ratio:
+      return scene.support_ratio;
+    case Axis::walkers:
+      return run.walkers;
+    case Axis::iterations:
+      break;
+  }
+  return run.iterations;
 }
 
-void set_level(RunPlan& run, const std::string& axis, double level) {
-  if (axis == "spacing")
-    run.choice.spacing = level;
-  else if (axis == "time_step")
-    run.choice.time_step = level;
-  else if (axis == "support_ratio")
-    run.choice.support_ratio = level;
-  else if (axis == "walkers")
-    run.walkers = level;
-  else
-    run.iterations = level;
+void set_level(RunPlan& run, Axis axis, double level) {
+  switch (axis) {
+    case Axis::spacing:
+      run.choice.spacing = level;
+      return;
+    case Axis::time_step:
+      run.choice.time_step = level;
+      return;
+    case Axis::support_ratio:
+      run.choice.support_ratio = level;
+      return;
+    case Axis::walkers:
+      run.walkers = level;
+      return;
+    case Axis::iterations:
+      run.iterations = level;
+  }
 }
+
+/// "paper-": how the labels of a mode's runs begin.
+std::string label_start(JudgedMode mode) { return mode == JudgedMode::none ? std::string() : std::string(to_string(mode)) + "-"; }
 
 bool same_run(const Case& value, const RunPlan& a, const RunPlan& b) {
   const auto s = scene_of(value, a), t = scene_of(value, b);
@@ -96,21 +114,20 @@ RunPlan& add_run(const Case& value, std::vector<RunPlan>& runs, const RunPlan& r
 }
 
 void set_together(RunPlan& run, const Study& study, std::size_t k) {
-  if (!study.support_ratios.empty()) set_level(run, "support_ratio", study.support_ratios[k]);
-  if (!study.time_steps.empty()) set_level(run, "time_step", study.time_steps[k]);
+  if (!study.support_ratios.empty()) set_level(run, Axis::support_ratio, study.support_ratios[k]);
+  if (!study.time_steps.empty()) set_level(run, Axis::time_step, study.time_steps[k]);
 }
 
 void add_study(const Case& value, const Study& study, const RunPlan& base, std::uint64_t seed, std::vector<RunPlan>& runs) {
-  const std::string axis = study_axis(study);
   for (std::size_t k = 0; k < study.levels.size(); ++k) {
     const double level = study.levels[k];
     auto run = base;
     run.base = false;
-    run.levels = {{axis, level}};
-    set_level(run, study.axis, level);
+    run.levels = {{study.axes, level}};
+    set_level(run, study.axes.axis, level);
     set_together(run, study, k);
     if (study.jitter > 0.0) run.choice.jitter = study.jitter;
-    run.label = run.group = fmt::format("{}{}={:g}{}", base.mode.empty() ? "" : base.mode + "-", axis, level,
+    run.label = run.group = fmt::format("{}{}={:g}{}", label_start(base.mode), to_string(study.axes), level,
                                         study.jitter > 0.0 ? fmt::format("-jitter={:g}", study.jitter) : "");
     const std::string group = add_run(value, runs, run).group;
     for (int n = 1; n < study.seeds; ++n) {
@@ -130,29 +147,29 @@ void add_inputs(const Case& value, const RunPlan& base, std::vector<RunPlan>& ru
       auto run = base;
       run.base = false;
       run.input = input.key + "=" + what;
-      run.label = run.group = fmt::format("{}{}-{}", base.mode.empty() ? "" : base.mode + "-", input.key, end);
+      run.label = run.group = fmt::format("{}{}-{}", label_start(base.mode), input.key, end);
       runs.push_back(run);
     }
 }
 
 std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, const Selection& selection) {
   std::vector<RunPlan> runs;
-  std::vector<std::string> modes;
-  for (const auto mode : value.modes) modes.emplace_back(to_string(mode));
-  if (engine.name != "tripoint") modes = {""};
+  std::vector<JudgedMode> modes;
+  for (const auto mode : value.modes) modes.push_back(from_word<JudgedMode>(to_string(mode)));
+  if (engine.name != "tripoint") modes = {JudgedMode::none};
   const std::uint64_t seed = selection.seed.value_or(value.scene.seed);
-  for (const auto& mode : modes) {
+  for (const JudgedMode mode : modes) {
     RunPlan base;
     base.mode = mode, base.base = true;
-    if (!mode.empty()) base.choice.mode = mode_from(mode);
+    if (mode != JudgedMode::none) base.choice.mode = mode_from(to_string(mode));
     base.choice.seed = seed;
     base.walkers = number_setting(engine.settings, "walkers"), base.iterations = number_setting(engine.settings, "iterations");
-    base.label = base.group = mode.empty() ? "base" : mode;
+    base.label = base.group = mode == JudgedMode::none ? "base" : to_string(mode);
     const Scene scene = scene_of(value, base);
     for (const auto& study :
          value.studies)  // a gate on this level means the case's own run too, whichever engine the study is of
-      if (const auto level = own_level(scene, base, study.axis); level && study_axis(study) == study.axis)
-        base.levels[study.axis] = *level;
+      if (const auto level = own_level(scene, base, study.axes.axis); level && study.axes.alone())
+        base.levels[study.axes] = *level;
     runs.push_back(base);
     base.levels.clear();
     if (engine.name != "exact") add_inputs(value, base, runs);
@@ -163,10 +180,6 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
 }
 
 }  // namespace
-
-std::string study_axis(const Study& study) {
-  return study.axis + (study.support_ratios.empty() ? "" : "+support_ratio") + (study.time_steps.empty() ? "" : "+time_step");
-}
 
 bool has_states(const ReferenceChoice& reference) {
   if (reference.function == "expression" || reference.function == "table") return false;  // a field of place, not of particles

@@ -13,10 +13,10 @@ namespace tripoint {
 
 /// One run that is to be made.
 struct RunPlan {
-  std::string mode;  ///< empty for foreign engines
+  JudgedMode mode = JudgedMode::none;
   RunChoice choice;
   std::optional<double> walkers, iterations;
-  std::map<std::string, double> levels;  ///< study axis -> level
+  std::map<StudyAxes, double> levels;  ///< of a study -> level
   bool base = false;
   std::string input;  ///< "key=VALUE" of an uncertain input at one end, in the place of what the case says; empty = none
   std::string label;  ///< name of its folder below runs/<case>/<engine>
@@ -44,9 +44,6 @@ struct Selection {
 /// foreign engines run once. Runs: the case's own resolution, and each level and seed of each study; a run that two studies share
 /// is made once.
 [[nodiscard]] std::vector<EnginePlan> plan_runs(const Case&, const std::vector<EngineEntry>&, const Selection&);
-
-/// What a study refines: its axis, and what it refines together with it ("spacing+support_ratio"): a ladder of its own.
-[[nodiscard]] std::string study_axis(const Study&);
 
 /// The scene that a run is made in.
 [[nodiscard]] Scene scene_of(const Case&, const RunPlan&);

@@ -10,10 +10,6 @@ namespace {
 
 constexpr std::string_view statistical = ".statistical";
 
-double refinement(const std::string& axis, double level) {
-  return axis.starts_with("spacing") || axis.starts_with("time_step") ? level : 1.0 / level;  // finer = smaller
-}
-
 /// Particles are jittered as the study says, or else as in the case's own run.
 bool has_jitter_of(const EngineRow& engine, const Study& study, const RunRow& run) {
   if (study.jitter > 0.0) return run.knobs.jitter == study.jitter;
@@ -22,11 +18,10 @@ bool has_jitter_of(const EngineRow& engine, const Study& study, const RunRow& ru
 }
 
 /// The pooled metric at one level of a study, NaN when any of its runs is missing, not ok, or lacks it.
-MetricValue at_level(const EngineRow& engine, const Study& study, const std::string& mode, const std::string& metric,
-                     double level) {
+MetricValue at_level(const EngineRow& engine, const Study& study, JudgedMode mode, const std::string& metric, double level) {
   std::vector<MetricValue> values;
   for (const auto& run : engine.runs) {
-    const auto at = run.levels.find(study.axis);
+    const auto at = run.levels.find(study.axes);
     if (run.knobs.mode != mode || at == run.levels.end() || !same_level(at->second, level) || !has_jitter_of(engine, study, run))
       continue;
     const auto value = measured(run, metric);
@@ -36,8 +31,8 @@ MetricValue at_level(const EngineRow& engine, const Study& study, const std::str
   return values.empty() ? MetricValue{not_a_number, {}, "a level was not run", {}, {}} : pooled(values);
 }
 
-std::vector<std::string> modes_of(const EngineRow& engine) {
-  std::vector<std::string> modes;
+std::vector<JudgedMode> modes_of(const EngineRow& engine) {
+  std::vector<JudgedMode> modes;
   for (const auto& run : engine.runs)
     if (std::find(modes.begin(), modes.end(), run.knobs.mode) == modes.end()) modes.push_back(run.knobs.mode);
   return modes;
@@ -61,10 +56,9 @@ std::vector<std::string> metrics_to_fit(const CaseResult& result, const Study& s
 
 bool same_level(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
-bool applies(const Study& study, const std::string& engine, const std::string& mode) {
+bool applies(const Study& study, const std::string& engine, JudgedMode mode) {
   if (engine == "exact") return false;  // truth does not converge
-  return (study.engine.empty() || study.engine == engine) &&
-         (study.mode.empty() || study.mode == mode || (study.mode == "not paper" && mode != "paper"));
+  return (study.engine.empty() || study.engine == engine) && fits(study.mode, mode);
 }
 
 std::optional<MetricValue> measured(const RunRow& run, const std::string& metric) {
@@ -100,10 +94,10 @@ double numerical_uncertainty(const CaseResult& result, const EngineRow& engine, 
   if (std::find(uncertain.begin(), uncertain.end(), result.reference.kind) == uncertain.end()) return 0.0;
   double sum = 0.0;  // space and time add up
   for (const auto& order : engine.order) {
-    const auto at = run.levels.find(order.axis);
+    const auto at = run.levels.find(order.axes);
     if (order.metric != metric || order.mode != run.knobs.mode || at == run.levels.end() || order.numerical.empty()) continue;
     for (std::size_t k = 0; k < order.step.size(); ++k)
-      if (same_level(order.step[k], refinement(order.axis, at->second))) sum += order.numerical[k];
+      if (same_level(order.step[k], step_of(order.axes.axis, at->second))) sum += order.numerical[k];
   }
   return sum;
 }
@@ -123,13 +117,13 @@ double input_uncertainty(const EngineRow& engine, const RunRow& run, const std::
 
 std::vector<OrderRow> fit_orders(const CaseResult& result, const EngineRow& engine, const Study& study) {
   std::vector<OrderRow> rows;
-  for (const auto& mode : modes_of(engine)) {
+  for (const JudgedMode mode : modes_of(engine)) {
     if (!applies(study, engine.name, mode)) continue;
     for (const auto& metric : metrics_to_fit(result, study)) {
-      OrderRow row{metric, study.axis, mode, {}, study.order.value_or(0.0), {}, {}, {}, {}};
+      OrderRow row{metric, study.axes, mode, {}, study.order.value_or(0.0), {}, {}, {}, {}};
       for (const double level : study.levels) {
         const auto value = at_level(engine, study, mode, metric, level);
-        row.step.push_back(refinement(study.axis, level));
+        row.step.push_back(step_of(study.axes.axis, level));
         row.error.push_back(value.value);
         row.uncertainty.push_back(value.uncertainty.combined());
       }

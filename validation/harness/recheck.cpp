@@ -100,12 +100,12 @@ class Recheck {
 
   void studies() {
     const auto same_study = [](const Study& a, const Study& b) {
-      return a.axis == study_axis(b) && a.levels == b.levels && a.jitter == b.jitter && a.seeds == b.seeds &&
-             a.engine == b.engine && a.mode == b.mode && a.expect == b.expect && a.order == b.order && a.metric == b.metric;
+      return a.axes == b.axes && a.levels == b.levels && a.jitter == b.jitter && a.seeds == b.seeds && a.engine == b.engine &&
+             a.mode == b.mode && a.expect == b.expect && a.order == b.order && a.metric == b.metric;
     };
     for (const auto& s : file_.studies)
       if (std::none_of(stored_.studies.begin(), stored_.studies.end(), [&](const auto& t) { return same_study(t, s); }))
-        say(s.place, fmt::format("the study over {} is not in them", s.axis));
+        say(s.place, fmt::format("the study over {} is not in them", to_string(s.axes.axis)));
   }
 
   /// Every engine of the case has its row, and every run that is planned for it.

@@ -41,8 +41,8 @@ const RunRow* base_run(const EngineRow& e) {
 }
 
 double observed_order(const EngineRow& e, const std::string& metric) {
-  const auto at =
-      std::find_if(e.order.begin(), e.order.end(), [&](const auto& o) { return o.metric == metric && o.axis == "time_step"; });
+  const auto at = std::find_if(e.order.begin(), e.order.end(),
+                               [&](const auto& o) { return o.metric == metric && o.axes == StudyAxes{Axis::time_step}; });
   return at == e.order.end() ? not_a_number : at->order.value;
 }
 
@@ -74,10 +74,10 @@ Case case_for_releases(Case value, const EngineEntry& engine, const std::vector<
   value.engines = {choice};
   std::vector<Study> studies;
   for (const auto& s : value.studies)
-    if (levels.empty() && s.axis == "time_step" && s.engine == engine.name) studies.push_back(s);
+    if (levels.empty() && s.axes.axis == Axis::time_step && s.engine == engine.name) studies.push_back(s);
   if (studies.empty()) {
     Study study;
-    study.axis = "time_step", study.engine = engine.name, study.levels = levels;
+    study.axes.axis = Axis::time_step, study.engine = engine.name, study.levels = levels;
     const auto own = value.scene.time_step;
     if (levels.empty() && !own)
       throw InputError(value.id + " leaves the time step to the engine: name --levels a,b,c, coarse to fine [s]");

@@ -36,7 +36,7 @@ struct Knobs {
   double time_step = 0.0;  ///< as the engine itself says [s]; 0 = it has none
   double support_ratio = 0.0;
   std::optional<double> walkers, iterations;
-  std::string mode;  ///< corrected, paper; empty for foreign engines
+  JudgedMode mode = JudgedMode::none;
   int threads = 1;
   std::uint64_t seed = 1;
   double jitter = 0.0;  ///< [spacings]
@@ -45,10 +45,10 @@ struct Knobs {
 /// One run of one engine.
 struct RunRow {
   Knobs knobs;
-  std::map<std::string, double> levels;  ///< study axis -> the level that this run is
-  bool base = false;                     ///< the case's own resolution
-  std::string group;                     ///< runs of one group differ by seed only; empty = alone
-  std::string input;                     ///< "key=VALUE" where the run is one end of an uncertain input
+  std::map<StudyAxes, double> levels;  ///< of a study -> the level that this run is
+  bool base = false;                   ///< the case's own resolution
+  std::string group;                   ///< runs of one group differ by seed only; empty = alone
+  std::string input;                   ///< "key=VALUE" where the run is one end of an uncertain input
   Status status = Status::ok;
   std::string reason;      ///< of a status that is not ok, and what a run that is ok has to say
   bool comparable = true;  ///< false: the engine read back another scene than it was given
@@ -59,7 +59,9 @@ struct RunRow {
 };
 
 struct OrderRow {
-  std::string metric, axis, mode;
+  std::string metric;
+  StudyAxes axes;
+  JudgedMode mode = JudgedMode::none;
   Order order;
   double formal = 0.0;
   std::vector<double> step, error, uncertainty;  ///< what was fitted
@@ -69,7 +71,8 @@ struct OrderRow {
 
 /// One gate applied to one engine's run (or seeds of a run, pooled), or to a fitted order.
 struct GateRow {
-  std::string metric, mode;
+  std::string metric;
+  JudgedMode mode = JudgedMode::none;
   std::optional<double> level;
   double value = 0.0;               ///< NaN where there is none
   double uncertainty = 0.0;         ///< standard

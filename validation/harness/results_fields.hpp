@@ -55,6 +55,18 @@ struct IfAny {
 template <class T>
 IfAny(T&) -> IfAny<T>;
 
+// clang 16 makes none of these for aggregates.
+template <class T>
+NumberOrNull(T&) -> NumberOrNull<T>;
+template <class T>
+Judged(T&) -> Judged<T>;
+template <class T>
+Stated(T&) -> Stated<T>;
+template <class T>
+OrNull(T&) -> OrNull<T>;
+template <class T>
+IfAny(T&) -> IfAny<T>;
+
 template <class V, class R>
 concept Fields = requires(V& v, R& r) {
   fields(v, r);
@@ -111,7 +123,7 @@ void fields(V& v, RecordOf<RunRow> auto& r) {
 
 template <class V>
 void fields(V& v, RecordOf<OrderRow> auto& o) {
-  v("metric", o.metric), v("axis", o.axis), v("mode", OrNull{o.mode});
+  v("metric", o.metric), v("axis", o.axes), v("mode", OrNull{o.mode});
   v("value", o.order.value), v("low", o.order.low), v("high", o.order.high), v("class", o.order.fit_class);
   v("formal", OrNull{o.formal}), v("coefficient", NumberOrNull{o.order.coefficient}), v("floor", NumberOrNull{o.order.floor});
   v("step", o.step), v("error", o.error), v("uncertainty", o.uncertainty), v("numerical", o.numerical);
@@ -178,7 +190,7 @@ void fields(V& v, RecordOf<MetricChoice> auto& m) {
 
 template <class V>
 void fields(V& v, RecordOf<Study> auto& s) {
-  v("axis", s.axis), v("levels", s.levels), v("jitter", s.jitter), v("seeds", s.seeds), v("engine", s.engine);
+  v("axis", s.axes), v("levels", s.levels), v("jitter", s.jitter), v("seeds", s.seeds), v("engine", s.engine);
   v("mode", s.mode), v("expect", s.expect), v("order", s.order), v("metric", s.metric), fields(v, s.place);
 }
 

@@ -59,6 +59,11 @@ class Reader {
     (*this)(key, word);
     if (!word.empty()) within(key, [&] { to = from_word<E>(word); });
   }
+  void operator()(const char* key, StudyAxes& to) const {
+    std::string words;
+    (*this)(key, words);
+    if (!words.empty()) within(key, [&] { to = study_axes_from(words); });
+  }
   template <class T>
   void operator()(const char* key, std::vector<T>& to) const {
     const auto& v = member(key);
@@ -86,6 +91,11 @@ class Reader {
       else
         to[name] = record<T>(value);
     }
+  }
+  void operator()(const char* key, std::map<StudyAxes, double>& to) const {
+    std::map<std::string, double> levels;
+    (*this)(key, levels);
+    for (const auto& one : levels) within(key, [&] { to[study_axes_from(one.first)] = one.second; });
   }
   template <class T>
   requires Fields<const Reader, T>

@@ -36,7 +36,10 @@ class Writer {
     if (!std::isfinite(j.value)) to_["finite"] = false;
   }
   void operator()(const char* key, OrNull<const double> x) { to_[key] = x.value > 0.0 ? Json(x.value) : Json(nullptr); }
-  void operator()(const char* key, OrNull<const std::string> x) { to_[key] = x.value.empty() ? Json(nullptr) : Json(x.value); }
+  template <HasWords E>
+  void operator()(const char* key, OrNull<const E> x) {
+    to_[key] = to_string(x.value).empty() ? Json(nullptr) : Json(x.value);
+  }
   template <class T>
   void operator()(const char* key, IfAny<T> any) {
     if constexpr (requires { any.value.empty(); }) {
@@ -81,6 +84,7 @@ class Writer {
   static Json json(const std::optional<E>& word) {
     return word ? Json(*word) : Json("");
   }
+  static Json json(const StudyAxes& axes) { return to_string(axes); }
   static Json json(const Setting& setting) {
     return std::visit([](const auto& v) { return Json(v); }, setting);
   }
@@ -94,6 +98,11 @@ class Writer {
   static Json json(const std::map<std::string, T>& map) {
     Json out = Json::object();
     for (const auto& [key, value] : map) out[key] = json(value);
+    return out;
+  }
+  static Json json(const std::map<StudyAxes, double>& levels) {
+    Json out = Json::object();
+    for (const auto& [axes, level] : levels) out[to_string(axes)] = json(level);
     return out;
   }
 

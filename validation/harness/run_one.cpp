@@ -269,7 +269,7 @@ MetricValue metric_of(const Case& value, const MetricChoice& choice, const Job& 
   try {
     reference = make_reference(truth, job, initial);
   } catch (const InputError&) {
-    if (choice.norm != "drift" || choice.reference) throw;
+    if (choice.norm != Norm::drift || choice.reference) throw;
     ReferenceChoice none;
     none.kind = ReferenceKind::invariant;
     reference = make_reference(none, job, initial);

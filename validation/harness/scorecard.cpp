@@ -27,13 +27,14 @@ const MetricChoice* metric_of(const CaseResult& c, const std::string& name) {
 }
 
 bool is_conserved(const MetricChoice& m) {
-  return m.norm == "drift" || m.quantity.starts_with("ledger.") || m.quantity == "momentum" || m.quantity == "angular_momentum" ||
-         m.quantity == "mass";
+  return m.norm == Norm::drift || m.quantity.starts_with("ledger.") || m.quantity == "momentum" ||
+         m.quantity == "angular_momentum" || m.quantity == "mass";
 }
 
 /// The run at the case's own resolution; of our solver the corrected one.
 const RunRow* own_run(const EngineRow& e) {
-  const auto at = std::find_if(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.base && r.knobs.mode != "paper"; });
+  const auto at =
+      std::find_if(e.runs.begin(), e.runs.end(), [](const auto& r) { return r.base && r.knobs.mode != JudgedMode::paper; });
   return at == e.runs.end() ? nullptr : &*at;
 }
 
@@ -76,7 +77,7 @@ void conservation(const CaseResult& c, const RunRow& run, ScoreRow& row) {
 void observed(const EngineRow& e, ScoreRow& row) {
   const OrderRow* chosen = nullptr;
   for (const auto& o : e.order) {
-    if (o.mode == "paper") continue;
+    if (o.mode == JudgedMode::paper) continue;
     if (!chosen || (o.metric == row.metric && chosen->metric != row.metric)) chosen = &o;
   }
   if (chosen) row.order = chosen->order.value, row.order_metric = chosen->metric, row.order_class = chosen->order.fit_class;
@@ -112,9 +113,9 @@ void settle(const EngineRow& e, ScoreRow& row) {
   bool judged = false;
   for (const auto bad : {Verdict::diverged, Verdict::fail, Verdict::missing, Verdict::inconclusive})
     for (const auto& g : e.gates)
-      if (g.mode != "paper" && g.verdict == bad) return set(score_of(bad), why(g));
+      if (g.mode != JudgedMode::paper && g.verdict == bad) return set(score_of(bad), why(g));
   for (const auto& g : e.gates) {
-    if (g.mode == "paper") continue;
+    if (g.mode == JudgedMode::paper) continue;
     judged = judged || is_acceptance(g.gate);
     if (!known_defect(g.gate).empty() && !known) known = &g;
   }
@@ -207,7 +208,9 @@ bool is_absent(const EngineScore& s, const std::vector<std::string>& asked) {
 
 }  // namespace
 
-bool is_acceptance(const Gate& g) { return g.engine.empty() && g.preset.empty() && g.mode != "paper" && g.mode != "corrected"; }
+bool is_acceptance(const Gate& g) {
+  return g.engine.empty() && g.preset.empty() && g.mode != JudgedMode::paper && g.mode != JudgedMode::corrected;
+}
 
 const Gate* ranking_gate(const CaseResult& c) {
   const auto at = std::find_if(c.gates.begin(), c.gates.end(), [](const Gate& g) { return is_acceptance(g) && !is_order(g); });

@@ -13,7 +13,8 @@ namespace tripoint {
 
 /// One gate of one engine's runs, over the seeds.
 struct SeedOutcome {
-  std::string case_id, engine, mode, metric, allows;
+  std::string case_id, engine, metric, allows;
+  JudgedMode mode = JudgedMode::none;
   std::optional<double> level;
   std::vector<double> values;                            ///< one a seed
   std::vector<std::uint64_t> alarms;                     ///< seeds at which the gate was not green

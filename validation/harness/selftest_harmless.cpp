@@ -17,7 +17,9 @@ void blame(HarmlessOutcome& outcome, const std::string& what) {
   outcome.found += (outcome.found.empty() ? "" : "; ") + what;
 }
 
-std::string mode_of(const RunRow& run) { return run.knobs.mode.empty() ? "" : run.knobs.mode + " "; }
+std::string mode_of(const RunRow& run) {
+  return run.knobs.mode == JudgedMode::none ? std::string() : std::string(to_string(run.knobs.mode)) + " ";
+}
 
 const RunRow* same_run(const EngineRow& engine, const RunRow& run) {
   for (const auto& other : engine.runs)

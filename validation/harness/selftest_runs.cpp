@@ -24,7 +24,7 @@ bool is_needed(const Case& value, const std::string& engine, const std::vector<s
     for (const auto& gate : value.gates) {
       if (!judges(gate, engine, metric) || !fits_mode(gate, run.mode)) continue;
       if (metric.ends_with(".order") ? !run.levels.empty() : !gate.level && run.base) return true;
-      for (const auto& [axis, level] : run.levels)
+      for (const auto& [axes, level] : run.levels)
         if (gate.level && same_level(level, *gate.level)) return true;
     }
   return false;
@@ -55,8 +55,8 @@ CaseResult run_with_defect(const Case& value, const EngineEntry& engine, const s
   return results.cases.front();
 }
 
-std::vector<std::string> judged_modes(const CaseResult& result, const std::string& metric) {
-  std::vector<std::string> modes;
+std::vector<JudgedMode> judged_modes(const CaseResult& result, const std::string& metric) {
+  std::vector<JudgedMode> modes;
   for (const auto& engine : result.engines)
     for (const auto& row : engine.gates)
       if (row.metric == metric && row.verdict != Verdict::missing &&
@@ -65,14 +65,14 @@ std::vector<std::string> judged_modes(const CaseResult& result, const std::strin
   return modes;
 }
 
-std::string decisive_mode(const CaseResult& result, const std::string& metric, const std::string& defect) {
+JudgedMode decisive_mode(const CaseResult& result, const std::string& metric, const std::string& defect) {
   const auto modes = judged_modes(result, metric);
-  const std::string wanted = defect.find(".paper.") != std::string::npos ? "paper" : "corrected";
+  const JudgedMode wanted = defect.find(".paper.") != std::string::npos ? JudgedMode::paper : JudgedMode::corrected;
   if (std::find(modes.begin(), modes.end(), wanted) != modes.end()) return wanted;
-  return modes.empty() ? std::string() : modes.front();
+  return modes.empty() ? JudgedMode::none : modes.front();
 }
 
-Seen look(const CaseResult& result, const std::string& metric, const std::string& mode) {
+Seen look(const CaseResult& result, const std::string& metric, JudgedMode mode) {
   Seen seen;
   for (const auto& engine : result.engines)
     for (const auto& row : engine.gates) {

@@ -20,12 +20,12 @@ struct Seen {
   bool any = false, all_green = true, red = false;
   std::string words;  ///< "pressure 0.012 pass, pressure 0.3 fail"; empty when nothing was judged
 };
-[[nodiscard]] Seen look(const CaseResult&, const std::string& metric, const std::string& mode);
+[[nodiscard]] Seen look(const CaseResult&, const std::string& metric, JudgedMode mode);
 
 /// Modes in which a gate judges this metric.
-[[nodiscard]] std::vector<std::string> judged_modes(const CaseResult&, const std::string& metric);
+[[nodiscard]] std::vector<JudgedMode> judged_modes(const CaseResult&, const std::string& metric);
 /// The mode that must see a defect: the printed form where the defect is of one (`X.paper.Y`), else the corrected form wherever
 /// it is judged: the red row of one form does not stand for the other.
-[[nodiscard]] std::string decisive_mode(const CaseResult&, const std::string& metric, const std::string& defect);
+[[nodiscard]] JudgedMode decisive_mode(const CaseResult&, const std::string& metric, const std::string& defect);
 
 }  // namespace tripoint

@@ -47,10 +47,9 @@ std::string not_green(const CaseResult& c) {
   for (const auto& e : c.engines) {
     for (const auto& g : e.gates)
       if (g.verdict != Verdict::pass)
-        text +=
-            fmt::format("- **{}** {}\n", markdown(c.id),
-                        markdown(fmt::format("{}{} {} {}: {} ({}; limit because: {})", e.name, g.mode.empty() ? "" : " " + g.mode,
-                                             g.metric, g.verdict, g.why, to_string(g.gate.place), g.gate.reason)));
+        text += fmt::format("- **{}** {}\n", markdown(c.id),
+                            markdown(fmt::format("{}{} {} {}: {} ({}; limit because: {})", e.name, after_blank(g.mode), g.metric,
+                                                 g.verdict, g.why, to_string(g.gate.place), g.gate.reason)));
     if (is_unjudged(e))
       text += fmt::format("- {} {} ran and is not judged: no gate of the case names it or every engine\n", markdown(c.id),
                           markdown(label_of(e.name, e.preset)));
@@ -73,7 +72,7 @@ std::string case_line(const CaseResult& c) {
     for (const auto& g : e.gates)
       if (g.verdict != Verdict::pass)
         line += "\n              " + one_line(fmt::format("{}: {}{} {}: {}: {}", to_string(g.gate.place), e.name,
-                                                          g.mode.empty() ? "" : " " + g.mode, g.metric, g.verdict, g.why));
+                                                          after_blank(g.mode), g.metric, g.verdict, g.why));
   return line;
 }
 

@@ -45,9 +45,7 @@ std::vector<Timed> timed_runs(CaseRuns& all, CaseResult& result) {
   return list;
 }
 
-std::string name_of(const EngineRow& e, const RunRow& r) {
-  return label_of(e.name, e.preset) + (r.knobs.mode.empty() ? "" : " " + r.knobs.mode);
-}
+std::string name_of(const EngineRow& e, const RunRow& r) { return label_of(e.name, e.preset) + after_blank(r.knobs.mode); }
 
 }  // namespace
 

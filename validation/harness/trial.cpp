@@ -63,8 +63,7 @@ Finding finding_of(const InputError& e, const MetricChoice& m) {
 
 /// Words of the judge, which the scene does not know: a name that nobody evaluates would pass silently.
 void check_words(const Case& c, std::vector<Finding>& findings) {
-  const auto quantities = names_of(metric_quantities()), functions = names_of(reference_functions()),
-             norms = names_of(metric_norms());
+  const auto quantities = names_of(metric_quantities()), functions = names_of(reference_functions());
   for (const auto& m : c.metrics) {
     const auto refuse = [&](const char* what, const std::string& word, const std::vector<std::string>& list) {
       if (!known(list, word))
@@ -73,7 +72,6 @@ void check_words(const Case& c, std::vector<Finding>& findings) {
              m.place});
     };
     if (!m.quantity.starts_with("ledger.")) refuse("quantity", m.quantity, quantities);
-    refuse("norm", m.norm, norms);
     if (m.reference && !m.reference->function.empty()) refuse("reference function", m.reference->function, functions);
   }
   if (!c.reference.function.empty() && !known(functions, c.reference.function))

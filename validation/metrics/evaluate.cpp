@@ -64,24 +64,21 @@ const RunQuantity* find_run_quantity(const MetricChoice& choice) {
   return nullptr;
 }
 
-void refuse_unknown_words(const MetricChoice& choice) {
-  const auto check = [&](const std::vector<MetricWord>& words, const std::string& word, const char* what) {
-    std::vector<std::string> known;
-    for (const auto& w : words) {
-      if (w.name == word) return;
-      known.push_back(w.name);
-    }
-    throw InputError(choice.place,
-                     "metric `" + choice.name + "`: unknown " + what + " `" + printable(word) + "`" + suggestion(word, known));
-  };
-  if (!is_ledger(choice.quantity)) check(metric_quantities(), choice.quantity, "quantity");
-  check(metric_norms(), choice.norm, "norm");
+void refuse_unknown_quantity(const MetricChoice& choice) {
+  if (is_ledger(choice.quantity)) return;
+  std::vector<std::string> known;
+  for (const auto& w : metric_quantities()) {
+    if (w.name == choice.quantity) return;
+    known.push_back(w.name);
+  }
+  throw InputError(choice.place, "metric `" + choice.name + "`: unknown quantity `" + printable(choice.quantity) + "`" +
+                                     suggestion(choice.quantity, known));
 }
 
 /// A unit for people that is another than the number beside it has: a value in m, divided by a scale of 1, is none in mm.
 void refuse_another_unit(const MetricChoice& choice) {
-  if (choice.unit.empty() || choice.unit == "degC" || choice.norm == "slope" || choice.norm == "frequency" ||
-      choice.norm == "chi")
+  if (choice.unit.empty() || choice.unit == "degC" || choice.norm == Norm::slope || choice.norm == Norm::frequency ||
+      choice.norm == Norm::chi)
     return;
   const std::string own = is_ledger(choice.quantity)
                               ? "J"
@@ -161,29 +158,29 @@ MetricValue frequency(const MetricInput& in, const Series& s) {
   return v;
 }
 
-MetricValue over_time(const std::string& norm, const Series& s) {
+MetricValue over_time(Norm norm, const Series& s) {
   MetricValue v;
   v.times = s.times, v.series = s.value;
   std::size_t k = s.value.size() - 1;
-  if (norm == "rms") {
+  if (norm == Norm::rms) {
     v.value = rms_over_time(s);
     v.uncertainty.statistical = *std::max_element(s.uncertainty.begin(), s.uncertainty.end());
     return v;
   }
-  if (norm == "mean") {
+  if (norm == Norm::mean) {
     v.value = mean_over_time(s);
     v.uncertainty.statistical = *std::max_element(s.uncertainty.begin(), s.uncertainty.end());
     return v;
   }
-  if (norm == "stationary") return stationary(s, v);
-  if (norm == "slope") {
+  if (norm == Norm::stationary) return stationary(s, v);
+  if (norm == Norm::slope) {
     if (s.value.size() < 2) return unformed("a slope needs two output times or more");
     std::tie(v.value, v.uncertainty.numerical) = slope_over_time(s);
     return v;
   }
-  if (norm != "final")  // the largest in time: max, drift, and a norm in space at all times
+  if (norm != Norm::final)  // the largest in time: max, drift, and a norm in space at all times
     for (std::size_t n = 0; n < s.value.size(); ++n) k = std::abs(s.value[n]) > std::abs(s.value[k]) ? n : k;
-  v.value = norm == "final" ? s.value[k] : std::abs(s.value[k]);
+  v.value = norm == Norm::final ? s.value[k] : std::abs(s.value[k]);
   v.uncertainty.statistical = s.uncertainty[k];
   v.note = "at t = " + std::to_string(s.times[k]) + " s" + (s.worst[k] >= 0 ? ", row " + std::to_string(s.worst[k]) : "");
   return v;
@@ -201,22 +198,22 @@ MetricValue l2_of_means(const MetricInput& in, const Quantity& quantity, const F
   }
   sum.sigma.clear();
   MetricValue v;
-  v.value = spatial_norm("L2", sum).value;
+  v.value = spatial_norm(Norm::L2, sum).value;
   if (!std::isfinite(v.value)) return unformed("no finite mean over the window");
   return v;
 }
 
 MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Frames& all, const Frames& chosen) {
-  const auto& norm = in.choice.norm;
-  if (norm == "L2mean") return l2_of_means(in, quantity, all, chosen);
-  const std::string in_space = is_spatial(norm) ? norm : norm == "rms" ? "L2" : "Linf";
+  const Norm norm = in.choice.norm;
+  if (norm == Norm::L2mean) return l2_of_means(in, quantity, all, chosen);
+  const Norm in_space = is_spatial(norm) ? norm : norm == Norm::rms ? Norm::L2 : Norm::Linf;
   Series series;
   for (const auto* now : chosen) {
-    const bool no_state = norm == "drift" || norm == "frequency" || now->gauges_only();
+    const bool no_state = norm == Norm::drift || norm == Norm::frequency || now->gauges_only();
     const Snapshot truth = no_state ? *all.front() : in.reference.beside(*now);
     const auto error = quantity.error({in, *now, truth, *all.front()});
     if (!error.problem.empty()) return unformed(error.problem);
-    if (norm == "frequency" && error.error.size() != 1)
+    if (norm == Norm::frequency && error.error.size() != 1)
       return unformed("the norm frequency is of a single number in time, and " + in.choice.quantity +
                       " is of many: choose a probe, a mean or a body");
     const auto value = spatial_norm(in_space, error);
@@ -226,9 +223,9 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
     series.uncertainty.push_back(value.uncertainty);
     series.worst.push_back(value.worst);
   }
-  MetricValue v = norm == "frequency" ? frequency(in, series) : over_time(norm, series);
+  MetricValue v = norm == Norm::frequency ? frequency(in, series) : over_time(norm, series);
   for (const auto* now : chosen)  // that of the last frame for the last value, else the largest
-    if (norm != "final" || now == chosen.back())
+    if (norm != Norm::final || now == chosen.back())
       v.uncertainty.data = std::max(v.uncertainty.data, in.reference.uncertainty(in.choice.quantity, now->time).value_or(0.0));
   return v;
 }
@@ -245,8 +242,8 @@ Quantity gauge_quantity(const std::string& metric, const std::string& quantity) 
             const auto own = f.now.gauges.find(metric), first = f.first.gauges.find(metric);
             if (own == f.now.gauges.end() || first == f.first.gauges.end())
               return problem("the engine shows no gauge of this metric at t = " + std::to_string(f.now.time) + " s");
-            auto error = f.in.choice.norm == "drift" ? single(own->second - first->second)
-                                                     : against_truth(f, quantity.c_str(), own->second);
+            auto error = f.in.choice.norm == Norm::drift ? single(own->second - first->second)
+                                                         : against_truth(f, quantity.c_str(), own->second);
             if (const auto sigma = stated_error(f.now, metric); sigma > 0.0 && error.problem.empty())
               error.sigma.assign(error.error.size(), sigma);
             return error;
@@ -261,7 +258,7 @@ MetricValue diffusivity_by_gauge(const MetricInput& in, const Snapshot& end) {
     return unformed("a diffusivity needs its true value: reference = {function = \"stated\", args = {diffusivity = ...}}");
   if (own == end.gauges.end()) return unformed("the engine shows no gauge of this metric at the end");
   MetricValue v;
-  v.value = in.choice.norm == "final" ? own->second - *truth : std::abs(own->second - *truth);
+  v.value = in.choice.norm == Norm::final ? own->second - *truth : std::abs(own->second - *truth);
   v.uncertainty.statistical = stated_error(end, in.choice.name);
   v.note = std::to_string(own->second / *truth) + " of the true diffusivity, by the engine's own account";
   return v;
@@ -288,7 +285,7 @@ double Uncertainty::combined() const {
 
 MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialState& initial, const Trajectory& run,
                      const Reference& reference) {
-  refuse_unknown_words(choice);
+  refuse_unknown_quantity(choice);
   if (!(choice.scale > 0.0)) throw InputError(choice.place, "metric `" + choice.name + "`: scale must be above 0");
   refuse_another_unit(choice);
   const MetricInput in{choice, job, initial, reference};
@@ -305,7 +302,7 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
     value = of_gauges(in, frames.list, chosen);
   } else if (const auto* whole = find_run_quantity(choice)) {
     value = whole->value(in, frames_in_window(choice, job, frames.list));
-    if (choice.norm != "final") value.value = std::abs(value.value);
+    if (choice.norm != Norm::final) value.value = std::abs(value.value);
   } else {
     value = of_frames(in, *find_quantity(in), frames.list, chosen);
   }
@@ -315,8 +312,8 @@ MetricValue evaluate(const MetricChoice& choice, const Job& job, const InitialSt
 }
 
 std::optional<double> value_of_series(const MetricChoice& choice, const MetricValue& stored) {
-  if (stored.series.empty() || stored.series.size() != stored.times.size() || choice.norm == "L2mean" ||
-      choice.norm == "frequency" || find_run_quantity(choice))
+  if (stored.series.empty() || stored.series.size() != stored.times.size() || choice.norm == Norm::L2mean ||
+      choice.norm == Norm::frequency || find_run_quantity(choice))
     return {};
   const std::vector<double> nothing(stored.series.size(), 0.0);
   return over_time(choice.norm, {stored.times, stored.series, nothing, std::vector<long>(stored.series.size(), -1)}).value;
@@ -343,25 +340,27 @@ bool can_be_gauged(const std::string& quantity) {
 }
 
 const std::vector<MetricWord>& metric_norms() {
+  const auto word = [](Norm norm) { return std::string(to_string(norm)); };
   static const std::vector<MetricWord> words{
-      {"L1", "", "mean of the sizes, by volume, at `at`"},
-      {"L2", "", "root mean square, by volume, at `at`; the variance that walkers state is taken off below the root"},
-      {"L2raw", "", "as L2 with the statistical part left in"},
-      {"Linf", "", "largest size at `at`"},
-      {"chi", "", "root mean square of error over its stated standard error: 1 when walkers agree with the truth"},
-      {"max", "", "largest size over all output times of the window"},
-      {"rms", "", "root mean square over time of L2"},
-      {"L2mean", "", "root mean square, by volume, of each sample's mean error over the window"},
-      {"mean", "", "mean over the times of the window of a single number, with its sign; of many samples, of the largest size"},
-      {"stationary", "",
+      {word(Norm::L1), "", "mean of the sizes, by volume, at `at`"},
+      {word(Norm::L2), "", "root mean square, by volume, at `at`; the variance that walkers state is taken off below the root"},
+      {word(Norm::L2raw), "", "as L2 with the statistical part left in"},
+      {word(Norm::Linf), "", "largest size at `at`"},
+      {word(Norm::chi), "", "root mean square of error over its stated standard error: 1 when walkers agree with the truth"},
+      {word(Norm::max), "", "largest size over all output times of the window"},
+      {word(Norm::rms), "", "root mean square over time of L2"},
+      {word(Norm::L2mean), "", "root mean square, by volume, of each sample's mean error over the window"},
+      {word(Norm::mean), "",
+       "mean over the times of the window of a single number, with its sign; of many samples, of the largest size"},
+      {word(Norm::stationary), "",
        "mean, with its sign, of a series that fluctuates about a steady value: burn-in cut, statistical uncertainty from block "
        "averages"},
-      {"final", "", "at the end; keeps the sign of a single number"},
-      {"drift", "", "largest change since the run's own start; needs no reference"},
-      {"frequency", "Hz",
+      {word(Norm::final), "", "at the end; keeps the sign of a single number"},
+      {word(Norm::drift), "", "largest change since the run's own start; needs no reference"},
+      {word(Norm::frequency), "Hz",
        "of a single number: the frequency of the sine about an offset that explains most of it, by least squares, minus the "
        "stated `frequency`; its numerical uncertainty is the fit's"},
-      {"slope", "1/s", "trend of the largest error over time, least squares"}};
+      {word(Norm::slope), "1/s", "trend of the largest error over time, least squares"}};
   return words;
 }
 

@@ -4,7 +4,7 @@
 namespace tripoint {
 
 std::optional<double> truth_of(const MetricInput& in, const char* quantity, double time) {
-  if (in.choice.norm == "frequency") return 0.0;  // how fast it swings does not depend on where from it is counted
+  if (in.choice.norm == Norm::frequency) return 0.0;  // how fast it swings does not depend on where from it is counted
   const auto named = in.reference.number_at(quantity, time);
   return named ? named : in.reference.number_at("value", time);
 }

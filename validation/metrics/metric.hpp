@@ -26,7 +26,7 @@ struct MetricValue {
 };
 
 /// Compares a trajectory with its reference by the metric's quantity and norm.
-/// @throws InputError for an unknown quantity or norm; a trajectory that does not fit (count, ids, times, units) gives NaN and a
+/// @throws InputError for an unknown quantity; a trajectory that does not fit (count, ids, times, units) gives NaN and a
 /// note.
 [[nodiscard]] MetricValue evaluate(const MetricChoice&, const Job&, const InitialState&, const Trajectory&, const Reference&);
 

@@ -80,17 +80,13 @@ NormValue chi(const FrameError& e) {
 
 }  // namespace
 
-bool is_spatial(const std::string& norm) {
-  return norm == "L1" || norm == "L2" || norm == "Linf" || norm == "L2raw" || norm == "chi";
-}
-
-NormValue spatial_norm(const std::string& norm, const FrameError& e) {
+NormValue spatial_norm(Norm norm, const FrameError& e) {
   const bool finite_samples = std::all_of(e.error.begin(), e.error.end(), [](double x) { return std::isfinite(x); });
   if (e.error.empty() || !finite_samples || !(sum_of(e.weight) > 0.0)) return {not_a_number, 0.0, -1};
-  if (norm == "L1") return l1(e);
-  if (norm == "L2") return l2(e);
-  if (norm == "L2raw") return l2_raw(e);
-  if (norm == "chi") return chi(e);
+  if (norm == Norm::L1) return l1(e);
+  if (norm == Norm::L2) return l2(e);
+  if (norm == Norm::L2raw) return l2_raw(e);
+  if (norm == Norm::chi) return chi(e);
   return linf(e);
 }
 

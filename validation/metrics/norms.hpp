@@ -16,9 +16,6 @@ struct NormValue {
 ///   the mean square); u from the variance 2 s^4 + 4 b^2 s^2 of each square. L2raw leaves the bias in.
 /// L1: u holds the spread of the mean and the bias s sqrt(2/pi). Linf: u = max s sqrt(2 ln n), the expected extreme of n.
 /// chi: root mean square of error/s; 1 when the stated errors are the real ones; u = 1/sqrt(2 n).
-[[nodiscard]] NormValue spatial_norm(const std::string& norm, const FrameError&);
-
-/// Whether a norm is of one frame (then `at` chooses it), or over time (then `window` does).
-[[nodiscard]] bool is_spatial(const std::string& norm);
+[[nodiscard]] NormValue spatial_norm(Norm norm, const FrameError&);
 
 }  // namespace tripoint

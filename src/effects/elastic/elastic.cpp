@@ -47,7 +47,8 @@ void Elastic::adopt(World& world) {
   solid::refresh_shapes(world, ids);
 }
 
-/// 0.25 h/c_L, 0.3 without hourglass; and for lists that were changed 1/(2 max of the local frequency) (model 8.10).
+/// 0.25 h/(c_L sqrt(max(1, a))), 0.3 h/c_L without hourglass; for lists that were changed 1/sqrt(2 max of the squared local
+/// frequency) (model 8.10).
 TimeStepBound Elastic::max_dt(const World& world) const {
   TimeStepBound bound;
   const double a = forms_.hourglass(), share = a > 0.0 ? courant_with_hourglass / std::sqrt(std::max(1.0, a)) : courant;

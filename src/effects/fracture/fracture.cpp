@@ -76,33 +76,11 @@ std::vector<Pair> Fracture::broken(const World& world) {
   return pairs;
 }
 
-/// Puts all particles half a drift back, and where they were at its end. Of the kicks around a drift the first has the force of a
-/// bond and the second has not, so it broke half way: what it stored there is what it lets go, to second order in the step.
-class HalfDriftBack {
- public:
-  HalfDriftBack(World& world, double drifted) : world_(world) {
-    const auto x = positions(world.particles), v = velocities(world.particles);
-    for (std::size_t i = 0; i < world.particles.size(); ++i) {
-      place_.push_back(x.at(i));
-      x.set(i, x.at(i) - (0.5 * drifted) * v.at(i));
-    }
-  }
-  ~HalfDriftBack() {
-    const auto x = positions(world_.particles);
-    for (std::size_t i = 0; i < place_.size(); ++i) x.set(i, place_[i]);
-  }
-  HalfDriftBack(const HalfDriftBack&) = delete;
-  HalfDriftBack& operator=(const HalfDriftBack&) = delete;
-
- private:
-  World& world_;
-  std::vector<Vec3> place_;
-};
-
 /// What stored energy and elastic strain were before bonds broke, and what becomes of them.
 class Release {
  public:
-  explicit Release(World& world) : world_(world), forms_(world.scene) {}
+  /// @param back time before now at which energies and strains are taken [s]
+  Release(World& world, double back) : world_(world), forms_(world.scene), back_(back) {}
 
   /// To be called ahead of a change to the list of a particle. As printed its partners change with it: its volume is a sum over
   /// the list.
@@ -119,7 +97,8 @@ class Release {
     if (world_.particles.has(field::plastic_strain_xx.name))
       for (const std::uint32_t id : ids) keep_elastic_strain(id);
     double let_go = 0.0;
-    for (const auto& [id, before] : before_) let_go += before.energy - solid::deformation_energy(world_, forms_, id).total();
+    for (const auto& [id, before] : before_)
+      let_go += before.energy - solid::deformation_energy(world_, forms_, id, back_).total();
     world_.booked[let_go_by_bonds] += let_go;
     world_.booked[account::deformation_released] += let_go;
   }
@@ -131,21 +110,22 @@ class Release {
   };
   void remember(std::uint32_t id) {
     if (before_.contains(id)) return;
-    const solid::Deformation d = solid::deformation_of(world_, forms_, id);
+    const solid::Deformation d = solid::deformation_of(world_, forms_, id, back_);
     const Symmetric plastic = solid::plastic_strain_of(world_.particles, world_.particles.row(id));
-    before_[id] = {solid::deformation_energy(world_, forms_, id).total(), between(d.P, d.strain - plastic), plastic};
+    before_[id] = {solid::deformation_energy(world_, forms_, id, back_).total(), between(d.P, d.strain - plastic), plastic};
   }
   /// A particle that has flowed and loses bonds sees another strain at once: eps_p goes with it, so that P (eps - eps_p) P does
   /// not jump. Without this the tear of a plastic bar creates energy.
   void keep_elastic_strain(std::uint32_t id) {
     const Before& before = before_.at(id);
     if (before.plastic == Symmetric{}) return;
-    const solid::Deformation d = solid::deformation_of(world_, forms_, id);
+    const solid::Deformation d = solid::deformation_of(world_, forms_, id, back_);
     solid::set_plastic_strain(world_.particles, world_.particles.row(id), between(d.P, d.strain - before.elastic));
   }
 
   World& world_;
   solid::ElasticForms forms_;
+  double back_;
   std::map<std::uint32_t, Before> before_;
 };
 
@@ -166,8 +146,9 @@ void Fracture::change(World& world) {
   if (unbroken_.holds(world)) return;
   const std::vector<Pair> pairs = broken(world);
   if (pairs.empty()) return;
-  const HalfDriftBack back(world, drifted);
-  Release release(world);
+  // Of the kicks around a drift the first has the force of a bond and the second has not, so it broke half way: what it stored
+  // there is what it lets go, to second order in the step.
+  Release release(world, 0.5 * drifted);
   for (const auto& [i, j] : pairs) release.touch(i), release.touch(j);
   for (const auto& [i, j] : pairs) {
     disconnect(world.bonds, i, [&, j = j](const Bond& b) { return b.other == j; });

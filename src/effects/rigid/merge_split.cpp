@@ -61,6 +61,25 @@ std::vector<std::size_t> bodies_of(const World& world, const Event& event) {
   return rows;
 }
 
+/// Particles of the event's bodies that lie in its region become members of the body `born`. @return the bodies that lost some
+std::vector<std::size_t> cut_off(World& world, const Event& event, std::size_t born) {
+  const auto inside = inside_of(*event.region, world.scene.spacing);
+  const auto body = world.particles[field::body];
+  std::vector<std::size_t> losers;
+  for (const std::size_t b : bodies_of(world, event)) {
+    bool touched = false;
+    for (const std::size_t i : members(world, b)) {
+      if (!inside(world.unwrapped(i))) continue;
+      body[i] = static_cast<int>(born);
+      touched = true;
+    }
+    if (touched) losers.push_back(b);
+  }
+  if (losers.empty())
+    throw InputError(event.place, "split: no member of a body is in the region of " + event.name + " at that time");
+  return losers;
+}
+
 }  // namespace
 
 void merge(World& world, const Event& event) {
@@ -96,27 +115,13 @@ void merge(World& world, const Event& event) {
 
 void split(World& world, const Event& event) {
   if (!event.region) throw InputError(event.place, "split needs a region: its members become the body " + event.name);
-  const auto inside = inside_of(*event.region, world.scene.spacing);
   std::vector<BodyMotion> parents;
   for (std::size_t b = 0; b < world.bodies.size(); ++b) parents.push_back(motion_of(world, b));
   const auto body = world.particles[field::body];
   std::vector<int> parent_of(world.particles.size(), -1);
   for (std::size_t i = 0; i < body.size(); ++i) parent_of[static_cast<std::size_t>(world.particles[field::id][i])] = body[i];
-
-  std::vector<std::size_t> changed;
   const std::size_t born = world.bodies.size();
-  for (const std::size_t b : bodies_of(world, event)) {
-    bool touched = false;
-    for (const std::size_t i : members(world, b)) {
-      if (!inside(world.unwrapped(i))) continue;
-      body[i] = static_cast<int>(born);
-      touched = true;
-    }
-    if (touched) changed.push_back(b);
-  }
-  if (changed.empty())
-    throw InputError(event.place, "split: no member of a body is in the region of " + event.name + " at that time");
-
+  const std::vector<std::size_t> changed = cut_off(world, event, born);
   Vec3 delivered, owed;
   double kinetic = 0.0;
   for (const std::size_t b : changed) {
