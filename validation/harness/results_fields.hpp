@@ -55,18 +55,6 @@ struct IfAny {
 template <class T>
 IfAny(T&) -> IfAny<T>;
 
-// clang 16 makes none of these for aggregates.
-template <class T>
-NumberOrNull(T&) -> NumberOrNull<T>;
-template <class T>
-Judged(T&) -> Judged<T>;
-template <class T>
-Stated(T&) -> Stated<T>;
-template <class T>
-OrNull(T&) -> OrNull<T>;
-template <class T>
-IfAny(T&) -> IfAny<T>;
-
 template <class V, class R>
 concept Fields = requires(V& v, R& r) {
   fields(v, r);
