@@ -65,6 +65,13 @@ std::optional<double> Passes::sleeps_beyond() const { return impl_->sleeps_beyon
 
 void Passes::forget_clusters() { impl_->busy.forget(); }
 
+void Passes::run_fixed(PassName name, World& world) const {
+  if (name == PassName::density)
+    impl_->busy.sum_fixed_density(impl_->density, world, impl_->kernels);
+  else
+    impl_->busy.sum_fixed_rates(impl_->rates, world, impl_->kernels);
+}
+
 void Passes::run(PassName name, World& world) const {
   if (!needed()) return;
   Impl& i = *impl_;

@@ -20,6 +20,8 @@ class Passes {
   [[nodiscard]] bool needed() const;  ///< whether any pair is worked on at all
   [[nodiscard]] int lanes() const;    ///< particles of a cluster that the neighbours must have
   void run(PassName, World&) const;
+  /// What no step reads of fixed particles (World::forms_fixed).
+  void run_fixed(PassName, World&) const;
   /// How far around what something can reach fixed particles must be awake, for every bit to stay [m]; none: nothing may sleep.
   [[nodiscard]] std::optional<double> sleeps_beyond() const;
   /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work is found anew.

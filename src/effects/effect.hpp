@@ -25,7 +25,7 @@ struct EffectSpec {
   std::vector<Guarded> guards{};            ///< of its columns those that are looked at after every step
   std::vector<FieldInfo> reads_if_there{};  ///< of others, where the scene has them
   bool sums_forces = false;                 ///< it reads World::forces of all effects
-  bool skips_sleeping = false;              ///< it looks at no particle that sleeps: fixed, and out of reach of all others
+  bool skips_sleeping = false;  ///< it looks at no particle that sleeps, and needs the forces on fixed ones in form_fixed() alone
 };
 
 /// Greatest stable step of an effect, and what sets it.
@@ -60,6 +60,8 @@ class Effect {
   virtual void state(World&) {}
   /// Forces of bonds, after all states of the present time.
   virtual void bonds(World&) {}
+  /// Sets what no step reads of fixed particles, but for what the passes sum (World::forms_fixed): after their density.
+  virtual void form_fixed(World&) {}
   /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in World::change.
   virtual void change(World&) {}
   /// Follows World::change in the columns that the effect owns.

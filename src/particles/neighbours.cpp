@@ -14,23 +14,21 @@ namespace tripoint {
 namespace {
 
 const char* const axis_names[] = {"x", "y", "z"};
-constexpr std::size_t rows_a_block = 1024;
-
-/// @param listed rows that the last lists knew: of these, what sleeps is where it was
+/// @param listed rows that the last lists knew: of these, what is fixed is where it was
 void refuse_not_finite(const Particles& particles, double time, std::size_t listed) {
   const auto x = positions(particles);
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (i == particles.awake() && i < listed) i = listed;
+    if (i == particles.moving() && i < listed) i = listed;
     if (i == particles.size()) return;
     if (finite(x.at(i)) && norm(x.at(i)) <= 1e100) continue;
     throw Diverged(particles[field::id][i], particles[field::body][i], "position", "drift", time, "a position is not finite");
   }
 }
 
-/// Resizes without copying: the old values are lost. Untouched pages take no memory.
+/// Resizes without copying: the old values are lost, where none are to be kept. Untouched pages take no memory.
 template <class T>
-void fit(std::vector<T>& column, std::size_t size) {
-  if (column.capacity() < size) {
+void fit(std::vector<T>& column, std::size_t size, std::size_t kept) {
+  if (kept == 0 && column.capacity() < size) {
     std::vector<T>().swap(column);
     column.reserve(size + size / 4);
   }
@@ -60,8 +58,8 @@ bool Neighbours::outdated(const Particles& particles) const {
   const double limit =
       0.25 * skin_ * skin_ * (1.0 - 1e-9);  // beyond rounding: what is within the support now was within reach then
   double greatest = 0.0;
-#pragma omp parallel for schedule(static) num_threads(threads_) reduction(max : greatest) if (particles.awake() > worth_threads)
-  for (std::size_t i = 0; i < particles.awake(); ++i) {
+#pragma omp parallel for schedule(static) num_threads(threads_) reduction(max : greatest) if (particles.moving() > worth_threads)
+  for (std::size_t i = 0; i < particles.moving(); ++i) {
     const Vec3 d = x.at(i) - built_[i];
     const double d2 = dot(d, d);
     greatest = std::max(greatest, std::isfinite(d2) ? d2 : 1e300);
@@ -118,14 +116,14 @@ void Neighbours::rebuild(Particles& particles, double time, const Resting& resti
 }
 
 void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
-  const std::size_t n = particles.size(), sleeping_from = particles.awake() < n ? particles.awake() : n;
+  const std::size_t n = particles.size(), moving = particles.moving();
   const auto x = positions(particles);
   Vec3 low = n ? x.at(0) : Vec3{}, high = low;
   const auto reach_to = [&](const Vec3& r) {
     for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
   };
-  for (std::size_t i = 0; i < sleeping_from; ++i) reach_to(x.at(i));
-  if (sleeping_from < n) {
+  for (std::size_t i = 0; i < moving; ++i) reach_to(x.at(i));
+  if (moving < n) {
     for (std::size_t i = built_.size(); i < n; ++i) reach_to(x.at(i));
     reach_to(still_.low), reach_to(still_.high);
   }
@@ -142,10 +140,15 @@ void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
   } else {
     sort_awake(particles, grid, resting);
   }
-  marked_ = false, are_made_ = true;
-  form_clusters(grid, particles.awake());
-  list(particles, grid);
+  marked_ = listed_sleeping_ = false, are_made_ = true;
+  moving_ = particles.moving();
+  form_clusters(particles, grid);
+  const auto sorted = positions(particles);
+  const Places places{sorted.x.data(), sorted.y.data(), sorted.z.data()};
+  pairs_ = list(places, grid, clusters_.listed, listed_by_[0]);
+  if (!order_.empty()) list_fixed(particles, places, grid);
   count_still_pairs(particles);
+  if (!order_.empty()) grid_ = std::make_shared<const Grid>(std::move(grid));
 }
 
 /// Counting sort by cell of the particles in order of id: rows come out ordered by (cell, id).
@@ -169,289 +172,121 @@ void Neighbours::sort_all(Particles& particles, Grid& grid) {
   const auto sorted = positions(particles);
   built_.resize(n);
   for (std::size_t i = 0; i < n; ++i) built_[i] = sorted.at(i);
-  kinds_.clear(), gaps_.clear(), row_blocks_.clear();
-  for (std::size_t i = 0; i < n; i += rows_a_block) row_blocks_.push_back(static_cast<std::uint32_t>(i));
-  row_blocks_.push_back(static_cast<std::uint32_t>(n));
+  order_.clear(), meets_.clear(), moving_first_.clear(), row_blocks_.clear(), grid_.reset();
 }
 
-/// Which particles can sleep, and in which stretches they lie. All rows are sorted.
-void Neighbours::learn_still(const Particles& particles, const Grid& grid, const Resting& resting) {
-  const auto x = positions(particles);
-  const auto body = particles[field::body], id = particles[field::id];
-  still_.id.clear(), still_.place.assign(particles.size(), ~std::uint32_t{0});
-  std::vector<std::array<int, 3>> stretch;
-  still_.count = {1, 1, 1};
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    if (body[i] < 0 || !resting.bodies[static_cast<std::size_t>(body[i])]) continue;
-    if (still_.id.empty()) still_.low = still_.high = x.at(i);
-    for (std::size_t a = 0; a < 3; ++a)
-      still_.low[a] = std::min(still_.low[a], x.at(i)[a]), still_.high[a] = std::max(still_.high[a], x.at(i)[a]);
-    still_.place[static_cast<std::size_t>(id[i])] = static_cast<std::uint32_t>(still_.id.size());
-    still_.id.push_back(static_cast<std::uint32_t>(id[i]));
-    stretch.push_back(Grid::stretch(grid.place(x.at(i))));
-    for (std::size_t a = 0; a < 3; ++a) still_.count[a] = std::max(still_.count[a], stretch.back()[a] + 1);
-  }
-  for (std::size_t a = 0; a < 3; ++a)
-    if (box_.periodic[a])
-      still_.count[a] =
-          std::max(still_.count[a], Grid::stretch({grid.count[0] - 1, grid.count[1] - 1, grid.count[2] - 1})[a] + 1);
-  still_.first.assign(static_cast<std::size_t>(still_.count[0]) * still_.count[1] * still_.count[2] + 1, 0);
-  for (const auto& s : stretch) ++still_.first[still_.index(s) + 1];
-  for (std::size_t s = 0; s + 1 < still_.first.size(); ++s) still_.first[s + 1] += still_.first[s];
-  still_.known = !still_.id.empty();
-}
-
-/// Of marks on stretches, those that hold what is within a distance of what they hold, and some more: a box around each.
-std::vector<char> Neighbours::within(std::vector<char> marks, double distance) const {
-  const std::array<int, 3>& n = still_.count;
-  const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(n[0]), static_cast<std::size_t>(n[0]) * n[1]};
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double wide = still_.width[a] * (a == 0 ? Grid::cells_a_stretch : 1);
-    const int far = static_cast<int>(std::ceil(distance / wide * (1.0 - Grid::slack))) +
-                    (box_.periodic[a] ? 1 : 0);  // the last stretch of a period may be short
-    const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
-    std::vector<char> line(static_cast<std::size_t>(n[a]));
-    for (int j = 0; j < n[b]; ++j) {
-      for (int k = 0; k < n[c]; ++k) {
-        const std::size_t from = static_cast<std::size_t>(j) * step[b] + static_cast<std::size_t>(k) * step[c];
-        const auto spread = [&](bool forward) {
-          int since = far + 1;
-          const int turns = box_.periodic[a] ? 2 : 1;  // twice around, so that marks reach across the boundary
-          for (int at = 0; at < turns * n[a]; ++at) {
-            const int m = forward ? at % n[a] : n[a] - 1 - at % n[a];
-            since = marks[from + static_cast<std::size_t>(m) * step[a]] != 0 ? 0 : since + 1;
-            if (since <= far) line[static_cast<std::size_t>(m)] = 1;
-          }
-        };
-        std::ranges::fill(line, char{0});
-        spread(true), spread(false);
-        for (int m = 0; m < n[a]; ++m) marks[from + static_cast<std::size_t>(m) * step[a]] = line[static_cast<std::size_t>(m)];
-      }
-    }
-  }
-  return marks;
-}
-
-/// Rows of what is awake first, ordered by (cell, id) as they would be among all; then what sleeps, most of it where it was.
-void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& resting) {
-  const std::size_t n = particles.size();
-  const auto x = positions(particles);
-  const auto body = particles[field::body], id = particles[field::id];
-  still_.place.resize(n, ~std::uint32_t{0});  // what has flowed in moves
-  std::vector<std::uint32_t> rows;
-  std::vector<char> moving(still_.first.size() - 1, 0);
-  const auto wake = [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) {
-      if (body[i] >= 0 && resting.bodies[static_cast<std::size_t>(body[i])]) continue;
-      rows.push_back(static_cast<std::uint32_t>(i));
-      std::array<int, 3> s = Grid::stretch(grid.place(x.at(i)));
-      for (std::size_t a = 0; a < 3; ++a) s[a] = std::min(s[a], still_.count[a] - 1);
-      moving[still_.index(s)] = 1;
-    }
-  };
-  wake(0, particles.awake());
-  if (particles.awake() < n) wake(built_.size(), n);
-  const std::vector<char> meets = within(moving, support_ + skin_),
-                          awake = within(meets, std::max(resting.around, support_ + skin_));
-  std::vector<RowKind> kind(rows.size(), RowKind::moves);
-  for (std::size_t s = 0; s < awake.size(); ++s) {
-    if (!awake[s]) continue;
-    for (std::size_t k = still_.first[s]; k < still_.first[s + 1]; ++k) {
-      rows.push_back(static_cast<std::uint32_t>(particles.row(still_.id[k])));
-      kind.push_back(meets[s] ? RowKind::still : RowKind::meets_nothing);
-    }
-  }
-
-  const std::size_t m = rows.size();
-  grid.first.assign(grid.cells() + 1, 0);
-  std::vector<std::uint32_t> cell_of(m), order(m), place(m);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t k = 0; k < m; ++k) cell_of[k] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(rows[k]))));
-  for (const std::uint32_t c : cell_of) ++grid.first[c + 1];
-  for (std::size_t c = 0; c < grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
-  std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-  for (std::uint32_t k = 0; k < m; ++k) {
-    const std::uint32_t c = cell_of[k];
-    std::uint32_t at = next[c]++;
-    for (; at > grid.first[c] && id[rows[place[at - 1]]] > id[rows[k]]; --at) place[at] = place[at - 1];  // a cell holds few
-    place[at] = k;
-  }
-  kinds_.resize(m);
-  for (std::size_t k = 0; k < m; ++k) order[k] = rows[place[k]], kinds_[k] = kind[place[k]];
-
-  // What falls asleep goes to the rows of what wakes.
-  const std::size_t top = std::max(particles.awake() < n ? particles.awake() : n, m);
-  std::vector<char> taken(n, 0);
-  for (const std::uint32_t row : order) taken[row] = 1;
-  std::vector<std::uint32_t> from = order, to(m);
-  for (std::uint32_t k = 0; k < m; ++k) to[k] = k;
-  for (std::uint32_t row = 0; row < top; ++row)
-    if (!taken[row]) from.push_back(row);
-  for (std::size_t row = m; row < n && to.size() < from.size(); ++row)
-    if (row < top || taken[row]) to.push_back(static_cast<std::uint32_t>(row));
-  particles.rearrange(from, to, m, threads_);
-  const auto sorted = positions(particles);
-  built_.resize(n);
-  for (const std::uint32_t row : to) built_[row] = sorted.at(row);
-  find_blocks(grid, awake, n);
-}
-
-void Neighbours::find_blocks(const Grid& grid, std::span<const char> awake, std::size_t particles) {
-  gaps_.clear(), row_blocks_.clear();
-  std::size_t asleep = 0, next = 0;  // before the row that is looked at; of all rows, the first of the next block
-  const auto pass = [&](std::size_t before) {
-    for (; next < before + asleep; next += rows_a_block) row_blocks_.push_back(static_cast<std::uint32_t>(next - asleep));
-  };
-  std::uint32_t s = 0;
-  for (int z = 0; z < still_.count[2]; ++z) {
-    for (int y = 0; y < still_.count[1]; ++y) {
-      for (int k = 0; k < still_.count[0]; ++k, ++s) {
-        const std::uint32_t here = still_.first[s + 1] - still_.first[s];
-        if (awake[s] || here == 0) continue;
-        const std::uint32_t before = grid.first[grid.index({k * Grid::cells_a_stretch, y, z})];
-        pass(before);
-        gaps_.push_back({before, s});
-        asleep += here;
-        for (; next < before + asleep; next += rows_a_block) row_blocks_.push_back(before);
-      }
-    }
-  }
-  pass(particles - asleep);
-  row_blocks_.push_back(static_cast<std::uint32_t>(particles - asleep));
-}
-
-std::vector<std::uint32_t> Neighbours::rows_in_order(const Particles& particles) const {
-  std::vector<std::uint32_t> rows;
-  std::uint32_t at = 0;
-  const auto up_to = [&](std::size_t row) {
-    while (at < row) rows.push_back(at++);
-  };
-  for (const Gap& g : gaps_) {
-    up_to(g.before);
-    for (std::size_t k = still_.first[g.stretch]; k < still_.first[g.stretch + 1]; ++k)
-      rows.push_back(static_cast<std::uint32_t>(particles.row(still_.id[k])));
-  }
-  up_to(particles.awake());
-  return rows;
-}
-
-/// Pairs of what has no list are counted all the same: they are between fixed particles, and known.
-void Neighbours::count_still_pairs(const Particles& particles) {
-  if (listed_all_ && !still_.known) return;
-  const Clusters& c = clusters_;
-  const auto id = particles[field::id];
-  const auto place = [&](std::size_t row) { return still_.place[static_cast<std::size_t>(id[row])]; };
-  constexpr std::uint32_t moves = ~std::uint32_t{0};
-  if (listed_all_) {
-    still_.pairs.assign(still_.id.size(), 0);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-    for (std::size_t k = 0; k < c.size(); ++k)
-      for (std::size_t e = c.start[k]; e < c.start[k + 1]; ++e) {
-        if (place(Entry{c.entries[e]}.row()) == moves) continue;
-        for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
-          if (place(i) != moves) still_.pairs[place(i)] += c.near[e] >> (i - c.first[k]) & 1u;
-      }
-    still_.all_pairs = std::accumulate(still_.pairs.begin(), still_.pairs.end(), std::size_t{0});
-    return;
-  }
-  std::size_t listed = 0;
-  for (const std::uint32_t k : c.listed)
-    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
-      if (place(i) != moves) listed += still_.pairs[place(i)];
-  pairs_ += still_.all_pairs - listed;
-}
-
-/// Clusters end with a row of cells, so that what is near to their members has the same order for each of them, and where rows
-/// begin that need no list.
-void Neighbours::form_clusters(const Grid& grid, std::size_t rows) {
+/// Clusters of what moves, then of what is fixed. The first are those that have lists.
+void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   Clusters& c = clusters_;
-  c.first.clear();
-  const auto has_list = [&](std::size_t row) { return kinds_.empty() || kinds_[row] != RowKind::meets_nothing; };
+  const std::size_t rows = order_.empty() ? particles.size() : order_.size();
+  c.first.clear(), c.listed.clear(), c.unlisted.clear(), c.on_demand.clear();
+  add_clusters(grid, 0, particles.moving());
+  add_clusters(grid, particles.moving(), particles.awake());
+  add_clusters(grid, particles.awake(), rows);
+  c.first.push_back(static_cast<std::uint32_t>(rows));
+  c.start.assign(c.size() + 1, 0);
+  c.own.clear(), c.within.clear(), c.acting.clear();
+  for (std::uint32_t k = 0; k < c.size() && c.first[k] < particles.moving(); ++k) c.listed.push_back(k);
+}
+
+/// Of these rows. Clusters end with a row of cells, so that what is near to their members has the same order for each of them,
+/// and where rows begin that can meet nothing that moves.
+void Neighbours::add_clusters(const Grid& grid, std::size_t from, std::size_t to) {
+  if (from == to) return;
+  Clusters& c = clusters_;
+  const auto can_meet = [&](std::uint32_t row) { return meets_.empty() || meets_[row] != 0; };
   const auto along = static_cast<std::size_t>(grid.count[0]);
   for (std::size_t cell = 0; cell < grid.cells(); cell += along) {
     const std::uint32_t end = grid.first[cell + along];
-    for (std::uint32_t i = grid.first[cell], from = end; i < end; ++i) {
+    bool any = false;
+    for (std::uint32_t place = grid.first[cell]; place < end; ++place) {
+      const std::uint32_t row = order_.empty() ? place : order_[place];
+      if (row < from || row >= to) continue;
       const bool begins =
-          from == end || i - from == static_cast<std::uint32_t>(c.lanes) || (!kinds_.empty() && has_list(i) != has_list(i - 1));
-      if (begins) from = i, c.first.push_back(i);
+          !any || row - c.first.back() == static_cast<std::uint32_t>(c.lanes) || can_meet(row) != can_meet(row - 1);
+      if (begins) c.first.push_back(row);
+      any = true;
     }
   }
-  c.first.push_back(static_cast<std::uint32_t>(rows));
-  c.listed.clear(), c.unlisted.clear();
-  for (std::uint32_t k = 0; k < c.size(); ++k) {
-    (has_list(c.first[k]) ? c.listed : c.unlisted).push_back(k);
-  }
 }
 
-/// Each thread lists a run of clusters into a room of its own, as large as at the last build and a little more; where that is too
-/// small, as at the first, the lists are made again. So they are never held twice.
-void Neighbours::list(const Particles& particles, const Grid& grid) {
+/// Lists some clusters, ascending, after the entries that there are. Each thread lists a run of them into a room of its own, as
+/// large as at the last build and a little more; where that is too small, as at the first, the lists are made again. So they are
+/// never held twice.
+/// @param clusters those after the first have no list yet   @param listed_by entries of each thread, at the last build and here
+/// @return directed pairs
+std::size_t Neighbours::list(const Places& places, const Grid& grid, std::span<const std::uint32_t> clusters,
+                             std::vector<std::size_t>& listed_by) {
+  if (clusters.empty()) return 0;
   Clusters& c = clusters_;
-  c.start.assign(c.size() + 1, 0);
-  c.own.clear(), c.within.clear(), c.acting.clear();
-  listed_by_.resize(static_cast<std::size_t>(threads_));
-  std::vector<std::size_t> rooms;
+  const std::size_t first = clusters.front(), kept = c.start[first];
+  std::fill(c.start.begin() + static_cast<std::ptrdiff_t>(first) + 1, c.start.end(), 0);
+  listed_by.resize(static_cast<std::size_t>(threads_));
+  std::vector<std::size_t> rooms;  // first entry of each, and one past the last
+  std::optional<std::size_t> pairs;
   do {
-    rooms.clear();
-    for (const std::size_t entries : listed_by_) rooms.push_back(entries + entries / 32);
-    const std::size_t all = std::accumulate(rooms.begin(), rooms.end(), std::size_t{0});
-    fit(c.entries, all), fit(c.near, all);
-  } while (!list_into(particles, grid, rooms));
-  std::size_t end = 0, room = 0;
-  for (std::size_t part = 0; part < rooms.size(); ++part) {
+    rooms.assign(1, kept);
+    for (const std::size_t entries : listed_by) rooms.push_back(rooms.back() + entries + entries / 32);
+    fit(c.entries, rooms.back(), kept), fit(c.near, rooms.back(), kept);
+  } while (!(pairs = list_into(places, grid, clusters, rooms, listed_by)));
+  std::size_t end = kept;
+  for (std::size_t part = 0; part < listed_by.size(); ++part) {
     const auto close = [&](auto& column) {
-      const auto first = column.begin() + static_cast<std::ptrdiff_t>(room);
-      std::copy(first, first + static_cast<std::ptrdiff_t>(listed_by_[part]), column.begin() + static_cast<std::ptrdiff_t>(end));
+      const auto room = column.begin() + static_cast<std::ptrdiff_t>(rooms[part]);
+      std::copy(room, room + static_cast<std::ptrdiff_t>(listed_by[part]), column.begin() + static_cast<std::ptrdiff_t>(end));
     };
-    if (room != end) close(c.entries), close(c.near);
-    end += listed_by_[part], room += rooms[part];
+    if (rooms[part] != end) close(c.entries), close(c.near);
+    end += listed_by[part];
   }
-  for (std::size_t k = 0; k < c.size(); ++k) c.start[k + 1] += c.start[k];
+  for (std::size_t k = first; k < c.size(); ++k) c.start[k + 1] += c.start[k];
+  return *pairs;
 }
 
-/// @param rooms entries that each thread has room for, one after the other   @return false where one has more: they are counted
-/// all the same
-bool Neighbours::list_into(const Particles& particles, const Grid& grid, std::span<const std::size_t> rooms) {
+/// @param rooms first entry of each thread's room, and one past the last   @return directed pairs; none where a thread has more
+/// entries than room: they are counted all the same
+std::optional<std::size_t> Neighbours::list_into(const Places& places, const Grid& grid, std::span<const std::uint32_t> clusters,
+                                                 std::span<const std::size_t> rooms, std::vector<std::size_t>& listed_by) {
   Clusters& c = clusters_;
-  const auto x = positions(particles);
+  const auto at = [&](std::size_t row) { return Vec3{places.x[row], places.y[row], places.z[row]}; };
   const double reach = support_ + skin_;
-  const auto past = [&](std::size_t part) { return c.listed.size() * part / rooms.size(); };
+  const std::size_t parts = listed_by.size();
+  const auto past = [&](std::size_t part) { return clusters.size() * part / parts; };
   std::size_t pairs = 0;
   bool fits = true;
 #pragma omp parallel for schedule(static, 1) num_threads(threads_) reduction(+ : pairs) reduction(&& : fits)
-  for (std::size_t part = 0; part < rooms.size(); ++part) {
-    const std::size_t first = std::accumulate(rooms.begin(), rooms.begin() + static_cast<std::ptrdiff_t>(part), std::size_t{0});
+  for (std::size_t part = 0; part < parts; ++part) {
     std::vector<std::uint32_t> entries;  // of one cluster
     std::vector<std::uint8_t> near;
     std::vector<CandidateRange> ranges;
     std::size_t size = 0;
     for (std::size_t n = past(part); n < past(part + 1); ++n) {
-      const std::size_t k = c.listed[n];
-      Vec3 low = x.at(c.first[k]), high = low;
+      const std::size_t k = clusters[n];
+      Vec3 low = at(c.first[k]), high = low;
       for (std::size_t i = c.first[k] + 1; i < c.first[k + 1]; ++i) {
-        for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], x.at(i)[a]), high[a] = std::max(high[a], x.at(i)[a]);
+        for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], at(i)[a]), high[a] = std::max(high[a], at(i)[a]);
       }
       grid.candidates(low, high, reach, box_, ranges);
       std::size_t candidates = 0;
       for (const CandidateRange& r : ranges) candidates += r.to - r.from;
       if (entries.size() < candidates) entries.resize(candidates), near.resize(candidates);
       const unsigned members = (1u << (c.first[k + 1] - c.first[k])) - 1u;
-      const Scan task{x.x.data(),    x.y.data(),    x.z.data(),    c.first[k],   members,
-                      ranges.data(), ranges.size(), shift_.data(), reach * reach};
+      const Scan task{places.x,      places.y,      places.z,      c.first[k],    members,
+                      ranges.data(), ranges.size(), shift_.data(), reach * reach, order_.empty() ? nullptr : order_.data(),
+                      moving_};
       const Scanned found = scan_(task, entries.data(), near.data());
-      if (size + found.entries <= rooms[part]) {
-        const auto to = static_cast<std::ptrdiff_t>(first + size);
+      if (rooms[part] + size + found.entries <= rooms[part + 1]) {
+        const auto to = static_cast<std::ptrdiff_t>(rooms[part] + size);
         std::copy_n(entries.begin(), found.entries, c.entries.begin() + to),
             std::copy_n(near.begin(), found.entries, c.near.begin() + to);
       }
       c.start[k + 1] = found.entries;
-      size += found.entries, pairs += found.pairs;
+      size += found.entries;
+      if (c.first[k] < moving_) pairs += found.pairs;
     }
-    listed_by_[part] = size;
-    fits = fits && size <= rooms[part];
+    listed_by[part] = size;
+    fits = fits && rooms[part] + size <= rooms[part + 1];
   }
-  pairs_ = pairs;
-  return fits;
+  return fits ? std::optional(pairs) : std::nullopt;
 }
 
 void Neighbours::make_room_within() {

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,8 +39,9 @@ struct Clusters {
   std::vector<std::uint64_t> within;
   /// Of each entry a bit, as in `within`: whether it acts on a member at all. Found anew with each list; empty where all may.
   std::vector<std::uint64_t> acting;
-  std::vector<std::uint32_t> listed,
-      unlisted;  ///< clusters with a list; without, since all they could meet is fixed as they are: ascending
+  std::vector<std::uint32_t> listed,  ///< clusters with a list, ascending
+      unlisted,                       ///< without, since all they meet is fixed as they are
+      on_demand;  ///< of what sleeps in reach of what moves, after all others: see Neighbours::list_sleeping()
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
   /// The cluster that a row is a member of.
   [[nodiscard]] std::uint32_t of(std::size_t row) const {
@@ -98,6 +101,7 @@ struct Resting {
   std::vector<char> bodies;  ///< of each solid body, 1 where its members stay where they are; empty: nothing sleeps
   double around =
       0.0;  ///< distance within which they are awake around those that something can reach; where less, the reach of a list [m]
+  std::span<const char> unread{};  ///< of each id, 1 where no step reads of a fixed particle but its place; empty: it reads all
 };
 
 /// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
@@ -136,6 +140,12 @@ class Neighbours {
   /// Whether that was done since the last rebuild.
   [[nodiscard]] bool marked() const noexcept { return marked_; }
 
+  /// Lists also what sleeps though something that moves can reach it, as the last lists would have: once for each of them, and
+  /// only where somebody asks what it has beside its place.
+  void list_sleeping();
+  /// Rows 0..rows()-1 are members of clusters, with a list or without.
+  [[nodiscard]] std::size_t rows() const noexcept { return clusters_.size() > 0 ? clusters_.first.back() : 0; }
+
   /// Makes room for Clusters::within, to be filled by a pass.
   void make_room_within();
 
@@ -157,28 +167,35 @@ class Neighbours {
   /// Fixed particles by id, in an order that stays; the place of one in it. Only where may_rest_next() or something sleeps.
   [[nodiscard]] std::span<const std::uint32_t> still_ids() const noexcept { return still_.id; }
   [[nodiscard]] std::uint32_t still_place(std::size_t id) const noexcept { return still_.place[id]; }
-  /// First awake row of each block of 1024 rows, and one past the last: blocks are counted over all rows, as if what sleeps lay
-  /// among them.
+  /// First moving row of each block of 1024 rows, and one past the last: blocks are counted over all rows in order of (cell, id),
+  /// as if what is fixed lay among them.
   [[nodiscard]] std::span<const std::uint32_t> row_blocks() const noexcept { return row_blocks_; }
-  /// All rows in order of (cell, id), those that sleep too.
+  /// All rows in order of (cell, id).
   [[nodiscard]] std::vector<std::uint32_t> rows_in_order(const Particles&) const;
   [[nodiscard]] long rebuilds() const noexcept { return rebuilds_; }
   [[nodiscard]] std::span<const Vec3> build_positions() const noexcept { return built_; }
 
  private:
   struct Grid;
+  /// Places to list from.
+  struct Places {
+    const double *x, *y, *z;  ///< by row [m]
+  };
   void wrap(Particles&) const;
   void rebuild(Particles&, double time, const Resting&);
   void sort_and_list(Particles&, const Resting&);
   void sort_all(Particles&, Grid&);
   void sort_awake(Particles&, Grid&, const Resting&);
   void learn_still(const Particles&, const Grid&, const Resting&);
-  void find_blocks(const Grid&, std::span<const char> awake, std::size_t particles);
+  void find_blocks(const Particles&, const Grid&);
   [[nodiscard]] std::vector<char> within(std::vector<char> marks, double distance) const;
   void count_still_pairs(const Particles&);
-  void form_clusters(const Grid&, std::size_t rows);
-  void list(const Particles&, const Grid&);
-  bool list_into(const Particles&, const Grid&, std::span<const std::size_t> rooms);
+  void form_clusters(const Particles&, const Grid&);
+  void list_fixed(const Particles&, const Places&, const Grid&);
+  void add_clusters(const Grid&, std::size_t from, std::size_t to);
+  std::size_t list(const Places&, const Grid&, std::span<const std::uint32_t> clusters, std::vector<std::size_t>& listed_by);
+  std::optional<std::size_t> list_into(const Places&, const Grid&, std::span<const std::uint32_t> clusters,
+                                       std::span<const std::size_t> rooms, std::vector<std::size_t>& listed_by);
 
   double support_, skin_;
   PeriodicBox box_;
@@ -186,32 +203,33 @@ class Neighbours {
   std::array<Vec3, 27> shift_{};
   Clusters clusters_;
   ScanFunction scan_;
-  std::vector<std::size_t> listed_by_;  ///< entries of each thread's clusters at the last build
+  std::array<std::vector<std::size_t>, 3>
+      listed_by_;  ///< entries of each thread at the last build, of what moves, is fixed, and sleeps
   std::size_t pairs_ = 0;
   std::vector<Vec3> built_;
   /// Fixed particles in stretches along x, each as long as the reach of a list and one cell wide: they are woken by stretches.
   struct Still {
     bool known = false;
     std::vector<char> bodies;
-    Vec3 origin, width, low, high;            ///< of the grid's cells; corners of the particles [m]
-    std::array<int, 3> count{};               ///< stretches
-    std::vector<std::uint32_t> first, id;     ///< first of each stretch, and one past the last; ids in order of (cell, id)
-    std::vector<std::uint32_t> place, pairs;  ///< of each id its place in `id`; of each place the directed pairs with fixed ones
-    std::size_t all_pairs = 0;
+    Vec3 origin, width, low, high;              ///< of the grid's cells; corners of the particles [m]
+    std::array<int, 3> count{};                 ///< stretches
+    std::vector<std::uint32_t> first, id;       ///< first of each stretch, and one past the last; ids in order of (cell, id)
+    std::vector<std::uint32_t> place, in_cell;  ///< of each id its place in `id`; first of each cell, and one past the last
+    std::size_t pairs = 0;                      ///< directed ones among fixed particles
     [[nodiscard]] std::size_t index(const std::array<int, 3>& s) const {
       return static_cast<std::size_t>(s[0]) +
              static_cast<std::size_t>(count[0]) *
                  (static_cast<std::size_t>(s[1]) + static_cast<std::size_t>(count[1]) * static_cast<std::size_t>(s[2]));
     }
   } still_;
-  /// What sleeps in a stretch comes before this awake row.
-  struct Gap {
-    std::uint32_t before, stretch;
-  };
-  std::vector<Gap> gaps_;
+  /// Rows that lists name, in order of (cell, id); empty: all rows are in that order.
+  std::vector<std::uint32_t> order_;
+  std::vector<char> meets_;                  ///< of each of these rows, whether something that moves can reach it; empty as above
+  std::shared_ptr<const Grid> grid_;         ///< of the last lists, by places in order_; null where that is empty
+  std::vector<std::uint32_t> moving_first_;  ///< first moving row of each cell, and one past the last; empty as above
   std::vector<std::uint32_t> row_blocks_;
-  enum class RowKind : char { moves, still, meets_nothing };
-  std::vector<RowKind> kinds_;  ///< of each awake row; empty: all move
+  std::size_t moving_ = 0;  ///< rows of the last lists, as Particles::moving()
+  bool listed_sleeping_ = false;
   long whole_lists_ = 0;
   bool listed_all_ = false;
   long rebuilds_ = 0;

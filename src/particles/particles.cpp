@@ -6,7 +6,7 @@
 namespace tripoint {
 
 Particles::Particles(std::size_t count, std::span<const FieldInfo> fields)
-    : Columns(count, Per::particle, fields), row_of_id_(count), awake_(count) {
+    : Columns(count, Per::particle, fields), row_of_id_(count), moving_(count), awake_(count) {
   std::iota(row_of_id_.begin(), row_of_id_.end(), 0u);
   const auto id = (*this)[field::id];
   std::iota(id.begin(), id.end(), 0);
@@ -17,7 +17,7 @@ std::size_t Particles::append() {
   append_row();
   (*this)[field::id][row] = static_cast<int>(row);
   row_of_id_.push_back(static_cast<std::uint32_t>(row));
-  if (awake_ == row) ++awake_;  // where some sleep, it is awake from the next lists on
+  if (moving_ == row) ++moving_, ++awake_;  // where some sleep, it is awake from the next lists on
   return row;
 }
 
@@ -25,15 +25,15 @@ void Particles::permute(std::span<const std::uint32_t> order, int threads) {
   Columns::permute(order, threads);
   const auto id = (*this)[field::id];
   for (std::uint32_t n = 0; n < size(); ++n) row_of_id_[static_cast<std::size_t>(id[n])] = n;
-  awake_ = size();
+  moving_ = awake_ = size();
 }
 
-void Particles::rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t awake,
-                          int threads) {
+void Particles::rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t moving,
+                          std::size_t awake, int threads) {
   Columns::rearrange(from, to, threads);
   const auto id = (*this)[field::id];
   for (const std::uint32_t row : to) row_of_id_[static_cast<std::size_t>(id[row])] = row;
-  awake_ = awake;
+  moving_ = moving, awake_ = awake;
 }
 
 std::vector<FieldInfo> common_fields(bool periodic) {

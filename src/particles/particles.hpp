@@ -10,8 +10,9 @@
 
 namespace tripoint {
 
-/// The particles of a scene. Rows are in order of the neighbour grid's cells; ids are for ever. Members of fixed bodies that
-/// nothing that moves can reach sleep: they are the last rows, in any order, and no step looks at them (decision 020).
+/// The particles of a scene. Rows are in order of the neighbour grid's cells; ids are for ever. Where members of fixed bodies can
+/// sleep, what moves has the first rows, then come the fixed particles that a step reads, each in that order; then those that
+/// sleep: nothing that moves can reach them, or they act by their place alone (decisions 020 and 028).
 class Particles : public Columns {
  public:
   Particles() = default;
@@ -20,14 +21,17 @@ class Particles : public Columns {
 
   /// Row of the particle with this id, which is in 0..size()-1.
   [[nodiscard]] std::size_t row(std::size_t id) const noexcept { return row_of_id_[id]; }
+  /// Rows 0..moving()-1 are of what is not known to be fixed: forces, velocities and places are theirs.
+  [[nodiscard]] std::size_t moving() const noexcept { return moving_; }
   /// Rows 0..awake()-1 take part in a step.
   [[nodiscard]] std::size_t awake() const noexcept { return awake_; }
   /// One particle more, all zero, with the next id. @return its row
   std::size_t append();
   /// Reorders every column and the map from ids to rows.
   void permute(std::span<const std::uint32_t> order, int threads = 1);
-  /// Columns::rearrange() with the map from ids to rows. @param awake rows that take part in a step from now on
-  void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t awake, int threads);
+  /// Columns::rearrange() with the map from ids to rows. @param moving,awake as they return from now on
+  void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, std::size_t moving, std::size_t awake,
+                 int threads);
 
   [[nodiscard]] Vec3 position(std::size_t row) const {
     return vector(row, field::position_x, field::position_y, field::position_z);
@@ -41,7 +45,7 @@ class Particles : public Columns {
 
  private:
   std::vector<std::uint32_t> row_of_id_;
-  std::size_t awake_ = 0;
+  std::size_t moving_ = 0, awake_ = 0;
 };
 
 /// Three columns of a vector field.

@@ -10,7 +10,7 @@
 
 namespace tripoint {
 
-/// Rows [from, to) seen in one image of the box: where neighbours of a cluster may be.
+/// Places [from, to) in the order of (cell, id), seen in one image of the box: where neighbours of a cluster may be.
 struct CandidateRange {
   std::uint32_t from, to, image;
 };
@@ -22,8 +22,10 @@ struct Scan {
   unsigned members;         ///< bit l where first + l is a member
   const CandidateRange* ranges;
   std::size_t count;
-  const Vec3* shift;  ///< of each image [m]
-  double reach2;      ///< [m2]
+  const Vec3* shift;           ///< of each image [m]
+  double reach2;               ///< [m2]
+  const std::uint32_t* order;  ///< the row of each place; null: rows are in this order
+  std::size_t twice_from;      ///< row from which on a pair counts for two, where there is an order: see Neighbours
 };
 
 /// How many entries a scan wrote, and how many pairs they are.
@@ -35,14 +37,15 @@ struct Scanned {
 /// members that it is near to. Both must have room for all candidates.
 using ScanFunction = Scanned (*)(const Scan&, std::uint32_t* rows, std::uint8_t* near);
 
-template <int L, class ForUnit>
-[[gnu::flatten]] Scanned scan(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
+template <int L, class ForUnit, bool ordered>
+Scanned scan_places(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
   using V = typename Lanes<L>::Real;
   const V xi = load_lanes<L>(s.x + s.first), yi = load_lanes<L>(s.y + s.first), zi = load_lanes<L>(s.z + s.first);
   std::size_t n = 0, pairs = 0;
   for (const CandidateRange* range = s.ranges; range != s.ranges + s.count; ++range) {
     const Vec3 shift = s.shift[range->image];
-    for (std::uint32_t j = range->from; j < range->to; ++j) {
+    for (std::uint32_t place = range->from; place < range->to; ++place) {
+      const std::uint32_t j = ordered ? s.order[place] : place;
       const V dx = (s.x[j] - xi) + shift.x, dy = (s.y[j] - yi) + shift.y, dz = (s.z[j] - zi) + shift.z;
       const V r2 = dx * dx + dy * dy + dz * dz;
       unsigned bits = bits_of<L>(r2 < s.reach2) & s.members;
@@ -51,10 +54,15 @@ template <int L, class ForUnit>
       rows[n] = Entry::of(j, range->image).bits;
       near[n] = static_cast<std::uint8_t>(bits);
       n += bits != 0;
-      pairs += static_cast<unsigned>(std::popcount(bits));
+      pairs += static_cast<std::size_t>(std::popcount(bits)) << (ordered && j >= s.twice_from ? 1 : 0);
     }
   }
   return {n, pairs};
+}
+
+template <int L, class ForUnit>
+[[gnu::flatten]] Scanned scan(const Scan& s, std::uint32_t* rows, std::uint8_t* near) {
+  return s.order ? scan_places<L, ForUnit, true>(s, rows, near) : scan_places<L, ForUnit, false>(s, rows, near);
 }
 
 /// The scan that is compiled for a vector unit, for clusters as wide as it.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 #include "passes/run_pass.hpp"
 #include "world/body_table.hpp"
@@ -12,23 +13,34 @@ namespace {
 
 enum Work : std::uint8_t { none = 0, density = 1, rates = 2, density_is_still = 4 };
 
-/// Of each row whether it never moves: a member of a fixed rigid body.
+/// Of each row that lists name whether it never moves: a member of a fixed rigid body.
 std::vector<char> fixed_rows(const World& world) {
   std::vector<char> of_body;
   for (std::size_t b = 0; b < world.bodies.size(); ++b)
     of_body.push_back(is_rigid(world, b) && world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
   const auto body = world.particles[field::body];
-  std::vector<char> fixed(world.particles.awake());
-  for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i] = body[i] >= 0 ? of_body[static_cast<std::size_t>(body[i])] : char{0};
+  std::vector<char> fixed(world.neighbours->rows(), 1);
+  for (std::size_t i = 0; i < world.particles.moving(); ++i)
+    fixed[i] = body[i] >= 0 ? of_body[static_cast<std::size_t>(body[i])] : char{0};
   return fixed;
 }
 
 /// What is to be done for a cluster. Two act on each other unless they are an own pair, or members of one group of 0 and above.
-/// @param acting of each entry of the cluster a bit, set where it acts on a member; zero until now
+/// @param moving rows that are not apart from those of what moves   @param acting of each entry of the cluster a bit, set where
+/// it acts on a member; zero until now
 Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed,
-             bool leaves_own, std::uint64_t* acting) {
+             std::size_t moving, bool leaves_own, std::uint64_t* acting) {
   const std::uint32_t first = c.first[cluster], past = c.first[cluster + 1];
   const std::size_t start = c.start[cluster], end = c.start[cluster + 1];
+  if (first >= moving) {  // fixed walls, all of one group
+    bool any_moves = false;
+    for (std::size_t e = start; e < end; ++e) {
+      const std::size_t j = Entry{c.entries[e]}.row();
+      any_moves = any_moves || fixed[j] == 0;
+      acting[(e - start) / within_bits] |= std::uint64_t{group[j] != group[first]} << ((e - start) % within_bits);
+    }
+    return any_moves ? density : density_is_still;
+  }
   const bool all_liquid = std::all_of(group.begin() + first, group.begin() + past, [](double g) { return g < 0.0; });
   if (all_liquid && c.own.empty()) {  // everything acts on them
     std::fill(acting, acting + (end - start + within_bits - 1) / within_bits, ~std::uint64_t{0});
@@ -71,12 +83,12 @@ void BusyClusters::find(World& world, bool leaves_own) {
   c.acting.assign(c.size() > 0 ? within_start(c.start.back(), c.size()) : 0, 0);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t k = 0; k < c.size(); ++k)
-    work[k] = work_of(c, k, group, fixed, leaves_own, c.acting.data() + within_start(c.start[k], k));
+    work[k] = work_of(c, k, group, fixed, world.particles.moving(), leaves_own, c.acting.data() + within_start(c.start[k], k));
   in_density_ = {}, in_rates_ = {};
   still_.clear();
-  for (std::uint32_t k = 0; k < c.size(); ++k) {
+  for (std::uint32_t k = 0; k < c.size() && c.first[k] < world.particles.awake(); ++k) {
     if ((work[k] & density) != 0) in_density_.clusters.push_back(k);
-    if ((work[k] & rates) != 0) in_rates_.clusters.push_back(k);
+    if ((work[k] & rates) != 0 && c.first[k] < world.particles.moving()) in_rates_.clusters.push_back(k);
     if ((work[k] & density_is_still) == 0) continue;
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) still_.push_back(i);
   }
@@ -112,7 +124,7 @@ void BusyClusters::sum_listed(const PassFunction& pass, World& world, const Pair
   Neighbours& n = *world.neighbours;
   Particles& p = world.particles;
   const Clusters& c = n.clusters();
-  if (c.unlisted.empty()) return run_pass(pass, p, n, kernels, world.threads);
+  if (c.unlisted.empty() && c.on_demand.empty()) return run_pass(pass, p, n, kernels, world.threads);
   assert(still_known_ == n.whole_lists());
   n.make_room_within();
   run_pass_over(pass, p, n, kernels, world.threads, {c.listed, {}});
@@ -157,6 +169,41 @@ void BusyClusters::sum_density(const PassFunction& pass, World& world, const Pai
   sum_listed(pass, world, kernels);
   if (!known_) find(world, leaves_own);
   keep(pass, world);
+}
+
+/// Who has no list has what it has among what is fixed.
+void BusyClusters::sum_fixed_density(const PassFunction& pass, World& world, const PairKernels& kernels) const {
+  Neighbours& n = *world.neighbours;
+  Particles& p = world.particles;
+  const Clusters& c = n.clusters();
+  assert(still_known_ == n.whole_lists());
+  std::vector<char> is_listed(n.rows(), 0);
+  for (const std::uint32_t k : c.on_demand)
+    std::fill(is_listed.begin() + c.first[k], is_listed.begin() + c.first[k + 1], char{1});
+  std::size_t from = 0;
+  for (const Field<double>* f : pass.adds()) {
+    const auto column = p[*f];
+    for (const std::uint32_t id : n.still_ids()) {
+      const std::size_t row = p.row(id);
+      const double among = density_among_still_[from++];
+      if (row >= p.awake() && (row >= is_listed.size() || !is_listed[row])) column[row] = among;
+    }
+  }
+  n.make_room_within();
+  run_pass_over(pass, p, n, kernels, world.threads, {c.on_demand, {}});
+}
+
+void BusyClusters::sum_fixed_rates(const PassFunction& pass, World& world, const PairKernels& kernels) const {
+  Clusters& c = world.neighbours->clusters();
+  ChosenClusters fixed;
+  for (const auto* some : {&c.listed, &c.on_demand})
+    std::ranges::copy_if(*some, std::back_inserter(fixed.clusters),
+                         [&](std::uint32_t k) { return c.first[k] >= world.particles.moving(); });
+  c.acting.resize(within_start(c.start.back(), c.size()), 0);
+  for (const std::uint32_t k : c.on_demand)  // their pairs with fixed particles add zeros
+    std::fill(c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k], k)),
+              c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k + 1], k + 1)), ~std::uint64_t{0});
+  run_pass_over(pass, world.particles, *world.neighbours, kernels, world.threads, fixed);
 }
 
 void BusyClusters::sum_rates(const PassFunction& pass, World& world, const PairKernels& kernels) const {

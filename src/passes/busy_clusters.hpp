@@ -21,6 +21,9 @@ class BusyClusters {
   void sum_density(const PassFunction&, World&, const PairKernels&, bool leaves_own);
   /// After sum_density() over the same lists.
   void sum_rates(const PassFunction&, World&, const PairKernels&) const;
+  /// What no step reads of fixed particles (World::forms_fixed): the density of those that sleep, and the forces on all of them.
+  void sum_fixed_density(const PassFunction&, World&, const PairKernels&) const;
+  void sum_fixed_rates(const PassFunction&, World&, const PairKernels&) const;
 
  private:
   void find(World&, bool leaves_own);

@@ -199,32 +199,34 @@ Checkpoint Simulation::checkpoint() const {
 }
 
 Checkpoint Simulation::state() const {
+  form_fixed();
+  const World& world = world_;
   Checkpoint kept;
   kept.text["step/layout"] = layout();
-  const bool sleeps = world_.particles.awake() < world_.particles.size();
+  const bool sleeps = world.particles.moving() < world.particles.size();
   const std::vector<std::uint32_t> order =
-      sleeps ? world_.neighbours->rows_in_order(world_.particles) : std::vector<std::uint32_t>{};  // as if nothing slept
-  save(world_.particles, "particles/", kept, order);
-  save(world_.bodies, "bodies/", kept);
-  kept.text["bodies/name"] = world_.body_names;
-  save(world_.bonds, "bonds", kept);
-  save(world_.own, "own_pairs", kept);
-  kept.whole["step/pairs"] = {static_cast<std::int64_t>(world_.bonds.pairs()), static_cast<std::int64_t>(world_.own.pairs())};
-  kept.real["step/booked"] = plain(world_.booked.values());
-  kept.real["step/undelivered_spin"] = plain(world_.booked.undelivered_spin);
+      sleeps ? world.neighbours->rows_in_order(world.particles) : std::vector<std::uint32_t>{};  // as if nothing slept
+  save(world.particles, "particles/", kept, order);
+  save(world.bodies, "bodies/", kept);
+  kept.text["bodies/name"] = world.body_names;
+  save(world.bonds, "bonds", kept);
+  save(world.own, "own_pairs", kept);
+  kept.whole["step/pairs"] = {static_cast<std::int64_t>(world.bonds.pairs()), static_cast<std::int64_t>(world.own.pairs())};
+  kept.real["step/booked"] = plain(world.booked.values());
+  kept.real["step/undelivered_spin"] = plain(world.booked.undelivered_spin);
   const Schedule::Stretch& stretch = schedule_.stretch();
-  kept.real["step/time"] = {world_.time, world_.next_time, dt_, pairs_, bound_.dt, stretch.start, stretch.end};
+  kept.real["step/time"] = {world.time, world.next_time, dt_, pairs_, bound_.dt, stretch.start, stretch.end};
   kept.text["step/bound"] = {bound_.name};
   kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(schedule_.moments_past()), stretch.count, stretch.done,
-                              world_.moved ? 1 : 0};
-  const Lagged& lagged = world_.lagged;
+                              world.moved ? 1 : 0};
+  const Lagged& lagged = world.lagged;
   kept.real["step/lagged"] = {lagged.half_step, lagged.viscous_step, static_cast<double>(lagged.viscous_age)};
   kept.real["step/guards"] = {guards_.turned_over, guards_.first_step};
-  if (world_.neighbours) {
-    const std::span<const Vec3> built = world_.neighbours->build_positions();
+  if (world.neighbours) {
+    const std::span<const Vec3> built = world.neighbours->build_positions();
     const std::vector<Vec3> ordered = in_order(built, order);
     kept.real["neighbours/build_positions"] = plain(sleeps ? std::span<const Vec3>(ordered) : built);
-    kept.whole["neighbours/rebuilds"] = {world_.neighbours->rebuilds()};
+    kept.whole["neighbours/rebuilds"] = {world.neighbours->rebuilds()};
   }
   return kept;
 }

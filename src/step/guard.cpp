@@ -146,7 +146,7 @@ void check_escape(const World& world, const Enclosure& domain) {
   for (std::size_t a = 0; a < 3; ++a) {
     if (s.periodic[a]) continue;
     const double low = domain.box.min[a], high = domain.box.max[a];
-    for (std::size_t i = 0; i < world.particles.awake(); ++i) {
+    for (std::size_t i = 0; i < world.particles.moving(); ++i) {
       if ((r[a][i] >= low && r[a][i] <= high) || !movable(i)) continue;
       const std::string where = domain.given ? fmt::format("{:.6g} m .. {:.6g} m", (*s.min)[a], (*s.max)[a])
                                              : fmt::format(

@@ -32,6 +32,12 @@ Simulation::Simulation(const Scene& scene, const InitialState& initial, const Si
 }
 
 bool Simulation::advance_to(double time, const std::function<bool()>& go_on) {
+  const bool reached = go_towards(time, go_on);
+  form_fixed();
+  return reached;
+}
+
+bool Simulation::go_towards(double time, const std::function<bool()>& go_on) {
   const bool chooses_threads = options_.gives_way && options_.threads > 1;
   while (world_.time < time) {
     if (chooses_threads) threads_.begin_step();
@@ -66,7 +72,9 @@ void Simulation::set_bound() {
 Resting Simulation::resting() const {
   const std::optional<double> beyond = passes_.sleeps_beyond();
   if (!beyond || world_.halo || schedule_.has_moments_left()) return {};
-  return fixed_bodies(world_, *beyond);
+  Resting rest = fixed_bodies(world_, *beyond);
+  rest.unread = world_.unread;
+  return rest;
 }
 
 std::string Simulation::time_step_set_by() const {
@@ -74,6 +82,9 @@ std::string Simulation::time_step_set_by() const {
   return bound_.name == "none" ? "output" : bound_.name;
 }
 
-Ledger Simulation::ledger() const { return ledger_of_all(world_, effects_); }
+Ledger Simulation::ledger() const {
+  form_fixed();  // the pairs of the core have lists from both sides
+  return ledger_of_all(world_, effects_);
+}
 
 }  // namespace tripoint

@@ -69,6 +69,7 @@ class Simulation {
   void choose_step(double stop);
   void step(double end);
   void form_rates();
+  void form_fixed() const;
   void change();
   void find_neighbours();
   void correct();
@@ -89,10 +90,11 @@ class Simulation {
   [[nodiscard]] Checkpoint state() const;
   void restore(const Checkpoint&);
   // simulation.cpp
+  bool go_towards(double time, const std::function<bool()>& go_on);
   void set_bound();
   [[nodiscard]] Resting resting() const;
 
-  World world_;
+  mutable World world_;  ///< mutable for form_fixed() alone: to those outside, what it forms was always there
   SimulationOptions options_;
   ThreadChoice threads_{options_.threads};
   std::vector<Active> effects_;

@@ -32,6 +32,25 @@ void Simulation::form_rates() {
   world_.moved = false;
   pass(PassName::rates);  // (7), (8), (21)
   run(Stage::bonds);      // (12), hourglass
+  world_.fixed_formed = world_.particles.moving() == world_.particles.size();
+}
+
+/// What no step reads of fixed particles, at the present time: the forces on them, and densities behind the faces of walls. It is
+/// formed where somebody asks (decision 028).
+void Simulation::form_fixed() const {
+  if (world_.fixed_formed) return;
+  world_.fixed_formed = world_.forms_fixed = true;
+  world_.neighbours->list_sleeping();
+  const auto each = [&](auto visit) { for_each_effect(world_, effects_, visit); };
+  const auto sum_fixed = [&](PassName name) {
+    each([&](Effect& effect) { effect.clear(world_, name); });
+    passes_.run_fixed(name, world_);
+  };
+  if (!world_.unread.empty()) sum_fixed(PassName::density);
+  each([&](Effect& effect) { effect.form_fixed(world_); });
+  sum_fixed(PassName::rates);
+  each([&](Effect& effect) { effect.bonds(world_); });
+  world_.forms_fixed = false;
 }
 
 /// One step towards `time` [s], then the events of its end.

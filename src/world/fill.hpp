@@ -3,7 +3,7 @@
 #include <span>
 
 #include "core/machine.hpp"
-#include "particles/particles.hpp"
+#include "world/world.hpp"
 
 namespace tripoint {
 
@@ -11,6 +11,12 @@ namespace tripoint {
 template <class T>
 [[nodiscard]] std::span<T> awake(Particles& p, const Field<T>& field) {
   return p[field].first(p.awake());
+}
+
+/// Of a column some rows.
+template <class T>
+[[nodiscard]] std::span<T> part(std::span<T> column, const Rows& rows) {
+  return column.subspan(rows.from, rows.count());
 }
 
 /// Sets a column, shared among threads where it is long enough.

@@ -51,12 +51,12 @@ template <std::size_t n, class Add>
 
 }  // namespace detail
 
-/// The same over the rows that are awake, with the bits of a sum over all: what sleeps must add zeros.
+/// The same over the rows that move, with the bits of a sum over all: what is fixed must add zeros.
 template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = world.particles;
   if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
-  if (p.awake() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
+  if (p.moving() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
   const std::span<const std::uint32_t> first = world.neighbours->row_blocks();
   blocks.assign(first.size() - 1, {});
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (blocks.size() > 1)
@@ -68,12 +68,12 @@ template <std::size_t n, class Add>
   return detail::total_of(blocks);
 }
 
-/// The same over all rows, those that sleep too.
+/// The same over all rows, those of what is fixed too.
 template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums_of_all(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
   const Particles& p = world.particles;
   if (!world.copies.empty()) return detail::ordered_sums_of_own(world, blocks, add);
-  if (p.awake() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
+  if (p.moving() == p.size()) return ordered_sums(p.size(), world.threads, blocks, add);
   const std::vector<std::uint32_t> rows = world.neighbours->rows_in_order(p);
   return ordered_sums(rows.size(), world.threads, blocks, [&](std::size_t k, std::array<double, n>& sum) { add(rows[k], sum); });
 }

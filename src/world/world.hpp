@@ -39,6 +39,12 @@ struct Change {
   [[nodiscard]] bool empty() const { return born.empty() && regrouped.empty() && relisted.empty() && bodies.empty(); }
 };
 
+/// Rows from..to-1.
+struct Rows {
+  std::size_t from = 0, to = 0;
+  [[nodiscard]] std::size_t count() const { return to - from; }
+};
+
 /// All that a step changes, and what it works with.
 struct World {
   Scene scene;
@@ -62,6 +68,11 @@ struct World {
   bool placed = false;  ///< members of all rigid bodies have been put to their places by the poses of these
   bool moved = true;    ///< positions differ from those of the last rates
 
+  /// Of each id, 1 where no step reads of a fixed particle but its place, as behind the face of a wall; empty: all is read.
+  std::vector<char> unread;
+  bool fixed_formed = true;  ///< what no step reads of fixed particles is of the present time too: forces on them, densities
+  bool forms_fixed = false;  ///< it is being formed, since somebody asks for it
+
   Halo* halo = nullptr;      ///< those that hold the rest of the scene; null: this process holds all
   std::vector<char> copies;  ///< of each row, 1 where it is a copy of another's particle; empty where this process holds all
 
@@ -70,6 +81,10 @@ struct World {
   [[nodiscard]] bool owns(std::size_t row) const { return copies.empty() || copies[row] == 0; }
   /// Whether this process tells what all hold alike, as the energies of bodies.
   [[nodiscard]] bool tells_of_bodies() const { return !halo || halo->is_first(); }
+  /// Rows whose forces are formed now: of what moves, but where forms_fixed says so.
+  [[nodiscard]] Rows formed() const {
+    return forms_fixed ? Rows{particles.moving(), particles.size()} : Rows{0, particles.moving()};
+  }
   /// Copies take from their owners what a pair pass has summed.
   void refresh(std::span<const Field<double>* const> columns) {
     if (halo) halo->refresh(particles, columns);

@@ -49,6 +49,30 @@ void expect_gradient(const lab::Lab& lab) {
 TEST(Walls, PressByTheGradientOfTheEnergyThatTheLedgerHolds) { expect_gradient(pressed_column()); }
 TEST(Walls, PressByThatGradientWhereTheyAreFeltFromTheirLattice) { expect_gradient(pressed_column("laplacian", 0.1)); }
 
+/// No step forms what none reads: the force on what is fixed, and densities behind faces.
+TEST(Walls, AreShownTheForceAndDensityThatEveryStepWouldForm) {
+  for (const double jitter : {0.0, 0.1}) {
+    const lab::Lab lab = pressed_column("laplacian", jitter);
+    Simulation some(lab.scene, lab.initial), all(lab.scene, lab.initial, {.sums_all = true});
+    some.advance_to(1.0, [&] { return some.world().neighbours->rebuilds() < 5 && some.steps() < 3000; });
+    all.advance_to(1.0, [&] { return all.steps() < some.steps(); });
+    const Particles &p = some.world().particles, &q = all.world().particles;
+    ASSERT_LT(p.moving(), p.size()) << "fixed rows are apart from the third lists on";
+    ASSERT_EQ(some.steps(), all.steps());
+    double greatest = 0.0;
+    for (std::size_t id = 0; id < lab.initial.size(); ++id) {
+      const std::size_t i = p.row(id), j = q.row(id);
+      ASSERT_EQ(p.position(i), q.position(j));
+      if (lab.initial.body[id] < 0) continue;
+      for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x,
+                                     &field::viscous_velocity_x, &field::number_density, &field::number_density_before})
+        EXPECT_EQ(p[*f][i], q[*f][j]) << f->name << " of particle " << id << ", jitter " << jitter;
+      greatest = std::max(greatest, std::abs(p[field::force_z][i]));
+    }
+    EXPECT_GT(greatest, 0.0);
+  }
+}
+
 TEST(Walls, HaveTheMeanDensityOfTheirFaceAndTheRestDensityBehindIt) {
   const lab::Lab lab = pressed_column();
   const Simulation s(lab.scene, lab.initial);

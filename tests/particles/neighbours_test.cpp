@@ -250,8 +250,12 @@ TEST(Neighbours, WhatSleepsChangesNoListNoCountAndNoOrder) {
     for (int round = 0; round < 8; ++round) {
       for (Particles* p : {&some, &all})
         for (std::size_t i = 0; i < p->size(); ++i)
-          if ((*p)[field::body][i] < 0)
-            positions(*p).x[i] += round < 5 ? 0.9 : -1.4;  // far at once: what slept wakes, and what woke sleeps
+          if ((*p)[field::body][i] < 0) {
+            const bool leaves =
+                (*p)[field::id][i] + 1 == static_cast<int>(p->size());  // to the side and up: there are more cells
+            positions(*p).x[i] += round < 5 ? 0.9 : -1.4;               // far at once: what slept wakes, and what woke sleeps
+            if (leaves && round > 2) positions(*p).y[i] += 0.4, positions(*p).z[i] += 0.4;
+          }
       ASSERT_TRUE(sleepy.update(some, 0.0, [] { return Resting{{1}, 0.5}; }));
       whole.update(all, 0.0);
       EXPECT_EQ(sleepy.entries(), whole.entries()) << "round " << round;
@@ -287,17 +291,18 @@ TEST(Neighbours, BlocksOfRowsAreThoseOfAllRows) {
       if (p[field::body][i] < 0) positions(p).x[i] += 1.7;
     n.update(p, 0.0, [] { return Resting{{1}, 0.3}; });
   }
+  ASSERT_EQ(p.moving(), 12u);
   ASSERT_LT(p.awake(), p.size());
   const std::vector<std::uint32_t> order = n.rows_in_order(p);
   const auto first = n.row_blocks();
   ASSERT_EQ(first.size(), (p.size() + 1023) / 1024 + 1);
   for (std::size_t b = 0; b + 1 < first.size(); ++b) {
-    std::vector<std::uint32_t> awake;
+    std::vector<std::uint32_t> moving;
     for (std::size_t k = 1024 * b; k < std::min(order.size(), 1024 * (b + 1)); ++k)
-      if (order[k] < p.awake()) awake.push_back(order[k]);
+      if (order[k] < p.moving()) moving.push_back(order[k]);
     std::vector<std::uint32_t> block(first[b + 1] - first[b]);
     std::iota(block.begin(), block.end(), first[b]);
-    EXPECT_EQ(block, awake) << "block " << b;
+    EXPECT_EQ(block, moving) << "block " << b;
   }
 }
 

@@ -70,6 +70,7 @@ class Fluid : public Effect {
   void clear(World&, PassName) override;
   void state(World&) override;
   void bonds(World&) override;
+  void form_fixed(World&) override;
   void happen(World& world, const Happening&) override { set_groups(world), clear_walls(); }
   void renumber(World&) override { clear_walls(); }
   void adopt(World&) override;
@@ -174,12 +175,13 @@ void Fluid::clear(World& world, PassName pass) {
   if (pass == PassName::rates) {
     for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x,
                                    &field::viscous_force_y, &field::viscous_force_z})
-      fill(awake(p, *f), 0.0, world.threads);
+      fill(part(p[*f], world.formed()), 0.0, world.threads);
   } else if (world.scene.mode_of(Term::density) == Mode::corrected) {
-    const auto delta = awake(p, field::number_density);
+    const Rows rows = world.forms_fixed ? Rows{p.awake(), p.size()} : Rows{0, p.awake()};
+    const auto delta = part(p[field::number_density], rows);
     fill(delta, kernels_.wendland.value(0.0), world.threads);
     if (!p.has(field::own_density.name)) return;
-    const auto own = p[field::own_density];
+    const auto own = part(p[field::own_density], rows);
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (delta.size() > worth_threads)
     for (std::size_t i = 0; i < delta.size(); ++i) delta[i] += own[i];
   } else {
@@ -211,13 +213,20 @@ void Fluid::bonds(World& world) {
   if (lays_walls_) laid_.lay_forces(world, kernels_);
 }
 
+void Fluid::form_fixed(World& world) {
+  if (!damps_) return;
+  Particles& p = world.particles;
+  const Rows fixed = world.formed();
+  std::ranges::copy(part(p[field::number_density], fixed), part(p[field::number_density_before], fixed).begin());
+}
+
 /// Sound C h/(c + |v|), C = 0.45 corrected, 0.35 with transport velocity (its background pressure adds half to the stiffness),
 /// 0.7 printed; viscosity, and the numerical bulk viscosity, which binds above its default alone (model 8.10).
 TimeStepBound Fluid::max_dt(const World& world) const {
   const auto v = velocities(world.particles);
   double v2 = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : v2)
-  for (std::size_t i = 0; i < world.particles.awake(); ++i) v2 = std::max(v2, dot(v.at(i), v.at(i)));
+  for (std::size_t i = 0; i < world.particles.moving(); ++i) v2 = std::max(v2, dot(v.at(i), v.at(i)));
   const double courant = world.scene.mode_of(Term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.35 : 0.45;
   TimeStepBound bound;
   tighten(bound, courant * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "sound");

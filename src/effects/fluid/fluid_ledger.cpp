@@ -7,7 +7,7 @@
 namespace tripoint::fluid {
 namespace {
 
-/// Core energy of the pairs of i that act, half of each pair [J]. What sleeps has none.
+/// Core energy of the pairs of i that act, half of each pair [J]. What has no list has none.
 double core_energy(const World& world, const Triple<const double>& x, std::span<const double> group, const Core& core,
                    std::size_t i) {
   double sum = 0.0;
@@ -28,7 +28,7 @@ void add_fluid(const World& world, const SceneNumbers& n, const PairKernels& ker
   const auto x = positions(p);
   std::vector<std::array<double, 1>> blocks;
   const auto compression = ordered_sums_of_all(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    if (core && i < p.awake()) sum[0] += core_energy(world, x, group, kernels.core, i);
+    if (core && i < world.neighbours->rows()) sum[0] += core_energy(world, x, group, kernels.core, i);
     sum[0] += compression_energy(state_of(n, group[i], rest[i], world.scene.clamps()), m[i], rho[i]);
   });
   ledger.energy["compression"] += compression[0];

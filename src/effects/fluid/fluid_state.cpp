@@ -18,8 +18,8 @@ void refuse_overlap(const World& world, const SceneNumbers& n) {
   const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
   const auto pressed = [&](std::size_t i) { return group[i] == 0.0 ? 0.0 : rho[i] / rest[i]; };
   double most = 0.0;
-#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : most) if (p.awake() > worth_threads)
-  for (std::size_t i = 0; i < p.awake(); ++i) most = std::max(most, pressed(i));
+#pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : most) if (p.moving() > worth_threads)
+  for (std::size_t i = 0; i < p.moving(); ++i) most = std::max(most, pressed(i));
   if (most <= n.overlap_density) return;
   std::size_t worst = 0;
   while (pressed(worst) != most) ++worst;
@@ -88,7 +88,7 @@ void predict_velocities(World& world) {
              omega = of_bodies(field::body_angular_velocity);
   const auto gained = of_bodies(field::body_acceleration), turned = of_bodies(field::body_angular_acceleration);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t i = 0; i < p.awake(); ++i) {
+  for (std::size_t i = 0; i < p.moving(); ++i) {  // what is fixed is seen at rest
     if (!is_member(i)) {
       seen.set(i, ahead != 0.0 ? v.at(i) + ahead * (g + total_force(forces, i) / m[i]) : v.at(i));
       continue;

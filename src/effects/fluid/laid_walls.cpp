@@ -98,7 +98,9 @@ void LaidWalls::lay_forces(World& world, const PairKernels& kernels) {
   Particles& p = world.particles;
   const auto share = std::as_const(p)[field::pressure_share];
   const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const Rows formed = world.formed();
   each_row(world, [&](std::size_t i, std::size_t j, const Vec3& d, const Vec3& from_lattice) {
+    if (i < formed.from || i >= formed.to) return;
     const double pressure = share[i] + share[j];
     F.set(i, F.at(i) + pressure * (kernels.wendland.derivative_over_r(norm(from_lattice)) * from_lattice -
                                    kernels.wendland.derivative_over_r(norm(d)) * d));

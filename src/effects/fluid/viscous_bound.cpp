@@ -25,15 +25,18 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
              central = !paper && world.scene.viscosity_form == "central";
   const PassFunction spread = pair_passes(world.neighbours->clusters().lanes).spread({paper ? 1 : central ? 2 : 3});
   using Sums = ViscousSpread<ViscosityCentral>::adds;
-  for (const Field<double>* f : Sums::list) fill(awake(p, *f), 0.0, world.threads);
-  run_pass_over(spread, p, *world.neighbours, kernels, world.threads, {world.neighbours->clusters().listed, {}});
+  for (const Field<double>* f : Sums::list) fill(p[*f].first(p.moving()), 0.0, world.threads);
+  const Clusters& c = world.neighbours->clusters();
+  ChosenClusters moving{c.listed, {}};
+  std::erase_if(moving.clusters, [&](std::uint32_t k) { return c.first[k] >= p.moving(); });
+  run_pass_over(spread, p, *world.neighbours, kernels, world.threads, moving);
 
   const auto group = p[field::group], m = p[field::mass];
   std::array<std::span<const double>, Sums::size> sum;
   std::ranges::transform(Sums::list, sum.begin(), [&](const Field<double>* f) { return std::as_const(p)[*f]; });
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : greatest)
-  for (std::size_t i = 0; i < p.awake(); ++i) {
+  for (std::size_t i = 0; i < p.moving(); ++i) {
     if (group[i] == 0.0 || !world.owns(i)) continue;  // walls do not move by forces
     const double rate =
         central ? largest_eigenvalue({sum[0][i], sum[1][i], sum[2][i], sum[3][i], sum[4][i], sum[5][i]}) : sum[0][i];

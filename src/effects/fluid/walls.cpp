@@ -30,6 +30,9 @@ std::vector<int> frames_of(const World& world) {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
+/// Whether a wall brakes liquid: (8) as printed does so at walls that slip too.
+bool drags(const World& world, double stick) { return stick != 0.0 || world.scene.mode_of(Term::viscosity) == Mode::paper; }
+
 /// What a neighbour adds to the kernel sum of a wall particle, and what it would from its place on the lattice.
 struct Share {
   int id;
@@ -39,18 +42,20 @@ struct Share {
 
 }  // namespace
 
-void Walls::find(const World& world) {
+/// What is fixed and was wet before is seen at rest again.
+void Walls::find(World& world) {
   if (known_ == world.neighbours->rebuilds()) return;
   known_ = world.neighbours->rebuilds();
   wet_walls_.clear();
+  const Particles& p = world.particles;
+  for (const Field<double>* f : seen_velocity) fill(part(world.particles[*f], {p.moving(), p.awake()}), 0.0, world.threads);
   const auto group = world.particles[field::group];
   const auto stick = world.particles[field::stick];
-  const bool drags_all = world.scene.mode_of(Term::viscosity) == Mode::paper;  // (8) as printed brakes at walls that slip too
   const Clusters& c = world.neighbours->clusters();
   for (const std::size_t k : c.listed) {
     unsigned walls = 0, wet = 0;  // bits of members
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
-      walls |= static_cast<unsigned>(group[i] == wall_group && (drags_all || stick[i] != 0.0)) << (i - c.first[k]);
+      walls |= static_cast<unsigned>(group[i] == wall_group && drags(world, stick[i])) << (i - c.first[k]);
     for (std::size_t e = c.start[k]; e < c.start[k + 1] && (walls & ~wet) != 0; ++e)
       if (group[Entry{c.entries[e]}.row()] == liquid_group) wet |= c.near[e];
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
@@ -70,8 +75,8 @@ void hand_to_copies(const World& world, std::vector<T>& by_id) {
 }
 
 /// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter adds to the part
-/// that is fixed wall.
-void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
+/// that is fixed wall. Behind the face, where no velocity is mirrored and nothing jittered, no step reads what a wall has.
+void Walls::find_exposed(World& world, const SceneNumbers& n, const PairKernels& kernels) {
   const Particles& p = world.particles;
   const auto group = p[field::group];
   const auto body = p[field::body], source = p[field::source], id = p[field::id];
@@ -82,6 +87,8 @@ void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKe
   const bool jittered = has_laid_walls(world.scene);
   at_face_.resize(p.size());
   if (jittered) excess_.assign(p.size(), 0.0);
+  world.unread.assign(jittered ? 0 : p.size(), 0);
+  const auto stick = p[field::stick];
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (group[i] != wall_group) continue;
@@ -98,7 +105,9 @@ void Walls::find_exposed(const World& world, const SceneNumbers& n, const PairKe
     std::ranges::sort(shares);
     double wall = kernels.wendland.value(0.0), from_lattice = wall;
     for (const Share& s : shares) wall += s.as_it_is, from_lattice += s.from_lattice;
-    at_face_[static_cast<std::size_t>(id[i])] = wall < (1.0 - n.least_exposure) * full ? 1 : 0;
+    const bool exposed = wall < (1.0 - n.least_exposure) * full;
+    at_face_[static_cast<std::size_t>(id[i])] = exposed ? 1 : 0;
+    if (!jittered) world.unread[static_cast<std::size_t>(id[i])] = !exposed && !drags(world, stick[i]) ? 1 : 0;
     if (jittered && frame_of(i) == fixed_frame)
       excess_[static_cast<std::size_t>(id[i])] = to_a_millionth((wall - from_lattice) / full);
   }
@@ -151,7 +160,7 @@ void Walls::find_rows(const World& world) {
 }
 
 /// Fixed walls keep their faces and patches from one whole list to the next.
-void Walls::find_faces(const World& world, const SceneNumbers& n, const PairKernels& kernels) {
+void Walls::find_faces(World& world, const SceneNumbers& n, const PairKernels& kernels) {
   if (known_faces_ == world.neighbours->rebuilds()) return;
   known_faces_ = world.neighbours->rebuilds();
   if (at_face_.empty()) {
@@ -240,7 +249,10 @@ void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t k = 0; k < wet_walls_.size(); ++k) {
     const std::size_t i = wet_walls_[k];
-    if (weight[i] > 0.0) seen.set(i, v.at(i) + (v.at(i) - moved.at(i) / weight[i]));
+    if (weight[i] > 0.0)
+      seen.set(i, v.at(i) + (v.at(i) - moved.at(i) / weight[i]));
+    else if (i >= p.moving())
+      seen.set(i, {});
   }
   world.refresh(seen_velocity);
 }

@@ -35,9 +35,9 @@ class Walls {
   }
 
  private:
-  void find(const World&);
-  void find_faces(const World&, const SceneNumbers&, const PairKernels&);
-  void find_exposed(const World&, const SceneNumbers&, const PairKernels&);
+  void find(World&);
+  void find_faces(World&, const SceneNumbers&, const PairKernels&);
+  void find_exposed(World&, const SceneNumbers&, const PairKernels&);
   void add_faces(const World&, bool fixed);
   void find_rows(const World&);
   void hand_to_copied_faces(const World&, std::vector<double>& of) const;

@@ -63,7 +63,7 @@ void FreeMotion::drift(World& world, double dt) {
   const bool guided = p.has(field::driven.name);
   const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t i = 0; i < p.awake(); ++i)
+  for (std::size_t i = 0; i < p.moving(); ++i)
     if (!is_member(i) && !(guided && driven[i] != 0)) r.set(i, r.at(i) + dt * (shifts ? v.at(i) + w.at(i) : v.at(i)));
   world.moved = true;
 }
@@ -77,7 +77,7 @@ TimeStepBound FreeMotion::max_dt(const World& world) const {
   const RigidMembers is_member(world);
   double a2 = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : a2)
-  for (std::size_t i = 0; i < p.awake(); ++i) {
+  for (std::size_t i = 0; i < p.moving(); ++i) {
     if (is_member(i)) continue;
     const Vec3 a = g + total_force(forces, i) / m[i];
     a2 = std::max(a2, dot(a, a));

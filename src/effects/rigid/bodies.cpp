@@ -124,7 +124,7 @@ void place_members(World& world) {
   const auto alive = world.bodies[field::body_alive];
   const RigidMembers is_member(world);
   const std::size_t rows =
-      world.placed ? p.awake() : p.size();  // the first time moves members of fixed bodies too, by a rounding error
+      world.placed ? p.moving() : p.size();  // the first time moves members of fixed bodies too, by a rounding error
   world.placed = true;
   for_rows(rows, world.threads, [&](std::size_t i) {
     if (!is_member(i)) return;
@@ -154,7 +154,7 @@ void give_velocities(World& world) {
   const auto velocity = world.bodies[field::body_velocity], omega = world.bodies[field::body_angular_velocity];
   const auto orientation = world.bodies[field::body_orientation];
   const RigidMembers is_member(world);
-  for_rows(p.awake(), world.threads, [&](std::size_t i) {
+  for_rows(p.moving(), world.threads, [&](std::size_t i) {
     if (!is_member(i)) return;
     const auto b = static_cast<std::size_t>(body[i]);
     v.set(i, velocity[b] + cross(omega[b], rotate(orientation[b], reference.at(i))));

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lists where fixed particles can sleep: rows of what moves, of what is fixed and read, and of what sleeps (decisions 020, 028).
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "core/aligned.hpp"
+#include "particles/grid.hpp"
+#include "particles/neighbours.hpp"
+
+namespace tripoint {
+namespace {
+
+constexpr std::size_t rows_a_block = 1024;
+
+}  // namespace
+
+/// Which particles can sleep, and in which stretches they lie. All rows are sorted.
+void Neighbours::learn_still(const Particles& particles, const Grid& grid, const Resting& resting) {
+  const auto x = positions(particles);
+  const auto body = particles[field::body], id = particles[field::id];
+  still_.id.clear(), still_.place.assign(particles.size(), ~std::uint32_t{0});
+  std::vector<std::array<int, 3>> stretch;
+  still_.count = {1, 1, 1};
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    if (body[i] < 0 || !resting.bodies[static_cast<std::size_t>(body[i])]) continue;
+    if (still_.id.empty()) still_.low = still_.high = x.at(i);
+    for (std::size_t a = 0; a < 3; ++a)
+      still_.low[a] = std::min(still_.low[a], x.at(i)[a]), still_.high[a] = std::max(still_.high[a], x.at(i)[a]);
+    still_.place[static_cast<std::size_t>(id[i])] = static_cast<std::uint32_t>(still_.id.size());
+    still_.id.push_back(static_cast<std::uint32_t>(id[i]));
+    stretch.push_back(Grid::stretch(grid.place(x.at(i))));
+    for (std::size_t a = 0; a < 3; ++a) still_.count[a] = std::max(still_.count[a], stretch.back()[a] + 1);
+  }
+  for (std::size_t a = 0; a < 3; ++a)
+    if (box_.periodic[a])
+      still_.count[a] =
+          std::max(still_.count[a], Grid::stretch({grid.count[0] - 1, grid.count[1] - 1, grid.count[2] - 1})[a] + 1);
+  still_.first.assign(static_cast<std::size_t>(still_.count[0]) * still_.count[1] * still_.count[2] + 1, 0);
+  for (const auto& s : stretch) ++still_.first[still_.index(s) + 1];
+  for (std::size_t s = 0; s + 1 < still_.first.size(); ++s) still_.first[s + 1] += still_.first[s];
+  still_.known = !still_.id.empty();
+}
+
+/// Of marks on stretches, those that hold what is within a distance of what they hold, and some more: a box around each.
+std::vector<char> Neighbours::within(std::vector<char> marks, double distance) const {
+  const std::array<int, 3>& n = still_.count;
+  const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(n[0]), static_cast<std::size_t>(n[0]) * n[1]};
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double wide = still_.width[a] * (a == 0 ? Grid::cells_a_stretch : 1);
+    const int far = static_cast<int>(std::ceil(distance / wide * (1.0 - Grid::slack))) +
+                    (box_.periodic[a] ? 1 : 0);  // the last stretch of a period may be short
+    const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+    std::vector<char> line(static_cast<std::size_t>(n[a]));
+    for (int j = 0; j < n[b]; ++j) {
+      for (int k = 0; k < n[c]; ++k) {
+        const std::size_t from = static_cast<std::size_t>(j) * step[b] + static_cast<std::size_t>(k) * step[c];
+        const auto spread = [&](bool forward) {
+          int since = far + 1;
+          const int turns = box_.periodic[a] ? 2 : 1;  // twice around, so that marks reach across the boundary
+          for (int at = 0; at < turns * n[a]; ++at) {
+            const int m = forward ? at % n[a] : n[a] - 1 - at % n[a];
+            since = marks[from + static_cast<std::size_t>(m) * step[a]] != 0 ? 0 : since + 1;
+            if (since <= far) line[static_cast<std::size_t>(m)] = 1;
+          }
+        };
+        std::ranges::fill(line, char{0});
+        spread(true), spread(false);
+        for (int m = 0; m < n[a]; ++m) marks[from + static_cast<std::size_t>(m) * step[a]] = line[static_cast<std::size_t>(m)];
+      }
+    }
+  }
+  return marks;
+}
+
+/// Rows of what moves first, ordered by (cell, id); then of the fixed particles that a step reads, in that order; then of those
+/// that are in reach and act by their place alone; then what sleeps, most of it where it was.
+void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& resting) {
+  const std::size_t n = particles.size();
+  const auto x = positions(particles);
+  const auto body = particles[field::body], id = particles[field::id];
+  still_.place.resize(n, ~std::uint32_t{0});  // what has flowed in moves
+  std::vector<std::uint32_t> rows;
+  std::vector<char> moving(still_.first.size() - 1, 0);
+  const auto wake = [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      if (body[i] >= 0 && resting.bodies[static_cast<std::size_t>(body[i])]) continue;
+      rows.push_back(static_cast<std::uint32_t>(i));
+      std::array<int, 3> s = Grid::stretch(grid.place(x.at(i)));
+      for (std::size_t a = 0; a < 3; ++a) s[a] = std::min(s[a], still_.count[a] - 1);
+      moving[still_.index(s)] = 1;
+    }
+  };
+  wake(0, particles.moving());
+  if (particles.moving() < n) wake(built_.size(), n);
+  const std::vector<char> meets = within(moving, support_ + skin_), near = within(meets, support_ + skin_),
+                          awake = resting.around > support_ + skin_ ? within(meets, resting.around) : near;
+  enum Part : char { moves, read, asleep };
+  std::vector<Part> part(rows.size(), moves);
+  std::vector<char> can_meet(rows.size(), 1);
+  for (std::size_t s = 0; s < awake.size(); ++s) {
+    if (!awake[s]) continue;
+    for (std::size_t k = still_.first[s]; k < still_.first[s + 1]; ++k) {
+      const std::uint32_t one = still_.id[k];
+      const bool unread = !resting.unread.empty() && resting.unread[one] != 0;
+      if (unread && !near[s]) continue;
+      rows.push_back(static_cast<std::uint32_t>(particles.row(one)));
+      part.push_back(unread ? asleep : read);
+      can_meet.push_back(meets[s]);
+    }
+  }
+
+  const std::size_t m = rows.size();
+  grid.first.assign(grid.cells() + 1, 0);
+  std::vector<std::uint32_t> cell_of(m), place(m);
+#pragma omp parallel for schedule(static) num_threads(threads_)
+  for (std::size_t k = 0; k < m; ++k) cell_of[k] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(rows[k]))));
+  for (const std::uint32_t c : cell_of) ++grid.first[c + 1];
+  for (std::size_t c = 0; c < grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
+  std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
+  for (std::uint32_t k = 0; k < m; ++k) {
+    const std::uint32_t c = cell_of[k];
+    std::uint32_t at = next[c]++;
+    for (; at > grid.first[c] && id[rows[place[at - 1]]] > id[rows[k]]; --at) place[at] = place[at - 1];  // a cell holds few
+    place[at] = k;
+  }
+
+  if (!grid_ || grid_->count != grid.count) {  // their order stays where there are more cells or fewer
+    still_.in_cell.assign(grid.cells() + 1, 0);
+    for (const std::uint32_t one : still_.id) ++still_.in_cell[grid.index(grid.place(x.at(particles.row(one)))) + 1];
+    for (std::size_t c = 0; c < grid.cells(); ++c) still_.in_cell[c + 1] += still_.in_cell[c];
+  }
+
+  // The row of each place: a part after the other. What was in these rows goes to those that were left; what is fixed often
+  // stays.
+  std::array<std::uint32_t, 3> row{};
+  for (const Part one : part)
+    if (one < asleep) ++row[one + 1u];
+  row[asleep] += row[read];
+  const std::size_t first_read = row[read], first_asleep = row[asleep];
+  std::vector<std::uint32_t> was(m), from, to;
+  order_.resize(m), meets_.resize(m);
+  moving_first_.assign(grid.cells() + 1, 0);
+  for (std::size_t c = 0; c < grid.cells(); ++c) {
+    for (std::uint32_t at = grid.first[c]; at < grid.first[c + 1]; ++at) {
+      const std::uint32_t k = place[at], r = row[part[k]]++;
+      order_[at] = r, was[r] = rows[k], meets_[r] = can_meet[k];
+    }
+    moving_first_[c + 1] = row[moves];
+  }
+  std::vector<char> taken(n, 0);
+  for (const std::uint32_t one : rows) taken[one] = 1;
+  for (std::uint32_t r = 0; r < m; ++r)
+    if (was[r] != r) from.push_back(was[r]), to.push_back(r);
+  for (std::uint32_t r = 0; r < m; ++r)
+    if (!taken[r]) from.push_back(r);
+  for (std::uint32_t r = static_cast<std::uint32_t>(m); to.size() < from.size(); ++r)
+    if (taken[r]) to.push_back(r);
+  particles.rearrange(from, to, first_read, first_asleep, threads_);
+  const auto sorted = positions(particles);
+  built_.resize(n);
+  for (std::uint32_t r = 0; r < first_read; ++r) built_[r] = sorted.at(r);
+  for (const std::uint32_t r : to) built_[r] = sorted.at(r);
+  find_blocks(particles, grid);
+}
+
+/// Blocks of all rows in order of (cell, id): how many moving rows come before each.
+void Neighbours::find_blocks(const Particles& particles, const Grid& grid) {
+  const auto id = particles[field::id];
+  std::size_t next = 0;  // of all rows, the first of the next block
+  row_blocks_.clear();
+  for (std::size_t c = 0; c < grid.cells(); ++c) {
+    const std::size_t start = std::size_t{moving_first_[c]} + still_.in_cell[c],
+                      end = std::size_t{moving_first_[c + 1]} + still_.in_cell[c + 1];
+    for (; next < end; next += rows_a_block) {
+      std::uint32_t moving = moving_first_[c], fixed = still_.in_cell[c];
+      for (std::size_t at = start; at < next; ++at) {
+        const bool is_fixed = moving == moving_first_[c + 1] ||
+                              (fixed < still_.in_cell[c + 1] && still_.id[fixed] < static_cast<std::uint32_t>(id[moving]));
+        ++(is_fixed ? fixed : moving);
+      }
+      row_blocks_.push_back(moving);
+    }
+  }
+  row_blocks_.push_back(moving_first_.back());
+}
+
+std::vector<std::uint32_t> Neighbours::rows_in_order(const Particles& particles) const {
+  std::vector<std::uint32_t> rows(order_.empty() ? particles.size() : 0);
+  std::iota(rows.begin(), rows.end(), 0u);
+  const auto id = particles[field::id];
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return id[a] < id[b]; };
+  for (std::size_t c = 0; c + 1 < moving_first_.size(); ++c) {
+    const auto start = static_cast<std::ptrdiff_t>(rows.size());
+    for (std::uint32_t row = moving_first_[c]; row < moving_first_[c + 1]; ++row) rows.push_back(row);
+    const auto fixed = static_cast<std::ptrdiff_t>(rows.size());
+    for (std::uint32_t k = still_.in_cell[c]; k < still_.in_cell[c + 1]; ++k)
+      rows.push_back(static_cast<std::uint32_t>(particles.row(still_.id[k])));
+    std::inplace_merge(rows.begin() + start, rows.begin() + fixed, rows.end(), before);
+  }
+  return rows;
+}
+
+/// Of what is fixed, lists the clusters that are in the lists of what moves: the others would have none of it in theirs.
+void Neighbours::list_fixed(const Particles& particles, const Places& places, const Grid& grid) {
+  Clusters& c = clusters_;
+  std::vector<char> is_met(rows(), 0);
+  for (std::size_t e = 0; e < c.start.back(); ++e) is_met[Entry{c.entries[e]}.row()] = 1;
+  const std::size_t moving = c.listed.size();
+  for (auto k = static_cast<std::uint32_t>(moving); k < c.size(); ++k) {
+    const bool any =
+        std::find(is_met.begin() + c.first[k], is_met.begin() + c.first[k + 1], 1) != is_met.begin() + c.first[k + 1];
+    (!any ? c.unlisted : c.first[k] < particles.awake() ? c.listed : c.on_demand).push_back(k);
+  }
+  list(places, grid, std::span(c.listed).subspan(moving), listed_by_[1]);
+}
+
+void Neighbours::list_sleeping() {
+  if (listed_sleeping_ || clusters_.on_demand.empty()) return;
+  listed_sleeping_ = true;
+  AlignedVector<double> x(rows() + vector_bytes), y(x.size()), z(x.size());  // readable a whole vector past the last
+  for (std::size_t i = 0; i < rows(); ++i) x[i] = built_[i].x, y[i] = built_[i].y, z[i] = built_[i].z;
+  list({x.data(), y.data(), z.data()}, *grid_, clusters_.on_demand, listed_by_[2]);
+}
+
+/// Pairs of what has no list are counted all the same. Those of moving with fixed particles were counted twice, since the lists
+/// of the fixed ones do not count; those among fixed ones are known.
+void Neighbours::count_still_pairs(const Particles& particles) {
+  if (!listed_all_) pairs_ += still_.pairs;
+  if (!may_rest_next()) return;
+  const Clusters& c = clusters_;
+  const auto id = particles[field::id];
+  const auto is_still = [&](std::size_t row) { return still_.place[static_cast<std::size_t>(id[row])] != ~std::uint32_t{0}; };
+  std::size_t pairs = 0;
+#pragma omp parallel for schedule(static) num_threads(threads_) reduction(+ : pairs)
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    unsigned still = 0;  // bits of members
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) still |= static_cast<unsigned>(is_still(i)) << (i - c.first[k]);
+    for (std::size_t e = c.start[k]; e < c.start[k + 1] && still != 0; ++e)
+      if (is_still(Entry{c.entries[e]}.row())) pairs += static_cast<unsigned>(std::popcount(c.near[e] & still));
+  }
+  still_.pairs = pairs;
+}
+
+}  // namespace tripoint
