@@ -27,6 +27,7 @@ BROKEN = [
     ("walls.velocity=1e-6", "basin", "corrected", 2, [], "mirrored velocity 8.4"),
     ("fluid.bulk_viscosity=1e-6", "basin", "corrected", 2, [], "bulk pressure 8.4"),
     ("fluid.viscosity.central=1e-6", "basin", "corrected", 2, [], "viscous force central 8.5"),
+    ("fluid.viscosity.isotropic=1e-6", "basin", "corrected", 2, ["scene.isotropic_shear=0.7"], "viscous force central 8.5"),
     ("fluid.viscosity.laplacian=1e-6", "basin", "corrected", 2, ["scene.viscosity_form='laplacian'"], "viscous force laplacian 8.5"),
     ("fluid.viscosity.mean=1e-6", "basin", "corrected", 2, [], "viscous force central 8.5"),
     ("fluid.viscosity.contact=1e-6", "mixture", "corrected", 2, [], "viscous force central 8.5"),

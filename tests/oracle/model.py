@@ -6,7 +6,7 @@ all j but i itself. A function returns the sum and the sum of the magnitudes of 
 """
 import numpy as np
 
-from kernels import lattice_numbers, poly6, spiky_slope, viscosity_laplacian, wendland, wendland_slope
+from kernels import isotropic_shear, lattice_numbers, poly6, spiky_slope, viscosity_laplacian, wendland, wendland_slope
 
 LIQUID, DEFORMABLE, WALL = -1.0, -2.0, 0.0  # groups; 1 + body for free rigid bodies
 
@@ -103,6 +103,14 @@ class State:
     @property
     def slope_over_r(self):
         return wendland_slope(self.distance, self.h) / self.distance
+
+    @property
+    def shear_weight(self):
+        """Of -W'/r in 8.5 and 8.4: scene.isotropic_shear of the weight c + s (r/dx)^2."""
+        if not is_central(self):
+            return 1.0
+        share, (c, s) = self.scene["isotropic_shear"], isotropic_shear(self.scene["support_ratio"])
+        return 1.0 + share * (c + s * np.where(np.isfinite(self.r2), self.r2, 0.0) / self.dx**2 - 1.0)
 
     @property
     def stiffness(self):
@@ -310,7 +318,7 @@ def mirrored(s):
     slips = np.array([k < len(s.scene["bodies"]) and s.scene["bodies"][k]["slip"] == "free" for k in s["source"]])
     sticks = ~slips | s.printed("viscosity")  # no other viscous pair would see it
     pairs = ((s.group == WALL) & sticks)[:, None] & (s.group[None, :] == LIQUID)
-    weight = np.where(pairs, -mu[None, :] * s.slope_over_r, 0.0)
+    weight = np.where(pairs, -mu[None, :] * s.slope_over_r * s.shear_weight, 0.0)
     v_f = s.vector("viscous_velocity")
     total, moved = weight.sum(axis=1), weight @ np.where((s.group == LIQUID)[:, None], v_f, 0.0)
     wet = np.flatnonzero(total > 0)
@@ -339,7 +347,7 @@ def viscous_coefficient(s):
     if s.printed("viscosity"):
         G = V[:, None] * V[None, :] * mu * viscosity_laplacian(s.distance, s.h)
     elif s.scene["viscosity_form"] == "central":
-        G = 10 / s.M * mu * V[:, None] * V[None, :] * -s.slope_over_r
+        G = 10 / s.M * mu * V[:, None] * V[None, :] * -s.slope_over_r * s.shear_weight
     else:
         G = (V[:, None] ** 2 + V[None, :] ** 2) / s.M * mu * -s.slope_over_r
     return np.where(s.acts, G, 0.0)

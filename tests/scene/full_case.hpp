@@ -39,6 +39,7 @@ hourglass = 0.5
 bending = 0.5
 bulk_viscosity = 0.1
 surface_weight = 0.4
+isotropic_shear = 0.5
 surface_exchange = 0
 contact_viscosity = 0.1
 on_failure = "recover"

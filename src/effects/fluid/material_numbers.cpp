@@ -39,6 +39,14 @@ double surface_weight(const Scene& scene) {
   return no_surface_weight(scene).empty() ? kept_number(scene.values, key_row("scene", "surface_weight")) : 0.0;
 }
 
+/// Weight of pairs in `central` viscosity: scene.isotropic_shear of it is that with which the lattice resists all shears alike.
+ShearWeight shear_weight(const Scene& scene) {
+  const double share = no_isotropic_shear(scene).empty() ? kept_number(scene.values, key_row("scene", "isotropic_shear")) : 0.0;
+  if (share == 0.0) return {};
+  const ShearWeight isotropic = isotropic_shear(scene.support_ratio);
+  return {1.0 + share * (isotropic.constant - 1.0), share * isotropic.square / (scene.spacing * scene.spacing)};
+}
+
 }  // namespace
 
 SceneNumbers numbers_of(const Scene& scene) {
@@ -79,6 +87,7 @@ PairKernels pair_kernels(const Scene& scene) {
   PairKernels kernels(scene.support_ratio * scene.spacing);
   kernels.core = {n.core_stiffness, n.core_reach};
   kernels.per_gradient_moment = 1.0 / n.gradient_moment;
+  kernels.shear = shear_weight(scene);
   return kernels;
 }
 

@@ -59,6 +59,12 @@ std::vector<EffectKey> keys() {
         "keeps angular momentum; right wherever a surface or body is free", "laplacian central",
         "corrected viscosity; laplacian for wall-bounded shear only"},
        &Scene::viscosity_form},
+      {{"scene", "isotropic_shear", number, "", fraction, "0", "most flows soon leave the lattice of the start", "",
+        "share of 0 to 1 of the weights with which the lattice resists shear alike along its axes and its diagonals (model 8.5). "
+        "Only where viscosity is corrected and central"},
+       {},
+       no_isotropic_shear,
+       true},
       {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "",
         "move particles by the transport velocity"},
        &Scene::transport_velocity},
@@ -111,6 +117,13 @@ std::string no_surface_weight(const Scene& scene) {
   if (pressing_gravity(scene) == Vec3{})
     return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
   return no_bulk_viscosity(scene);
+}
+
+std::string no_isotropic_shear(const Scene& s) {
+  if (s.mode_of(Term::viscosity) == Mode::paper) return "viscosity is as printed";
+  if (s.viscosity_form != "central") return "the viscosity is not central";
+  if (s.contact_viscosity > 0.0) return "";
+  return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
 }
 
 EffectRule rule() {

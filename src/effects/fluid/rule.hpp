@@ -17,4 +17,8 @@ namespace tripoint::fluid {
 /// for the numerical bulk viscosity, there is a weight, and no free body, which at a surface weighs what it likes.
 [[nodiscard]] std::string no_surface_weight(const Scene&);
 
+/// Why scene.isotropic_shear changes nothing; "" where it does: something is viscous, and the viscosity is corrected and
+/// `central`.
+[[nodiscard]] std::string no_isotropic_shear(const Scene&);
+
 }  // namespace tripoint::fluid
