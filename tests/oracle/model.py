@@ -269,7 +269,7 @@ def pressure_force(s):
         size = -V[:, None] * V[None, :] * 0.5 * (p[:, None] + p[None, :]) * spiky_slope(s.distance, s.h)
         return summed(s, np.where(s.acts, size, 0.0)[..., None] * away)
     share = s["pressure_share"]
-    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, 0.9 * s.dx
+    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, s.scene["core_reach"] * s.dx
     size = -(share[:, None] + share[None, :]) * wendland_slope(s.distance, s.h)
     core = np.where((s.distance < s.h) & (s.distance < reach), kappa * (reach - s.distance), 0.0)
     total, _ = summed(s, np.where(s.acts, size + core, 0.0)[..., None] * away)
@@ -294,7 +294,7 @@ def compression_energy(s):
         foot = np.maximum(0, np.where(ratio > b, 1 - ratio, ratio - 2 * b + 1))  # U is minus the area under a triangle, from here to the rest density
         of_surface = np.where(ratio > b, foot**2, 2 * (1 - b) ** 2 - foot**2) / (2 * (1 - b))
         U = np.where(ratio > 1, U, -s.S0 / s.M * s.m / rho0 * p_s * of_surface)
-    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, 0.9 * s.dx
+    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, s.scene["core_reach"] * s.dx
     core = np.where(s.acts & (s.distance < reach), 0.25 * kappa * (reach - np.minimum(s.distance, reach)) ** 2, 0.0).sum()
     return U.sum() + core, size.sum() + core
 

@@ -41,7 +41,7 @@ RUNS = [
     ("mixture", "corrected", 2, ["scene.modes={pressure='paper', heat='paper'}"]),
     ("basin", "corrected", 3, []),
     ("basin", "corrected", 2, ["scene.viscosity_form='laplacian'"]),
-    ("basin", "corrected", 2, ["scene.isotropic_shear=0.7"]),
+    ("basin", "corrected", 2, ["scene.isotropic_shear=0.7", "scene.core_reach=0.7"]),
     ("basin", "paper", 2, []),
     ("vortices", "corrected", 3, []),
     ("solids", "corrected", 5, []),  # a body splits

@@ -40,6 +40,7 @@ bending = 0.5
 bulk_viscosity = 0.1
 surface_weight = 0.4
 isotropic_shear = 0.5
+core_reach = 0.6
 surface_exchange = 0
 contact_viscosity = 0.1
 on_failure = "recover"

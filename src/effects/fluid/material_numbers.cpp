@@ -71,7 +71,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);  // half of what a plane face has
   if (scene.mode_of(Term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
-  n.core_reach = 0.9 * scene.spacing;
+  n.core_reach = kept_number(scene.values, key_row("scene", "core_reach")) * scene.spacing;
   const bool corrected = std::ranges::all_of(std::array{Term::walls, Term::density, Term::pressure},
                                              [&](Term t) { return scene.mode_of(t) == Mode::corrected; });
   const bool freezes = calls_for(scene, "phase");

@@ -19,7 +19,7 @@ struct SceneNumbers {
   double gradient_moment = 1.0;  ///< of the kernel at the scene's h/dx
   double pressure_work = 1.0;    ///< energy of compression a p dV: lattice_density/gradient_moment, 1 as printed
   double core_stiffness = 0.0;   ///< kappa = 0.03 k rho_ref dx [N/m]
-  double core_reach = 0.0;       ///< 0.9 dx [m]
+  double core_reach = 0.0;       ///< scene.core_reach [m]
   double least_exposure =
       0.0;  ///< a wall particle is at the face of its wall where this share of its number density can be other than wall
   double wall_stiffness = 1.0;  ///< of a wall's equation of state over that of liquids (model 8.4)

@@ -77,6 +77,14 @@ std::vector<EffectKey> keys() {
        {},
        no_bulk_viscosity,
        true},
+      {{"scene", "core_reach", number, "", fraction, "0.9",
+        "pairs of a still liquid would close up where the clamp leaves no pressure", "",
+        "distance in spacings below which pairs that exert pressure on each other repel (model 8.3); 0: none. Only where the "
+        "pressure is "
+        "corrected"},
+       {},
+       no_core,
+       true},
       {{"scene", "surface_weight", number, "", not_negative, "0.5", "half of its own weight lies above the middle of a layer", "",
         "what of its own weight the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene "
         "clamps, density, pressure and state are corrected, nothing freezes, and no body is free"},
@@ -124,6 +132,10 @@ std::string no_isotropic_shear(const Scene& s) {
   if (s.viscosity_form != "central") return "the viscosity is not central";
   if (s.contact_viscosity > 0.0) return "";
   return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
+}
+
+std::string no_core(const Scene& scene) {
+  return scene.mode_of(Term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
 }
 
 EffectRule rule() {

@@ -17,6 +17,9 @@ namespace tripoint::fluid {
 /// for the numerical bulk viscosity, there is a weight, and no free body, which at a surface weighs what it likes.
 [[nodiscard]] std::string no_surface_weight(const Scene&);
 
+/// Why scene.core_reach changes nothing; "" where it does: the pressure is corrected.
+[[nodiscard]] std::string no_core(const Scene&);
+
 /// Why scene.isotropic_shear changes nothing; "" where it does: something is viscous, and the viscosity is corrected and
 /// `central`.
 [[nodiscard]] std::string no_isotropic_shear(const Scene&);
