@@ -116,6 +116,15 @@ class State:
     def stiffness(self):
         return max(m["stiffness"] or 0.0 for m in self.materials)
 
+    def stiffnesses(self):
+        """k of each particle: twice that of the scene in a patch of a wall, 8.4; that of solids where one is free and none freezes, 8.3."""
+        k = np.full(self.n, self.stiffness)
+        if self.averages_walls():
+            return np.where(self.group == WALL, 2 * k, k)
+        free = any(b["phase"] != "liquid" and b["motion"] == "free" for b in self.scene["bodies"])
+        stiffer = free and not self.printed("state") and not self.has("liquid_fraction")
+        return np.where((self.group != LIQUID) & stiffer, (1 + self.scene["contact_stiffness"]) * k, k)
+
     def rest_densities(self):
         """rho_ref and the lightest rest density: 8.3. (No scene here has an inflow.)"""
         density = {m["name"]: m["density"] for m in self.materials}
@@ -173,9 +182,7 @@ def own_density(s):
 def pressure(s):
     """(9), or 8.3; a patch of a wall has twice the stiffness, 8.4."""
     rho, rho0 = s["density"], s.material("density")
-    k = np.full(s.n, s.stiffness)
-    if s.averages_walls():
-        k = np.where(s.group == WALL, 2 * k, k)
+    k = s.stiffnesses()
     reference, _ = s.rest_densities()
     p = k * (rho - rho0) * (1.0 if s.printed("state") else reference / rho0)
     if s.clamps:
@@ -283,9 +290,7 @@ def pressure_force(s):
 
 def compression_energy(s):
     """U of 8.3 and half of each pair's core."""
-    rho0, k = s.material("density"), np.full(s.n, s.stiffness)
-    if s.averages_walls():
-        k = np.where(s.group == WALL, 2 * k, k)
+    rho0, k = s.material("density"), s.stiffnesses()
     ratio = s["density"] / rho0
     U = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.log(ratio) + 1 / ratio - 1)
     size = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.abs(np.log(ratio)) + 1e-3)

@@ -37,6 +37,7 @@ TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
 RUNS = [
     ("mixture", "corrected", 3, []),
     ("mixture", "corrected", 2, ["scene.viscosity_form='laplacian'"]),
+    ("mixture", "corrected", 2, ["scene.contact_stiffness=3"]),
     ("mixture", "paper", 3, []),
     ("mixture", "corrected", 2, ["scene.modes={pressure='paper', heat='paper'}"]),
     ("basin", "corrected", 3, []),

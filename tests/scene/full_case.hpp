@@ -41,6 +41,7 @@ bulk_viscosity = 0.1
 surface_weight = 0.4
 isotropic_shear = 0.5
 core_reach = 0.6
+contact_stiffness = 3
 surface_exchange = 0
 contact_viscosity = 0.1
 on_failure = "recover"

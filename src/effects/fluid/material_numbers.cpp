@@ -79,6 +79,9 @@ SceneNumbers numbers_of(const Scene& scene) {
                      !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   // Half of what a wall particle sees is wall, which does not move: it reads half of the strain of the liquid.
   if (n.averages_walls) n.wall_stiffness = 2.0;
+  if (no_contact_stiffness(scene).empty())
+    n.wall_stiffness = n.solid_stiffness = 1.0 + kept_number(scene.values, key_row("scene", "contact_stiffness"));
+  n.contact_speed = std::sqrt(n.solid_stiffness) * n.sound_speed;
   return n;
 }
 

@@ -71,6 +71,14 @@ std::vector<EffectKey> keys() {
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
         "viscosity between solids that touch"},
        &Scene::contact_viscosity},
+      {{"scene", "contact_stiffness", number, "", not_negative, "0",
+        "solids are as stiff where they touch as the scene's liquids", "",
+        "by how much stiffer solids are than the scene's stiffness where they touch, over it (model 8.3): overlap and step fall "
+        "with "
+        "the root of 1 + it. Only where the state is corrected, nothing freezes, and a solid is free"},
+       {},
+       no_contact_stiffness,
+       true},
       {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "",
         "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
         "density, pressure and state are corrected, and nothing freezes"},
@@ -136,6 +144,15 @@ std::string no_isotropic_shear(const Scene& s) {
 
 std::string no_core(const Scene& scene) {
   return scene.mode_of(Term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
+}
+
+std::string no_contact_stiffness(const Scene& s) {
+  if (s.mode_of(Term::state) == Mode::paper) return "the equation of state is as printed";
+  if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
+  const auto free_solid = [](const Scene&, const Body& b, const Material&) {
+    return b.phase != Phase::liquid && b.motion == Motion::free;
+  };
+  return any_body(s, free_solid) ? "" : "no solid is free to touch another";
 }
 
 EffectRule rule() {
