@@ -12,12 +12,15 @@ namespace {
 
 /// The slots of each pass, one line each.
 using DensityPass = FindingPass<Slot<DensityPaper, NumberDensity>, Slot<HeatMoment>>;
-using RatePass = Pass<Slot<Together<PressurePaper, ViscosityPaper>, Together<PressurePaper, ViscosityCentral>,
-                           Together<PressurePaper, ViscosityLaplacian>, Together<PressureCorrected, ViscosityPaper>,
-                           Together<PressureCorrected, ViscosityCentral>, Together<PressureCorrected, ViscosityLaplacian>>,
-                      Slot<HeatFlowPaper, HeatFlowCorrected>>;
-using SpreadPass = Pass<Slot<ViscousSpread<ViscosityPaper>, ViscousSpread<ViscosityCentral>, ViscousSpread<ViscosityLaplacian>>>;
-using WallExtrapolationPass = Pass<Slot<WallExtrapolation>>;
+using RatePass =
+    Pass<Slot<Together<PressurePaper, ViscosityPaper>, Together<PressurePaper, ViscosityCentral>,
+              Together<PressurePaper, ViscosityLaplacian>, Together<PressurePaper, ViscosityCentralWeighted>,
+              Together<PressureCorrected, ViscosityPaper>, Together<PressureCorrected, ViscosityCentral>,
+              Together<PressureCorrected, ViscosityLaplacian>, Together<PressureCorrected, ViscosityCentralWeighted>>,
+         Slot<HeatFlowPaper, HeatFlowCorrected>>;
+using SpreadPass = Pass<Slot<ViscousSpread<ViscosityPaper>, ViscousSpread<ViscosityCentral>, ViscousSpread<ViscosityLaplacian>,
+                             ViscousSpread<ViscosityCentralWeighted>>>;
+using WallExtrapolationPass = Pass<Slot<WallExtrapolation, WallExtrapolationWeighted>>;
 using TransportPass = Pass<Slot<TransportForces>>;
 
 }  // namespace
@@ -26,7 +29,7 @@ template <>
 PairPasses pair_passes_for<Unit>() {
   constexpr int lanes = TRIPOINT_UNIT_LANES;
   return {&DensityPass::choose<lanes, Unit>, &RatePass::choose<lanes, Unit>, &SpreadPass::choose<lanes, Unit>,
-          WallExtrapolationPass::choose<lanes, Unit>({1}), TransportPass::choose<lanes, Unit>({1})};
+          &WallExtrapolationPass::choose<lanes, Unit>, TransportPass::choose<lanes, Unit>({1})};
 }
 
 }  // namespace tripoint

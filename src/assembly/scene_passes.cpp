@@ -43,15 +43,15 @@ Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes
             pressure = form_of(scene, effects, "fluid", Term::pressure);
   const bool summed = form_of(scene, effects, "density", Term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
   const int density = summed ? 1 : form_of(scene, effects, "fluid", Term::density);
-  const int viscosity = scene.mode_of(Term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : 2;
-  const int flow = pressure == 0 ? 0 : 3 * (pressure - 1) + viscosity, moments = heat == 2 ? 1 : 0;
+  const PairKernels kernels = pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene);
+  const int viscosity = scene.mode_of(Term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : kernels.shear.even() ? 2 : 4;
+  const int flow = pressure == 0 ? 0 : 4 * (pressure - 1) + viscosity, moments = heat == 2 ? 1 : 0;
   if (lanes == 0) lanes = density + flow + heat > 0 ? best_lanes() : 1;
   const PairPasses passes = pair_passes(lanes);
   const bool meets_all = heat + moments > 0 || summed || pressure == 0;
-  impl_ = std::make_unique<Impl>(
-      Impl{lanes, passes.density({density, moments}), passes.rates({flow, heat}), passes.rates({0, heat}),
-           pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene), sums_all || meets_all,
-           density == 2, sums_all ? std::nullopt : tripoint::sleeps_beyond(scene, effects, meets_all)});
+  impl_ = std::make_unique<Impl>(Impl{lanes, passes.density({density, moments}), passes.rates({flow, heat}),
+                                      passes.rates({0, heat}), kernels, sums_all || meets_all, density == 2,
+                                      sums_all ? std::nullopt : tripoint::sleeps_beyond(scene, effects, meets_all)});
 }
 Passes::~Passes() = default;
 Passes::Passes(Passes&&) noexcept = default;

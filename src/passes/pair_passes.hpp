@@ -11,8 +11,9 @@ namespace tripoint {
 struct PairPasses {
   PassFunction (*density)(const std::array<int, 2>&);
   PassFunction (*rates)(const std::array<int, 2>&);
-  PassFunction (*spread)(const std::array<int, 1>&);  ///< of viscosity: 1 as printed, 2 central, 3 laplacian
-  PassFunction wall_extrapolation, transport;
+  PassFunction (*spread)(const std::array<int, 1>&);  ///< of viscosity: 1 as printed, 2 central, 3 laplacian, 4 central weighted
+  PassFunction (*wall_extrapolation)(const std::array<int, 1>&);  ///< 1 even, 2 weighted as central viscosity
+  PassFunction transport;
 };
 
 /// As compiled for a vector unit, for clusters as wide as it.

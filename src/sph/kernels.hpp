@@ -156,6 +156,17 @@ struct Core {
   [[nodiscard]] double energy(double r) const noexcept { return r < reach ? 0.5 * stiffness * (reach - r) * (reach - r) : 0.0; }
 };
 
+/// Weight constant + square r^2 of a pair in `central` viscosity (model 8.5): 1 unless the scene asks for isotropic shear.
+struct ShearWeight {
+  double constant = 1.0, square = 0.0;  ///< [1], [1/m2]
+  [[nodiscard]] bool even() const noexcept { return square == 0.0; }
+  /// @param r2 square of the distance [m2]
+  template <class V>
+  [[nodiscard]] V weighted(V coefficient, V r2) const noexcept {
+    return coefficient * (constant + square * r2);
+  }
+};
+
 /// The kernels at one support radius, and the scene's numbers that pair terms share, handed to every pair.
 struct PairKernels {
   explicit PairKernels(double support) noexcept : poly6(support), spiky(support), viscosity(support), wendland(support) {}
@@ -165,6 +176,7 @@ struct PairKernels {
   WendlandC2 wendland;
   Core core;                         ///< none unless a scene sets it
   double per_gradient_moment = 1.0;  ///< 1 over the lattice moment of -2 W'/r at the scene's h/dx
+  ShearWeight shear;                 ///< 1 unless a scene sets it
 };
 
 }  // namespace tripoint

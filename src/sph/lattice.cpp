@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sph/lattice.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "sph/kernels.hpp"
@@ -68,6 +69,29 @@ LatticeMoments wendland_moments(double q) {
   const WendlandC2 w(q);
   return moments(
       q, w.value(0.0), [&](double r) { return w.value(r); }, [&](double r) { return w.derivative(r); }, none);
+}
+
+ShearModuli shear_moduli(double q, const ShearWeight& weight) {
+  const WendlandC2 kernel(q);
+  ShearModuli sums;
+  for_lattice(q, [&](const Vec3& d) {
+    const double r2 = dot(d, d), K = -5.0 * weight.weighted(kernel.derivative_over_r(std::sqrt(r2)), r2) / r2;
+    const double across = 0.5 * (d.x * d.x - d.y * d.y);  // product of the coordinates along the two diagonals
+    sums.axes += K * (d.x * d.x) * (d.y * d.y);
+    sums.diagonals += K * across * across;
+  });
+  const double moment = wendland_moments(q).gradient;
+  return {sums.axes / moment, sums.diagonals / moment};
+}
+
+/// Moduli are linear in the weight: c + s r^2 makes them equal where c (their difference by 1) = s (that by r^2). Their mean over
+/// all directions is 3/5 axes + 2/5 diagonals.
+ShearWeight isotropic_shear(double q) {
+  const ShearModuli by_one = shear_moduli(q, {1.0, 0.0}), by_square = shear_moduli(q, {0.0, 1.0});
+  const auto mean = [](const ShearModuli& m) { return 0.6 * m.axes + 0.4 * m.diagonals; };
+  const double ratio = (by_square.axes - by_square.diagonals) / (by_one.diagonals - by_one.axes), c_over_s = std::max(0.0, ratio);
+  const double s = 1.0 / (mean(by_square) + c_over_s * mean(by_one));
+  return {c_over_s * s, s};
 }
 
 double paper_heat_rate(double spacing, double support, const Vec3& wave_vector) {

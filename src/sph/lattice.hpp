@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "core/vec3.hpp"
+#include "sph/kernels.hpp"
 
 /// Sums over the cubic lattice: what a kernel makes of undisturbed particles, exact at any number of them.
 namespace tripoint {
@@ -21,6 +22,18 @@ struct LatticeMoments {
 [[nodiscard]] LatticeMoments viscosity_moments(double q);
 [[nodiscard]] LatticeMoments elasticity_moments(double q);
 [[nodiscard]] LatticeMoments wendland_moments(double q);
+
+/// How much the lattice of spacing 1 resists shear by `central` viscosity, over the exact resistance.
+struct ShearModuli {
+  double axes = 0.0;       ///< along its axes: velocity along x, changing along y
+  double diagonals = 0.0;  ///< along the diagonals of its faces
+};
+[[nodiscard]] ShearModuli shear_moduli(double q, const ShearWeight&);
+
+/// The weight at spacing 1 with which both moduli are 1 (model 8.5). A constant below 0 would drive near pairs in the place of
+/// braking them. Where the two conditions ask for one, it is 0, the moduli differ as little as they can, and their mean over all
+/// directions is 1. @param q support ratio, > 1.5
+[[nodiscard]] ShearWeight isotropic_shear(double q);
 
 /// Decay rate over diffusivity of the mode cos(k.r) under (21) as printed, on the cubic lattice:
 /// sum_j V lapW_visc(r_j) (1 - cos k.r_j) [1/m2], V = dx^3/S0 of poly6, the volume m/rho that (4) gives. Times the

@@ -23,12 +23,12 @@ std::vector<int> widths_of_this_machine() {
 /// Every pass at every choice of forms, by name.
 std::vector<std::pair<std::string, PassFunction>> all_passes(int lanes) {
   const PairPasses p = pair_passes(lanes);
-  std::vector<std::pair<std::string, PassFunction>> list{{"wall_extrapolation", p.wall_extrapolation},
-                                                         {"transport", p.transport}};
+  std::vector<std::pair<std::string, PassFunction>> list{{"transport", p.transport}};
+  for (int a = 1; a <= 2; ++a) list.emplace_back("wall_extrapolation " + std::to_string(a), p.wall_extrapolation({a}));
   for (int a = 0; a <= 2; ++a)
     for (int b = 0; b <= 1; ++b) list.emplace_back("density " + std::to_string(a) + std::to_string(b), p.density({a, b}));
-  for (int a = 1; a <= 3; ++a) list.emplace_back("spread " + std::to_string(a), p.spread({a}));
-  for (int a = 0; a <= 6; ++a)
+  for (int a = 1; a <= 4; ++a) list.emplace_back("spread " + std::to_string(a), p.spread({a}));
+  for (int a = 0; a <= 8; ++a)
     for (int b = 0; b <= 2; ++b) list.emplace_back("rates " + std::to_string(a) + std::to_string(b), p.rates({a, b}));
   return list;
 }
@@ -69,6 +69,7 @@ Sums run(const PassFunction& pass, Particles p, int lanes) {
   PairKernels kernels(0.2);
   kernels.core = {3.0, 0.05};
   kernels.per_gradient_moment = 0.9;
+  kernels.shear = {0.1, 3.0};
   run_pass(pass, p, n, kernels, 2);
   Sums sums;
   for (const Field<double>* f : pass.fields)

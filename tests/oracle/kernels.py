@@ -44,6 +44,18 @@ def elasticity_slope(r, h):
     return np.where(r < h, -_elasticity_constant(h) * np.sin((r + h) * np.pi / (2 * h)), 0.0)
 
 
+def isotropic_shear(ratio):
+    """c and s of 8.5 in spacings: c + s r^2 makes both shear moduli of the lattice 1; c is 0 where it would be negative."""
+    reach = np.arange(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1.0)
+    x, y, z = (a.ravel() for a in np.meshgrid(reach, reach, reach))
+    r = np.sqrt(x * x + y * y + z * z)
+    x, y, r = (a[(r > 0) & (r < ratio)] for a in (x, y, r))
+    pair = -5 * wendland_slope(r, ratio) / r**3 / lattice_numbers(ratio)[1]
+    moduli = np.array([[(pair * form * weight).sum() for weight in (1, r * r)] for form in (x * x * y * y, (x * x - y * y) ** 2 / 4)])
+    c, s = np.linalg.solve(moduli, [1.0, 1.0])
+    return (c, s) if c > 0 else (0.0, 1 / ([0.6, 0.4] @ moduli)[1])
+
+
 def lattice_numbers(ratio):
     """S0 and M of chapter 8, and the part of S0 within one layer."""
     reach = range(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1)

@@ -6,7 +6,7 @@ all j but i itself. A function returns the sum and the sum of the magnitudes of 
 """
 import numpy as np
 
-from kernels import lattice_numbers, poly6, spiky_slope, viscosity_laplacian, wendland, wendland_slope
+from kernels import isotropic_shear, lattice_numbers, poly6, spiky_slope, viscosity_laplacian, wendland, wendland_slope
 
 LIQUID, DEFORMABLE, WALL = -1.0, -2.0, 0.0  # groups; 1 + body for free rigid bodies
 
@@ -105,8 +105,25 @@ class State:
         return wendland_slope(self.distance, self.h) / self.distance
 
     @property
+    def shear_weight(self):
+        """Of -W'/r in 8.5 and 8.4: scene.isotropic_shear of the weight c + s (r/dx)^2."""
+        if not is_central(self):
+            return 1.0
+        share, (c, s) = self.scene["isotropic_shear"], isotropic_shear(self.scene["support_ratio"])
+        return 1.0 + share * (c + s * np.where(np.isfinite(self.r2), self.r2, 0.0) / self.dx**2 - 1.0)
+
+    @property
     def stiffness(self):
         return max(m["stiffness"] or 0.0 for m in self.materials)
+
+    def stiffnesses(self):
+        """k of each particle: twice that of the scene in a patch of a wall, 8.4; that of solids where one is free and none freezes, 8.3."""
+        k = np.full(self.n, self.stiffness)
+        if self.averages_walls():
+            return np.where(self.group == WALL, 2 * k, k)
+        free = any(b["phase"] != "liquid" and b["motion"] == "free" for b in self.scene["bodies"])
+        stiffer = free and not self.printed("state") and not self.has("liquid_fraction")
+        return np.where((self.group != LIQUID) & stiffer, (1 + self.scene["contact_stiffness"]) * k, k)
 
     def rest_densities(self):
         """rho_ref and the lightest rest density: 8.3. (No scene here has an inflow.)"""
@@ -165,9 +182,7 @@ def own_density(s):
 def pressure(s):
     """(9), or 8.3; a patch of a wall has twice the stiffness, 8.4."""
     rho, rho0 = s["density"], s.material("density")
-    k = np.full(s.n, s.stiffness)
-    if s.averages_walls():
-        k = np.where(s.group == WALL, 2 * k, k)
+    k = s.stiffnesses()
     reference, _ = s.rest_densities()
     p = k * (rho - rho0) * (1.0 if s.printed("state") else reference / rho0)
     if s.clamps:
@@ -261,7 +276,7 @@ def pressure_force(s):
         size = -V[:, None] * V[None, :] * 0.5 * (p[:, None] + p[None, :]) * spiky_slope(s.distance, s.h)
         return summed(s, np.where(s.acts, size, 0.0)[..., None] * away)
     share = s["pressure_share"]
-    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, 0.9 * s.dx
+    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, s.scene["core_reach"] * s.dx
     size = -(share[:, None] + share[None, :]) * wendland_slope(s.distance, s.h)
     core = np.where((s.distance < s.h) & (s.distance < reach), kappa * (reach - s.distance), 0.0)
     total, _ = summed(s, np.where(s.acts, size + core, 0.0)[..., None] * away)
@@ -275,9 +290,7 @@ def pressure_force(s):
 
 def compression_energy(s):
     """U of 8.3 and half of each pair's core."""
-    rho0, k = s.material("density"), np.full(s.n, s.stiffness)
-    if s.averages_walls():
-        k = np.where(s.group == WALL, 2 * k, k)
+    rho0, k = s.material("density"), s.stiffnesses()
     ratio = s["density"] / rho0
     U = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.log(ratio) + 1 / ratio - 1)
     size = s.S0 / s.M * k * s.rest_densities()[0] / rho0 * s.m * (np.abs(np.log(ratio)) + 1e-3)
@@ -286,7 +299,7 @@ def compression_energy(s):
         foot = np.maximum(0, np.where(ratio > b, 1 - ratio, ratio - 2 * b + 1))  # U is minus the area under a triangle, from here to the rest density
         of_surface = np.where(ratio > b, foot**2, 2 * (1 - b) ** 2 - foot**2) / (2 * (1 - b))
         U = np.where(ratio > 1, U, -s.S0 / s.M * s.m / rho0 * p_s * of_surface)
-    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, 0.9 * s.dx
+    kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, s.scene["core_reach"] * s.dx
     core = np.where(s.acts & (s.distance < reach), 0.25 * kappa * (reach - np.minimum(s.distance, reach)) ** 2, 0.0).sum()
     return U.sum() + core, size.sum() + core
 
@@ -310,7 +323,7 @@ def mirrored(s):
     slips = np.array([k < len(s.scene["bodies"]) and s.scene["bodies"][k]["slip"] == "free" for k in s["source"]])
     sticks = ~slips | s.printed("viscosity")  # no other viscous pair would see it
     pairs = ((s.group == WALL) & sticks)[:, None] & (s.group[None, :] == LIQUID)
-    weight = np.where(pairs, -mu[None, :] * s.slope_over_r, 0.0)
+    weight = np.where(pairs, -mu[None, :] * s.slope_over_r * s.shear_weight, 0.0)
     v_f = s.vector("viscous_velocity")
     total, moved = weight.sum(axis=1), weight @ np.where((s.group == LIQUID)[:, None], v_f, 0.0)
     wet = np.flatnonzero(total > 0)
@@ -339,7 +352,7 @@ def viscous_coefficient(s):
     if s.printed("viscosity"):
         G = V[:, None] * V[None, :] * mu * viscosity_laplacian(s.distance, s.h)
     elif s.scene["viscosity_form"] == "central":
-        G = 10 / s.M * mu * V[:, None] * V[None, :] * -s.slope_over_r
+        G = 10 / s.M * mu * V[:, None] * V[None, :] * -s.slope_over_r * s.shear_weight
     else:
         G = (V[:, None] ** 2 + V[None, :] ** 2) / s.M * mu * -s.slope_over_r
     return np.where(s.acts, G, 0.0)

@@ -37,10 +37,12 @@ TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
 RUNS = [
     ("mixture", "corrected", 3, []),
     ("mixture", "corrected", 2, ["scene.viscosity_form='laplacian'"]),
+    ("mixture", "corrected", 2, ["scene.contact_stiffness=3"]),
     ("mixture", "paper", 3, []),
     ("mixture", "corrected", 2, ["scene.modes={pressure='paper', heat='paper'}"]),
     ("basin", "corrected", 3, []),
     ("basin", "corrected", 2, ["scene.viscosity_form='laplacian'"]),
+    ("basin", "corrected", 2, ["scene.isotropic_shear=0.7", "scene.core_reach=0.7"]),
     ("basin", "paper", 2, []),
     ("vortices", "corrected", 3, []),
     ("solids", "corrected", 5, []),  # a body splits

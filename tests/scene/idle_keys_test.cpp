@@ -146,8 +146,9 @@ TEST(IdleKeys, FindLimitsOfTheFormThatDoesNotRun) {
 
 TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   for (const char* key : {"transport_velocity = true", "viscosity_form = 'laplacian'", "clamp = false", "contact_viscosity = 3",
-                          "bulk_viscosity = 0.1", "surface_weight = 0.4", "surface_exchange = 0", "hourglass = 5", "bending = 1",
-                          "merge_distance = 1.2", "modes.heat = 'paper'", "modes.elastic = 'paper'"})
+                          "bulk_viscosity = 0.1", "surface_weight = 0.4", "isotropic_shear = 1", "core_reach = 0.6",
+                          "contact_stiffness = 3", "surface_exchange = 0", "hourglass = 5", "bending = 1", "merge_distance = 1.2",
+                          "modes.heat = 'paper'", "modes.elastic = 'paper'"})
     EXPECT_EQ(found(scene(key) + cube(), "changes nothing"), "warning") << key;
   const auto pool = ink + body("pool", "ink", "liquid", 0.0);
   for (const char* key : {"viscosity_form = 'laplacian'", "clamp = false", "modes.walls = 'paper'"})
@@ -160,6 +161,13 @@ TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   EXPECT_EQ(found(scene("surface_weight = 0.4\ngravity = [0, 0, -9.81]") + pool, "changes nothing"), "");
   EXPECT_EQ(found(scene("surface_weight = 0.4") + pool, "changes nothing"), "warning");
   EXPECT_EQ(found(scene("surface_weight = 0.4\ngravity = [0, 0, -9.81]\nclamp = false") + pool, "changes nothing"), "warning");
+  EXPECT_EQ(found(scene("contact_stiffness = 3") + pool, "changes nothing"), "warning");
+  EXPECT_EQ(found(scene("contact_stiffness = 3") + pool + brick + body("block", "brick", "rigid", 0.5), "changes nothing"), "");
+  EXPECT_EQ(found(scene("core_reach = 0.6") + pool, "changes nothing"), "");
+  EXPECT_EQ(found(scene("core_reach = 0.6\nmode = 'paper'") + pool, "changes nothing"), "warning");
+  EXPECT_EQ(found(scene("isotropic_shear = 1") + pool, "changes nothing"), "");
+  for (const char* key : {"mode = 'paper'", "viscosity_form = 'laplacian'"})
+    EXPECT_EQ(found(scene(std::string("isotropic_shear = 1\n") + key) + pool, "changes nothing"), "warning") << key;
   EXPECT_EQ(found(scene("hourglass = 5") + jelly + body("block", "jelly", "elastic", 0.0), "changes nothing"), "");
   EXPECT_EQ(found(scene("bending = 1") + jelly + body("block", "jelly", "elastic", 0.0), "changes nothing"), "");
   EXPECT_EQ(

@@ -51,7 +51,7 @@ std::string shown(const CaseReading& r) {
 bool has_remedy(const std::string& what) {
   static const std::regex remedy(
       "did you mean|\\(known|one of|none of: |write |give |remove|rename|close |must |lacks the key|lower |raise "
-      "|shorten|lengthen|choose|flatten|break |at most|needs |start from|plain UTF-8|enlarge|in s\\b");
+      "|shorten|lengthen|choose|flatten|break |at most|at least|needs |begin with |start from|plain UTF-8|enlarge|in s\\b");
   return std::regex_search(what, remedy);
 }
 

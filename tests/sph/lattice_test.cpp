@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace tripoint {
@@ -44,6 +45,32 @@ TEST(Lattice, PaperHeatRateIsTheMeasuredOneAtTenParticlesAWave) {
   const double k = 2.0 * std::numbers::pi / 10.0;
   EXPECT_NEAR(paper_heat_rate(1.0, 2.12, {k, 0.0, 0.0}) / (k * k), 0.892, three_digits);
   EXPECT_NEAR(paper_heat_rate(0.01, 0.025, {100.0 * k, 0.0, 0.0}) / (1e4 * k * k), 0.954, three_digits);  // any unit of length
+}
+
+/// Sums in NumPy.
+TEST(Lattice, ResistsShearUnlikeAlongAxesAndDiagonals) {
+  const ShearModuli m = shear_moduli(2.6, {1.0, 0.0});
+  EXPECT_NEAR(m.axes, 0.88742, 1e-5);
+  EXPECT_NEAR(m.diagonals, 1.16887, 1e-5);
+}
+
+TEST(Lattice, ResistsShearAlikeUnderTheWeightOfIsotropicShear) {
+  for (const double q : {2.3, 2.4, 2.5, 2.6}) {
+    const ShearModuli m = shear_moduli(q, isotropic_shear(q));
+    EXPECT_NEAR(m.axes, 1.0, 1e-12) << q;
+    EXPECT_NEAR(m.diagonals, 1.0, 1e-12) << q;
+  }
+}
+
+TEST(Lattice, NeverDrivesAPairByTheWeightOfIsotropicShear) {
+  for (double q = 1.6; q < 4.0; q += 0.05) {
+    const ShearWeight w = isotropic_shear(q);
+    EXPECT_GE(w.constant, 0.0) << q;
+    EXPECT_GT(w.square, 0.0) << q;
+    const ShearModuli m = shear_moduli(q, w), before = shear_moduli(q, {1.0, 0.0});
+    EXPECT_NEAR(0.6 * m.axes + 0.4 * m.diagonals, 1.0, 1e-12) << q;
+    EXPECT_LE(std::abs(m.axes - m.diagonals), std::abs(before.axes - before.diagonals)) << q;
+  }
 }
 
 }  // namespace

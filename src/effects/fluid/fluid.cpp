@@ -229,7 +229,8 @@ TimeStepBound Fluid::max_dt(const World& world) const {
   for (std::size_t i = 0; i < world.particles.moving(); ++i) v2 = std::max(v2, dot(v.at(i), v.at(i)));
   const double courant = world.scene.mode_of(Term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.35 : 0.45;
   TimeStepBound bound;
-  tighten(bound, courant * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "sound");
+  tighten(bound, courant * world.support() / (numbers_.contact_speed + std::sqrt(v2)),
+          numbers_.solid_stiffness > 1.0 ? "contact" : "sound");
   if (damps_)
     tighten(bound, bulk_viscous_step(numbers_) * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "bulk viscosity");
   tighten(bound, world.lagged.viscous_step, "viscosity");

@@ -72,6 +72,15 @@ template <class V>
   return is_solid_i ? with_j : without_j;
 }
 
+/// -W'/r [1/m5], as `central` viscosity weights it for isotropic shear where it does (model 8.5).
+template <bool weighted, class V>
+[[nodiscard, gnu::always_inline]] inline V shear_weighted(const PairGeometry<V>& g) noexcept {
+  if constexpr (weighted)
+    return g.kernels.shear.weighted(-g.gradient, g.r2);
+  else
+    return -g.gradient;
+}
+
 using ViscousKeys = Keys<field::volume, field::viscosity, field::solid, field::stick, field::group, field::viscous_velocity_x,
                          field::viscous_velocity_y, field::viscous_velocity_z>;
 using ViscousForce = Keys<field::viscous_force_x, field::viscous_force_y, field::viscous_force_z>;
@@ -126,8 +135,9 @@ struct ViscosityLaplacian {
 };
 
 /// `central` (model 8.5) [N]: F_ij = 10 mu_ij V_i V_j (-W'/r) ((v_j - v_i).r_ij) r_ij/r^2 over the same moment: along the
-/// line of centres, so angular momentum is kept and a rigid rotation feels nothing.
-struct ViscosityCentral {
+/// line of centres, so angular momentum is kept and a rigid rotation feels nothing. `weighted`: for isotropic shear.
+template <bool weighted>
+struct ViscosityCentralOf {
   using reads = ViscousKeys;
   using adds = ViscousForce;
   /// G_ij [kg/s], of the velocity along the line of centres
@@ -137,7 +147,7 @@ struct ViscosityCentral {
     const V V_j = j[0], mu_j = j[1], solid_j = j[2], stick_j = j[3], group_j = j[4];
     const V mu = pair_viscosity<V>(mu_i, solid_i, stick_i, mu_j, solid_j, stick_j);
     const V share = (10.0 * g.kernels.per_gradient_moment * V_i) * (V_j * mu);
-    return where(g.apart & acts(group_i, group_j), share * -g.gradient);
+    return where(g.apart & acts(group_i, group_j), share * shear_weighted<weighted>(g));
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
@@ -152,11 +162,15 @@ struct ViscosityCentral {
   }
 };
 
+using ViscosityCentral = ViscosityCentralOf<false>;
+using ViscosityCentralWeighted = ViscosityCentralOf<true>;
+
 /// sum_j G_ij of a viscosity [kg/s], and for `central` sum_j G_ij e e^T (xx, yy, zz, yz, xz, xy), for the bound of the step. It
 /// is summed to the columns of forces, between their last use and the pass that fills them anew.
 template <class Viscosity>
 struct ViscousSpread {
-  static constexpr bool central = std::is_same_v<Viscosity, ViscosityCentral>;
+  static constexpr bool central =
+      std::is_same_v<Viscosity, ViscosityCentral> || std::is_same_v<Viscosity, ViscosityCentralWeighted>;
   using reads = ViscousKeys;
   using adds = Keys<field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y,
                     field::viscous_force_z>;

@@ -39,6 +39,14 @@ double surface_weight(const Scene& scene) {
   return no_surface_weight(scene).empty() ? kept_number(scene.values, key_row("scene", "surface_weight")) : 0.0;
 }
 
+/// Weight of pairs in `central` viscosity: scene.isotropic_shear of it is that with which the lattice resists all shears alike.
+ShearWeight shear_weight(const Scene& scene) {
+  const double share = no_isotropic_shear(scene).empty() ? kept_number(scene.values, key_row("scene", "isotropic_shear")) : 0.0;
+  if (share == 0.0) return {};
+  const ShearWeight isotropic = isotropic_shear(scene.support_ratio);
+  return {1.0 + share * (isotropic.constant - 1.0), share * isotropic.square / (scene.spacing * scene.spacing)};
+}
+
 }  // namespace
 
 SceneNumbers numbers_of(const Scene& scene) {
@@ -63,7 +71,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);  // half of what a plane face has
   if (scene.mode_of(Term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
-  n.core_reach = 0.9 * scene.spacing;
+  n.core_reach = kept_number(scene.values, key_row("scene", "core_reach")) * scene.spacing;
   const bool corrected = std::ranges::all_of(std::array{Term::walls, Term::density, Term::pressure},
                                              [&](Term t) { return scene.mode_of(t) == Mode::corrected; });
   const bool freezes = calls_for(scene, "phase");
@@ -71,6 +79,9 @@ SceneNumbers numbers_of(const Scene& scene) {
                      !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   // Half of what a wall particle sees is wall, which does not move: it reads half of the strain of the liquid.
   if (n.averages_walls) n.wall_stiffness = 2.0;
+  if (no_contact_stiffness(scene).empty())
+    n.wall_stiffness = n.solid_stiffness = 1.0 + kept_number(scene.values, key_row("scene", "contact_stiffness"));
+  n.contact_speed = std::sqrt(n.solid_stiffness) * n.sound_speed;
   return n;
 }
 
@@ -79,6 +90,7 @@ PairKernels pair_kernels(const Scene& scene) {
   PairKernels kernels(scene.support_ratio * scene.spacing);
   kernels.core = {n.core_stiffness, n.core_reach};
   kernels.per_gradient_moment = 1.0 / n.gradient_moment;
+  kernels.shear = shear_weight(scene);
   return kernels;
 }
 

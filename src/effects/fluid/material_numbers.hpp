@@ -19,10 +19,12 @@ struct SceneNumbers {
   double gradient_moment = 1.0;  ///< of the kernel at the scene's h/dx
   double pressure_work = 1.0;    ///< energy of compression a p dV: lattice_density/gradient_moment, 1 as printed
   double core_stiffness = 0.0;   ///< kappa = 0.03 k rho_ref dx [N/m]
-  double core_reach = 0.0;       ///< 0.9 dx [m]
+  double core_reach = 0.0;       ///< scene.core_reach [m]
   double least_exposure =
       0.0;  ///< a wall particle is at the face of its wall where this share of its number density can be other than wall
-  double wall_stiffness = 1.0;  ///< of a wall's equation of state over that of liquids (model 8.4)
+  double wall_stiffness = 1.0;   ///< of a wall's equation of state over that of liquids (model 8.4)
+  double solid_stiffness = 1.0;  ///< of that of other solids: 1 + scene.contact_stiffness (model 8.3)
+  double contact_speed = 0.0;    ///< greatest speed of sound where solids are stiffer [m/s]
   double surface_head = 0.0;    ///< pressure of the topmost layer of a liquid over its rest density [m2/s2], 0 = none (model 8.3)
   double half_full = 0.5;       ///< density of that layer over the rest density, on the lattice
   bool averages_walls = false;  ///< the pressure of walls is that of a patch of their face: liquid alone touches them
@@ -35,7 +37,8 @@ struct SceneNumbers {
 
 /// @param group of the particle, `field::group`: 0 is wall, -1 liquid
 [[nodiscard]] inline EquationOfState state_of(const SceneNumbers& n, double group, double rest_density, bool clamp) {
-  const double stiffness = group == 0.0 ? n.wall_stiffness * n.stiffness : n.stiffness;
+  const double share = group == -1.0 ? 1.0 : group == 0.0 ? n.wall_stiffness : n.solid_stiffness;
+  const double stiffness = share * n.stiffness;
   const double surface = group == -1.0 && clamp ? n.surface_head * rest_density : 0.0;
   return {stiffness, rest_density, n.reference_density, clamp, n.pressure_work, surface, n.half_full};
 }

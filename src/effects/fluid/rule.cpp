@@ -59,17 +59,39 @@ std::vector<EffectKey> keys() {
         "keeps angular momentum; right wherever a surface or body is free", "laplacian central",
         "corrected viscosity; laplacian for wall-bounded shear only"},
        &Scene::viscosity_form},
+      {{"scene", "isotropic_shear", number, "", fraction, "0", "most flows soon leave the lattice of the start", "",
+        "share of 0 to 1 of the weights with which the lattice resists shear alike along its axes and its diagonals (model 8.5). "
+        "Only where viscosity is corrected and central"},
+       {},
+       no_isotropic_shear,
+       true},
       {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "",
         "move particles by the transport velocity"},
        &Scene::transport_velocity},
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
         "viscosity between solids that touch"},
        &Scene::contact_viscosity},
+      {{"scene", "contact_stiffness", number, "", not_negative, "0",
+        "solids are as stiff where they touch as the scene's liquids", "",
+        "by how much stiffer solids are than the scene's stiffness where they touch, over it (model 8.3): overlap and step fall "
+        "with "
+        "the root of 1 + it. Only where the state is corrected, nothing freezes, and a solid is free"},
+       {},
+       no_contact_stiffness,
+       true},
       {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "",
         "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
         "density, pressure and state are corrected, and nothing freezes"},
        {},
        no_bulk_viscosity,
+       true},
+      {{"scene", "core_reach", number, "", fraction, "0.9",
+        "pairs of a still liquid would close up where the clamp leaves no pressure", "",
+        "distance in spacings below which pairs that exert pressure on each other repel (model 8.3); 0: none. Only where the "
+        "pressure is "
+        "corrected"},
+       {},
+       no_core,
        true},
       {{"scene", "surface_weight", number, "", not_negative, "0.5", "half of its own weight lies above the middle of a layer", "",
         "what of its own weight the topmost layer of a liquid bears as pressure (model 8.3); 0: none. Only where the scene "
@@ -111,6 +133,26 @@ std::string no_surface_weight(const Scene& scene) {
   if (pressing_gravity(scene) == Vec3{})
     return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
   return no_bulk_viscosity(scene);
+}
+
+std::string no_isotropic_shear(const Scene& s) {
+  if (s.mode_of(Term::viscosity) == Mode::paper) return "viscosity is as printed";
+  if (s.viscosity_form != "central") return "the viscosity is not central";
+  if (s.contact_viscosity > 0.0) return "";
+  return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
+}
+
+std::string no_core(const Scene& scene) {
+  return scene.mode_of(Term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
+}
+
+std::string no_contact_stiffness(const Scene& s) {
+  if (s.mode_of(Term::state) == Mode::paper) return "the equation of state is as printed";
+  if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
+  const auto free_solid = [](const Scene&, const Body& b, const Material&) {
+    return b.phase != Phase::liquid && b.motion == Motion::free;
+  };
+  return any_body(s, free_solid) ? "" : "no solid is free to touch another";
 }
 
 EffectRule rule() {

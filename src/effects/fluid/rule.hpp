@@ -17,4 +17,15 @@ namespace tripoint::fluid {
 /// for the numerical bulk viscosity, there is a weight, and no free body, which at a surface weighs what it likes.
 [[nodiscard]] std::string no_surface_weight(const Scene&);
 
+/// Why scene.contact_stiffness changes nothing; "" where it does: the state is corrected, nothing freezes, which would change the
+/// stiffness of a particle at once, and a solid is free.
+[[nodiscard]] std::string no_contact_stiffness(const Scene&);
+
+/// Why scene.core_reach changes nothing; "" where it does: the pressure is corrected.
+[[nodiscard]] std::string no_core(const Scene&);
+
+/// Why scene.isotropic_shear changes nothing; "" where it does: something is viscous, and the viscosity is corrected and
+/// `central`.
+[[nodiscard]] std::string no_isotropic_shear(const Scene&);
+
 }  // namespace tripoint::fluid

@@ -23,7 +23,11 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
   Particles& p = world.particles;
   const bool paper = world.scene.mode_of(Term::viscosity) == Mode::paper,
              central = !paper && world.scene.viscosity_form == "central";
-  const PassFunction spread = pair_passes(world.neighbours->clusters().lanes).spread({paper ? 1 : central ? 2 : 3});
+  const PassFunction spread = pair_passes(world.neighbours->clusters().lanes)
+                                  .spread({paper                  ? 1
+                                           : !central             ? 3
+                                           : kernels.shear.even() ? 2
+                                                                  : 4});
   using Sums = ViscousSpread<ViscosityCentral>::adds;
   for (const Field<double>* f : Sums::list) fill(p[*f].first(p.moving()), 0.0, world.threads);
   const Clusters& c = world.neighbours->clusters();
