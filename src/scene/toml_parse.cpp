@@ -126,6 +126,24 @@ std::string_view kind_name(TomlNode::Kind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
+namespace {
+
+/// A basic string of TOML: quotes, backslashes and control characters escaped.
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += {'\\', c};
+    else if (const auto code = static_cast<unsigned char>(c); code < 0x20 || code == 0x7f)
+      out += fmt::format("\\u{:04x}", code);
+    else
+      out += c;
+  }
+  return out + '"';
+}
+
+}  // namespace
+
 std::string to_toml(const TomlNode& n) {
   std::string out;
   switch (n.kind) {
@@ -136,7 +154,7 @@ std::string to_toml(const TomlNode& n) {
     case TomlNode::Kind::real:
       return fmt::format("{}", n.real);
     case TomlNode::Kind::text:
-      return "\"" + n.text + "\"";
+      return quoted(n.text);
     case TomlNode::Kind::date:
       return "a date";
     case TomlNode::Kind::array:
