@@ -43,7 +43,7 @@ WRONG = {
     "a bar that is too short": (scene("end_time = 1e7") + BAR + '[reference]\nfunction = "stefan"\n' + metric("front_position"), ["the bar is 0.8", "it must be", "m or longer"]),
     "a number for a field": (scene("end_time = 1.0") + WARM + STILL + metric("temperature", more='reference = { kind = "bound", function = "stated", args = { value = 300.0 } }'), ["does not know the temperature"]),
     "a ratio at a start that is 0": (scene("end_time = 1.0") + BAR + '[reference]\nfunction = "stefan"\n' + metric("front_ratio"), ["the front has not started"]),
-    "a norm that is none": (scene("end_time = 0.1") + STONE + CUBE + metric("velocity", "larges"), ["no norm", "larges"]),
+    "a norm that is none": (scene("end_time = 0.1") + STONE + CUBE + metric("velocity", "larges"), ["is none of: L1", "larges"]),
     "a quantity that is none": (scene("end_time = 0.1") + STONE + CUBE + metric("velocty"), ["no quantity", "`velocity`"]),
     "a time that is no output time": (scene("end_time = 1.0\noutput_interval = 0.1") + STONE + CUBE + '[reference]\nfunction = "ballistic"\n' + metric("velocity", "Linf", 'at = "0.123"'), ["no output time"]),
     "a window between output times": (scene("end_time = 1.0\noutput_interval = 0.5") + STONE + CUBE + LEDGER + metric("velocity", "max", "window = [0.1, 0.2]") + '[reference]\nfunction = "ballistic"\n', ["no output time lies"]),
