@@ -153,10 +153,10 @@ constexpr std::string_view seal_key = "seal = \"";
 
 /// The text without its line `seal`, which holds the hash of the rest.
 std::string unsealed(const std::string& text) {
-  const auto at = text.find(seal_key);
-  if (at == std::string::npos) return text;
-  const auto end = text.find('\n', at);
-  return text.substr(0, at) + (end == std::string::npos ? "" : text.substr(end + 1));
+  const auto before = text.find(fmt::format("\n{}", seal_key));  // of a line: a name may hold these words
+  if (before == std::string::npos) return text;
+  const auto end = text.find('\n', before + 1);
+  return text.substr(0, before + 1) + (end == std::string::npos ? "" : text.substr(end + 1));
 }
 
 std::string text_of_file(const std::string& file) {
@@ -261,7 +261,7 @@ std::string baseline_text(const Baseline& b) {
                        quoted(b.profiles), quoted(b.required));
   if (b.removed > 0) out += fmt::format("removed = {}\n", b.removed);
   out += list_of("accepted", b.accepted) + list_of("gate", b.gates) + list_of("cost", b.cost);
-  const auto after = out.find("seed = ");
+  const auto after = out.find("\nseed = ") + 1;
   return out.substr(0, after) + fmt::format("seal = {}\n", quoted(text_hash(out))) + out.substr(after);
 }
 
