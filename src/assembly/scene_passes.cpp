@@ -8,15 +8,16 @@
 #include "passes/busy_clusters.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
+#include "scene/shared_terms.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint {
 namespace {
 
 /// Place of a form in its slot: 0 = off, 1 = as printed, 2 = corrected.
-int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_view effect, Term term) {
+int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_view effect, const Term& one) {
   if (std::ranges::find(effects, effect, &Active::name) == effects.end()) return 0;
-  return scene.mode_of(term) == Mode::paper ? 1 : 2;
+  return scene.mode_of(one) == Mode::paper ? 1 : 2;
 }
 
 /// Fixed particles may sleep where every effect of the scene skips those that do, and no term works on every pair.
@@ -39,12 +40,12 @@ struct Passes::Impl {
 };
 
 Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes, bool sums_all) {
-  const int heat = equal_temperature(scene) ? 0 : form_of(scene, effects, "heat", Term::heat),
-            pressure = form_of(scene, effects, "fluid", Term::pressure);
-  const bool summed = form_of(scene, effects, "density", Term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
-  const int density = summed ? 1 : form_of(scene, effects, "fluid", Term::density);
+  const int heat = equal_temperature(scene) ? 0 : form_of(scene, effects, "heat", term::heat),
+            pressure = form_of(scene, effects, "fluid", term::pressure);
+  const bool summed = form_of(scene, effects, "density", term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
+  const int density = summed ? 1 : form_of(scene, effects, "fluid", term::density);
   const PairKernels kernels = pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene);
-  const int viscosity = scene.mode_of(Term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : kernels.shear.even() ? 2 : 4;
+  const int viscosity = scene.mode_of(term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : kernels.shear.even() ? 2 : 4;
   const int flow = pressure == 0 ? 0 : 4 * (pressure - 1) + viscosity, moments = heat == 2 ? 1 : 0;
   if (lanes == 0) lanes = density + flow + heat > 0 ? best_lanes() : 1;
   const PairPasses passes = pair_passes(lanes);

@@ -49,6 +49,19 @@ struct EffectKey {
                          ///< `tripoint ablate`
 };
 
+/// What the two forms of a term are of, in the order in which jobs and pages list terms.
+enum class TermKind { kernel, law, time };
+
+/// A term of two forms, as whoever it belongs to declares it.
+struct DeclaredTerm {
+  Term term;
+  TermKind kind = TermKind::law;
+  bool has_equation = true;  ///< that the paper prints: else no default waits for its printed form
+  /// A law that the paper prints.
+  constexpr DeclaredTerm(const Term& t) noexcept : term(t) {}
+  constexpr DeclaredTerm(const Term& t, TermKind k, bool printed = true) noexcept : term(t), kind(k), has_equation(printed) {}
+};
+
 struct EffectRule {
   std::string_view name;
   /// Who calls for the effect, and why: "body a: elastic, and not held in place". "" = nobody does.
@@ -57,13 +70,26 @@ struct EffectRule {
   std::string (*left_out)(const Scene&) = nullptr;
   /// What effects that are called for, or needed before this one, need of it; "" = nothing. Asked where nobody calls for it.
   std::string (*needed_for)(const Scene&, const Called&) = nullptr;
-  std::vector<Term> terms{};         ///< of two forms that act where it is on: a row of `tripoint ablate` each
+  std::vector<DeclaredTerm>
+      terms{};  ///< of two forms that act where it is on: a word of [modes] and a row of `tripoint ablate` each
   std::vector<Term> terms_shared{};  ///< of others that its forms read too
   std::vector<EffectKey> keys{};     ///< of [scene] and [[material]]
 };
 
 /// Of every effect, in the order in which effects run.
 [[nodiscard]] std::span<const EffectRule> effect_rules();
+
+/// Every term of two forms, in the order of jobs and pages: what effects declare, the kernel, and the scheme of steps.
+/// @throws std::logic_error where two effects declare one term
+[[nodiscard]] std::span<const DeclaredTerm> declared_terms();
+/// The term of a word of [modes]. @throws InputError naming the nearest word, or all
+[[nodiscard]] Term term_from(std::string_view word);
+/// Terms of two forms that act in a scene: those of the effects that it calls for and, where there is one, the scheme of steps.
+[[nodiscard]] std::vector<Term> acting_terms(const Scene&);
+/// Whether a term acts in every scene, whatever it calls for.
+[[nodiscard]] bool acts_everywhere(const Term&);
+/// Whether a term acts wherever the effect of this rule is on: its own, or one that its forms read.
+[[nodiscard]] bool reads_term(const EffectRule&, const Term&);
 
 /// The number of a key without a member: as it is kept, else the row's fallback, 0 where it has none.
 [[nodiscard]] double kept_number(const EffectValues&, const Key&);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/effect_rule.hpp"
 
+#include "scene/shared_terms.hpp"
+
 namespace tripoint::elastic {
 namespace {
 
@@ -18,11 +20,11 @@ std::string left_out(const Scene& s) {
 }
 
 std::string no_bending(const Scene& s) {
-  return s.mode_of(Term::elastic) == Mode::paper ? "elasticity as printed has no second-order gradients" : "";
+  return s.mode_of(term::elastic) == Mode::paper ? "elasticity as printed has no second-order gradients" : "";
 }
 
 std::string no_hourglass(const Scene& s) {
-  const bool printed = s.mode_of(Term::hourglass) == Mode::paper || s.mode_of(Term::elastic) == Mode::paper;
+  const bool printed = s.mode_of(term::hourglass) == Mode::paper || s.mode_of(term::elastic) == Mode::paper;
   return printed ? "elasticity as printed has no energy against zero-energy modes" : "";
 }
 
@@ -51,6 +53,6 @@ std::vector<EffectKey> keys() {
 
 }  // namespace
 
-EffectRule rule() { return {"elastic", called_for, left_out, nullptr, {Term::elastic, Term::hourglass}, {}, keys()}; }
+EffectRule rule() { return {"elastic", called_for, left_out, nullptr, {term::elastic, term::hourglass}, {}, keys()}; }
 
 }  // namespace tripoint::elastic

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -45,7 +46,7 @@ std::string left_out(const Scene& s) {
 }
 
 std::string solid_viscosity_idle(const Scene& scene) {
-  return scene.mode_of(Term::viscosity) == Mode::paper
+  return scene.mode_of(term::viscosity) == Mode::paper
              ? ""
              : "viscosity is corrected: a liquid takes its own beside a solid, and solids scene.contact_viscosity";
 }
@@ -114,8 +115,8 @@ std::vector<EffectKey> keys() {
 std::string no_bulk_viscosity(const Scene& scene) {
   if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
   if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
-  for (const Term term : {Term::density, Term::pressure, Term::state})
-    if (scene.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", to_string(term));
+  for (const Term& one : {term::density, term::pressure, term::state})
+    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
   return scene.clamps() ? "" : "the scene does not clamp";
 }
 
@@ -136,18 +137,18 @@ std::string no_surface_weight(const Scene& scene) {
 }
 
 std::string no_isotropic_shear(const Scene& s) {
-  if (s.mode_of(Term::viscosity) == Mode::paper) return "viscosity is as printed";
+  if (s.mode_of(term::viscosity) == Mode::paper) return "viscosity is as printed";
   if (s.viscosity_form != "central") return "the viscosity is not central";
   if (s.contact_viscosity > 0.0) return "";
   return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
 }
 
 std::string no_core(const Scene& scene) {
-  return scene.mode_of(Term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
+  return scene.mode_of(term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
 }
 
 std::string no_contact_stiffness(const Scene& s) {
-  if (s.mode_of(Term::state) == Mode::paper) return "the equation of state is as printed";
+  if (s.mode_of(term::state) == Mode::paper) return "the equation of state is as printed";
   if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
   const auto free_solid = [](const Scene&, const Body& b, const Material&) {
     return b.phase != Phase::liquid && b.motion == Motion::free;
@@ -160,8 +161,8 @@ EffectRule rule() {
           called_for,
           left_out,
           nullptr,
-          {Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls},
-          {Term::kernel},
+          {term::pressure, term::density, term::state, {term::clamp, TermKind::law, false}, term::viscosity, term::walls},
+          {term::kernel},
           keys()};
 }
 

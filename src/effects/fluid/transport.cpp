@@ -6,12 +6,13 @@
 #include "effects/fluid/transport_terms.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
+#include "scene/shared_terms.hpp"
 #include "world/fill.hpp"
 
 namespace tripoint::fluid {
 
 bool uses_transport_velocity(const Scene& scene) {
-  if (!scene.transport_velocity || scene.mode_of(Term::pressure) != Mode::corrected) return false;
+  if (!scene.transport_velocity || scene.mode_of(term::pressure) != Mode::corrected) return false;
   const bool free_bodies =
       std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   if (free_bodies || scene.clamps())

@@ -8,6 +8,7 @@
 #include "effects/fluid/fluid_terms.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
+#include "scene/shared_terms.hpp"
 #include "sph/moments.hpp"
 #include "world/fill.hpp"
 
@@ -21,7 +22,7 @@ constexpr int rates_between = 32;
 void update_viscous_bound(World& world, const PairKernels& kernels) {
   if (world.lagged.viscous_age++ % rates_between != 0) return;
   Particles& p = world.particles;
-  const bool paper = world.scene.mode_of(Term::viscosity) == Mode::paper,
+  const bool paper = world.scene.mode_of(term::viscosity) == Mode::paper,
              central = !paper && world.scene.viscosity_form == "central";
   const PassFunction spread = pair_passes(world.neighbours->clusters().lanes)
                                   .spread({paper                  ? 1

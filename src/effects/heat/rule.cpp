@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint::heat {
@@ -21,7 +22,7 @@ std::string left_out(const Scene& s) {
 }
 
 std::string no_constant(const Scene& s) {
-  return s.mode_of(Term::heat) == Mode::paper ? "" : "heat is corrected, and conducts by what the materials say";
+  return s.mode_of(term::heat) == Mode::paper ? "" : "heat is corrected, and conducts by what the materials say";
 }
 
 std::string no_held_surface(const Scene& s) {
@@ -30,7 +31,7 @@ std::string no_held_surface(const Scene& s) {
              : "no material has a surface_temperature";
 }
 
-std::string as_printed(const Scene& s) { return s.mode_of(Term::heat) == Mode::paper ? "heat as printed knows no surfaces" : ""; }
+std::string as_printed(const Scene& s) { return s.mode_of(term::heat) == Mode::paper ? "heat as printed knows no surfaces" : ""; }
 
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
@@ -66,7 +67,7 @@ std::vector<EffectKey> keys() {
 EffectRule rule() {
   return {"heat",       called_for,
           left_out,     nullptr,
-          {Term::heat}, {Term::kernel, Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls},
+          {term::heat}, {term::kernel, term::pressure, term::density, term::state, term::clamp, term::viscosity, term::walls},
           keys()};
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint::phase {
@@ -44,6 +45,6 @@ std::vector<EffectKey> keys() {
 
 }  // namespace
 
-EffectRule rule() { return {"phase", called_for, left_out, nullptr, {Term::phase}, {}, keys()}; }
+EffectRule rule() { return {"phase", called_for, left_out, nullptr, {term::phase}, {}, keys()}; }
 
 }  // namespace tripoint::phase

@@ -5,6 +5,7 @@
 
 #include "effects/prescribed/inflow.hpp"
 #include "scene/geometry.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/grip.hpp"
 #include "world/body_table.hpp"
 
@@ -129,7 +130,7 @@ void Prescribed::happen(World& world, const Happening& now) {
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"prescribed",
-               scene.mode_of(Term::time),
+               scene.mode_of(term::time),
                {field::driven, field::grip_x, field::grip_y, field::grip_z},
                fields::joined({fields::position(),
                                fields::velocity(),
