@@ -132,7 +132,7 @@ void Simulation::correct() {
   const StageTimer timer(options_.stage_seconds, Stage::correct);
   bool again = false;
   for_each_effect(world_, effects_, [&](Effect& effect) { again = effect.correct(world_, dt_) || again; });
-  if (again && passes_.needed()) sum(PassName::heat);
+  if (again && passes_.needed()) sum(PassName::again);
 }
 
 /// Guards, none of which changes anything; energy is summed over all particles and bonds, so only now and then.

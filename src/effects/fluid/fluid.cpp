@@ -13,8 +13,10 @@
 #include "effects/fluid/solid_viscosity.hpp"
 #include "effects/fluid/transport.hpp"
 #include "effects/fluid/viscous_bound.hpp"
+#include "effects/fluid/viscous_form.hpp"
 #include "effects/fluid/walls.hpp"
 #include "scene/shared_terms.hpp"
+#include "sph/density_term.hpp"
 #include "sph/pass.hpp"
 #include "world/body_table.hpp"
 #include "world/fill.hpp"
@@ -81,6 +83,7 @@ class Fluid : public Effect {
     if (stores_compression(world.scene)) add_fluid(world, numbers_, kernels_, ledger);
     if (damps_) ledger.energy["bulk_viscous"] += world.booked[taken_by_bulk_viscosity];
   }
+  [[nodiscard]] PairWork pair_work(const Scene&) const override;
 
  private:
   void set_material(World&, std::size_t row) const;
@@ -172,7 +175,7 @@ void Fluid::drift(World& world, double dt) {
 
 void Fluid::clear(World& world, PassName pass) {
   Particles& p = world.particles;
-  if (pass == PassName::heat) return;
+  if (pass == PassName::again) return;
   if (pass == PassName::rates) {
     for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x,
                                    &field::viscous_force_y, &field::viscous_force_z})
@@ -238,6 +241,18 @@ TimeStepBound Fluid::max_dt(const World& world) const {
   return bound;
 }
 
+PairWork Fluid::pair_work(const Scene& scene) const {
+  const auto printed = [&](const Term& one) { return scene.mode_of(one) == Mode::paper; };
+  PairWork work{{printed(term::density) ? pair_term<DensityPaper> : pair_term<NumberDensity>,
+                 printed(term::pressure) ? pair_term<PressurePaper> : pair_term<PressureCorrected>,
+                 viscous_form_of(scene, kernels_).force}};
+  work.where_it_acts = true;
+  work.leaves_own_pairs = !printed(term::density);
+  work.kernels = &kernels_;
+  if (numbers_.averages_walls) work.awake_around = reach_of_patches * scene.spacing;
+  return work;
+}
+
 /// Pressure, viscosity and, where the scene says so, the stress of the transport velocity, with where their work goes
 /// (model 8.11).
 std::vector<Force> forces_of(const Scene& scene) {
@@ -269,7 +284,7 @@ EffectSpec spec(const Scene& scene) {
           {fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
   s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
   s.sums_forces = true;
-  s.skips_sleeping = true;
+  s.skips_sleeping = !scene.transport_velocity;
   const bool damps = bulk_viscosity(scene) > 0.0;
   const auto own = [&](std::initializer_list<FieldInfo> more) { s.owns.insert(s.owns.end(), more); };
   if (scene.mode_of(term::density) == Mode::corrected) own({field::number_density});

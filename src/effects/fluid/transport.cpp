@@ -25,7 +25,7 @@ bool uses_transport_velocity(const Scene& scene) {
 void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels& kernels) {
   Particles& p = world.particles;
   for (const Field<double>* f : TransportForces::adds::list) fill(p[*f], 0.0, world.threads);
-  const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).transport;
+  const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).alone(pair_term<TransportForces>);
   run_pass(pass, p, *world.neighbours, kernels, world.threads);
   world.refresh(pass.adds());
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it

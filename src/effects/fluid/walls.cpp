@@ -242,8 +242,8 @@ void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
   Particles& p = world.particles;
   for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, world.threads);
   if (wet_walls_.empty()) return world.refresh(seen_velocity);
-  run_pass_over(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation({kernels.shear.even() ? 1 : 2}), p,
-                *world.neighbours, kernels, world.threads, wet_);
+  const PairTerm term = kernels.shear.even() ? pair_term<WallExtrapolation> : pair_term<WallExtrapolationWeighted>;
+  run_pass_over(pair_passes(world.neighbours->clusters().lanes).alone(term), p, *world.neighbours, kernels, world.threads, wet_);
 
   const auto weight = p[field::wall_weight];
   const auto moved = triple(p, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z);
