@@ -20,14 +20,15 @@ struct PairKernels;
 struct EffectSpec {
   std::string_view name;
   Mode mode = Mode::corrected;
-  std::vector<FieldInfo> owns;              ///< that exist because of it
-  std::vector<FieldInfo> reads;             ///< of others, that it reads or sets; each has an owner in the scene
-  std::vector<Force> forces{};              ///< that it makes
-  std::vector<Account> accounts{};          ///< that it books on beside those of its forces; common ones need no word
-  std::vector<Account> numerical{};         ///< that its numerical terms book on: what they take on purpose
-  std::vector<Guarded> guards{};            ///< of its columns those that are looked at after every step
-  std::vector<FieldInfo> reads_if_there{};  ///< of others, where the scene has them
-  bool sums_forces = false;                 ///< it reads World::forces of all effects
+  std::vector<FieldInfo> owns;                  ///< that exist because of it
+  std::vector<FieldInfo> reads;                 ///< of others, that it reads or sets; each has an owner in the scene
+  std::vector<Force> forces{};                  ///< that it makes
+  std::vector<Account> accounts{};              ///< that it books on beside those of its forces; common ones need no word
+  std::vector<Account> numerical{};             ///< that its numerical terms book on: what they take on purpose
+  std::vector<Guarded> guards{};                ///< of its columns those that are looked at after every step
+  std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
+  std::vector<FieldInfo> reads_if_there{};      ///< of others, where the scene has them
+  bool sums_forces = false;                     ///< it reads World::forces of all effects
   bool skips_sleeping = false;  ///< it looks at no particle that sleeps, and needs the forces on fixed ones in form_fixed() alone
 };
 

@@ -33,6 +33,8 @@ bool books_bodies(const Scene& scene) {
          std::ranges::any_of(scene.events, [](const Event& e) { return e.kind == Event::Kind::heat; });
 }
 
+const std::vector<GuardedEntry> guarded_entries{{"thermal", EntryRole::apart}, {"latent", EntryRole::apart}};
+
 std::vector<FieldInfo> read_by_both() {
   return fields::joined(
       {fields::position(), {field::id, field::mass, field::body, field::material, field::phase, field::source}});
@@ -60,9 +62,11 @@ EffectSpec spec(const Scene& scene) {
   if (equal_temperature(scene)) {
     EffectSpec idle{"heat", scene.mode_of(term::heat), {}, {field::mass, field::material, field::phase}};
     idle.skips_sleeping = true;
+    idle.guarded_entries = guarded_entries;
     return idle;
   }
   EffectSpec s = spec_of_form(scene);
+  s.guarded_entries = guarded_entries;
   s.guards = {{field::temperature, "temperature", Written::drift, "K, below absolute zero"}};
   if (s.mode == Mode::paper)
     s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});

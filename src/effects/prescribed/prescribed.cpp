@@ -137,6 +137,7 @@ EffectSpec spec(const Scene& scene) {
                                {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
+  s.guarded_entries = {{"inflow", EntryRole::apart}};
   return s;
 }
 
