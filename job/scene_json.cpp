@@ -186,7 +186,7 @@ Owner from_kind_json(const JsonObject& o) {
 // --- materials, bodies, events ----------------------------------------------------------------------------------------
 
 json material_json(const Material& m) {
-  json out = beginning_with({"name", "density", "solid"});
+  json out = beginning_with({"name", "density", "solid", "stiffness", "solid_conductivity", "solid_heat_capacity"});
   put_record(m, out);
   put_effect_values(m, "material", out);
   return out;

@@ -13,6 +13,8 @@
 /// a build without the effect has its rule all the same.
 namespace tripoint {
 
+class TableReader;
+
 /// An effect that a scene calls for, and why.
 struct CalledEffect {
   std::string name;  ///< fluid elastic plastic fracture rigid heat phase surface
@@ -39,8 +41,10 @@ class Called {
 /// A key of the case file that an effect brings: its row, and the member that keeps the value. Without a member it is a number of
 /// Scene::values or Material::values, by the key's name; where no reader made them, it has the row's fallback.
 struct EffectKey {
+  /// The effect's settle_material() reads it.
+  struct ByRule {};
   Key row;
-  std::variant<std::monostate, double Scene::*, bool Scene::*, std::string Scene::*, double Material::*, bool Material::*,
+  std::variant<std::monostate, ByRule, double Scene::*, bool Scene::*, std::string Scene::*, double Material::*, bool Material::*,
                std::optional<double> Material::*>
       kept_in{};
   /// Why a value in this scene changes nothing although the effect is on; "" = it acts. None: it acts wherever the effect is on.
@@ -70,10 +74,12 @@ struct EffectRule {
   std::string (*left_out)(const Scene&) = nullptr;
   /// What effects that are called for, or needed before this one, need of it; "" = nothing. Asked where nobody calls for it.
   std::string (*needed_for)(const Scene&, const Called&) = nullptr;
-  std::vector<DeclaredTerm>
-      terms{};  ///< of two forms that act where it is on: a word of [modes] and a row of `tripoint ablate` each
+  /// Of two forms that act where it is on: a word of [modes] and a row of `tripoint ablate` each.
+  std::vector<DeclaredTerm> terms{};
   std::vector<Term> terms_shared{};  ///< of others that its forms read too
   std::vector<EffectKey> keys{};     ///< of [scene] and [[material]]
+  /// What keys of a material say of each other, once all are read: refuses what cannot be, and sets what a rule gives.
+  void (*settle_material)(TableReader&, Material&) = nullptr;
 };
 
 /// Of every effect, in the order in which effects run.

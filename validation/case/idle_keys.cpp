@@ -309,21 +309,10 @@ class IdleKeys {
 
   void scene() {
     const Scene& s = case_.scene;
-    const bool flows = calls("fluid");
-    if (s.transport_velocity && !flows)
-      idle("transport_velocity", why_idle("fluid"));
-    else if (s.transport_velocity && !corrected(term::pressure))
-      idle("transport_velocity", "pressure as printed knows no transport velocity");
-    if (s.viscosity_form == "laplacian" && !flows)
-      idle("viscosity_form", why_idle("fluid"));
-    else if (s.viscosity_form == "laplacian" && !corrected(term::viscosity))
-      idle("viscosity_form", "viscosity as printed has one form");
-    if (!flows) idle("clamp", why_idle("fluid"));
-    if (s.contact_viscosity > 0.0 && !flows) idle("contact_viscosity", why_idle("fluid"));
+    if (!calls("fluid")) idle("clamp", why_idle("fluid"));
     for (const EffectRule& rule : effect_rules())
       for (const EffectKey& key : rule.keys)
-        if (key.row.table == "scene" && (kept_number(s.values, key.row) != 0.0 || kept_number({}, key.row) != 0.0))
-          effect_key(rule, key);
+        if (key.row.table == "scene" && asks(s, key)) effect_key(rule, key);
     const bool breaks_up = calls("fracture") || std::ranges::any_of(s.events, [](const Event& e) {
                              return e.kind == Event::Kind::merge || e.kind == Event::Kind::split;
                            });
@@ -333,6 +322,22 @@ class IdleKeys {
       if (const auto given = s.modes_given.find(one.term);
           given != s.modes_given.end() && given->second != s.mode && !acts(one.term))
         idle(fmt::format("modes.{}", one.term.name).c_str(), "no effect of this scene has that term");
+  }
+
+  /// Whether the scene wants what the key stands for: else there is nothing to miss. A number that is not 0 by default may be 0.
+  static bool asks(const Scene& s, const EffectKey& key) {
+    const auto kept = [&](const auto& member) {
+      using Member = std::decay_t<decltype(member)>;
+      if constexpr (std::is_same_v<Member, std::monostate>)
+        return kept_number(s.values, key.row) != 0.0 || kept_number({}, key.row) != 0.0;
+      else if constexpr (std::is_same_v<Member, std::string Scene::*>)
+        return "\"" + s.*member + "\"" != key.row.fallback;
+      else if constexpr (requires { s.*member; })
+        return s.*member != std::decay_t<decltype(s.*member)>{};
+      else
+        return false;
+    };
+    return std::visit(kept, key.kept_in);
   }
 
   void effect_key(const EffectRule& rule, const EffectKey& key) {

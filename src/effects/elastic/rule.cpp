@@ -2,6 +2,7 @@
 #include "scene/effect_rule.hpp"
 
 #include "scene/shared_terms.hpp"
+#include "scene/table_reader.hpp"
 
 namespace tripoint::elastic {
 namespace {
@@ -51,8 +52,16 @@ std::vector<EffectKey> keys() {
   };
 }
 
+void settle_material(TableReader& in, Material& m) {
+  if (m.young_modulus.has_value() != m.poisson_ratio.has_value())
+    in.refuse(m.young_modulus ? "young_modulus" : "poisson_ratio",
+              "an elastic material needs both young_modulus and poisson_ratio: give the other too");
+}
+
 }  // namespace
 
-EffectRule rule() { return {"elastic", called_for, left_out, nullptr, {term::elastic, term::hourglass}, {}, keys()}; }
+EffectRule rule() {
+  return {"elastic", called_for, left_out, nullptr, {term::elastic, term::hourglass}, {}, keys(), settle_material};
+}
 
 }  // namespace tripoint::elastic

@@ -7,6 +7,7 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
+#include "scene/table_reader.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -45,6 +46,14 @@ std::string left_out(const Scene& s) {
   return "nothing is liquid, and no free body has another to touch";
 }
 
+std::string no_form_of_viscosity(const Scene& s) {
+  return s.mode_of(term::viscosity) == Mode::paper ? "viscosity as printed has one form" : "";
+}
+
+std::string no_transport_velocity(const Scene& s) {
+  return s.mode_of(term::pressure) == Mode::paper ? "pressure as printed knows no transport velocity" : "";
+}
+
 std::string solid_viscosity_idle(const Scene& scene) {
   return scene.mode_of(term::viscosity) == Mode::paper
              ? ""
@@ -59,7 +68,8 @@ std::vector<EffectKey> keys() {
       {{"scene", "viscosity_form", word, "", any, "\"central\"",
         "keeps angular momentum; right wherever a surface or body is free", "laplacian central",
         "corrected viscosity; laplacian for wall-bounded shear only"},
-       &Scene::viscosity_form},
+       &Scene::viscosity_form,
+       no_form_of_viscosity},
       {{"scene", "isotropic_shear", number, "", fraction, "0", "most flows soon leave the lattice of the start", "",
         "share of 0 to 1 of the weights with which the lattice resists shear alike along its axes and its diagonals (model 8.5). "
         "Only where viscosity is corrected and central"},
@@ -68,7 +78,8 @@ std::vector<EffectKey> keys() {
        true},
       {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "",
         "move particles by the transport velocity"},
-       &Scene::transport_velocity},
+       &Scene::transport_velocity,
+       no_transport_velocity},
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
         "viscosity between solids that touch"},
        &Scene::contact_viscosity},
@@ -100,6 +111,12 @@ std::vector<EffectKey> keys() {
        {},
        no_surface_weight,
        true},
+      {{"material", "stiffness", number, "m2/s2", positive, "",
+        "taken from the speeds of the scene, or from elastic moduli, where something flows or solids can meet", "",
+        "k of p = k (rho - rho0), the square of the sound speed"},
+       &Material::stiffness},
+      {{"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "", "instead of stiffness: k is its square"},
+       EffectKey::ByRule{}},
       {{"material", "solid_viscosity", number, "Pa s", not_negative, "0", "a solid has scene.contact_viscosity", "",
         "dynamic viscosity of the solid in (8), only where modes.viscosity is paper; between t_solid and t_melt, where "
         "modes.phase is paper, linear from it to viscosity (Fig. 5)"},
@@ -108,6 +125,14 @@ std::vector<EffectKey> keys() {
       {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"},
        &Material::viscosity},
   };
+}
+
+void settle_material(TableReader& in, Material& m) {
+  const auto c = in.maybe_number("sound_speed");
+  if (!c) return;
+  if (in.has("stiffness")) in.refuse("sound_speed", "stiffness is given too, and is its square: give one of them");
+  m.stiffness = *c * *c;
+  in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
 }
 
 }  // namespace
@@ -163,7 +188,8 @@ EffectRule rule() {
           nullptr,
           {term::pressure, term::density, term::state, {term::clamp, TermKind::law, false}, term::viscosity, term::walls},
           {term::kernel},
-          keys()};
+          keys(),
+          settle_material};
 }
 
 }  // namespace tripoint::fluid
