@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "effects/fluid_lab.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -82,7 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, FluidLedger,
 /// Clamped: an unclamped one tears itself apart.
 lab::Lab printed_column() {
   lab::Lab lab = lab::column(8, 4, 5.0, 1000.0, 10.0, Mode::paper);
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::corrected;
+  lab.scene.modes[term::clamp] = Mode::corrected;
   return lab;
 }
 

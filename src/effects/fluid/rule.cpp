@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
+#include "scene/table_reader.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -44,8 +46,16 @@ std::string left_out(const Scene& s) {
   return "nothing is liquid, and no free body has another to touch";
 }
 
+std::string no_form_of_viscosity(const Scene& s) {
+  return s.mode_of(term::viscosity) == Mode::paper ? "viscosity as printed has one form" : "";
+}
+
+std::string no_transport_velocity(const Scene& s) {
+  return s.mode_of(term::pressure) == Mode::paper ? "pressure as printed knows no transport velocity" : "";
+}
+
 std::string solid_viscosity_idle(const Scene& scene) {
-  return scene.mode_of(Term::viscosity) == Mode::paper
+  return scene.mode_of(term::viscosity) == Mode::paper
              ? ""
              : "viscosity is corrected: a liquid takes its own beside a solid, and solids scene.contact_viscosity";
 }
@@ -58,7 +68,8 @@ std::vector<EffectKey> keys() {
       {{"scene", "viscosity_form", word, "", any, "\"central\"",
         "keeps angular momentum; right wherever a surface or body is free", "laplacian central",
         "corrected viscosity; laplacian for wall-bounded shear only"},
-       &Scene::viscosity_form},
+       &Scene::viscosity_form,
+       no_form_of_viscosity},
       {{"scene", "isotropic_shear", number, "", fraction, "0", "most flows soon leave the lattice of the start", "",
         "share of 0 to 1 of the weights with which the lattice resists shear alike along its axes and its diagonals (model 8.5). "
         "Only where viscosity is corrected and central"},
@@ -67,7 +78,8 @@ std::vector<EffectKey> keys() {
        true},
       {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "",
         "move particles by the transport velocity"},
-       &Scene::transport_velocity},
+       &Scene::transport_velocity,
+       no_transport_velocity},
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
         "viscosity between solids that touch"},
        &Scene::contact_viscosity},
@@ -99,6 +111,12 @@ std::vector<EffectKey> keys() {
        {},
        no_surface_weight,
        true},
+      {{"material", "stiffness", number, "m2/s2", positive, "",
+        "taken from the speeds of the scene, or from elastic moduli, where something flows or solids can meet", "",
+        "k of p = k (rho - rho0), the square of the sound speed"},
+       &Material::stiffness},
+      {{"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "", "instead of stiffness: k is its square"},
+       EffectKey::ByRule{}},
       {{"material", "solid_viscosity", number, "Pa s", not_negative, "0", "a solid has scene.contact_viscosity", "",
         "dynamic viscosity of the solid in (8), only where modes.viscosity is paper; between t_solid and t_melt, where "
         "modes.phase is paper, linear from it to viscosity (Fig. 5)"},
@@ -109,13 +127,21 @@ std::vector<EffectKey> keys() {
   };
 }
 
+void settle_material(TableReader& in, Material& m) {
+  const auto c = in.maybe_number("sound_speed");
+  if (!c) return;
+  if (in.has("stiffness")) in.refuse("sound_speed", "stiffness is given too, and is its square: give one of them");
+  m.stiffness = *c * *c;
+  in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
+}
+
 }  // namespace
 
 std::string no_bulk_viscosity(const Scene& scene) {
   if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
   if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
-  for (const Term term : {Term::density, Term::pressure, Term::state})
-    if (scene.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", to_string(term));
+  for (const Term& one : {term::density, term::pressure, term::state})
+    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
   return scene.clamps() ? "" : "the scene does not clamp";
 }
 
@@ -136,18 +162,18 @@ std::string no_surface_weight(const Scene& scene) {
 }
 
 std::string no_isotropic_shear(const Scene& s) {
-  if (s.mode_of(Term::viscosity) == Mode::paper) return "viscosity is as printed";
+  if (s.mode_of(term::viscosity) == Mode::paper) return "viscosity is as printed";
   if (s.viscosity_form != "central") return "the viscosity is not central";
   if (s.contact_viscosity > 0.0) return "";
   return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
 }
 
 std::string no_core(const Scene& scene) {
-  return scene.mode_of(Term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
+  return scene.mode_of(term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
 }
 
 std::string no_contact_stiffness(const Scene& s) {
-  if (s.mode_of(Term::state) == Mode::paper) return "the equation of state is as printed";
+  if (s.mode_of(term::state) == Mode::paper) return "the equation of state is as printed";
   if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
   const auto free_solid = [](const Scene&, const Body& b, const Material&) {
     return b.phase != Phase::liquid && b.motion == Motion::free;
@@ -160,9 +186,10 @@ EffectRule rule() {
           called_for,
           left_out,
           nullptr,
-          {Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls},
-          {Term::kernel},
-          keys()};
+          {term::pressure, term::density, term::state, {term::clamp, TermKind::law, false}, term::viscosity, term::walls},
+          {term::kernel},
+          keys(),
+          settle_material};
 }
 
 }  // namespace tripoint::fluid

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "effects/plastic/flow.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/solid_particles.hpp"
 #include "world/ordered_sum.hpp"
 
@@ -79,7 +80,7 @@ void PlasticFlow::adopt(World& world) {
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"plastic",
-               scene.mode_of(Term::elastic),
+               scene.mode_of(term::elastic),
                fields::plastic_strain(),
                fields::joined({fields::strain(), fields::deformation(), {field::body, field::material}}),
                {},

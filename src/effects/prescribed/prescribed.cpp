@@ -5,6 +5,7 @@
 
 #include "effects/prescribed/inflow.hpp"
 #include "scene/geometry.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/grip.hpp"
 #include "world/body_table.hpp"
 
@@ -129,13 +130,14 @@ void Prescribed::happen(World& world, const Happening& now) {
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"prescribed",
-               scene.mode_of(Term::time),
+               scene.mode_of(term::time),
                {field::driven, field::grip_x, field::grip_y, field::grip_z},
                fields::joined({fields::position(),
                                fields::velocity(),
                                {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
   s.reads_if_there = fields::image();
   s.skips_sleeping = true;
+  s.guarded_entries = {{"inflow", EntryRole::apart}};
   return s;
 }
 
