@@ -160,23 +160,32 @@ std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initi
         std::string("mass 1 1.0"), fmt::format("pair_style zero {:.17g}", reach), std::string("pair_coeff * *"),
         std::string("neighbor 0 bin"), fmt::format("comm_modify cutoff {:.17g}", reach)})
     command(line);
-  const int count = static_cast<int>(initial.size());
-  std::vector<int> id(initial.size()), type(initial.size(), 1);
+  make_atoms(initial.position, false);
+  command("plugin load " + plugin_path_);
+  return {grid[0] > 1, grid[1] > 1, grid[2] > 1};
+}
+
+void Lammps::make_atoms(const std::vector<Vec3>& places, bool box_grows) {
+  const int count = static_cast<int>(places.size());
+  std::vector<int> id(places.size()), type(places.size(), 1);
   for (int i = 0; i < count; ++i) id[static_cast<std::size_t>(i)] = i + 1;
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   symbol<decltype(lammps_create_atoms)>(library_, "lammps_create_atoms")(lammps_, count, id.data(), type.data(),
-                                                                         &initial.position.front().x, nullptr, nullptr, 0);
+                                                                         &places.front().x, nullptr, nullptr, box_grows ? 1 : 0);
   check(library_, lammps_);
   const double made = symbol<decltype(lammps_get_natoms)>(library_, "lammps_get_natoms")(lammps_);
   if (made != static_cast<double>(count))
     throw EngineError(fmt::format("LAMMPS took {} of {} particles into its box", made, count));
   command("balance 1.02 shift xyz 20 1.02");
-  command("plugin load " + plugin_path_);
-  return {grid[0] > 1, grid[1] > 1, grid[2] > 1};
 }
 
-Ranks& Lammps::add_halo(int columns, std::size_t lists) {
-  command(fmt::format("fix halo all tripoint/halo {} {}", columns, lists));
+void Lammps::renew(const std::vector<Vec3>& places) {
+  command("delete_atoms group all");
+  make_atoms(places, true);
+}
+
+Ranks& Lammps::add_halo(int columns) {
+  command(fmt::format("fix halo all tripoint/halo {}", columns));
   Ranks* const made = symbol<Ranks*()>(plugin_, "tripoint_ranks")();
   if (!made) throw EngineError("LAMMPS did not make the fix tripoint/halo");
   return *made;
