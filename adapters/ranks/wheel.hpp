@@ -46,11 +46,13 @@ class Lammps {
 
  private:
   void command(const std::string& line);
-  void make_atoms(const std::vector<Vec3>& places, bool box_grows);
+  void make_atoms(const std::vector<Vec3>& places);
   template <class F>
   [[nodiscard]] F* function(void* library, const char* name) const;
 
   std::string plugin_path_;
+  std::array<bool, 3> wraps_{};  ///< directions that are periodic for LAMMPS
+  double margin_ = 0.0;          ///< of the box around the particles [m]
   void *library_ = nullptr, *plugin_ = nullptr, *lammps_ = nullptr;
   int (*rank_)() = nullptr, (*size_)() = nullptr;
   void (*abort_)(int) = nullptr;
