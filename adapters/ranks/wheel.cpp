@@ -193,8 +193,7 @@ void Lammps::renew(const std::vector<Vec3>& places) {
   const auto [low, high] = corners_of(places);
   std::string box = "change_box all";
   for (std::size_t a = 0; a < 3; ++a)
-    if (!wraps_[a])
-      box += fmt::format(" {} final {:.17g} {:.17g}", "xyz"[a], low[a] - margin_, high[a] + margin_);
+    if (!wraps_[a]) box += fmt::format(" {} final {:.17g} {:.17g}", "xyz"[a], low[a] - margin_, high[a] + margin_);
   command(box + " units box");
   make_atoms(places);
 }
