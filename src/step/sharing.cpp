@@ -58,7 +58,8 @@ void Sharing::gather(World& world, const std::vector<Active>& effects) {
 void Sharing::hold_whole(World& world) const {
   WholeScene whole = world.halo->gather(world.particles, world.bonds, world.own);
   world.particles = std::move(whole.particles);
-  world.bonds = std::move(whole.bonds), world.own = std::move(whole.own);
+  world.bonds = std::move(whole.bonds);
+  world.own = std::move(whole.own);
   world.halo = nullptr;
   world.copies.clear();
   if (!world.neighbours) return;

@@ -7,14 +7,14 @@
 /// Scenes in which bonds, bodies, phases or particles change, in the middle and elsewhere along x: what is decided of the whole.
 namespace tripoint::test {
 
-/// A brittle bar with a neck, whose ends fly apart as it flies along x.
+/// A brittle bar with a neck, whose ends fly apart as it flies along x; one has a rigid cap.
 inline Prepared brittle_bar(bool flows, Mode mode) {
   Scene s;
   s.spacing = 0.01, s.jitter = 0.05;
   s.modes[static_cast<std::size_t>(Term::elastic)] = mode;
   Material brittle = material(1000.0);
   brittle.solid = "elastic", brittle.young_modulus = 1e6, brittle.poisson_ratio = 0.3;
-  brittle.fracture_stretch = 1.1, brittle.fracture_distance = 2.1;
+  brittle.fracture_stretch = 1.1, brittle.fracture_distance = 2.1, brittle.stiffness = 100.0;
   if (flows) brittle.elastic_limit = 0.01;
   s.materials = {brittle};
   Shape neck;
@@ -22,8 +22,8 @@ inline Prepared brittle_bar(bool flows, Mode mode) {
   neck.of = {box({-0.07, -0.02, -0.02}, {-0.01, 0.02, 0.02}), box({-0.01, -0.01, -0.01}, {0.01, 0.01, 0.01}),
              box({0.01, -0.02, -0.02}, {0.07, 0.02, 0.02})};
   Body bar = rigid("bar", neck);
-  bar.phase = Phase::elastic;
-  s.bodies = {bar};
+  bar.phase = Phase::elastic, bar.joined_to = {"cap"};
+  s.bodies = {bar, rigid("cap", box({0.07, -0.02, -0.02}, {0.09, 0.02, 0.02}))};
   Prepared p = prepare(s, 0.02, 1);
   for (std::size_t i = 0; i < p.initial.size(); ++i) {
     const Vec3 r = p.initial.position[i];
@@ -92,6 +92,7 @@ inline Prepared warm_rubber() {
 inline Prepared eventful() {
   Scene s;
   s.spacing = 0.01;
+  s.gravity = {-2.0, 0, 0};
   Material oil = material(1000.0);
   oil.name = "oil", oil.viscosity = 0.5, oil.stiffness = 1.5e4, oil.conductivity = 100.0, oil.heat_capacity = 2000.0;
   s.materials = {material(1000.0), oil};
