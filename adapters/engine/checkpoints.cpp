@@ -19,7 +19,8 @@ constexpr const char* interval_key = "checkpoint_interval";
 std::string scene_hash(Job job) {
   job.case_id = job.particles = job.output = job.resume = "";
   job.reference = {};
-  job.threads = 1;
+  job.threads = job.ranks = 1;
+  job.settings.erase("ranks");
   job.times = {};
   job.scene.end_time = 0.0;
   job.settings.erase(interval_key);

@@ -14,11 +14,18 @@ namespace tripoint::ranks {
 /// The solver's halo on LAMMPS's atoms: every column of a particle goes with its atom as a number.
 class LammpsHalo : public Halo {
  public:
-  /// Makes the fix for that many columns, and numbers of lists at most; called at the first migration, when they are known.
-  using Begin = std::function<Ranks&(int columns, std::size_t lists)>;
+  /// What only LAMMPS itself can do, beside its fix.
+  struct Host {
+    std::function<Ranks&(int columns)> begin;                    ///< makes the fix, when the columns are known
+    std::function<void(const std::vector<Vec3>& places)> renew;  ///< other atoms for those that there are, by number [m]
+  };
   /// @param reach of a neighbour list [m]: copies reach as far, or as the longest bond does
-  LammpsHalo(std::array<bool, 3> splits, double reach, Begin begin) : splits_(splits), reach_(reach), begin_(std::move(begin)) {}
+  LammpsHalo(std::array<bool, 3> splits, double reach, std::size_t atoms, bool is_first, Host host)
+      : splits_(splits), reach_(reach), atoms_(atoms), is_first_(is_first), host_(std::move(host)) {}
+  void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) override;
   /// @throws EngineError where bonds or own pairs are not as the last call left them
+  [[nodiscard]] WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) override;
+  /// @throws EngineError as gather()
   void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) override;
   [[nodiscard]] std::array<bool, 3> splits() const override { return splits_; }
   [[nodiscard]] std::size_t owned() const override { return ranks_->owned(); }
@@ -28,13 +35,15 @@ class LammpsHalo : public Halo {
     if (ranks_)
       collectives_ += 2, ranks_->add(numbers.data(), static_cast<int>(numbers.size()));  // before, all hold the whole scene
   }
+  [[nodiscard]] std::vector<double> all_of(const std::vector<double>& own) override;
   void take_least(double& number, std::string& word) override;
-  [[nodiscard]] bool is_first() const override { return ranks_->rank() == 0; }
+  [[nodiscard]] bool is_first() const override { return is_first_; }
 
-  /// Its number among the particles of all ranks. @param id here
-  [[nodiscard]] int number_of(std::size_t id) const { return ranks_ ? ranks_->id(id) : static_cast<int>(id); }
+  /// Its number among the particles of all ranks. @param id of this rank's part
+  [[nodiscard]] int number_of(std::size_t id) const { return ranks_->id(id); }
   [[nodiscard]] Ranks* ranks() const noexcept { return ranks_; }
   [[nodiscard]] long migrations() const noexcept { return migrations_; }
+  [[nodiscard]] long gatherings() const noexcept { return gatherings_; }
   /// What was asked of the other ranks so far, counted also where there is no other: exchanges of columns, numbers that each copy
   /// took in them, and collective calls. `tripoint predict` has its counts from here.
   struct Traffic {
@@ -48,17 +57,21 @@ class LammpsHalo : public Halo {
   [[nodiscard]] double reach_of_copies() const noexcept { return reach_now_; }  ///< at the last migration [m]
 
  private:
-  void pack(Particles&, const PeriodicBox&);
-  void pack_lists(const Bonds&, const OwnPairs&);
-  void unpack(Particles&, const PeriodicBox&);
+  void hand_over(Particles&, Bonds&, OwnPairs&, const PeriodicBox& split);
+  void pack(Particles&, const PeriodicBox& split, bool whole);
+  void unpack(Particles&, const PeriodicBox& split);
   void unpack_lists(Bonds&, OwnPairs&);
-  [[nodiscard]] double reach_of(const Particles&, const Bonds&, const PeriodicBox&);
+  void expect_known(const Bonds&, const OwnPairs&) const;
+  [[nodiscard]] double reach_of(double longest_bond);
+  [[nodiscard]] PeriodicBox split_of(const PeriodicBox&) const;
 
   std::array<bool, 3> splits_;
   double reach_, reach_now_ = 0.0;
-  Begin begin_;
+  std::size_t atoms_;  ///< of all ranks
+  bool is_first_;
+  Host host_;
   Ranks* ranks_ = nullptr;
-  long migrations_ = 0;
+  long migrations_ = 0, gatherings_ = 0;
   double exchanges_ = 0.0, numbers_a_copy_ = 0.0, collectives_ = 0.0;
   int columns_of_particle_ = 0;
   std::size_t own_at_start_ = 0, copies_at_start_ = 0;

@@ -9,6 +9,7 @@
 #include "adapters/ranks/mpiexec.hpp"
 #include "adapters/ranks/probe.hpp"
 #include "adapters/ranks/ranks_engine.hpp"
+#include "io/checkpoint_file.hpp"
 
 namespace tripoint::ranks {
 namespace {
@@ -17,12 +18,25 @@ Lammps* this_rank = nullptr;
 
 std::unique_ptr<Engine> make() { return std::make_unique<RanksEngine>(this_rank); }
 
-/// What the first rank does through serve(), without its files.
+/// What the first rank does through serve(), without its files. Whether a checkpoint fits is for the first to say.
 void follow(const Job& job) {
   RanksEngine engine(this_rank);
-  engine.load(job, read_particles(job.particles));
-  for (const double time : job.times) {
-    if (time > job.times.front()) engine.advance_to(time);
+  const InitialState initial = read_particles(job.particles);
+  engine.load(job, initial);
+  std::size_t frame = 0;
+  if (!job.resume.empty()) {
+    const Checkpoint kept = read_checkpoint(job.resume);
+    engine.resume(job, initial, kept);
+    frame = static_cast<std::size_t>(kept.whole.at("run/frames").at(0));
+  }
+  for (; frame < job.times.size(); ++frame) {
+    const double time = job.times[frame];
+    const auto save_too = [&](double, long) {
+      Checkpoint kept;
+      if (engine.is_due()) engine.save(kept);
+      return true;
+    };
+    if (time > job.times.front()) engine.advance_to(time, save_too);
     static_cast<void>(engine.observe());
   }
 }
@@ -77,7 +91,7 @@ int run(int argc, char** argv) {
   bool can = false;
   try {
     const Job job = read_job(argv[2]);
-    can = RanksEngine(nullptr).refusal(job).empty() && job.resume.empty();
+    can = RanksEngine(nullptr).refusal(job).empty();
   } catch (const InputError&) {  // serve() says what is wrong with the job
   }
   return can ? run_ranks(argv[2]) : serve(argc, argv, make);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "adapters/ranks/ranks.hpp"
 #include "core/errors.hpp"
@@ -60,10 +61,12 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   [[nodiscard]] double* position(std::size_t one) const override { return atom->x[one]; }
   [[nodiscard]] double* numbers(std::size_t one) const override { return numbers_[one]; }
   [[nodiscard]] std::vector<double>& lists(std::size_t one) const override { return lists_[one]; }
+  void make_room(std::size_t lists) override;
   void migrate(double reach) override;
   void forward(const Columns&) override;
   void add(double* numbers, int count) override;
   void take_least(double& number, char* word, int length) override;
+  [[nodiscard]] std::vector<double> all_of(const std::vector<double>& own) override;
   [[nodiscard]] std::vector<double> gather(const std::vector<double>& own) override;
   [[nodiscard]] double bytes_sent() const override { return bytes_sent_; }
 
@@ -76,7 +79,7 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
     return (forwarded_.rows ? forwarded_.rows[one] : static_cast<std::size_t>(one)) * forwarded_.stride;
   }
 
-  int columns_, most_lists_;  ///< numbers of an atom: those of its columns, and of its lists at most
+  int columns_, most_lists_ = -1;  ///< numbers of an atom: those of its columns, and of its lists at most
   double** numbers_ = nullptr;
   mutable std::vector<std::vector<double>> lists_;
   bool begun_ = false;
@@ -85,12 +88,10 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
 };
 
 FixHalo::FixHalo(LAMMPS* lammps, int count, char** words)
-    : Fix(lammps, count, words),
-      columns_(count == 5 ? std::atoi(words[3]) : 0),
-      most_lists_(count == 5 ? std::atoi(words[4]) : 0) {
-  if (columns_ < 1)
-    throw EngineError("the fix tripoint/halo takes the number of columns, and of numbers that lists have at most");
-  comm_border = columns_ + 1 + most_lists_, comm_forward = most_forwarded, maxexchange = comm_border + 1;
+    : Fix(lammps, count, words), columns_(count == 4 ? std::atoi(words[3]) : 0) {
+  if (columns_ < 1) throw EngineError("the fix tripoint/halo takes the number of columns");
+  comm_forward = most_forwarded, maxexchange_dynamic = 1;
+  make_room(0);
   FixHalo::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::BORDER);
@@ -164,6 +165,15 @@ void FixHalo::forward(const Columns& columns) {
   comm->forward_comm(this, columns.count);
 }
 
+/// LAMMPS asks for these sizes as it is made ready.
+void FixHalo::make_room(std::size_t lists) {
+  const int needed = static_cast<int>(lists);
+  if (needed <= most_lists_) return;
+  most_lists_ = needed + needed / 4;
+  comm_border = columns_ + 1 + most_lists_, maxexchange = comm_border + 1;
+  begun_ = false;
+}
+
 void FixHalo::migrate(double reach) {
   if (!begun_) lmp->init();
   begun_ = true;
@@ -194,6 +204,20 @@ void FixHalo::take_least(double& number, char* word, int length) {
   MPI_Allreduce(&own, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
   number = least.value;
   if (length > 0) MPI_Bcast(word, length, MPI_CHAR, least.rank, world);
+}
+
+std::vector<double> FixHalo::all_of(const std::vector<double>& own) {
+  const int count = static_cast<int>(own.size());
+  std::vector<int> counts(static_cast<std::size_t>(size())), starts(counts.size());
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
+  bigint total = 0;
+  for (std::size_t r = 0; r < counts.size(); ++r) starts[r] = static_cast<int>(total), total += counts[r];
+  if (total > std::numeric_limits<int>::max() || own.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw EngineError("the whole scene is more than 2^31 numbers, which no rank can hold at once");
+  std::vector<double> all(static_cast<std::size_t>(total));
+  bytes_sent_ += static_cast<double>(own.size()) * static_cast<double>(sizeof(double)) * (size() - 1);
+  MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, world);
+  return all;
 }
 
 std::vector<double> FixHalo::gather(const std::vector<double>& own) {

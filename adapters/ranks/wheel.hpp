@@ -36,18 +36,23 @@ class Lammps {
   /// of copies [m]
   /// @return the directions that are split
   std::array<bool, 3> create(const Scene&, const InitialState&, double reach);
-  /// The fix that keeps the solver's columns. @param lists numbers that bonds and own pairs of a particle take at most
-  [[nodiscard]] Ranks& add_halo(int columns, std::size_t lists);
+  /// Other atoms in place of all that there are, in a box around them that is split anew. @param places by number [m]
+  void renew(const std::vector<Vec3>& places);
+  /// The fix that keeps the solver's columns.
+  [[nodiscard]] Ranks& add_halo(int columns);
   [[nodiscard]] int rank() const { return rank_(); }
   [[nodiscard]] int size() const { return size_(); }
   void abort(int code) const { abort_(code); }  ///< ends all ranks
 
  private:
   void command(const std::string& line);
+  void make_atoms(const std::vector<Vec3>& places);
   template <class F>
   [[nodiscard]] F* function(void* library, const char* name) const;
 
   std::string plugin_path_;
+  std::array<bool, 3> wraps_{};  ///< directions that are periodic for LAMMPS
+  double margin_ = 0.0;          ///< of the box around the particles [m]
   void *library_ = nullptr, *plugin_ = nullptr, *lammps_ = nullptr;
   int (*rank_)() = nullptr, (*size_)() = nullptr;
   void (*abort_)(int) = nullptr;

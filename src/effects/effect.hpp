@@ -29,6 +29,7 @@ struct EffectSpec {
   std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
   std::vector<FieldInfo> reads_if_there{};      ///< of others, where the scene has them
   bool sums_forces = false;                     ///< it reads World::forces of all effects
+  bool changes = false;                         ///< change() may be called of it: wants_change() is asked
   bool skips_sleeping = false;  ///< it looks at no particle that sleeps, and needs the forces on fixed ones in form_fixed() alone
 };
 
@@ -76,7 +77,11 @@ class Effect {
   virtual void bonds(World&) {}
   /// Sets what no step reads of fixed particles, but for what the passes sum (World::forms_fixed): after their density.
   virtual void form_fixed(World&) {}
-  /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in World::change.
+  /// Whether change() has anything to decide; what a particle's state does to it alone is done here first. Each process that
+  /// shares the scene is asked, of its own particles and of what it knows of copies.
+  [[nodiscard]] virtual bool wants_change(World&) { return false; }
+  /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in World::change. It is called where
+  /// wants_change() said so, in any of the processes that share the scene; each of them then holds all of it.
   virtual void change(World&) {}
   /// Follows World::change in the columns that the effect owns.
   virtual void adopt(World&) {}

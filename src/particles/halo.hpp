@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/field.hpp"
 #include "particles/pair_lists.hpp"
@@ -13,6 +14,13 @@ namespace tripoint {
 
 struct PeriodicBox;
 
+/// All particles of a scene and their lists, by number: ids are numbers.
+struct WholeScene {
+  Particles particles;
+  Bonds bonds;
+  OwnPairs own;
+};
+
 /// What a simulation asks of those that hold the rest of its scene, where this process holds a part of it (decision 021). Its
 /// rows are then its own particles and, after them, copies of those of others that are within reach of its own. What a step does
 /// to a particle by itself, all do that see it, with the same bits; its sums over pairs are complete at its owner alone, who
@@ -20,13 +28,19 @@ struct PeriodicBox;
 class Halo {
  public:
   virtual ~Halo() = default;
+  /// Each process holds the whole scene, by number, and all hold the same: of it each keeps its part, as migrate() leaves it.
+  /// More particles than before are taken in.
+  virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) = 0;
+  /// The whole scene, for each process: what share_out() takes again. Parts stay as they are.
+  [[nodiscard]] virtual WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) = 0;
   /// Who has a part of space now is handed what has moved there, and copies of what is within reach of it. Ids are 0..size()-1
   /// anew, those of own particles first; every column goes with its particle, and so do its bonds and own pairs
   /// (moving_lists.hpp): what one of its own has a bond with is among the copies, however far it is. Nobody may change lists of a
   /// scene that is shared out. Of a direction that is split, what is seen across a periodic boundary is a copy at its image's
   /// place.
   virtual void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) = 0;
-  /// Directions in which the scene is split. Across the others each process sees what is periodic by itself.
+  /// Directions in which the scene is split. Across the others each process sees what is periodic by itself. None: this process
+  /// is the only one.
   [[nodiscard]] virtual std::array<bool, 3> splits() const = 0;
   [[nodiscard]] virtual std::size_t owned() const = 0;  ///< particles of its own: ids 0..owned()-1
   /// Copies take these columns from their owners.
@@ -35,6 +49,8 @@ class Halo {
   virtual void refresh(std::span<double> by_id, std::size_t each) = 0;
   /// Each number becomes its sum over all processes, with the same bits for all.
   virtual void add(std::span<double> numbers) = 0;
+  /// Numbers of all processes, one process after the other, for each of them.
+  [[nodiscard]] virtual std::vector<double> all_of(const std::vector<double>& own) = 0;
   /// A number becomes the least of all processes, and the word the one beside it.
   virtual void take_least(double& number, std::string& word) = 0;
   /// Whether this is the one process that tells what all hold alike.

@@ -52,6 +52,12 @@ Neighbours::Neighbours(double support, double skin, const PeriodicBox& box, int 
   }
 }
 
+Neighbours Neighbours::anew(const PeriodicBox& box) const {
+  Neighbours lists(support_, skin_, box, threads_, clusters_.lanes);
+  lists.rebuilds_ = rebuilds_, lists.whole_lists_ = whole_lists_;
+  return lists;
+}
+
 bool Neighbours::outdated(const Particles& particles) const {
   if (!are_made_ || built_.size() != particles.size() || rebuilds_ == 0) return true;
   const auto x = positions(particles);

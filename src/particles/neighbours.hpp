@@ -127,6 +127,9 @@ class Neighbours {
   /// @param rebuilds as counted until then
   void rebuild_from(Particles&, std::span<const Vec3> build_positions, double time, long rebuilds = 1);
 
+  /// Lists like these of another set of particles in another box: none are made yet, and rebuilds are counted on.
+  [[nodiscard]] Neighbours anew(const PeriodicBox&) const;
+
   /// Whether a particle has moved by more than skin/2 since the last lists, or there are none.
   [[nodiscard]] bool outdated(const Particles&) const;
   /// Rows stand for other particles: update() then makes lists whatever has moved.

@@ -286,21 +286,21 @@ Held held_here(const World& world) {
   return held;
 }
 
-/// Of a shared scene, in which no bond begins: what holds together is what the scene has joined.
+/// Of a shared scene each process tells which bodies it has seen, and which of them hold together: of a chain of bodies not each
+/// pair, but one less than there are bodies.
 void add_over_halo(const World& world, Held& held) {
   if (!world.halo) return;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;
-  for (std::uint32_t b = 0; b < world.bodies.size(); ++b) {
-    for (const std::string& name : world.scene.bodies[static_cast<std::size_t>(world.bodies[field::body_source][b])].joined_to)
-      joined.push_back(std::minmax(b, static_cast<std::uint32_t>(body_row(world, name))));
+  Sets here(std::vector<int>(world.bodies.size(), -1));
+  for (const auto& [a, b] : held.pairs) here.unite(a, b);
+  std::vector<double> told;
+  for (std::uint32_t b = 0; b < held.lives.size(); ++b)
+    if (held.lives[b]) told.insert(told.end(), {static_cast<double>(b), static_cast<double>(here.root(b))});
+  const std::vector<double> all = world.halo->all_of(told);
+  for (std::size_t k = 0; k < all.size(); k += 2) {
+    const auto body = static_cast<std::uint32_t>(all[k]), root = static_cast<std::uint32_t>(all[k + 1]);
+    held.lives[body] = 1;
+    if (body != root) held.pairs.insert(std::minmax(body, root));
   }
-  sort_once(joined);
-  std::vector<double> found(held.lives.begin(), held.lives.end());
-  for (const auto& pair : joined) found.push_back(held.pairs.contains(pair) ? 1.0 : 0.0);
-  world.halo->add(found);
-  for (std::size_t b = 0; b < held.lives.size(); ++b) held.lives[b] = found[b] > 0.0;
-  for (std::size_t k = 0; k < joined.size(); ++k)
-    if (found[held.lives.size() + k] > 0.0) held.pairs.insert(joined[k]);
 }
 
 }  // namespace

@@ -199,8 +199,12 @@ Checkpoint Simulation::checkpoint() const {
 }
 
 Checkpoint Simulation::state() const {
+  if (sharing_.is_part(world_)) return state_of(sharing_.whole(world_));
   form_fixed();
-  const World& world = world_;
+  return state_of(world_);
+}
+
+Checkpoint Simulation::state_of(const World& world) const {
   Checkpoint kept;
   kept.text["step/layout"] = layout();
   const bool sleeps = world.particles.moving() < world.particles.size();
@@ -261,6 +265,7 @@ void Simulation::restore(const Checkpoint& kept) {
   const std::vector<double>& guards = take(kept.real, "step/guards", 2);
   guards_.turned_over = guards[0], guards_.first_step = guards[1];
   world_.lagged = {lagged[0], lagged[1], static_cast<int>(lagged[2])};
+  if (options_.halo) sharing_.follow(world_, effects_);
 }
 
 }  // namespace tripoint

@@ -15,9 +15,26 @@ Ledger own_ledger(const World& world, const std::vector<Active>& effects) {
   return sum;
 }
 
+namespace {
+
+/// An entry that one of the processes has, since something stands on its account, all have.
+void add_entries_of_others(const World& world, Ledger& sum) {
+  std::vector<std::string> entries;
+  for (const Force& f : world.forces)
+    if (f.stored && f.stored->released && !f.stored->released_to.empty()) entries.emplace_back(f.stored->released_to);
+  std::vector<double> there;
+  for (const std::string& entry : entries) there.push_back(sum.energy.contains(entry) ? 1.0 : 0.0);
+  world.halo->add(there);
+  for (std::size_t k = 0; k < entries.size(); ++k)
+    if (there[k] > 0.0) sum.energy.try_emplace(entries[k], 0.0);
+}
+
+}  // namespace
+
 Ledger ledger_of_all(const World& world, const std::vector<Active>& effects) {
   Ledger sum = own_ledger(world, effects);
   if (!world.halo) return sum;
+  add_entries_of_others(world, sum);
   std::vector<double> numbers{sum.mass};
   for (const Vec3* v : {&sum.momentum, &sum.angular_momentum}) numbers.insert(numbers.end(), {v->x, v->y, v->z});
   for (const auto& [entry, energy] : sum.energy) numbers.push_back(energy);

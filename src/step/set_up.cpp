@@ -59,17 +59,13 @@ void Simulation::set_up(const Scene& scene, const InitialState& initial) {
   world_.threads = options_.threads;
   world_.axis_order = options_.axis_order;
   world_.box = box_of(scene);
-  world_.halo = options_.halo;
   declare(world_, effects_);
   guards_.still = is_still(scene, initial);
   load(initial);
   enclosure_ = enclosure_of(scene, initial);
-  if (passes_.needed()) {
-    PeriodicBox seen = world_.box;
-    for (std::size_t a = 0; a < 3 && world_.halo; ++a) seen.periodic[a] = seen.periodic[a] && !world_.halo->splits()[a];
-    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), seen,
+  if (passes_.needed())
+    world_.neighbours.emplace(world_.support(), is_static(scene, initial) ? 0.0 : options_.skin * world_.support(), world_.box,
                               options_.threads, passes_.lanes());
-  }
   schedule_ = Schedule(scene.events);
 }
 

@@ -1,24 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "assembly/all_effects.hpp"
 
 namespace tripoint {
 
-/// Shares a scene's particles out among the processes that hold it. @pre World::halo: one process alone has nothing to share
+/// Shares a scene's particles out among the processes that hold it, and brings them together again where something is decided of
+/// the whole (decision 030). Without other processes it does nothing.
 class Sharing {
  public:
   /// @param skin how far a particle may move before it is shared out again, twice over and in support radii
-  explicit Sharing(double skin) : skin_(skin) {}
-  /// Where the lists of one process are outdated, particles go to who has their place now, and all make new lists. All call it.
+  /// @param halo those that hold the rest of the scene; null: there are none
+  Sharing(double skin, Halo* halo) : skin_(skin), halo_(halo) {}
+  /// Whether this process holds a part of the scene and others the rest.
+  [[nodiscard]] bool is_part(const World&) const;
+  /// Whether one of the processes says so. All call it. @pre the scene is shared out
+  [[nodiscard]] bool any(bool here) const;
+  /// Each process holds all of the scene, as one process does, with lists of the present places: what all then do alike keeps
+  /// them alike. What is booked meanwhile stands with the first alone. Nothing where this process holds all already.
+  void gather(World&, const std::vector<Active>&);
+  /// The scene as one process would hold it between two steps, with all that processes have booked.
+  [[nodiscard]] World whole(const World&) const;
+  /// Shares out what this process holds all of. Else, where the lists of one process are outdated, particles go to who has their
+  /// place now, and all make new lists. All call it. @pre there is a halo
   void follow(World&, const std::vector<Active>&);
 
  private:
+  /// What each process has summed of its own part, of a scene that is held by all for now.
+  struct Booked {
+    Bookings accounts;
+    std::vector<double> body_heat;  ///< of each body [J]
+  };
   [[nodiscard]] bool outdated(const World&) const;
+  void share_out(World&);
+  void hold_whole(World&) const;
 
   double skin_;
-  std::vector<Vec3> shared_at_;  ///< by row: where particles were when last shared out [m]; of scenes without neighbour lists
+  Halo* halo_;
+  std::optional<Booked> booked_;  ///< none: nothing yet
+  std::vector<Vec3> shared_at_;   ///< by row: where particles were when last shared out [m]; of scenes without neighbour lists
 };
 
 /// Tells of each row whether it is a copy of another process's particle.

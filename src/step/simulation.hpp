@@ -71,6 +71,7 @@ class Simulation {
   void form_rates();
   void form_fixed() const;
   void change();
+  [[nodiscard]] bool wants_change(const Active&);
   void find_neighbours();
   void correct();
   void check();
@@ -88,6 +89,7 @@ class Simulation {
   // checkpoint.cpp
   [[nodiscard]] std::vector<std::string> layout() const;
   [[nodiscard]] Checkpoint state() const;
+  [[nodiscard]] Checkpoint state_of(const World& whole) const;
   void restore(const Checkpoint&);
   // simulation.cpp
   bool go_towards(double time, const std::function<bool()>& go_on);
@@ -99,7 +101,7 @@ class Simulation {
   ThreadChoice threads_{options_.threads};
   std::vector<Active> effects_;
   Passes passes_;
-  Sharing sharing_{options_.skin};
+  Sharing sharing_{options_.skin, options_.halo};
   Schedule schedule_;
   double dt_ = 0.0;      ///< length of the steps of this stretch [s]
   double pairs_ = 0.0;   ///< directed pairs that rate passes have visited

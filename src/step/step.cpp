@@ -109,16 +109,34 @@ void Simulation::sum(PassName name) {
 void Simulation::change() {
   const StageTimer timer(options_.stage_seconds, Stage::change);
   world_.change = {};
-  for_each_effect(world_, effects_, [&](Effect& effect) { effect.change(world_); });
+  for (const Active& a : effects_) {
+    if (!a.spec.changes || !wants_change(a)) continue;
+    const DeclaredView view(world_, a);
+    a.effect->change(world_);
+  }
   if (world_.change.empty()) return;
   for_each_effect(world_, effects_, [&](Effect& effect) { effect.adopt(world_); });
   for_each_effect(world_, effects_, [&](Effect& effect) { effect.settle(world_); });
   world_.moved = true;
 }
 
+/// Whether an effect has something to decide, in any of the processes that share the scene. Each then holds the whole of it until
+/// it is shared out again, with the lists.
+bool Simulation::wants_change(const Active& a) {
+  bool wants = false;
+  {
+    const DeclaredView view(world_, a);
+    wants = a.effect->wants_change(world_);
+  }
+  if (!world_.halo) return wants;
+  if (!sharing_.any(wants)) return false;
+  sharing_.gather(world_, effects_);
+  return true;
+}
+
 void Simulation::find_neighbours() {
   const StageTimer timer(options_.stage_seconds, Stage::search);
-  if (world_.halo) sharing_.follow(world_, effects_);
+  if (options_.halo) sharing_.follow(world_, effects_);
   if (!world_.neighbours) return;
   world_.neighbours->update(world_.particles, world_.time, [this] { return resting(); });
   if (world_.halo && !world_.neighbours->marked()) mark_copies(world_);
@@ -155,6 +173,7 @@ bool Simulation::leaves_out_first_kick() const { return steps_ == 0 && world_.sc
 void Simulation::happen_until_now() {
   bool any = false;
   while (const Schedule::Moment* const m = schedule_.next_until(world_.time)) {
+    sharing_.gather(world_, effects_);
     const Happening now{world_.scene.events[m->event], m->begins};
     for_each_effect(world_, effects_, [&](Effect& effect) { effect.happen(world_, now); });
     any = true;

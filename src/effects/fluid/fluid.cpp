@@ -128,12 +128,15 @@ void Fluid::set_material(World& world, std::size_t row) const {
 void Fluid::follow_temperature(World& world) const {
   const auto body = world.particles[field::body];
   const auto mu = world.particles[field::viscosity];
+  double changed = 0.0;
   for (std::size_t i = 0; i < body.size(); ++i) {
     if (body[i] < 0) continue;
     const double now = solid_viscosity_(world, i);
-    if (now != mu[i]) world.lagged.viscous_age = 0;
+    if (now != mu[i]) changed = 1.0;
     mu[i] = now;
   }
+  if (world.halo) world.halo->add({&changed, 1});
+  if (changed > 0.0) world.lagged.viscous_age = 0;
 }
 
 /// What the own pairs of a particle add to its number density, once and for all (model 8.2).

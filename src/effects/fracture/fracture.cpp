@@ -2,6 +2,7 @@
 #include "effects/fracture/fracture.hpp"
 
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "effects/fracture/bond_limit.hpp"
@@ -23,8 +24,10 @@ class Fracture : public Effect {
   explicit Fracture(const Scene& scene) : limits_(scene) {}
   void load(World&, const InitialState&) override { unbroken_.clear(); }
   void drift(World&, double dt) override { drifted_ = dt; }
+  [[nodiscard]] bool wants_change(World&) override;
   void change(World&) override;
   void adopt(World&) override { unbroken_.clear(); }
+  void renumber(World&) override { unbroken_.clear(), found_.reset(); }
   void happen(World&, const Happening&) override { unbroken_.clear(); }
   void add_to(const World& world, Ledger& ledger) const override { ledger.energy["fracture"] += world.booked[let_go_by_bonds]; }
 
@@ -33,8 +36,10 @@ class Fracture : public Effect {
 
   BondLimits limits_;
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
+  double back_ = 0.0;     ///< half of that, when bonds were last looked at [s]
   UnbrokenProof unbroken_;
-  std::vector<char> has_broken_;  ///< memory that is used again, by id
+  std::optional<std::vector<Pair>> found_;  ///< by wants_change(), where ids are still the same
+  std::vector<char> has_broken_;            ///< memory that is used again, by id
 };
 
 /// Bonds that are beyond their limit, as lower and higher id, in order. Members of rigid bodies cannot move apart.
@@ -142,14 +147,22 @@ std::vector<std::size_t> bodies_of(const World& world, const std::vector<Pair>& 
   return rows;
 }
 
+/// A bond is in the lists of both its particles: who owns one of them sees it break.
+bool Fracture::wants_change(World& world) {
+  back_ = 0.5 * std::exchange(drifted_, 0.0);
+  found_.reset();
+  if (unbroken_.holds(world)) return false;
+  found_ = broken(world);
+  return !found_->empty();
+}
+
 void Fracture::change(World& world) {
-  const double drifted = std::exchange(drifted_, 0.0);
-  if (unbroken_.holds(world)) return;
-  const std::vector<Pair> pairs = broken(world);
+  if (!found_) found_ = broken(world);
+  const std::vector<Pair> pairs = *std::exchange(found_, {});
   if (pairs.empty()) return;
   // Of the kicks around a drift the first has the force of a bond and the second has not, so it broke half way: what it stored
   // there is what it lets go, to second order in the step.
-  Release release(world, 0.5 * drifted);
+  Release release(world, back_);
   for (const auto& [i, j] : pairs) release.touch(i), release.touch(j);
   for (const auto& [i, j] : pairs) {
     disconnect(world.bonds, i, [&, j = j](const Bond& b) { return b.other == j; });
@@ -171,6 +184,7 @@ EffectSpec spec(const Scene& scene) {
           {fields::position(), fields::velocity(), {field::mass}, fields::deformation(), fields::shapes(), fields::grouping()}),
       {},
       {let_go_by_bonds}};
+  s.changes = true;
   s.reads_if_there = fields::joined({fields::deformation_if_there(), fields::shapes_if_there()});
   return s;
 }

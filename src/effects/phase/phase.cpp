@@ -19,7 +19,9 @@ class PhaseChange : public Effect {
     if (softens_) load_stiffness(world);
   }
   void drift(World&, double dt) override { drifted_ = dt; }
+  [[nodiscard]] bool wants_change(World&) override;
   void change(World&) override;
+  void renumber(World&) override { found_.reset(); }
   void settle(World&) override;
   void happen(World&, const Happening&) override;
   /// The entry is told also where nothing stands on it yet.
@@ -30,6 +32,8 @@ class PhaseChange : public Effect {
  private:
   bool softens_;
   double drifted_ = 0.0;            ///< since the last forces, within a step [s]
+  double back_ = 0.0;               ///< half of that, when events were last looked for [s]
+  std::optional<Events> found_;     ///< by wants_change(), where ids are still the same
   std::optional<Account> account_;  ///< of the step that is being taken
 };
 
@@ -43,19 +47,25 @@ Account::Energy energy_of(const World& world, double back) {
   };
 }
 
-void PhaseChange::change(World& world) {
+bool PhaseChange::wants_change(World& world) {
   account_.reset();
-  const double drifted = std::exchange(drifted_, 0.0);
+  back_ = 0.5 * std::exchange(drifted_, 0.0);
   if (world.neighbours->rebuilds() == 0) {  // the run begins
     world.neighbours->update(world.particles, world.time);
     connect_rigid_bodies(world);
   }
   if (softens_) follow_stiffness(world);
-  const Events events = events_of(world);
+  found_ = events_of(world);
+  return !found_->empty();
+}
+
+void PhaseChange::change(World& world) {
+  if (!found_) found_ = events_of(world);
+  const Events events = *std::exchange(found_, {});
   if (events.empty()) return;
   world.neighbours->update(world.particles, world.time);
   if (!world.neighbours->marked()) world.neighbours->mark_own(world.particles, world.own);  // as they are before the change
-  account_.emplace(energy_of(world, 0.5 * drifted));
+  account_.emplace(energy_of(world, back_));
   carry_out(world, events, *account_);
 }
 
@@ -86,6 +96,7 @@ EffectSpec spec(const Scene& scene) {
                                      fields::shapes(),
                                      fields::deformation_if_there(),
                                      fields::shapes_if_there()});
+  s.changes = true;
   if (any_softens(scene)) s.owns.emplace_back(field::stiffness_share);
   return s;
 }

@@ -2,6 +2,7 @@
 #include "effects/phase/softening.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "solids/fusion.hpp"
 #include "solids/solid_particles.hpp"
@@ -47,6 +48,7 @@ void follow_stiffness(World& world) {
   const Shares share_of(world);
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
+    if (!world.owns(i)) continue;  // a copy's list is not whole
     const double now = share_of(i);
     if (now == share[i] || p[field::liquid_fraction][i] >= 1.0) continue;  // what melts in this step gives all that it stores
     const double before = is_elastic(i) ? solid::deformation_energy(world, forms, id).total() : 0.0;
@@ -56,6 +58,8 @@ void follow_stiffness(World& world) {
     world.booked[account::deformation_released] += released;
     give_heat(world, i, released);
   }
+  world.refresh(std::array{&field::stiffness_share, &field::temperature, &field::liquid_fraction});
+  if (p.has(field::enthalpy)) world.refresh(std::array{&field::enthalpy});
 }
 
 }  // namespace tripoint::phase

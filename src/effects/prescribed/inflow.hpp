@@ -20,6 +20,10 @@ class Entrance {
   [[nodiscard]] double begin_of(long layer) const { return start_ + static_cast<double>(layer) * spacing_ / speed_; }
   /// Whether a particle of a layer is still on its way through the shape.
   [[nodiscard]] bool inside(long layer, double time) const { return (time - begin_of(layer)) * speed_ < depth_; }
+  /// The same of a place [m], of whatever layer; false also where rounding could tell otherwise.
+  [[nodiscard]] bool surely_inside(const Vec3& place) const {
+    return dot(place - section_.front(), velocity_) < (depth_ - 1e-6 * spacing_) * norm(velocity_);
+  }
   [[nodiscard]] const std::vector<Vec3>& section() const { return section_; }  ///< first places of a layer's particles [m]
   [[nodiscard]] const Vec3& velocity() const { return velocity_; }
 

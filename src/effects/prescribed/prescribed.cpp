@@ -2,6 +2,7 @@
 #include "effects/prescribed/prescribed.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "effects/prescribed/inflow.hpp"
 #include "scene/geometry.hpp"
@@ -16,6 +17,7 @@ class Prescribed : public Effect {
  public:
   void load(World&, const InitialState&) override;
   void drift(World&, double dt) override;
+  [[nodiscard]] bool wants_change(World&) override;
   void change(World&) override;
   void adopt(World&) override;
   void happen(World&, const Happening&) override;
@@ -38,6 +40,7 @@ void guide(World& world, std::size_t row, const Vec3& place, const Vec3& velocit
   const auto r = positions(world.particles);
   r.set(row, r.at(row) + way);
   velocities(world.particles).set(row, velocity);
+  if (!world.owns(row)) return;
   world.booked[account::walls] -= energy_of(world, row) - before;
   world.booked[account::driven_potential] -= world.particles[field::mass][row] * dot(world.scene.gravity, way);
 }
@@ -64,6 +67,26 @@ void Prescribed::drift(World& world, double dt) {
     }
     world.moved = true;
   }
+}
+
+/// A part of a shared scene does not know the layers of its particles: it looks whether as many have entered as should have, and
+/// for what is about to leave the shape.
+bool Prescribed::wants_change(World& world) {
+  if (entrances_.empty() || world.copies.empty()) return !entrances_.empty();
+  const auto driven = std::as_const(world.particles)[field::driven];
+  std::vector<double> there(entrances_.size(), 0.0);
+  bool leaves = false;
+  for (std::size_t i = 0; i < driven.size(); ++i) {
+    const int from = inflow_of(world, i);
+    if (from < 0 || !world.owns(i)) continue;
+    there[static_cast<std::size_t>(from)] += 1.0;
+    leaves = leaves || (driven[i] == driven_in && !entrances_[static_cast<std::size_t>(from)].surely_inside(world.unwrapped(i)));
+  }
+  world.halo->add(there);
+  for (std::size_t n = 0; n < entrances_.size(); ++n)
+    leaves = leaves || there[n] < static_cast<double>(entrances_[n].layers_until(world.time)) *
+                                      static_cast<double>(entrances_[n].section().size());
+  return leaves;
 }
 
 /// New layers enter; those that have left the shape are free.
@@ -136,6 +159,7 @@ EffectSpec spec(const Scene& scene) {
                                fields::velocity(),
                                {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
   s.reads_if_there = fields::image();
+  s.changes = !scene.inflows.empty();
   s.skips_sleeping = true;
   s.guarded_entries = {{"inflow", EntryRole::apart}};
   return s;

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What breaks, melts, freezes, flows in or is made to happen over MPI ranks, and checkpoints of them, beside one process.
+#include "adapters/changing_scenes.hpp"
+#include "adapters/ranks_lab.hpp"
+
+namespace tripoint {
+namespace {
+
+using namespace test::ranks;
+using test::Outcome, test::Prepared;
+
+/// @return the run over two ranks
+Outcome expect_changes_equal(const Prepared& p) {
+  const Outcome one = test::run(one_process, p);
+  Outcome two;
+  for (const int count : {1, 2, 4}) {
+    SCOPED_TRACE(std::to_string(count) + " ranks");
+    Outcome many = run_on(count, p);
+    expect_equal(one, many, count == 1 ? alone : shared);
+    EXPECT_EQ(many.result.extra.at("gatherings") > 0.0, count > 1) << "several decide of the whole, one holds it";
+    if (count == 2) two = std::move(many);
+  }
+  return two;
+}
+
+void expect_kept(const Outcome& out) {
+  const Snapshot &start = out.trajectory.frames.front(), &end = out.trajectory.frames.back();
+  EXPECT_LT(norm(end.momentum - start.momentum), 1e-11 * norm(start.momentum));
+  EXPECT_LT(norm(end.angular_momentum - start.angular_momentum), 1e-11 * norm(start.angular_momentum));
+  EXPECT_NEAR(end.total_mass, start.total_mass, 1e-12 * start.total_mass);
+}
+
+TEST(Ranks, TearBarsAsOneProcessDoes) {
+  NEEDS_RANKS();
+  const Outcome two = expect_changes_equal(test::brittle_bar(true, Mode::corrected));
+  expect_kept(two);
+  EXPECT_GE(two.trajectory.frames.back().counts.at("objects"), 2.0);
+}
+
+TEST(Ranks, MeltFreezeMergeAndSplitAsOneProcessDoes) {
+  NEEDS_RANKS();
+  const Outcome two = expect_changes_equal(test::merging_and_splitting("rigid"));
+  expect_kept(two);
+  EXPECT_EQ(two.trajectory.frames.front().counts.at("objects"), 3.0);
+  EXPECT_EQ(two.trajectory.frames.back().counts.at("objects"), 3.0) << "two became one, and one two";
+  EXPECT_GT(two.trajectory.frames.back().bodies.size(), 3u) << "a row of its own for what was cut off";
+}
+
+TEST(Ranks, SoftenAsOneProcessDoes) {
+  NEEDS_RANKS();
+  expect_equal_on_ranks(test::warm_rubber());
+}
+
+TEST(Ranks, LetEventsHappenAndLiquidFlowInAsOneProcessDoes) {
+  NEEDS_RANKS();
+  const Outcome two = expect_changes_equal(test::eventful());
+  EXPECT_GT(two.trajectory.frames.back().total_mass, 1.3 * two.trajectory.frames.front().total_mass);
+}
+
+/// Goes on from the only checkpoint of another run, on that many ranks; 0: in one process of the engine tripoint.
+Outcome go_on(const test::Folder& from, Prepared p, int count) {
+  namespace fs = std::filesystem;
+  const test::Folder folder;
+  for (const auto& entry : fs::directory_iterator(from.at("."))) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("checkpoint")) p.job.resume = name;
+    if (name.starts_with("checkpoint") || name == "trajectory.h5") fs::copy(entry.path(), folder.at(name));
+  }
+  if (count > 0) p.job.settings["ranks"] = static_cast<double>(count);
+  write_particles(folder.at("particles.h5"), p.initial);
+  write_job(folder.at("job.json"), p.job);
+  Outcome out;
+  out.exit_code = test::shell("'" + (count > 0 ? over_ranks : one_process) + "' --run '" + folder.at("job.json") + "' 2> '" +
+                              folder.at("stderr") + "'");
+  out.result = read_result(folder.at("result.json"));
+  if (out.exit_code == 0) out.trajectory = read_trajectory(folder.at("trajectory.h5"));
+  return out;
+}
+
+TEST(Ranks, GoOnFromACheckpointOnAnyNumberOfThem) {
+  NEEDS_RANKS();
+  for (Prepared p : {test::brittle_bar(true, Mode::corrected), test::merging_and_splitting("rigid")}) {
+    const Outcome unbroken = run_on(2, p);
+    ASSERT_EQ(unbroken.exit_code, 0) << unbroken.result.message;
+    p.job.settings["checkpoint_interval"] = 0.55 * p.job.scene.end_time;
+    p.job.settings["ranks"] = 2.0;
+    const test::Folder folder;
+    write_particles(folder.at("particles.h5"), p.initial);
+    write_job(folder.at("job.json"), p.job);
+    ASSERT_EQ(test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'"), 0);
+    EXPECT_EQ(read_result(folder.at("result.json")).state_hash, unbroken.result.state_hash) << "a checkpoint changes no bit";
+    for (const int count : {1, 2, 4}) {
+      SCOPED_TRACE(std::to_string(count) + " ranks");
+      const Outcome rest = go_on(folder, p, count);
+      ASSERT_EQ(rest.exit_code, 0) << rest.result.message;
+      EXPECT_GT(rest.result.extra.at("resumed_at"), 0.5 * p.job.scene.end_time);
+      expect_equal(unbroken, rest, shared);
+    }
+  }
+}
+
+TEST(Ranks, RefuseACheckpointOfAnotherScene) {
+  NEEDS_RANKS();
+  Prepared p = test::brittle_bar(false, Mode::corrected);
+  p.job.settings["checkpoint_interval"] = 0.55 * p.job.scene.end_time;
+  p.job.settings["ranks"] = 2.0;
+  const test::Folder folder;
+  write_particles(folder.at("particles.h5"), p.initial);
+  write_job(folder.at("job.json"), p.job);
+  ASSERT_EQ(test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") + "'"), 0);
+  p.job.scene.materials[0].density = 999.0;
+  const Outcome refused = go_on(folder, p, 2);
+  EXPECT_EQ(refused.exit_code, 4);
+  EXPECT_NE(refused.result.message.find("is of another scene"), std::string::npos) << refused.result.message;
+}
+
+}  // namespace
+}  // namespace tripoint

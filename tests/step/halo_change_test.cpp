@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is decided of a whole scene, while it is shared out: what breaks, melts, freezes, flows in or is made to happen.
+#include <gtest/gtest.h>
+
+#include "adapters/changing_scenes.hpp"
+#include "step/slab_halo.hpp"
+
+namespace tripoint {
+namespace {
+
+using lab::far, lab::greatest_difference, lab::Seen, lab::seen_shared, lab::seen_whole;
+using test::brittle_bar, test::eventful, test::merging_and_splitting;
+
+constexpr double rounding = 1e-10;  ///< of sums in another order, over some hundred steps; of 1 in the scenes' own units
+
+void expect_same(const Seen& whole, const Seen& shared) {
+  ASSERT_EQ(whole.position.size(), shared.position.size());
+  EXPECT_LT(greatest_difference(whole.position, shared.position), rounding);
+  EXPECT_LT(greatest_difference(whole.velocity, shared.velocity), rounding);
+  EXPECT_EQ(whole.phase, shared.phase);
+  EXPECT_EQ(whole.body, shared.body);
+  EXPECT_EQ(whole.names, shared.names);
+  EXPECT_EQ(whole.alive, shared.alive);
+  EXPECT_EQ(whole.objects, shared.objects);
+  double size = 0.0;
+  for (const auto& [entry, joule] : whole.ledger.energy) size = std::max(size, std::abs(joule));
+  for (const auto& [entry, joule] : whole.ledger.energy)
+    EXPECT_NEAR(joule, shared.ledger.energy.at(entry), rounding * size) << entry;
+  EXPECT_NEAR(norm(whole.ledger.momentum - shared.ledger.momentum), 0.0, rounding);
+  EXPECT_NEAR(norm(whole.ledger.angular_momentum - shared.ledger.angular_momentum), 0.0, rounding);
+}
+
+/// Over one slab, two and four. @return of two
+Seen expect_same_shared(const test::Prepared& p, const Seen& whole, double border) {
+  Seen two;
+  for (const std::vector<double>& planes :
+       {std::vector<double>{-far, far}, {-far, border, far}, {-far, border - 0.021, border - 0.004, border + 0.02, far}}) {
+    SCOPED_TRACE(std::to_string(planes.size() - 1) + " slabs");
+    Seen shared = seen_shared(p, planes);
+    expect_same(whole, shared);
+    EXPECT_GT(shared.gatherings, 1) << "beside that of the checkpoint";
+    if (planes.size() == 3) two = std::move(shared);
+  }
+  return two;
+}
+
+TEST(Halo, ABarThatIsSharedTearsAsTheWholeDoes) {
+  for (const bool flows : {false, true}) {
+    SCOPED_TRACE(flows ? "ductile" : "brittle");
+    const test::Prepared p = brittle_bar(flows, Mode::corrected);
+    const Seen whole = seen_whole(p);
+    EXPECT_GE(whole.objects, 2u);
+    EXPECT_GT(whole.ledger.energy.at("fracture"), 1e-4);
+    expect_same_shared(p, whole, 0.012);
+  }
+}
+
+TEST(Halo, ABarThatIsSharedTearsAsPrinted) {
+  const test::Prepared p = brittle_bar(false, Mode::paper);
+  const Seen whole = seen_whole(p);
+  EXPECT_GT(whole.ledger.energy.at("fracture"), 1e-4);
+  expect_same_shared(p, whole, 0.012);
+}
+
+TEST(Halo, WhatMeltsAndFreezesMakesTheSameBodiesWhereItIsShared) {
+  for (const char* solid : {"rigid", "elastic"}) {
+    SCOPED_TRACE(solid);
+    const test::Prepared p = merging_and_splitting(solid);
+    const Seen whole = seen_whole(p);
+    EXPECT_EQ(std::ranges::count(whole.alive, 1), 3) << "two became one, and one two";
+    expect_same_shared(p, whole, 0.0036);
+  }
+}
+
+TEST(Halo, WhatSoftensIsAsSoftWhereItIsShared) {
+  const test::Prepared p = test::warm_rubber();
+  const Seen whole = seen_whole(p);
+  const Seen two = seen_shared(p, {-far, 0.062, far});
+  expect_same(whole, two);
+  EXPECT_EQ(two.gatherings, 1) << "that of the checkpoint: nothing changes its body";
+}
+
+TEST(Halo, EventsAndInflowDoTheSameWhereTheSceneIsShared) {
+  const test::Prepared p = eventful();
+  const Seen whole = seen_whole(p);
+  EXPECT_GT(whole.position.size(), p.initial.size() + 50);
+  EXPECT_EQ(std::ranges::count(whole.alive, 1), 2);
+  for (const double border : {0.025, 0.22, 0.3}) {
+    SCOPED_TRACE("border at " + std::to_string(border));
+    expect_same(whole, seen_shared(p, {-far, border, far}));
+  }
+}
+
+/// A run that is cut over two slabs goes on in one process, over two slabs and over four.
+TEST(Halo, ACheckpointOfASharedSceneIsOneOfTheWhole) {
+  for (const test::Prepared& p : {brittle_bar(true, Mode::corrected), merging_and_splitting("elastic"), eventful()}) {
+    const Seen whole = seen_whole(p);
+    const double border = p.job.scene.inflows.empty() ? 0.0036 : 0.22;
+    const Seen cut = seen_shared(p, {-far, border, far});
+    ASSERT_FALSE(cut.kept.real.empty());
+    for (const auto& [name, values] : whole.kept.real) EXPECT_EQ(cut.kept.real.at(name).size(), values.size()) << name;
+    expect_same(whole, seen_whole(p, &cut.kept));
+    expect_same(whole, seen_shared(p, {-far, border, far}, "", &cut.kept));
+    expect_same(whole, seen_shared(p, {-far, border - 0.003, border, border + 0.004, far}, "", &cut.kept));
+    expect_same(whole, seen_shared(p, {-far, border, far}, "", &whole.kept));
+  }
+}
+
+}  // namespace
+}  // namespace tripoint
