@@ -34,7 +34,8 @@ void check_solid_keys(TableReader& in, const Material& m) {
   if (m.t_solid && !m.t_melt) in.refuse("t_solid", "without t_melt the material does not melt: give t_melt too");
   if (m.latent_heat && !m.t_melt) in.refuse("latent_heat", "without t_melt the material does not melt: give t_melt too");
   if (m.t_solid && *m.t_solid > *m.t_melt)
-    in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt",
+    in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt; "
+                                     "give a t_solid of at most t_melt",
                                      *m.t_solid, *m.t_melt));
   if (m.plastic_limit && !m.elastic_limit)
     in.refuse("plastic_limit", "without elastic_limit nothing flows: give elastic_limit too");
