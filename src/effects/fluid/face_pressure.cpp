@@ -67,7 +67,8 @@ void FacePressure::find(const World& world) {
     start_.push_back(pairs_.size());
   }
   bonded_.clear();
-  const auto is_loaded = [&](std::size_t row) { return elastic_[row] && pressed[row]; };
+  // What presses on a copy may be known to its owner alone.
+  const auto is_loaded = [&](std::size_t row) { return elastic_[row] && (pressed[row] || !world.owns(row)); };
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     const auto list = world.bonds.of(static_cast<std::size_t>(id[i]));
     if (is_loaded(i) || std::ranges::any_of(list, [&](const Bond& b) { return is_loaded(p.row(b.other)); })) bonded_.push_back(i);
