@@ -108,10 +108,7 @@ class Fluid : public Effect {
 };
 
 void Fluid::load(World& world, const InitialState&) {
-  for (std::size_t i = 0; i < world.particles.size(); ++i) {
-    set_material(world, i);
-    set_own_density(world, i);
-  }
+  for (std::size_t i = 0; i < world.particles.size(); ++i) set_material(world, i), set_own_density(world, i);
   set_groups(world);
 }
 
