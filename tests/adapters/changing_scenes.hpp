@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "adapters/scenes.hpp"
+#include "scene/shared_terms.hpp"
 
 /// Scenes in which bonds, bodies, phases or particles change, in the middle and elsewhere along x: what is decided of the whole.
 namespace tripoint::test {

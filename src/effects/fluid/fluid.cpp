@@ -6,8 +6,10 @@
 
 #include "core/machine.hpp"
 #include "effects/fluid/bulk_viscosity.hpp"
+#include "effects/fluid/face_pressure.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
+#include "effects/fluid/interface_weight.hpp"
 #include "effects/fluid/laid_walls.hpp"
 #include "effects/fluid/phase_jump.hpp"
 #include "effects/fluid/solid_viscosity.hpp"
@@ -66,6 +68,8 @@ class Fluid : public Effect {
         mirrors_(mirrors_velocities(scene)),
         averages_(numbers_.averages_walls && can_have_walls(scene)),
         lays_walls_(averages_ && has_laid_walls(scene)),
+        faces_(scene),
+        interfaces_(scene),
         solid_viscosity_(scene) {}
   void load(World&, const InitialState&) override;
   void kick(World&, double dt) override;
@@ -80,7 +84,7 @@ class Fluid : public Effect {
   void check(const World& world) const override { refuse_overlap(world, numbers_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World& world, Ledger& ledger) const override {
-    if (stores_compression(world.scene)) add_fluid(world, numbers_, kernels_, ledger);
+    if (stores_compression(world.scene)) add_fluid(world, numbers_, kernels_, interfaces_, ledger);
     if (damps_) ledger.energy["bulk_viscous"] += world.booked[taken_by_bulk_viscosity];
   }
   [[nodiscard]] PairWork pair_work(const Scene&) const override;
@@ -89,7 +93,7 @@ class Fluid : public Effect {
   void set_material(World&, std::size_t row) const;
   void set_own_density(World&, std::size_t row) const;
   void set_groups(World&);
-  void clear_walls() { walls_.clear(), laid_.clear(); }
+  void clear_walls() { walls_.clear(), laid_.clear(), faces_.clear(), interfaces_.clear(); }
   void follow_temperature(World&) const;
 
   SceneNumbers numbers_;
@@ -102,14 +106,13 @@ class Fluid : public Effect {
   bool lays_walls_;       ///< liquid feels fixed walls from their lattice
   Walls walls_;
   LaidWalls laid_;
+  FacePressure faces_;
+  InterfaceWeight interfaces_;
   SolidViscosity solid_viscosity_;
 };
 
 void Fluid::load(World& world, const InitialState&) {
-  for (std::size_t i = 0; i < world.particles.size(); ++i) {
-    set_material(world, i);
-    set_own_density(world, i);
-  }
+  for (std::size_t i = 0; i < world.particles.size(); ++i) set_material(world, i), set_own_density(world, i);
   set_groups(world);
 }
 
@@ -201,6 +204,7 @@ void Fluid::clear(World& world, PassName pass) {
 void Fluid::state(World& world) {
   if (world.moved) {
     if (lays_walls_) laid_.lay_densities(world, kernels_);
+    if (faces_.acts()) faces_.add_densities(world, kernels_);
     set_density(world, numbers_);
     if (averages_) walls_.average_density(world, numbers_, kernels_);
   }
@@ -218,6 +222,8 @@ void Fluid::state(World& world) {
 /// Once the pass has summed the pressure of all pairs from where they are.
 void Fluid::bonds(World& world) {
   if (lays_walls_) laid_.lay_forces(world, kernels_);
+  if (faces_.acts()) faces_.add_forces(world);
+  if (interfaces_.acts()) interfaces_.add_forces(world, kernels_);
 }
 
 void Fluid::form_fixed(World& world) {
@@ -286,6 +292,7 @@ EffectSpec spec(const Scene& scene) {
       fields::joined(
           {fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
   s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
+  if (FacePressure(scene).acts()) s.reads = fields::joined({s.reads, fields::deformation()});
   s.sums_forces = true;
   s.skips_sleeping = !scene.transport_velocity;
   const bool damps = bulk_viscosity(scene) > 0.0;

@@ -91,6 +91,13 @@ std::vector<EffectKey> keys() {
        {},
        no_contact_stiffness,
        true},
+      {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles across need it little", "",
+        "share of 0 to 1 with which pressure on an elastic solid acts at its face, and not at the middles of its outer particles "
+        "(model "
+        "8.3). Only where density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
+       {},
+       no_face_pressure,
+       true},
       {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "",
         "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
         "density, pressure and state are corrected, and nothing freezes"},
@@ -110,6 +117,15 @@ std::vector<EffectKey> keys() {
         "clamps, density, pressure and state are corrected, nothing freezes, and no body is free"},
        {},
        no_surface_weight,
+       true},
+      {{"scene", "interface_weight", number, "", fraction, "0", "it is for layers that lie on each other, heavy below light", "",
+        "share of 0 to 1 of the energy of pairs of unlike liquids that makes the pressure right on both sides of a level "
+        "interface "
+        "(model 8.3). Only where density, pressure and state are corrected, the scene clamps, nothing freezes, and liquids of "
+        "two "
+        "densities have a weight"},
+       {},
+       no_interface_weight,
        true},
       {{"material", "stiffness", number, "m2/s2", positive, "",
         "taken from the speeds of the scene, or from elastic moduli, where something flows or solids can meet", "",
@@ -161,6 +177,16 @@ std::string no_surface_weight(const Scene& scene) {
   return no_bulk_viscosity(scene);
 }
 
+std::string no_interface_weight(const Scene& scene) {
+  if (pressing_gravity(scene) == Vec3{}) return "gravity presses nothing down";
+  std::vector<double> densities;
+  for (const Body& b : scene.bodies)
+    if (b.phase == Phase::liquid) densities.push_back(scene.material(b.material).density);
+  for (const Inflow& f : scene.inflows) densities.push_back(scene.material(f.material).density);
+  if (std::ranges::all_of(densities, [&](double rho) { return rho == densities.front(); })) return "all liquids are as heavy";
+  return no_bulk_viscosity(scene);
+}
+
 std::string no_isotropic_shear(const Scene& s) {
   if (s.mode_of(term::viscosity) == Mode::paper) return "viscosity is as printed";
   if (s.viscosity_form != "central") return "the viscosity is not central";
@@ -179,6 +205,14 @@ std::string no_contact_stiffness(const Scene& s) {
     return b.phase != Phase::liquid && b.motion == Motion::free;
   };
   return any_body(s, free_solid) ? "" : "no solid is free to touch another";
+}
+
+std::string no_face_pressure(const Scene& s) {
+  for (const Term term : {term::density, term::pressure, term::state, term::elastic})
+    if (s.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", to_string(term));
+  if (!calls_for(s, "elastic")) return "nothing elastic moves";
+  if (calls_for(s, "phase")) return "where matter melts or freezes, its shape of reference changes at once";
+  return calls_for(s, "fracture") ? "where bonds break, the shape of reference changes at once" : "";
 }
 
 EffectRule rule() {
