@@ -247,6 +247,7 @@ def main():
     words.add_argument("--list", action="store_true")
     words.add_argument("--at", action="append", help="one mutant, as --list names it: FILE:LINE:COLUMN: OPERATOR")
     asked = words.parse_args()
+    asked.build = str(Path(asked.build).resolve())  # the compiler is started in it
     rooms = asked.room or sorted(ROOMS)
     every = all_mutants(rooms)
     chosen = [m for m in every if str(m) in asked.at] if asked.at else sample(every, asked.count, asked.seed)
