@@ -209,7 +209,7 @@ std::string no_contact_stiffness(const Scene& s) {
 
 std::string no_face_pressure(const Scene& s) {
   for (const Term term : {term::density, term::pressure, term::state, term::elastic})
-    if (s.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", to_string(term));
+    if (s.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", term.name);
   if (!calls_for(s, "elastic")) return "nothing elastic moves";
   if (calls_for(s, "phase")) return "where matter melts or freezes, its shape of reference changes at once";
   return calls_for(s, "fracture") ? "where bonds break, the shape of reference changes at once" : "";
