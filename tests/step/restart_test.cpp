@@ -133,6 +133,24 @@ Journey liquid_with_body(const std::string& form = "central", bool with_body = t
   return {lab, {0.03, 0.1, 0.16}};
 }
 
+/// Two liquids on a floor, and a soft cube in the upper one, pressed at its faces.
+Journey two_liquids_with_a_soft_cube() {
+  Journey j = liquid_with_body("central", false);
+  lab::Lab& lab = j.lab;
+  lab.scene.values["face_pressure"] = lab.scene.values["interface_weight"] = 1.0;
+  lab.scene.materials[1].young_modulus = 1e4, lab.scene.materials[1].poisson_ratio = 0.3,
+  lab.scene.materials[1].solid = "elastic";
+  lab.add({.name = "oil", .material = 1, .corner = {0.0, 0.0, 0.4}, .count = {6, 6, 3}, .phase = Phase::liquid});
+  lab.add({.name = "cube",
+           .material = 1,
+           .corner = {0.06, 0.06, 0.54},
+           .count = {3, 3, 3},
+           .phase = Phase::elastic,
+           .velocity = {0.0, 0.0, -1.0}});
+  j.times = {0.03, 0.08};
+  return j;
+}
+
 /// Two fixed blocks, one held hot: the other melts, and conducts and holds heat otherwise when it has.
 Journey melting_of_unlike_phases() {
   lab::Lab lab(0.1);
@@ -187,6 +205,13 @@ TEST(Restart, OfALiquidWithAFreeBodyIsTheUnbrokenRun) {
   EXPECT_GT(unbroken(j, 1).end.whole.at("neighbours/rebuilds")[0], 2)
       << "the lists must have been built anew for this to prove anything";
   expect_same_bits(j, 3);
+}
+
+TEST(Restart, OfLiquidsOfTwoDensitiesAndASoftCubeInThemIsTheUnbrokenRun) {
+  const Journey j = two_liquids_with_a_soft_cube();
+  EXPECT_GT(unbroken(j, 1).end.whole.at("neighbours/rebuilds")[0], 2)
+      << "the lists must have been built anew for this to prove anything";
+  expect_same_bits(j, 8);
 }
 
 TEST(Restart, OfMeltingWithUnlikePhasesIsTheUnbrokenRun) {
