@@ -13,6 +13,13 @@ function(tripoint_room name)
   target_link_libraries(tripoint_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE} tripoint::warnings)
 endfunction()
 
+# FOLDER/all_pair_slots.hpp, which includes the headers of all effects that have pair terms: tripoint_pair_slots(FOLDER effects/NAME/pair_slots.hpp ...)
+function(tripoint_pair_slots folder)
+  list(TRANSFORM ARGN REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE lines)
+  list(JOIN lines "" text)
+  file(CONFIGURE OUTPUT ${folder}/all_pair_slots.hpp CONTENT "${text}" @ONLY)
+endfunction()
+
 # Adds FILES to a room once for each vector unit; code chooses at run time (core/machine.hpp). At -O1 at least: unoptimised, shared
 # inline functions of such a file could be taken for the whole program.
 # tripoint_units(TARGET a.cpp ... [DEFECTS]); DEFECTS: as the test build has them

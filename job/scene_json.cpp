@@ -186,7 +186,7 @@ Owner from_kind_json(const JsonObject& o) {
 // --- materials, bodies, events ----------------------------------------------------------------------------------------
 
 json material_json(const Material& m) {
-  json out = beginning_with({"name", "density", "solid"});
+  json out = beginning_with({"name", "density", "solid", "stiffness", "solid_conductivity", "solid_heat_capacity"});
   put_record(m, out);
   put_effect_values(m, "material", out);
   return out;
@@ -250,7 +250,7 @@ void take_list(const JsonObject& o, const std::string& name, std::vector<T>& lis
 
 json modes_json(const Scene& s) {
   json modes = json::object();
-  for (std::size_t k = 0; k < term_count; ++k) modes[std::string(to_string(static_cast<Term>(k)))] = to_string(s.modes[k]);
+  for (const DeclaredTerm& one : declared_terms()) modes[std::string(one.term.name)] = to_string(s.mode_of(one.term));
   return modes;
 }
 
@@ -275,8 +275,8 @@ void scene_from_json(const json& value, Scene& s, std::vector<JobBody>& bodies) 
   const JsonObject o(value, "scene");
   take_record(o, s);
   const JsonObject modes = o.object("modes");
-  for (std::size_t k = 0; k < term_count; ++k)
-    s.modes[k] = mode_from(modes.text_or(std::string(to_string(static_cast<Term>(k))), std::string(to_string(s.mode))));
+  for (const DeclaredTerm& one : declared_terms())
+    s.modes[one.term] = mode_from(modes.text_or(std::string(one.term.name), std::string(to_string(s.mode))));
   take_effect_values(o, "scene", s);
   for (const JsonObject& m : o.objects("materials")) s.materials.push_back(material_from(m));
   for (const JsonObject& b : o.objects("bodies")) body_from(b, s, bodies);

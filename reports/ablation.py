@@ -21,6 +21,8 @@ MEANS = {
     "bending": "gradients at surfaces that are exact for curved displacements (8.7), which the paper does not have",
     "contact_stiffness": "solids that are stiffer than liquids where they touch (8.3), which the paper does not have",
     "core_reach": "core that keeps pairs apart where the clamp leaves no pressure (8.3), which the paper does not have",
+    "face_pressure": "pressure on elastic solids at their face and not at the middles of their outer particles (8.3), which the paper does not have",
+    "interface_weight": "pressure that is right on both sides of a level interface (8.3), which the paper does not have",
     "isotropic_shear": "central viscosity that resists shear alike in all directions of the lattice (8.5), which the paper does not have",
     "surface_weight": "pressure of half a layer's weight at a free surface (8.3), which the paper does not have"}
 

@@ -13,7 +13,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/effect_rule.hpp"
+#include "validation/case/ablation.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
@@ -40,61 +40,6 @@ struct Options {
   std::string out = own_folder("ablate", "");
   int jobs = 1;
 };
-
-/// Terms of two forms that act in a scene: those of the effects that it calls for, and the time scheme.
-std::vector<Term> terms_of(const Scene& scene) {
-  std::vector<Term> terms;
-  for (const EffectRule& rule : effect_rules())
-    if (calls_for(scene, rule.name)) terms.insert(terms.end(), rule.terms.begin(), rule.terms.end());
-  if (!terms.empty()) terms.push_back(Term::time);
-  std::sort(terms.begin(), terms.end());
-  terms.erase(std::unique(terms.begin(), terms.end()), terms.end());
-  return terms;
-}
-
-/// One thing that is put back to what the paper has, a row each.
-struct Piece {
-  std::string name;                  ///< of the term, or of the key
-  std::optional<Term> term{};        ///< as printed; none: the term of a key is left out
-  const EffectRule* rule = nullptr;  ///< whose key it is
-  const EffectKey* key = nullptr;
-};
-
-std::vector<Piece> all_pieces() {
-  std::vector<Piece> pieces;
-  for (std::size_t t = 0; t < term_count; ++t)
-    pieces.push_back({std::string(to_string(static_cast<Term>(t))), static_cast<Term>(t)});
-  for (const EffectRule& rule : effect_rules())
-    for (const EffectKey& key : rule.keys)
-      if (key.ablated) pieces.push_back({std::string(key.row.name), {}, &rule, &key});
-  return pieces;
-}
-
-/// Whether the piece can act in the scene. What acts nowhere after all has no row: its runs have the bits of the corrected ones.
-bool can_act(const Piece& piece, const Scene& scene) {
-  if (!piece.term)
-    return kept_number(scene.values, piece.key->row) != 0.0 && calls_for(scene, piece.rule->name) &&
-           (!piece.key->idle || piece.key->idle(scene).empty());
-  const auto terms = terms_of(scene);
-  return std::find(terms.begin(), terms.end(), *piece.term) != terms.end();
-}
-
-/// The case at its own resolution, fully corrected.
-Case corrected(Case value) {
-  value.modes = {Mode::corrected};
-  value.scene.mode = Mode::corrected;
-  value.scene.modes_given = {};
-  value.studies.clear(), value.gates.clear(), value.inputs.clear();
-  return value;
-}
-
-Case without(const Piece& piece, Case value) {
-  if (piece.term)
-    value.scene.modes_given[static_cast<std::size_t>(*piece.term)] = Mode::paper;
-  else
-    value.scene.values[std::string(piece.key->row.name)] = 0.0;
-  return value;
-}
 
 using Json = nlohmann::ordered_json;
 
@@ -136,7 +81,7 @@ std::vector<Case> cases_of(const Options& o) {
   std::vector<Case> cases;
   for (auto& c : select_cases(o.filter)) {
     const bool runs_so = std::find(c.modes.begin(), c.modes.end(), Mode::corrected) != c.modes.end();
-    if (runs_so && c.expect != Expect::diverges && !terms_of(c.scene).empty()) cases.push_back(corrected(std::move(c)));
+    if (runs_so && c.expect != Expect::diverges && !acting_terms(c.scene).empty()) cases.push_back(corrected(std::move(c)));
   }
   if (cases.empty()) throw InputError("ablate: no case runs corrected");
   return cases;
@@ -146,7 +91,7 @@ std::vector<Case> cases_of(const Options& o) {
 std::map<std::string, Json> runs_without_pieces(const std::vector<Case>& cases, const std::map<std::string, Json>& base,
                                                 const Options& o) {
   std::map<std::string, Json> found;
-  for (const Piece& piece : all_pieces()) {
+  for (const Correction& piece : corrections()) {
     if (interrupted()) break;
     std::vector<Case> chosen;
     for (const auto& c : cases)

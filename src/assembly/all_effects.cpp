@@ -198,6 +198,7 @@ void declare(World& world, const std::vector<Active>& effects) {
     for (const Account& one : a.spec.numerical) world.booked.open(one);
     world.numerical.insert(world.numerical.end(), a.spec.numerical.begin(), a.spec.numerical.end());
     world.guarded.insert(world.guarded.end(), a.spec.guards.begin(), a.spec.guards.end());
+    world.guarded_entries.insert(world.guarded_entries.end(), a.spec.guarded_entries.begin(), a.spec.guarded_entries.end());
   }
   std::ranges::stable_sort(world.guarded, {}, &Guarded::written);
 }

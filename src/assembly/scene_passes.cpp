@@ -3,34 +3,58 @@
 
 #include <algorithm>
 
-#include "effects/fluid/material_numbers.hpp"
-#include "effects/fluid/walls.hpp"
 #include "passes/busy_clusters.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
-#include "scene/temperatures.hpp"
 
 namespace tripoint {
 namespace {
 
-/// Place of a form in its slot: 0 = off, 1 = as printed, 2 = corrected.
-int form_of(const Scene& scene, const std::vector<Active>& effects, std::string_view effect, Term term) {
-  if (std::ranges::find(effects, effect, &Active::name) == effects.end()) return 0;
-  return scene.mode_of(term) == Mode::paper ? 1 : 2;
+/// What all effects of a scene ask of the passes.
+struct AllWork {
+  std::vector<PairTerm> terms, again;
+  bool any_acts = false;   ///< an effect's terms add something where pairs act on each other alone
+  bool meets_all = false;  ///< a term works on every pair, whatever meets there
+  bool leaves_own_pairs = false;
+  const PairKernels* kernels = nullptr;
+  double awake_around = 0.0;  ///< [m]
+
+  void add(const PairWork& w) {
+    terms.insert(terms.end(), w.terms.begin(), w.terms.end());
+    if (w.again) again.insert(again.end(), w.terms.begin(), w.terms.end());
+    any_acts = any_acts || w.where_it_acts;
+    meets_all = meets_all || (!w.terms.empty() && !w.where_it_acts);
+    leaves_own_pairs = leaves_own_pairs || w.leaves_own_pairs;
+    if (w.kernels) kernels = w.kernels;
+    awake_around = std::max(awake_around, w.awake_around);
+  }
+};
+
+/// @throws InputError where an effect asks for a term that no pass has
+AllWork work_of(const Scene& scene, const std::vector<Active>& effects) {
+  const PairPasses passes = pair_passes(1);
+  AllWork all;
+  for (const Active& a : effects) {
+    const PairWork work = a.effect->pair_work(scene);
+    if (passes.density(work.terms).terms + passes.rates(work.terms).terms != work.terms.size())
+      throw InputError("the effect " + a.name + " asks for pair terms that its pair_slots.hpp does not bring");
+    all.add(work);
+  }
+  all.meets_all = all.meets_all || !all.any_acts;
+  return all;
 }
 
 /// Fixed particles may sleep where every effect of the scene skips those that do, and no term works on every pair.
-std::optional<double> sleeps_beyond(const Scene& scene, const std::vector<Active>& effects, bool meets_all) {
+std::optional<double> sleeps_beyond(const AllWork& work, const std::vector<Active>& effects) {
   const bool all_skip = std::ranges::all_of(effects, [](const Active& a) { return a.spec.skips_sleeping; });
-  if (meets_all || scene.transport_velocity || !all_skip) return {};
-  return fluid::numbers_of(scene).averages_walls ? fluid::reach_of_patches * scene.spacing : 0.0;
+  return work.meets_all || !all_skip ? std::nullopt : std::optional(work.awake_around);
 }
 
 }  // namespace
 
 struct Passes::Impl {
   int lanes;
-  PassFunction density, rates, heat;
+  PassFunction density, rates, again;
   PairKernels kernels;
   bool meets_all;   ///< a term works on every pair, whatever meets there
   bool leaves_own;  ///< the density leaves own pairs out
@@ -39,19 +63,13 @@ struct Passes::Impl {
 };
 
 Passes::Passes(const Scene& scene, const std::vector<Active>& effects, int lanes, bool sums_all) {
-  const int heat = equal_temperature(scene) ? 0 : form_of(scene, effects, "heat", Term::heat),
-            pressure = form_of(scene, effects, "fluid", Term::pressure);
-  const bool summed = form_of(scene, effects, "density", Term::heat) != 0, laplacian = scene.viscosity_form == "laplacian";
-  const int density = summed ? 1 : form_of(scene, effects, "fluid", Term::density);
-  const PairKernels kernels = pressure == 0 ? PairKernels(scene.support_ratio * scene.spacing) : fluid::pair_kernels(scene);
-  const int viscosity = scene.mode_of(Term::viscosity) == Mode::paper ? 1 : laplacian ? 3 : kernels.shear.even() ? 2 : 4;
-  const int flow = pressure == 0 ? 0 : 4 * (pressure - 1) + viscosity, moments = heat == 2 ? 1 : 0;
-  if (lanes == 0) lanes = density + flow + heat > 0 ? best_lanes() : 1;
+  const AllWork work = work_of(scene, effects);
+  const PairKernels kernels = work.kernels ? *work.kernels : PairKernels(scene.support_ratio * scene.spacing);
+  if (lanes == 0) lanes = work.terms.empty() ? 1 : best_lanes();
   const PairPasses passes = pair_passes(lanes);
-  const bool meets_all = heat + moments > 0 || summed || pressure == 0;
-  impl_ = std::make_unique<Impl>(Impl{lanes, passes.density({density, moments}), passes.rates({flow, heat}),
-                                      passes.rates({0, heat}), kernels, sums_all || meets_all, density == 2,
-                                      sums_all ? std::nullopt : tripoint::sleeps_beyond(scene, effects, meets_all)});
+  impl_ = std::make_unique<Impl>(Impl{lanes, passes.density(work.terms), passes.rates(work.terms), passes.rates(work.again),
+                                      kernels, sums_all || work.meets_all, work.leaves_own_pairs,
+                                      sums_all ? std::nullopt : tripoint::sleeps_beyond(work, effects)});
 }
 Passes::~Passes() = default;
 Passes::Passes(Passes&&) noexcept = default;
@@ -75,7 +93,7 @@ void Passes::run_fixed(PassName name, World& world) const {
 void Passes::run(PassName name, World& world) const {
   if (!needed()) return;
   Impl& i = *impl_;
-  const PassFunction& pass = name == PassName::density ? i.density : name == PassName::rates ? i.rates : i.heat;
+  const PassFunction& pass = name == PassName::density ? i.density : name == PassName::rates ? i.rates : i.again;
   if (!i.meets_all && name == PassName::density)
     i.busy.sum_density(pass, world, i.kernels, i.leaves_own);
   else if (!i.meets_all && name == PassName::rates)

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/pair_term.hpp"
 #include "scene/initial_state.hpp"
 #include "world/field_groups.hpp"
 #include "world/world.hpp"
@@ -13,19 +14,22 @@
 /// An effect: a part of physics that a scene calls for. Effects do not know each other; they meet in fields.
 namespace tripoint {
 
+struct PairKernels;
+
 /// What an effect owns and what it reads of others. It is given no other column (declared_view.hpp).
 struct EffectSpec {
   std::string_view name;
   Mode mode = Mode::corrected;
-  std::vector<FieldInfo> owns;              ///< that exist because of it
-  std::vector<FieldInfo> reads;             ///< of others, that it reads or sets; each has an owner in the scene
-  std::vector<Force> forces{};              ///< that it makes
-  std::vector<Account> accounts{};          ///< that it books on beside those of its forces; common ones need no word
-  std::vector<Account> numerical{};         ///< that its numerical terms book on: what they take on purpose
-  std::vector<Guarded> guards{};            ///< of its columns those that are looked at after every step
-  std::vector<FieldInfo> reads_if_there{};  ///< of others, where the scene has them
-  bool sums_forces = false;                 ///< it reads World::forces of all effects
-  bool changes = false;                     ///< change() may be called of it: wants_change() is asked
+  std::vector<FieldInfo> owns;                  ///< that exist because of it
+  std::vector<FieldInfo> reads;                 ///< of others, that it reads or sets; each has an owner in the scene
+  std::vector<Force> forces{};                  ///< that it makes
+  std::vector<Account> accounts{};              ///< that it books on beside those of its forces; common ones need no word
+  std::vector<Account> numerical{};             ///< that its numerical terms book on: what they take on purpose
+  std::vector<Guarded> guards{};                ///< of its columns those that are looked at after every step
+  std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
+  std::vector<FieldInfo> reads_if_there{};      ///< of others, where the scene has them
+  bool sums_forces = false;                     ///< it reads World::forces of all effects
+  bool changes = false;                         ///< change() may be called of it: wants_change() is asked
   bool skips_sleeping = false;  ///< it looks at no particle that sleeps, and needs the forces on fixed ones in form_fixed() alone
 };
 
@@ -38,8 +42,18 @@ inline void tighten(TimeStepBound& bound, double dt, std::string_view name) {
   if (dt < bound.dt) bound = {dt, std::string(name)};
 }
 
-/// heat: the rates of heat alone, for its second stage.
-enum class PassName { density, rates, heat };
+/// What an effect asks of the fused passes in a scene: of the terms that its pair_slots.hpp has compiled, those that it needs.
+struct PairWork {
+  std::vector<PairTerm> terms{};         ///< that the passes of density and rates sum
+  bool where_it_acts = false;            ///< its terms add nothing to pairs that do not act on each other (Clusters::acting)
+  bool leaves_own_pairs = false;         ///< its density leaves own pairs out
+  bool again = false;                    ///< its rates are had again for a second stage, without those of others
+  const PairKernels* kernels = nullptr;  ///< that all terms of the scene are given; of one effect at most
+  double awake_around = 0.0;             ///< how far around what something can reach its sums read fixed particles [m]
+};
+
+/// again: the rates of effects of two stages alone, for the second.
+enum class PassName { density, rates, again };
 
 /// An event of the scene as it begins or, where it lasts, ends.
 struct Happening {
@@ -73,7 +87,8 @@ class Effect {
   virtual void adopt(World&) {}
   /// Settles what World::change cost or set free, when all have adopted it.
   virtual void settle(World&) {}
-  /// The second stage of two-stage schemes, with rates at the predicted state. @return whether rates of heat must be had again
+  /// The second stage of two-stage schemes, with rates at the predicted state. @return whether rates must be had again
+  /// (PassName::again)
   virtual bool correct(World&, double /*dt*/) { return false; }
   virtual void happen(World&, const Happening&) {}
   /// Rows and ids stand for other particles (World::halo): what the effect keeps by them is void.
@@ -82,6 +97,8 @@ class Effect {
   virtual void check(const World&) const {}
   [[nodiscard]] virtual TimeStepBound max_dt(const World&) const { return {}; }
   virtual void add_to(const World&, Ledger&) const {}
+  /// Asked once, before the first step.
+  [[nodiscard]] virtual PairWork pair_work(const Scene&) const { return {}; }
 };
 
 }  // namespace tripoint

@@ -32,7 +32,7 @@ namespace {
 
 /// Seconds of the rates of a small block of liquid, the best of a few.
 double seconds_of(int lanes) {
-  const PassFunction rates = pair_passes(lanes).rates({6, 0});
+  const PassFunction rates = pair_passes(lanes).timed;
   std::vector<FieldInfo> fields = common_fields(false);
   for (const Field<double>* f : rates.fields)
     if (std::ranges::find(fields, FieldInfo(*f)) == fields.end()) fields.emplace_back(*f);

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <array>
+#include <span>
 
 #include "sph/pass.hpp"
 
 namespace tripoint {
 
-/// Every pass at every choice of forms (0 = off, then in the order of the slots in pair_passes_unit.cpp), as one vector unit has
-/// them.
+/// Every pass that effects have brought slots for (sph/pair_slots.hpp), as one vector unit has them. Of the terms that are wanted
+/// a pass sums those that it has.
 struct PairPasses {
-  PassFunction (*density)(const std::array<int, 2>&);
-  PassFunction (*rates)(const std::array<int, 2>&);
-  PassFunction (*spread)(const std::array<int, 1>&);  ///< of viscosity: 1 as printed, 2 central, 3 laplacian, 4 central weighted
-  PassFunction (*wall_extrapolation)(const std::array<int, 1>&);  ///< 1 even, 2 weighted as central viscosity
-  PassFunction transport;
+  PassFunction (*density)(std::span<const PairTerm> wanted);
+  PassFunction (*rates)(std::span<const PairTerm> wanted);
+  PassFunction (*alone)(const PairTerm&);  ///< of one term; null where no effect has brought it
+  PassFunction timed;                      ///< rates that show which width is fastest
 };
 
 /// As compiled for a vector unit, for clusters as wide as it.

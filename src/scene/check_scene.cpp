@@ -8,6 +8,7 @@
 #include "scene/nearest.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/readers.hpp"
+#include "scene/shared_terms.hpp"
 
 /// Rules between the tables of a scene: names that refer to each other, and what one key means for another.
 namespace tripoint {
@@ -51,8 +52,8 @@ class Checker : NameChecks {
 
   /// A kernel of its own form belongs to each term: alone it cannot be another than what the scene runs.
   void kernel() const {
-    const auto given = scene_.modes_given[static_cast<std::size_t>(Term::kernel)];
-    if (!given || std::all_of(runs_.begin(), runs_.end(), [&](Mode m) { return m == *given; })) return;
+    const auto given = scene_.modes_given.find(term::kernel);
+    if (given == scene_.modes_given.end() || std::ranges::all_of(runs_, [&](Mode m) { return m == given->second; })) return;
     throw InputError(place("scene.modes.kernel", {}),
                      "each term brings the kernel of its form (as printed poly6, spiky and the viscosity kernel, corrected "
                      "Wendland C2), and none can have another: "
@@ -62,9 +63,9 @@ class Checker : NameChecks {
   /// (21) and Fig. 5 as printed know one conductivity and one heat capacity of a material.
   void printed_heat() const {
     const bool paper = std::any_of(runs_.begin(), runs_.end(), [](Mode m) { return m == Mode::paper; });
-    for (const Term term : {Term::heat, Term::phase}) {
-      const auto given = scene_.modes_given[static_cast<std::size_t>(term)];
-      if (given ? *given != Mode::paper : !paper) continue;
+    for (const Term& one : {term::heat, term::phase}) {
+      const auto given = scene_.modes_given.find(one);
+      if (given != scene_.modes_given.end() ? given->second != Mode::paper : !paper) continue;
       for (const auto& b : scene_.bodies) {
         const Material& m = scene_.material(b.material);
         if (!b.temperature || !has_two_phases(m)) continue;
@@ -73,7 +74,7 @@ class Checker : NameChecks {
                   b.place),
             fmt::format("heat as printed knows one conductivity and one heat capacity of a material, and \"{}\" has others when "
                         "solid: write modes.{} = \"corrected\", or leave solid_conductivity and solid_heat_capacity out",
-                        m.name, to_string(term)));
+                        m.name, one.name));
       }
     }
   }

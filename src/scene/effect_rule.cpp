@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "scene/phase_values.hpp"
+#include "scene/shared_terms.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint {
@@ -17,7 +18,7 @@ bool changes_phase(const Scene& s, const Body& b, const Material& m) {
   if (!has_heat(b, m) || !m.t_melt || b.temperature_held) return false;
   const TemperatureRange range = temperatures_of(s);
   if (b.phase == Phase::liquid) return range.least < *m.t_solid;
-  const bool band = (s.mode_of(Term::phase) == Mode::paper && b.phase == Phase::elastic) ||
+  const bool band = (s.mode_of(term::phase) == Mode::paper && b.phase == Phase::elastic) ||
                     turns_elastic(s, m);  // soft from t_solid on (Fig. 5)
   return range.greatest > (band ? *m.t_solid : *m.t_melt);
 }

@@ -13,6 +13,8 @@
 /// a build without the effect has its rule all the same.
 namespace tripoint {
 
+class TableReader;
+
 /// An effect that a scene calls for, and why.
 struct CalledEffect {
   std::string name;  ///< fluid elastic plastic fracture rigid heat phase surface
@@ -39,14 +41,29 @@ class Called {
 /// A key of the case file that an effect brings: its row, and the member that keeps the value. Without a member it is a number of
 /// Scene::values or Material::values, by the key's name; where no reader made them, it has the row's fallback.
 struct EffectKey {
+  /// The effect's settle_material() reads it.
+  struct ByRule {};
   Key row;
-  std::variant<std::monostate, double Scene::*, bool Scene::*, std::string Scene::*, double Material::*, bool Material::*,
+  std::variant<std::monostate, ByRule, double Scene::*, bool Scene::*, std::string Scene::*, double Material::*, bool Material::*,
                std::optional<double> Material::*>
       kept_in{};
   /// Why a value in this scene changes nothing although the effect is on; "" = it acts. None: it acts wherever the effect is on.
   std::string (*idle)(const Scene&) = nullptr;
   bool ablated = false;  ///< of [scene], without a member: 0 leaves out a term that the paper does not have, which is a row of
                          ///< `tripoint ablate`
+};
+
+/// What the two forms of a term are of, in the order in which jobs and pages list terms.
+enum class TermKind { kernel, law, time };
+
+/// A term of two forms, as whoever it belongs to declares it.
+struct DeclaredTerm {
+  Term term;
+  TermKind kind = TermKind::law;
+  bool has_equation = true;  ///< that the paper prints: else no default waits for its printed form
+  /// A law that the paper prints.
+  constexpr DeclaredTerm(const Term& t) noexcept : term(t) {}
+  constexpr DeclaredTerm(const Term& t, TermKind k, bool printed = true) noexcept : term(t), kind(k), has_equation(printed) {}
 };
 
 struct EffectRule {
@@ -57,13 +74,28 @@ struct EffectRule {
   std::string (*left_out)(const Scene&) = nullptr;
   /// What effects that are called for, or needed before this one, need of it; "" = nothing. Asked where nobody calls for it.
   std::string (*needed_for)(const Scene&, const Called&) = nullptr;
-  std::vector<Term> terms{};         ///< of two forms that act where it is on: a row of `tripoint ablate` each
+  /// Of two forms that act where it is on: a word of [modes] and a row of `tripoint ablate` each.
+  std::vector<DeclaredTerm> terms{};
   std::vector<Term> terms_shared{};  ///< of others that its forms read too
   std::vector<EffectKey> keys{};     ///< of [scene] and [[material]]
+  /// What keys of a material say of each other, once all are read: refuses what cannot be, and sets what a rule gives.
+  void (*settle_material)(TableReader&, Material&) = nullptr;
 };
 
 /// Of every effect, in the order in which effects run.
 [[nodiscard]] std::span<const EffectRule> effect_rules();
+
+/// Every term of two forms, in the order of jobs and pages: what effects declare, the kernel, and the scheme of steps.
+/// @throws std::logic_error where two effects declare one term
+[[nodiscard]] std::span<const DeclaredTerm> declared_terms();
+/// The term of a word of [modes]. @throws InputError naming the nearest word, or all
+[[nodiscard]] Term term_from(std::string_view word);
+/// Terms of two forms that act in a scene: those of the effects that it calls for and, where there is one, the scheme of steps.
+[[nodiscard]] std::vector<Term> acting_terms(const Scene&);
+/// Whether a term acts in every scene, whatever it calls for.
+[[nodiscard]] bool acts_everywhere(const Term&);
+/// Whether a term acts wherever the effect of this rule is on: its own, or one that its forms read.
+[[nodiscard]] bool reads_term(const EffectRule&, const Term&);
 
 /// The number of a key without a member: as it is kept, else the row's fallback, 0 where it has none.
 [[nodiscard]] double kept_number(const EffectValues&, const Key&);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "scene/scene.hpp"
+#include "scene/shared_terms.hpp"
 
 /// Material values that differ between the phases.
 namespace tripoint {
@@ -9,7 +10,7 @@ namespace tripoint {
 
 /// Whether a material has the middle stage of Fig. 5, printed alone: t_solid < t_melt.
 [[nodiscard]] inline bool has_printed_stage(const Scene& scene, const Material& m) {
-  return scene.mode_of(Term::phase) == Mode::paper && m.t_melt && m.t_solid.value_or(*m.t_melt) < *m.t_melt;
+  return scene.mode_of(term::phase) == Mode::paper && m.t_melt && m.t_solid.value_or(*m.t_melt) < *m.t_melt;
 }
 /// Whether a rigid solid of this material is elastic in that stage: where it softens, and has a modulus that can fall. Else it
 /// stays rigid up to t_melt.

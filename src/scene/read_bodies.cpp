@@ -7,7 +7,6 @@
 #include "scene/effect_keys.hpp"
 #include "scene/library.hpp"
 #include "scene/nearest.hpp"
-#include "scene/phase_values.hpp"
 #include "scene/scene_records.hpp"
 #include "scene/value_reader.hpp"
 
@@ -25,40 +24,6 @@ std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<
   }
   if (m.viscosity > 0.0 && !m.young_modulus) return {Phase::liquid, "its material has a viscosity and no young_modulus"};
   return {solid, fmt::format("its material is {} when solid", m.solid)};
-}
-
-void check_solid_keys(TableReader& in, const Material& m) {
-  if (m.young_modulus.has_value() != m.poisson_ratio.has_value())
-    in.refuse(m.young_modulus ? "young_modulus" : "poisson_ratio",
-              "an elastic material needs both young_modulus and poisson_ratio: give the other too");
-  if (m.t_solid && !m.t_melt) in.refuse("t_solid", "without t_melt the material does not melt: give t_melt too");
-  if (m.latent_heat && !m.t_melt) in.refuse("latent_heat", "without t_melt the material does not melt: give t_melt too");
-  if (m.t_solid && *m.t_solid > *m.t_melt)
-    in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt",
-                                     *m.t_solid, *m.t_melt));
-  if (m.plastic_limit && !m.elastic_limit)
-    in.refuse("plastic_limit", "without elastic_limit nothing flows: give elastic_limit too");
-  for (const auto& [key, both, given] :
-       {std::tuple{"solid_conductivity", "conductivity", m.solid_conductivity && !m.conductivity},
-        std::tuple{"solid_heat_capacity", "heat_capacity", m.solid_heat_capacity && !m.heat_capacity}})
-    if (given) in.refuse(key, fmt::format("{} is missing, which is the liquid's where the solid has its own: give it too", both));
-  if (has_two_phases(m) && !m.t_melt)
-    in.refuse(m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity",
-              "without t_melt the material has one phase: give t_melt too, or write the value without solid_");
-  if (has_two_phases(m) && m.t_solid && latent_heat_at(m, *m.t_solid) < 0.0)
-    in.refuse("solid_heat_capacity",
-              fmt::format("freezing at t_solid = {} K would take up heat, {:.4g} J/kg: the heat of fusion changes with "
-                          "temperature as the heat capacities differ; raise latent_heat or t_solid",
-                          *m.t_solid, -latent_heat_at(m, *m.t_solid)));
-  if (m.softens && !m.t_melt)
-    in.refuse("softens", "without t_melt the material does not melt: give t_melt too, or remove softens");
-}
-
-/// Where the case gives a value of both phases, the library's of the solid is none of its.
-void drop_of_library(TableReader& in, std::string_view key, std::string_view both, std::optional<double>& value) {
-  if (!value || in.has(key) || !in.has(both)) return;
-  in.ruled(key, "none", fmt::format("{} is given, and is that of both phases", both));
-  value.reset();
 }
 
 }  // namespace
@@ -90,21 +55,10 @@ Material read_material(const TomlNode& node, Reading& reading) {
   }
   read("density");
   read_effect_keys(in, "material", m, reading);
-  read("stiffness");
-  if (const auto c = in.maybe_number("sound_speed")) {
-    if (in.has("stiffness")) in.refuse("sound_speed", "stiffness is given too, and is its square: give one of them");
-    m.stiffness = *c * *c;
-    in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
-  }
-  read("solid_conductivity"), read("solid_heat_capacity");
-  drop_of_library(in, "solid_conductivity", "conductivity", m.solid_conductivity);
-  drop_of_library(in, "solid_heat_capacity", "heat_capacity", m.solid_heat_capacity);
   static_cast<void>(in.maybe_text("source"));
   read.rest();
-  check_solid_keys(in, m);
-  if (m.t_melt && !m.t_solid)
-    m.t_solid = m.t_melt, in.ruled("t_solid", show(*m.t_solid), "t_melt: no soft band and no hysteresis");
-  if (m.t_melt && !m.latent_heat) m.latent_heat = 0.0, in.ruled("latent_heat", "0", "melts at once");
+  for (const EffectRule& rule : effect_rules())
+    if (rule.settle_material) rule.settle_material(in, m);
   if (read("solid")) {
     m.solid = m.young_modulus ? "elastic" : "rigid";
     // A liquid that never freezes is no solid; the word then only says what it would be.

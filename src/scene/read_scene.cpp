@@ -10,6 +10,7 @@
 #include "scene/library.hpp"
 #include "scene/nearest.hpp"
 #include "scene/scene_records.hpp"
+#include "scene/shared_terms.hpp"
 #include "scene/value_reader.hpp"
 
 /// [scene], and everything else that is simulated.
@@ -25,7 +26,7 @@ void read_modes(TableReader& in, Scene& s) {
     try {
       if (word.kind != TomlNode::Kind::text)
         throw InputError(fmt::format("must be \"corrected\" or \"paper\", not {}", kind_name(word.kind)));
-      s.modes_given[static_cast<std::size_t>(term_from(term))] = mode_from(word.text);
+      s.modes_given[term_from(term)] = mode_from(word.text);
     } catch (const InputError& e) {
       throw InputError(word.key_place, fmt::format("`scene.modes.{}`: {}", printable(term), e.what()));
     }
@@ -37,9 +38,8 @@ void read_modes(TableReader& in, Scene& s) {
 void read_clamp(TableReader& in, Scene& s) {
   const auto clamp = in.maybe_flag("clamp");
   if (!clamp) return;
-  std::optional<Mode>& given = s.modes_given[static_cast<std::size_t>(Term::clamp)];
-  if (given) in.refuse("clamp", "scene.modes.clamp says the same: remove one of them");
-  given = *clamp ? Mode::corrected : Mode::paper;
+  if (!s.modes_given.try_emplace(term::clamp, *clamp ? Mode::corrected : Mode::paper).second)
+    in.refuse("clamp", "scene.modes.clamp says the same: remove one of them");
 }
 
 void check_domain(const TableReader& in, const Scene& s) {
@@ -79,12 +79,10 @@ void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Read
 }
 
 void resolve_modes(TableReader& in, Scene& s, RecordReader<Scene>& read) {
-  for (std::size_t t = 0; t < term_count; ++t) {
-    s.modes[t] = s.modes_given[t].value_or(s.mode);
-    if (!s.modes_given[t])
-      in.ruled(fmt::format("modes.{}", to_string(static_cast<Term>(t))), fmt::format("\"{}\"", to_string(s.mode)),
-               "as scene.mode");
-  }
+  s.resolve_modes();
+  for (const DeclaredTerm& one : declared_terms())
+    if (!s.modes_given.contains(one.term))
+      in.ruled(fmt::format("modes.{}", one.term.name), fmt::format("\"{}\"", to_string(s.mode)), "as scene.mode");
   if (!in.has("clamp")) in.ruled("clamp", s.clamps() ? "true" : "false", "as modes.clamp");
   const bool paper = s.all_printed();
   if (!read("support_ratio")) {
@@ -103,7 +101,7 @@ void resolve_modes(TableReader& in, Scene& s, RecordReader<Scene>& read) {
   } else {
     s.merge_distance = default_merge_distance(s);
     in.ruled("merge_distance", show(s.merge_distance),
-             s.mode_of(Term::phase) == Mode::paper ? "phase is paper: whatever is within reach of its bonds"
+             s.mode_of(term::phase) == Mode::paper ? "phase is paper: whatever is within reach of its bonds"
                                                    : "nearest and diagonal neighbours of the lattice");
   }
 }

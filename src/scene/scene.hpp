@@ -12,26 +12,21 @@
 #include "core/errors.hpp"
 #include "core/quaternion.hpp"
 #include "core/vec3.hpp"
+#include "scene/term.hpp"
 
 /// The checked scene: what a case file says, in SI, with every default filled in. No physics.
 namespace tripoint {
 
 enum class Phase : int { liquid = 0, elastic = 1, rigid = 2 };
 enum class Motion { free, fixed, prescribed };
-enum class Mode { corrected, paper };
-/// The terms of the model that exist in a paper and a corrected form, `modes.TERM` of a case file.
-enum class Term { kernel, pressure, density, state, clamp, viscosity, walls, elastic, hourglass, heat, phase, rotation, time };
-inline constexpr std::size_t term_count = 13;
 
 [[nodiscard]] std::string_view to_string(Phase);
 [[nodiscard]] std::string_view to_string(Motion);
 [[nodiscard]] std::string_view to_string(Mode);
-[[nodiscard]] std::string_view to_string(Term);
 /// Inverse of to_string. @throws InputError naming the allowed words
 [[nodiscard]] Phase phase_from(std::string_view);
 [[nodiscard]] Motion motion_from(std::string_view);
 [[nodiscard]] Mode mode_from(std::string_view);
-[[nodiscard]] Term term_from(std::string_view);
 
 /// Numbers of the case file whose keys an effect brings and that have no member here, in SI, by the key's name.
 using EffectValues = std::map<std::string, double, std::less<>>;
@@ -150,8 +145,8 @@ struct Scene {
   double spacing = 0.0;                      ///< dx [m]
   double support_ratio = corrected_support;  ///< h/dx
   Mode mode = Mode::corrected;
-  std::array<Mode, term_count> modes{};                       ///< resolved for every term
-  std::array<std::optional<Mode>, term_count> modes_given{};  ///< as the case file says, term by term
+  TermModes modes;        ///< resolved for every term; a scene that no reader made is corrected where it has none
+  TermModes modes_given;  ///< as the case file says, term by term
   bool support_ratio_given = false;
   std::optional<double> time_step;  ///< empty = auto [s]
   std::uint64_t seed = 1;
@@ -174,15 +169,26 @@ struct Scene {
   std::vector<Event> events;
   std::vector<Inflow> inflows;
 
-  [[nodiscard]] Mode mode_of(Term t) const { return modes[static_cast<std::size_t>(t)]; }
+  /// A look-up: what a loop over particles or bodies needs is asked before it. @throws UndeclaredTerm
+  [[nodiscard]] Mode mode_of(const Term& t) const {
+    const auto at = modes.find(t);
+    return at != modes.end() ? at->second : mode_of_unresolved(t);
+  }
   /// Whether pressure (9) below zero counts as zero. The paper prints no clamp: it is a correction.
-  [[nodiscard]] bool clamps() const { return mode_of(Term::clamp) == Mode::corrected; }
-  /// Whether every term that has equations is as printed; the clamp has none.
+  [[nodiscard]] bool clamps() const;
+  /// Whether every term that has printed equations is as printed.
   [[nodiscard]] bool all_printed() const;
+  /// Resolves every term: as the case file says, else by `mode`.
+  void resolve_modes();
+  /// Every term in one form.
+  void set_all_modes(Mode);
   [[nodiscard]] double default_support_ratio() const { return all_printed() ? printed_support : corrected_support; }
   /// @throws InputError when no material (body) of that name is there
   [[nodiscard]] const Material& material(std::string_view name) const;
   [[nodiscard]] const Body& body(std::string_view name) const;
+
+ private:
+  [[nodiscard]] static Mode mode_of_unresolved(const Term&);
 };
 
 }  // namespace tripoint

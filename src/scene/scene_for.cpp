@@ -4,20 +4,15 @@
 #include "scene/defaults.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 
-bool Scene::all_printed() const {
-  for (std::size_t t = 0; t < term_count; ++t)
-    if (static_cast<Term>(t) != Term::clamp && modes[t] != Mode::paper) return false;
-  return true;
-}
-
-double default_merge_distance(const Scene& s) { return s.mode_of(Term::phase) == Mode::paper ? bond_reach(s) : lattice_reach; }
+double default_merge_distance(const Scene& s) { return s.mode_of(term::phase) == Mode::paper ? bond_reach(s) : lattice_reach; }
 
 Scene scene_for(Scene s, const RunChoice& choice) {
   if (choice.mode) s.mode = *choice.mode;
-  for (std::size_t t = 0; t < term_count; ++t) s.modes[t] = s.modes_given[t].value_or(s.mode);
+  s.resolve_modes();
   if (choice.spacing) s.spacing = *choice.spacing;
   if (choice.time_step) s.time_step = *choice.time_step;
   if (choice.jitter) s.jitter = *choice.jitter;

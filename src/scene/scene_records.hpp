@@ -67,18 +67,6 @@ inline constexpr auto of_material = std::make_tuple(
                            "its name; a name of the library brings the library's values, which keys here replace"}),
     kept(&Material::density,
          {"material", "density", number, "kg/m3", positive, "!", "", "", "rest density, one for both phases"}),
-    kept(&Material::stiffness,
-         {"material", "stiffness", number, "m2/s2", positive, "",
-          "taken from the speeds of the scene, or from elastic moduli, where something flows or solids can meet", "",
-          "k of p = k (rho - rho0), the square of the sound speed"}),
-    Key{"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "", "instead of stiffness: k is its square"},
-    kept(&Material::solid_conductivity,
-         {"material", "solid_conductivity", number, "W/m/K", positive, "", "conductivity is that of both phases", "",
-          "conductivity of the solid; `conductivity` is then that of the liquid; not as printed"}),
-    kept(&Material::solid_heat_capacity,
-         {"material", "solid_heat_capacity", number, "J/kg/K", positive, "", "heat_capacity is that of both phases", "",
-          "specific heat of the solid; `heat_capacity` is then that of the liquid, and `latent_heat` that at t_melt; not as "
-          "printed"}),
     kept(&Material::solid, {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid",
                             "elastic rigid", "what it is when solid"}),
     Key{"material", "source", text, "", any, "", "the case's own values", "", "where the values come from"});

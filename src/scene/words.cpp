@@ -11,9 +11,6 @@ namespace {
 constexpr std::array phase_words{"liquid", "elastic", "rigid"};
 constexpr std::array motion_words{"free", "fixed", "prescribed"};
 constexpr std::array mode_words{"corrected", "paper"};
-constexpr std::array term_words{"kernel",  "pressure",  "density", "state", "clamp",    "viscosity", "walls",
-                                "elastic", "hourglass", "heat",    "phase", "rotation", "time"};
-static_assert(term_words.size() == term_count);
 
 template <class E, std::size_t n>
 E from_word(std::string_view word, const std::array<const char*, n>& words, const char* what) {
@@ -36,11 +33,9 @@ const T& by_name(const std::vector<T>& list, std::string_view name, const char* 
 std::string_view to_string(Phase p) { return phase_words[static_cast<std::size_t>(p)]; }
 std::string_view to_string(Motion m) { return motion_words[static_cast<std::size_t>(m)]; }
 std::string_view to_string(Mode m) { return mode_words[static_cast<std::size_t>(m)]; }
-std::string_view to_string(Term t) { return term_words[static_cast<std::size_t>(t)]; }
 Phase phase_from(std::string_view word) { return from_word<Phase>(word, phase_words, "phase"); }
 Motion motion_from(std::string_view word) { return from_word<Motion>(word, motion_words, "motion"); }
 Mode mode_from(std::string_view word) { return from_word<Mode>(word, mode_words, "mode"); }
-Term term_from(std::string_view word) { return from_word<Term>(word, term_words, "term of the model"); }
 
 const Material& Scene::material(std::string_view name) const { return by_name(materials, name, "material"); }
 const Body& Scene::body(std::string_view name) const { return by_name(bodies, name, "body"); }

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/solid_particles.hpp"
 
 namespace tripoint::solid {
@@ -125,7 +126,7 @@ void connect_solids(World& world) {
   if (found.ids.empty()) return;
   refuse_narrow_box(world);
   const bool meets = world.particles.has(field::force_x.name);  // without pressure own pairs have nothing to be kept from
-  const bool paper = world.scene.mode_of(Term::density) == Mode::paper;
+  const bool paper = world.scene.mode_of(term::density) == Mode::paper;
   const double reach = bond_reach(world.scene) * world.scene.spacing,
                search = meets && !paper ? std::max(reach, world.support()) : reach;
   Neighbours near(search, 0.0, world.box, world.threads);

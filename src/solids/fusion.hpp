@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/phase_values.hpp"
+#include "scene/shared_terms.hpp"
 #include "world/world.hpp"
 
 /// Melting and freezing of one particle, the state (H, f) of model 8.9: H = m (c_p T + L f), 0 <= f <= 1.
@@ -28,7 +29,7 @@ struct Fusion {
 /// rigid up to t_melt.
 [[nodiscard]] inline Fusion fusion_of(const Scene& scene, const Material& m) {
   if (!m.t_melt || !m.heat_capacity) return {};
-  if (scene.mode_of(Term::phase) == Mode::paper) {
+  if (scene.mode_of(term::phase) == Mode::paper) {
     const bool band = has_printed_stage(scene, m) && (m.solid == "elastic" || turns_elastic(scene, m));
     return {*m.t_melt, band ? *m.t_solid : *m.t_melt, 0.0, band};
   }

@@ -9,6 +9,7 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
+#include "scene/shared_terms.hpp"
 #include "sph/surface_gradient.hpp"
 
 namespace tripoint::solid {
@@ -145,8 +146,8 @@ bool softens(const Scene& scene, const Material& m) {
 }
 
 ElasticForms::ElasticForms(const Scene& scene)
-    : paper_(scene.mode_of(Term::elastic) == Mode::paper),
-      hourglass_(scene.mode_of(Term::hourglass) == Mode::paper ? 0.0 : kept_number(scene.values, key_row("scene", "hourglass"))),
+    : paper_(scene.mode_of(term::elastic) == Mode::paper),
+      hourglass_(scene.mode_of(term::hourglass) == Mode::paper ? 0.0 : kept_number(scene.values, key_row("scene", "hourglass"))),
       bending_(paper_ ? 0.0 : kept_number(scene.values, key_row("scene", "bending"))),
       factor_(paper_ ? 2.0 : 1.0) {
   for (const Material& m : scene.materials) {

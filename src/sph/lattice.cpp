@@ -94,6 +94,42 @@ ShearWeight isotropic_shear(double q) {
   return {c_over_s * s, s};
 }
 
+namespace {
+
+/// What the energy of unlike pairs with the kernel K gives a layer a from the interface, times 2/(rho - rho') [1/m].
+double lifted(double q, double a, const InterfaceKernel& K) {
+  const WendlandC2 W(q);
+  double sum = 0.0;
+  for_lattice(q, [&](const Vec3& d) {
+    const double r = norm(d);
+    if (d.z > a) sum -= d.z * d.z * K.derivative_over_r(W, r) + K.value(W, r);
+  });
+  return sum;
+}
+
+/// What is missing of its weight, times 2/(rho - rho') [1/m].
+double missing(double q, double a) {
+  const WendlandC2 W(q);
+  double sum = 0.0;
+  for_lattice(q, [&](const Vec3& d) {
+    if (d.z > a) sum -= 2.0 * (d.z - a) * d.z * W.derivative_over_r(norm(d));
+  });
+  return sum;
+}
+
+}  // namespace
+
+/// Two linear equations, one for each layer.
+InterfaceKernel interface_kernel(double q) {
+  const InterfaceKernel by_one{1.0, 0.0}, by_square{0.0, 1.0};
+  const double first = lifted(q, 0.5, by_one), first_square = lifted(q, 0.5, by_square), second = lifted(q, 1.5, by_one),
+               second_square = lifted(q, 1.5, by_square);
+  const double determinant = first * second_square - first_square * second;
+  if (determinant == 0.0) return {missing(q, 0.5) / first, 0.0};
+  return {(missing(q, 0.5) * second_square - first_square * missing(q, 1.5)) / determinant,
+          (first * missing(q, 1.5) - missing(q, 0.5) * second) / determinant};
+}
+
 double paper_heat_rate(double spacing, double support, const Vec3& wave_vector) {
   const double q = support / spacing;
   const ViscosityKernel w(support);

@@ -35,6 +35,24 @@ struct ShearModuli {
 /// directions is 1. @param q support ratio, > 1.5
 [[nodiscard]] ShearWeight isotropic_shear(double q);
 
+/// Kernel (constant + square r^2) W of the energy that pairs of unlike liquids have (model 8.3).
+struct InterfaceKernel {
+  double constant = 0.0, square = 0.0;  ///< [1], [1/m2]
+  /// [1/m3]
+  [[nodiscard]] double value(const WendlandC2& W, double r) const noexcept { return (constant + square * (r * r)) * W.value(r); }
+  /// K'(r)/r [1/m5]
+  [[nodiscard]] double derivative_over_r(const WendlandC2& W, double r) const noexcept {
+    return (constant + square * (r * r)) * W.derivative_over_r(r) + 2.0 * square * W.value(r);
+  }
+};
+
+/// That at spacing 1 with which the two layers nearest to a flat interface of the lattice are at rest under the exact pressures,
+/// each liquid pressing on the other with the mean of the two in a pair. A layer a from the interface sees layers n > a away of
+/// the other liquid. Of its weight the difference of the densities times (n - a) k_n/M is missing for each, k_n = -sum W' z/r
+/// over that layer; the energy gives half the difference times (n k'_n - K_n)/M, K_n = sum K, k' as k of K. @param q support
+/// ratio, above 2: else a second layer sees nothing, and the square is 0
+[[nodiscard]] InterfaceKernel interface_kernel(double q);
+
 /// Decay rate over diffusivity of the mode cos(k.r) under (21) as printed, on the cubic lattice:
 /// sum_j V lapW_visc(r_j) (1 - cos k.r_j) [1/m2], V = dx^3/S0 of poly6, the volume m/rho that (4) gives. Times the
 /// diffusivity it is the rate of decay in continuous time.

@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "core/field.hpp"
 #include "core/lanes.hpp"
+#include "core/pair_term.hpp"
 #include "core/vec3.hpp"
 #include "particles/catalogue.hpp"
 #include "particles/entry.hpp"
@@ -18,7 +20,7 @@
 
 /// The fused pair pass. A pair term says which fields it reads of i and j, which it adds to i, and the formula; a pass fuses the
 /// terms of its slots at compile time, for whole vectors of particles i against one neighbour j at a time, and a scene picks one
-/// of the combinations at run time (effects/run_pass.hpp).
+/// of the combinations at run time (passes/run_pass.hpp).
 namespace tripoint {
 
 template <const auto&... fields>
@@ -76,6 +78,7 @@ struct PassFunction {
   std::span<const Field<double>* const> fields{};  ///< whose columns it wants
   bool finds = false;                              ///< whether it writes PassTask::within; else it reads it
   std::size_t reads = 0;                           ///< fields that are read; it adds to those after them
+  std::size_t terms = 0;                           ///< that it sums
   [[nodiscard]] std::span<const Field<double>* const> adds() const { return fields.subspan(reads); }
 };
 
@@ -256,7 +259,7 @@ struct Pick<L, ForUnit, finds, Together<Terms...>> {
     if constexpr (sizeof...(Terms) == 0)
       return {};
     else
-      return {&fused<L, ForUnit, finds, Terms...>, FieldsOf<Terms...>::list, finds, FieldsOf<Terms...>::reads};
+      return {&fused<L, ForUnit, finds, Terms...>, FieldsOf<Terms...>::list, finds, FieldsOf<Terms...>::reads, sizeof...(Terms)};
   }
 };
 template <int L, class ForUnit, bool finds, class... Terms, class... Forms, class... Slots>
@@ -280,6 +283,32 @@ struct Pick<L, ForUnit, finds, Together<Terms...>, Slot<Forms...>, Slots...> {
   }
 };
 
+/// Whether all terms of a form are among those that are wanted.
+template <class ForUnit, class... Terms>
+bool wants(Together<Terms...>, const PairTerm* wanted, std::size_t count) {
+  const auto has = [&](std::uint64_t key) {
+    for (std::size_t k = 0; k < count; ++k)
+      if (wanted[k].key == key) return true;
+    return false;
+  };
+  return (has(pair_term<Terms>.key) && ...);
+}
+/// The form of a slot that is wanted: its place, 0 where none is.
+template <class ForUnit, class... Forms>
+int wanted_form(Slot<Forms...>, const PairTerm* wanted, std::size_t count) {
+  int n = 0, found = 0;
+  const auto look = [&]<class Form>(std::type_identity<Form>) {
+    ++n;
+    if constexpr (IsTogether<Form>::value) {
+      if (found == 0 && wants<ForUnit>(Form{}, wanted, count)) found = n;
+    } else {
+      if (found == 0 && wants<ForUnit>(Together<Form>{}, wanted, count)) found = n;
+    }
+  };
+  (look(std::type_identity<Forms>{}), ...);
+  return found;
+}
+
 }  // namespace detail
 
 /// The slots of a pass. Each combination of forms is compiled for each width: 3^4 is the most that the build bears.
@@ -291,6 +320,11 @@ struct AnyPass {
   template <int L, class ForUnit>
   [[nodiscard]] static PassFunction choose(const std::array<int, slots>& forms) {
     return detail::Pick<L, ForUnit, finds, Together<>, Slots...>::get(forms.data());
+  }
+  /// Of each slot the form all of whose terms are wanted; terms of other passes may be among them.
+  template <int L, class ForUnit>
+  [[nodiscard]] static PassFunction choose_among(std::span<const PairTerm> wanted) {
+    return choose<L, ForUnit>({detail::wanted_form<ForUnit>(Slots{}, wanted.data(), wanted.size())...});
   }
 };
 template <class... Slots>

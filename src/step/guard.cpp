@@ -77,37 +77,40 @@ std::size_t fastest(const World& world) {
   return row;
 }
 
-double entry_of(const Ledger& ledger, const char* name) {
-  const auto found = ledger.energy.find(name);
+double entry_of(const Ledger& ledger, std::string_view name) {
+  const auto found = ledger.energy.find(std::string(name));
   return found == ledger.energy.end() ? 0.0 : found->second;
 }
 
-/// What the scheme has made, or where negative lost, and by what. The entries `viscous` and `pressure_work` are minus the work of
-/// their forces: below 0 they are energy from nowhere, since who drives a wall pays for it in the entry `walls`. Of what the
-/// printed pressure makes in a scene that was still, that counts which viscosity has not taken again: it makes some in every
-/// column at rest, which is its known defect, and contacts store some in it.
+/// What the scheme has made, or where negative lost, and by what. Effects say which of their entries are energy from nowhere
+/// below 0 (EntryRole); who drives a wall pays for it in the entry `walls`. The printed pressure, which is unbacked, makes some
+/// in every column at rest, which is its known defect, and contacts store some in it.
 struct Made {
   double energy = 0.0;
-  const char* by = "";
+  std::string_view by;
 };
-Made made_by_scheme(const Ledger& ledger, bool still) {
+Made made_by_scheme(const Ledger& ledger, const std::vector<GuardedEntry>& entries, bool still) {
   Made most{entry_of(ledger, "time_integration"), "finite steps"};
-  const auto look = [&](double energy, const char* by) {
+  const auto look = [&](double energy, std::string_view by) {
     if (energy > std::abs(most.energy)) most = {energy, by};
   };
-  if (still)
-    look(-entry_of(ledger, "pressure_work") - std::max(entry_of(ledger, "viscous"), 0.0),
-         "the printed pressure, which no energy stands behind");
-  look(-entry_of(ledger, "viscous"), "viscous forces, which may only take energy");
+  double taken = 0.0;
+  for (const GuardedEntry& e : entries)
+    if (e.role == EntryRole::only_takes) taken += std::max(entry_of(ledger, e.entry), 0.0);
+  for (const GuardedEntry& e : entries)
+    if (still && e.role == EntryRole::unbacked) look(-entry_of(ledger, e.entry) - taken, e.made_by);
+  for (const GuardedEntry& e : entries)
+    if (e.role == EntryRole::only_takes) look(-entry_of(ledger, e.entry), e.made_by);
   return most;
 }
 
-/// Sizes of all entries but heat, which dwarfs what moves, and what the scheme made.
-double turnover(const Ledger& ledger, double start_potential) {
+/// Sizes of all entries but those apart, and what the scheme made.
+double turnover(const Ledger& ledger, const std::vector<GuardedEntry>& entries, double start_potential) {
   double sum = 0.0;
   for (const auto& [entry, energy] : ledger.energy) {
-    if (entry == "thermal" || entry == "latent" || entry == "inflow" || entry == "time_integration") continue;
-    if ((entry == "pressure_work" || entry == "viscous") && energy < 0.0) continue;  // made by the scheme
+    if (entry == "time_integration") continue;
+    const auto role = std::ranges::find(entries, entry, &GuardedEntry::entry);
+    if (role != entries.end() && (role->role == EntryRole::apart || energy < 0.0)) continue;
     sum += std::abs(entry == "potential" ? energy - start_potential : energy);
   }
   return sum;
@@ -161,8 +164,8 @@ void check_escape(const World& world, const Enclosure& domain) {
 
 void check_energy(const World& world, const Ledger& ledger, double start_potential, double dt, GuardMemory& memory) {
   if (ledger.energy.count("time_integration") == 0 || is_off(world.scene, "ledger")) return;
-  const Made made = made_by_scheme(ledger, memory.still);
-  memory.turned_over = std::max(memory.turned_over, turnover(ledger, start_potential));
+  const Made made = made_by_scheme(ledger, world.guarded_entries, memory.still);
+  memory.turned_over = std::max(memory.turned_over, turnover(ledger, world.guarded_entries, start_potential));
   const double grid_speed = world.scene.spacing / dt, least = 1e-10 * ledger.mass * grid_speed * grid_speed;
   if (std::abs(made.energy) <= 0.5 * std::max(memory.turned_over, least)) return;
   const std::size_t i = fastest(world);
@@ -171,9 +174,8 @@ void check_energy(const World& world, const Ledger& ledger, double start_potenti
                    "scene has turned over: {}",
                    norm(world.particles.velocity(i)), made.energy > 0.0 ? "made" : "lost", std::abs(made.energy), made.by,
                    std::abs(made.energy) / memory.turned_over,
-                   made.by == std::string_view("finite steps")
-                       ? "a smaller time step"
-                       : "the corrected forms, a smaller time step, or a greater speed of sound"));
+                   made.by == "finite steps" ? "a smaller time step"
+                                             : "the corrected forms, a smaller time step, or a greater speed of sound"));
 }
 
 void check_step(const World& world, const TimeStepBound& bound, GuardMemory& memory) {

@@ -23,7 +23,7 @@ constexpr int calm_cycles = 5;       ///< one after the other below `rest`: sing
 /// The scene of the relaxation: solids stand, nothing happens, no heat flows, liquids have no viscosity.
 Scene still_scene(Scene s) {
   s.mode = Mode::corrected;
-  s.modes.fill(Mode::corrected);
+  s.set_all_modes(Mode::corrected);
   if (!s.support_ratio_given) s.support_ratio = s.default_support_ratio();
   s.time_step.reset();
   s.transport_velocity = false, s.recovers = false;

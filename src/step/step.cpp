@@ -2,6 +2,7 @@
 // The step: kick, drift, kick (docs/model.md, chapter 9). What a stage does is in the effects; here is the order.
 #include <cassert>
 
+#include "scene/shared_terms.hpp"
 #include "step/each_effect.hpp"
 #include "step/guard.hpp"
 #include "step/ledger_sum.hpp"
@@ -149,7 +150,7 @@ void Simulation::correct() {
   const StageTimer timer(options_.stage_seconds, Stage::correct);
   bool again = false;
   for_each_effect(world_, effects_, [&](Effect& effect) { again = effect.correct(world_, dt_) || again; });
-  if (again && passes_.needed()) sum(PassName::heat);
+  if (again && passes_.needed()) sum(PassName::again);
 }
 
 /// Guards, none of which changes anything; energy is summed over all particles and bonds, so only now and then.
@@ -166,7 +167,7 @@ void Simulation::check() {
 }
 
 /// The paper's leapfrog starts a run so.
-bool Simulation::leaves_out_first_kick() const { return steps_ == 0 && world_.scene.mode_of(Term::time) == Mode::paper; }
+bool Simulation::leaves_out_first_kick() const { return steps_ == 0 && world_.scene.mode_of(term::time) == Mode::paper; }
 
 /// Events of the present time, between two steps: the state is whole, and rates are then formed anew.
 void Simulation::happen_until_now() {

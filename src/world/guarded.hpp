@@ -22,4 +22,18 @@ struct Guarded {
       not_positive{};  ///< where values must be above 0 too: unit and what a lesser one would be, "K, below absolute zero"
 };
 
+/// What an entry of the ledger is to the guard of energy (step/guard.hpp). One of which no effect speaks is energy that the scene
+/// turns over.
+enum class EntryRole {
+  apart,       ///< heat, which dwarfs what moves, or what comes from outside: it is left out
+  only_takes,  ///< minus the work of a force that may only take energy: below 0 it is energy from nowhere
+  unbacked     ///< minus the work of a force that no energy stands behind: below 0 it is energy from nowhere in a scene that was
+               ///< laid at rest, but for what forces that only take have taken again
+};
+struct GuardedEntry {
+  std::string_view entry;
+  EntryRole role;
+  std::string_view made_by{};  ///< in messages: what has made the energy
+};
+
 }  // namespace tripoint

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/ledger.hpp"
 
+#include "scene/shared_terms.hpp"
 #include "world/world.hpp"
 
 namespace tripoint {
@@ -32,8 +33,8 @@ double by_finite_steps(const World& world, const Force& f, const Ledger& sum) {
 }  // namespace
 
 bool stores_compression(const Scene& scene) {
-  const auto corrected = [&](Term term) { return scene.mode_of(term) == Mode::corrected; };
-  return corrected(Term::density) && corrected(Term::state) && corrected(Term::pressure) && !scene.transport_velocity;
+  const auto corrected = [&](const Term& one) { return scene.mode_of(one) == Mode::corrected; };
+  return corrected(term::density) && corrected(term::state) && corrected(term::pressure) && !scene.transport_velocity;
 }
 
 void book_start(World& world, const Ledger& start) {

@@ -60,6 +60,7 @@ struct World {
   std::vector<Force> forces;       ///< that the effects make, in the order in which they are summed
   std::vector<Account> numerical;  ///< what numerical terms take on purpose: no error of finite steps
   std::vector<Guarded> guarded;    ///< columns that are looked at after every step, in the order in which it writes them
+  std::vector<GuardedEntry> guarded_entries;  ///< entries of the ledger that the guard of energy takes by a rule of their own
   Lagged lagged;
   double time = 0.0;       ///< [s]
   double next_time = 0.0;  ///< end of the step that is being taken, exactly as the loop will set it [s]

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "adapters/scenes.hpp"
+#include "scene/shared_terms.hpp"
 
 /// Scenes in which bonds, bodies, phases or particles change, in the middle and elsewhere along x: what is decided of the whole.
 namespace tripoint::test {
@@ -11,7 +12,7 @@ namespace tripoint::test {
 inline Prepared brittle_bar(bool flows, Mode mode) {
   Scene s;
   s.spacing = 0.01, s.jitter = 0.05;
-  s.modes[static_cast<std::size_t>(Term::elastic)] = mode;
+  s.modes[term::elastic] = mode;
   Material brittle = material(1000.0);
   brittle.solid = "elastic", brittle.young_modulus = 1e6, brittle.poisson_ratio = 0.3;
   brittle.fracture_stretch = 1.1, brittle.fracture_distance = 2.1, brittle.stiffness = 100.0;
@@ -75,7 +76,7 @@ inline Prepared merging_and_splitting(const std::string& solid) {
 inline Prepared warm_rubber() {
   Scene s;
   s.spacing = 0.01;
-  s.modes[static_cast<std::size_t>(Term::phase)] = Mode::paper;
+  s.modes[term::phase] = Mode::paper;
   Material m = material(1000.0);
   m.solid = "elastic", m.young_modulus = 1e5, m.poisson_ratio = 0.3, m.stiffness = 100.0;
   m.conductivity = 1e3, m.heat_capacity = 10.0, m.t_melt = 360.0, m.t_solid = 320.0;

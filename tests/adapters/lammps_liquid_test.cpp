@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "adapters/wheel.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -26,7 +27,7 @@ Body liquid(const Shape& shape) {
 Prepared wave(double end) {
   Scene s;
   s.spacing = 0.05;
-  s.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;
+  s.modes[term::clamp] = Mode::paper;
   s.min = Vec3{}, s.max = Vec3{1.0, 0.3, 0.3};
   s.periodic = {true, true, true};
   s.materials = {test::material(1000.0)};

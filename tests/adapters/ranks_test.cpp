@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "adapters/ranks_lab.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -20,7 +21,7 @@ Prepared hot_bar(Mode mode) {
   wave.mean = 300.0, wave.amplitude = 40.0, wave.wave_vector = {20.0, 0, 0};
   Prepared p = test::bar(24, 0.3, wave, false, 6.0, 3);
   Scene s = p.job.scene;
-  s.modes[static_cast<std::size_t>(Term::heat)] = mode;
+  s.modes[term::heat] = mode;
   s.jitter = 0.1;
   Body held = s.bodies[0];
   held.name = "held", held.temperature_held = true;
@@ -135,7 +136,7 @@ TEST(Ranks, FlowPlasticallyAsOneProcessDoes) {
 TEST(Ranks, SwingElasticBodiesAsPrinted) {
   NEEDS_RANKS();
   Scene s = thrown_hammer(false, 0.0, 0.0).job.scene;
-  s.modes[static_cast<std::size_t>(Term::elastic)] = Mode::paper;
+  s.modes[term::elastic] = Mode::paper;
   expect_equal_on_ranks(test::prepare(s, 0.01, 1));
 }
 

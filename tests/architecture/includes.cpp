@@ -48,8 +48,6 @@ const std::map<std::string, std::vector<std::string>, std::less<>> allowed{
     {"program/predict", {"core", "scene", "particles"}},
 };
 constexpr std::string_view sees_all = "program/cli";
-/// The one list of the effects, and the one of their pair terms.
-constexpr std::array<std::string_view, 2> effect_lists{"src/effects/all_effects.", "src/effects/pair_passes_unit."};
 
 /// A library's headers begin so, and belong to this room only, or to those of several rows ("" = nowhere).
 struct Home {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "effects/fluid_lab.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -13,7 +14,7 @@ lab::Lab channel(int across, double viscosity, const char* form) {
   const double dx = 1.0 / across;
   lab::Lab lab = lab::liquid_lab(dx, 1.0, viscosity, 100.0);
   lab.scene.viscosity_form = form;
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;
+  lab.scene.modes[term::clamp] = Mode::paper;
   lab.add({.name = "oil", .corner = {0.0, 0.0, 0.5 * dx}, .count = {4, 4, across}, .phase = Phase::liquid});
   lab.add({.name = "floor", .corner = {0.0, 0.0, -2.5 * dx}, .count = {4, 4, 3}, .phase = Phase::rigid, .motion = Motion::fixed});
   lab.make_periodic({true, true, false}, {0.0, 0.0, -5.5 * dx}, {4, 4, across + 12});
@@ -75,7 +76,7 @@ double taylor_green_error(int n, bool transport) {
   lab::Lab lab = lab::liquid_lab(dx, 1.0, nu, 100.0);
   lab.scene.support_ratio = 3.0;
   lab.scene.viscosity_form = "laplacian";
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;
+  lab.scene.modes[term::clamp] = Mode::paper;
   lab.scene.transport_velocity = transport;
   lab.add({.name = "water", .corner = {0.5 * dx, 0.5 * dx, 0.0}, .count = {n, n, thick}, .phase = Phase::liquid});
   lab.make_periodic({true, true, true}, {0.5 * dx, 0.5 * dx, 0.0}, {n, n, thick});

@@ -6,6 +6,7 @@
 
 #include "effects/fluid/equation_of_state.hpp"
 #include "effects/fluid_lab.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -119,7 +120,7 @@ double sound_speed_squared(int n, Mode mode) {
   constexpr double stiffness = 100.0;
   const double dx = 1.0 / n, wave = 2.0 * std::numbers::pi;
   lab::Lab lab = lab::liquid_lab(dx, 1000.0, 0.0, stiffness, mode);
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;
+  lab.scene.modes[term::clamp] = Mode::paper;
   lab.add({.name = "air", .corner = {0.0, 0.0, 0.0}, .count = {n, 4, 4}, .phase = Phase::liquid});
   lab.make_periodic({true, true, true}, {0.0, 0.0, 0.0}, {n, 4, 4});
   lab::set_velocity(lab, [&](const Vec3& r) { return Vec3{1e-3 * std::sin(wave * r.x), 0.0, 0.0}; });
@@ -158,7 +159,7 @@ struct Squeezed {
 Squeezed squeezed(double ratio) {
   constexpr int n = 8;
   lab::Lab lab = lab::liquid_lab(1.0 / n, 1000.0, 0.0, 100.0);
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;
+  lab.scene.modes[term::clamp] = Mode::paper;
   lab.add({.name = "water", .corner = {0.0, 0.0, 0.0}, .count = {n, n, n}, .phase = Phase::liquid});
   lab.make_periodic({true, true, true}, {0.0, 0.0, 0.0}, {n, n, n});
   for (Vec3& r : lab.initial.position) r = ratio * r;
@@ -190,7 +191,7 @@ Interface interface_of(Mode mode) {
   constexpr double g = 10.0, light = 200.0, heavy = 1000.0, stiffness = 50.0 * g;
   const double dx = 1.0 / layers;
   lab::Lab lab = lab::liquid_lab(dx, heavy, 50.0, stiffness, mode);
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::corrected;
+  lab.scene.modes[term::clamp] = Mode::corrected;
   const std::size_t oil = lab::add_material_like(lab, light, 10.0);
   lab.scene.gravity = {0.0, 0.0, -g};
   lab.scene.viscosity_form = "laplacian";

@@ -34,7 +34,7 @@ struct Lab {
   }
   void set_mode(Mode mode) {
     scene.mode = mode;
-    scene.modes.fill(mode);
+    scene.set_all_modes(mode);
     scene.support_ratio = mode == Mode::paper ? 2.12 : 2.6;
   }
   void add_material(double density, double conductivity, double heat_capacity) {

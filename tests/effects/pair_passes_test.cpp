@@ -8,6 +8,8 @@
 #include <set>
 
 #include "core/machine.hpp"
+#include "effects/fluid/pair_slots.hpp"
+#include "effects/heat/pair_slots.hpp"
 #include "passes/run_pass.hpp"
 
 namespace tripoint {
@@ -20,17 +22,129 @@ std::vector<int> widths_of_this_machine() {
   return lanes;
 }
 
+using Terms = std::vector<PairTerm>;
+
+/// Each of these with each of those.
+std::vector<Terms> each_with_each(const std::vector<Terms>& these, const std::vector<Terms>& those) {
+  std::vector<Terms> all;
+  for (const Terms& a : these)
+    for (const Terms& b : those) {
+      all.push_back(a);
+      all.back().insert(all.back().end(), b.begin(), b.end());
+    }
+  return all;
+}
+
+std::string names_of(const Terms& terms) {
+  std::string names;
+  for (const PairTerm& t : terms) (names += ' ') += t.name;
+  return names;
+}
+
+constexpr PairTerm viscosities[] = {pair_term<ViscosityPaper>, pair_term<ViscosityCentral>, pair_term<ViscosityLaplacian>,
+                                    pair_term<ViscosityCentralWeighted>};
+
+const std::vector<Terms> densities =
+    each_with_each({{}, {pair_term<DensityPaper>}, {pair_term<NumberDensity>}}, {{}, {pair_term<HeatMoment>}});
+
+std::vector<Terms> rates() {
+  std::vector<Terms> flows{{}};
+  for (const PairTerm& pressure : {pair_term<PressurePaper>, pair_term<PressureCorrected>})
+    for (const PairTerm& viscosity : viscosities) flows.push_back({pressure, viscosity});
+  return each_with_each(flows, {{}, {pair_term<HeatFlowPaper>}, {pair_term<HeatFlowCorrected>}});
+}
+
+const Terms alone{pair_term<TransportForces>,
+                  pair_term<WallExtrapolation>,
+                  pair_term<WallExtrapolationWeighted>,
+                  pair_term<ViscousSpread<ViscosityPaper>>,
+                  pair_term<ViscousSpread<ViscosityCentral>>,
+                  pair_term<ViscousSpread<ViscosityLaplacian>>,
+                  pair_term<ViscousSpread<ViscosityCentralWeighted>>};
+
 /// Every pass at every choice of forms, by name.
 std::vector<std::pair<std::string, PassFunction>> all_passes(int lanes) {
   const PairPasses p = pair_passes(lanes);
-  std::vector<std::pair<std::string, PassFunction>> list{{"transport", p.transport}};
-  for (int a = 1; a <= 2; ++a) list.emplace_back("wall_extrapolation " + std::to_string(a), p.wall_extrapolation({a}));
-  for (int a = 0; a <= 2; ++a)
-    for (int b = 0; b <= 1; ++b) list.emplace_back("density " + std::to_string(a) + std::to_string(b), p.density({a, b}));
-  for (int a = 1; a <= 4; ++a) list.emplace_back("spread " + std::to_string(a), p.spread({a}));
-  for (int a = 0; a <= 8; ++a)
-    for (int b = 0; b <= 2; ++b) list.emplace_back("rates " + std::to_string(a) + std::to_string(b), p.rates({a, b}));
+  std::vector<std::pair<std::string, PassFunction>> list;
+  for (const PairTerm& one : alone) list.emplace_back(one.name, p.alone(one));
+  for (const Terms& some : densities) list.emplace_back("density" + names_of(some), p.density(some));
+  for (const Terms& some : rates()) list.emplace_back("rates" + names_of(some), p.rates(some));
   return list;
+}
+
+TEST(PairPasses, SumTheTermsThatAreWantedAndNoOthers) {
+  const PairPasses p = pair_passes(1);
+  for (const PairTerm& one : alone) EXPECT_EQ(p.alone(one).terms, 1U) << one.name;
+  EXPECT_EQ(p.alone(pair_term<HeatMoment>).run, nullptr) << "which is fused with others";
+  for (const Terms& some : densities) EXPECT_EQ(p.density(some).terms, some.size()) << names_of(some);
+  for (const Terms& some : rates()) {
+    EXPECT_EQ(p.rates(some).terms, some.size()) << names_of(some);
+    EXPECT_EQ(p.density(some).run, nullptr) << names_of(some);
+  }
+  EXPECT_EQ(p.rates(Terms{pair_term<PressurePaper>}).terms, 0U) << "pressure and viscosity are compiled together alone";
+  const auto names_term = [](const Field<double>* f) { return f->name == field::number_density.name; };
+  EXPECT_TRUE(std::ranges::any_of(p.density(Terms{pair_term<NumberDensity>}).adds(), names_term));
+}
+
+/// The slots of two effects that share a form are one; all others follow each other.
+TEST(PairPasses, ArePutTogetherFromTheSlotsOfEffects) {
+  struct First {
+    using density = SlotList<Slot<DensityPaper, NumberDensity>>;
+    using alone = Together<TransportForces>;
+  };
+  struct Nothing;
+  struct Second {
+    using density = SlotList<Slot<DensityPaper>, Slot<HeatMoment>>;
+    using rates = SlotList<Slot<HeatFlowPaper>>;
+  };
+  using All = PassesOf<First, Nothing, Second, void>;
+  static_assert(std::is_same_v<All::Density, FindingPass<Slot<DensityPaper, NumberDensity>, Slot<HeatMoment>>>);
+  static_assert(std::is_same_v<All::Rates, Pass<Slot<HeatFlowPaper>>>);
+  static_assert(std::is_same_v<All::Alone, Together<TransportForces>>);
+  EXPECT_EQ(pair_term<DensityPaper>.name, "tripoint::DensityPaper");
+  EXPECT_NE(pair_term<ViscosityCentral>.key, pair_term<ViscosityCentralWeighted>.key);
+}
+
+/// A term that the program does not have: sum_j m_j r_ij.
+struct Far {
+  using reads = Keys<field::mass>;
+  using adds = Keys<field::conductance>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 1>, std::span<const V, 1> j, std::span<V, 1> sum) {
+    sum[0] += j[0] * g.r;
+  }
+};
+struct FarSlots {
+  using density = SlotList<Slot<Far>>;
+};
+
+TEST(PairPasses, FuseTheTermOfOneMoreEffectWithThoseOfTheOthers) {
+  struct Mine;  // a vector unit of the test's own: one particle at a time
+  using All = PassesOf<fluid::PairSlots, heat::PairSlots, FarSlots>;
+  const PassFunction pass = All::Density::choose_among<1, Mine>(Terms{pair_term<Far>, pair_term<NumberDensity>});
+  ASSERT_EQ(pass.terms, 2U);
+  std::vector<FieldInfo> fields = common_fields(false);
+  fields.insert(fields.end(), {field::conductance, field::number_density});
+  Particles p(100, fields);
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (std::size_t i = 0; i < p.size(); ++i) positions(p).set(i, {uniform(random), uniform(random), uniform(random)});
+  for (double& m : p[field::mass]) m = 1.0 + uniform(random);
+  constexpr double support = 0.4;
+  Neighbours neighbours(support, 0.05, {}, 1, 1);
+  neighbours.update(p, 0.0);
+  run_pass(pass, p, neighbours, PairKernels(support), 1);
+  const auto x = positions(std::as_const(p));
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    double far = 0.0, crowd = 0.0;
+    for (std::size_t j = 0; j < p.size(); ++j) {
+      const double r = norm(x.at(j) - x.at(i));
+      if (j == i || r >= support) continue;
+      far += p[field::mass][j] * r, crowd += PairKernels(support).wendland.value(r);
+    }
+    EXPECT_NEAR(p[field::conductance][i], far, 1e-13 * far);  // round-off of some 30 neighbours
+    EXPECT_NEAR(p[field::number_density][i], crowd, 1e-13 * crowd);
+  }
 }
 
 /// A periodic cloud of liquid, walls, bodies and deformable solids with every column that a pass names, at random.

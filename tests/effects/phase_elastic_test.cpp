@@ -3,6 +3,7 @@
 
 #include "effects/phase/joining.hpp"
 #include "effects/phase_lab.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/objects.hpp"
 #include "solids/solid_particles.hpp"
 
@@ -212,7 +213,7 @@ TEST(Softening, TakesStiffnessWithTheLiquidFractionAndClosesTheLedger) {
     Material& m = lab.scene.materials[0];
     m.t_solid = 320.0, m.t_melt = 360.0;
     if (printed)
-      lab.scene.modes[static_cast<std::size_t>(Term::phase)] = Mode::paper;
+      lab.scene.modes[term::phase] = Mode::paper;
     else
       m.softens = true;
     // printed: held half way through the band; else heat for a quarter of the fusion, 20 K worth of L
@@ -247,7 +248,7 @@ TEST(Softening, LeavesAMaterialAloneThatDoesNotSoften) {
 
 TEST(PrintedHeat, ALiquidThatIsSetToATemperatureTakesHeatAndNoFusion) {
   lab::Lab lab = swinging_bar();
-  lab.scene.modes[static_cast<std::size_t>(Term::heat)] = Mode::paper;
+  lab.scene.modes[term::heat] = Mode::paper;
   lab.initial.temperature.assign(lab.initial.size(), 420.0);
   lab.scene.events = {heat(0.01, 440.0)};
   Simulation s(lab.scene, lab.initial);
@@ -263,7 +264,7 @@ TEST(PrintedHeat, ALiquidThatIsSetToATemperatureTakesHeatAndNoFusion) {
 /// temperatures.
 Simulation spinning_pair(double first, double second, bool softens = true) {
   lab::Lab lab = lab::melting_lab(0.1, {.t_melt = 360.0, .t_solid = 320.0, .conductivity = 1e-12});
-  lab.scene.modes[static_cast<std::size_t>(Term::phase)] = Mode::paper;
+  lab.scene.modes[term::phase] = Mode::paper;
   lab.scene.merge_distance = 2.12;
   Material& m = lab.scene.materials[0];
   m.young_modulus = 1e5, m.poisson_ratio = 0.3, m.softens = softens;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "effects/phase_lab.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/fusion.hpp"
 
 namespace tripoint {
@@ -181,10 +182,10 @@ TEST(Melting, OfUnlikePhasesConductsByThePhaseAndLosesNoHeat) {
 }
 
 TEST(Melting, OfUnlikePhasesIsRefusedAsPrinted) {
-  for (const Term term : {Term::heat, Term::phase}) {
+  for (const Term& one : {term::heat, term::phase}) {
     lab::Lab lab = melting_bar();
     lab.scene.materials[0].solid_conductivity = 3000.0;
-    lab.scene.modes[static_cast<std::size_t>(term)] = Mode::paper;
+    lab.scene.modes[one] = Mode::paper;
     EXPECT_THROW(Simulation(lab.scene, lab.initial), InputError);
   }
 }

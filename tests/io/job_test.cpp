@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "job/job.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -22,8 +23,8 @@ Job example() {
   s.spacing = 0.1;
   s.periodic = {true, false, false};
   s.min = Vec3{0, 0, 0};
-  s.modes.fill(Mode::corrected);
-  s.modes[static_cast<std::size_t>(Term::heat)] = Mode::paper;
+  s.set_all_modes(Mode::corrected);
+  s.modes[term::heat] = Mode::paper;
   Material m;
   m.name = "water";
   m.density = 1000.0;
@@ -75,7 +76,7 @@ TEST(Job, ReadsBackWhatWasWritten) {
   expected.particles = folder + "particles.h5";
   expected.output = folder + "out";
   EXPECT_EQ(job_text(read), job_text(expected));
-  EXPECT_EQ(read.scene.mode_of(Term::heat), Mode::paper);
+  EXPECT_EQ(read.scene.mode_of(term::heat), Mode::paper);
   EXPECT_EQ(read.scene.materials[0].solid_conductivity, 2.2);
   EXPECT_EQ(read.scene.materials[0].solid_heat_capacity, 2100.0);
   EXPECT_EQ(read.times.back(), 1.0 / 3.0);  // numbers travel without loss

@@ -87,6 +87,19 @@ TEST(Audit, FindsABodyThatHangsInTheAirWhateverSpeedItSays) {
   EXPECT_NE(stopped(1.0, 1e-9).sound().find("hangs in the air"), std::string::npos);
 }
 
+/// Within three spacings another body may bear it; a change of velocity by half of what gravity gives is no hanging.
+TEST(Audit, ABodyHangsThatNoOtherIsNearAndThatKeepsItsVelocity) {
+  const auto hangs = [](const Trial& t) { return t.sound().find("hangs in the air") != std::string::npos; };
+  EXPECT_FALSE(hangs(stopped(0.34, 0.0)));  // 0.29 m between the nearest particles
+  EXPECT_TRUE(hangs(stopped(0.36, 0.0)));
+  for (const auto& [jump, still] : {std::pair{0.48, true}, std::pair{0.50, false}}) {  // g dt/2 = 0.49 m/s
+    auto t = stopped(1.0, 0.0);
+    for (std::size_t n = 1; n < t.run.frames.size(); n += 2)
+      for (std::size_t i = 0; i < t.s.initial.source.size() - 400; ++i) t.run.frames[n].velocity[i] = {jump, 0, 0};
+    EXPECT_EQ(hangs(t), still) << t.sound();
+  }
+}
+
 /// All places are those of the start: other velocities do not make it a run.
 TEST(Audit, FindsARunWhosePlacesAreThoseOfTheStart) {
   EXPECT_NE(stopped(0.1, 0.0, true).sound().find("nothing has moved by the end"), std::string::npos)

@@ -5,9 +5,8 @@
 
 #include <cmath>
 #include <functional>
-#include <map>
 
-#include "metrics/frames.hpp"
+#include "metrics/known.hpp"
 #include "references/solids.hpp"
 #include "validation/metrics/statistics.hpp"
 
@@ -18,48 +17,11 @@ using test::metric;
 using test::pi;
 using test::Still;
 
-using Numbers = std::map<std::string, double, std::less<>>;
-
-/// A truth that is one state at all times, and what a test gives it: numbers, and what they are measured along.
-class Known : public Reference {
- public:
-  Known(Snapshot state, Numbers numbers, Measuring measuring = {})
-      : state_(std::move(state)), numbers_(std::move(numbers)), measuring_(measuring) {}
-  [[nodiscard]] Snapshot at(double time) const override {
-    auto state = state_;
-    state.time = time;
-    return state;
-  }
-  [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
-    const auto found = numbers_.find(quantity);
-    return found == numbers_.end() ? std::nullopt : std::optional(found->second);
-  }
-  [[nodiscard]] Measuring measuring() const override { return measuring_; }
-
- private:
-  Snapshot state_;
-  Numbers numbers_;
-  Measuring measuring_;
-};
-
-Measuring along(std::size_t axis) {
-  Measuring m;
-  m.axis = axis;
-  return m;
-}
-
-/// The value of a run beside a truth that is the run's start as it was prepared.
-MetricValue value(const Still& f, const MetricChoice& choice, const Numbers& numbers = {}, const Measuring& measuring = {}) {
-  const Known truth(Still(f.s).run.frames.front(), numbers, measuring);
-  return evaluate(choice, f.s.job, f.s.initial, f.run, truth);
-}
-
-Still still_blocks(int intervals = 4) {
-  auto s = test::blocks();
-  s.job.scene.gravity = {0, 0, -10.0};
-  test::set_times(s, 1.0, intervals);
-  return Still(std::move(s));
-}
+using test::along;
+using test::Known;
+using test::Numbers;
+using test::still_blocks;
+using test::value;
 
 // --- of one frame ---------------------------------------------------------------------------------------------------------
 

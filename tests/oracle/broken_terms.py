@@ -17,6 +17,8 @@ BROKEN = [
     ("fluid.pressure=1e-6", "basin", "corrected", 2, [], "pressure force 8.3"),
     ("fluid.core=1e-6", "basin", "corrected", 2, [], "pressure force 8.3"),
     ("fluid.contact_stiffness=1e-6", "mixture", "corrected", 2, ["scene.contact_stiffness=3"], "pressure 8.3"),
+    ("fluid.face_pressure=1e-6", "mixture", "corrected", 2, ["scene.face_pressure=0.8"], "number density 8.2"),
+    ("fluid.interface_weight=1e-6", "mixture", "corrected", 2, ["scene.interface_weight=0.7"], "pressure force 8.3"),
     ("fluid.core.reach=1e-6", "basin", "corrected", 2, ["scene.core_reach=0.7"], "pressure force 8.3"),
     ("fluid.paper.pressure=1e-6", "basin", "paper", 2, [], "pressure force (7)"),
     ("fluid.state=1e-6", "vortices", "corrected", 2, [], "pressure 8.3"),

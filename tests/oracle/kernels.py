@@ -56,6 +56,18 @@ def isotropic_shear(ratio):
     return (c, s) if c > 0 else (0.0, 1 / ([0.6, 0.4] @ moduli)[1])
 
 
+def interface_kernel(ratio):
+    """c and s of 8.3 in spacings: with the energy of K = (c + s r^2) W both layers beside a level interface bear their weight."""
+    reach = np.arange(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1.0)
+    x, y, z = (a.ravel() for a in np.meshgrid(reach, reach, reach))
+    r = np.sqrt(x * x + y * y + z * z)
+    z, r = (a[(r > 0) & (r < ratio)] for a in (z, r))
+    W, slope = wendland(r, ratio), wendland_slope(r, ratio) / r
+    given = [[-(z * z * k + K)[z > a].sum() for K, k in ((W, slope), (r * r * W, r * r * slope + 2 * W))] for a in (0.5, 1.5)]
+    missing = [-(2 * (z - a) * z * slope)[z > a].sum() for a in (0.5, 1.5)]
+    return np.linalg.solve(given, missing)
+
+
 def lattice_numbers(ratio):
     """S0 and M of chapter 8, and the part of S0 within one layer."""
     reach = range(-int(np.ceil(ratio)), int(np.ceil(ratio)) + 1)

@@ -6,7 +6,7 @@ all j but i itself. A function returns the sum and the sum of the magnitudes of 
 """
 import numpy as np
 
-from kernels import isotropic_shear, lattice_numbers, poly6, spiky_slope, viscosity_laplacian, wendland, wendland_slope
+from kernels import interface_kernel, isotropic_shear, lattice_numbers, poly6, spiky_slope, viscosity_laplacian, wendland, wendland_slope
 
 LIQUID, DEFORMABLE, WALL = -1.0, -2.0, 0.0  # groups; 1 + body for free rigid bodies
 
@@ -147,6 +147,64 @@ class State:
         return np.where(self.group == LIQUID, weight * self.material("density"), 0.0) * on, 0.5 * (1 + self.layer / self.S0)
 
 
+def faces(s):
+    """Pairs with an elastic particle whose pressure acts at its face (8.3), r_i - r_j measured there (d*) and its length, and F^-1 of each particle:
+    the identity of what is not elastic. None where the scene does not ask for it."""
+    share = s.scene["face_pressure"]
+    if share == 0 or not s.has("shape_rank") or any(s.printed(t) for t in ("density", "pressure", "state", "elastic")):
+        return None
+    elastic = (s.group == DEFORMABLE) & (s["shape_rank"] == 3)
+    inverse, A = np.tile(np.eye(3), (s.n, 1, 1)), s.symmetric("shape_inverse")
+    for i in np.flatnonzero(elastic):
+        sum_of = sum(np.outer(s.nearest(s.r[j] - s.r[i]) + x, s["solid_volume"][j] * gradient) for j, x, gradient, _ in s.bonds[i])
+        inverse[i] = np.linalg.inv(np.eye(3) + sum_of @ A[i])
+    D = 0.5 * share * (np.einsum("iba,ibc->iac", inverse, inverse) - np.eye(3))
+    at_face = s.d + np.einsum("iab,ijb->ija", D, s.d) + np.einsum("jab,ijb->ija", D, s.d)
+    distance = np.sqrt(np.einsum("ijk,ijk->ij", s.d, at_face))
+    np.fill_diagonal(distance, np.inf)
+    return s.acts & (elastic[:, None] | elastic[None, :]), at_face, distance, inverse, elastic
+
+
+def face_forces(s):
+    """What 8.3 adds to the pressure force where pressure acts at faces: pairs, and the load on bonds."""
+    found = faces(s)
+    if found is None:
+        return 0.0, 0.0
+    pairs, at_face, distance, inverse, elastic = found
+    pressure = np.where(pairs, s["pressure_share"][:, None] + s["pressure_share"][None, :], 0.0)
+    there, here = wendland_slope(distance, s.h) / distance, s.slope_over_r
+    force = -(pressure[..., None] * (there[..., None] * at_face - here[..., None] * s.d)).sum(axis=1)
+    edge = np.where(distance < s.h, 1 / np.maximum(1 - distance / s.h, 1e-300), 0.0)
+    scale = np.abs(pressure * edge * wendland_slope(distance, s.h)).sum(axis=1)
+    A = s.symmetric("shape_inverse")
+    for k in np.flatnonzero(elastic):
+        y = s.d[k] @ inverse[k].T
+        load = -0.5 * s.scene["face_pressure"] * np.einsum("j,ja,jb->ab", pressure[k] * there[k], y, y)
+        T = inverse[k].T @ load @ A[k]
+        size = np.abs(load).max() * np.abs(A[k]).max()
+        for j, _, gradient, _ in s.bonds[k]:
+            f = s["solid_volume"][j] * T @ gradient
+            force[k] += f
+            force[j] -= f
+            scale[[k, j]] += s["solid_volume"][j] * size * np.linalg.norm(gradient)
+    return force, scale
+
+
+def interfaces(s):
+    """a of 8.3 for pairs of unlike liquids [i, j], g.d with d = r_j - r_i, K and K'/r."""
+    c, square = interface_kernel(s.scene["support_ratio"])
+    corrected = s.clamps and not any(s.printed(t) for t in ("density", "pressure", "state"))
+    on = corrected and not s.has("liquid_fraction")
+    rho0, liquid = s.material("density"), s.group == LIQUID
+    unlike = liquid[:, None] & liquid[None, :] & (s.distance < s.h)
+    a = np.where(unlike, 0.5 * s.scene["interface_weight"] * on * (rho0[:, None] - rho0[None, :]) * s.dx**6 / s.M, 0.0)
+    g = np.array(s.scene["gravity"], dtype=float)
+    g[s.periodic] = 0.0
+    r2 = np.where(np.isfinite(s.r2), s.r2, 0.0)
+    W, weight = wendland(s.distance, s.h), c + square * r2 / s.dx**2
+    return a, g, -s.d @ g, weight * W, weight * s.slope_over_r + 2 * square / s.dx**2 * W
+
+
 def summed(s, pairs):
     """Sums over j of vectors [i, j, k], and what their magnitudes sum to, each times its condition."""
     return pairs.sum(axis=1), (s.condition * np.linalg.norm(pairs, axis=2)).sum(axis=1)
@@ -169,6 +227,9 @@ def number_density(s):
     if s.averages_walls():
         laid, d = from_lattice(s)
         total = total + np.where(laid, wendland(np.linalg.norm(d, axis=2), s.h) - wendland(s.distance, s.h), 0.0).sum(axis=1)
+    if (found := faces(s)) is not None:
+        pairs, _, distance, _, _ = found
+        total = total + np.where(pairs, wendland(distance, s.h) - wendland(s.distance, s.h), 0.0).sum(axis=1)
     return total, total
 
 
@@ -285,7 +346,11 @@ def pressure_force(s):
         distance = np.linalg.norm(d, axis=2)
         there = -(share[:, None] + share[None, :]) * wendland_slope(distance, s.h)
         total = total + np.where(laid[..., None], there[..., None] * d / np.where(laid, distance, 1.0)[..., None] - size[..., None] * away, 0.0).sum(axis=1)
-    return total, (s.condition * np.where(s.acts, np.abs(size) + core, 0.0)).sum(axis=1)
+    a, g, along, K, K_slope = interfaces(s)
+    total = total + (a * K).sum(axis=1)[:, None] * g - ((a * along * K_slope)[..., None] * s.d).sum(axis=1)
+    at_faces, scale = face_forces(s)
+    scale = scale + (s.condition * np.abs(a) * (np.abs(K) * np.linalg.norm(g) + np.abs(along * K_slope) * np.where(np.isfinite(s.distance), s.distance, 0.0))).sum(axis=1)
+    return total + at_faces, scale + (s.condition * np.where(s.acts, np.abs(size) + core, 0.0)).sum(axis=1)
 
 
 def compression_energy(s):
@@ -301,7 +366,8 @@ def compression_energy(s):
         U = np.where(ratio > 1, U, -s.S0 / s.M * s.m / rho0 * p_s * of_surface)
     kappa, reach = 0.03 * s.stiffness * s.rest_densities()[0] * s.dx, s.scene["core_reach"] * s.dx
     core = np.where(s.acts & (s.distance < reach), 0.25 * kappa * (reach - np.minimum(s.distance, reach)) ** 2, 0.0).sum()
-    return U.sum() + core, size.sum() + core
+    a, _, along, K, _ = interfaces(s)
+    return U.sum() + core + 0.5 * (a * along * K).sum(), size.sum() + core + np.abs(a * along * K).sum()
 
 
 # --- viscosity --------------------------------------------------------------------------------------------------------------

@@ -38,6 +38,7 @@ RUNS = [
     ("mixture", "corrected", 3, []),
     ("mixture", "corrected", 2, ["scene.viscosity_form='laplacian'"]),
     ("mixture", "corrected", 2, ["scene.contact_stiffness=3"]),
+    ("mixture", "corrected", 3, ["scene.face_pressure=0.8", "scene.interface_weight=0.7"]),
     ("mixture", "paper", 3, []),
     ("mixture", "corrected", 2, ["scene.modes={pressure='paper', heat='paper'}"]),
     ("basin", "corrected", 3, []),

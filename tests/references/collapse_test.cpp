@@ -93,6 +93,22 @@ TEST(Collapse, HasNoUnitOfItsOwn) {
   for (const std::size_t n : {0u, 1u}) EXPECT_NEAR(other.front[n] / small.width, one.front[n], 1e-9);
 }
 
+TEST(Collapse, KnowsThePressureAtAPlaceOfTheFirstInstantAndAsTheMeshIsRefined) {
+  for (const double x : {0.1, 0.3, 0.62})
+    for (const double y : {0.1, 0.5, 1.21}) {
+      CollapseMesh mesh(unit, 40);
+      mesh.step();
+      EXPECT_NEAR(mesh.pressure_at(x, y), first_pressure(x, y), 0.003) << x << " " << y;
+    }
+  const auto p = collapse_pressures(unit, 20, {0.3, 0.9, 1.5}, 0.1, 0.1),
+             fine = collapse_pressures(unit, 32, {0.3, 0.9, 1.5}, 0.1, 0.1);
+  for (std::size_t n = 0; n < 3; ++n) {
+    EXPECT_NEAR(p.pressure[n], fine.pressure[n], 2.0 * p.difference[n] + 0.002) << n;
+    EXPECT_LT(p.difference[n], 0.03) << n;
+  }
+  EXPECT_LT(p.pressure[0], p.pressure[1]) << "what falls freely at first is held up by the floor later";
+}
+
 TEST(Collapse, SaysWhereTheMeshDoesNotLast) { EXPECT_THROW((void)collapse_fronts(unit, 20, {20.0}), InputError); }
 
 }  // namespace

@@ -178,7 +178,7 @@ TEST(CosineModeLattice, HasTheCorrectedFormsKnownErrors) {
 TEST(CosineModeLattice, ServesThePeriodicLatticeOnlyAndTheFormOfTheRun) {
   auto s = cosine_bar(20, true, 0.7);
   s.job.resolution.support_ratio = 2.12;
-  s.job.scene.modes.fill(Mode::paper);
+  s.job.scene.set_all_modes(Mode::paper);
   const double k = 2 * pi / 0.1;
   const auto paper = make_reference(test::function("cosine_mode_lattice"), s.job, s.initial);
   EXPECT_NEAR(*paper->number("decay_rate") / (D * k * k), 0.919, 6e-4);

@@ -122,8 +122,33 @@ TEST(Hydrostatic, OfACompressedLayerHasAllItsWeightAtTheFloorAndTheDensityOfItsP
     EXPECT_NEAR(slope, -9.81 * (1000.0 + pressure(z) / 40.0), 1e-3) << z;  // h^2 g^3/c^4 rho g/6 = 1e-6, and round-off over h
   }
   EXPECT_EQ(pressure(0.48), 0.0) << "the surface has fallen by about g H^2/(2 c^2) = 0.03";
-  const auto two = test::layers(5.0);
-  EXPECT_THROW((void)make_reference(test::function("hydrostatic", {{"compressed", true}}), two.job, two.initial), InputError);
+}
+
+TEST(Hydrostatic, OfCompressedLayersFallsWithEachDensityAndKeepsTheWeightOfEach) {
+  auto s = test::layers(5.0);
+  for (Material& m : s.job.scene.materials) m.stiffness = 40.0;
+  const auto free = make_reference(test::function("hydrostatic"), s.job, s.initial),
+             truth = make_reference(test::function("hydrostatic", {{"compressed", true}}), s.job, s.initial);
+  const auto pressure = [&](double height) {
+    Snapshot now;
+    now.position = s.initial.position;
+    now.position[0].z = height;
+    return truth->beside(now).pressure[0];
+  };
+  const double at_interface = *free->number("interface_pressure"), interface = *free->number("interface");
+  EXPECT_NEAR(pressure(0.0), *free->number("bottom_pressure"), 1e-9);
+  EXPECT_EQ(*truth->number("interface"), interface) << "where particles began";
+  double low = 0.0, high = interface;  // where the pressure is that of the light layer's weight
+  for (int n = 0; n < 60; ++n) {
+    const double middle = 0.5 * (low + high);
+    (pressure(middle) > at_interface ? low : high) = middle;
+  }
+  EXPECT_LT(low, interface);
+  const double h = 1e-4;
+  const auto slope = [&](double z) { return (pressure(z + h) - pressure(z - h)) / (2.0 * h); };
+  for (const double z : {0.1 * low, 0.9 * low}) EXPECT_NEAR(slope(z), -9.81 * (1000.0 + pressure(z) / 40.0), 1e-3) << z;
+  const double c2 = 5.0 * 40.0;  // a light liquid is as hard to compress: k rho_ref/rho0
+  for (const double z : {1.1 * low, 1.5 * low}) EXPECT_NEAR(slope(z), -9.81 * (200.0 + pressure(z) / c2), 1e-3) << z;
 }
 
 TEST(Archimedes, IsTheBalanceOfPressureAndWeight) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "references/solids.hpp"
+#include "scene/shared_terms.hpp"
 #include "validation/references/bar_law.hpp"
 #include "validation/references/beam.hpp"
 #include "validation/references/reference.hpp"
@@ -205,7 +206,7 @@ TEST(ElasticWave, HasTheSpeedsOfTheRodThePlateAndTheBody) {
   EXPECT_NEAR(speed(), std::sqrt((lambda + 2 * mu) / rho), 1e-9);
   start.amplitude = {0, 0, 0.01};
   EXPECT_NEAR(speed(), std::sqrt(mu / rho), 1e-9);
-  s.job.scene.modes[static_cast<std::size_t>(Term::elastic)] = Mode::paper;
+  s.job.scene.modes[term::elastic] = Mode::paper;
   s.job.scene.support_ratio = s.job.resolution.support_ratio = 2.12;
   EXPECT_NEAR(speed() / std::sqrt(mu / rho), std::sqrt(4 * 0.901 * 0.901 * 0.947), 2e-3);  // three digits of the numerics note
   start.amplitude = {0.01, 0, 0.01};

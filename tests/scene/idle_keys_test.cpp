@@ -145,10 +145,11 @@ TEST(IdleKeys, FindLimitsOfTheFormThatDoesNotRun) {
 }
 
 TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
-  for (const char* key : {"transport_velocity = true", "viscosity_form = 'laplacian'", "clamp = false", "contact_viscosity = 3",
-                          "bulk_viscosity = 0.1", "surface_weight = 0.4", "isotropic_shear = 1", "core_reach = 0.6",
-                          "contact_stiffness = 3", "surface_exchange = 0", "hourglass = 5", "bending = 1", "merge_distance = 1.2",
-                          "modes.heat = 'paper'", "modes.elastic = 'paper'"})
+  for (const char* key :
+       {"transport_velocity = true", "viscosity_form = 'laplacian'", "clamp = false", "contact_viscosity = 3",
+        "bulk_viscosity = 0.1", "surface_weight = 0.4", "isotropic_shear = 1", "core_reach = 0.6", "contact_stiffness = 3",
+        "face_pressure = 1", "interface_weight = 1", "surface_exchange = 0", "hourglass = 5", "bending = 1",
+        "merge_distance = 1.2", "modes.heat = 'paper'", "modes.elastic = 'paper'"})
     EXPECT_EQ(found(scene(key) + cube(), "changes nothing"), "warning") << key;
   const auto pool = ink + body("pool", "ink", "liquid", 0.0);
   for (const char* key : {"viscosity_form = 'laplacian'", "clamp = false", "modes.walls = 'paper'"})
@@ -166,6 +167,22 @@ TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   EXPECT_EQ(found(scene("core_reach = 0.6") + pool, "changes nothing"), "");
   EXPECT_EQ(found(scene("core_reach = 0.6\nmode = 'paper'") + pool, "changes nothing"), "warning");
   EXPECT_EQ(found(scene("isotropic_shear = 1") + pool, "changes nothing"), "");
+  const auto block = jelly + body("block", "jelly", "elastic", 0.5);
+  EXPECT_EQ(found(scene("face_pressure = 1") + pool + block, "changes nothing"), "");
+  EXPECT_EQ(found(scene("face_pressure = 1") + pool, "changes nothing"), "warning");
+  for (const char* term : {"density", "pressure", "state", "elastic"})
+    EXPECT_EQ(found(scene("face_pressure = 1\nmodes." + std::string(term) + " = 'paper'") + pool + block, "changes nothing"),
+              "warning")
+        << term;
+  EXPECT_EQ(found(scene("face_pressure = 1") + pool + jelly + "fracture_stretch = 1.5\n" + body("block", "jelly", "elastic", 0.5),
+                  "changes nothing"),
+            "warning");
+  const auto oil = "[[material]]\nname = 'oil'\ndensity = 800\n" + body("oil", "oil", "liquid", 0.5);
+  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool + oil, "changes nothing"), "");
+  EXPECT_EQ(found(scene("interface_weight = 1") + pool + oil, "changes nothing"), "warning");
+  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]") + pool, "changes nothing"), "warning");
+  EXPECT_EQ(found(scene("interface_weight = 1\ngravity = [0, 0, -9.81]\nclamp = false") + pool + oil, "changes nothing"),
+            "warning");
   for (const char* key : {"mode = 'paper'", "viscosity_form = 'laplacian'"})
     EXPECT_EQ(found(scene(std::string("isotropic_shear = 1\n") + key) + pool, "changes nothing"), "warning") << key;
   EXPECT_EQ(found(scene("hourglass = 5") + jelly + body("block", "jelly", "elastic", 0.0), "changes nothing"), "");

@@ -4,6 +4,7 @@
 #include "case_file.hpp"
 #include "full_case.hpp"
 #include "scene/sample.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint::test {
 namespace {
@@ -37,8 +38,8 @@ TEST(ReadCase, ReadsEveryKeyOfTheContract) {
   const Case& c = r.value;
   EXPECT_EQ(c.id, "test/full");
   EXPECT_EQ(c.modes, (std::vector<Mode>{Mode::corrected, Mode::paper}));
-  EXPECT_EQ(c.scene.mode_of(Term::heat), Mode::paper);
-  EXPECT_EQ(c.scene.mode_of(Term::kernel), Mode::corrected);
+  EXPECT_EQ(c.scene.mode_of(term::heat), Mode::paper);
+  EXPECT_EQ(c.scene.mode_of(term::kernel), Mode::corrected);
   EXPECT_EQ(c.scene.support_ratio, 2.6);
   EXPECT_EQ(*c.scene.time_step, 1e-3);
   EXPECT_TRUE(c.scene.periodic[0]);
@@ -238,7 +239,7 @@ TEST(Overrides, ReplaceAnyKeyByTheSameChecks) {
   EXPECT_EQ(r.value.scene.spacing, 0.1);
   EXPECT_EQ(r.value.scene.bodies[0].velocity.value, (Vec3{1, 2, 3}));
   EXPECT_EQ(r.value.scene.material("steel").density, 8000.0);
-  EXPECT_EQ(r.value.scene.modes_given[static_cast<std::size_t>(Term::heat)], Mode::paper);
+  EXPECT_EQ(r.value.scene.modes_given.at(term::heat), Mode::paper);
   EXPECT_TRUE(decision(r, "scene.spacing")->given);
   EXPECT_EQ(decision(r, "scene.spacing")->place.file, "--set scene.spacing=0.1");
   EXPECT_EQ(read_text(six_lines, {"scene.mode=paper"}).value.scene.mode, Mode::paper) << "the shell eats quotes";
@@ -303,7 +304,7 @@ TEST(SceneFor, ResolvesModesAndSupportRatioForEachRun) {
   EXPECT_EQ(*s.time_step, 1e-4);
   EXPECT_EQ(s.seed, 7U);
   EXPECT_EQ(scene_for(c, {}).support_ratio, 2.6);
-  EXPECT_EQ(scene_for(c, {}).mode_of(Term::heat), Mode::paper) << "a term that the case fixes stays";
+  EXPECT_EQ(scene_for(c, {}).mode_of(term::heat), Mode::paper) << "a term that the case fixes stays";
   EXPECT_EQ(scene_for(read_text(six_lines, {"scene.support_ratio=3"}).value, paper).support_ratio, 3.0);
 }
 

@@ -73,5 +73,41 @@ TEST(Lattice, NeverDrivesAPairByTheWeightOfIsotropicShear) {
   }
 }
 
+/// Sums in NumPy.
+TEST(Lattice, HasTheKernelOfAnInterface) {
+  const InterfaceKernel K = interface_kernel(2.6);
+  EXPECT_NEAR(K.constant, 2.2392876, 1e-7);
+  EXPECT_NEAR(K.square, -0.42923285, 1e-7);
+  EXPECT_NEAR(interface_kernel(2.0).constant, 1.35180201, 1e-7);
+  EXPECT_EQ(interface_kernel(2.0).square, 0.0) << "a second layer sees nothing of the other liquid";
+}
+
+/// Layers at -2.5 .. 2.5 of liquids of densities 5 below 0 and 1 above it, at their exact pressures: what pairs give each layer
+/// is its weight, with the energy of unlike pairs.
+TEST(Lattice, LeavesTheLayersBesideAnInterfaceAtRest) {
+  for (const double q : {2.05, 2.3, 2.6, 3.0}) {
+    const WendlandC2 W(q);
+    const InterfaceKernel K = interface_kernel(q);
+    const auto density = [](double z) { return z < 0.0 ? 5.0 : 1.0; };
+    const double M = wendland_moments(q).gradient;
+    for (const double z : {-1.5, -0.5, 0.5, 1.5}) {
+      double force = 0.0, plain = 0.0;
+      for (int x = -3; x <= 3; ++x)
+        for (int y = -3; y <= 3; ++y)
+          for (int n = -3; n <= 3; ++n) {
+            const double r = std::hypot(x, y, n), other = z + n;
+            if (r == 0.0 || r >= q) continue;
+            plain += (-density(z) * z - density(other) * other) / M * W.derivative_over_r(r) * n;
+            const double a = 0.5 * (density(z) - density(other)) / M;
+            force += a * (-K.value(W, r) - n * K.derivative_over_r(W, r) * n);  // gravity is -1
+          }
+      EXPECT_NEAR(plain + force, density(z), 1e-12) << q << " " << z;
+      if (std::abs(z) < 1.0) {
+        EXPECT_GT(std::abs(plain - density(z)), 0.9) << q << " " << z;  // a quarter of the difference of densities
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tripoint

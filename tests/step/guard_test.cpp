@@ -6,6 +6,7 @@
 #include "core/errors.hpp"
 #include "effects/fluid_lab.hpp"
 #include "effects/solid_lab.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -127,7 +128,8 @@ TEST(Guard, NamesTheParticleThatLeavesTheDomainAndLetsWallsStandOutsideIt) {
 
 TEST(Guard, NamesEnergyThatTheSchemeMakes) {
   lab::Lab lab = lab::elastic_lab(1.0);
-  lab.add({.count = {4, 4, 4}, .phase = Phase::elastic});
+  lab.scene.materials[0].conductivity = lab.scene.materials[0].heat_capacity = 1.0;
+  lab.add({.count = {4, 4, 4}, .phase = Phase::elastic, .temperature = [](const Vec3&) { return 300.0; }});
   for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i].x = i % 2 ? 1e-3 : -1e-3;
   lab.initial.velocity[21].y = 0.01;
   const Simulation s(lab.scene, lab.initial);
@@ -149,7 +151,7 @@ TEST(Guard, NamesEnergyThatTheSchemeMakes) {
 /// A column between fixed walls whose ledger says that forces have made what moves.
 TEST(Guard, CountsWhatForcesMakeAsMadeByTheScheme) {
   lab::Lab lab = lab::column(4, 4, 5.0, 1000.0, 10.0);
-  lab.scene.values["surface_weight"] = 0.0;  // its energy would turn over too
+  lab.scene.modes[term::pressure] = Mode::paper;
   Simulation s(lab.scene, lab.initial);
   Ledger ledger = s.ledger();
   ASSERT_EQ(ledger.energy.count("viscous"), 1u);

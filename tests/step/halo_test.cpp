@@ -11,7 +11,7 @@ namespace {
 using lab::far, lab::greatest_difference, lab::Seen, lab::seen_shared, lab::seen_whole;
 
 /// A column of jittered water that falls over between walls, which a block falls into.
-test::Prepared splash() {
+test::Prepared splash(bool floats_oil = false) {
   Scene s;
   s.spacing = 0.01, s.jitter = 0.2;
   s.gravity = {0, 0, -9.81};
@@ -29,11 +29,20 @@ test::Prepared splash() {
   Body block = test::rigid("block", test::box({0.05, 0.0, 0.065}, {0.09, 0.02, 0.095}), {{0.2, 0, -1.0}, {}});
   block.material = "wood";
   s.bodies = {column, test::rigid("tank", tank, {}, Motion::fixed), block};
+  if (floats_oil) {
+    Material oil = water;
+    oil.name = "oil", oil.density = 700.0;
+    s.materials.push_back(oil);
+    s.bodies[2] = column;
+    s.bodies[2].name = "oil", s.bodies[2].material = "oil", s.bodies[2].shape = test::box({0, 0, 0.06}, {0.07, 0.03, 0.09});
+    s.values["interface_weight"] = 1.0;
+  }
   return test::prepare(s, 0.02, 1);
 }
 
-TEST(Halo, ASharedSceneMovesAsTheWholeDoes) {
-  const test::Prepared p = splash();
+class Splash : public testing::TestWithParam<bool> {};
+TEST_P(Splash, MovesSharedAsTheWholeDoes) {
+  const test::Prepared p = splash(GetParam());
   const Seen whole = seen_whole(p);
   for (const std::vector<double>& planes :
        {std::vector<double>{-far, far}, {-far, 0.055, far}, {-far, 0.021, 0.0634, 0.1, far}}) {
@@ -48,6 +57,8 @@ TEST(Halo, ASharedSceneMovesAsTheWholeDoes) {
     EXPECT_NEAR(norm(whole.ledger.momentum - shared.ledger.momentum), 0.0, 1e-11);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Halo, Splash, testing::Bool());
 
 TEST(Halo, AColumnThatIsNotHandedOnIsSeen) {
   const test::Prepared p = splash();
@@ -82,7 +93,8 @@ test::Prepared thrown_bar(bool flows, bool meets, double spin, double bending) {
 
 TEST(Halo, ElasticBodiesThatAreSharedMoveAsTheWholeDoes) {
   for (const bool flows : {false, true}) {
-    const test::Prepared p = thrown_bar(flows, true, 5.0, flows ? 0.0 : 1.0);
+    test::Prepared p = thrown_bar(flows, true, 5.0, flows ? 0.0 : 1.0);
+    p.job.scene.values["face_pressure"] = flows ? 1.0 : 0.0;
     const Seen whole = seen_whole(p);
     for (const std::vector<double>& planes : {std::vector<double>{-far, 0.1, far}, {-far, 0.04, 0.13, far}}) {
       SCOPED_TRACE(std::to_string(planes.size() - 1) + " slabs" + (flows ? ", plastic" : ""));

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/errors.hpp"
+#include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/read_case.hpp"
@@ -109,15 +110,15 @@ std::uint64_t bits_with(const std::string& set) {
 TEST(Modes, EachTermChangesTheRunOrIsRefused) {
   const auto corrected = bits_with("");
   EXPECT_EQ(bits_with(""), corrected) << "else a difference would prove nothing";
-  for (std::size_t t = 0; t < term_count; ++t) {
-    const std::string key = "scene.modes." + std::string(to_string(static_cast<Term>(t)));
+  for (const DeclaredTerm& one : declared_terms()) {
+    const std::string key = "scene.modes." + std::string(one.term.name);
     EXPECT_EQ(bits_with(key + "=\"corrected\""), corrected) << key;
     try {
       EXPECT_NE(bits_with(key + "=\"paper\""), corrected) << key << " is read and changes nothing";
     } catch (const InputError& refusal) {
-      EXPECT_EQ(static_cast<Term>(t), Term::kernel) << refusal.what();
+      EXPECT_EQ(one.term.name, "kernel") << refusal.what();
     } catch (const Diverged& stopped) {
-      EXPECT_EQ(static_cast<Term>(t), Term::clamp) << stopped.what();  // pressure that pulls tears the scene: a guard stops it
+      EXPECT_EQ(one.term.name, "clamp") << stopped.what();  // pressure that pulls tears the scene: a guard stops it
     }
   }
 }

@@ -71,7 +71,7 @@ TEST(Settle, GivesTheSameParticlesInBothModes) {
   lab::Lab lab = pond();
   const InitialState corrected = settled(lab.scene, lab.initial);
   lab.scene.mode = Mode::paper;
-  lab.scene.modes.fill(Mode::paper);
+  lab.scene.set_all_modes(Mode::paper);
   EXPECT_EQ(settled(lab.scene, lab.initial).position, corrected.position);
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "effects/fluid_lab.hpp"
+#include "scene/shared_terms.hpp"
 #include "step/stability_lab.hpp"
 
 namespace tripoint::stability {
@@ -59,7 +60,7 @@ double frontier(const Lab& lab) {
 TEST(BulkViscosity, HasTheFrontierOfAWaveThatItDampsByFrequencySquared) {
   const Lab lab = pressed_sea(1.0, Place::layers);
   Lab elastic = lab;
-  elastic.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;
+  elastic.scene.modes[term::clamp] = Mode::paper;
   const double w = 2.0 / oscillation_limit(elastic, false), damped = w * w * 0.2 * lab.scene.support_ratio;  // zeta h/c, c = 1
   EXPECT_NEAR(frontier(lab) * (w * w) / (std::sqrt(damped * damped + 4.0 * w * w) - damped), 1.0, 0.05);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Light beside heavy. What a contact swings with follows from the lighter body, and so does the speed of sound that sets the
 // step: mass ratio brings no limit of its own.
+#include "scene/shared_terms.hpp"
 #include "step/stability_lab.hpp"
 
 #include <algorithm>
@@ -14,8 +15,7 @@ using lab::Lab;
 
 Lab quiet() {
   Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] =
-      Mode::paper;  // a contact that also pulls is a spring: its frontier is 2/omega
+  lab.scene.modes[term::clamp] = Mode::paper;  // a contact that also pulls is a spring: its frontier is 2/omega
   return lab;
 }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/errors.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint::stability {
 namespace {
@@ -116,7 +117,7 @@ double conduction_limit(const Lab& lab) {
              InitialState warmed = lab.initial;
              for (std::size_t i = 0; i < u.size(); ++i) warmed.temperature[i] = 1000.0 + u[i][axis];
              const Simulation s(lab.scene, warmed);
-             const bool printed = lab.scene.mode_of(Term::heat) == Mode::paper;  // [K/s]; corrected [W], of particles of 1 J/K
+             const bool printed = lab.scene.mode_of(term::heat) == Mode::paper;  // [K/s]; corrected [W], of particles of 1 J/K
              const std::vector<double> rates = lab::by_id(s, printed ? field::temperature_rate : field::heat_rate);
              for (std::size_t i = 0; i < u.size(); ++i) rate[i][axis] = -rates[i];
            }

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "effects/phase_lab.hpp"
+#include "scene/shared_terms.hpp"
 #include "step/stability_lab.hpp"
 
 namespace tripoint::stability {
@@ -39,7 +40,7 @@ Point heat(Mode mode, const char* parameter, double ratio, double jitter) {
 /// Viscosities 1 : ratio, jittered, with next to no pressure.
 Point viscosity(const char* form, double ratio) {
   Lab lab = lab::liquid_lab(1.0, 1.0, 1.0, 1e-16);
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;
+  lab.scene.modes[term::clamp] = Mode::paper;
   lab.scene.viscosity_form = form;
   lab::add_material_like(lab, 1.0, ratio);
   add_two(lab, {.phase = Phase::liquid});

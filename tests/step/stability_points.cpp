@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "scene/shared_terms.hpp"
 #include "sph/lattice.hpp"
 #include "step/stability_lab.hpp"
 
@@ -96,7 +97,7 @@ double decay_limit(double q, double weight, bool along) {
 Lab sea(Mode mode, double q, double stiffness, double viscosity, double ratio = 1.0) {
   Lab lab = lab::liquid_lab(1.0, 1.0, viscosity, stiffness, mode);
   lab.scene.support_ratio = q;
-  lab.scene.modes[static_cast<std::size_t>(Term::clamp)] = Mode::paper;
+  lab.scene.modes[term::clamp] = Mode::paper;
   lab.add({.name = "sea", .count = {side, side, side}, .phase = Phase::liquid});
   if (ratio != 1.0) {
     const std::size_t heavy = lab::add_material_like(lab, ratio, viscosity);

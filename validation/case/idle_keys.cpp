@@ -11,6 +11,7 @@
 #include "scene/geometry.hpp"
 #include "scene/lattice.hpp"
 #include "scene/meeting.hpp"
+#include "scene/shared_terms.hpp"
 
 /// What a case says and no run of it can show: events that find nothing to act on, and keys that nothing of the scene reads.
 namespace tripoint {
@@ -54,8 +55,8 @@ class IdleKeys {
   [[nodiscard]] bool calls(const std::string& effect) const {
     return any_mode([&](const Scene& s) { return calls_for(s, effect); });
   }
-  [[nodiscard]] bool corrected(Term term) const {
-    return any_mode([&](const Scene& s) { return s.mode_of(term) == Mode::corrected; });
+  [[nodiscard]] bool corrected(const Term& one) const {
+    return any_mode([&](const Scene& s) { return s.mode_of(one) == Mode::corrected; });
   }
   [[nodiscard]] std::string why_idle(const std::string& effect) const {
     for (const CalledEffect& e : idle_effects(scenes_.front()))
@@ -279,13 +280,13 @@ class IdleKeys {
       for (const EffectKey& key : rule.keys)
         if (key.row.table == "material" && value_of(m.values, key.row.name) != 0.0) effect_limit(m, rule, key);
     if (!calls("fracture")) return;
-    const bool printed = any_mode([](const Scene& s) { return s.mode_of(Term::elastic) == Mode::paper; });
+    const bool printed = any_mode([](const Scene& s) { return s.mode_of(term::elastic) == Mode::paper; });
     if (m.fracture_distance && !m.fracture_stretch && !printed)
       error(given(path + "fracture_distance"),
             fmt::format("fracture_distance is the limit of the printed form, and this case runs the corrected one, in which "
                         "\"{}\" never breaks: give fracture_stretch",
                         m.name));
-    if (m.fracture_stretch && !m.fracture_distance && !corrected(Term::elastic))
+    if (m.fracture_stretch && !m.fracture_distance && !corrected(term::elastic))
       error(given(path + "fracture_stretch"),
             fmt::format("fracture_stretch is the limit of the corrected form, and this case runs the printed one, in which "
                         "\"{}\" never breaks: give fracture_distance",
@@ -308,31 +309,35 @@ class IdleKeys {
 
   void scene() {
     const Scene& s = case_.scene;
-    const bool flows = calls("fluid");
-    if (s.transport_velocity && !flows)
-      idle("transport_velocity", why_idle("fluid"));
-    else if (s.transport_velocity && !corrected(Term::pressure))
-      idle("transport_velocity", "pressure as printed knows no transport velocity");
-    if (s.viscosity_form == "laplacian" && !flows)
-      idle("viscosity_form", why_idle("fluid"));
-    else if (s.viscosity_form == "laplacian" && !corrected(Term::viscosity))
-      idle("viscosity_form", "viscosity as printed has one form");
-    if (!flows) idle("clamp", why_idle("fluid"));
-    if (s.contact_viscosity > 0.0 && !flows) idle("contact_viscosity", why_idle("fluid"));
+    if (!calls("fluid")) idle("clamp", why_idle("fluid"));
     for (const EffectRule& rule : effect_rules())
       for (const EffectKey& key : rule.keys)
-        if (key.row.table == "scene" && (kept_number(s.values, key.row) != 0.0 || kept_number({}, key.row) != 0.0))
-          effect_key(rule, key);
+        if (key.row.table == "scene" && asks(s, key)) effect_key(rule, key);
     const bool breaks_up = calls("fracture") || std::ranges::any_of(s.events, [](const Event& e) {
                              return e.kind == Event::Kind::merge || e.kind == Event::Kind::split;
                            });
     if (!calls("phase") && !breaks_up && std::ranges::all_of(s.bodies, [](const Body& b) { return b.joined_to.empty(); }))
       idle("merge_distance", why_idle("phase"));
-    for (std::size_t t = 0; t < term_count; ++t) {
-      const Term term = static_cast<Term>(t);
-      if (s.modes_given[t] && *s.modes_given[t] != s.mode && !acts(term))
-        idle(("modes." + std::string(to_string(term))).c_str(), "no effect of this scene has that term");
-    }
+    for (const DeclaredTerm& one : declared_terms())
+      if (const auto given = s.modes_given.find(one.term);
+          given != s.modes_given.end() && given->second != s.mode && !acts(one.term))
+        idle(fmt::format("modes.{}", one.term.name).c_str(), "no effect of this scene has that term");
+  }
+
+  /// Whether the scene wants what the key stands for: else there is nothing to miss. A number that is not 0 by default may be 0.
+  static bool asks(const Scene& s, const EffectKey& key) {
+    const auto kept = [&](const auto& member) {
+      using Member = std::decay_t<decltype(member)>;
+      if constexpr (std::is_same_v<Member, std::monostate>)
+        return kept_number(s.values, key.row) != 0.0 || kept_number({}, key.row) != 0.0;
+      else if constexpr (std::is_same_v<Member, std::string Scene::*>)
+        return "\"" + s.*member + "\"" != key.row.fallback;
+      else if constexpr (requires { s.*member; })
+        return s.*member != std::decay_t<decltype(s.*member)>{};
+      else
+        return false;
+    };
+    return std::visit(kept, key.kept_in);
   }
 
   void effect_key(const EffectRule& rule, const EffectKey& key) {
@@ -343,10 +348,9 @@ class IdleKeys {
       idle(name.c_str(), key.idle(scenes_.front()));
   }
 
-  [[nodiscard]] bool acts(Term term) const {
-    const auto has = [&](const std::vector<Term>& terms) { return std::ranges::find(terms, term) != terms.end(); };
-    return term == Term::time || std::ranges::any_of(effect_rules(), [&](const EffectRule& r) {
-             return (has(r.terms) || has(r.terms_shared)) && calls(std::string(r.name));
+  [[nodiscard]] bool acts(const Term& one) const {
+    return acts_everywhere(one) || std::ranges::any_of(effect_rules(), [&](const EffectRule& rule) {
+             return reads_term(rule, one) && calls(std::string(rule.name));
            });
   }
 

@@ -8,6 +8,7 @@
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/phase_values.hpp"
+#include "scene/shared_terms.hpp"
 #include "validation/case/overlap.hpp"
 #include "validation/case/preflight.hpp"
 
@@ -168,7 +169,7 @@ class Preflight {
   /// measured on the lattice at h/dx = 2.6 and 2.12), a = k/(rho c).
   [[nodiscard]] double heat_bound(std::string& which) const {
     double least = INFINITY;
-    const double h = scene_.support_ratio * scene_.spacing, c = scene_.mode_of(Term::heat) == Mode::paper ? 0.130 : 0.075;
+    const double h = scene_.support_ratio * scene_.spacing, c = scene_.mode_of(term::heat) == Mode::paper ? 0.130 : 0.075;
     for (const auto& b : scene_.bodies) {
       const Material& m = scene_.material(b.material);
       if (!b.temperature || !m.conductivity || !m.heat_capacity) continue;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include "scene/effect_rule.hpp"
 #include "scene/scene.hpp"
 #include "scene/units.hpp"
 #include "validation/case/case_document.hpp"
@@ -121,7 +122,8 @@ std::string case_reference_page() {
     if (t.name == "invariants") out += invariants_page();
     if (t.name == "scene") {
       out += "`modes.TERM` sets one term: `modes.heat = \"paper\"`. TERM: ";
-      for (std::size_t i = 0; i < term_count; ++i) out += fmt::format("{}`{}`", i ? " " : "", to_string(static_cast<Term>(i)));
+      for (const char* between = ""; const DeclaredTerm& one : declared_terms())
+        out += fmt::format("{}`{}`", between, one.term.name), between = " ";
       out += ".\n`kernel` can only say what `mode` says: each term brings the kernel of its form.\n\n";
     }
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "scene/effect_rule.hpp"
 #include "scene/scene.hpp"
 #include "validation/case/case_keys.hpp"
 #include "validation/case/schema.hpp"
@@ -174,8 +175,8 @@ std::string case_schema() {
     if (!t.name.empty())
       out["$defs"][std::string(t.name)] = table_schema(t.name), out["$defs"][std::string(t.name)]["description"] = t.meaning;
   json modes{{"type", "object"}, {"additionalProperties", false}, {"properties", json::object()}};
-  for (std::size_t t = 0; t < term_count; ++t)
-    modes["properties"][std::string(to_string(static_cast<Term>(t)))] = {{"enum", {"corrected", "paper"}}};
+  for (const DeclaredTerm& one : declared_terms())
+    modes["properties"][std::string(one.term.name)] = {{"enum", {"corrected", "paper"}}};
   out["$defs"]["modes"] = modes;
   return out.dump(2) + "\n";
 }

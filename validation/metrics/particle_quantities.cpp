@@ -92,10 +92,9 @@ FrameError temperature_difference(const FramePair& f) {
   const auto all = scalar_error(f, &Snapshot::temperature, "temperature");
   const bool exact = f.now.temperature_error.empty() && f.truth.temperature_error.empty();
   if (!all.problem.empty() || exact) return all;
-  auto out = pooled(f, all);
-  for (const double s : out.sigma)
-    if (!std::isfinite(s) || s < 0.0) return problem("a standard error of the temperature is not finite");
-  return out;
+  for (const long row : all.row)  // before they are grouped by it
+    if (!std::isfinite(sigma_of(f, row))) return problem("a standard error of the temperature is not finite");
+  return pooled(f, all);
 }
 
 /// The standard error itself: no truth is needed, 0 is best.

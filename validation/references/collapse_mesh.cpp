@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <map>
 #include <mutex>
@@ -161,6 +162,30 @@ double CollapseMesh::pressure(int i, int j) const {
   return system_->multiplier[static_cast<Eigen::Index>(i) * system_->up + j] / (system_->dt * system_->dt);
 }
 
+double CollapseMesh::pressure_at(double x, double y) const {
+  const auto& s = *system_;
+  const Eigen::Vector2d at(x / column_.width, y / column_.width);
+  const auto middle = [&](int i, int j) {
+    const auto& corners = s.corners[static_cast<std::size_t>(i) * static_cast<std::size_t>(s.up) + static_cast<std::size_t>(j)];
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (std::size_t k = 0; k < 4; ++k) sum += 0.25 * Eigen::Vector2d(corners.x(s.place, k), corners.y(s.place, k));
+    return sum;
+  };
+  std::array<int, 2> nearest{};
+  for (int i = 0; i < s.across; ++i)
+    for (int j = 0; j < s.up; ++j)
+      if ((middle(i, j) - at).norm() < (middle(nearest[0], nearest[1]) - at).norm()) nearest = {i, j};
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (int i = std::max(0, nearest[0] - 1); i <= std::min(s.across - 1, nearest[0] + 1); ++i)
+    for (int j = std::max(0, nearest[1] - 1); j <= std::min(s.up - 1, nearest[1] + 1); ++j) {
+      const Eigen::Vector2d away = middle(i, j) - at;
+      const Eigen::Vector3d basis(1.0, away[0], away[1]);
+      A += basis * basis.transpose(), b += pressure(i, j) * basis;
+    }
+  return A.ldlt().solve(b)[0];
+}
+
 namespace {
 
 std::vector<double> fronts_of(const LiquidColumn& column, int cells, const std::vector<double>& times) {
@@ -175,7 +200,25 @@ std::vector<double> fronts_of(const LiquidColumn& column, int cells, const std::
   return out;
 }
 
+std::vector<double> pressures_of(const LiquidColumn& column, int cells, const std::vector<double>& times, double x, double y) {
+  CollapseMesh mesh(column, cells);
+  std::vector<double> out;
+  for (const double t : times) {
+    do mesh.step();
+    while (mesh.time() < t);
+    out.push_back(mesh.pressure_at(x, y));
+  }
+  return out;
+}
+
 }  // namespace
+
+CollapsePressures collapse_pressures(const LiquidColumn& column, int cells, const std::vector<double>& times, double x,
+                                     double y) {
+  CollapsePressures out{pressures_of(column, cells, times, x, y), pressures_of(column, cells / 2, times, x, y)};
+  for (std::size_t n = 0; n < times.size(); ++n) out.difference[n] = std::abs(out.pressure[n] - out.difference[n]);
+  return out;
+}
 
 CollapseFronts collapse_fronts(const LiquidColumn& column, int cells, const std::vector<double>& times) {
   using Question = std::tuple<double, double, double, int, std::vector<double>>;

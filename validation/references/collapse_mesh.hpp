@@ -37,6 +37,8 @@ class CollapseMesh {
   [[nodiscard]] std::array<int, 2> cells() const;      ///< along the floor and up the wall
   [[nodiscard]] double pressure(
       int i, int j) const;  ///< mean over the last step, over density gravity width; cells from the corner of wall and floor
+  /// The same at a place, from wall and floor [m]: by a linear fit to the nearest cell and those around it.
+  [[nodiscard]] double pressure_at(double x, double y) const;
 
  private:
   struct System;
@@ -49,6 +51,14 @@ class CollapseMesh {
 struct CollapseFronts {
   std::vector<double> front, difference;
 };
+/// Pressure at a place, over density gravity width, and by how much a mesh of half as many cells puts each elsewhere.
+struct CollapsePressures {
+  std::vector<double> pressure, difference;
+};
+/// At the steps next to rising times. @param x,y from wall and floor [m]
+/// @throws InputError where the mesh does not last until the last time
+[[nodiscard]] CollapsePressures collapse_pressures(const LiquidColumn&, int cells, const std::vector<double>& times, double x,
+                                                   double y);
 /// Between steps by straight lines. One computation for the same question within a process.
 /// @throws InputError where the mesh does not last until the last time
 [[nodiscard]] CollapseFronts collapse_fronts(const LiquidColumn&, int cells, const std::vector<double>& times);

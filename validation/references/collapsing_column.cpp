@@ -9,18 +9,35 @@ namespace tripoint {
 namespace {
 
 constexpr double fewest_cells = 4.0, most_cells = 80.0, cells_unless_given = 20.0;
+constexpr int pressure_points = 100;
 constexpr int curve_points = 20;  // of even times until the end, the end itself left out
 
-/// The front of an inviscid column as a curve in time, as an experiment would have it.
+/// A curve between its points by straight lines, empty outside.
+std::optional<double> along(const std::vector<double>& time, const std::vector<double>& value, double at) {
+  const auto next = std::lower_bound(time.begin(), time.end(), at);
+  if (next == time.end() || (next == time.begin() && at < *next)) return {};
+  const auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, next - time.begin()));
+  return value[k - 1] + (at - time[k - 1]) / (time[k] - time[k - 1]) * (value[k] - value[k - 1]);
+}
+
+/// The front of an inviscid column as a curve in time, as an experiment would have it, and where a point is stated the pressure
+/// there.
 class CollapsingColumn : public Reference {
  public:
-  CollapsingColumn(std::size_t axis, MeasuredCurve front) : axis_(axis), front_(std::move(front)) {}
+  CollapsingColumn(std::size_t axis, MeasuredCurve front, std::optional<Vec3> point, MeasuredCurve pressure)
+      : axis_(axis), front_(std::move(front)), point_(point), pressure_(std::move(pressure)) {}
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;
     out.time = time;
     return out;
   }
-  [[nodiscard]] Measuring measuring() const override { return {.axis = axis_}; }
+  [[nodiscard]] Measuring measuring() const override { return {.axis = axis_, .point = point_}; }
+  [[nodiscard]] std::optional<double> number_at(std::string_view quantity, double time) const override {
+    return point_ && quantity == "pressure_at" ? along(pressure_.time, pressure_.value, time) : std::nullopt;
+  }
+  [[nodiscard]] std::optional<double> uncertainty(std::string_view quantity, double time) const override {
+    return point_ && quantity == "pressure_at" ? along(pressure_.time, pressure_.uncertainty, time) : std::nullopt;
+  }
   [[nodiscard]] const MeasuredCurve* measured(std::string_view column) const override {
     return column == "front" ? &front_ : nullptr;
   }
@@ -28,7 +45,20 @@ class CollapsingColumn : public Reference {
  private:
   std::size_t axis_;
   MeasuredCurve front_;
+  std::optional<Vec3> point_;
+  MeasuredCurve pressure_;
 };
+
+/// Pressure at a place in the liquid, from the start to the end [Pa].
+MeasuredCurve pressure_curve(const ReferenceInput& in, const LiquidColumn& column, int cells, double x, double y) {
+  MeasuredCurve curve;
+  for (int n = 0; n <= pressure_points; ++n) curve.time.push_back(in.job.scene.end_time * n / pressure_points);
+  const auto found = collapse_pressures(column, cells, curve.time, x, y);
+  const double unit = material_of_body(in.job, only_liquid(in.job, "collapsing_column")).density * column.gravity * column.width;
+  for (const double p : found.pressure) curve.value.push_back(unit * p);
+  for (const double p : found.difference) curve.uncertainty.push_back(unit * p);
+  return curve;
+}
 
 /// The axis of gravity, downwards. @throws InputError where it points elsewhere
 std::size_t downward_axis(const Scene& scene) {
@@ -53,7 +83,12 @@ std::unique_ptr<Reference> make_column(const ReferenceInput& in) {
   const auto found = collapse_fronts(column, static_cast<int>(cells), curve.time);
   for (const double x : found.front) curve.value.push_back(box.min[axis] + x);
   curve.uncertainty = found.difference;
-  return std::make_unique<CollapsingColumn>(axis, std::move(curve));
+  const auto point = in.args.vector("point");
+  MeasuredCurve pressure;
+  if (point)
+    pressure =
+        pressure_curve(in, column, static_cast<int>(cells), (*point)[axis] - box.min[axis], (*point)[down] - box.min[down]);
+  return std::make_unique<CollapsingColumn>(axis, std::move(curve), point, std::move(pressure));
 }
 
 }  // namespace
@@ -63,9 +98,10 @@ ReferenceEntry collapsing_column_entry() {
            "self",
            "Lagrange's equations of an incompressible mesh that moves with the liquid, stepped by Verlet's scheme; its standard "
            "uncertainty is what half as many cells change",
-           "front of a box of inviscid liquid, let go against a wall on a floor, both without friction",
+           "front of a box of inviscid liquid, let go against a wall on a floor, both without friction; pressure at a point",
            {{"axis", "", "x, y or z: along which the front runs, away from the wall; x", ArgumentType::axis},
-            {"cells", "1", "of the mesh across the column's width, 4 to 80; 20", ArgumentType::number}}},
+            {"cells", "1", "of the mesh across the column's width, 4 to 80; 20", ArgumentType::number},
+            {"point", "m", "place in the liquid, for the quantity pressure_at", ArgumentType::vector}}},
           make_column};
 }
 

@@ -10,23 +10,33 @@ namespace {
 /// One layer of liquid: heights above the origin, against gravity [m].
 struct LiquidLayer {
   double low, high, density;
+  std::size_t body;
 };
 
-/// Layers of liquid at rest: the pressure is the weight above. A single one may be compressed by it, p = c^2 (rho - rho0): then
-/// dp/dz = -rho g gives p = c^2 rho0 (exp(g (z_s - z)/c^2) - 1), and its surface has fallen to z_s = low + c^2/g ln(1 + g H/c^2),
-/// where it has the mass of before. Numbers: bottom_pressure, interface_pressure [Pa], interface [m] (height of the highest
-/// interface along the axis), axis.
+/// Layers of liquid at rest: the pressure is the weight above. They may be compressed by it, p = c^2 (rho - rho0): then
+/// dp/dz = -rho g gives p + c^2 rho0 = (p_t + c^2 rho0) exp(g (z_t - z)/c^2) in a layer with the pressure p_t at its top z_t,
+/// which has fallen to c^2/g ln(1 + g H/(c^2 + p_t/rho0)) above its bottom, where the layer has the mass of before. Numbers:
+/// bottom_pressure, interface_pressure [Pa], interface [m] (height of the highest interface along the axis, before it has
+/// fallen), axis.
 class Hydrostatic : public LiquidReference {
  public:
-  /// @param sound speed of sound of a single layer that its weight compresses [m/s], 0 = incompressible
-  Hydrostatic(const ReferenceInput& in, std::size_t axis, std::vector<LiquidLayer> layers, double factor, double sound)
+  /// @param sound speeds of sound of the layers that their weight compresses [m/s], none = incompressible
+  Hydrostatic(const ReferenceInput& in, std::size_t axis, std::vector<LiquidLayer> layers, double factor,
+              const std::vector<double>& sound)
       : LiquidReference(in.job, in.initial),
         axis_(axis),
         up_(in.job.scene.gravity[axis] > 0.0 ? -1.0 : 1.0),
         gravity_(norm(in.job.scene.gravity)),
         factor_(factor),
-        sound2_(sound * sound),
-        layers_(std::move(layers)) {}
+        layers_(std::move(layers)) {
+    double low = layers_.front().low;
+    for (std::size_t n = 0; n < sound.size(); ++n) {
+      const double c2 = sound[n] * sound[n], above = weight_above(layers_[n].high) / factor_,
+                   thickness = layers_[n].high - layers_[n].low;
+      low += c2 / gravity_ * std::log1p(gravity_ * thickness / (c2 + above / layers_[n].density));
+      pressed_.push_back({low, above, c2});
+    }
+  }
 
   [[nodiscard]] Measuring measuring() const override { return {.axis = axis_}; }
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override {
@@ -40,7 +50,8 @@ class Hydrostatic : public LiquidReference {
   [[nodiscard]] LiquidState state(const Vec3& place, double, std::size_t particle) const override {
     LiquidState s;
     s.velocity = {};
-    s.pressure = weight_above(up_ * place[axis_]);
+    const double height = up_ * place[axis_];
+    s.pressure = pressed_.empty() ? weight_above(height) : pressure_at(height);
     for (const auto& layer : layers_)
       if (up_ * initial_.position[particle][axis_] < layer.high && std::isnan(s.density)) s.density = layer.density;
     return s;
@@ -49,11 +60,6 @@ class Hydrostatic : public LiquidReference {
  private:
   /// Pressure at a height [Pa]: zero above the surface; below the floor it goes on rising.
   [[nodiscard]] double weight_above(double height) const {
-    if (sound2_ > 0.0) {
-      const auto& [low, high, density] = layers_.front();
-      const double surface = low + sound2_ / gravity_ * std::log1p(gravity_ * (high - low) / sound2_);
-      return factor_ * sound2_ * density * std::expm1(gravity_ * std::max(0.0, surface - height) / sound2_);
-    }
     double p = 0.0;
     for (std::size_t n = 0; n < layers_.size(); ++n) {
       const double low = n == 0 ? std::min(height, layers_[n].low) : layers_[n].low;
@@ -61,9 +67,22 @@ class Hydrostatic : public LiquidReference {
     }
     return factor_ * p;
   }
+  /// The same where the weight compresses the layers.
+  [[nodiscard]] double pressure_at(double height) const {
+    std::size_t n = 0;
+    while (n + 1 < pressed_.size() && height > pressed_[n].high) ++n;
+    const auto& [high, above, c2] = pressed_[n];
+    const double depth = gravity_ * std::max(0.0, high - height) / c2;
+    return factor_ * (above * std::exp(depth) + c2 * layers_[n].density * std::expm1(depth));
+  }
+  /// A layer that is compressed: height of its top [m], pressure there [Pa], square of its speed of sound [m2/s2].
+  struct Pressed {
+    double high, above, sound2;
+  };
   std::size_t axis_;
-  double up_, gravity_, factor_, sound2_;
+  double up_, gravity_, factor_;
   std::vector<LiquidLayer> layers_;
+  std::vector<Pressed> pressed_;
 };
 
 std::vector<LiquidLayer> stacked_layers(const ReferenceInput& in, std::size_t axis) {
@@ -72,7 +91,7 @@ std::vector<LiquidLayer> stacked_layers(const ReferenceInput& in, std::size_t ax
   for (const std::size_t b : liquid_bodies(in.job)) {
     const auto along = body_along(axis, b, in.job, in.initial);
     layers.push_back({std::min(up * along.low, up * along.high), std::max(up * along.low, up * along.high),
-                      material_of_body(in.job, b).density});
+                      material_of_body(in.job, b).density, b});
   }
   std::sort(layers.begin(), layers.end(), [](const auto& a, const auto& b) { return a.low < b.low; });
   for (std::size_t n = 1; n < layers.size(); ++n)
@@ -86,9 +105,9 @@ std::unique_ptr<Reference> make_hydrostatic(const ReferenceInput& in) {
   if (liquid_bodies(in.job).empty()) throw InputError("hydrostatic: the scene has no liquid");
   const auto axis = axis_of(in.job.scene.gravity, "hydrostatic: gravity");
   const auto layers = stacked_layers(in, axis);
-  const bool compressed = in.args.flag("compressed").value_or(false);
-  if (compressed && layers.size() > 1) throw InputError("hydrostatic: compressed is for one layer of liquid");
-  const double sound = compressed ? state_sound_speed(in.job, liquid_bodies(in.job).front()) : 0.0;
+  std::vector<double> sound;
+  for (const auto& layer : layers)
+    if (in.args.flag("compressed").value_or(false)) sound.push_back(state_sound_speed(in.job, layer.body));
   return std::make_unique<Hydrostatic>(in, axis, layers, in.args.number("factor").value_or(1.0), sound);
 }
 
@@ -102,8 +121,8 @@ ReferenceEntry hydrostatic_entry() {
            {{"factor", "1",
              "of the whole pressure: what an equation that tends to 1/factor of the pressure gradient has to read; default 1"},
             {"compressed", "true or false",
-             "the one layer is compressed by its weight, at the speed of sound of the scene: its surface has fallen; default "
-             "false",
+             "each layer is compressed by its weight, at its speed of sound in the scene: surface and interfaces have fallen; "
+             "default false",
              ArgumentType::flag}}},
           make_hydrostatic};
 }

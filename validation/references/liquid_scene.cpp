@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/shared_terms.hpp"
+
 namespace tripoint {
 
 const Material& material_of_body(const Job& job, std::size_t body) { return job.scene.material(job.bodies.at(body).material); }
@@ -35,7 +37,7 @@ double state_sound_speed(const Job& job, std::size_t body) {
     if (job.bodies[b].phase == Phase::liquid) reference = std::max(reference, material_of_body(job, b).density);
   }
   if (!(k > 0.0)) throw InputError("no material of the scene has a stiffness or a speed of sound");
-  return std::sqrt(job.scene.mode_of(Term::state) == Mode::paper ? k : k * reference / material_of_body(job, body).density);
+  return std::sqrt(job.scene.mode_of(term::state) == Mode::paper ? k : k * reference / material_of_body(job, body).density);
 }
 
 std::size_t solid_body(const ReferenceInput& in, Motion motion, const char* function) {

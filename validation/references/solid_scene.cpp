@@ -2,6 +2,7 @@
 #include "validation/references/solid_scene.hpp"
 
 #include "scene/nearest.hpp"
+#include "scene/shared_terms.hpp"
 #include "validation/references/heat_scene.hpp"
 
 namespace tripoint {
@@ -75,7 +76,7 @@ BarLaw bar_law(const ReferenceInput& in, std::size_t bar, std::size_t axis) {
   law.sides = bar_sides(in, axis);
   law.elastic_limit = material.elastic_limit.value_or(law.elastic_limit);
   law.plastic_limit = material.plastic_limit.value_or(law.plastic_limit);
-  const auto form = in.args.word("form").value_or(in.job.scene.mode_of(Term::elastic) == Mode::paper ? "paper" : "corrected");
+  const auto form = in.args.word("form").value_or(in.job.scene.mode_of(term::elastic) == Mode::paper ? "paper" : "corrected");
   if (form != "paper" && form != "corrected") throw InputError("argument `form` must be \"paper\" or \"corrected\"");
   if (form == "corrected") return law;
   const double given = in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/density/density.hpp"
 
+#include "sph/density_term.hpp"
 #include "sph/kernels.hpp"
 
 namespace tripoint::density {
@@ -23,6 +24,7 @@ class DensityEffect : public Effect {
     const auto rho = p[field::density], m = p[field::mass];
     for (std::size_t i = 0; i < V.size(); ++i) V[i] = m[i] / rho[i];
   }
+  [[nodiscard]] PairWork pair_work(const Scene&) const override { return {{pair_term<DensityPaper>}}; }
 };
 
 }  // namespace

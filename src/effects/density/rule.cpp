@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint::density {
 namespace {
 
 std::string needed_for(const Scene& s, const Called& called) {
-  const bool printed = s.mode_of(Term::heat) == Mode::paper && !called("fluid");
+  const bool printed = s.mode_of(term::heat) == Mode::paper && !called("fluid");
   return called("heat") && printed && !equal_temperature(s) ? "(21) as printed divides by the summed density (4)" : "";
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -68,8 +69,13 @@ double volume_ratio(const Deformed& i) { return determinant(identity3 + matrix(i
 
 bool flows(const World& world) { return world.particles.has(field::plastic_strain_xx.name); }
 
-/// With the stresses at once where nothing can flow between. @param changed whether bonds or volumes have since `reference` was
-/// summed
+/// Strain less what has flowed, within the range of P.
+Symmetric elastic_strain(const Symmetric& strain, const Symmetric& plastic, const Symmetric& P, int rank) {
+  const Symmetric e = strain - plastic;
+  return rank == 3 ? e : between(P, e);
+}
+
+/// @param changed whether bonds or volumes have since `reference` was summed
 void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool changed) {
   Particles& p = world.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank];
@@ -78,7 +84,9 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
   const auto shape = solid::shape_inverses(std::as_const(p));
   const auto strain_of = solid::strains(p);
   const PeriodicWidths box = periodic_widths(world.box);
-  const bool hourglass = forms.hourglass() != 0.0, at_once = !flows(world);
+  const bool hourglass = forms.hourglass() != 0.0;
+  std::optional<solid::SymmetricColumns<const double>> plastic_of;
+  if (flows(world)) plastic_of = solid::plastic_strains(std::as_const(p));
   const BondSums sum = bond_sums({world.box.any(), hourglass, forms.bending() != 0.0});
   Stresses stresses(world, forms, all);
   double least = 1.0;
@@ -100,7 +108,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
     const double volume = all.places[id].volume;
     const Symmetric A = shape.at(row), P = forms.projector(A, rank);
     const Matrix3 F = solid::deformation_gradient(sums.displacement, A);
-    BeforeFlow now{F - identity3, {}};
+    BeforeFlow now{F - identity3, {}, {}};
     const Symmetric strain = forms.strain(F, P, rank);
     strain_of.set(row, strain);
     Deformed& i = all.deformed[id];
@@ -118,16 +126,19 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
       now.H = flat_hourglass(world, all, id, stiff, strain, P, F);
     }
     if (rank == 3) least = std::min(least, volume_ratio(i));
-    if (at_once)
-      stresses.set(row, id, now, strain, A, P, rank);
-    else
+    Symmetric elastic = strain;
+    if (plastic_of) {
+      now.plastic = plastic_of->at(row);
+      elastic = elastic_strain(strain, now.plastic, P, rank);
       all.before_flow[id] = now;
+    }
+    stresses.set(row, id, now, elastic, A, P, rank);
   }
   all.least_volume_ratio = least;
 }
 
-/// Of the strain less what has flowed.
-void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
+/// Stresses anew of what has flowed since they were formed.
+void follow_flow(World& world, const ElasticForms& forms, Deformations& all) {
   const Particles& p = world.particles;
   const auto id_of = p[field::id], rank_of = p[field::shape_rank];
   const solid::EnergyOwners owns(world);
@@ -135,11 +146,12 @@ void set_stress(World& world, const ElasticForms& forms, Deformations& all) {
   Stresses stresses(world, forms, all);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t row = 0; row < p.size(); ++row) {
-    if (!owns(row) || !world.owns(row)) continue;
-    const int rank = rank_of[row];
-    const Symmetric A = shape.at(row), P = forms.projector(A, rank), elastic = strain_of.at(row) - plastic_of.at(row);
     const auto id = static_cast<std::size_t>(id_of[row]);
-    stresses.set(row, id, all.before_flow[id], rank == 3 ? elastic : between(P, elastic), A, P, rank);
+    const Symmetric plastic = plastic_of.at(row);
+    if (plastic == all.before_flow[id].plastic || !owns(row) || !world.owns(row)) continue;
+    const int rank = rank_of[row];
+    const Symmetric A = shape.at(row), P = forms.projector(A, rank);
+    stresses.set(row, id, all.before_flow[id], elastic_strain(strain_of.at(row), plastic, P, rank), A, P, rank);
   }
 }
 
@@ -257,7 +269,7 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
 }
 
 void add_forces(World& world, const ElasticForms& forms, Deformations& all) {
-  if (flows(world)) set_stress(world, forms, all);
+  if (flows(world)) follow_flow(world, forms, all);
   hand_deformed_to_copies(world, all);
   add_all(world, forms, all);
   static constexpr std::array<const Field<double>*, 3> force{&field::elastic_force_x, &field::elastic_force_y,

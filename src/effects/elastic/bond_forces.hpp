@@ -7,10 +7,11 @@
 /// id.
 namespace tripoint::elastic {
 
-/// What waits for plastic flow, which comes between strain and stress.
+/// What a stress is made of. It is kept where matter can flow: flow comes after the strain, and changes the stress of few.
 struct BeforeFlow {
-  Matrix3 G;  ///< F - I [1]
-  Matrix3 H;  ///< sum_j c_ij (F x_ji - r_ji) x_ji^T of the hourglass energy [N m]
+  Matrix3 G;            ///< F - I [1]
+  Matrix3 H;            ///< sum_j c_ij (F x_ji - r_ji) x_ji^T of the hourglass energy [N m]
+  Symmetric plastic{};  ///< eps_p that the stress was formed with [1]
 };
 
 /// Memory of the passes. `reference` is kept until bonds, volumes or owners change; the rest is filled anew each step.
@@ -20,12 +21,13 @@ struct Deformations {
   AlignedVector<Deformed> deformed;      ///< by id, of what has bonds or owns strain energy
   std::vector<ReferenceSums> reference;  ///< by id, the same
   std::vector<Vec3> hourglass_force;     ///< by id: force of a particle's own hourglass energy on it, of a solid [N]
-  std::vector<BeforeFlow> before_flow;   ///< by id, where matter can flow between strain and stress; else empty
+  std::vector<BeforeFlow> before_flow;   ///< by id, where matter can flow; else empty
   double least_volume_ratio = 1.0;       ///< least det F of a solid
   std::vector<char> owns;                ///< by id, 1 where it owns strain energy
 };
 
-/// F, strain and the hourglass part H = sum_j c_ij (F x_ji - r_ji) x_ji^T of all particles of deformable bodies.
+/// F, strain, the hourglass part H = sum_j c_ij (F x_ji - r_ji) x_ji^T and the stress of all particles of deformable bodies, by
+/// what has flowed until now.
 void deform(World&, const solid::ElasticForms&, Deformations&);
 /// @throws Diverged where a particle of a solid is turned inside out: det F <= 0. Printed strain is no measure of F (a rotation
 /// alone changes its sign), and F of a sheet or chain is that within its plane or line: neither is looked at.

@@ -8,6 +8,7 @@
 #include "effects/elastic/bond_forces.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
+#include "scene/shared_terms.hpp"
 #include "world/ordered_sum.hpp"
 
 namespace tripoint::elastic {
@@ -84,7 +85,7 @@ bool can_freeze(const Scene& scene) { return calls_for(scene, "phase"); }
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"elastic",
-               scene.mode_of(Term::elastic),
+               scene.mode_of(term::elastic),
                {field::elastic_force_x,  field::elastic_force_y,  field::elastic_force_z,  field::shape_inverse_xx,
                 field::shape_inverse_yy, field::shape_inverse_zz, field::shape_inverse_yz, field::shape_inverse_xz,
                 field::shape_inverse_xy, field::shape_rank,       field::solid_volume,     field::solid_material,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/effect_rule.hpp"
 
+#include "scene/shared_terms.hpp"
+#include "scene/table_reader.hpp"
+
 namespace tripoint::elastic {
 namespace {
 
@@ -18,11 +21,11 @@ std::string left_out(const Scene& s) {
 }
 
 std::string no_bending(const Scene& s) {
-  return s.mode_of(Term::elastic) == Mode::paper ? "elasticity as printed has no second-order gradients" : "";
+  return s.mode_of(term::elastic) == Mode::paper ? "elasticity as printed has no second-order gradients" : "";
 }
 
 std::string no_hourglass(const Scene& s) {
-  const bool printed = s.mode_of(Term::hourglass) == Mode::paper || s.mode_of(Term::elastic) == Mode::paper;
+  const bool printed = s.mode_of(term::hourglass) == Mode::paper || s.mode_of(term::elastic) == Mode::paper;
   return printed ? "elasticity as printed has no energy against zero-energy modes" : "";
 }
 
@@ -49,8 +52,16 @@ std::vector<EffectKey> keys() {
   };
 }
 
+void settle_material(TableReader& in, Material& m) {
+  if (m.young_modulus.has_value() != m.poisson_ratio.has_value())
+    in.refuse(m.young_modulus ? "young_modulus" : "poisson_ratio",
+              "an elastic material needs both young_modulus and poisson_ratio: give the other too");
+}
+
 }  // namespace
 
-EffectRule rule() { return {"elastic", called_for, left_out, nullptr, {Term::elastic, Term::hourglass}, {}, keys()}; }
+EffectRule rule() {
+  return {"elastic", called_for, left_out, nullptr, {term::elastic, term::hourglass}, {}, keys(), settle_material};
+}
 
 }  // namespace tripoint::elastic

@@ -6,14 +6,19 @@
 
 #include "core/machine.hpp"
 #include "effects/fluid/bulk_viscosity.hpp"
+#include "effects/fluid/face_pressure.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
+#include "effects/fluid/interface_weight.hpp"
 #include "effects/fluid/laid_walls.hpp"
 #include "effects/fluid/phase_jump.hpp"
 #include "effects/fluid/solid_viscosity.hpp"
 #include "effects/fluid/transport.hpp"
 #include "effects/fluid/viscous_bound.hpp"
+#include "effects/fluid/viscous_form.hpp"
 #include "effects/fluid/walls.hpp"
+#include "scene/shared_terms.hpp"
+#include "sph/density_term.hpp"
 #include "sph/pass.hpp"
 #include "world/body_table.hpp"
 #include "world/fill.hpp"
@@ -48,7 +53,7 @@ bool can_have_walls(const Scene& scene) {
 }
 
 /// Whether viscous pairs see walls by the mirrored velocity (model 8.4).
-bool mirrors_velocities(const Scene& scene) { return scene.mode_of(Term::walls) == Mode::corrected && can_have_walls(scene); }
+bool mirrors_velocities(const Scene& scene) { return scene.mode_of(term::walls) == Mode::corrected && can_have_walls(scene); }
 
 /// Energy of compression that changes of phase and of own pairs let go [J].
 constexpr Account compression_released{"compression_released"};
@@ -63,6 +68,8 @@ class Fluid : public Effect {
         mirrors_(mirrors_velocities(scene)),
         averages_(numbers_.averages_walls && can_have_walls(scene)),
         lays_walls_(averages_ && has_laid_walls(scene)),
+        faces_(scene),
+        interfaces_(scene),
         solid_viscosity_(scene) {}
   void load(World&, const InitialState&) override;
   void kick(World&, double dt) override;
@@ -77,15 +84,16 @@ class Fluid : public Effect {
   void check(const World& world) const override { refuse_overlap(world, numbers_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
   void add_to(const World& world, Ledger& ledger) const override {
-    if (stores_compression(world.scene)) add_fluid(world, numbers_, kernels_, ledger);
+    if (stores_compression(world.scene)) add_fluid(world, numbers_, kernels_, interfaces_, ledger);
     if (damps_) ledger.energy["bulk_viscous"] += world.booked[taken_by_bulk_viscosity];
   }
+  [[nodiscard]] PairWork pair_work(const Scene&) const override;
 
  private:
   void set_material(World&, std::size_t row) const;
   void set_own_density(World&, std::size_t row) const;
   void set_groups(World&);
-  void clear_walls() { walls_.clear(), laid_.clear(); }
+  void clear_walls() { walls_.clear(), laid_.clear(), faces_.clear(), interfaces_.clear(); }
   void follow_temperature(World&) const;
 
   SceneNumbers numbers_;
@@ -98,14 +106,13 @@ class Fluid : public Effect {
   bool lays_walls_;       ///< liquid feels fixed walls from their lattice
   Walls walls_;
   LaidWalls laid_;
+  FacePressure faces_;
+  InterfaceWeight interfaces_;
   SolidViscosity solid_viscosity_;
 };
 
 void Fluid::load(World& world, const InitialState&) {
-  for (std::size_t i = 0; i < world.particles.size(); ++i) {
-    set_material(world, i);
-    set_own_density(world, i);
-  }
+  for (std::size_t i = 0; i < world.particles.size(); ++i) set_material(world, i), set_own_density(world, i);
   set_groups(world);
 }
 
@@ -174,12 +181,12 @@ void Fluid::drift(World& world, double dt) {
 
 void Fluid::clear(World& world, PassName pass) {
   Particles& p = world.particles;
-  if (pass == PassName::heat) return;
+  if (pass == PassName::again) return;
   if (pass == PassName::rates) {
     for (const Field<double>* f : {&field::force_x, &field::force_y, &field::force_z, &field::viscous_force_x,
                                    &field::viscous_force_y, &field::viscous_force_z})
       fill(part(p[*f], world.formed()), 0.0, world.threads);
-  } else if (world.scene.mode_of(Term::density) == Mode::corrected) {
+  } else if (world.scene.mode_of(term::density) == Mode::corrected) {
     const Rows rows = world.forms_fixed ? Rows{p.awake(), p.size()} : Rows{0, p.awake()};
     const auto delta = part(p[field::number_density], rows);
     fill(delta, kernels_.wendland.value(0.0), world.threads);
@@ -197,6 +204,7 @@ void Fluid::clear(World& world, PassName pass) {
 void Fluid::state(World& world) {
   if (world.moved) {
     if (lays_walls_) laid_.lay_densities(world, kernels_);
+    if (faces_.acts()) faces_.add_densities(world, kernels_);
     set_density(world, numbers_);
     if (averages_) walls_.average_density(world, numbers_, kernels_);
   }
@@ -205,7 +213,7 @@ void Fluid::state(World& world) {
   if (damps_ && world.moved) set_bulk_pressure(world, numbers_);
   predict_velocities(world);
   if (mirrors_) walls_.mirror_velocities(world, kernels_);
-  if (world.scene.mode_of(Term::pressure) == Mode::corrected) set_pressure_shares(world, numbers_);
+  if (world.scene.mode_of(term::pressure) == Mode::corrected) set_pressure_shares(world, numbers_);
   if (averages_) walls_.hand_down_shares(world);
   if (transports_) set_transport_forces(world, numbers_, kernels_);
   update_viscous_bound(world, kernels_);
@@ -214,6 +222,8 @@ void Fluid::state(World& world) {
 /// Once the pass has summed the pressure of all pairs from where they are.
 void Fluid::bonds(World& world) {
   if (lays_walls_) laid_.lay_forces(world, kernels_);
+  if (faces_.acts()) faces_.add_forces(world);
+  if (interfaces_.acts()) interfaces_.add_forces(world, kernels_);
 }
 
 void Fluid::form_fixed(World& world) {
@@ -230,7 +240,7 @@ TimeStepBound Fluid::max_dt(const World& world) const {
   double v2 = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : v2)
   for (std::size_t i = 0; i < world.particles.moving(); ++i) v2 = std::max(v2, dot(v.at(i), v.at(i)));
-  const double courant = world.scene.mode_of(Term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.35 : 0.45;
+  const double courant = world.scene.mode_of(term::pressure) == Mode::paper ? 0.7 : transports_ ? 0.35 : 0.45;
   TimeStepBound bound;
   tighten(bound, courant * world.support() / (numbers_.contact_speed + std::sqrt(v2)),
           numbers_.solid_stiffness > 1.0 ? "contact" : "sound");
@@ -238,6 +248,18 @@ TimeStepBound Fluid::max_dt(const World& world) const {
     tighten(bound, bulk_viscous_step(numbers_) * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "bulk viscosity");
   tighten(bound, world.lagged.viscous_step, "viscosity");
   return bound;
+}
+
+PairWork Fluid::pair_work(const Scene& scene) const {
+  const auto printed = [&](const Term& one) { return scene.mode_of(one) == Mode::paper; };
+  PairWork work{{printed(term::density) ? pair_term<DensityPaper> : pair_term<NumberDensity>,
+                 printed(term::pressure) ? pair_term<PressurePaper> : pair_term<PressureCorrected>,
+                 viscous_form_of(scene, kernels_).force}};
+  work.where_it_acts = true;
+  work.leaves_own_pairs = !printed(term::density);
+  work.kernels = &kernels_;
+  if (numbers_.averages_walls) work.awake_around = reach_of_patches * scene.spacing;
+  return work;
 }
 
 /// Pressure, viscosity and, where the scene says so, the stress of the transport velocity, with where their work goes
@@ -263,20 +285,21 @@ std::vector<Force> forces_of(const Scene& scene) {
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{
       "fluid",
-      scene.mode_of(Term::pressure),
+      scene.mode_of(term::pressure),
       {field::density, field::volume, field::pressure, field::rest_density, field::viscosity, field::solid, field::stick,
        field::group, field::force_x, field::force_y, field::force_z, field::viscous_force_x, field::viscous_force_y,
        field::viscous_force_z, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z},
       fields::joined(
           {fields::position(), fields::velocity(), {field::id, field::mass, field::body, field::material, field::source}})};
   s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
+  if (FacePressure(scene).acts()) s.reads = fields::joined({s.reads, fields::deformation()});
   s.sums_forces = true;
-  s.skips_sleeping = true;
+  s.skips_sleeping = !scene.transport_velocity;
   const bool damps = bulk_viscosity(scene) > 0.0;
   const auto own = [&](std::initializer_list<FieldInfo> more) { s.owns.insert(s.owns.end(), more); };
-  if (scene.mode_of(Term::density) == Mode::corrected) own({field::number_density});
-  if (scene.mode_of(Term::pressure) == Mode::corrected) own({field::pressure_share});
-  if (scene.mode_of(Term::density) == Mode::corrected && can_have_deformable_bodies(scene)) own({field::own_density});
+  if (scene.mode_of(term::density) == Mode::corrected) own({field::number_density});
+  if (scene.mode_of(term::pressure) == Mode::corrected) own({field::pressure_share});
+  if (scene.mode_of(term::density) == Mode::corrected && can_have_deformable_bodies(scene)) own({field::own_density});
   if (damps) own({field::number_density_before, field::bulk_pressure});
   if (mirrors_velocities(scene))
     own({field::wall_weight, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z});
@@ -286,6 +309,9 @@ EffectSpec spec(const Scene& scene) {
   s.forces = forces_of(scene);
   s.accounts = {compression_released};
   s.guards = {{field::density, "density", Written::density}};
+  s.guarded_entries = {{"viscous", EntryRole::only_takes, "viscous forces, which may only take energy"}};
+  if (!stores_compression(scene))
+    s.guarded_entries.push_back({"pressure_work", EntryRole::unbacked, "the printed pressure, which no energy stands behind"});
   if (damps) s.numerical = {taken_by_bulk_viscosity};
   return s;
 }

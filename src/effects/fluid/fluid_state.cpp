@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/machine.hpp"
+#include "scene/shared_terms.hpp"
 #include "world/body_table.hpp"
 #include "world/failure.hpp"
 #include "world/force_columns.hpp"
@@ -33,7 +34,7 @@ void refuse_overlap(const World& world, const SceneNumbers& n) {
 void set_density(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const auto rho = p[field::density], m = p[field::mass], V = p[field::volume];
-  if (world.scene.mode_of(Term::density) == Mode::corrected) {
+  if (world.scene.mode_of(term::density) == Mode::corrected) {
     const auto delta = p[field::number_density];
     const double scale = 1.0 / n.lattice_density;
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
@@ -46,10 +47,10 @@ void set_density(World& world, const SceneNumbers& n) {
 void set_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], pressure = p[field::pressure], group = p[field::group];
-  const bool paper = world.scene.mode_of(Term::state) == Mode::paper;
+  const bool paper = world.scene.mode_of(term::state) == Mode::paper, clamps = world.scene.clamps();
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {
-    const EquationOfState e = state_of(n, group[i], rest[i], world.scene.clamps());
+    const EquationOfState e = state_of(n, group[i], rest[i], clamps);
     pressure[i] = paper ? pressure_paper(e, rho[i]) : pressure_corrected(e, rho[i]);
   }
 }

@@ -8,6 +8,7 @@
 #include "effects/fluid/bulk_viscosity.hpp"
 #include "effects/fluid/rule.hpp"
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 #include "sph/lattice.hpp"
 
 namespace tripoint::fluid {
@@ -60,7 +61,7 @@ SceneNumbers numbers_of(const Scene& scene) {
   const double lightest = least_density(scene);
   n.damped_density = 4.0 * lightest;
   n.bulk_viscosity = bulk_viscosity(scene);
-  const bool paper = scene.mode_of(Term::state) == Mode::paper;
+  const bool paper = scene.mode_of(term::state) == Mode::paper;
   n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, -1.0, lightest, false));
   const LatticeMoments moments = wendland_moments(scene.support_ratio);
   n.lattice_density = moments.density;
@@ -69,11 +70,11 @@ SceneNumbers numbers_of(const Scene& scene) {
   n.half_full = 0.5 * (1.0 + moments.layer / moments.density);
   n.surface_head = surface_weight(scene) * norm(pressing_gravity(scene)) * scene.spacing;
   n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);  // half of what a plane face has
-  if (scene.mode_of(Term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
+  if (scene.mode_of(term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
   n.core_reach = kept_number(scene.values, key_row("scene", "core_reach")) * scene.spacing;
-  const bool corrected = std::ranges::all_of(std::array{Term::walls, Term::density, Term::pressure},
-                                             [&](Term t) { return scene.mode_of(t) == Mode::corrected; });
+  const bool corrected = std::ranges::all_of(std::array{term::walls, term::density, term::pressure},
+                                             [&](const Term& t) { return scene.mode_of(t) == Mode::corrected; });
   const bool freezes = calls_for(scene, "phase");
   n.averages_walls = corrected && !freezes &&
                      !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "effects/fluid/fluid_terms.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -24,8 +25,8 @@ std::vector<std::size_t> changed_rows(const World& world) {
 
 double compression_jump(const World& world, const SceneNumbers& n, const PairKernels& kernels,
                         const std::function<double(std::size_t)>& group_now, double back) {
-  const bool core = world.scene.mode_of(Term::pressure) == Mode::corrected,
-             numbers = world.scene.mode_of(Term::density) == Mode::corrected;
+  const bool core = world.scene.mode_of(term::pressure) == Mode::corrected,
+             numbers = world.scene.mode_of(term::density) == Mode::corrected, clamps = world.scene.clamps();
   if (!world.neighbours || world.neighbours->rebuilds() == 0 || !(core || numbers)) return 0.0;
   const Particles& p = world.particles;
   const std::vector<std::size_t> rows = changed_rows(world);
@@ -53,7 +54,7 @@ double compression_jump(const World& world, const SceneNumbers& n, const PairKer
       jump += (changed[j] ? 0.5 : 1.0) * (acts_now - acted) * kernels.core.energy(r);
     }
     if (!numbers || before == after) continue;
-    const EquationOfState state = state_of(n, group[i], rest[i], world.scene.clamps());
+    const EquationOfState state = state_of(n, group[i], rest[i], clamps);
     const auto energy = [&](double delta) { return compression_energy(state, m[i], m[i] * delta / n.lattice_density); };
     jump += energy(after) - energy(before);
   }

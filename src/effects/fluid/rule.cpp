@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
+#include "scene/table_reader.hpp"
 
 namespace tripoint::fluid {
 namespace {
@@ -44,8 +46,16 @@ std::string left_out(const Scene& s) {
   return "nothing is liquid, and no free body has another to touch";
 }
 
+std::string no_form_of_viscosity(const Scene& s) {
+  return s.mode_of(term::viscosity) == Mode::paper ? "viscosity as printed has one form" : "";
+}
+
+std::string no_transport_velocity(const Scene& s) {
+  return s.mode_of(term::pressure) == Mode::paper ? "pressure as printed knows no transport velocity" : "";
+}
+
 std::string solid_viscosity_idle(const Scene& scene) {
-  return scene.mode_of(Term::viscosity) == Mode::paper
+  return scene.mode_of(term::viscosity) == Mode::paper
              ? ""
              : "viscosity is corrected: a liquid takes its own beside a solid, and solids scene.contact_viscosity";
 }
@@ -58,7 +68,8 @@ std::vector<EffectKey> keys() {
       {{"scene", "viscosity_form", word, "", any, "\"central\"",
         "keeps angular momentum; right wherever a surface or body is free", "laplacian central",
         "corrected viscosity; laplacian for wall-bounded shear only"},
-       &Scene::viscosity_form},
+       &Scene::viscosity_form,
+       no_form_of_viscosity},
       {{"scene", "isotropic_shear", number, "", fraction, "0", "most flows soon leave the lattice of the start", "",
         "share of 0 to 1 of the weights with which the lattice resists shear alike along its axes and its diagonals (model 8.5). "
         "Only where viscosity is corrected and central"},
@@ -67,7 +78,8 @@ std::vector<EffectKey> keys() {
        true},
       {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "",
         "move particles by the transport velocity"},
-       &Scene::transport_velocity},
+       &Scene::transport_velocity,
+       no_transport_velocity},
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
         "viscosity between solids that touch"},
        &Scene::contact_viscosity},
@@ -78,6 +90,13 @@ std::vector<EffectKey> keys() {
         "the root of 1 + it. Only where the state is corrected, nothing freezes, and a solid is free"},
        {},
        no_contact_stiffness,
+       true},
+      {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles across need it little", "",
+        "share of 0 to 1 with which pressure on an elastic solid acts at its face, and not at the middles of its outer particles "
+        "(model "
+        "8.3). Only where density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
+       {},
+       no_face_pressure,
        true},
       {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "",
         "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
@@ -99,6 +118,21 @@ std::vector<EffectKey> keys() {
        {},
        no_surface_weight,
        true},
+      {{"scene", "interface_weight", number, "", fraction, "0", "it is for layers that lie on each other, heavy below light", "",
+        "share of 0 to 1 of the energy of pairs of unlike liquids that makes the pressure right on both sides of a level "
+        "interface "
+        "(model 8.3). Only where density, pressure and state are corrected, the scene clamps, nothing freezes, and liquids of "
+        "two "
+        "densities have a weight"},
+       {},
+       no_interface_weight,
+       true},
+      {{"material", "stiffness", number, "m2/s2", positive, "",
+        "taken from the speeds of the scene, or from elastic moduli, where something flows or solids can meet", "",
+        "k of p = k (rho - rho0), the square of the sound speed"},
+       &Material::stiffness},
+      {{"material", "sound_speed", number, "m/s", positive, "", "see stiffness", "", "instead of stiffness: k is its square"},
+       EffectKey::ByRule{}},
       {{"material", "solid_viscosity", number, "Pa s", not_negative, "0", "a solid has scene.contact_viscosity", "",
         "dynamic viscosity of the solid in (8), only where modes.viscosity is paper; between t_solid and t_melt, where "
         "modes.phase is paper, linear from it to viscosity (Fig. 5)"},
@@ -109,13 +143,21 @@ std::vector<EffectKey> keys() {
   };
 }
 
+void settle_material(TableReader& in, Material& m) {
+  const auto c = in.maybe_number("sound_speed");
+  if (!c) return;
+  if (in.has("stiffness")) in.refuse("sound_speed", "stiffness is given too, and is its square: give one of them");
+  m.stiffness = *c * *c;
+  in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
+}
+
 }  // namespace
 
 std::string no_bulk_viscosity(const Scene& scene) {
   if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
   if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
-  for (const Term term : {Term::density, Term::pressure, Term::state})
-    if (scene.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", to_string(term));
+  for (const Term& one : {term::density, term::pressure, term::state})
+    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
   return scene.clamps() ? "" : "the scene does not clamp";
 }
 
@@ -135,19 +177,29 @@ std::string no_surface_weight(const Scene& scene) {
   return no_bulk_viscosity(scene);
 }
 
+std::string no_interface_weight(const Scene& scene) {
+  if (pressing_gravity(scene) == Vec3{}) return "gravity presses nothing down";
+  std::vector<double> densities;
+  for (const Body& b : scene.bodies)
+    if (b.phase == Phase::liquid) densities.push_back(scene.material(b.material).density);
+  for (const Inflow& f : scene.inflows) densities.push_back(scene.material(f.material).density);
+  if (std::ranges::all_of(densities, [&](double rho) { return rho == densities.front(); })) return "all liquids are as heavy";
+  return no_bulk_viscosity(scene);
+}
+
 std::string no_isotropic_shear(const Scene& s) {
-  if (s.mode_of(Term::viscosity) == Mode::paper) return "viscosity is as printed";
+  if (s.mode_of(term::viscosity) == Mode::paper) return "viscosity is as printed";
   if (s.viscosity_form != "central") return "the viscosity is not central";
   if (s.contact_viscosity > 0.0) return "";
   return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
 }
 
 std::string no_core(const Scene& scene) {
-  return scene.mode_of(Term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
+  return scene.mode_of(term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
 }
 
 std::string no_contact_stiffness(const Scene& s) {
-  if (s.mode_of(Term::state) == Mode::paper) return "the equation of state is as printed";
+  if (s.mode_of(term::state) == Mode::paper) return "the equation of state is as printed";
   if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
   const auto free_solid = [](const Scene&, const Body& b, const Material&) {
     return b.phase != Phase::liquid && b.motion == Motion::free;
@@ -155,14 +207,23 @@ std::string no_contact_stiffness(const Scene& s) {
   return any_body(s, free_solid) ? "" : "no solid is free to touch another";
 }
 
+std::string no_face_pressure(const Scene& s) {
+  for (const Term term : {term::density, term::pressure, term::state, term::elastic})
+    if (s.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", term.name);
+  if (!calls_for(s, "elastic")) return "nothing elastic moves";
+  if (calls_for(s, "phase")) return "where matter melts or freezes, its shape of reference changes at once";
+  return calls_for(s, "fracture") ? "where bonds break, the shape of reference changes at once" : "";
+}
+
 EffectRule rule() {
   return {"fluid",
           called_for,
           left_out,
           nullptr,
-          {Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls},
-          {Term::kernel},
-          keys()};
+          {term::pressure, term::density, term::state, {term::clamp, TermKind::law, false}, term::viscosity, term::walls},
+          {term::kernel},
+          keys(),
+          settle_material};
 }
 
 }  // namespace tripoint::fluid

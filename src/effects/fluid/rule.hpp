@@ -21,6 +21,14 @@ namespace tripoint::fluid {
 /// stiffness of a particle at once, and a solid is free.
 [[nodiscard]] std::string no_contact_stiffness(const Scene&);
 
+/// Why scene.face_pressure changes nothing; "" where it does: density, pressure, state and elasticity are corrected, something
+/// elastic moves, and no list of bonds changes.
+[[nodiscard]] std::string no_face_pressure(const Scene&);
+
+/// Why scene.interface_weight changes nothing; "" where it does: as for the numerical bulk viscosity, and liquids of two
+/// densities have a weight.
+[[nodiscard]] std::string no_interface_weight(const Scene&);
+
 /// Why scene.core_reach changes nothing; "" where it does: the pressure is corrected.
 [[nodiscard]] std::string no_core(const Scene&);
 

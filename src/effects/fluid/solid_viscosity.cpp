@@ -2,11 +2,12 @@
 #include "effects/fluid/solid_viscosity.hpp"
 
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint::fluid {
 
 SolidViscosity::SolidViscosity(const Scene& scene) {
-  const bool printed = scene.mode_of(Term::viscosity) == Mode::paper;
+  const bool printed = scene.mode_of(term::viscosity) == Mode::paper;
   for (const Material& m : scene.materials) {
     const double own = printed ? value_of(m.values, "solid_viscosity") : 0.0;
     const bool stage = own > 0.0 && fusion_of(scene, m).soft_band && calls_for(scene, "phase");

@@ -6,12 +6,13 @@
 #include "effects/fluid/transport_terms.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
+#include "scene/shared_terms.hpp"
 #include "world/fill.hpp"
 
 namespace tripoint::fluid {
 
 bool uses_transport_velocity(const Scene& scene) {
-  if (!scene.transport_velocity || scene.mode_of(Term::pressure) != Mode::corrected) return false;
+  if (!scene.transport_velocity || scene.mode_of(term::pressure) != Mode::corrected) return false;
   const bool free_bodies =
       std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   if (free_bodies || scene.clamps())
@@ -24,7 +25,7 @@ bool uses_transport_velocity(const Scene& scene) {
 void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels& kernels) {
   Particles& p = world.particles;
   for (const Field<double>* f : TransportForces::adds::list) fill(p[*f], 0.0, world.threads);
-  const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).transport;
+  const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).alone(pair_term<TransportForces>);
   run_pass(pass, p, *world.neighbours, kernels, world.threads);
   world.refresh(pass.adds());
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it

@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include "effects/fluid/fluid_terms.hpp"
+#include "effects/fluid/viscous_form.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
 #include "sph/moments.hpp"
@@ -21,13 +21,8 @@ constexpr int rates_between = 32;
 void update_viscous_bound(World& world, const PairKernels& kernels) {
   if (world.lagged.viscous_age++ % rates_between != 0) return;
   Particles& p = world.particles;
-  const bool paper = world.scene.mode_of(Term::viscosity) == Mode::paper,
-             central = !paper && world.scene.viscosity_form == "central";
-  const PassFunction spread = pair_passes(world.neighbours->clusters().lanes)
-                                  .spread({paper                  ? 1
-                                           : !central             ? 3
-                                           : kernels.shear.even() ? 2
-                                                                  : 4});
+  const ViscousForm form = viscous_form_of(world.scene, kernels);
+  const PassFunction spread = pair_passes(world.neighbours->clusters().lanes).alone(form.spread);
   using Sums = ViscousSpread<ViscosityCentral>::adds;
   for (const Field<double>* f : Sums::list) fill(p[*f].first(p.moving()), 0.0, world.threads);
   const Clusters& c = world.neighbours->clusters();
@@ -43,12 +38,12 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
   for (std::size_t i = 0; i < p.moving(); ++i) {
     if (group[i] == 0.0 || !world.owns(i)) continue;  // walls do not move by forces
     const double rate =
-        central ? largest_eigenvalue({sum[0][i], sum[1][i], sum[2][i], sum[3][i], sum[4][i], sum[5][i]}) : sum[0][i];
+        form.central ? largest_eigenvalue({sum[0][i], sum[1][i], sum[2][i], sum[3][i], sum[4][i], sum[5][i]}) : sum[0][i];
     greatest = std::max(greatest, rate / m[i]);
   }
   // Velocities are predicted to the full step by the forces of the last one (predict_velocities), so that a mode of rate lambda
   // is stable while lambda dt < 1, not 2: half of what an explicit step of the same rates bears (model 8.10).
-  world.lagged.viscous_step = greatest > 0.0 ? (central ? 0.3 : 0.5) / greatest : std::numeric_limits<double>::infinity();
+  world.lagged.viscous_step = greatest > 0.0 ? (form.central ? 0.3 : 0.5) / greatest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace tripoint::fluid

@@ -10,6 +10,7 @@
 #include "effects/fluid/wall_terms.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
+#include "scene/shared_terms.hpp"
 #include "world/fill.hpp"
 
 namespace tripoint::fluid {
@@ -30,8 +31,8 @@ std::vector<int> frames_of(const World& world) {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-/// Whether a wall brakes liquid: (8) as printed does so at walls that slip too.
-bool drags(const World& world, double stick) { return stick != 0.0 || world.scene.mode_of(Term::viscosity) == Mode::paper; }
+/// Whether every wall brakes liquid: (8) as printed does so at walls that slip too.
+bool all_drag(const World& world) { return world.scene.mode_of(term::viscosity) == Mode::paper; }
 
 /// What a neighbour adds to the kernel sum of a wall particle, and what it would from its place on the lattice.
 struct Share {
@@ -51,11 +52,12 @@ void Walls::find(World& world) {
   for (const Field<double>* f : seen_velocity) fill(part(world.particles[*f], {p.moving(), p.awake()}), 0.0, world.threads);
   const auto group = world.particles[field::group];
   const auto stick = world.particles[field::stick];
+  const bool drags = all_drag(world);
   const Clusters& c = world.neighbours->clusters();
   for (const std::size_t k : c.listed) {
     unsigned walls = 0, wet = 0;  // bits of members
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
-      walls |= static_cast<unsigned>(group[i] == wall_group && drags(world, stick[i])) << (i - c.first[k]);
+      walls |= static_cast<unsigned>(group[i] == wall_group && (drags || stick[i] != 0.0)) << (i - c.first[k]);
     for (std::size_t e = c.start[k]; e < c.start[k + 1] && (walls & ~wet) != 0; ++e)
       if (group[Entry{c.entries[e]}.row()] == liquid_group) wet |= c.near[e];
     for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i)
@@ -89,6 +91,7 @@ void Walls::find_exposed(World& world, const SceneNumbers& n, const PairKernels&
   if (jittered) excess_.assign(p.size(), 0.0);
   world.unread.assign(jittered ? 0 : p.size(), 0);
   const auto stick = p[field::stick];
+  const bool drags = all_drag(world);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     if (group[i] != wall_group) continue;
@@ -107,7 +110,7 @@ void Walls::find_exposed(World& world, const SceneNumbers& n, const PairKernels&
     for (const Share& s : shares) wall += s.as_it_is, from_lattice += s.from_lattice;
     const bool exposed = wall < (1.0 - n.least_exposure) * full;
     at_face_[static_cast<std::size_t>(id[i])] = exposed ? 1 : 0;
-    if (!jittered) world.unread[static_cast<std::size_t>(id[i])] = !exposed && !drags(world, stick[i]) ? 1 : 0;
+    if (!jittered) world.unread[static_cast<std::size_t>(id[i])] = !exposed && !drags && stick[i] == 0.0 ? 1 : 0;
     if (jittered && frame_of(i) == fixed_frame)
       excess_[static_cast<std::size_t>(id[i])] = to_a_millionth((wall - from_lattice) / full);
   }
@@ -239,8 +242,8 @@ void Walls::mirror_velocities(World& world, const PairKernels& kernels) {
   Particles& p = world.particles;
   for (const Field<double>* f : WallExtrapolation::adds::list) fill(awake(p, *f), 0.0, world.threads);
   if (wet_walls_.empty()) return world.refresh(seen_velocity);
-  run_pass_over(pair_passes(world.neighbours->clusters().lanes).wall_extrapolation({kernels.shear.even() ? 1 : 2}), p,
-                *world.neighbours, kernels, world.threads, wet_);
+  const PairTerm term = kernels.shear.even() ? pair_term<WallExtrapolation> : pair_term<WallExtrapolationWeighted>;
+  run_pass_over(pair_passes(world.neighbours->clusters().lanes).alone(term), p, *world.neighbours, kernels, world.threads, wet_);
 
   const auto weight = p[field::wall_weight];
   const auto moved = triple(p, field::wall_velocity_x, field::wall_velocity_y, field::wall_velocity_z);

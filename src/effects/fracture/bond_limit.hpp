@@ -6,6 +6,7 @@
 
 #include "particles/pair_lists.hpp"
 #include "scene/scene.hpp"
+#include "scene/shared_terms.hpp"
 
 /// When a bond breaks: formulas of one bond.
 namespace tripoint::fracture {
@@ -23,7 +24,7 @@ namespace tripoint::fracture {
 /// materials meet the lower limit holds.
 class BondLimits {
  public:
-  explicit BondLimits(const Scene& scene) : paper_(scene.mode_of(Term::elastic) == Mode::paper) {
+  explicit BondLimits(const Scene& scene) : paper_(scene.mode_of(term::elastic) == Mode::paper) {
     constexpr double never = std::numeric_limits<double>::infinity();
     for (const Material& m : scene.materials) {
       const std::optional<double>& given = paper_ ? m.fracture_distance : m.fracture_stretch;

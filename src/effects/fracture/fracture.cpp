@@ -7,6 +7,7 @@
 
 #include "effects/fracture/bond_limit.hpp"
 #include "effects/fracture/unbroken_proof.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/objects.hpp"
 #include "solids/solid_particles.hpp"
 
@@ -182,7 +183,7 @@ void Fracture::change(World& world) {
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{
       "fracture",
-      scene.mode_of(Term::elastic),
+      scene.mode_of(term::elastic),
       {},
       fields::joined(
           {fields::position(), fields::velocity(), {field::mass}, fields::deformation(), fields::shapes(), fields::grouping()}),

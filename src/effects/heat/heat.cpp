@@ -8,6 +8,7 @@
 #include "effects/heat/heat_paper.hpp"
 #include "effects/heat/held_surface.hpp"
 #include "scene/phase_values.hpp"
+#include "scene/shared_terms.hpp"
 #include "scene/temperatures.hpp"
 #include "world/body_table.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 /// (21) and Fig. 5 as printed know one conductivity and one heat capacity of a material.
 void refuse_printed(const Scene& scene) {
-  if (scene.mode_of(Term::heat) != Mode::paper && scene.mode_of(Term::phase) != Mode::paper) return;
+  if (scene.mode_of(term::heat) != Mode::paper && scene.mode_of(term::phase) != Mode::paper) return;
   for (const Body& b : scene.bodies) {
     if (!b.temperature || !has_two_phases(scene.material(b.material))) continue;
     throw InputError("heat as printed knows one conductivity and one heat capacity of a material, and " + b.material +
@@ -32,13 +33,15 @@ bool books_bodies(const Scene& scene) {
          std::ranges::any_of(scene.events, [](const Event& e) { return e.kind == Event::Kind::heat; });
 }
 
+const std::vector<GuardedEntry> guarded_entries{{"thermal", EntryRole::apart}, {"latent", EntryRole::apart}};
+
 std::vector<FieldInfo> read_by_both() {
   return fields::joined(
       {fields::position(), {field::id, field::mass, field::body, field::material, field::phase, field::source}});
 }
 
 EffectSpec spec_of_form(const Scene& scene) {
-  if (scene.mode_of(Term::heat) == Mode::paper) {
+  if (scene.mode_of(term::heat) == Mode::paper) {
     return {"heat",
             Mode::paper,
             {field::temperature, field::temperature_rate, field::exchange, field::heat_capacity, field::diffusivity, field::held},
@@ -57,11 +60,13 @@ EffectSpec spec_of_form(const Scene& scene) {
 
 EffectSpec spec(const Scene& scene) {
   if (equal_temperature(scene)) {
-    EffectSpec idle{"heat", scene.mode_of(Term::heat), {}, {field::mass, field::material, field::phase}};
+    EffectSpec idle{"heat", scene.mode_of(term::heat), {}, {field::mass, field::material, field::phase}};
     idle.skips_sleeping = true;
+    idle.guarded_entries = guarded_entries;
     return idle;
   }
   EffectSpec s = spec_of_form(scene);
+  s.guarded_entries = guarded_entries;
   s.guards = {{field::temperature, "temperature", Written::drift, "K, below absolute zero"}};
   if (s.mode == Mode::paper)
     s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});
@@ -76,7 +81,7 @@ std::unique_ptr<Effect> make(const Scene& scene) {
   if (const auto temperature = equal_temperature(scene)) return std::make_unique<EqualHeat>(*temperature);
   refuse_printed(scene);
   refuse_held_surfaces(scene);
-  if (scene.mode_of(Term::heat) == Mode::paper) return std::make_unique<PaperHeat>();
+  if (scene.mode_of(term::heat) == Mode::paper) return std::make_unique<PaperHeat>();
   return std::make_unique<CorrectedHeat>();
 }
 

@@ -205,4 +205,10 @@ void CorrectedHeat::add_to(const World& world, Ledger& ledger) const {
   if (melts) ledger.energy["latent"] += sums[1];
 }
 
+PairWork CorrectedHeat::pair_work(const Scene&) const {
+  PairWork work{{pair_term<HeatMoment>, pair_term<HeatFlowCorrected>}};
+  work.again = true;
+  return work;
+}
+
 }  // namespace tripoint::heat

@@ -5,6 +5,7 @@
 
 #include "core/machine.hpp"
 #include "effects/heat/enthalpy.hpp"
+#include "effects/heat/heat_terms.hpp"
 #include "effects/heat/thermal_particles.hpp"
 #include "scene/effect_rule.hpp"
 #include "solids/fusion.hpp"
@@ -112,5 +113,7 @@ void PaperHeat::add_to(const World& world, Ledger& ledger) const {
   ledger.energy["thermal"] += sums[0];
   if (melts) ledger.energy["latent"] += sums[1];
 }
+
+PairWork PaperHeat::pair_work(const Scene&) const { return {{pair_term<HeatFlowPaper>}}; }
 
 }  // namespace tripoint::heat

@@ -10,6 +10,7 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
+#include "scene/shared_terms.hpp"
 #include "sph/kernels.hpp"
 #include "world/ordered_sum.hpp"
 
@@ -160,7 +161,7 @@ void refuse_held_surfaces(const Scene& scene) {
     const auto refuse = [&](const std::string& why) {
       throw InputError(fmt::format("body \"{}\" is of {}, which has a surface_temperature, {}", b.name, m.name, why));
     };
-    if (scene.mode_of(Term::heat) == Mode::paper)
+    if (scene.mode_of(term::heat) == Mode::paper)
       refuse("and heat as printed knows no surfaces: write modes.heat = \"corrected\", or hold a body beside it");
     if (b.motion != Motion::fixed || b.phase == Phase::liquid)
       refuse(

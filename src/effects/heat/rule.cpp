@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include "scene/effect_rule.hpp"
+#include "scene/phase_values.hpp"
+#include "scene/shared_terms.hpp"
+#include "scene/table_reader.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint::heat {
@@ -21,7 +24,7 @@ std::string left_out(const Scene& s) {
 }
 
 std::string no_constant(const Scene& s) {
-  return s.mode_of(Term::heat) == Mode::paper ? "" : "heat is corrected, and conducts by what the materials say";
+  return s.mode_of(term::heat) == Mode::paper ? "" : "heat is corrected, and conducts by what the materials say";
 }
 
 std::string no_held_surface(const Scene& s) {
@@ -30,7 +33,7 @@ std::string no_held_surface(const Scene& s) {
              : "no material has a surface_temperature";
 }
 
-std::string as_printed(const Scene& s) { return s.mode_of(Term::heat) == Mode::paper ? "heat as printed knows no surfaces" : ""; }
+std::string as_printed(const Scene& s) { return s.mode_of(term::heat) == Mode::paper ? "heat as printed knows no surfaces" : ""; }
 
 /// Keys of the case file.
 std::vector<EffectKey> keys() {
@@ -46,6 +49,13 @@ std::vector<EffectKey> keys() {
        &Material::conductivity},
       {{"material", "heat_capacity", number, "J/kg/K", positive, "", "holds no heat", "", "specific heat at constant pressure"},
        &Material::heat_capacity},
+      {{"material", "solid_conductivity", number, "W/m/K", positive, "", "conductivity is that of both phases", "",
+        "conductivity of the solid; `conductivity` is then that of the liquid; not as printed"},
+       &Material::solid_conductivity},
+      {{"material", "solid_heat_capacity", number, "J/kg/K", positive, "", "heat_capacity is that of both phases", "",
+        "specific heat of the solid; `heat_capacity` is then that of the liquid, and `latent_heat` that at t_melt; not as "
+        "printed"},
+       &Material::solid_heat_capacity},
       {{"scene", "surface_exchange", number, "", not_negative, "1", "surfaces exchange heat where they lie", "",
         "1: surface_temperature acts at the surface (model 8.6); 0: the outermost particles are held at that temperature"},
        {},
@@ -60,14 +70,38 @@ std::vector<EffectKey> keys() {
   };
 }
 
+/// Where the case gives a value of both phases, the library's of the solid is none of its.
+void drop_of_library(TableReader& in, std::string_view key, std::string_view both, std::optional<double>& value) {
+  if (!value || in.has(key) || !in.has(both)) return;
+  in.ruled(key, "none", fmt::format("{} is given, and is that of both phases", both));
+  value.reset();
+}
+
+void settle_material(TableReader& in, Material& m) {
+  drop_of_library(in, "solid_conductivity", "conductivity", m.solid_conductivity);
+  drop_of_library(in, "solid_heat_capacity", "heat_capacity", m.solid_heat_capacity);
+  for (const auto& [key, both, alone] :
+       {std::tuple{"solid_conductivity", "conductivity", m.solid_conductivity && !m.conductivity},
+        std::tuple{"solid_heat_capacity", "heat_capacity", m.solid_heat_capacity && !m.heat_capacity}})
+    if (alone) in.refuse(key, fmt::format("{} is missing, which is the liquid's where the solid has its own: give it too", both));
+  if (has_two_phases(m) && !m.t_melt)
+    in.refuse(m.solid_conductivity ? "solid_conductivity" : "solid_heat_capacity",
+              "without t_melt the material has one phase: give t_melt too, or write the value without solid_");
+  if (has_two_phases(m) && m.t_solid && latent_heat_at(m, *m.t_solid) < 0.0)
+    in.refuse("solid_heat_capacity",
+              fmt::format("freezing at t_solid = {} K would take up heat, {:.4g} J/kg: the heat of fusion changes with "
+                          "temperature as the heat capacities differ; raise latent_heat or t_solid",
+                          *m.t_solid, -latent_heat_at(m, *m.t_solid)));
+}
+
 }  // namespace
 
 /// As printed it divides by sums of density.
 EffectRule rule() {
   return {"heat",       called_for,
           left_out,     nullptr,
-          {Term::heat}, {Term::kernel, Term::pressure, Term::density, Term::state, Term::clamp, Term::viscosity, Term::walls},
-          keys()};
+          {term::heat}, {term::kernel, term::pressure, term::density, term::state, term::clamp, term::viscosity, term::walls},
+          keys(),       settle_material};
 }
 
 }  // namespace tripoint::heat

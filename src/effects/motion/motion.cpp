@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/shared_terms.hpp"
 #include "world/body_table.hpp"
 #include "world/force_columns.hpp"
 #include "world/ordered_sum.hpp"
@@ -115,7 +116,7 @@ void FreeMotion::add_to(const World& world, Ledger& ledger) const {
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"motion",
-               scene.mode_of(Term::time),
+               scene.mode_of(term::time),
                {},
                fields::joined({fields::position(), fields::velocity(), {field::mass, field::body}})};
   s.reads_if_there = fields::joined({fields::image(), fields::shift(), {field::driven}});

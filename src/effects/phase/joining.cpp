@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/solid_particles.hpp"
 
 namespace tripoint::phase {
@@ -31,7 +32,7 @@ void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
 /// inverse also for chains and sheets. Printed, nothing is turned: beside a turned solid that strains it. @return F^-1 of what is
 /// left
 Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
-  if (world.scene.mode_of(Term::phase) == Mode::paper) return identity3;
+  if (world.scene.mode_of(term::phase) == Mode::paper) return identity3;
   solid::refresh_shapes(world, std::array{id}, true);  // it may have lost bonds in this step; frequencies follow with all others
   const solid::Deformation before = solid::deformation_of(world, id);
   if (before.rank == 0) return identity3;

@@ -5,6 +5,7 @@
 
 #include "effects/phase/softening.hpp"
 #include "effects/phase/transition.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/solid_particles.hpp"
 #include "world/body_table.hpp"
 
@@ -83,7 +84,7 @@ void PhaseChange::happen(World& world, const Happening& now) {
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"phase",
-               scene.mode_of(Term::phase),
+               scene.mode_of(term::phase),
                {field::liquid_fraction},
                fields::joined({fields::position(),
                                fields::velocity(),

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
+#include "scene/table_reader.hpp"
 #include "scene/temperatures.hpp"
 
 namespace tripoint::phase {
@@ -42,8 +44,23 @@ std::vector<EffectKey> keys() {
   };
 }
 
+void settle_material(TableReader& in, Material& m) {
+  for (const auto& [key, given] :
+       {std::pair{"t_solid", m.t_solid.has_value()}, std::pair{"latent_heat", m.latent_heat.has_value()}})
+    if (given && !m.t_melt) in.refuse(key, "without t_melt the material does not melt: give t_melt too");
+  if (m.softens && !m.t_melt)
+    in.refuse("softens", "without t_melt the material does not melt: give t_melt too, or remove softens");
+  if (!m.t_melt) return;
+  if (!m.t_solid) m.t_solid = m.t_melt, in.ruled("t_solid", show(*m.t_solid), "t_melt: no soft band and no hysteresis");
+  if (!m.latent_heat) m.latent_heat = 0.0, in.ruled("latent_heat", "0", "melts at once");
+  if (*m.t_solid > *m.t_melt)
+    in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt; "
+                                     "give a t_solid of at most t_melt",
+                                     *m.t_solid, *m.t_melt));
+}
+
 }  // namespace
 
-EffectRule rule() { return {"phase", called_for, left_out, nullptr, {Term::phase}, {}, keys()}; }
+EffectRule rule() { return {"phase", called_for, left_out, nullptr, {term::phase}, {}, keys(), settle_material}; }
 
 }  // namespace tripoint::phase

@@ -10,10 +10,22 @@
 namespace tripoint::phase {
 namespace {
 
-double share_of(const World& world, std::size_t row) {
-  if (!solid::softens(world.scene, world.material_of(row))) return 1.0;
-  return 1.0 - world.particles[field::liquid_fraction][row];
-}
+/// What is left of the stiffness of a particle: all of it where its material does not soften.
+class Shares {
+ public:
+  explicit Shares(const World& world)
+      : material_(world.particles[field::material]), melted_(world.particles[field::liquid_fraction]) {
+    for (const Material& m : world.scene.materials) softens_.push_back(solid::softens(world.scene, m));
+  }
+  double operator()(std::size_t row) const {
+    return softens_[static_cast<std::size_t>(material_[row])] ? 1.0 - melted_[row] : 1.0;
+  }
+
+ private:
+  std::span<const int> material_;
+  std::span<const double> melted_;
+  std::vector<bool> softens_;  ///< of each material
+};
 
 }  // namespace
 
@@ -23,7 +35,9 @@ bool any_softens(const Scene& scene) {
 }
 
 void load_stiffness(World& world) {
-  for (std::size_t i = 0; i < world.particles.size(); ++i) world.particles[field::stiffness_share][i] = share_of(world, i);
+  const Shares share_of(world);
+  const auto share = world.particles[field::stiffness_share];
+  for (std::size_t i = 0; i < share.size(); ++i) share[i] = share_of(i);
 }
 
 void follow_stiffness(World& world) {
@@ -31,10 +45,11 @@ void follow_stiffness(World& world) {
   const auto share = p[field::stiffness_share];
   const solid::ElasticForms forms(world.scene);
   const solid::ElasticParticles is_elastic(world);
+  const Shares share_of(world);
   for (std::uint32_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
     if (!world.owns(i)) continue;  // a copy's list is not whole
-    const double now = share_of(world, i);
+    const double now = share_of(i);
     if (now == share[i] || p[field::liquid_fraction][i] >= 1.0) continue;  // what melts in this step gives all that it stores
     const double before = is_elastic(i) ? solid::deformation_energy(world, forms, id).total() : 0.0;
     share[i] = now;

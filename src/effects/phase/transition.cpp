@@ -6,6 +6,7 @@
 #include <map>
 
 #include "effects/phase/joining.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/fusion.hpp"
 #include "solids/objects.hpp"
 #include "solids/solid_particles.hpp"
@@ -42,7 +43,7 @@ std::vector<Partner> partners_of(const World& world, std::uint32_t id) {
 }
 
 /// Whether what a list loses or gains changes the volume of its particle, and with it the energies of all that list it.
-bool volumes_follow_lists(const World& world) { return world.scene.mode_of(Term::elastic) == Mode::paper; }
+bool volumes_follow_lists(const World& world) { return world.scene.mode_of(term::elastic) == Mode::paper; }
 
 /// What a solid particle is at this liquid fraction, of a material that may turn.
 Phase solid_phase(const Scene& scene, const Material& m, double f) {

@@ -2,8 +2,11 @@
 #include "effects/plastic/plastic.hpp"
 
 #include <array>
+#include <span>
+#include <utility>
 
 #include "effects/plastic/flow.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/solid_particles.hpp"
 #include "world/ordered_sum.hpp"
 
@@ -13,6 +16,15 @@ namespace {
 /// Energy that plastic flow has dissipated [J].
 constexpr Account dissipation{"plastic"};
 
+/// The columns that say whether a particle flows.
+struct Strains {
+  explicit Strains(const Particles& p)
+      : total(solid::strains(p)), plastic(solid::plastic_strains(p)), rank(p[field::shape_rank]), material(p[field::material]) {}
+
+  solid::SymmetricColumns<const double> total, plastic;
+  std::span<const int> rank, material;
+};
+
 class PlasticFlow : public Effect {
  public:
   explicit PlasticFlow(const Scene&);
@@ -21,6 +33,7 @@ class PlasticFlow : public Effect {
   void add_to(const World& world, Ledger& ledger) const override { ledger.energy["plastic"] += world.booked[dissipation]; }
 
  private:
+  [[nodiscard]] bool may_flow(const Strains&, std::size_t row) const;
   double flow(World&, std::size_t row) const;
 
   solid::ElasticForms forms_;
@@ -37,14 +50,20 @@ PlasticFlow::PlasticFlow(const Scene& scene) : forms_(scene) {
   }
 }
 
+/// Of a particle with all three directions, exactly whether it does; of a sheet or chain, whether its material can.
+bool PlasticFlow::may_flow(const Strains& strains, std::size_t row) const {
+  const int rank = strains.rank[row];
+  const double limit = limits_[static_cast<std::size_t>(strains.material[row])].elastic;
+  if (rank < 3) return rank != 0 && std::isfinite(limit);
+  return excess(size(deviator(strains.total.at(row) - strains.plastic.at(row))), limit) > 0.0;
+}
+
 /// @return energy that it turned to heat [J]
 double PlasticFlow::flow(World& world, std::size_t row) const {
   Particles& p = world.particles;
   const YieldLimits& limits = limits_[static_cast<std::size_t>(p[field::material][row])];
   const int rank = p[field::shape_rank][row];
-  if (rank == 0 || !std::isfinite(limits.elastic)) return 0.0;
   const Symmetric strain = solid::strain_of(p, row), plastic = solid::plastic_strain_of(p, row);
-  if (rank == 3 && flowed(strain, plastic, limits) == plastic) return 0.0;  // as nearly all do nearly always
   const Symmetric P = forms_.projector(solid::shape_inverse_of(p, row), rank), elastic = between(P, strain - plastic);
   const solid::ElasticConstants c = forms_.constants(world, row);
   const double yields = yield_stress(c.mu, limits.elastic);
@@ -61,9 +80,10 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
 /// After the strain of the present time is known, before its stress.
 void PlasticFlow::state(World& world) {
   const solid::ElasticParticles is_elastic(world);
+  const Strains strains(std::as_const(world.particles));
   const auto lost =
       ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
-        if (is_elastic(row) && world.owns(row)) sum[0] += flow(world, row);
+        if (is_elastic(row) && may_flow(strains, row) && world.owns(row)) sum[0] += flow(world, row);
       });
   world.booked[dissipation] += lost[0];
   world.booked[account::deformation_released] += lost[0];
@@ -79,7 +99,7 @@ void PlasticFlow::adopt(World& world) {
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"plastic",
-               scene.mode_of(Term::elastic),
+               scene.mode_of(term::elastic),
                fields::plastic_strain(),
                fields::joined({fields::strain(), fields::deformation(), {field::body, field::material}}),
                {},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/effect_rule.hpp"
+#include "scene/table_reader.hpp"
 
 namespace tripoint::plastic {
 namespace {
@@ -22,8 +23,13 @@ std::vector<EffectKey> keys() {
   };
 }
 
+void settle_material(TableReader& in, Material& m) {
+  if (m.plastic_limit && !m.elastic_limit)
+    in.refuse("plastic_limit", "without elastic_limit nothing flows: give elastic_limit too");
+}
+
 }  // namespace
 
-EffectRule rule() { return {"plastic", called_for, left_out, nullptr, {}, {}, keys()}; }
+EffectRule rule() { return {"plastic", called_for, left_out, nullptr, {}, {}, keys(), settle_material}; }
 
 }  // namespace tripoint::plastic

@@ -6,6 +6,7 @@
 
 #include "effects/prescribed/inflow.hpp"
 #include "scene/geometry.hpp"
+#include "scene/shared_terms.hpp"
 #include "solids/grip.hpp"
 #include "world/body_table.hpp"
 
@@ -152,7 +153,7 @@ void Prescribed::happen(World& world, const Happening& now) {
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"prescribed",
-               scene.mode_of(Term::time),
+               scene.mode_of(term::time),
                {field::driven, field::grip_x, field::grip_y, field::grip_z},
                fields::joined({fields::position(),
                                fields::velocity(),
@@ -160,6 +161,7 @@ EffectSpec spec(const Scene& scene) {
   s.reads_if_there = fields::image();
   s.changes = !scene.inflows.empty();
   s.skips_sleeping = true;
+  s.guarded_entries = {{"inflow", EntryRole::apart}};
   return s;
 }
 

@@ -9,6 +9,7 @@
 #include "effects/rigid/bodies.hpp"
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
+#include "effects/rigid/terms.hpp"
 #include "scene/geometry.hpp"
 #include "scene/motion.hpp"
 #include "solids/body_forces.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 class RigidBodies : public Effect {
  public:
+  explicit RigidBodies(const Scene& scene) : turns_as_printed_(scene.mode_of(term::rotation) == Mode::paper) {}
   void load(World&, const InitialState&) override;
   void kick(World&, double dt) override;
   void drift(World&, double dt) override;
@@ -29,6 +31,7 @@ class RigidBodies : public Effect {
 
  private:
   std::vector<BodyForces> forces_;  ///< memory that is used again from kick to kick
+  bool turns_as_printed_;
 };
 
 /// L of a body that turns about one axis only must lie along it. @throws InputError naming the body
@@ -87,7 +90,7 @@ bool at_rest(const World& world, std::size_t b) {
 }
 
 /// Turns a free body by its angular momentum; the one that reaches through a periodic box about that axis.
-void turn(World& world, std::size_t b, double dt) {
+void turn(World& world, std::size_t b, double dt, bool as_printed) {
   Columns& t = world.bodies;
   const Vec3 L = t[field::body_angular_momentum][b];
   if (L == Vec3{}) return;
@@ -99,7 +102,7 @@ void turn(World& world, std::size_t b, double dt) {
   const Quaternion q = principal_to_world(world, b);
   const Vec3 I = t[field::body_inertia][b];
   const auto turned = [&] {
-    if (world.scene.mode_of(Term::rotation) == Mode::paper) return rotated_paper(q, I, L, dt);
+    if (as_printed) return rotated_paper(q, I, L, dt);
     return world.axis_order ? rotated_no_squish(q, I, L, dt, *world.axis_order) : rotated_corrected(q, I, L, dt);
   };
   orientation = turned() * conjugate(t[field::body_axes][b]);
@@ -186,7 +189,7 @@ void RigidBodies::drift(World& world, double dt) {
       if (at_rest(world, b)) continue;
       t[field::body_centre][b] += dt * t[field::body_velocity][b];
       const double before = kinetic_energy(world, b);
-      turn(world, b, dt);
+      turn(world, b, dt, turns_as_printed_);
       if (world.tells_of_bodies()) world.booked[account::rotation_drift] += kinetic_energy(world, b) - before;
     } else {
       const double kinetic = kinetic_energy(world, b), potential = potential_energy(world, b);
@@ -322,7 +325,7 @@ void RigidBodies::add_to(const World& world, Ledger& ledger) const {
 
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"rigid",
-               scene.mode_of(Term::rotation),
+               scene.mode_of(term::rotation),
                {field::reference_x, field::reference_y, field::reference_z},
                fields::joined({fields::position(), fields::velocity(), {field::id, field::mass, field::body}})};
   s.reads_if_there = fields::image();
@@ -331,6 +334,6 @@ EffectSpec spec(const Scene& scene) {
   return s;
 }
 
-std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<RigidBodies>(); }
+std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<RigidBodies>(scene); }
 
 }  // namespace tripoint::rigid

@@ -3,6 +3,8 @@
 
 #include "scene/effect_rule.hpp"
 
+#include "effects/rigid/terms.hpp"
+
 namespace tripoint::rigid {
 namespace {
 
@@ -26,6 +28,6 @@ std::string needed_for(const Scene& s, const Called& called) {
 
 }  // namespace
 
-EffectRule rule() { return {"rigid", called_for, left_out, needed_for, {Term::rotation}}; }
+EffectRule rule() { return {"rigid", called_for, left_out, needed_for, {{term::rotation, TermKind::time}}}; }
 
 }  // namespace tripoint::rigid

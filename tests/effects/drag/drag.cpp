@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <utility>
 
+#include "effects/drag/terms.hpp"
 #include "effects/effect.hpp"
 
 /// Linear drag: F = -c m v on every particle, c of its material [1/s]. A body that nothing else moves slows down as exp(-c t).
+/// As printed v is that of half a step before, and the scheme of first order; corrected it is that of the end of the step.
 namespace tripoint::drag {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr Field<double> force_x{"drag_force.x", "N"}, force_y{"drag_force.y", "N
 
 class LinearDrag : public Effect {
  public:
-  explicit LinearDrag(const Scene& scene) {
+  explicit LinearDrag(const Scene& scene) : as_printed_(scene.mode_of(term::drag) == Mode::paper) {
     for (const Material& m : scene.materials) coefficient_.push_back(value_of(m.values, "drag"));
   }
   void kick(World&, double dt) override { half_step_ = dt; }
@@ -20,18 +22,20 @@ class LinearDrag : public Effect {
 
  private:
   std::vector<double> coefficient_;  ///< of each material [1/s]
-  double half_step_ = 0.0;           ///< length of the last kick, within a step [s]
+  bool as_printed_;
+  double half_step_ = 0.0;  ///< length of the last kick, within a step [s]
 };
 
-/// Of the velocity at the end of the step, v/(1 + c dt/2) of that half a step before: the scheme is then of second order.
+/// The velocity at the end of the step is v/(1 + c dt/2) of that half a step before.
 void LinearDrag::bonds(World& world) {
   const auto F = triple(world.particles, force_x, force_y, force_z);
   const auto v = velocities(std::as_const(world.particles));
   const auto m = world.particles[field::mass];
   const auto material = world.particles[field::material];
+  const double later = as_printed_ ? 0.0 : half_step_;
   for (std::size_t i = 0; i < m.size(); ++i) {
     const double c = coefficient_[static_cast<std::size_t>(material[i])];
-    F.set(i, (-c * m[i] / (1.0 + c * half_step_)) * v.at(i));
+    F.set(i, (-c * m[i] / (1.0 + c * later)) * v.at(i));
   }
 }
 
@@ -45,14 +49,16 @@ TimeStepBound LinearDrag::max_dt(const World&) const {
 
 }  // namespace
 
-EffectSpec spec(const Scene&) {
+EffectSpec spec(const Scene& scene) {
   Force drag{force_x, force_y, force_z, {"drag_work"}, Account{"wall_drag_work"}};
   drag.entry = "drag";
-  return {"drag",
-          Mode::corrected,
-          {force_x, force_y, force_z},
-          {field::mass, field::material, field::velocity_x, field::velocity_y, field::velocity_z},
-          {drag}};
+  EffectSpec s{"drag",
+               scene.mode_of(term::drag),
+               {force_x, force_y, force_z},
+               {field::mass, field::material, field::velocity_x, field::velocity_y, field::velocity_z},
+               {drag}};
+  s.guarded_entries = {{"drag", EntryRole::only_takes, "drag, which may only take energy"}};
+  return s;
 }
 
 std::unique_ptr<Effect> make(const Scene& scene) { return std::make_unique<LinearDrag>(scene); }

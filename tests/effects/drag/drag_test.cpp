@@ -13,10 +13,14 @@
 #include "assembly/declared_view.hpp"
 #include "assembly/plan.hpp"
 #include "core/defect.hpp"
+#include "effects/drag/terms.hpp"
 #include "job/scene_json.hpp"
+#include "scene/case_file.hpp"
 #include "scene/expression.hpp"
 #include "scene/sample.hpp"
+#include "scene/shared_terms.hpp"
 #include "step/simulation.hpp"
+#include "validation/case/ablation.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/case/schema.hpp"
 
@@ -89,6 +93,71 @@ TEST(AddedEffect, PassesItsValueOnToEveryEngine) {
   EXPECT_EQ(value_of(received.materials.at(0).values, "drag"), 2.0);
 }
 
+/// Words of [modes], in the order of jobs.
+std::vector<std::string> words_of_modes(const Scene& scene) {
+  const std::vector<JobBody> bodies(scene.bodies.size());
+  const nlohmann::ordered_json job = scene_to_json(scene, bodies);
+  std::vector<std::string> words;
+  for (const auto& [word, form] : job["modes"].items()) words.push_back(word);
+  return words;
+}
+
+TEST(AddedEffect, BringsItsTermToTheReaderTheJobTheSchemaAndThePage) {
+  EXPECT_EQ(scene_for(slowed_ball(), {}).mode_of(term::drag), Mode::corrected);
+  const CaseReading reading = read_case(case_file, {"scene.modes.drag=\"paper\""});
+  EXPECT_EQ(scene_for(reading.value, {}).mode_of(term::drag), Mode::paper);
+  EXPECT_TRUE(std::ranges::any_of(reading.decisions, [](const Decision& d) { return d.key == "scene.modes.drag" && d.given; }));
+  RunChoice paper;
+  paper.mode = Mode::paper;
+  EXPECT_EQ(scene_for(slowed_ball(), paper).mode_of(term::drag), Mode::paper);
+
+  Scene received;
+  std::vector<JobBody> bodies(1);
+  scene_from_json(scene_to_json(scene_for(reading.value, {}), bodies), received, bodies);
+  EXPECT_EQ(received.mode_of(term::drag), Mode::paper);
+  const std::vector<std::string> order{"kernel",  "pressure",  "density", "state", "clamp", "viscosity", "walls",
+                                       "elastic", "hourglass", "heat",    "phase", "drag",  "rotation",  "time"};
+  EXPECT_EQ(words_of_modes(received), order) << "those of the program stay in the order that jobs have had from the start";
+
+  EXPECT_NE(case_reference_page().find("`phase` `drag` `rotation`"), std::string::npos);
+  const auto schema = nlohmann::json::parse(case_schema());
+  EXPECT_TRUE(schema["$defs"]["modes"]["properties"].contains("drag"));
+}
+
+TEST(AddedEffect, HasAWordOfModesThatIsSuggestedWhereItIsMisspelt) {
+  const test::Folder folder;
+  std::string text = text_of(case_file);
+  text.insert(text.find("[[material]]"), "[scene.modes]\ndrga = \"paper\"\n\n");
+  const auto line = std::ranges::count(text.substr(0, text.find("drga")), '\n') + 1;
+  try {
+    static_cast<void>(read_case(folder.write("case.toml", text)));
+    ADD_FAILURE() << "an unknown term was taken";
+  } catch (const InputError& e) {
+    const std::string what = e.what();
+    EXPECT_NE(what.find("case.toml:" + std::to_string(line) + ":"), std::string::npos) << what;
+    EXPECT_NE(what.find("`drga` is no term of the model (did you mean `drag`?)"), std::string::npos) << what;
+  }
+}
+
+TEST(AddedEffect, HasItsRowOfAblationWhereItActs) {
+  const std::vector<Correction> all = corrections();
+  const auto row = std::ranges::find(all, "drag", &Correction::name);
+  ASSERT_NE(row, all.end());
+  ASSERT_TRUE(row->term);
+  const Case value = corrected(slowed_ball());
+  EXPECT_TRUE(can_act(*row, value.scene));
+  EXPECT_FALSE(can_act(*row, slowed_ball({"material.ball.drag=0"}).scene));
+  const Case as_printed = without(*row, value);
+  EXPECT_EQ(scene_for(as_printed, {}).mode_of(term::drag), Mode::paper);
+  EXPECT_EQ(scene_for(as_printed, {}).mode_of(term::time), Mode::corrected) << "all others stay";
+  EXPECT_GT(error_of(as_printed), 10.0 * *slowed_ball().gates.at(0).limit) << "which is what the correction buys";
+}
+
+TEST(AddedEffect, RefusesATermThatNobodyHasDeclared) {
+  EXPECT_THROW(static_cast<void>(Scene().mode_of(Term{"lift"})), UndeclaredTerm);
+  EXPECT_THROW(static_cast<void>(scene_for(slowed_ball(), {}).mode_of(Term{"lift"})), UndeclaredTerm);
+}
+
 TEST(AddedEffect, IsRefusedAColumnThatItHasNotDeclared) {
   const Scene scene = scene_for(slowed_ball(), {});
   const Simulation s(scene, sample(scene));
@@ -148,6 +217,22 @@ TEST(AddedEffect, IsPaidByWhoDrivesABody) {
   EXPECT_NEAR(energy.at("walls"), -energy.at("drag"), 1e-12 * m);
 }
 
+/// A drag that drives the ball is stopped by the guard of energy, which takes the entry as the effect says.
+TEST(AddedEffect, IsStoppedWhereItsForceMakesEnergy) {
+  const Case value = slowed_ball({"scene.time_step=0.001"});
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_EXIT(
+      {
+        setenv("TRIPOINT_DEFECT", "drag.force=3", 1);
+        try {
+          static_cast<void>(error_of(value));
+        } catch (const Diverged& stopped) {
+          std::exit(std::string(stopped.what()).find("drag, which may only take energy") != std::string::npos ? 3 : 4);
+        }
+      },
+      testing::ExitedWithCode(3), "");
+}
+
 TEST(AddedEffect, BoundsTheStep) {
   const Simulation s = start(slowed_ball({"scene.time_step=\"auto\""}));
   EXPECT_EQ(s.bound().name, "drag");
@@ -171,7 +256,7 @@ TEST(AddedEffect, GoesOnWithTheSameBitsAfterARestart) {
 /// licence.
 TEST(AddedEffect, IsTheExampleOfThePage) {
   const std::string page = text_of(root / "docs/add-an-effect.md");
-  for (const char* file : {"rule.cpp", "drag.cpp", "effect_list.inc"}) {
+  for (const char* file : {"terms.hpp", "rule.cpp", "drag.cpp", "effect_list.inc"}) {
     std::string code = text_of(root / "tests/effects/drag" / file);
     ASSERT_FALSE(code.empty()) << file;
     code.erase(0, code.find('\n') + 1);

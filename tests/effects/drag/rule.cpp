@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "effects/drag/terms.hpp"
 #include "scene/effect_rule.hpp"
 
 namespace tripoint::drag {
@@ -22,6 +23,6 @@ std::vector<EffectKey> keys() {
 
 }  // namespace
 
-EffectRule rule() { return {"drag", called_for, left_out, nullptr, {}, {}, keys()}; }
+EffectRule rule() { return {"drag", called_for, left_out, nullptr, {term::drag}, {}, keys()}; }
 
 }  // namespace tripoint::drag

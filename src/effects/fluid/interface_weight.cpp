@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "effects/fluid/interface_weight.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "effects/fluid/rule.hpp"
+#include "scene/effect_rule.hpp"
+
+namespace tripoint::fluid {
+namespace {
+
+constexpr std::array<const Field<double>*, 3> forces{&field::force_x, &field::force_y, &field::force_z};
+
+/// Liquids have the group -1.
+bool are_unlike(double group_i, double rest_i, double group_j, double rest_j) {
+  return group_i == -1.0 && group_j == -1.0 && rest_i != rest_j;
+}
+
+}  // namespace
+
+InterfaceWeight::InterfaceWeight(const Scene& scene) : gravity_(pressing_gravity(scene)) {
+  const double share = no_interface_weight(scene).empty() ? kept_number(scene.values, key_row("scene", "interface_weight")) : 0.0;
+  if (share == 0.0) return;
+  const double dx = scene.spacing, V0 = dx * dx * dx;
+  factor_ = 0.5 * share * V0 * V0 / wendland_moments(scene.support_ratio).gradient;
+  kernel_ = interface_kernel(scene.support_ratio);
+  kernel_.square /= dx * dx;
+}
+
+void InterfaceWeight::find(const World& world) {
+  if (known_ == world.neighbours->rebuilds()) return;
+  known_ = world.neighbours->rebuilds();
+  const Particles& p = world.particles;
+  const auto group = p[field::group], rest = p[field::rest_density];
+  rows_.clear(), start_.assign(1, 0), pairs_.clear();
+  for (std::uint32_t i = 0; i < p.moving(); ++i) {
+    if (group[i] != -1.0) continue;
+    for (const Entry e : world.neighbours->of(i)) {
+      const auto j = static_cast<std::uint32_t>(e.row());
+      if (are_unlike(group[i], rest[i], group[j], rest[j])) pairs_.push_back({j, e.image()});
+    }
+    if (pairs_.size() == start_.back()) continue;
+    rows_.push_back(i);
+    start_.push_back(pairs_.size());
+  }
+}
+
+/// The gradient of a (g.d) K: a (g K + (g.d) K'/r d) on i, the opposite on j.
+void InterfaceWeight::add_forces(World& world, const PairKernels& kernels) {
+  if (world.forms_fixed) return;  // the forces on liquids are of the present time
+  find(world);
+  Particles& p = world.particles;
+  const auto x = positions(std::as_const(p));
+  const auto rest = std::as_const(p)[field::rest_density];
+  const auto F = triple(p, field::force_x, field::force_y, field::force_z);
+  const double support = world.support();
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t n = 0; n < rows_.size(); ++n) {
+    const std::size_t i = rows_[n];
+    Vec3 f;
+    for (std::size_t e = start_[n]; e < start_[n + 1]; ++e) {
+      const Pair& pair = pairs_[e];
+      const Vec3 d = (x.at(pair.row) - x.at(i)) + world.neighbours->shift(pair.image);
+      const double r = norm(d);
+      if (!(r < support)) continue;
+      const double a = factor_ * (rest[i] - rest[pair.row]);
+      f += (a * kernel_.value(kernels.wendland, r)) * gravity_ +
+           (a * dot(gravity_, d) * kernel_.derivative_over_r(kernels.wendland, r)) * d;
+    }
+    F.set(i, F.at(i) + f);
+  }
+  world.refresh(forces);
+}
+
+double InterfaceWeight::energy(const World& world, const PairKernels& kernels, std::size_t i) const {
+  const Particles& p = world.particles;
+  const auto group = p[field::group], rest = p[field::rest_density];
+  const auto x = positions(p);
+  double sum = 0.0;
+  if (group[i] != -1.0) return sum;
+  for (const Entry e : world.neighbours->of(i)) {
+    const std::size_t j = e.row();
+    if (!are_unlike(group[i], rest[i], group[j], rest[j])) continue;
+    const Vec3 d = (x.at(j) - x.at(i)) + world.neighbours->shift(e.image());
+    const double r = norm(d);
+    if (r < world.support()) sum += 0.5 * factor_ * (rest[i] - rest[j]) * dot(gravity_, d) * kernel_.value(kernels.wendland, r);
+  }
+  return sum;
+}
+
+}  // namespace tripoint::fluid

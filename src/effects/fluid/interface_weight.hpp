@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "sph/kernels.hpp"
+#include "sph/lattice.hpp"
+#include "world/world.hpp"
+
+namespace tripoint::fluid {
+
+/// Liquids of two densities at rest (model 8.3). The mean of two pressures in a pair is that of the place between its particles
+/// where the pressure is linear. Across an interface the pressure has a kink, and the mean is off by the weight of half a layer:
+/// every second layer would then read too much. Pairs of unlike liquids have the energy a (g.d) K(r), a = s/2 (rho0_i - rho0_j)
+/// V0^2/M, d = r_j - r_i, s = scene.interface_weight, K = (c + c2 r^2/dx^2) W. K is that for which both layers beside a flat
+/// interface of the lattice are at rest under the exact pressures (interface_kernel()).
+class InterfaceWeight {
+ public:
+  explicit InterfaceWeight(const Scene&);
+  [[nodiscard]] bool acts() const noexcept { return factor_ != 0.0; }
+  /// The force of that energy, after the pass of rates.
+  void add_forces(World&, const PairKernels&);
+  /// Half of the energies of the pairs of a row [J].
+  [[nodiscard]] double energy(const World&, const PairKernels&, std::size_t row) const;
+  /// Rows or groups have changed: look again which liquids meet.
+  void clear() { known_ = -1; }
+
+ private:
+  /// A neighbour, as in Entry.
+  struct Pair {
+    std::uint32_t row, image;
+  };
+  void find(const World&);
+
+  double factor_ = 0.0;  ///< s/2 V0^2/M [m6]
+  Vec3 gravity_;         ///< across directions that are not periodic [m/s2]
+  InterfaceKernel kernel_;
+  std::vector<std::uint32_t> rows_;  ///< of liquids with another liquid near
+  std::vector<std::size_t> start_;   ///< first pair of each row, and one past the last
+  std::vector<Pair> pairs_;
+  long known_ = -1;  ///< the rebuild that the rows are of
+};
+
+}  // namespace tripoint::fluid
