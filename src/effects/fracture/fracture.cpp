@@ -33,6 +33,7 @@ class Fracture : public Effect {
 
  private:
   [[nodiscard]] std::vector<Pair> broken(const World&);
+  bool find(const World&);
 
   BondLimits limits_;
   double drifted_ = 0.0;  ///< since the last forces, within a step [s]
@@ -147,19 +148,23 @@ std::vector<std::size_t> bodies_of(const World& world, const std::vector<Pair>& 
   return rows;
 }
 
-/// A bond is in the lists of both its particles: who owns one of them sees it break.
-bool Fracture::wants_change(World& world) {
-  back_ = 0.5 * std::exchange(drifted_, 0.0);
+/// Looks at all bonds, where one can have broken. @return whether one has
+bool Fracture::find(const World& world) {
   found_.reset();
   if (unbroken_.holds(world)) return false;
   found_ = broken(world);
   return !found_->empty();
 }
 
+/// A bond is in the lists of both its particles: who owns one of them sees it break.
+bool Fracture::wants_change(World& world) {
+  back_ = 0.5 * std::exchange(drifted_, 0.0);
+  return find(world);
+}
+
 void Fracture::change(World& world) {
-  if (!found_) found_ = broken(world);
+  if (!found_ && !find(world)) return;
   const std::vector<Pair> pairs = *std::exchange(found_, {});
-  if (pairs.empty()) return;
   // Of the kicks around a drift the first has the force of a bond and the second has not, so it broke half way: what it stored
   // there is what it lets go, to second order in the step.
   Release release(world, back_);
