@@ -150,6 +150,17 @@ TEST(Audit, LetsTwoKeyframesHoldABodyStill) {
   EXPECT_NE(still.sound().find("nothing has moved by the end"), std::string::npos);
 }
 
+TEST(Audit, LetsOneKeyframeHoldABodyAgainstGravity) {
+  auto s = spinning(1.0);
+  s.job.scene.gravity = {0.0, 0.0, -10.0};
+  s.job.bodies[0].motion = s.job.scene.bodies[0].motion = Motion::prescribed;
+  s.job.bodies[0].angular_velocity = {};
+  s.job.bodies[0].keyframes = s.job.scene.bodies[0].keyframes = {{0.0, {}, {}}};
+  for (auto& v : s.initial.velocity) v = {};
+  set_times(s, 2.0, 2);
+  EXPECT_EQ(Trial(s, "keyframes").sound(), "");
+}
+
 /// A hot and a cold block, apart by a gap of whole spacings.
 Prepared hot_and_cold(int gap) {
   auto s = bar(

@@ -65,6 +65,27 @@ TEST(Front, LeadKeepsItsSignAndCarriesTheUncertaintyOfItsRow) {
   EXPECT_NEAR(lead.series[2], -0.05, 1e-12);
 }
 
+/// A block of 0.5 m that stands still: what was measured is a quarter of a metre behind it, and then as far ahead.
+TEST(Front, OfTwoLeadsOfOneSizeTheFirstIsTold) {
+  test::Prepared s;
+  s.job.scene.spacing = 0.125;
+  test::add_matter(s, "water", Phase::liquid, {{4, 4, 4}, 0.125, {}, 1.0}, {}, 1000.0);
+  test::set_times(s, 1.0, 4);
+  const DataFile file(test::sealed(
+      "# source: none\n# unit time: 1 s\n# unit front: 1 m\n# uncertainty front: 10 %\ntime,front\n0.25,0.25\n0.75,0.75\n"));
+  Trajectory run;
+  for (const double t : s.job.times) {
+    Snapshot frame;
+    frame.time = t, frame.position = s.initial.position, frame.velocity = s.initial.velocity, frame.mass = s.initial.mass;
+    run.frames.push_back(frame);
+  }
+  const auto lead = evaluate(metric("front_lead", "final", "water"), s.job, s.initial, run,
+                             *make_reference(test::experiment(file), s.job, s.initial));
+  EXPECT_EQ(lead.value, 0.25);
+  EXPECT_NEAR(lead.uncertainty.data, 0.025, 1e-15);
+  EXPECT_EQ(lead.note, "at t = 0.250000 s");
+}
+
 TEST(Front, SpeedIsThatBetweenTheFirstAndTheLastMeasuredPlace) {
   Dam dam;
   dam.move([](double t) { return 0.44 + 1.5 * (measured(t) - 0.44); });

@@ -116,6 +116,20 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
   }
 }
 
+/// 48 particles of one count of walkers that is 1 K off, and 16 of another that is 3 K off.
+TEST(KnownGaps, ACountOfWalkersWeighsAsMuchAsItsParticles) {
+  auto f = still_blocks();
+  Snapshot truth = f.run.frames.back();
+  truth.temperature.assign(136, 300.0);
+  auto& last = f.run.frames.back();
+  last.temperature_error.assign(136, 0.1);
+  for (std::size_t i = 0; i < 136; ++i) last.temperature.push_back(i < 48 ? 301.0 : 303.0);
+  const auto v = evaluate(metric("temperature", "L1", "left"), f.s.job, f.s.initial, f.run, Known(truth, {}));
+  EXPECT_NEAR(v.value, 1.5, 1e-12);
+  // two samples of shares 3/4 and 1/4, and the mean size of the noise
+  EXPECT_NEAR(v.uncertainty.statistical, 0.1 * std::sqrt(10.0 / 16.0 + 2.0 / test::pi), 1e-12);
+}
+
 TEST(KnownGaps, ADifferenceInPhasesIsTheLargestOfTheThree) {
   auto f = still_blocks();
   auto& phase = f.run.frames.back().phase;

@@ -237,6 +237,19 @@ TEST(KnownEvents, OfAModeThatDecaysIsItsRateWithTheErrorsOfItsWalkers) {
             std::string::npos);
 }
 
+/// A quarter of a cosine has a mean: warmth that is the same everywhere, and rises, is none of the mode.
+TEST(KnownEvents, OfAModeOnAWarmingBarIsItsRateAlone) {
+  auto f = still_blocks(4);
+  Measuring m;
+  m.wave = MeasuredWave{{0.5 * pi / 0.4, 0, 0}, 0.1, {}};
+  for (auto& frame : f.run.frames)
+    for (const Vec3& r : f.s.initial.position)
+      frame.temperature.push_back(300.0 + 5.0 * frame.time +
+                                  4.0 * std::exp(-0.7 * frame.time) * std::cos(0.5 * pi / 0.4 * r.x + 0.1));
+  for (const char* body : {"left", "right", ""})
+    EXPECT_NEAR(value(f, metric("decay_rate", "final", body), {{"decay_rate", 0.5}}, m).value, 0.4, 1e-9) << body;
+}
+
 // --- heat -------------------------------------------------------------------------------------------------------------------
 
 /// Layers of the left block at -0.35, -0.25, -0.15 and -0.05 m that hold 0, 4, 0, 0 K above 300 K and then 1, 2, 1, 0.

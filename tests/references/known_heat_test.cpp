@@ -267,5 +267,24 @@ TEST(KnownTables, AreReadBetweenTheirRowsAndNotBeyond) {
   EXPECT_EQ(a->measured("c"), nullptr);
 }
 
+TEST(KnownTables, AFormulaOfOneComponentLeavesTheOthersAtRest) {
+  const auto s = test::cubes();
+  for (const std::size_t k : {0u, 1u, 2u}) {
+    const std::string name = std::string("velocity_") + "xyz"[k];
+    const auto field = made(s, "expression", {{name, std::string("2*x + 3*y + t")}, {"density", std::string("5*z")}});
+    Snapshot now;
+    now.time = 0.5, now.position = {{1, 10, 100}, {2, 20, 200}, {not_a_number, 0, 0}};
+    const auto truth = field->beside(now);
+    ASSERT_EQ(truth.velocity.size(), 3u);
+    for (std::size_t c = 0; c < 3; ++c) {
+      EXPECT_EQ(truth.velocity[0][c], c == k ? 32.5 : 0.0) << name;
+      EXPECT_EQ(truth.velocity[1][c], c == k ? 64.5 : 0.0) << name;
+      EXPECT_TRUE(std::isnan(truth.velocity[2][c])) << name;
+    }
+    EXPECT_EQ(truth.density, (std::vector<double>{500.0, 1000.0, 0.0}));
+    EXPECT_TRUE(truth.temperature.empty() && truth.pressure.empty());
+  }
+}
+
 }  // namespace
 }  // namespace tripoint

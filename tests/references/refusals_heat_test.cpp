@@ -95,6 +95,10 @@ TEST(Refusals, OfHeat) {
         {"wave 1 needs both", [](Prepared&, Settings& a) { a.erase("amplitude_1"); }},
         {"wave 1 needs both", [](Prepared&, Settings& a) { a.erase("wave_vector_1"); }},
         {"wave 4 needs both", [](Prepared&, Settings& a) { a["amplitude_4"] = 1.0; }},
+        {"no whole number of waves",
+         [](Prepared&, Settings& a) {
+           a["wave_vector_1"] = std::vector<double>{30.0 * test::pi, 0, 0};
+         }},
         {"no argument `amplitude_5`", [](Prepared&, Settings& a) { a["amplitude_5"] = 1.0; }},
         {"needs amplitude_1 and wave_vector_1", [](Prepared&, Settings& a) { a.erase("amplitude_1"), a.erase("wave_vector_1"); }},
         {"does not start with the waves", [](Prepared& s, Settings&) { s.initial.temperature[5] += 1.1e-8; }},
