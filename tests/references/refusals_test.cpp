@@ -180,7 +180,7 @@ TEST(Refusals, OfLiquids) {
         {"gap or overlap", [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.min.z += 1e-6; }},
         {"gap or overlap", [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.min.z -= 1e-6; }},
         {"", [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.min.z += 1e-7; }},
-        {"one layer", [](Prepared&, Settings& a) { a["compressed"] = true; }}});
+        {"", [](Prepared&, Settings& a) { a["compressed"] = true; }}});
   hold("poiseuille", test::channel({0.08, 0, 0}, {}), {},
        {as_it_is,
         {"gravity", [](Prepared& s, Settings&) { s.job.scene.gravity = {}; }},
