@@ -10,6 +10,7 @@ if [[ ${1:-} == -j ]]; then
   jobs=$2
   shift 2
 fi
+commit=$(git -C "$root" rev-parse HEAD) # of both, also where somebody commits meanwhile: programs hold its name
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -17,7 +18,8 @@ trap 'rm -rf "$work"' EXIT
 build() {
   local folder=$1 language=$2 zone=$3
   shift 3
-  git clone --quiet --shared "$root" "$folder"
+  git clone --quiet --shared --no-checkout "$root" "$folder"
+  git -C "$folder" checkout --quiet --detach "$commit"
   (cd "$folder" && env LC_ALL="$language" TZ="$zone" CCACHE_DISABLE=1 cmake -S . -B build -G Ninja >/dev/null &&
     env LC_ALL="$language" TZ="$zone" CCACHE_DISABLE=1 cmake --build build -j "$jobs" ${1:+--target} "$@" >/dev/null)
 }
