@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "metrics/fakes.hpp"
 #include "references/liquids.hpp"
 
@@ -53,6 +55,20 @@ TEST(LiquidMetrics, SeeTheInterfaceFromTheChosenSide) {
   EXPECT_NEAR(f.value(metric("interface_pressure", "mean", "light")), 30.0, 1e-9);
   EXPECT_NEAR(f.value(metric("interface_pressure", "mean", "heavy")), 0.0, 1e-9);
   EXPECT_NEAR(f.value(metric("interface_density", "mean", "light")), 7.0, 1e-9);
+}
+
+TEST(LiquidMetrics, CountAParticleAtExactlyOneSpacingFromTheInterface) {
+  Flow f(test::layers(5.0), "hydrostatic");
+  double second = 1.0;  // height of the light liquid's second layer; the interface is at 0.4
+  for (const Vec3& r : f.s.initial.position)
+    if (r.z > 0.5) second = std::min(second, r.z);
+  f.s.job.scene.spacing = second - 0.4;
+  for (auto& frame : f.run.frames)
+    for (std::size_t i = 0; i < frame.pressure.size(); ++i) {
+      const double z = f.s.initial.position[i].z;
+      if (z > 0.4) frame.pressure[i] += z < 0.5 ? 30.0 : z == second ? 50.0 : 1000.0;
+    }
+  EXPECT_NEAR(f.value(metric("interface_pressure", "mean", "light")), 40.0, 1e-9);
 }
 
 TEST(LiquidMetrics, MeanOverTimeLosesASwingAndKeepsAnOffset) {

@@ -43,6 +43,26 @@ TEST(Probe, ReadsALinearFieldExactlyAlsoAtASurface) {
   }
 }
 
+/// A scalar that is curved is read as its weighted mean where all lies symmetrically: w = (1 - q)^2 (1 + 2 q) to 2.5 spacings.
+TEST(Probe, WeighsWhatItSeesByDistance) {
+  Still f = linear_fields();
+  const Vec3 middle{0.0, 0.2, 0.2};
+  auto& last = f.run.frames.back();
+  double weights = 0.0;
+  double weighted = 0.0;
+  for (std::size_t i = 0; i < last.position.size(); ++i) {
+    const Vec3 d = last.position[i] - middle;
+    const double q = norm(d) / 0.25;
+    last.temperature[i] = 300.0 + 1000.0 * d.x * d.x;
+    if (q >= 1.0) continue;
+    const double w = (1.0 - q) * (1.0 - q) * (1.0 + 2.0 * q);
+    weights += w;
+    weighted += w * last.temperature[i];
+  }
+  EXPECT_GT(weighted / weights, 305.0);
+  EXPECT_NEAR(f.stated(metric("temperature_at", "final"), at(0.0, 0.2, 0.2, weighted / weights)), 0.0, 1e-9);
+}
+
 TEST(Probe, TakesTheNamedBodyAndTheStatedPhaseOnly) {
   Still f = linear_fields();
   auto& last = f.run.frames.back();
