@@ -209,10 +209,13 @@ bool RanksEngine::advance_to(double time, const std::function<bool(double, long)
   }
 }
 
-void RanksEngine::save(Checkpoint& kept) const {
-  if (!is_due_)
-    throw EngineError("over ranks a run leaves checkpoints at its checkpoint_interval alone: this one was stopped between them");
-  kept = simulation_->checkpoint();
+void RanksEngine::save(Checkpoint& kept) const { kept = simulation_->checkpoint(); }
+
+bool RanksEngine::stops(bool asked) {
+  double least = asked ? -1.0 : 0.0;
+  std::string unused;
+  halo_->take_least(least, unused);
+  return least < 0.0;
 }
 
 /// How far this rank is: what is told of it where it ends without a word.
