@@ -53,6 +53,9 @@ class Restartable {
   /// @return whether `time` was reached
   virtual bool advance_to(double time, const std::function<bool(double time, long step)>& go_on) = 0;
   virtual void save(Checkpoint&) const = 0;
+  /// Whether the run ends after this step, with a checkpoint: asked once after every step. @param asked whether this process was
+  /// told to; those that share a scene agree
+  [[nodiscard]] virtual bool stops(bool asked) { return asked; }
 };
 
 using MakeEngine = std::unique_ptr<Engine> (*)();

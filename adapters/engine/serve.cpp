@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <signal.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -17,26 +16,14 @@
 
 #include "adapters/engine/checkpoints.hpp"
 #include "adapters/engine/engine.hpp"
+#include "adapters/engine/stops.hpp"
 #include "core/durable_file.hpp"
 
 namespace tripoint {
 namespace {
 
 using json = nlohmann::ordered_json;
-enum Exit { ok = 0, failed = 1, bad_job = 2, refused = 4, diverged = 7, interrupted = 130 };
-
-volatile sig_atomic_t stop_wanted = 0;
-extern "C" void on_stop(int) { stop_wanted = 1; }
-
-/// From now on Ctrl-C and SIGTERM ask for a checkpoint and an end; a second one ends us at once.
-void catch_stops() {
-  struct sigaction action {};
-  action.sa_handler = on_stop;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESETHAND;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
+enum Exit { ok = 0, failed = 1, bad_job = 2, refused = 4, diverged = 7, interrupted = exit_interrupted };
 
 double cpu_seconds() {
   timespec t{};
@@ -257,13 +244,13 @@ class Run {
     if (!restartable_) return engine_.advance_to(time);
     restartable_->advance_to(time, [&](double now, long step) {
       tell_status(now);
-      const bool due = checkpoints_->due(now);
-      if (!due && !stop_wanted) return true;
+      const bool due = checkpoints_->due(now), stops = restartable_->stops(stop_asked());
+      if (!due && !stops) return true;
       Checkpoint kept;
       restartable_->save(kept);
       const std::string path = checkpoints_->write(std::move(kept), now, step, progress_);
       fmt::print(stderr, "checkpoint {} t {:.9g} s\n", path, now);
-      if (stop_wanted) throw Interrupted{path, now};
+      if (stops) throw Interrupted{path, now};
       return true;
     });
   }

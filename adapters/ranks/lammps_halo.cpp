@@ -29,6 +29,14 @@ int count_columns(const Particles& particles) {
   return count;
 }
 
+/// The farthest that a particle is from a place of its own [m]. @param places by id; empty: 0
+double farthest(const Particles& particles, std::span<const Vec3> places) {
+  double most = 0.0;
+  for (std::size_t id = 0; id < places.size(); ++id)
+    most = std::max(most, norm(particles.position(particles.row(id)) - places[id]));
+  return most;
+}
+
 }  // namespace
 
 PeriodicBox LammpsHalo::split_of(const PeriodicBox& box) const {
@@ -39,7 +47,8 @@ PeriodicBox LammpsHalo::split_of(const PeriodicBox& box) const {
 
 /// Every rank has all particles, and takes those that LAMMPS has put into its part of the box. Particles that flowed in have no
 /// atoms yet: then all are made anew, which also evens out the parts.
-void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box) {
+void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box,
+                           std::span<const Vec3> places) {
   const std::size_t lists = most_list_numbers(bonds, own);
   has_lists_ = lists > 0;
   if (!ranks_) {
@@ -48,34 +57,36 @@ void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, co
   }
   ranks_->make_room(lists);
   if (particles.size() != atoms_) {
-    std::vector<Vec3> places;
-    for (std::size_t id = 0; id < particles.size(); ++id) places.push_back(particles.position(particles.row(id)));
-    host_.renew(places);
+    std::vector<Vec3> now;
+    for (std::size_t id = 0; id < particles.size(); ++id) now.push_back(particles.position(particles.row(id)));
+    host_.renew(now);
     atoms_ = particles.size();
   }
-  reach_now_ = has_lists_ ? std::max(reach_, longest_bond(particles, bonds, particles.size(), box) * (1.0 + 1e-9)) : reach_;
-  pack(particles, split_of(box), true);
+  const double bond =
+      has_lists_ ? longest_bond(particles, bonds, particles.size(), box) + 2.0 * farthest(particles, places) : 0.0;
+  reach_now_ = std::max(reach_, bond * (1.0 + 1e-9));
+  pack(particles, split_of(box), true, places);
   const bool are_written = ranks_->size() == 1 && migrations_ > 0 && known_changes_ == std::array{bonds.changes(), own.changes()};
   for (std::size_t atom = 0; atom < ranks_->owned() && !are_written; ++atom)
     ranks_->lists(atom) =
         has_lists_ ? lists_as_numbers(bonds, own, static_cast<std::size_t>(ranks_->id(atom))) : std::vector<double>{};
-  hand_over(particles, bonds, own, split_of(box));
+  hand_over(particles, bonds, own);
 }
 
 void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box) {
   if (ranks_->size() == 1) {  // its part is the whole; what more ranks would ask each other is counted
     collectives_ += has_lists_ ? 1.0 : 0.0;
-    return share_out(particles, bonds, own, box);
+    return share_out(particles, bonds, own, box, {});
   }
   expect_known(bonds, own);
   reach_now_ = reach_of(has_lists_ ? longest_bond(particles, bonds, owned(), box) : 0.0);
   pack(particles, split_of(box), false);
-  hand_over(particles, bonds, own, split_of(box));
+  hand_over(particles, bonds, own);
 }
 
-void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& split) {
+void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
   ranks_->migrate(reach_now_);
-  unpack(particles, split);
+  unpack(particles);
   unpack_lists(bonds, own);
   if (++migrations_ == 1) own_at_start_ = ranks_->owned(), copies_at_start_ = ranks_->all() - ranks_->owned();
 }
@@ -101,7 +112,7 @@ WholeScene LammpsHalo::gather(const Particles& particles, const Bonds& bonds, co
   ++gatherings_;
   std::vector<double> numbers;
   for (std::size_t id = 0; id < owned(); ++id) {
-    numbers.push_back(number_of(id));
+    numbers.push_back(numbers_[id]);
     const std::size_t row = particles.row(id);
     each_column(particles, [&](auto values, int) { numbers.push_back(static_cast<double>(values[row])); });
     const std::vector<double>& lists = ranks_->lists(id);
@@ -135,53 +146,60 @@ void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
     known_changes_ = {};
     return;
   }
-  Share share{ranks_->owned(), {}, [this](std::size_t id) { return std::span<const double>(ranks_->lists(id)); }};
-  for (std::size_t atom = 0; atom < ranks_->all(); ++atom) share.number.push_back(ranks_->id(atom));
+  Share share{ranks_->owned(), {}, [this](std::size_t id) { return std::span<const double>(ranks_->lists(atoms_here_[id])); }};
+  share.number = numbers_;
   take_lists(share, bonds, own);
   known_changes_ = {bonds.changes(), own.changes()};
 }
 
-/// @param whole ids are numbers
-void LammpsHalo::pack(Particles& particles, const PeriodicBox& box, bool whole) {
+/// @param whole ids are numbers   @param places that LAMMPS is told, by number; empty: those of now
+void LammpsHalo::pack(Particles& particles, const PeriodicBox& box, bool whole, std::span<const Vec3> places) {
   for (std::size_t atom = 0; atom < ranks_->owned(); ++atom) {
     const std::size_t row = particles.row(whole ? static_cast<std::size_t>(ranks_->id(atom)) : atom);
     each_column(particles, [&](auto values, int column) { ranks_->numbers(atom)[column] = static_cast<double>(values[row]); });
-    const Vec3 r = particles.position(row);
+    const Vec3 r = places.empty() ? particles.position(row) : places[static_cast<std::size_t>(ranks_->id(atom))];
     for (std::size_t a = 0; a < 3; ++a)
       ranks_->position(atom)[a] = box.periodic[a] ? r[a] - std::floor((r[a] - box.min[a]) / box.width[a]) * box.width[a] : r[a];
   }
 }
 
-/// Whose place in LAMMPS differs from that in its column is seen across a periodic boundary, or has crossed one.
-void LammpsHalo::unpack(Particles& particles, const PeriodicBox& box) {
-  const std::vector<FieldInfo> fields = particles.fields();
-  const std::size_t count = ranks_->all();
-  particles = Particles(count, fields);
-  each_column(particles, [&](auto values, int column) {
-    using T = typename decltype(values)::value_type;
-    for (std::size_t atom = 0; atom < count; ++atom) values[atom] = static_cast<T>(ranks_->numbers(atom)[column]);
-  });
-  const auto id = particles[field::id];
-  for (std::size_t atom = 0; atom < count; ++atom) id[atom] = static_cast<int>(atom);
-  if (!box.any()) return;
-  const auto r = positions(particles);
-  const auto image = images(particles);
-  const std::array<std::span<double>, 3> x{r.x, r.y, r.z};
-  const std::array<std::span<int>, 3> n{image.x, image.y, image.z};
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (!box.periodic[a]) continue;
-    for (std::size_t atom = 0; atom < count; ++atom) {
-      const double widths = std::round((ranks_->position(atom)[a] - x[a][atom]) / box.width[a]);
-      if (widths == 0.0) continue;
-      x[a][atom] += widths * box.width[a];
-      n[a][atom] -= static_cast<int>(widths);
+/// Copies of one particle at several images are one here, and so are copies of what is this rank's own: across a periodic
+/// boundary lists find it by themselves.
+void LammpsHalo::number_atoms() {
+  std::vector<std::pair<int, std::uint32_t>> tags;  // number and atom, its own before copies
+  for (std::uint32_t atom = 0; atom < ranks_->all(); ++atom) tags.emplace_back(ranks_->id(atom), atom);
+  std::ranges::sort(tags);
+  std::vector<std::uint32_t> first(tags.size());  // of each atom the first with its number
+  for (std::size_t k = 0; k < tags.size(); ++k)
+    first[tags[k].second] = k > 0 && tags[k].first == tags[k - 1].first ? first[tags[k - 1].second] : tags[k].second;
+  numbers_.clear(), atoms_here_.clear();
+  id_of_atom_.resize(tags.size());
+  for (std::uint32_t atom = 0; atom < tags.size(); ++atom) {
+    if (first[atom] != atom) {
+      id_of_atom_[atom] = id_of_atom_[first[atom]];
+      continue;
     }
+    id_of_atom_[atom] = static_cast<std::uint32_t>(numbers_.size());
+    numbers_.push_back(ranks_->id(atom)), atoms_here_.push_back(atom);
   }
 }
 
+void LammpsHalo::unpack(Particles& particles) {
+  number_atoms();
+  const std::vector<FieldInfo> fields = particles.fields();
+  particles = Particles(numbers_.size(), fields);
+  each_column(particles, [&](auto values, int column) {
+    using T = typename decltype(values)::value_type;
+    for (std::size_t id = 0; id < numbers_.size(); ++id) values[id] = static_cast<T>(ranks_->numbers(atoms_here_[id])[column]);
+  });
+  const auto id = particles[field::id];
+  for (std::size_t n = 0; n < id.size(); ++n) id[n] = static_cast<int>(n);
+}
+
 void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* const> columns) {
-  rows_.resize(particles.size());
-  for (std::size_t id = 0; id < rows_.size(); ++id) rows_[id] = static_cast<std::uint32_t>(particles.row(id));
+  rows_.resize(id_of_atom_.size());
+  for (std::size_t atom = 0; atom < rows_.size(); ++atom)
+    rows_[atom] = static_cast<std::uint32_t>(particles.row(id_of_atom_[atom]));
   columns_.clear();
   for (const Field<double>* f : columns) columns_.push_back(particles[*f].data());
   exchanges_ += 1.0, numbers_a_copy_ += static_cast<double>(columns_.size());
@@ -192,7 +210,7 @@ void LammpsHalo::refresh(std::span<double> by_id, std::size_t each) {
   columns_.clear();
   for (std::size_t k = 0; k < each; ++k) columns_.push_back(by_id.data() + k);
   exchanges_ += 1.0, numbers_a_copy_ += static_cast<double>(each);
-  ranks_->forward({columns_.data(), static_cast<int>(each), nullptr, each});
+  ranks_->forward({columns_.data(), static_cast<int>(each), id_of_atom_.data(), each});
 }
 
 std::vector<double> LammpsHalo::all_of(const std::vector<double>& own) {

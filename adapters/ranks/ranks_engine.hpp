@@ -25,9 +25,11 @@ class RanksEngine : public Engine, public Restartable {
   void advance_to(double time) override;
   void resume(const Job&, const InitialState&, const Checkpoint&) override;
   bool advance_to(double time, const std::function<bool(double time, long step)>& go_on) override;
-  /// All call it after the same steps, those of is_due(). @throws EngineError after any other
+  /// All call it after the same steps: those of is_due(), and where stops() says so.
   void save(Checkpoint&) const override;
   [[nodiscard]] bool is_due() const noexcept { return is_due_; }
+  /// True for all ranks where one was told to. All call it, after every step.
+  [[nodiscard]] bool stops(bool asked) override;
   [[nodiscard]] Snapshot observe() const override;
   [[nodiscard]] Readback readback() const override;
   void account(Result&) const override;

@@ -18,6 +18,7 @@ struct Neighbours::Grid {
   static constexpr double slack = 1e-9;      ///< of the reach, far above the rounding of cell numbers
 
   std::array<int, 3> count{1, 1, 1};
+  std::array<int, 3> skipped{};  ///< cells between the origin and the first of these, of a part of a scene
   Vec3 origin, width;
   std::vector<std::uint32_t> first;  // row that starts each cell, one more at the end
 
@@ -29,7 +30,8 @@ struct Neighbours::Grid {
   [[nodiscard]] std::size_t cells() const { return static_cast<std::size_t>(count[0]) * count[1] * count[2]; }
   [[nodiscard]] std::array<int, 3> place(const Vec3& r) const {
     std::array<int, 3> c{};
-    for (std::size_t a = 0; a < 3; ++a) c[a] = std::clamp(static_cast<int>((r[a] - origin[a]) / width[a]), 0, count[a] - 1);
+    for (std::size_t a = 0; a < 3; ++a)
+      c[a] = std::clamp(static_cast<int>((r[a] - origin[a]) / width[a]) - skipped[a], 0, count[a] - 1);
     return c;
   }
 
@@ -55,17 +57,27 @@ struct Neighbours::Grid {
     }
   }
 
+  /// Of the cells of a whole scene those that a part of it, with these corners, touches: never more than the whole has.
+  void keep(const Vec3& low, const Vec3& high, const PeriodicBox& box) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (box.periodic[a]) continue;
+      skipped[a] = static_cast<int>((low[a] - origin[a]) / width[a]);
+      count[a] = static_cast<int>((high[a] - origin[a]) / width[a]) - skipped[a] + 1;
+    }
+  }
+
   /// Numbers of the cells that [low, high] along an axis touches; beyond 0..count-1 in periodic directions, where they mean
   /// images.
   [[nodiscard]] std::array<int, 2> touched(std::size_t a, double low, double high, bool periodic) const {
-    const double from = std::floor((low - origin[a]) / width[a]), to = std::floor((high - origin[a]) / width[a]);
+    const double from = std::floor((low - origin[a]) / width[a]) - skipped[a],
+                 to = std::floor((high - origin[a]) / width[a]) - skipped[a];
     const double least = periodic ? -count[a] : 0.0, most = periodic ? 2.0 * count[a] - 1.0 : count[a] - 1.0;
     return {static_cast<int>(std::clamp(from, least, most)), static_cast<int>(std::clamp(to, least, most))};
   }
   [[nodiscard]] int image(std::size_t a, int cell) const { return cell < 0 ? -1 : cell >= count[a] ? 1 : 0; }
   /// Distance of an interval to a cell along an axis; 0 where they touch.
   [[nodiscard]] double gap(std::size_t a, int cell, double low, double high) const {
-    const double begin = origin[a] + cell * width[a], end = begin + width[a];
+    const double begin = origin[a] + (cell + skipped[a]) * width[a], end = begin + width[a];
     return std::max({0.0, begin - high, low - end});
   }
 

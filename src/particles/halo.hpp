@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "core/field.hpp"
+#include "core/vec3.hpp"
 #include "particles/pair_lists.hpp"
 #include "particles/particles.hpp"
 
@@ -30,17 +32,21 @@ class Halo {
   virtual ~Halo() = default;
   /// Each process holds the whole scene, by number, and all hold the same: of it each keeps its part, as migrate() leaves it.
   /// More particles than before are taken in.
-  virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) = 0;
+  /// @param places by number, to share out by [m], where lists are to be those of before; empty: the places of now
+  virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places) = 0;
   /// The whole scene, for each process: what share_out() takes again. Parts stay as they are.
   [[nodiscard]] virtual WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) = 0;
   /// Who has a part of space now is handed what has moved there, and copies of what is within reach of it. Ids are 0..size()-1
   /// anew, those of own particles first; every column goes with its particle, and so do its bonds and own pairs
   /// (moving_lists.hpp): what one of its own has a bond with is among the copies, however far it is. Nobody may change lists of a
-  /// scene that is shared out. Of a direction that is split, what is seen across a periodic boundary is a copy at its image's
-  /// place.
+  /// scene that is shared out. Each particle is here once, at the place that its owner has: who sees it across a periodic
+  /// boundary does so as one process does.
   virtual void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) = 0;
-  /// Directions in which the scene is split. Across the others each process sees what is periodic by itself. None: this process
-  /// is the only one.
+  /// Of each id here its number among the particles of all processes.
+  /// @pre the scene is shared out
+  [[nodiscard]] virtual std::span<const int> numbers() const = 0;
+  /// Directions in which the scene is split, some of which may be periodic. None:
+  /// this process is the only one.
   [[nodiscard]] virtual std::array<bool, 3> splits() const = 0;
   [[nodiscard]] virtual std::size_t owned() const = 0;  ///< particles of its own: ids 0..owned()-1
   /// Copies take these columns from their owners.
@@ -56,5 +62,14 @@ class Halo {
   /// Whether this is the one process that tells what all hold alike.
   [[nodiscard]] virtual bool is_first() const = 0;
 };
+
+/// Where each record of `width` numbers begins, in order of their first numbers: what is summed so has the bits of one process,
+/// however particles are shared out. Those of equal first numbers stay in their order.
+[[nodiscard]] inline std::vector<const double*> records_in_order(const std::vector<double>& all, std::size_t width) {
+  std::vector<const double*> order;
+  for (std::size_t k = 0; k < all.size(); k += width) order.push_back(&all[k]);
+  std::ranges::stable_sort(order, {}, [](const double* one) { return *one; });
+  return order;
+}
 
 }  // namespace tripoint

@@ -133,7 +133,9 @@ void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
     for (std::size_t i = built_.size(); i < n; ++i) reach_to(x.at(i));
     reach_to(still_.low), reach_to(still_.high);
   }
-  Grid grid = Grid::over(low, high, support_ + skin_, box_, n);
+  Grid grid = whole_ ? Grid::over(whole_->low, whole_->high, support_ + skin_, box_, whole_->particles)
+                     : Grid::over(low, high, support_ + skin_, box_, n);
+  if (whole_ && n > 0) grid.keep(low, high, box_);
   const bool same_cells = grid.origin == still_.origin && grid.width == still_.width,
              same_bodies = !resting.bodies.empty() && resting.bodies == still_.bodies;
   listed_all_ = !(still_.known && same_cells && same_bodies);
@@ -157,7 +159,7 @@ void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
   if (!order_.empty()) grid_ = std::make_shared<const Grid>(std::move(grid));
 }
 
-/// Counting sort by cell of the particles in order of id: rows come out ordered by (cell, id).
+/// Counting sort by cell of the particles in order of id, or of their numbers in the whole: rows come out ordered by (cell, id).
 void Neighbours::sort_all(Particles& particles, Grid& grid) {
   const std::size_t n = particles.size();
   const auto x = positions(particles);
@@ -168,8 +170,8 @@ void Neighbours::sort_all(Particles& particles, Grid& grid) {
   for (std::size_t i = 0; i < n; ++i) ++grid.first[cell_of[i] + 1];
   for (std::size_t c = 0; c < grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
   std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-  for (std::size_t id = 0; id < n; ++id) {
-    const auto row = static_cast<std::uint32_t>(particles.row(id));
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto row = static_cast<std::uint32_t>(particles.row(whole_ ? whole_->ids[k] : k));
     order[next[cell_of[row]]++] = row;
   }
   std::vector<std::uint32_t>().swap(cell_of), std::vector<std::uint32_t>().swap(next);  // before columns are held twice

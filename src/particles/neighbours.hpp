@@ -104,6 +104,13 @@ struct Resting {
   std::span<const char> unread{};  ///< of each id, 1 where no step reads of a fixed particle but its place; empty: it reads all
 };
 
+/// What the lists of a part of a scene know of the whole, so that each list has the order that it has there.
+struct Whole {
+  Vec3 low, high;                  ///< corners of all places that are listed [m]
+  std::size_t particles = 0;       ///< of the whole
+  std::vector<std::uint32_t> ids;  ///< of the part, copies too, in order of their numbers in the whole
+};
+
 /// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
 /// a sum over them has the same bits whatever the threads or the order of particles before. Periodic images count each;
 /// a particle may be its own neighbour through a periodic boundary.
@@ -133,7 +140,8 @@ class Neighbours {
   /// Whether a particle has moved by more than skin/2 since the last lists, or there are none.
   [[nodiscard]] bool outdated(const Particles&) const;
   /// Rows stand for other particles: update() then makes lists whatever has moved.
-  void forget() { built_.clear(), still_ = {}, are_made_ = false; }
+  /// @param whole what these particles are a part of; none: all that there are
+  void forget(std::optional<Whole> whole) { built_.clear(), still_ = {}, are_made_ = false, whole_ = std::move(whole); }
 
   /// Threads from now on. They change neither lists nor their order.
   void use_threads(int threads) { threads_ = threads; }
@@ -203,6 +211,7 @@ class Neighbours {
   double support_, skin_;
   PeriodicBox box_;
   int threads_;
+  std::optional<Whole> whole_;
   std::array<Vec3, 27> shift_{};
   Clusters clusters_;
   ScanFunction scan_;

@@ -2,6 +2,7 @@
 #include "solids/body_forces.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "world/body_table.hpp"
 
@@ -31,13 +32,10 @@ std::vector<Felt> felt_forces(const World& world) {
   return list;
 }
 
-void sum_forces(const World& world, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
+/// Calls visit(row, body, arm from its centre [m]) for each member of asked bodies that is this process's own, in order of id.
+template <class Visit>
+void each_member(const World& world, const std::vector<char>& asked, Visit visit) {
   const Particles& p = world.particles;
-  const std::vector<Felt> felt = felt_forces(world);
-  sums.clear();
-  if (felt.empty()) return;
-  sums.assign(world.bodies.size(), {});
-  for (BodyForces& sum : sums) sum.count = world.forces.size();
   const auto body = p[field::body];
   const auto centre = world.bodies[field::body_centre];
   const auto x = positions(p);
@@ -46,28 +44,70 @@ void sum_forces(const World& world, const std::vector<char>& asked, std::vector<
     const std::size_t i = p.row(id);
     if (body[i] < 0 || !world.owns(i) || !asked[static_cast<std::size_t>(body[i])]) continue;
     const auto b = static_cast<std::size_t>(body[i]);
-    const Vec3 arm = (wraps ? world.unwrapped(i) : x.at(i)) - centre[b];
+    visit(i, b, (wraps ? world.unwrapped(i) : x.at(i)) - centre[b]);
+  }
+}
+
+void sum_forces(const World& world, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
+  const std::vector<Felt> felt = felt_forces(world);
+  sums.clear();
+  if (felt.empty()) return;
+  sums.assign(world.bodies.size(), {});
+  for (BodyForces& sum : sums) sum.count = world.forces.size();
+  each_member(world, asked, [&](std::size_t i, std::size_t b, const Vec3& arm) {
     for (const Felt& f : felt) {
       const Vec3 force = f.force.at(i);
       sums[b].forces[f.number] += force;
       sums[b].torques[f.number] += cross(arm, force);
     }
-  }
+  });
 }
 
-/// Every process has the members that are its own.
-void add_over_halo(const World& world, std::vector<BodyForces>& sums) {
+void put(std::vector<double>& to, const Vec3& force, const Vec3& torque) {
+  to.insert(to.end(), {force.x, force.y, force.z, torque.x, torque.y, torque.z});
+}
+
+/// What one process tells the others of the members that are its own: of each that feels something its number, its body, and each
+/// force with its torque. Of more members than `most_told` it tells the sums alone, by body: those are then the last.
+constexpr std::size_t most_told = 1024;
+constexpr double sum_of_process = std::numeric_limits<double>::max();  ///< in place of a number
+
+std::vector<double> told_members(const World& world, const std::vector<char>& asked, const std::vector<BodyForces>& sums) {
+  const Particles& p = world.particles;
+  const std::vector<Felt> felt = felt_forces(world);
+  const std::span<const int> number = world.halo->numbers();
+  std::vector<double> told;
+  std::size_t members = 0;
+  each_member(world, asked, [&](std::size_t i, std::size_t b, const Vec3& arm) {
+    if (std::ranges::all_of(felt, [&](const Felt& f) { return f.force.at(i) == Vec3{}; }) || ++members > most_told) return;
+    told.insert(told.end(), {static_cast<double>(number[static_cast<std::size_t>(p[field::id][i])]), static_cast<double>(b)});
+    for (const Felt& f : felt) put(told, f.force.at(i), cross(arm, f.force.at(i)));
+  });
+  if (members <= most_told) return told;
+  told.clear();
+  for (std::size_t b = 0; b < sums.size(); ++b) {
+    if (!asked[b]) continue;
+    told.insert(told.end(), {sum_of_process, static_cast<double>(b)});
+    for (const Felt& f : felt) put(told, sums[b].forces[f.number], sums[b].torques[f.number]);
+  }
+  return told;
+}
+
+/// The sums of all processes, in the order of one: members by their numbers, and what feels nothing adds nothing.
+void add_over_halo(const World& world, const std::vector<char>& asked, std::vector<BodyForces>& sums) {
   if (!world.halo || sums.empty()) return;
-  std::vector<double> numbers;
-  const auto each = [&](auto visit) {
-    for (BodyForces& sum : sums)
-      for (std::size_t k = 0; k < sum.count; ++k)
-        for (Vec3* v : {&sum.forces[k], &sum.torques[k]}) visit(*v);
-  };
-  each([&](const Vec3& v) { numbers.insert(numbers.end(), {v.x, v.y, v.z}); });
-  world.halo->add(numbers);
-  const double* from = numbers.data();
-  each([&](Vec3& v) { v = {from[0], from[1], from[2]}, from += 3; });
+  const std::vector<double> told = world.halo->all_of(told_members(world, asked, sums));
+  const std::vector<Felt> felt = felt_forces(world);
+  for (BodyForces& sum : sums) sum.forces = {}, sum.torques = {};
+  for (const double* from : records_in_order(told, 2 + 6 * felt.size())) {
+    BodyForces& sum = sums[static_cast<std::size_t>(from[1])];
+    from += 2;
+    for (const Felt& f : felt) {
+      sum.forces[f.number] += Vec3{from[0], from[1], from[2]};
+      sum.torques[f.number] += Vec3{from[3], from[4], from[5]};
+      from += 6;
+    }
+  }
 }
 
 }  // namespace
@@ -85,7 +125,7 @@ void forces_on_moving_bodies(const World& world, std::vector<BodyForces>& sums) 
   for (std::size_t b = 0; b < asked.size(); ++b) asked[b] = moves(world, b);
   if (std::ranges::find(asked, 1) == asked.end()) return;
   sum_forces(world, asked, sums);
-  add_over_halo(world, sums);
+  add_over_halo(world, asked, sums);
 }
 
 }  // namespace tripoint

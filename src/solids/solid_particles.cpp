@@ -256,17 +256,18 @@ DeformationEnergy deformation_energy(const World& world, std::uint32_t id) {
 Quaternion orientation_of(const World& world, std::size_t body) {
   if (!world.particles.has(field::shape_rank.name)) return {};
   const ElasticForms forms(world.scene);
-  Matrix3 sum;
+  std::vector<double> parts;  // of each member its number and nine of a matrix
   for (const std::size_t i : members(world, body)) {
     if (!world.owns(i)) continue;
-    const Deformation d = deformation_of(world, forms, static_cast<std::uint32_t>(world.particles[field::id][i]));
-    sum = sum + world.particles[field::mass][i] * rotation_of(d.F, d.P, d.rank);
+    const int id = world.particles[field::id][i];
+    const Deformation d = deformation_of(world, forms, static_cast<std::uint32_t>(id));
+    const Matrix3 m = world.particles[field::mass][i] * rotation_of(d.F, d.P, d.rank);
+    const int number = world.halo ? world.halo->numbers()[static_cast<std::size_t>(id)] : id;
+    parts.insert(parts.end(), {static_cast<double>(number), m.xx, m.xy, m.xz, m.yx, m.yy, m.yz, m.zx, m.zy, m.zz});
   }
-  if (world.halo) {
-    std::array<double, 9> rows{sum.xx, sum.xy, sum.xz, sum.yx, sum.yy, sum.yz, sum.zx, sum.zy, sum.zz};
-    world.halo->add(rows);
-    sum = {rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8]};
-  }
+  if (world.halo) parts = world.halo->all_of(parts);
+  Matrix3 sum;
+  for (const double* n : records_in_order(parts, 10)) sum = sum + Matrix3{n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9]};
   return quaternion_of(rotation_of(sum, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}, 3));
 }
 

@@ -2,6 +2,8 @@
 #include "step/sharing.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 #include <string>
 
 namespace tripoint {
@@ -17,11 +19,59 @@ std::span<double> body_heat(World& world) {
   return world.bodies.has(field::body_heat) ? world.bodies[field::body_heat] : std::span<double>{};
 }
 
-/// What a process sees to be periodic by itself.
-PeriodicBox seen_box(const World& world) {
-  PeriodicBox box = world.box;
-  for (std::size_t a = 0; a < 3; ++a) box.periodic[a] = box.periodic[a] && !world.halo->splits()[a];
-  return box;
+/// Where particles were as the lists that there are were made, by number, for each process that holds a part of them; of fewer
+/// particles than there are where one has no lists.
+std::vector<Vec3> gather_built(const World& world) {
+  const std::span<const Vec3> built = world.neighbours->build_positions();
+  const std::span<const int> number = world.halo->numbers();
+  std::vector<double> own;
+  for (std::size_t id = 0; id < world.halo->owned() && built.size() == world.particles.size(); ++id) {
+    const Vec3& r = built[world.particles.row(id)];
+    own.insert(own.end(), {static_cast<double>(number[id]), r.x, r.y, r.z});
+  }
+  const std::vector<double> all = world.halo->all_of(own);
+  std::vector<Vec3> places(all.size() / 4);
+  for (std::size_t k = 0; k < all.size(); k += 4) places[static_cast<std::size_t>(all[k])] = {all[k + 1], all[k + 2], all[k + 3]};
+  return places;
+}
+
+std::vector<Vec3> by_id(const Particles& p, std::span<const Vec3> by_row) {
+  std::vector<Vec3> values;
+  for (std::size_t id = 0; id < by_row.size(); ++id) values.push_back(by_row[p.row(id)]);
+  return values;
+}
+
+/// Places of the last lists, by row of the part that this process has. @param built of the whole, by number
+std::vector<Vec3> built_here(const World& world, const std::vector<Vec3>& built) {
+  const std::span<const int> number = world.halo->numbers();
+  std::vector<Vec3> here(number.size());
+  for (std::size_t id = 0; id < here.size(); ++id) here[world.particles.row(id)] = built[static_cast<std::size_t>(number[id])];
+  return here;
+}
+
+/// What lists of this part know of the whole. @param places by row, that they are made at
+Whole whole_of(const World& world, std::span<const Vec3> places, std::size_t particles) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Whole whole{{none, none, none}, {-none, -none, -none}, particles, {}};
+  for (const Vec3& r : places)
+    for (std::size_t a = 0; a < 3; ++a)
+      whole.low[a] = std::min(whole.low[a], r[a]), whole.high[a] = std::max(whole.high[a], r[a]);
+  const std::vector<double> all =
+      world.halo->all_of({whole.low.x, whole.low.y, whole.low.z, whole.high.x, whole.high.y, whole.high.z});
+  for (std::size_t k = 0; k < all.size(); k += 6)
+    for (std::size_t a = 0; a < 3; ++a)
+      whole.low[a] = std::min(whole.low[a], all[k + a]), whole.high[a] = std::max(whole.high[a], all[k + 3 + a]);
+  const std::span<const int> number = world.halo->numbers();
+  whole.ids.resize(number.size());
+  std::iota(whole.ids.begin(), whole.ids.end(), 0u);
+  std::ranges::sort(whole.ids, {}, [&](std::uint32_t id) { return number[id]; });
+  return whole;
+}
+
+std::vector<Vec3> places_now(const Particles& p) {
+  std::vector<Vec3> places;
+  for (std::size_t row = 0; row < p.size(); ++row) places.push_back(p.position(row));
+  return places;
 }
 
 }  // namespace
@@ -56,6 +106,7 @@ void Sharing::gather(World& world, const std::vector<Active>& effects) {
 }
 
 void Sharing::hold_whole(World& world) const {
+  const std::vector<Vec3> built = world.neighbours ? gather_built(world) : std::vector<Vec3>{};
   WholeScene whole = world.halo->gather(world.particles, world.bonds, world.own);
   world.particles = std::move(whole.particles);
   world.bonds = std::move(whole.bonds);
@@ -63,8 +114,12 @@ void Sharing::hold_whole(World& world) const {
   world.halo = nullptr;
   world.copies.clear();
   if (!world.neighbours) return;
+  const long rebuilds = world.neighbours->rebuilds();
   world.neighbours = world.neighbours->anew(world.box);
-  world.neighbours->update(world.particles, world.time);
+  if (built.size() == world.particles.size())
+    world.neighbours->rebuild_from(world.particles, built, world.time, rebuilds + 1);
+  else
+    world.neighbours->update(world.particles, world.time);
   world.neighbours->mark_own(world.particles, world.own);
 }
 
@@ -90,17 +145,35 @@ void Sharing::share_out(World& world) {
       world.booked.clear();
   }
   booked_.reset();
-  halo_->share_out(world.particles, world.bonds, world.own, world.box);
-  if (world.neighbours) world.neighbours = world.neighbours->anew(seen_box(world));
+  share_particles(world);
+}
+
+/// Lists that are not outdated stay those that they were: of a part there are those that one process has of the whole.
+void Sharing::share_particles(World& world) {
+  const bool keeps = world.neighbours && !world.neighbours->outdated(world.particles);
+  const std::vector<Vec3> built = keeps ? by_id(world.particles, world.neighbours->build_positions()) : std::vector<Vec3>{};
+  count_ = world.particles.size();
+  halo_->share_out(world.particles, world.bonds, world.own, world.box, built);
+  if (!world.neighbours) return;
+  const long rebuilds = world.neighbours->rebuilds();
+  world.neighbours = world.neighbours->anew(world.box);
+  const std::vector<Vec3> here = keeps ? built_here(world, built) : places_now(world.particles);
+  if (is_part(world)) world.neighbours->forget(whole_of(world, here, count_));
+  if (keeps) world.neighbours->rebuild_from(world.particles, here, world.time, rebuilds + 1);
 }
 
 void Sharing::follow(World& world, const std::vector<Active>& effects) {
   if (!world.halo) {
     share_out(world);
+  } else if (!is_part(world) && world.particles.size() != count_) {
+    share_particles(world);  // one rank holds the whole always: what has flowed in, lists may know already
   } else {
     if (!any(outdated(world))) return;
     world.halo->migrate(world.particles, world.bonds, world.own, world.box);
-    if (world.neighbours) world.neighbours->forget();
+    if (world.neighbours && is_part(world))
+      world.neighbours->forget(whole_of(world, places_now(world.particles), count_));
+    else if (world.neighbours)
+      world.neighbours->forget({});
   }
   for (const Active& a : effects) a.effect->renumber(world);
   mark_copies(world);

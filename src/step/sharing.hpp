@@ -18,13 +18,13 @@ class Sharing {
   [[nodiscard]] bool is_part(const World&) const;
   /// Whether one of the processes says so. All call it. @pre the scene is shared out
   [[nodiscard]] bool any(bool here) const;
-  /// Each process holds all of the scene, as one process does, with lists of the present places: what all then do alike keeps
+  /// Each process holds all of the scene, as one process does, with the lists that one process has: what all then do alike keeps
   /// them alike. What is booked meanwhile stands with the first alone. Nothing where this process holds all already.
   void gather(World&, const std::vector<Active>&);
   /// The scene as one process would hold it between two steps, with all that processes have booked.
   [[nodiscard]] World whole(const World&) const;
-  /// Shares out what this process holds all of. Else, where the lists of one process are outdated, particles go to who has their
-  /// place now, and all make new lists. All call it. @pre there is a halo
+  /// Shares out what this process holds all of, with the lists that it has where they are not outdated. Else, where the lists of
+  /// one process are outdated, particles go to who has their place now, and all make new lists. All call it. @pre there is a halo
   void follow(World&, const std::vector<Active>&);
 
  private:
@@ -35,10 +35,12 @@ class Sharing {
   };
   [[nodiscard]] bool outdated(const World&) const;
   void share_out(World&);
+  void share_particles(World&);
   void hold_whole(World&) const;
 
   double skin_;
   Halo* halo_;
+  std::size_t count_ = 0;         ///< particles of the scene, as last shared out
   std::optional<Booked> booked_;  ///< none: nothing yet
   std::vector<Vec3> shared_at_;   ///< by row: where particles were when last shared out [m]; of scenes without neighbour lists
 };

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What breaks, melts, freezes, flows in or is made to happen over MPI ranks, and checkpoints of them, beside one process.
+#include <signal.h>
+
+#include <chrono>
+#include <thread>
+
 #include "adapters/changing_scenes.hpp"
 #include "adapters/ranks_lab.hpp"
 
@@ -57,6 +62,18 @@ TEST(Ranks, LetEventsHappenAndLiquidFlowInAsOneProcessDoes) {
   EXPECT_GT(two.trajectory.frames.back().total_mass, 1.3 * two.trajectory.frames.front().total_mass);
 }
 
+/// Wax flows in, and a layer is due at the time of each frame: whoever has lists of it already tells of it all the same.
+TEST(Ranks, TellOfALayerThatHasJustFlowedIn) {
+  NEEDS_RANKS();
+  Scene s = test::eventful().job.scene;
+  Material wax = test::wax(5e4);
+  wax.name = "oil", wax.viscosity = 0.5, wax.stiffness = 1.5e4;
+  s.materials[1] = wax;
+  s.events = {};
+  const Prepared p = test::prepare(s, 0.05, 5);
+  expect_equal(test::run(one_process, p), run_on(1, p), alone);
+}
+
 /// Goes on from the only checkpoint of another run, on that many ranks; 0: in one process of the engine tripoint.
 Outcome go_on(const test::Folder& from, Prepared p, int count) {
   namespace fs = std::filesystem;
@@ -66,6 +83,7 @@ Outcome go_on(const test::Folder& from, Prepared p, int count) {
     if (name.starts_with("checkpoint")) p.job.resume = name;
     if (name.starts_with("checkpoint") || name == "trajectory.h5") fs::copy(entry.path(), folder.at(name));
   }
+  p.job.settings.erase("ranks");
   if (count > 0) p.job.settings["ranks"] = static_cast<double>(count);
   write_particles(folder.at("particles.h5"), p.initial);
   write_job(folder.at("job.json"), p.job);
@@ -96,6 +114,48 @@ TEST(Ranks, GoOnFromACheckpointOnAnyNumberOfThem) {
       EXPECT_GT(rest.result.extra.at("resumed_at"), 0.5 * p.job.scene.end_time);
       expect_equal(unbroken, rest, shared);
     }
+  }
+}
+
+/// Runs the job of that folder and sends SIGTERM to the engine once the last rank has told that it steps. @return its exit code
+int run_stopped(const test::Folder& folder) {
+  int code = -1;
+  std::thread engine([&] {
+    code = test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") +
+                       "' & echo $! > '" + folder.at("process") + "'; wait $!");
+  });
+  bool steps = false;
+  for (int tries = 0; tries < 6000 && !steps; ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    steps = test::text_of(folder.at("rank-1.log")).find("step") != std::string::npos;
+  }
+  EXPECT_TRUE(steps) << "rank 1 never said that it steps";
+  if (steps) ::kill(static_cast<pid_t>(std::stol(test::text_of(folder.at("process")))), SIGTERM);
+  engine.join();
+  return code;
+}
+
+TEST(Ranks, LeaveACheckpointWhereTheyAreStopped) {
+  NEEDS_RANKS();
+  Prepared p = test::merging_and_splitting("rigid");
+  p.job.scene.time_step = 2e-5;  // so many steps that it is stopped among them
+  const Outcome unbroken = run_on(2, p);
+  ASSERT_EQ(unbroken.exit_code, 0) << unbroken.result.message;
+  p.job.settings["ranks"] = 2.0;
+  const test::Folder folder;
+  write_particles(folder.at("particles.h5"), p.initial);
+  write_job(folder.at("job.json"), p.job);
+  EXPECT_EQ(run_stopped(folder), 130) << "as the engine tripoint";
+  const Result result = read_result(folder.at("result.json"));
+  EXPECT_EQ(result.status, Status::error);
+  EXPECT_TRUE(result.message.starts_with("interrupted at t = ")) << result.message;
+  EXPECT_NE(result.message.find("continue with --resume "), std::string::npos) << result.message;
+  for (const int count : {2, 1, 0}) {
+    SCOPED_TRACE(std::to_string(count) + " ranks");
+    const Outcome rest = go_on(folder, p, count);
+    ASSERT_EQ(rest.exit_code, 0) << rest.result.message;
+    EXPECT_LT(rest.result.extra.at("resumed_at"), p.job.scene.end_time);
+    EXPECT_EQ(rest.result.state_hash, unbroken.result.state_hash);
   }
 }
 

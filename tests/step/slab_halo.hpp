@@ -42,14 +42,17 @@ class SlabHalo : public Halo {
       : meeting_(meeting), rank_(rank), planes_(std::move(planes)), reach_(reach), forgets_(std::move(forgets)) {}
 
   /// At first all is the first rank's.
-  void share_out(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox& box) override {
+  void share_out(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox& box, std::span<const Vec3> places) override {
+    places_ = places;
     numbers_.clear(), lists_.clear();
     for (int n = 0; n < static_cast<int>(p.size()); ++n)
       numbers_.push_back(n), lists_.push_back(lists_as_numbers(bonds, pairs, static_cast<std::size_t>(n)));
     owned_ = rank_ == 0 ? p.size() : 0;
     longest_list_ = most_list_numbers(bonds, pairs);
     migrate(p, bonds, pairs, box);
+    places_ = {};
   }
+  [[nodiscard]] std::span<const int> numbers() const override { return numbers_; }
   WholeScene gather(const Particles& p, const Bonds&, const OwnPairs&) override {
     std::vector<Row> rows;
     for (const std::vector<double>& of : meeting_.exchange(rank_, own_rows(p)))
@@ -66,11 +69,11 @@ class SlabHalo : public Halo {
   }
   void migrate(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox&) override {
     std::vector<Row> own, near;
-    double reach = std::max(reach_, longest_bond(p, bonds, owned_, {}));
+    double reach = std::max(reach_, longest_bond(p, bonds, owned_, {}) + (places_.empty() ? 0.0 : reach_));  // amply
     for (const auto& of : meeting_.exchange(rank_, {reach})) reach = std::max(reach, of[0]);
     for (const auto& of : meeting_.exchange(rank_, own_rows(p))) {
       for (std::size_t at = 0; at < of.size(); at += width(p)) {
-        const double x = of[at + 1];
+        const double x = places_.empty() ? of[at + 1] : places_[static_cast<std::size_t>(of[at])].x;
         if (x < planes_[rank_] - reach || x >= planes_[rank_ + 1] + reach) continue;
         (x >= planes_[rank_] && x < planes_[rank_ + 1] ? own : near)
             .emplace_back(of.begin() + static_cast<std::ptrdiff_t>(at), of.begin() + static_cast<std::ptrdiff_t>(at + width(p)));
@@ -129,7 +132,6 @@ class SlabHalo : public Halo {
     return all;
   }
   [[nodiscard]] bool is_first() const override { return rank_ == 0; }
-  [[nodiscard]] int number_of(std::size_t id) const { return numbers_[id]; }
   long migrations = 0, gatherings = 0;
 
  private:
@@ -182,6 +184,7 @@ class SlabHalo : public Halo {
   std::string forgets_;
   std::size_t owned_ = 0;
   std::size_t longest_list_ = 0;
+  std::span<const Vec3> places_;  ///< to share out by, for now
   std::vector<int> numbers_;
   std::vector<std::vector<double>> lists_;
 };
@@ -257,7 +260,7 @@ inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& plan
         see_bodies(seen, part.world());
       }
       for (std::size_t id = 0; id < halo.owned(); ++id)
-        see_particle(seen, static_cast<std::size_t>(halo.number_of(id)), part.world(), part.world().particles.row(id));
+        see_particle(seen, static_cast<std::size_t>(halo.numbers()[id]), part.world(), part.world().particles.row(id));
     });
   }
   for (std::thread& t : threads) t.join();
