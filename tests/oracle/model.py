@@ -249,7 +249,22 @@ def pressure(s):
     if s.clamps:
         p_s, b = s.surface()
         p = np.where(p < 0, p_s * np.maximum(0, 1 - np.abs(rho / rho0 - b) / (1 - b)), p)
-    return p, np.abs(k * rho)
+    scale = np.abs(k * rho)
+    if s.has("pressure_around"):
+        W = np.where((s.group == LIQUID)[:, None] & (s.group == LIQUID)[None, :], wendland(s.distance, s.h), 0.0)
+        weight = s.scene["mean_pressure"] * s.dx**3 / s.S0
+        p, scale = p + weight * (W * (p[None, :] - p[:, None])).sum(axis=1), scale + weight * W @ scale
+    return p, scale
+
+
+def damping_of_sound(s, v):
+    """q of 8.3, of the velocities v."""
+    reference, lightest = s.rest_densities()
+    zeta = s.scene["sound_damping"] * np.minimum(s.material("density"), 4 * lightest) * np.sqrt(s.stiffness * reference / lightest) * s.h
+    along = np.einsum("ijk,ijk->ij", v[None, :] - v[:, None], s.slope_over_r[..., None] * s.d)
+    q = zeta * s["volume"] / s.M * along.sum(axis=1)
+    size = np.linalg.norm(v[None, :] - v[:, None], axis=2) * np.linalg.norm(s.slope_over_r[..., None] * s.d, axis=2)
+    return np.where(s.group == LIQUID, q, 0.0), zeta * s["volume"] / s.M * (s.condition * size).sum(axis=1)
 
 
 def laid_walls(s):
