@@ -4,11 +4,6 @@
 
 namespace tripoint {
 
-namespace field {
-/// What the mean pressure and the damping of sound sum over neighbours (model 8.3).
-inline constexpr Field<double> pressure_around{"pressure_around", "Pa/m3"}, nearing{"nearing", "1/(s m3)"};
-}  // namespace field
-
 /// Transport velocity [Adami, Hu, Adams 2013, J. Comput. Phys. 241, 292, (8), (13), (15)], d = r_j - r_i, w = transport
 /// velocity less velocity:
 /// background force per background pressure [m2]: sum (V_i^2 + V_j^2) (W'/r) d, which evens out the particles;
