@@ -261,7 +261,7 @@ def damping_of_sound(s, v):
     """q of 8.3, of the velocities v."""
     reference, lightest = s.rest_densities()
     zeta = s.scene["sound_damping"] * np.minimum(s.material("density"), 4 * lightest) * np.sqrt(s.stiffness * reference / lightest) * s.h
-    along = np.einsum("ijk,ijk->ij", v[None, :] - v[:, None], s.slope_over_r[..., None] * s.d)
+    along = np.einsum("ijk,ijk->ij", v[:, None] - v[None, :], s.slope_over_r[..., None] * s.d)
     q = zeta * s["volume"] / s.M * along.sum(axis=1)
     size = np.linalg.norm(v[None, :] - v[:, None], axis=2) * np.linalg.norm(s.slope_over_r[..., None] * s.d, axis=2)
     return np.where(s.group == LIQUID, q, 0.0), zeta * s["volume"] / s.M * (s.condition * size).sum(axis=1)
