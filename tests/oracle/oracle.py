@@ -17,6 +17,7 @@ import numpy as np
 import kernels
 import model
 import solids
+import transport
 from model import WALL
 
 LIMIT = 1e-13
@@ -102,7 +103,7 @@ def compare_pressure(out, s, before):
     p, scale = model.pressure(s)
     out.compare("pressure (9)" if s.printed("state") else "pressure 8.3", s["pressure"], p, scale)
     if s.has("pressure_around"):
-        out.compare("damping of sound 8.3", s["bulk_pressure"], *model.damping_of_sound(s, half_step_velocity(s, before)))
+        out.compare("damping of sound 8.3", s["bulk_pressure"], *transport.damping_of_sound(s, half_step_velocity(s, before)))
     elif s.has("bulk_pressure") and before is not None:
         out.compare("bulk pressure 8.4", s["bulk_pressure"], *model.bulk_pressure(s, before))
     if s.has("pressure_share"):
@@ -156,7 +157,7 @@ def compare_viscosity(out, s, before):
 
 
 def compare_transport(out, s, before):
-    background, stress = model.transport_forces(s)
+    background, stress = transport.transport_forces(s)
     out.compare("background force 8.3", s.vector("background"), *background)
     out.compare("stress of the shift 8.3", s.vector("transport_force"), *stress)
     if before is not None:
