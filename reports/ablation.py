@@ -24,6 +24,8 @@ MEANS = {
     "face_pressure": "pressure on elastic solids at their face and not at the middles of their outer particles (8.3), which the paper does not have",
     "interface_weight": "pressure that is right on both sides of a level interface (8.3), which the paper does not have",
     "isotropic_shear": "central viscosity that resists shear alike in all directions of the lattice (8.5), which the paper does not have",
+    "mean_pressure": "pressure of transported liquid as the mean over its neighbours (8.3), which the paper does not have",
+    "sound_damping": "numerical bulk viscosity of liquid that nothing clamps (8.3), which the paper does not have",
     "surface_weight": "pressure of half a layer's weight at a free surface (8.3), which the paper does not have"}
 
 

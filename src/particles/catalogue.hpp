@@ -43,6 +43,8 @@ inline constexpr Field<double> background_x{"background.x", "N"}, background_y{"
     background_z{"background.z", "N"};
 inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, transport_force_y{"transport_force.y", "N"},
     transport_force_z{"transport_force.z", "N"};
+/// What the mean pressure and the damping of sound sum over neighbours (model 8.3).
+inline constexpr Field<double> pressure_around{"pressure_around", "Pa/m3"}, nearing{"nearing", "1/(s m3)"};
 
 /// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density (model 8.2)
 inline constexpr Field<double> own_density{"own_density", "1/m3"};

@@ -249,7 +249,12 @@ def pressure(s):
     if s.clamps:
         p_s, b = s.surface()
         p = np.where(p < 0, p_s * np.maximum(0, 1 - np.abs(rho / rho0 - b) / (1 - b)), p)
-    return p, np.abs(k * rho)
+    scale = np.abs(k * rho)
+    if s.has("pressure_around"):
+        W = np.where((s.group == LIQUID)[:, None] & (s.group == LIQUID)[None, :], wendland(s.distance, s.h), 0.0)
+        weight = s.scene["mean_pressure"] * s.dx**3 / s.S0
+        p, scale = p + weight * (W * (p[None, :] - p[:, None])).sum(axis=1), scale + weight * W @ scale
+    return p, scale
 
 
 def laid_walls(s):
@@ -450,19 +455,6 @@ def viscous_bound(s):
         rate = G.sum(axis=1)
     greatest = (rate / s.m)[free].max()
     return (0.3 if is_central(s) else 0.5) / greatest
-
-
-def transport_forces(s):
-    """8.3, transport velocity: the background force, and that of the momentum that the shift carries."""
-    V, rho, v, w = s["volume"], s["density"], s.vector("viscous_velocity"), s.vector("shift")
-    gradient = s.slope_over_r[..., None] * s.d
-    both = V[:, None] ** 2 + V[None, :] ** 2
-    background = -s.stiffness * s.rest_densities()[0] / s.S0 * both[..., None] * gradient
-    carried = (rho * 1.0)[:, None] * v
-    along_i = np.einsum("ik,ijk->ij", w, gradient)
-    along_j = np.einsum("jk,ijk->ij", w, gradient)
-    stress = 0.5 / s.S0 * both[..., None] * (carried[:, None] * along_i[..., None] + carried[None, :] * along_j[..., None])
-    return summed(s, background), summed(s, stress)
 
 
 # --- heat -------------------------------------------------------------------------------------------------------------------

@@ -148,14 +148,20 @@ TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   for (const char* key :
        {"transport_velocity = true", "viscosity_form = 'laplacian'", "clamp = false", "contact_viscosity = 3",
         "bulk_viscosity = 0.1", "surface_weight = 0.4", "isotropic_shear = 1", "core_reach = 0.6", "contact_stiffness = 3",
-        "face_pressure = 1", "interface_weight = 1", "surface_exchange = 0", "hourglass = 5", "bending = 1",
-        "merge_distance = 1.2", "modes.heat = 'paper'", "modes.elastic = 'paper'"})
+        "face_pressure = 1", "interface_weight = 1", "mean_pressure = 1", "sound_damping = 0.2", "surface_exchange = 0",
+        "hourglass = 5", "bending = 1", "merge_distance = 1.2", "modes.heat = 'paper'", "modes.elastic = 'paper'"})
     EXPECT_EQ(found(scene(key) + cube(), "changes nothing"), "warning") << key;
   const auto pool = ink + body("pool", "ink", "liquid", 0.0);
   for (const char* key : {"viscosity_form = 'laplacian'", "clamp = false", "modes.walls = 'paper'"})
     EXPECT_EQ(found(scene(key) + pool, "changes nothing"), "") << key;
   for (const char* key : {"viscosity_form = 'laplacian'", "transport_velocity = true"})
     EXPECT_EQ(found(scene(std::string("mode = 'paper'\n") + key) + pool, "changes nothing"), "warning") << key;
+  for (const std::string key : {"mean_pressure = 1", "sound_damping = 0.2"}) {
+    EXPECT_EQ(found(scene(key) + pool, "changes nothing"), "warning") << key;
+    const std::string moved = key + "\ntransport_velocity = true\nclamp = false";
+    EXPECT_EQ(found(scene(moved) + pool, "changes nothing"), "") << key;
+    EXPECT_EQ(found(scene(moved + "\nmodes.state = 'paper'") + pool, "changes nothing"), "warning") << key;
+  }
   EXPECT_EQ(found(scene("bulk_viscosity = 0.1") + pool, "changes nothing"), "");
   for (const char* key : {"mode = 'paper'", "clamp = false", "modes.pressure = 'paper'"})
     EXPECT_EQ(found(scene(std::string("bulk_viscosity = 0.1\n") + key) + pool, "changes nothing"), "warning") << key;

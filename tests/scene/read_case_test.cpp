@@ -5,6 +5,7 @@
 #include "full_case.hpp"
 #include "scene/sample.hpp"
 #include "scene/shared_terms.hpp"
+#include "validation/case/ablation.hpp"
 
 namespace tripoint::test {
 namespace {
@@ -306,6 +307,17 @@ TEST(SceneFor, ResolvesModesAndSupportRatioForEachRun) {
   EXPECT_EQ(scene_for(c, {}).support_ratio, 2.6);
   EXPECT_EQ(scene_for(c, {}).mode_of(term::heat), Mode::paper) << "a term that the case fixes stays";
   EXPECT_EQ(scene_for(read_text(six_lines, {"scene.support_ratio=3"}).value, paper).support_ratio, 3.0);
+}
+
+/// What the transport velocity moves is refused where it clamps.
+TEST(Ablation, KeepsTheClampOfACaseWhoseParticlesMoveByTheTransportVelocity) {
+  for (const bool moves : {true, false}) {
+    auto c = read_text(six_lines, {"scene.clamp=false", "scene.modes.time=paper"}).value;
+    c.scene.transport_velocity = moves;
+    const Scene s = scene_for(corrected(c), {});
+    EXPECT_EQ(s.clamps(), !moves);
+    EXPECT_EQ(s.mode_of(term::time), Mode::corrected);
+  }
 }
 
 }  // namespace

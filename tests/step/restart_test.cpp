@@ -10,6 +10,7 @@
 
 #include "effects/lab.hpp"
 #include "io/checkpoint_file.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint {
 namespace {
@@ -212,6 +213,14 @@ TEST(Restart, OfLiquidsOfTwoDensitiesAndASoftCubeInThemIsTheUnbrokenRun) {
   EXPECT_GT(unbroken(j, 1).end.whole.at("neighbours/rebuilds")[0], 2)
       << "the lists must have been built anew for this to prove anything";
   expect_same_bits(j, 8);
+}
+
+TEST(Restart, OfALiquidThatTheTransportVelocityMovesIsTheUnbrokenRun) {
+  Journey j = liquid_with_body("central", false);
+  j.lab.scene.modes[term::clamp] = Mode::paper;
+  j.lab.scene.transport_velocity = true;
+  j.lab.scene.values["mean_pressure"] = 1.0, j.lab.scene.values["sound_damping"] = 0.2;
+  expect_same_bits(j, 2);
 }
 
 TEST(Restart, OfMeltingWithUnlikePhasesIsTheUnbrokenRun) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scene/shared_terms.hpp"
+
 namespace tripoint {
 
 std::vector<Correction> corrections() {
@@ -25,7 +27,9 @@ bool can_act(const Correction& one, const Scene& scene) {
 Case corrected(Case value) {
   value.modes = {Mode::corrected};
   value.scene.mode = Mode::corrected;
-  value.scene.modes_given.clear();
+  // What the transport velocity moves cannot clamp: no scene of it would run.
+  std::erase_if(value.scene.modes_given,
+                [&](const auto& given) { return !(value.scene.transport_velocity && given.first == term::clamp); });
   value.studies.clear(), value.gates.clear(), value.inputs.clear();
   return value;
 }

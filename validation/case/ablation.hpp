@@ -23,7 +23,8 @@ struct Correction {
 [[nodiscard]] std::vector<Correction> corrections();
 /// Whether it can act in the scene. What acts nowhere after all has no row: its runs have the bits of the corrected ones.
 [[nodiscard]] bool can_act(const Correction&, const Scene&);
-/// The case at its own resolution, fully corrected, without studies and gates.
+/// The case at its own resolution, fully corrected, without studies and gates. With the transport velocity it clamps as the file
+/// says.
 [[nodiscard]] Case corrected(Case);
 [[nodiscard]] Case without(const Correction&, Case);
 

@@ -36,9 +36,9 @@ void set_bulk_pressure(World& world, const SceneNumbers& n) {
   world.booked[taken_by_bulk_viscosity] += n.pressure_work * taken[0];
 }
 
-double bulk_viscous_step(const SceneNumbers& n) {
-  const double zeta = 2.12 * n.bulk_viscosity;  // of mixed liquids, which damp that much faster than one alone (damped_density)
-  return 0.81 * (std::sqrt(zeta * zeta + 0.885 * 0.885) - zeta);
+double bulk_viscous_step(double zeta) {
+  const double of_mixed = 2.12 * zeta;  // mixed liquids damp that much faster than one alone (damped_density)
+  return 0.81 * (std::sqrt(of_mixed * of_mixed + 0.885 * 0.885) - of_mixed);
 }
 
 }  // namespace tripoint::fluid

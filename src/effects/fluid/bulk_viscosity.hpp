@@ -24,7 +24,7 @@ inline constexpr Account taken_by_bulk_viscosity{"bulk_viscous"};
 /// trapezoidal rule. To be called once for all new places, after the pressure is known.
 void set_bulk_pressure(World&, const SceneNumbers&);
 
-/// Greatest step over h/c (model 8.10); above that of sound, 0.45, up to zeta = 0.2.
-[[nodiscard]] double bulk_viscous_step(const SceneNumbers&);
+/// Greatest step over h/c (model 8.10); above that of sound, 0.45, up to zeta = 0.2. @param zeta [1]
+[[nodiscard]] double bulk_viscous_step(double zeta);
 
 }  // namespace tripoint::fluid

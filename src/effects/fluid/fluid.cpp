@@ -213,9 +213,9 @@ void Fluid::state(World& world) {
   if (damps_ && world.moved) set_bulk_pressure(world, numbers_);
   predict_velocities(world);
   if (mirrors_) walls_.mirror_velocities(world, kernels_);
+  if (transports_) set_transport_forces(world, numbers_, kernels_);
   if (world.scene.mode_of(term::pressure) == Mode::corrected) set_pressure_shares(world, numbers_);
   if (averages_) walls_.hand_down_shares(world);
-  if (transports_) set_transport_forces(world, numbers_, kernels_);
   update_viscous_bound(world, kernels_);
 }
 
@@ -245,7 +245,12 @@ TimeStepBound Fluid::max_dt(const World& world) const {
   tighten(bound, courant * world.support() / (numbers_.contact_speed + std::sqrt(v2)),
           numbers_.solid_stiffness > 1.0 ? "contact" : "sound");
   if (damps_)
-    tighten(bound, bulk_viscous_step(numbers_) * world.support() / (numbers_.sound_speed + std::sqrt(v2)), "bulk viscosity");
+    tighten(bound, bulk_viscous_step(numbers_.bulk_viscosity) * world.support() / (numbers_.sound_speed + std::sqrt(v2)),
+            "bulk viscosity");
+  if (numbers_.sound_damping > 0.0)  // the background pressure adds to the stiffness here too
+    tighten(bound,
+            courant / 0.45 * bulk_viscous_step(numbers_.sound_damping) * world.support() / (numbers_.sound_speed + std::sqrt(v2)),
+            "bulk viscosity");
   tighten(bound, world.lagged.viscous_step, "viscosity");
   return bound;
 }
@@ -306,6 +311,8 @@ EffectSpec spec(const Scene& scene) {
   if (uses_transport_velocity(scene))
     own({field::shift_x, field::shift_y, field::shift_z, field::background_x, field::background_y, field::background_z,
          field::transport_force_x, field::transport_force_y, field::transport_force_z});
+  if (uses_transport_velocity(scene) && has_transport_means(numbers_of(scene)))
+    own({field::pressure_around, field::nearing, field::bulk_pressure});
   s.forces = forces_of(scene);
   s.accounts = {compression_released};
   s.guards = {{field::density, "density", Written::density}};

@@ -61,6 +61,11 @@ SceneNumbers numbers_of(const Scene& scene) {
   const double lightest = least_density(scene);
   n.damped_density = 4.0 * lightest;
   n.bulk_viscosity = bulk_viscosity(scene);
+  if (no_transport(scene).empty()) {
+    n.mean_pressure = kept_number(scene.values, key_row("scene", "mean_pressure"));
+    n.sound_damping = kept_number(scene.values, key_row("scene", "sound_damping"));
+  }
+  n.rest_volume = scene.spacing * scene.spacing * scene.spacing;
   const bool paper = scene.mode_of(term::state) == Mode::paper;
   n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, -1.0, lightest, false));
   const LatticeMoments moments = wendland_moments(scene.support_ratio);

@@ -17,7 +17,8 @@ struct PairSlots {
                     Together<PressureCorrected, ViscosityPaper>, Together<PressureCorrected, ViscosityCentral>,
                     Together<PressureCorrected, ViscosityLaplacian>, Together<PressureCorrected, ViscosityCentralWeighted>>>;
   using alone = Together<ViscousSpread<ViscosityPaper>, ViscousSpread<ViscosityCentral>, ViscousSpread<ViscosityLaplacian>,
-                         ViscousSpread<ViscosityCentralWeighted>, WallExtrapolation, WallExtrapolationWeighted, TransportForces>;
+                         ViscousSpread<ViscosityCentralWeighted>, WallExtrapolation, WallExtrapolationWeighted, TransportForces,
+                         TransportForcesAndMeans>;
   using timed = Together<PressureCorrected, ViscosityCentral>;
 };
 

@@ -80,6 +80,18 @@ std::vector<EffectKey> keys() {
         "move particles by the transport velocity"},
        &Scene::transport_velocity,
        no_transport_velocity},
+      {{"scene", "mean_pressure", number, "", fraction, "0", "pressure is that of each particle's own density", "",
+        "share of 0 to 1 with which the pressure of a liquid that the transport velocity moves is the mean over its neighbours "
+        "(model 8.3). Only with transport_velocity, where density, pressure and state are corrected"},
+       {},
+       no_transport,
+       true},
+      {{"scene", "sound_damping", number, "", not_negative, "0", "a liquid that nothing clamps may be there for its sound", "",
+        "numerical bulk viscosity over rho0 c h, h the support, of a liquid that the transport velocity moves (model 8.3). Only "
+        "with transport_velocity, where density, pressure and state are corrected"},
+       {},
+       no_transport,
+       true},
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
         "viscosity between solids that touch"},
        &Scene::contact_viscosity},
@@ -192,6 +204,12 @@ std::string no_isotropic_shear(const Scene& s) {
   if (s.viscosity_form != "central") return "the viscosity is not central";
   if (s.contact_viscosity > 0.0) return "";
   return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
+}
+
+std::string no_transport(const Scene& scene) {
+  for (const Term& one : {term::density, term::pressure, term::state})
+    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
+  return scene.transport_velocity ? "" : "particles move with their own velocity: transport_velocity is false";
 }
 
 std::string no_core(const Scene& scene) {

@@ -32,6 +32,10 @@ namespace tripoint::fluid {
 /// Why scene.core_reach changes nothing; "" where it does: the pressure is corrected.
 [[nodiscard]] std::string no_core(const Scene&);
 
+/// Why scene.mean_pressure and scene.sound_damping change nothing; "" where they do: density, pressure and state are corrected,
+/// and particles move by the transport velocity.
+[[nodiscard]] std::string no_transport(const Scene&);
+
 /// Why scene.isotropic_shear changes nothing; "" where it does: something is viscous, and the viscosity is corrected and
 /// `central`.
 [[nodiscard]] std::string no_isotropic_shear(const Scene&);

@@ -11,6 +11,26 @@
 
 namespace tripoint::fluid {
 
+namespace {
+
+/// From what the pass has summed. Weights and divergence are symmetric in a pair, so that no force of q ever gives energy.
+void set_mean_pressure(World& world, const SceneNumbers& n) {
+  Particles& p = world.particles;
+  const auto pressure = p[field::pressure], q = p[field::bulk_pressure];
+  const auto around = p[field::pressure_around], nearing = p[field::nearing], V = p[field::volume], rest = p[field::rest_density],
+             group = p[field::group];
+  const double weight = n.mean_pressure * n.rest_volume / n.lattice_density;                       // [m3]
+  const double viscosity = n.sound_damping * n.sound_speed * world.support() / n.gradient_moment;  // [m2/s]
+#pragma omp parallel for schedule(static) num_threads(world.threads)
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (group[i] != -1.0) continue;  // walls keep theirs
+    pressure[i] += weight * around[i];
+    q[i] = viscosity * std::min(rest[i], n.damped_density) * (V[i] * nearing[i]);
+  }
+}
+
+}  // namespace
+
 bool uses_transport_velocity(const Scene& scene) {
   if (!scene.transport_velocity || scene.mode_of(term::pressure) != Mode::corrected) return false;
   const bool free_bodies =
@@ -24,8 +44,10 @@ bool uses_transport_velocity(const Scene& scene) {
 
 void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels& kernels) {
   Particles& p = world.particles;
-  for (const Field<double>* f : TransportForces::adds::list) fill(p[*f], 0.0, world.threads);
-  const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).alone(pair_term<TransportForces>);
+  const bool means = has_transport_means(n);
+  const PairTerm term = means ? pair_term<TransportForcesAndMeans> : pair_term<TransportForces>;
+  const PassFunction pass = pair_passes(world.neighbours->clusters().lanes).alone(term);
+  for (const Field<double>* f : pass.adds()) fill(p[*f], 0.0, world.threads);
   run_pass(pass, p, *world.neighbours, kernels, world.threads);
   world.refresh(pass.adds());
   const double pressure = n.stiffness * n.reference_density;  // rho0 c^2, as Adami, Hu and Adams take it
@@ -34,6 +56,7 @@ void set_transport_forces(World& world, const SceneNumbers& n, const PairKernels
     for (double& value : p[*f]) value *= background;
   for (const Field<double>* f : {&field::transport_force_x, &field::transport_force_y, &field::transport_force_z})
     for (double& value : p[*f]) value *= stress;
+  if (means) set_mean_pressure(world, n);
 }
 
 void set_shift(World& world, double dt) {

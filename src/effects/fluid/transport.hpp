@@ -10,7 +10,13 @@ namespace tripoint::fluid {
 /// @throws InputError where the scene's choice cannot hold: free bodies, or pressure clamped at free surfaces
 [[nodiscard]] bool uses_transport_velocity(const Scene&);
 
-/// Background and stress forces from the present places and the last shift.
+/// Whether scene.mean_pressure or scene.sound_damping acts.
+[[nodiscard]] inline bool has_transport_means(const SceneNumbers& n) { return n.mean_pressure > 0.0 || n.sound_damping > 0.0; }
+
+/// Background and stress forces from the present places and the last shift. Where has_transport_means(), also the pressure of
+/// liquids as the share scene.mean_pressure of its mean over liquid neighbours, p_i + s V0/S0 sum W (p_j - p_i) [Pa], and beside
+/// it the numerical bulk viscosity q = -zeta rho0 c h div v [Pa], zeta = scene.sound_damping (model 8.3). The pressure has to be
+/// that of each particle's own density before.
 void set_transport_forces(World&, const SceneNumbers&, const PairKernels&);
 /// w = dt/2 (background force)/m of liquids, for the step that begins [m/s].
 void set_shift(World&, double dt);

@@ -29,4 +29,35 @@ struct TransportForces {
   }
 };
 
+/// Of liquids that the transport velocity moves (model 8.3), d = r_j - r_i:
+/// sum W (p_j - p_i) over liquid neighbours [Pa/m3], for the mean of the pressure;
+/// sum (W'/r)(v_j - v_i).d over all [1/(s m3)]: times -V_i it is the divergence of the velocity, as the rate of the number
+/// density has it.
+struct TransportMeans {
+  using reads = Keys<field::pressure, field::group, field::velocity_x, field::velocity_y, field::velocity_z>;
+  using adds = Keys<field::pressure_around, field::nearing>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 5> i, std::span<const V, 5> j, std::span<V, 2> sum) {
+    const V p_i = i[0], group_i = i[1], vx_i = i[2], vy_i = i[3], vz_i = i[4];
+    const V p_j = j[0], group_j = j[1], vx_j = j[2], vy_j = j[3], vz_j = j[4];
+    const V W = g.kernels.wendland.value_inside(g.r);
+    sum[0] += where((group_i == -1.0) & (group_j == -1.0), W * (p_j - p_i));
+    sum[1] += g.gradient * ((vx_j - vx_i) * g.dx + (vy_j - vy_i) * g.dy + (vz_j - vz_i) * g.dz);
+  }
+};
+
+/// Both in one pass.
+struct TransportForcesAndMeans {
+  using reads = Keys<field::volume, field::density, field::viscous_velocity_x, field::viscous_velocity_y,
+                     field::viscous_velocity_z, field::shift_x, field::shift_y, field::shift_z, field::pressure, field::group,
+                     field::velocity_x, field::velocity_y, field::velocity_z>;
+  using adds = Keys<field::background_x, field::background_y, field::background_z, field::transport_force_x,
+                    field::transport_force_y, field::transport_force_z, field::pressure_around, field::nearing>;
+  template <class V>
+  static void pair(const PairGeometry<V>& g, std::span<const V, 13> i, std::span<const V, 13> j, std::span<V, 8> sum) {
+    TransportForces::pair<V>(g, i.template first<8>(), j.template first<8>(), sum.template first<6>());
+    TransportMeans::pair<V>(g, i.template last<5>(), j.template last<5>(), sum.template last<2>());
+  }
+};
+
 }  // namespace tripoint
