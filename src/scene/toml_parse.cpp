@@ -20,6 +20,7 @@ namespace tripoint {
 #include <cerrno>
 #include <charconv>
 #include <fstream>
+#include <vector>
 
 #include "core/children.hpp"
 #include "scene/nearest.hpp"
@@ -167,6 +168,31 @@ std::string to_toml(const TomlNode& n) {
   return out;
 }
 
+namespace {
+
+/// Whether toml++ ends in one of its asserts, which names no place.
+bool loses_parser(const std::string& text) {
+  if (!child_survives(text)) return true;
+  try {
+    static_cast<void>(toml::parse(text));
+  } catch (const toml::parse_error&) {
+    return false;
+  } catch (const std::exception&) {
+    return true;
+  }
+  return false;
+}
+
+/// First line with which the text up to its end loses the parser, by bisection: 20 parses of a million lines.
+int line_that_loses_parser(const std::string& text) {
+  std::vector<std::size_t> ends;
+  for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) ends.push_back(at + 1);
+  const auto first = std::ranges::partition_point(ends, [&](std::size_t end) { return !loses_parser(text.substr(0, end)); });
+  return static_cast<int>(first - ends.begin()) + 1;
+}
+
+}  // namespace
+
 TomlNode parse_toml(const std::string& text, const std::string& file) {
   check_text(text, file);
   if (!child_survives(text))
@@ -181,7 +207,8 @@ TomlNode parse_toml(const std::string& text, const std::string& file) {
                      fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists",
                                  printable(error.description(), 300)));
   } catch (const std::exception& error) {
-    throw InputError({file, 0, 0}, fmt::format("no valid TOML: {}", error.what()));
+    throw InputError({file, line_that_loses_parser(text), 0},
+                     fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists", error.what()));
   }
 }
 
