@@ -56,6 +56,11 @@ constexpr Symmetric symmetric_part(const Matrix3& a) noexcept {
   return {a.xx, a.yy, a.zz, 0.5 * (a.yz + a.zy), 0.5 * (a.xz + a.zx), 0.5 * (a.xy + a.yx)};
 }
 constexpr double trace(const Symmetric& a) noexcept { return a.xx + a.yy + a.zz; }
+/// a - (tr a/3) I
+constexpr Symmetric deviator(const Symmetric& a) noexcept {
+  const double mean = trace(a) / 3.0;
+  return a - Symmetric{mean, mean, mean, 0.0, 0.0, 0.0};
+}
 /// a : b, the full contraction
 constexpr double contraction(const Symmetric& a, const Symmetric& b) noexcept {
   return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2.0 * (a.yz * b.yz + a.xz * b.xz + a.xy * b.xy);

@@ -154,6 +154,7 @@ ElasticForms::ElasticForms(const Scene& scene)
     constants_.push_back(m.young_modulus && m.poisson_ratio ? elastic_constants(*m.young_modulus, *m.poisson_ratio)
                                                             : ElasticConstants{});
     softens_.push_back(softens(scene, m));
+    squared_limits_.push_back(m.elastic_limit ? *m.elastic_limit * *m.elastic_limit : std::numeric_limits<double>::infinity());
   }
 }
 

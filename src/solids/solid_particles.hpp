@@ -87,6 +87,9 @@ class ElasticForms {
   class Constants {
    public:
     [[nodiscard]] ElasticConstants operator()(std::size_t row) const;
+    /// Whether its matter may flow by this elastic strain: of a solid, whether |dev e| passes the elastic limit, and by round-off
+    /// at most where it does not; of a sheet or chain, whether there is a limit. Never false of what flows (model 8.8).
+    [[nodiscard]] bool may_flow(std::size_t row, int rank, const Symmetric& elastic) const;
 
    private:
     friend class ElasticForms;
@@ -109,8 +112,17 @@ class ElasticForms {
   bool paper_;
   double hourglass_, bending_, factor_;
   std::vector<ElasticConstants> constants_;  ///< of each material
+  std::vector<double> squared_limits_;       ///< elastic limit squared, infinite where nothing flows; of each material
   std::vector<char> softens_;
 };
+
+inline bool ElasticForms::Constants::may_flow(std::size_t row, int rank, const Symmetric& elastic) const {
+  const double limit = forms_.squared_limits_[static_cast<std::size_t>(material_[row])];
+  if (rank < 3) return rank != 0 && std::isfinite(limit);
+  if (contraction(elastic, elastic) <= limit) return false;  // most: |dev e| <= |e|
+  const Symmetric e = deviator(elastic);
+  return contraction(e, e) > limit;
+}
 
 /// Six columns of a symmetric field.
 template <class T>

@@ -71,6 +71,9 @@ struct World {
 
   /// Of each id, 1 where no step reads of a fixed particle but its place, as behind the face of a wall; empty: all is read.
   std::vector<char> unread;
+  /// Of each id, 1 where its matter may flow by the strain of now, 0 where it does not: elasticity tells, plastic flow looks
+  /// there.
+  std::vector<char> may_flow;
   bool fixed_formed = true;  ///< what no step reads of fixed particles is of the present time too: forces on them, densities
   bool forms_fixed = false;  ///< it is being formed, since somebody asks for it
 

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "effects/phase_lab.hpp"
+#include "effects/plastic/flow.hpp"
 #include "scene/effect_rule.hpp"
 #include "solids/solid_particles.hpp"
 
@@ -60,6 +64,28 @@ TEST(PlasticMelting, ClosesTheEnergyAndForgetsTheFlowOfWhatMelts) {
   for (const int phase : lab::integers_by_id(s, field::phase)) EXPECT_EQ(phase, 1);
   EXPECT_NEAR(lab::total_energy(s.ledger()) / lab::total_energy(strained), 1.0, 1e-12);
   EXPECT_LT(std::abs(s.ledger().energy.at("time_integration")), 0.02 * strained.energy.at("kinetic"));
+}
+
+/// Strains about the limit, to the last digits, with and without a pressure.
+TEST(PlasticFlow, LooksWhereverMatterFlowsAndNotBelowTheLimit) {
+  const lab::Lab lab = yielding_bar();
+  const Simulation s(lab.scene, lab.initial);
+  const solid::ElasticForms forms(s.world().scene);
+  const auto constants = forms.constants(s.world());
+  const plastic::YieldLimits limits{.elastic = 0.01};
+  std::mt19937 engine(6);
+  std::uniform_real_distribution<double> u(-1.0, 1.0);
+  for (int n = 0; n < 4000; ++n) {
+    const Symmetric shear = deviator({u(engine), u(engine), u(engine), u(engine), u(engine), u(engine)});
+    const double beyond = std::pow(10.0, -1.0 - n % 16), pressure = n % 3 == 0 ? 0.0 : u(engine);
+    const Symmetric volume{pressure, pressure, pressure, 0.0, 0.0, 0.0};
+    const auto strain = [&](double size) { return (size * limits.elastic / plastic::size(shear)) * shear + volume; };
+    const Symmetric above = strain(1.0 + beyond), below = strain(1.0 - std::max(beyond, 1e-9));
+    EXPECT_TRUE(constants.may_flow(0, 3, above) || plastic::flowed(above, {}, limits) == Symmetric{}) << beyond;
+    EXPECT_FALSE(constants.may_flow(0, 3, below)) << beyond;
+  }
+  EXPECT_TRUE(constants.may_flow(0, 2, {}));
+  EXPECT_FALSE(constants.may_flow(0, 0, {}));
 }
 
 TEST(PlasticFreezing, CallsForPlasticFlowAndFractureWhereWhatFreezesCanYieldAndBreak) {

@@ -70,7 +70,7 @@ double volume_ratio(const Deformed& i) { return determinant(identity3 + matrix(i
 bool flows(const World& world) { return world.particles.has(field::plastic_strain_xx.name); }
 
 /// Strain less what has flowed, within the range of P.
-Symmetric elastic_strain(const Symmetric& strain, const Symmetric& plastic, const Symmetric& P, int rank) {
+inline Symmetric elastic_strain(const Symmetric& strain, const Symmetric& plastic, const Symmetric& P, int rank) {
   const Symmetric e = strain - plastic;
   return rank == 3 ? e : between(P, e);
 }
@@ -130,7 +130,10 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
     if (plastic_of) {
       now.plastic = plastic_of->at(row);
       elastic = elastic_strain(strain, now.plastic, P, rank);
-      all.before_flow[id] = now;
+      if (constants.may_flow(row, rank, elastic)) {
+        world.may_flow[id] = 1;
+        all.before_flow[id] = now;
+      }
     }
     stresses.set(row, id, now, elastic, A, P, rank);
   }
@@ -140,15 +143,15 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
 /// Stresses anew of what has flowed since they were formed.
 void follow_flow(World& world, const ElasticForms& forms, Deformations& all) {
   const Particles& p = world.particles;
-  const auto id_of = p[field::id], rank_of = p[field::shape_rank];
-  const solid::EnergyOwners owns(world);
+  const auto rank_of = p[field::shape_rank];
   const auto shape = solid::shape_inverses(p), strain_of = solid::strains(p), plastic_of = solid::plastic_strains(p);
   Stresses stresses(world, forms, all);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t row = 0; row < p.size(); ++row) {
-    const auto id = static_cast<std::size_t>(id_of[row]);
+  for (std::size_t id = 0; id < p.size(); ++id) {
+    if (!world.may_flow[id]) continue;
+    const std::size_t row = p.row(id);
     const Symmetric plastic = plastic_of.at(row);
-    if (plastic == all.before_flow[id].plastic || !owns(row) || !world.owns(row)) continue;
+    if (plastic == all.before_flow[id].plastic) continue;
     const int rank = rank_of[row];
     const Symmetric A = shape.at(row), P = forms.projector(A, rank);
     stresses.set(row, id, all.before_flow[id], elastic_strain(strain_of.at(row), plastic, P, rank), A, P, rank);
@@ -225,7 +228,10 @@ bool set_places(World& world, Deformations& all) {
   all.places.resize(p.size());
   all.deformed.resize(p.size());
   all.hourglass_force.resize(p.size());
-  if (flows(world)) all.before_flow.resize(p.size());
+  if (flows(world)) {
+    all.before_flow.resize(p.size());
+    world.may_flow.assign(p.size(), 0);
+  }
   all.reference.resize(p.size());
   all.owns.resize(p.size());
   const solid::EnergyOwners owns(world);

@@ -7,7 +7,8 @@
 /// id.
 namespace tripoint::elastic {
 
-/// What a stress is made of. It is kept where matter can flow: flow comes after the strain, and changes the stress of few.
+/// What a stress is made of. It is kept where matter may flow (World::may_flow): flow comes after the strain, and changes the
+/// stress of few.
 struct BeforeFlow {
   Matrix3 G;            ///< F - I [1]
   Matrix3 H;            ///< sum_j c_ij (F x_ji - r_ji) x_ji^T of the hourglass energy [N m]
@@ -21,7 +22,7 @@ struct Deformations {
   AlignedVector<Deformed> deformed;      ///< by id, of what has bonds or owns strain energy
   std::vector<ReferenceSums> reference;  ///< by id, the same
   std::vector<Vec3> hourglass_force;     ///< by id: force of a particle's own hourglass energy on it, of a solid [N]
-  std::vector<BeforeFlow> before_flow;   ///< by id, where matter can flow; else empty
+  std::vector<BeforeFlow> before_flow;   ///< by id, set where matter may flow; empty in a scene without flow
   double least_volume_ratio = 1.0;       ///< least det F of a solid
   std::vector<char> owns;                ///< by id, 1 where it owns strain energy
 };

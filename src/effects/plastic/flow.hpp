@@ -18,10 +18,6 @@ struct YieldLimits {
 /// bit.
 inline constexpr double on_the_limit = 1.0 + 1e-12;
 
-[[nodiscard]] constexpr Symmetric deviator(const Symmetric& a) noexcept {
-  const double mean = trace(a) / 3.0;
-  return a - Symmetric{mean, mean, mean, 0.0, 0.0, 0.0};
-}
 /// |a|, Frobenius.
 [[nodiscard]] inline double size(const Symmetric& a) noexcept { return std::sqrt(contraction(a, a)); }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/plastic/plastic.hpp"
 
+#include <algorithm>
 #include <array>
-#include <span>
 #include <utility>
 
 #include "effects/plastic/flow.hpp"
@@ -16,15 +16,6 @@ namespace {
 /// Energy that plastic flow has dissipated [J].
 constexpr Account dissipation{"plastic"};
 
-/// The columns that say whether a particle flows.
-struct Strains {
-  explicit Strains(const Particles& p)
-      : total(solid::strains(p)), plastic(solid::plastic_strains(p)), rank(p[field::shape_rank]), material(p[field::material]) {}
-
-  solid::SymmetricColumns<const double> total, plastic;
-  std::span<const int> rank, material;
-};
-
 class PlasticFlow : public Effect {
  public:
   explicit PlasticFlow(const Scene&);
@@ -33,7 +24,6 @@ class PlasticFlow : public Effect {
   void add_to(const World& world, Ledger& ledger) const override { ledger.energy["plastic"] += world.booked[dissipation]; }
 
  private:
-  [[nodiscard]] bool may_flow(const Strains&, std::size_t row) const;
   double flow(World&, std::size_t row) const;
 
   solid::ElasticForms forms_;
@@ -48,14 +38,6 @@ PlasticFlow::PlasticFlow(const Scene& scene) : forms_(scene) {
     if (m.plastic_limit) limits.plastic = *m.plastic_limit;
     limits_.push_back(limits);
   }
-}
-
-/// Of a particle with all three directions, exactly whether it does; of a sheet or chain, whether its material can.
-bool PlasticFlow::may_flow(const Strains& strains, std::size_t row) const {
-  const int rank = strains.rank[row];
-  const double limit = limits_[static_cast<std::size_t>(strains.material[row])].elastic;
-  if (rank < 3) return rank != 0 && std::isfinite(limit);
-  return excess(size(deviator(strains.total.at(row) - strains.plastic.at(row))), limit) > 0.0;
 }
 
 /// @return energy that it turned to heat [J]
@@ -79,11 +61,13 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
 
 /// After the strain of the present time is known, before its stress.
 void PlasticFlow::state(World& world) {
+  if (std::ranges::find(world.may_flow, 1) == world.may_flow.end()) return;
   const solid::ElasticParticles is_elastic(world);
-  const Strains strains(std::as_const(world.particles));
+  const auto id_of = std::as_const(world.particles)[field::id];
   const auto lost =
       ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
-        if (is_elastic(row) && may_flow(strains, row) && world.owns(row)) sum[0] += flow(world, row);
+        const bool may = world.may_flow[static_cast<std::size_t>(id_of[row])] != 0;
+        if (may && is_elastic(row) && world.owns(row)) sum[0] += flow(world, row);
       });
   world.booked[dissipation] += lost[0];
   world.booked[account::deformation_released] += lost[0];
@@ -101,7 +85,7 @@ EffectSpec spec(const Scene& scene) {
   EffectSpec s{"plastic",
                scene.mode_of(term::elastic),
                fields::plastic_strain(),
-               fields::joined({fields::strain(), fields::deformation(), {field::body, field::material}}),
+               fields::joined({fields::strain(), fields::deformation(), {field::id, field::body, field::material}}),
                {},
                {dissipation}};
   s.reads_if_there = {field::stiffness_share};
