@@ -121,6 +121,17 @@ struct FieldsOf {
   }();
 };
 
+/// {make(0), ..., make(n - 1)}, with numbers known at compile time. A loop of more than 16 rounds is not unrolled, and an
+/// array with an index that is not constant cannot lie in registers.
+template <std::size_t n, class Make>
+[[gnu::always_inline]] inline auto array_of(Make make) {
+  return [&]<std::size_t... k>(std::index_sequence<k...>) {
+    return std::array<decltype(make(std::integral_constant<std::size_t, 0>{})), n>{
+        make(std::integral_constant<std::size_t, k>{})...};
+  }
+  (std::make_index_sequence<n>{});
+}
+
 /// Adds a term's part of a pair to its sums, for the members whose lane is in `acting`; the sums of the others keep their bits.
 /// @tparam mention first of the term's fields among those of all terms   @param i, j what all terms read, each field once @param
 /// sum the term's first
@@ -128,11 +139,9 @@ template <class Fields, class Term, std::size_t mention, class V, class Mask>
 void add_term(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j,
               V* sum) {
   constexpr std::size_t reads = Term::reads::size, adds = Term::adds::size;
-  std::array<V, reads> of_i, of_j;
-  for (std::size_t k = 0; k < reads; ++k)
-    of_i[k] = i[Fields::unique.where[mention + k]], of_j[k] = j[Fields::unique.where[mention + k]];
-  std::array<V, adds> next;
-  for (std::size_t k = 0; k < adds; ++k) next[k] = sum[k];
+  const std::array<V, reads> of_i = array_of<reads>([&](auto k) { return i[Fields::unique.where[mention + k]]; });
+  const std::array<V, reads> of_j = array_of<reads>([&](auto k) { return j[Fields::unique.where[mention + k]]; });
+  std::array<V, adds> next = array_of<adds>([&](auto k) { return sum[k]; });
   Term::template pair<V>(g, std::span<const V, reads>(of_i), std::span<const V, reads>(of_j), std::span<V, adds>(next));
   for (std::size_t k = 0; k < adds; ++k) sum[k] = acting ? next[k] : sum[k];
 }
@@ -176,10 +185,9 @@ template <int L, class ForUnit, bool finds, class... Terms>
   if constexpr (L > 1)
     xi =
         mask_of<L>((1u << (t.first[cluster + 1] - row)) - 1u) ? xi : V{} + nowhere;  // lanes without a member are near to nothing
-  std::array<const double*, Fields::reads> column;
-  std::array<V, Fields::reads> i, j;
+  const auto column = array_of<Fields::reads>([&](auto k) -> const double* { return t.columns[k]; });
+  const auto i = array_of<Fields::reads>([&](auto k) { return load_lanes<L>(column[k] + row); });
   std::array<V, Fields::adds> sum{};
-  for (std::size_t k = 0; k < Fields::reads; ++k) column[k] = t.columns[k], i[k] = load_lanes<L>(column[k] + row);
   const PairKernels& kernels = *t.kernels;
   const bool any_own = t.own != nullptr;
   const std::uint32_t members_bits = Entry::of(static_cast<std::uint32_t>(row), Entry::box_itself).bits;
@@ -211,7 +219,7 @@ template <int L, class ForUnit, bool finds, class... Terms>
                  -static_cast<std::uint64_t>(
                      any_below(r2, t.support2));  // no branch, which would often be guessed wrong; a member itself does no harm
       const V r = root(r2);
-      for (std::size_t k = 0; k < Fields::reads; ++k) j[k] = every_lane<V>(column[k][row_j]);
+      const auto j = array_of<Fields::reads>([&](auto k) { return every_lane<V>(column[k][row_j]); });
       const PairGeometry<V> g{dx,    dy,     dz, r2, r, 1.0 / (r2 + 1e-300), kernels.wendland.derivative_over_r_inside(r),
                               apart, kernels};
       add_terms<Fields, V, Mask, 0, 0, Terms...>(g, acting, i, j, sum.data());
