@@ -179,12 +179,16 @@ Result read_result(const std::string& path) {
   r.message = o.text_or("message", "");
   r.time_reached = o.number_or("time_reached", 0.0);
   r.steps = whole_number<long>(o.number_or("steps", 0.0));
-  if (o.has("counters"))
-    r.pairs = o.object("counters").number_or("pairs", 0.0), r.iterations = o.object("counters").number_or("iterations", 0.0);
+  if (o.has("counters")) {
+    r.pairs = o.object("counters").number_or("pairs", 0.0);
+    r.iterations = o.object("counters").number_or("iterations", 0.0);
+  }
   if (o.has("seconds")) {
     const JsonObject s = o.object("seconds");
-    r.setup_wall = s.number_or("setup_wall", 0.0), r.setup_cpu = s.number_or("setup_cpu", 0.0);
-    r.stepping_wall = s.number_or("stepping_wall", 0.0), r.stepping_cpu = s.number_or("stepping_cpu", 0.0);
+    r.setup_wall = s.number_or("setup_wall", 0.0);
+    r.setup_cpu = s.number_or("setup_cpu", 0.0);
+    r.stepping_wall = s.number_or("stepping_wall", 0.0);
+    r.stepping_cpu = s.number_or("stepping_cpu", 0.0);
   }
   r.state_hash = o.text_or("state_hash", "");
   r.time_step_bound = o.text_or("time_step_bound", "");

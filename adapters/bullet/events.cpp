@@ -21,12 +21,14 @@ Vec3 spin_of(const MassProperties& p, const Vec3& angular_momentum) {
 
 Piece to_world(const Piece& piece, const RigidMotion& m) {
   Piece out = piece;
-  out.centre = m.centre + rotate(m.orientation, piece.centre), out.rotation = m.orientation * piece.rotation;
+  out.centre = m.centre + rotate(m.orientation, piece.centre);
+  out.rotation = m.orientation * piece.rotation;
   return out;
 }
 Piece to_frame(const Piece& piece, const Vec3& centre, const Quaternion& axes) {
   Piece out = piece;
-  out.centre = rotate_back(axes, piece.centre - centre), out.rotation = conjugate(axes) * piece.rotation;
+  out.centre = rotate_back(axes, piece.centre - centre);
+  out.rotation = conjugate(axes) * piece.rotation;
   return out;
 }
 
@@ -59,8 +61,10 @@ void BulletEngine::launch(Row& r, std::vector<int> members, const Snapshot& now,
   std::sort(members.begin(), members.end());
   std::vector<Vec3> at;
   std::vector<double> mass;
-  for (const int i : members)
-    at.push_back(now.position[static_cast<std::size_t>(i)]), mass.push_back(now.mass[static_cast<std::size_t>(i)]);
+  for (const int i : members) {
+    at.push_back(now.position[static_cast<std::size_t>(i)]);
+    mass.push_back(now.mass[static_cast<std::size_t>(i)]);
+  }
   const MassProperties p = mass_properties(at, mass);
   Vec3 momentum, angular_momentum;  // about the new centre
   for (std::size_t k = 0; k < at.size(); ++k) {

@@ -101,9 +101,11 @@ class LedgerChange {
     for (const auto& [term, joule] : energy) {
       const auto at = start_.find(term);
       const double change = joule - (at == start_.end() ? 0.0 : at->second);
-      sum += change, sizes += std::abs(change);
+      sum += change;
+      sizes += std::abs(change);
     }
-    residual_ = sum, exchanged_ = std::max(exchanged_, 0.5 * sizes);
+    residual_ = sum;
+    exchanged_ = std::max(exchanged_, 0.5 * sizes);
   }
   [[nodiscard]] bool has_any() const { return !start_.empty(); }
   [[nodiscard]] double residual() const { return residual_; }    ///< change of the sum of all terms, at the last frame [J]
@@ -265,7 +267,10 @@ class Run {
     json line{{"time", now}, {"end", job_.times.back()}, {"step", sofar.steps}};
     if (const auto dt = sofar.extra.find("time_step"); dt != sofar.extra.end()) line["time_step"] = dt->second;
     if (!sofar.time_step_bound.empty()) line["bound"] = sofar.time_step_bound;
-    if (ledger_.has_any()) line["ledger_residual"] = ledger_.residual(), line["ledger_exchanged"] = ledger_.exchanged();
+    if (ledger_.has_any()) {
+      line["ledger_residual"] = ledger_.residual();
+      line["ledger_exchanged"] = ledger_.exchanged();
+    }
     fmt::print(stderr, "status {}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
   }
 

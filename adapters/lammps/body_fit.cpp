@@ -51,7 +51,10 @@ BodyState fit_body(const MassProperties& start, const std::vector<std::size_t>& 
     const Vec3 a = before.position[i] - start.centre, b = now.position[i] - s.position;
     S += now.mass[i] * Eigen::Vector3d(a.x, a.y, a.z) * Eigen::RowVector3d(b.x, b.y, b.z);
     L += now.mass[i] * cross(b, now.velocity[i] - s.velocity);
-    if (dot(a, a) > dot(far_before, far_before)) far_before = a, far_now = b;
+    if (dot(a, a) > dot(far_before, far_before)) {
+      far_before = a;
+      far_now = b;
+    }
   }
   if (start.principal_inertia.x > 0.0)
     s.orientation = horn(S);

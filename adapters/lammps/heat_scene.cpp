@@ -31,10 +31,14 @@ std::string changing_phase(const Scene& scene) {
   for (const Body& b : scene.bodies) {
     if (!b.temperature || b.temperature->kind == TemperatureField::Kind::expression) continue;
     const Range r = range_of(*b.temperature, {});
-    least = std::min(least, r.least), greatest = std::max(greatest, r.greatest);
+    least = std::min(least, r.least);
+    greatest = std::max(greatest, r.greatest);
   }
   for (const Event& e : scene.events)
-    if (e.temperature) least = std::min(least, *e.temperature), greatest = std::max(greatest, *e.temperature);
+    if (e.temperature) {
+      least = std::min(least, *e.temperature);
+      greatest = std::max(greatest, *e.temperature);
+    }
   for (const Material& m : scene.materials)
     for (const auto& t : {m.t_melt, m.t_solid})
       if (t && least <= *t && *t <= greatest)

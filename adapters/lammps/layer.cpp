@@ -45,11 +45,14 @@ Layer lowest_layer(const Job& job, const InitialState& whole) {
   for (std::size_t i = 0; i < whole.size(); ++i) {
     if (whole.position[i].z > bottom + 0.01 * job.scene.spacing) continue;
     rows[column_of(whole, i, job.scene.spacing)] = layer.state.size();
-    take(layer.state.position, whole.position, i), take(layer.state.velocity, whole.velocity, i),
-        take(layer.state.mass, whole.mass, i);
-    take(layer.state.temperature, whole.temperature, i), take(layer.state.phase, whole.phase, i),
-        take(layer.state.body, whole.body, i);
-    take(layer.state.material, whole.material, i), take(layer.state.source, whole.source, i);
+    take(layer.state.position, whole.position, i);
+    take(layer.state.velocity, whole.velocity, i);
+    take(layer.state.mass, whole.mass, i);
+    take(layer.state.temperature, whole.temperature, i);
+    take(layer.state.phase, whole.phase, i);
+    take(layer.state.body, whole.body, i);
+    take(layer.state.material, whole.material, i);
+    take(layer.state.source, whole.source, i);
   }
   for (std::size_t i = 0; i < whole.size(); ++i) {
     const auto found = rows.find(column_of(whole, i, job.scene.spacing));
@@ -65,8 +68,12 @@ Layer lowest_layer(const Job& job, const InitialState& whole) {
 
 Snapshot all_layers(const Layer& layer, const InitialState& whole, const Snapshot& one) {
   Snapshot s;
-  s.time = one.time, s.step = one.step;
-  s.phase = whole.phase, s.body = whole.body, s.material = whole.material, s.mass = whole.mass;
+  s.time = one.time;
+  s.step = one.step;
+  s.phase = whole.phase;
+  s.body = whole.body;
+  s.material = whole.material;
+  s.mass = whole.mass;
   for (const auto& [term, energy] : one.energy) s.energy[term] = static_cast<double>(layer.count) * energy;
   for (std::size_t i = 0; i < whole.size(); ++i) {
     const std::size_t row = layer.row[i];

@@ -61,7 +61,10 @@ void ParticleModel::make_particles(const std::string& style, const std::string& 
   if (flat_) units_.origin.z = state_.position.front().z;
   Vec3 lo = units_.place(state_.position.front()), hi = lo;
   for (const Vec3& x : state_.position)
-    for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], units_.place(x)[k]), hi[k] = std::max(hi[k], units_.place(x)[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      lo[k] = std::min(lo[k], units_.place(x)[k]);
+      hi[k] = std::max(hi[k], units_.place(x)[k]);
+    }
   std::string edges, letters;
   for (std::size_t k = 0; k < (flat_ ? 2 : 3); ++k) {
     const bool wraps = scene.periodic[k] && scene.min && scene.max;
@@ -69,7 +72,10 @@ void ParticleModel::make_particles(const std::string& style, const std::string& 
                          wraps ? units_.place(*scene.max)[k] : hi[k] + margin);
     letters += wraps ? " p" : " m";  // shrink-wrapped from no less than this box: a single layer is no flat box
   }
-  if (flat_) edges += " -0.1 0.1", letters += " p";
+  if (flat_) {
+    edges += " -0.1 0.1";
+    letters += " p";
+  }
   library_.run("units lj\n" + std::string(flat_ ? "dimension 2\n" : "") + style + "\natom_modify map array sort 0 0.0\nboundary" +
                letters + "\n");
   library_.run(
@@ -141,7 +147,10 @@ Snapshot ParticleModel::particles() const {
   s.step = clock_.total();
   s.position = library_.vectors("x");
   s.velocity = library_.vectors("v");
-  s.phase = state_.phase, s.body = state_.body, s.material = state_.material, s.mass = state_.mass;
+  s.phase = state_.phase;
+  s.body = state_.body;
+  s.material = state_.material;
+  s.mass = state_.mass;
   s.energy["kinetic"] = s.energy["potential"] = 0.0;
   for (std::size_t i = 0; i < state_.size(); ++i) {
     s.position[i] = units_.origin + units_.length * s.position[i];

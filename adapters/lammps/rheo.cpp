@@ -177,7 +177,11 @@ double Rheo::hold_from(double time) {
     const double stop = event.until.value_or(end), now = 1e-9 * end;
     bool& burns = ovens_[e];
     if (!burns && event.time <= time + now && time < stop - now) burns = heat(event, fmt::format("oven{}", e));
-    if (burns && time >= stop - now) burns = false, library_.run(fmt::format("unfix oven{}", e)), clock_.set_up_again();
+    if (burns && time >= stop - now) {
+      burns = false;
+      library_.run(fmt::format("unfix oven{}", e));
+      clock_.set_up_again();
+    }
     for (const double change : {event.time, stop})
       if (change > time + now) until = std::min(until, change);
   }

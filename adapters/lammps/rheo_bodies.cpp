@@ -32,7 +32,10 @@ void RheoBodies::follow(const std::vector<int>& piece) {
     row_of_piece[label] = row;
   }
   for (const auto& [label, share] : shares)
-    if (!row_of_piece.count(label)) row_of_piece[label] = static_cast<int>(held_.size()), held_.push_back(false);
+    if (!row_of_piece.count(label)) {
+      row_of_piece[label] = static_cast<int>(held_.size());
+      held_.push_back(false);
+    }
   for (std::size_t i = 0; i < piece.size(); ++i) row_[i] = piece[i] < 0 ? -1 : row_of_piece.at(piece[i]);
 }
 

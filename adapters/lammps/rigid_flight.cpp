@@ -48,7 +48,10 @@ class RigidFlight final : public Model {
     const double dx = job_.resolution.spacing;
     Vec3 lo = state_.position.front(), hi = lo;
     for (const Vec3& x : state_.position)
-      for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], x[k]), hi[k] = std::max(hi[k], x[k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        lo[k] = std::min(lo[k], x[k]);
+        hi[k] = std::max(hi[k], x[k]);
+      }
     library_.run("units si\natom_style atomic\natom_modify map array sort 0 0.0\nboundary s s s\n");
     library_.run(fmt::format("region box block {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\ncreate_box {} box\n", lo.x - dx,
                              hi.x + dx, lo.y - dx, hi.y + dx, lo.z - dx, hi.z + dx, job_.bodies.size()));

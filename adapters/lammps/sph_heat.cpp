@@ -58,7 +58,10 @@ class SphHeat final : public Model {
     const Scene& scene = job_.scene;
     Vec3 lo = state_.position.front(), hi = lo;
     for (const Vec3& x : state_.position)
-      for (std::size_t k = 0; k < 3; ++k) lo[k] = std::min(lo[k], x[k]), hi[k] = std::max(hi[k], x[k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        lo[k] = std::min(lo[k], x[k]);
+        hi[k] = std::max(hi[k], x[k]);
+      }
     std::string edges;
     for (std::size_t k = 0; k < 3; ++k) {
       const double margin = cutoff() * scene.spacing;

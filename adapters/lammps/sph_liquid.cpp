@@ -132,7 +132,8 @@ Snapshot SphLiquid::observe() const {
   for (const JobBody& b : job_.bodies) {
     if (b.index < 0) continue;
     BodyState wall;
-    wall.position = b.properties.centre, wall.mass = b.properties.mass;
+    wall.position = b.properties.centre;
+    wall.mass = b.properties.mass;
     s.bodies.push_back(wall);
   }
   return s;

@@ -48,7 +48,10 @@ int pass_on_signal(int signal) {
 int supervise(const std::string& job_path, int (*child)(int, char**), int argc, char** argv) {
   const std::string output = output_of(job_path), log = output + "/log.lammps", result = output + "/result.json";
   std::error_code ignored;
-  if (!output.empty()) std::filesystem::remove(log, ignored), std::filesystem::remove(result, ignored);
+  if (!output.empty()) {
+    std::filesystem::remove(log, ignored);
+    std::filesystem::remove(result, ignored);
+  }
   keep_ends_of_children();
   const pid_t parent = ::getpid(), pid = ::fork();
   if (pid < 0) return 1;

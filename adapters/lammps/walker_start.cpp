@@ -92,7 +92,8 @@ void WalkerStart::weigh_cells() {
       const double T =
           excess(particle_of_cell_[static_cast<std::size_t>(cell)], corner + Vec3{at[p % 3], at[p / 3 % 3], at[p / 9]});
       const double part = share[p % 3] * share[p / 3 % 3] * share[p / 9];
-      mean += part * T, size += part * std::abs(T);
+      mean += part * T;
+      size += part * std::abs(T);
     }
     mean_.push_back(mean);
     cumulative_.push_back(sum += size);

@@ -73,7 +73,10 @@ class Walkers final : public Model {
     result.extra["walkers"] = choice_.walkers;
     result.extra["kelvin_a_walker"] = kelvin_a_walker();
     const auto [msd, error] = diffusivity_by_displacement({0, 1, 2});
-    if (error > 0.0) result.extra["diffusivity"] = msd, result.extra["diffusivity_error"] = error;
+    if (error > 0.0) {
+      result.extra["diffusivity"] = msd;
+      result.extra["diffusivity_error"] = error;
+    }
     result.message = fmt::format(
         "{:.0f} {} walkers {}; {}; cell means lie (k dx)^2/24 below the values at the centres", choice_.walkers,
         brownian_ ? "Brownian" : "Langevin",
@@ -181,7 +184,10 @@ class Walkers final : public Model {
     double sum = 0.0;
     int free = 0;
     for (const int k : axes)
-      if (wraps_[static_cast<std::size_t>(k)]) sum += library_.compute_value("way", k), ++free;
+      if (wraps_[static_cast<std::size_t>(k)]) {
+        sum += library_.compute_value("way", k);
+        ++free;
+      }
     if (free == 0 || !(time > 0.0)) return {};
     const double D = dx2 * sum / (2.0 * free * time);
     return {D, D * std::sqrt(2.0 / (free * choice_.walkers))};
@@ -246,7 +252,8 @@ Walkers::Counts Walkers::counts() const {
     }
     const auto bin = static_cast<std::size_t>(axis_ < 0 ? c[0] + box_.cells[0] * (c[1] + box_.cells[1] * c[2])
                                                         : c[static_cast<std::size_t>(axis_)]);
-    count.net[bin] += sign, count.all[bin] += 1.0;
+    count.net[bin] += sign;
+    count.all[bin] += 1.0;
   }
   return count;
 }
@@ -258,7 +265,8 @@ Snapshot Walkers::observe() const {
   for (std::size_t i = 0; i < state_.size(); ++i) {
     const int cell = start_.cell_of_particle()[i];
     if (cell < 0) {
-      temperature.push_back(state_.temperature[i]), error.push_back(0.0);
+      temperature.push_back(state_.temperature[i]);
+      error.push_back(0.0);
       continue;
     }
     const auto bin = static_cast<std::size_t>(bin_of(cell));

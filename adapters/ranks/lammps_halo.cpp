@@ -88,7 +88,10 @@ void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
   ranks_->migrate(reach_now_);
   unpack(particles);
   unpack_lists(bonds, own);
-  if (++migrations_ == 1) own_at_start_ = ranks_->owned(), copies_at_start_ = ranks_->all() - ranks_->owned();
+  if (++migrations_ == 1) {
+    own_at_start_ = ranks_->owned();
+    copies_at_start_ = ranks_->all() - ranks_->owned();
+  }
 }
 
 /// As far as the longest bond of all ranks reaches now: until the next migration nobody takes copies away, however bonds are
@@ -142,7 +145,8 @@ WholeScene LammpsHalo::gather(const Particles& particles, const Bonds& bonds, co
 
 void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
   if (!has_lists_) {
-    bonds = {}, own = {};
+    bonds = {};
+    own = {};
     known_changes_ = {};
     return;
   }
@@ -172,7 +176,8 @@ void LammpsHalo::number_atoms() {
   std::vector<std::uint32_t> first(tags.size());  // of each atom the first with its number
   for (std::size_t k = 0; k < tags.size(); ++k)
     first[tags[k].second] = k > 0 && tags[k].first == tags[k - 1].first ? first[tags[k - 1].second] : tags[k].second;
-  numbers_.clear(), atoms_here_.clear();
+  numbers_.clear();
+  atoms_here_.clear();
   id_of_atom_.resize(tags.size());
   for (std::uint32_t atom = 0; atom < tags.size(); ++atom) {
     if (first[atom] != atom) {
@@ -180,7 +185,8 @@ void LammpsHalo::number_atoms() {
       continue;
     }
     id_of_atom_[atom] = static_cast<std::uint32_t>(numbers_.size());
-    numbers_.push_back(ranks_->id(atom)), atoms_here_.push_back(atom);
+    numbers_.push_back(ranks_->id(atom));
+    atoms_here_.push_back(atom);
   }
 }
 
@@ -202,14 +208,16 @@ void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* co
     rows_[atom] = static_cast<std::uint32_t>(particles.row(id_of_atom_[atom]));
   columns_.clear();
   for (const Field<double>* f : columns) columns_.push_back(particles[*f].data());
-  exchanges_ += 1.0, numbers_a_copy_ += static_cast<double>(columns_.size());
+  exchanges_ += 1.0;
+  numbers_a_copy_ += static_cast<double>(columns_.size());
   ranks_->forward({columns_.data(), static_cast<int>(columns_.size()), rows_.data(), 1});
 }
 
 void LammpsHalo::refresh(std::span<double> by_id, std::size_t each) {
   columns_.clear();
   for (std::size_t k = 0; k < each; ++k) columns_.push_back(by_id.data() + k);
-  exchanges_ += 1.0, numbers_a_copy_ += static_cast<double>(each);
+  exchanges_ += 1.0;
+  numbers_a_copy_ += static_cast<double>(each);
   ranks_->forward({columns_.data(), static_cast<int>(each), id_of_atom_.data(), each});
 }
 

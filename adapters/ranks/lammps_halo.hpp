@@ -33,8 +33,11 @@ class LammpsHalo : public Halo {
   void refresh(Particles&, std::span<const Field<double>* const> columns) override;
   void refresh(std::span<double> by_id, std::size_t each) override;
   void add(std::span<double> numbers) override {
-    if (ranks_)
-      collectives_ += 2, ranks_->add(numbers.data(), static_cast<int>(numbers.size()));  // before, all hold the whole scene
+    // Before, all hold the whole scene.
+    if (ranks_) {
+      collectives_ += 2;
+      ranks_->add(numbers.data(), static_cast<int>(numbers.size()));
+    }
   }
   [[nodiscard]] std::vector<double> all_of(const std::vector<double>& own) override;
   void take_least(double& number, std::string& word) override;

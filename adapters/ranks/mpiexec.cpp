@@ -38,7 +38,9 @@ extern "C" void on_stop_of_ranks(int) {
 /// Until mpiexec is known no such signal is answered. @return the signals that this process blocked before
 sigset_t hold_stops() {
   sigset_t stops, before;
-  sigemptyset(&stops), sigaddset(&stops, SIGINT), sigaddset(&stops, SIGTERM);
+  sigemptyset(&stops);
+  sigaddset(&stops, SIGINT);
+  sigaddset(&stops, SIGTERM);
   ::sigprocmask(SIG_BLOCK, &stops, &before);
   return before;
 }
@@ -73,7 +75,8 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
     ::setpgid(0, 0);                        // what is sent to our group is for the parent alone
     ::sigprocmask(SIG_SETMASK, &before, nullptr);
     const int nothing = ::open("/dev/null", O_RDONLY), words = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    ::dup2(nothing, STDIN_FILENO), ::dup2(words, STDOUT_FILENO);
+    ::dup2(nothing, STDIN_FILENO);
+    ::dup2(words, STDOUT_FILENO);
     ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", launcher.c_str(), "-n", ranks.c_str(), self.c_str(),
             "--rank", job_path.c_str(), nullptr);
     ::_exit(127);
@@ -99,8 +102,10 @@ Ended first_to_end(const std::string& log) {
   for (std::string line; std::getline(in, line);) {
     if (ended.process == 0 && std::regex_search(line, found, process))
       ended.process = std::stol(found[1]);
-    else if (std::regex_search(line, found, code))
-      return ended.code = std::stoi(found[1]), ended;
+    else if (std::regex_search(line, found, code)) {
+      ended.code = std::stoi(found[1]);
+      return ended;
+    }
   }
   return ended;
 }
@@ -156,8 +161,10 @@ int run_ranks(const std::string& job_path) {
   std::error_code ignored;
   fs::create_directories(job.output);
   fs::remove(result, ignored);
-  for (int rank = 0; rank < count; ++rank)
-    fs::remove(failure_file(job.output, rank), ignored), fs::remove(words_file(job.output, rank), ignored);
+  for (int rank = 0; rank < count; ++rank) {
+    fs::remove(failure_file(job.output, rank), ignored);
+    fs::remove(words_file(job.output, rank), ignored);
+  }
   const int status = start_and_wait(find_wheel(), count, job_path, job.output);
   const bool left_checkpoint = WIFEXITED(status) && WEXITSTATUS(status) == exit_interrupted;
   if (fs::exists(result, ignored)) return left_checkpoint ? exit_interrupted : exit_code_of(read_result(result));

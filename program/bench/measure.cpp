@@ -113,7 +113,10 @@ Measured measure(const Work& work, const MeasureOptions& options) {
     m.pairs = limit->pairs();
     const std::vector<double> of_limit = limit->steps(m.rebuilds), cpu_of_limit = limit->steps_cpu(m.rebuilds);
     m.limit_cpu = spread_of(cpu_of_limit).median;
-    for (std::size_t k = 0; k < seconds.size(); ++k) seconds[k] /= of_limit[k], cpu[k] /= cpu_of_limit[k];
+    for (std::size_t k = 0; k < seconds.size(); ++k) {
+      seconds[k] /= of_limit[k];
+      cpu[k] /= cpu_of_limit[k];
+    }
     m.over_limit = spread_of(seconds);
     m.over_limit_cpu = spread_of(cpu);
   }

@@ -24,7 +24,8 @@ void take_steps(Trial& trial, const Scene& scene, long steps, int threads, std::
   const double before = resident_bytes();
   StageSeconds stages{};
   SimulationOptions how;
-  how.threads = threads, how.stage_seconds = &stages;
+  how.threads = threads;
+  how.stage_seconds = &stages;
   const auto start = Clock::now();
   Simulation simulation(scene, initial, how);
   trial.setup_seconds = since(start);

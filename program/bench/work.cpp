@@ -32,7 +32,8 @@ void copy_bodies(Scene& scene, const Work& work) {
     const Vec3 by = work.pitch * place;
     for (Body b : once) {
       b.name += fmt::format(" {}", n);
-      b.shape.min += by, b.shape.max += by;
+      b.shape.min += by;
+      b.shape.max += by;
       b.velocity.value = work.closing * work.pitch * (Vec3{middle, middle, middle} - place);
       scene.bodies.push_back(std::move(b));
     }
@@ -43,7 +44,9 @@ void copy_bodies(Scene& scene, const Work& work) {
 
 Work liquid_heat(int across, Mode mode) {
   Work w;
-  w.name = "liquid-heat", w.case_id = "speed/liquid-heat", w.mode = mode;
+  w.name = "liquid-heat";
+  w.case_id = "speed/liquid-heat";
+  w.mode = mode;
   w.set = {fmt::format("scene.spacing={}", 0.34 / across), fmt::format("scene.time_step={}", 0.017 / across)};
   w.has_limit = true;
   return w;
@@ -52,7 +55,10 @@ Work liquid_heat(int across, Mode mode) {
 const std::vector<Work>& standard_work() {
   static const std::vector<Work> list = [] {
     std::vector<Work> all;
-    const auto named = [&](std::string_view name, Work w) { w.name = name, all.push_back(std::move(w)); };
+    const auto named = [&](std::string_view name, Work w) {
+      w.name = name;
+      all.push_back(std::move(w));
+    };
     named("liquid-heat-40k", liquid_heat(34, Mode::paper));
     named("liquid-heat-200k", liquid_heat(58, Mode::paper));
     named("liquid-heat-40k-corrected", liquid_heat(34, Mode::corrected));

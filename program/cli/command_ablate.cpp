@@ -64,7 +64,8 @@ std::map<std::string, Json> round(const std::vector<Case>& chosen, const std::st
   SuiteOptions options;
   options.selection.engines = {"tripoint"};
   options.out = (fs::path(o.out) / "ablation" / name).string();
-  options.jobs = o.jobs, options.say = [](const std::string& line) { say(line); };
+  options.jobs = o.jobs;
+  options.say = [](const std::string& line) { say(line); };
   options.wanted = [](const EnginePlan&, const RunPlan& run) { return run.base; };
   std::map<std::string, Json> found;
   for (const auto& c : run_suite(chosen, discover_engines({}), options).cases) found[c.id] = json_of(c);

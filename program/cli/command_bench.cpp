@@ -93,7 +93,10 @@ void print_header() {
 std::string shares(const Measured& m) {
   std::vector<std::pair<double, std::string_view>> parts{{m.outside, "outside"}};
   double all = m.outside;
-  for (std::size_t k = 0; k < stage_names.size(); ++k) parts.emplace_back(m.stages[k], stage_names[k]), all += m.stages[k];
+  for (std::size_t k = 0; k < stage_names.size(); ++k) {
+    parts.emplace_back(m.stages[k], stage_names[k]);
+    all += m.stages[k];
+  }
   std::ranges::sort(parts, std::ranges::greater{});
   std::string text;
   for (const auto& [seconds, name] : parts)

@@ -67,7 +67,10 @@ int code_of_runs(const CaseResult& result) {
   int code = exit_pass;
   for (const auto& e : result.engines) {
     if (e.status == Status::diverged) return exit_diverged;
-    if (e.status != Status::ok) say(fmt::format("{} {}: {}", e.name, e.status, e.reason)), code = exit_missing;
+    if (e.status != Status::ok) {
+      say(fmt::format("{} {}: {}", e.name, e.status, e.reason));
+      code = exit_missing;
+    }
   }
   return code;
 }
@@ -81,7 +84,8 @@ int compare(const CompareOptions& o) {
   if (options.selection.engines.size() < 2)
     throw InputError("--engines " + o.engines + ": name two engines or more, for example tripoint,bullet");
   options.out = o.out.empty() ? own_folder("compare", value.id) : o.out;
-  options.jobs = o.jobs, options.say = [](const std::string& line) { say(line); };
+  options.jobs = o.jobs;
+  options.say = [](const std::string& line) { say(line); };
   options.wanted = [](const EnginePlan&, const RunPlan& run) { return run.base; };
   const auto results = run_one_case(value, options, words.paths);
   if (results.cases.empty()) return exit_interrupted;
@@ -96,10 +100,16 @@ int compare(const CompareOptions& o) {
 
 Study study_for(const Case& value, const ConvergeOptions& o) {
   Study study;
-  study.axes.axis = from_word<Axis>(o.axis), study.engine = o.engine, study.levels = o.levels;
+  study.axes.axis = from_word<Axis>(o.axis);
+  study.engine = o.engine;
+  study.levels = o.levels;
   for (const auto& s : value.studies)
-    if (s.axes.axis == study.axes.axis && study.levels.empty() && (s.engine.empty() || s.engine == o.engine))
-      study.levels = s.levels, study.order = s.order, study.jitter = s.jitter, study.seeds = s.seeds;
+    if (s.axes.axis == study.axes.axis && study.levels.empty() && (s.engine.empty() || s.engine == o.engine)) {
+      study.levels = s.levels;
+      study.order = s.order;
+      study.jitter = s.jitter;
+      study.seeds = s.seeds;
+    }
   if (study.levels.empty())
     throw InputError(
         fmt::format("{} has no study of {} for {}: name --levels a,b,c, coarse to fine", value.id, o.axis, o.engine));
@@ -127,7 +137,8 @@ int converge(const ConvergeOptions& o) {
   options.selection.engines = words.paths.empty() ? words.names : std::vector<std::string>{ask_engine(words.paths.front()).name};
   value.studies.front().engine = options.selection.engines.front();
   options.out = o.out.empty() ? own_folder("converge", value.id) : o.out;
-  options.jobs = o.jobs, options.say = [](const std::string& line) { say(line); };
+  options.jobs = o.jobs;
+  options.say = [](const std::string& line) { say(line); };
   options.wanted = [&](const EnginePlan&, const RunPlan& run) { return !run.levels.empty(); };
   const auto results = run_one_case(value, options, words.paths);
   if (results.cases.empty()) return exit_interrupted;

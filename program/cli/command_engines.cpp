@@ -47,12 +47,15 @@ std::string short_list(const std::vector<std::string>& words) { return fmt::form
 
 int list(bool json) {
   const auto engines = discover_engines();
-  if (json) return print(engines_json(engines) + "\n"), 0;
+  if (json) {
+    print(engines_json(engines) + "\n");
+    return 0;
+  }
   for (const auto& e : engines) {
     print_line(fmt::format("{:14} {}", e.name, e.available ? e.version : "missing: " + e.reason));
     if (!e.available) continue;
-    print_line("               can: " + short_list(e.capabilities)),
-        print_line("               presets: " + short_list(e.presets));
+    print_line("               can: " + short_list(e.capabilities));
+    print_line("               presets: " + short_list(e.presets));
     if (!e.library_path.empty()) print_line(fmt::format("               library: {} ({})", e.library_path, e.library_hash));
   }
   return 0;

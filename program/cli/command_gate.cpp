@@ -84,7 +84,10 @@ int accept_file(const GateOptions& o) {
   std::string path = "report/results.json";
   std::vector<std::string> ids;
   for (const auto& word : o.accepted) (word.ends_with(".json") ? path = word : ids.emplace_back(word));
-  if (o.removed) return print(accept_removal(ids, {{}, {}, o.reason})), exit_pass;
+  if (o.removed) {
+    print(accept_removal(ids, {{}, {}, o.reason}));
+    return exit_pass;
+  }
   const auto results = judged(path);
   if (const auto wrong = recheck_remarks(results); !wrong.empty())
     throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
@@ -97,7 +100,8 @@ int accept_file(const GateOptions& o) {
 
 int selftest_seeds(const SelftestOptions& options, const std::string& profile, int count, bool json) {
   CaseFilter filter;
-  filter.what = options.what, filter.profile = !profile.empty() ? profile : options.what.empty() ? "commit" : "";
+  filter.what = options.what;
+  filter.profile = !profile.empty() ? profile : options.what.empty() ? "commit" : "";
   const auto outcome = try_seeds(select_cases(filter), discover_engines(), count, options);
   print(json ? seeds_json(outcome) : seeds_table(outcome));
   std::filesystem::create_directories(options.out);

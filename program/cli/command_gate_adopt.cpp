@@ -120,9 +120,12 @@ int accept_written(const GateAdoptOptions& o, const std::vector<std::string>& fi
   filter.what = files;
   SuiteOptions suite;
   suite.selection.engines = suite.selection.asked = {engine.name};
-  suite.jobs = o.adopt.jobs, suite.out = (fs::path(o.adopt.work) / "written").string();
+  suite.jobs = o.adopt.jobs;
+  suite.out = (fs::path(o.adopt.work) / "written").string();
   auto results = run_suite(select_cases(filter), engines, suite);
-  results.date = today(), results.what = files, results.command = command_line();
+  results.date = today();
+  results.what = files;
+  results.command = command_line();
   write_results(results, suite.out);
   for (const auto& c : results.cases) print(case_line(c) + "\n");
   if (results.exit_code != exit_pass) {

@@ -24,7 +24,10 @@ constexpr const char* description =
 int list(const CaseFilter& filter, bool json) {
   nlohmann::ordered_json document = nlohmann::ordered_json::array();
   for (const auto& c : select_cases(filter)) {
-    if (!json) print_line(fmt::format("{:28} {}", c.id, c.title)), print_line(fmt::format("{:28} {}", "", c.claims));
+    if (!json) {
+      print_line(fmt::format("{:28} {}", c.id, c.title));
+      print_line(fmt::format("{:28} {}", "", c.claims));
+    }
     document.push_back({{"id", c.id},
                         {"title", c.title},
                         {"claims", c.claims},

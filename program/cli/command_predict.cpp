@@ -120,7 +120,9 @@ PredictedLine line_of(const PredictionReport& r, const predict::Cloud& cloud, co
   const predict::Shares shares = shares_of(cloud, ranks, particles, counted);
   line.prediction = predict::predict(shares, whole, r.cost, r.memory, r.traffic, r.machine);
   line.prediction.particles = particles;  // shares by volume add up to it but for rounding
-  line.prediction.counted = counted, line.grid = shares.grid, line.first = shares.ranks.front();
+  line.prediction.counted = counted;
+  line.grid = shares.grid;
+  line.first = shares.ranks.front();
   return line;
 }
 
@@ -133,7 +135,10 @@ predict::Share whole_of(const predict::Cloud& cloud, double particles) {
 /// Repeats of all lines that are measured, in turns, one rank among them: other work on the machine then comes upon all alike.
 void measure(PredictRuns& runs, const std::vector<const Prepared*>& prepared, std::vector<PredictedLine*>& lines, int repeats) {
   Timed one;
-  for (PredictedLine* line : lines) line->measured = Timed{}, line->measured->ranks = line->prediction.ranks;
+  for (PredictedLine* line : lines) {
+    line->measured = Timed{};
+    line->measured->ranks = line->prediction.ranks;
+  }
   for (int n = 0; n < repeats; ++n) {
     runs.time(*prepared.front(), one);
     for (std::size_t k = 0; k < lines.size() && !interrupted(); ++k) runs.time(*prepared[k + 1], *lines[k]->measured);
@@ -191,7 +196,10 @@ void add_lines(PredictionReport& r, PredictRuns& runs, const Options& o, const P
   for (Prepared& p : weak) runs.choose_end(p);
   std::vector<const Prepared*> prepared{&base};
   std::vector<PredictedLine*> lines;
-  for (const ToMeasure& m : measured) prepared.push_back(m.prepared), lines.push_back(&r.lines[m.line]);
+  for (const ToMeasure& m : measured) {
+    prepared.push_back(m.prepared);
+    lines.push_back(&r.lines[m.line]);
+  }
   measure(runs, prepared, lines, o.repeats);
 }
 
@@ -204,7 +212,11 @@ int predict_case(Options o) {
   if (o.out.empty()) o.out = own_folder("predict", value.id);
   make_folder(o.out);
   const Tool tool = this_tool();
-  r.case_id = value.id, r.version = tool.version, r.set = o.set, r.cpu = tool.cpu, r.cores = tool.cores;
+  r.case_id = value.id;
+  r.version = tool.version;
+  r.set = o.set;
+  r.cpu = tool.cpu;
+  r.cores = tool.cores;
   PredictRuns runs(file, o.set, o.out, o.seconds, o.quiet);
   const OneRankRuns one = time_one_rank(runs, o.repeats, r.notes);
   if (interrupted()) return exit_interrupted;

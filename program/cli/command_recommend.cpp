@@ -63,10 +63,13 @@ Case case_of(const Options& o) {
   auto cases = select_cases(filter);
   if (cases.size() != 1) throw InputError(o.what + ": names more than one case");
   auto value = std::move(cases.front());
-  value.gates.clear(), value.inputs.clear();
+  value.gates.clear();
+  value.inputs.clear();
   if (!o.levels.empty()) {
     Study study;
-    study.axes.axis = o.axis.empty() ? Axis::spacing : from_word<Axis>(o.axis), study.levels = o.levels, study.metric = o.metric;
+    study.axes.axis = o.axis.empty() ? Axis::spacing : from_word<Axis>(o.axis);
+    study.levels = o.levels;
+    study.metric = o.metric;
     value.studies = {study};
   }
   if (!o.axis.empty()) std::erase_if(value.studies, [&](const Study& s) { return to_string(s.axes.axis) != o.axis; });
@@ -88,7 +91,9 @@ CaseResult measure(const Options& o, const Case& value, const std::function<bool
   SuiteOptions options;
   options.selection.engines = words.names;
   for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);
-  options.out = o.out, options.jobs = o.jobs, options.threads = o.threads,
+  options.out = o.out;
+  options.jobs = o.jobs;
+  options.threads = o.threads;
   options.say = [](const std::string& line) { say(line); };
   options.wanted = [&](const EnginePlan& engine, const RunPlan& run) { return engine.name != "exact" && wanted(run); };
   const auto engines = discover_engines(words.paths);
@@ -134,15 +139,21 @@ double factor_between(double a, double b) {
 /// The recommended run itself.
 LadderPoint make_recommended(const Options& o, Case value, const Recommendation& r, const std::string& metric) {
   Study only;
-  only.axes.axis = r.ladder->axis, only.levels = {r.level}, only.engine = r.ladder->engine, only.mode = r.ladder->mode;
+  only.axes.axis = r.ladder->axis;
+  only.levels = {r.level};
+  only.engine = r.ladder->engine;
+  only.mode = r.ladder->mode;
   for (const auto& s : value.studies)
     if (s.axes.axis == only.axes.axis && (s.engine.empty() || s.engine == only.engine) &&
-        (s.mode == JudgedMode::none || s.mode == only.mode))
-      only.jitter = s.jitter, only.seeds = s.seeds;
+        (s.mode == JudgedMode::none || s.mode == only.mode)) {
+      only.jitter = s.jitter;
+      only.seeds = s.seeds;
+    }
   value.studies = {only};
   if (only.mode != JudgedMode::none) value.modes = {mode_from(to_string(only.mode))};
   auto chosen = o;
-  chosen.engines = only.engine, chosen.out = o.out + "/recommended";
+  chosen.engines = only.engine;
+  chosen.out = o.out + "/recommended";
   const auto result = measure(chosen, value, [&](const RunPlan& run) {
     const auto at = run.levels.find(only.axes);
     return at != run.levels.end() && same_level(at->second, only.levels[0]);

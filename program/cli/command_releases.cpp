@@ -94,7 +94,8 @@ Case one_case(const std::string& what) {
 Release run_release(const ReleasesOptions& o, const Case& value, const EngineEntry& engine) {
   SuiteOptions options;
   options.selection.engines = {engine.name};
-  options.out = (fs::path(o.out) / (engine.name + "-" + engine.version)).string(), options.jobs = o.jobs;
+  options.out = (fs::path(o.out) / (engine.name + "-" + engine.version)).string();
+  options.jobs = o.jobs;
   options.say = [](const std::string& line) { say(line); };
   const auto results = run_suite({case_for_releases(value, engine, split(o.presets), o.levels)}, {engine}, options);
   if (results.cases.empty()) throw EngineError("stopped");

@@ -108,15 +108,18 @@ Showing showing_of(const RenderOptions& o, const ShownRun& run, const std::vecto
   const auto size = two_numbers(o.size, 'x', "--size", "WIDTHxHEIGHT, for example 640x480");
   if (!(size.first >= 16.0 && size.second >= 16.0 && size.first <= 8192.0 && size.second <= 8192.0))
     throw InputError(fmt::format("--size {}: from 16x16 to 8192x8192", o.size));
-  s.width = static_cast<int>(size.first), s.height = static_cast<int>(size.second);
+  s.width = static_cast<int>(size.first);
+  s.height = static_cast<int>(size.second);
   s.colouring = colouring_of(o, run, frames);
   s.walls = o.walls == "show" ? WallsDrawn::show : o.walls == "hide" ? WallsDrawn::hide : WallsDrawn::cut;
-  s.particles = o.particles, s.whole = o.whole;
+  s.particles = o.particles;
+  s.whole = o.whole;
   s.view = {o.azimuth, o.elevation};
   s.surface = SurfaceOptions::for_spacing(run.spacing);
-  if (o.influence > 0.0)
-    s.surface.influence_radius = o.influence * run.spacing,
+  if (o.influence > 0.0) {
+    s.surface.influence_radius = o.influence * run.spacing;
     s.surface.distance = SurfaceOptions::distance_per_influence_radius * s.surface.influence_radius;
+  }
   if (o.distance > 0.0) s.surface.distance = o.distance * run.spacing;
   s.surface.detector = !o.zb05;
   s.room = room_for(run, frames);

@@ -207,8 +207,12 @@ void fill_in(RunOptions& o, const Case& value) {
 Outcome run_shown(const EnginePlan& plan, const Job& job, const InitialState& initial, const RunOptions& o) {
   make_folder(o.out);
   RunRequest request;
-  request.engine = plan.entry, request.job = &job, request.initial = &initial, request.wall_limit = o.wall_limit;
-  request.folder = fs::absolute(o.out).string(), request.particles = (fs::absolute(o.out) / "particles.h5").string();
+  request.engine = plan.entry;
+  request.job = &job;
+  request.initial = &initial;
+  request.wall_limit = o.wall_limit;
+  request.folder = fs::absolute(o.out).string();
+  request.particles = (fs::absolute(o.out) / "particles.h5").string();
   fs::remove(request.particles);
   write_particles(request.particles, initial);
   if (!o.quiet)

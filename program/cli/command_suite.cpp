@@ -137,7 +137,9 @@ std::vector<EngineEntry> engines_of(const Queue& queue, const std::vector<std::s
 int make(MakeOptions o) {
   auto& queue = o.queue;
   if (queue.filter.what.empty() && queue.filter.profile.empty()) queue.filter.profile = "commit";
-  queue.folder = fs::current_path().string(), queue.command = command_line(), queue.engine_words = o.engine;
+  queue.folder = fs::current_path().string();
+  queue.command = command_line();
+  queue.engine_words = o.engine;
   const auto cases = select_cases(queue.filter);
   const auto engines = engines_asked_for(o.engines, o.engine, queue.selection);
   std::map<std::string, double> costs;
@@ -188,7 +190,9 @@ int merge(const std::string& typed, const std::string& out, bool page, bool json
   auto results =
       join(opened.dir, opened.queue, discover_engines(sort_engine_words(opened.queue.engine_words).paths), folder, on_case);
   fs::current_path(start);
-  results.command = command_line(), results.date = date_now(), results.history = "history.jsonl";
+  results.command = command_line();
+  results.date = date_now();
+  results.history = "history.jsonl";
   judge(results);
   append_history((fs::path(folder) / results.history).string(), history_lines(results));
   if (!page)
@@ -229,7 +233,9 @@ int emit(const EmitChoice& o) {
   const auto opened = open(o.dir);
   const auto& jobs = opened.queue.jobs;
   EmitOptions options;
-  options.program = (fs::path(program_folder()) / "tripoint").string(), options.dir = opened.dir, options.typed = o.dir;
+  options.program = (fs::path(program_folder()) / "tripoint").string();
+  options.dir = opened.dir;
+  options.typed = o.dir;
   options.shards = o.shards > 0 ? o.shards : shards_of_seconds(jobs, o.batch, o.most);
   const auto shards = balanced_shards(jobs, options.shards);
   for (const auto& rows : shards) options.longest = std::max(options.longest, cost_of(jobs, rows));

@@ -77,8 +77,10 @@ int summarise(SummaryOptions o) {
   }
   if (o.comment.links.empty()) o.comment.links = default_links();
   const auto* against = comparison ? &*comparison : nullptr;
-  write_file(o.data, dashboard_json(results, false)), write_file(o.shares, dashboard_json(results, true));
-  write_file(o.badge, badge_text(results, verdict, o.badge.ends_with(".json"))), write_file(o.sarif, sarif_text(verdict));
+  write_file(o.data, dashboard_json(results, false));
+  write_file(o.shares, dashboard_json(results, true));
+  write_file(o.badge, badge_text(results, verdict, o.badge.ends_with(".json")));
+  write_file(o.sarif, sarif_text(verdict));
   print(o.markdown ? comment_markdown(results, verdict, against, o.comment) : comment_text(results, verdict, against, o.comment));
   return exit_pass;
 }

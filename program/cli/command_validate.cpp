@@ -95,7 +95,8 @@ void add_all_presets(std::vector<Case>& cases, const std::vector<EngineEntry>& e
           engine && std::find(chosen_by_scene.begin(), chosen_by_scene.end(), name) != chosen_by_scene.end();
       if (!engine || !engine->available || is_listed || chooses_itself) continue;
       EngineChoice choice;
-      choice.name = name, choice.presets = engine->presets;
+      choice.name = name;
+      choice.presets = engine->presets;
       value.engines.push_back(choice);
     }
 }
@@ -121,7 +122,8 @@ void fit_threads(SuiteOptions& suite) {
 void choose_cases(ValidateOptions& o) {
   if (!o.shard.empty()) {
     const auto part = read_shard(o.shard);
-    o.filter.shard = part.i, o.filter.shards = part.n;
+    o.filter.shard = part.i;
+    o.filter.shards = part.n;
   }
   if (o.last_failed) o.filter.only = failed_last_time(o.suite.out);
   o.filter.profile = !o.profile.empty() ? o.profile : o.filter.what.empty() && !o.last_failed ? "commit" : "";
@@ -140,8 +142,12 @@ Results run_all(const std::vector<Case>& cases, const std::vector<EngineEntry>& 
 
 /// What was asked for, so that the results can be judged by who has nothing but them.
 void describe_call(Results& results, const ValidateOptions& o) {
-  results.command = command_line(), results.profile = o.filter.profile, results.date = date_now(), results.shard = o.shard;
-  results.what = o.filter.what, results.tag = o.filter.tag;
+  results.command = command_line();
+  results.profile = o.filter.profile;
+  results.date = date_now();
+  results.shard = o.shard;
+  results.what = o.filter.what;
+  results.tag = o.filter.tag;
   results.filter_known = !o.last_failed && o.filter.substring.empty();  // else it is a part, and nobody can say of what
 }
 
@@ -203,7 +209,12 @@ void add_validate(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option_function<std::uint64_t>(
-      "--seed", [o](std::uint64_t seed) { o->seed = seed, o->seed_given = true; }, "replaces the cases' seeds");
+      "--seed",
+      [o](std::uint64_t seed) {
+        o->seed = seed;
+        o->seed_given = true;
+      },
+      "replaces the cases' seeds");
   command->add_flag("--resume", o->suite.resume,
                     "keep the runs in OUT that have ended, where job and engine are the same; make only the others");
   command

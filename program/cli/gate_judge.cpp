@@ -90,7 +90,10 @@ int propose_baselines(const ProposeOptions& o) {
   const auto list =
       proposals(results, ids, {results.date.substr(0, 10), results.tool.commit, o.reason.empty() ? undecided_reason : o.reason});
   const auto text = patch_text(list, path, list.empty() ? "." : patch_root(list.front().file), o.reason.empty());
-  if (o.patch.empty()) return print(text), exit_pass;
+  if (o.patch.empty()) {
+    print(text);
+    return exit_pass;
+  }
   write_durably(o.patch, text);
   for (const auto& line : split(text, '\n'))
     if (line.starts_with("# ")) print_line(line.substr(2));

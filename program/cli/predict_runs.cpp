@@ -29,12 +29,16 @@ bool all_fixed(const Scene& scene) {
 
 predict::Cloud cloud_of(const Scene& scene, const InitialState& initial) {
   predict::Cloud cloud;
-  cloud.position = initial.position, cloud.spacing = scene.spacing;
+  cloud.position = initial.position;
+  cloud.spacing = scene.spacing;
   const double support = scene.support_ratio * scene.spacing;
   cloud.reach = support * (1.0 + skin) * (1.0 + 1e-9);  // as the engine asks LAMMPS for copies
   cloud.pair_reach = all_fixed(scene) ? support : support * (1.0 + skin);
   for (std::size_t a = 0; a < 3; ++a) cloud.periodic[a] = scene.periodic[a];
-  if (scene.min && scene.max) cloud.min = *scene.min, cloud.max = *scene.max;
+  if (scene.min && scene.max) {
+    cloud.min = *scene.min;
+    cloud.max = *scene.max;
+  }
   return cloud;
 }
 
@@ -87,8 +91,11 @@ Outcome PredictRuns::run(const Prepared& p, int ranks, double end) {
   const std::string folder = (fs::absolute(folder_) / fmt::format("{}-{}", p.label, ranks)).string();
   fs::create_directories(folder);
   RunRequest request;
-  request.engine = p.plan.entry, request.job = &job, request.initial = &p.initial;
-  request.folder = folder, request.particles = (fs::path(folder) / "particles.h5").string();
+  request.engine = p.plan.entry;
+  request.job = &job;
+  request.initial = &p.initial;
+  request.folder = folder;
+  request.particles = (fs::path(folder) / "particles.h5").string();
   request.wall_limit = 3600.0;
   fs::remove(request.particles);
   write_particles(request.particles, p.initial);
@@ -122,9 +129,11 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
   const Result& r = outcome.result;
   const auto steps = static_cast<double>(r.steps);
   t.steps = r.steps;
-  t.wall.push_back(r.stepping_wall / steps), t.cpu.push_back(r.stepping_cpu / steps);
+  t.wall.push_back(r.stepping_wall / steps);
+  t.cpu.push_back(r.stepping_cpu / steps);
   t.bytes = std::max(t.bytes, outcome.cost.peak_bytes);
-  t.own = of(r.extra, "own_at_start_on_rank_0"), t.copies = of(r.extra, "copies_at_start_on_rank_0");
+  t.own = of(r.extra, "own_at_start_on_rank_0");
+  t.copies = of(r.extra, "copies_at_start_on_rank_0");
   t.pairs = r.pairs / (steps + 1.0);  // the start makes one pass more than there are steps
   t.traffic = {of(r.extra, "exchanges") / (steps + 1.0), of(r.extra, "numbers_a_copy") / (steps + 1.0),
                of(r.extra, "collectives") / (steps + 1.0), std::max(0.0, of(r.extra, "migrations") - 1.0) / steps,

@@ -36,8 +36,10 @@ std::vector<std::string> outside(const PredictionReport& r) {
   std::vector<std::string> text{fmt::format("measured here: one rank{}, on one machine; everything beyond is prediction",
                                             most > 1 ? fmt::format(", and up to {} ranks beside the prediction", most) : "")};
   bool crowded = false, scaled = false;
-  for (const auto& line : r.lines)
-    crowded = crowded || line.prediction.ranks > r.machine.cores_a_node, scaled = scaled || !line.prediction.counted;
+  for (const auto& line : r.lines) {
+    crowded = crowded || line.prediction.ranks > r.machine.cores_a_node;
+    scaled = scaled || !line.prediction.counted;
+  }
   if (crowded)
     text.push_back(
         fmt::format("more ranks than the {} cores of a node: the latency and bandwidth between nodes are taken to be those given",

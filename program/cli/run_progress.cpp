@@ -34,9 +34,12 @@ std::optional<RunStatus> status_from(const std::string& text) {
   const auto time = number_in(object, "time"), end = number_in(object, "end"), step = number_in(object, "step");
   if (!time || !end) return {};
   RunStatus s;
-  s.time = *time, s.end = *end, s.step = step && std::abs(*step) < 1e15 ? static_cast<long>(*step) : 0;
+  s.time = *time;
+  s.end = *end;
+  s.step = step && std::abs(*step) < 1e15 ? static_cast<long>(*step) : 0;
   s.time_step = number_in(object, "time_step");
-  s.ledger_residual = number_in(object, "ledger_residual"), s.ledger_exchanged = number_in(object, "ledger_exchanged");
+  s.ledger_residual = number_in(object, "ledger_residual");
+  s.ledger_exchanged = number_in(object, "ledger_exchanged");
   if (const auto bound = object.find("bound"); bound != object.end() && bound->is_string())
     s.bound = one_line(bound->get<std::string>().substr(0, 40));
   return s;

@@ -131,7 +131,8 @@ Picture picture_of(const ShownRun& run, const Snapshot& f, const Showing& s) {
   const Box shown = box_around(s.looked_at);
   const Camera camera(s.looked_at, run.spacing, CameraAxes(up, s.view), static_cast<double>(s.width) / s.height);
   Display display;
-  display.up = up, display.size = norm(shown.high - shown.low);
+  display.up = up;
+  display.size = norm(shown.high - shown.low);
   const bool has_walls = s.walls != WallsDrawn::hide && has(s.room.walls);
   if (norm(run.gravity) > 0.0)
     display.ground = lowest(has_walls ? united(s.room.free, s.room.walls) : s.room.free, up) - 0.5 * run.spacing;

@@ -68,14 +68,19 @@ double spacing_of(const Snapshot& f, const std::string& folder) {
 void read_job_into(ShownRun& run, const std::string& file) {
   const Job job = read_job(file);
   run.has_job = true;
-  run.spacing = job.resolution.spacing, run.gravity = job.scene.gravity;
+  run.spacing = job.resolution.spacing;
+  run.gravity = job.scene.gravity;
   for (const auto& m : job.scene.materials) run.material_names.push_back(m.name);
   std::vector<char> is_fixed;
   for (const JobBody& body : job.bodies) {
     if (body.index < 0) continue;
     const auto row = static_cast<std::size_t>(body.index);
-    if (row >= run.body_names.size()) run.body_names.resize(row + 1), is_fixed.resize(row + 1);
-    run.body_names[row] = body.name, is_fixed[row] = body.motion == Motion::fixed;
+    if (row >= run.body_names.size()) {
+      run.body_names.resize(row + 1);
+      is_fixed.resize(row + 1);
+    }
+    run.body_names[row] = body.name;
+    is_fixed[row] = body.motion == Motion::fixed;
   }
   const Snapshot& first = run.trajectory.frames.front();
   for (std::size_t i = 0; i < run.wall.size() && i < first.position.size(); ++i) {
@@ -106,7 +111,8 @@ Box without_flown_off(std::vector<Vec3>& places) {
       std::ranges::nth_element(places, places.begin() + static_cast<std::ptrdiff_t>(n), {}, [&](const Vec3& r) { return r[a]; });
       return places[n][a];
     };
-    b.low[a] = value(lost), b.high[a] = value(places.size() - 1 - lost);
+    b.low[a] = value(lost);
+    b.high[a] = value(places.size() - 1 - lost);
   }
   return b;
 }
@@ -176,7 +182,8 @@ ShownRoom room_for(const ShownRun& run, const std::vector<std::size_t>& frames) 
     std::vector<Vec3> free, walls;
     for (std::size_t i = 0; i < f.position.size(); ++i)
       if (is_there(f, i)) (run.wall[i] != 0 ? walls : free).push_back(f.position[i]);
-    room.free = united(room.free, without_flown_off(free)), room.walls = united(room.walls, box_around(walls));
+    room.free = united(room.free, without_flown_off(free));
+    room.walls = united(room.walls, box_around(walls));
   }
   return room;
 }

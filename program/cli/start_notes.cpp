@@ -26,7 +26,8 @@ double depth_at_rest(const Scene& s, const InitialState& state, std::size_t body
     if (static_cast<std::size_t>(state.source[i]) != body) continue;
     if (norm(state.velocity[i]) > 0.0) return 0.0;
     const double z = dot(state.position[i], down);
-    low = std::min(low, z), high = std::max(high, z);
+    low = std::min(low, z);
+    high = std::max(high, z);
   }
   return high < low ? 0.0 : high - low + s.spacing;
 }

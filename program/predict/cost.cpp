@@ -68,7 +68,8 @@ WorkCost fit_work(const std::vector<OneRank>& runs) {
     double sum = 0.0, worst = 0.0;
     for (const Row& row : rows) {
       const double off = std::inner_product(row.begin(), row.end(), found->begin(), -1.0);
-      sum += off * off, worst = std::max(worst, std::abs(off));
+      sum += off * off;
+      worst = std::max(worst, std::abs(off));
     }
     if (!(sum < least - better)) continue;
     least = sum;
@@ -99,9 +100,12 @@ Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cos
   double sum = 0.0, most_copies = 0.0, most_held = 0.0;
   for (const Share& s : shares.ranks) {
     const double seconds = cost.seconds(s.own + s.copies, s.pairs) / machine.core_speed;
-    p.work = std::max(p.work, seconds), sum += seconds;
-    p.own += s.own / count, p.copies += s.copies / count;
-    most_copies = std::max(most_copies, s.copies), most_held = std::max(most_held, s.own + s.copies);
+    p.work = std::max(p.work, seconds);
+    sum += seconds;
+    p.own += s.own / count;
+    p.copies += s.copies / count;
+    most_copies = std::max(most_copies, s.copies);
+    most_held = std::max(most_held, s.own + s.copies);
   }
   p.imbalance = p.work * count / sum;
   if (p.ranks > 1) {

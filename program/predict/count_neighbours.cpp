@@ -16,7 +16,10 @@ class Cells {
     Vec3 high = low_;
     for (const auto* list : {&members, &images})
       for (const Vec3& r : *list)
-        for (std::size_t a = 0; a < 3; ++a) low_[a] = std::min(low_[a], r[a]), high[a] = std::max(high[a], r[a]);
+        for (std::size_t a = 0; a < 3; ++a) {
+          low_[a] = std::min(low_[a], r[a]);
+          high[a] = std::max(high[a], r[a]);
+        }
     for (std::size_t a = 0; a < 3; ++a) count_[a] = static_cast<long>((high[a] - low_[a]) / reach) + 1;
     start_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2]) + 1, 0);
     for (const auto* list : {&members, &images})

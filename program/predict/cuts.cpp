@@ -61,7 +61,10 @@ Cuts cuts_of(const Cloud& cloud, int ranks) {
   if (cloud.position.empty()) throw InputError("there is no particle to share out");
   Vec3 low = cloud.position.front(), high = low;
   for (const Vec3& r : cloud.position)
-    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], r[a]);
+      high[a] = std::max(high[a], r[a]);
+    }
   const Vec3 around{cloud.spacing, cloud.spacing, cloud.spacing};
   Cuts cuts;
   cuts.grid = rank_grid(ranks, high - low + around, cloud.periodic);

@@ -52,9 +52,12 @@ Machine read_machine(const std::string& path) {
     m.name = name->text;
   }
   m.cores_a_node = static_cast<int>(std::min(1e6, number(file, "cores_a_node", NAN)));
-  m.latency = number(file, "latency", NAN), m.bandwidth = number(file, "bandwidth", NAN);
-  m.allreduce = number(file, "allreduce", m.latency), m.pack_rate = number(file, "pack_rate", usual_pack_rate);
-  m.core_speed = number(file, "core_speed", 1.0), m.waiting = number(file, "waiting", m.waiting, true);
+  m.latency = number(file, "latency", NAN);
+  m.bandwidth = number(file, "bandwidth", NAN);
+  m.allreduce = number(file, "allreduce", m.latency);
+  m.pack_rate = number(file, "pack_rate", usual_pack_rate);
+  m.core_speed = number(file, "core_speed", 1.0);
+  m.waiting = number(file, "waiting", m.waiting, true);
   return m;
 }
 
@@ -72,7 +75,8 @@ Machine machine_of_probe(const std::string& text, int cores) {
       const double bytes = e.at("bytes"), moving = e.at("seconds").get<double>() - m.latency;
       if (bytes >= least_for_rate && moving > 0.0) m.bandwidth = std::max(m.bandwidth, bytes / moving);
     }
-    m.allreduce = o.at("allreduce").at(0).at("seconds"), m.pack_rate = o.at("pack_rate");
+    m.allreduce = o.at("allreduce").at(0).at("seconds");
+    m.pack_rate = o.at("pack_rate");
     if (!(m.latency > 0.0 && m.bandwidth > 0.0 && m.allreduce > 0.0 && m.pack_rate > 0.0))
       throw EngineError("the probe of MPI gave times that cannot be: " + text);
     return m;

@@ -82,7 +82,8 @@ std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::arr
 Shares share_out(const Cloud& cloud, int ranks) {
   const Cuts cuts = cuts_of(cloud, ranks);
   Shares shares;
-  shares.grid = cuts.grid, shares.messages = messages_of(cuts, cloud.reach);
+  shares.grid = cuts.grid;
+  shares.messages = messages_of(cuts, cloud.reach);
   std::vector<std::vector<Vec3>> held(static_cast<std::size_t>(ranks));
   shares.ranks.resize(held.size());
   for (const Vec3& r : cloud.position) {

@@ -35,7 +35,8 @@ void parts_of(const std::vector<double>& at, double a, double b, double reach, d
       if (!(all > 0.0)) continue;
       const auto found = std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.rank == k; });
       Part& p = found == parts.end() ? parts.emplace_back(Part{k, 0.0, 0.0}) : *found;
-      p.own += own / (b - a), p.beyond += (all - own) / (b - a);
+      p.own += own / (b - a);
+      p.beyond += (all - own) / (b - a);
     }
   }
 }
@@ -47,7 +48,8 @@ Shares share_volume(const Cloud& cloud, int ranks, double particles) {
   const double each = particles / static_cast<double>(cloud.position.size()), finer = std::cbrt(1.0 / each),
                reach = cloud.reach * finer;
   Shares shares;
-  shares.grid = cuts.grid, shares.messages = messages_of(cuts, reach);
+  shares.grid = cuts.grid;
+  shares.messages = messages_of(cuts, reach);
   shares.ranks.resize(static_cast<std::size_t>(ranks));
   const std::vector<double> neighbours = count_neighbours(
       cloud.position, images_within(cloud.position, cloud.periodic, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
@@ -67,7 +69,8 @@ Shares share_volume(const Cloud& cloud, int ranks, double particles) {
           Share& s = shares.ranks[x.rank + static_cast<std::size_t>(cuts.grid[0]) *
                                                (y.rank + static_cast<std::size_t>(cuts.grid[1]) * z.rank)];
           const double own = x.own * y.own * z.own, all = (x.own + x.beyond) * (y.own + y.beyond) * (z.own + z.beyond);
-          s.own += each * own, s.copies += each * (all - own);
+          s.own += each * own;
+          s.copies += each * (all - own);
           s.pairs += each * neighbours[i] * (x.own + seen_of_a_copy * x.beyond) * (y.own + seen_of_a_copy * y.beyond) *
                      (z.own + seen_of_a_copy * z.beyond);
         }

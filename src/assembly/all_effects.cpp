@@ -98,7 +98,10 @@ void set_declared(std::vector<Active>& effects) {
     const auto add = [&](const std::vector<FieldInfo>& fields) {
       for (const FieldInfo& f : fields) a.declared.keys.push_back(f.key);
     };
-    add(a.spec.owns), add(a.spec.reads), add(a.spec.reads_if_there), add(body_table_fields());
+    add(a.spec.owns);
+    add(a.spec.reads);
+    add(a.spec.reads_if_there);
+    add(body_table_fields());
     if (a.spec.sums_forces) add(forces);
     std::ranges::sort(a.declared.keys);
   }

@@ -12,15 +12,21 @@ struct Vec3 {
   constexpr double& operator[](std::size_t axis) noexcept { return axis == 0 ? x : axis == 1 ? y : z; }
   constexpr double operator[](std::size_t axis) const noexcept { return axis == 0 ? x : axis == 1 ? y : z; }
   constexpr Vec3& operator+=(const Vec3& b) noexcept {
-    x += b.x, y += b.y, z += b.z;
+    x += b.x;
+    y += b.y;
+    z += b.z;
     return *this;
   }
   constexpr Vec3& operator-=(const Vec3& b) noexcept {
-    x -= b.x, y -= b.y, z -= b.z;
+    x -= b.x;
+    y -= b.y;
+    z -= b.z;
     return *this;
   }
   constexpr Vec3& operator*=(double s) noexcept {
-    x *= s, y *= s, z *= s;
+    x *= s;
+    y *= s;
+    z *= s;
     return *this;
   }
   constexpr bool operator==(const Vec3&) const noexcept = default;

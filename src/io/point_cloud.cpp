@@ -51,7 +51,8 @@ void write_vtp(const std::string& path, const PointCloud& cloud) {
   std::vector<std::int64_t> points(n), ends(n);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t a = 0; a < 3; ++a) places.push_back(cloud.place[i][a]);
-    points[i] = static_cast<std::int64_t>(i), ends[i] = points[i] + 1;
+    points[i] = static_cast<std::int64_t>(i);
+    ends[i] = points[i] + 1;
   }
   std::ofstream out(path);
   out << fmt::format(

@@ -19,7 +19,11 @@ class Fnv {
     std::memcpy(&bits, &v, sizeof bits);
     for (int k = 0; k < 8; ++k) hash_ = (hash_ ^ ((bits >> (8 * k)) & 0xffU)) * 1099511628211ULL;
   }
-  void add(const Vec3& v) { add(v.x), add(v.y), add(v.z); }
+  void add(const Vec3& v) {
+    add(v.x);
+    add(v.y);
+    add(v.z);
+  }
   [[nodiscard]] std::uint64_t value() const { return hash_; }
   [[nodiscard]] std::string text() const { return fmt::format("{:016x}", hash_); }
 
@@ -31,7 +35,8 @@ class Fnv {
 
 void FramesHash::add(const Snapshot& s) {
   Fnv hash(hash_);
-  hash.add(s.time), hash.add(static_cast<double>(s.step));
+  hash.add(s.time);
+  hash.add(static_cast<double>(s.step));
   const auto exists = [&](std::size_t i) { return s.id.empty() || s.id[i] >= 0; };
   const auto add_column = [&](const auto& column) {
     for (std::size_t i = 0; i < column.size(); ++i) {
@@ -42,7 +47,9 @@ void FramesHash::add(const Snapshot& s) {
         hash.add(column[i]);
     }
   };
-  add_column(s.position), add_column(s.velocity), add_column(s.mass);
+  add_column(s.position);
+  add_column(s.velocity);
+  add_column(s.mass);
   for (const auto* column : {&s.temperature, &s.temperature_error, &s.density, &s.pressure, &s.liquid_fraction})
     add_column(*column);
   for (const auto* column : {&s.id, &s.phase, &s.body, &s.material}) add_column(*column);
@@ -51,7 +58,9 @@ void FramesHash::add(const Snapshot& s) {
     for (const Vec3& v : {b.position, b.velocity, b.angular_velocity, b.force, b.torque}) hash.add(v);
     for (const double q : {b.orientation.w, b.orientation.x, b.orientation.y, b.orientation.z, b.mass}) hash.add(q);
   }
-  hash.add(s.total_mass), hash.add(s.momentum), hash.add(s.angular_momentum);
+  hash.add(s.total_mass);
+  hash.add(s.momentum);
+  hash.add(s.angular_momentum);
   for (const auto& [term, joule] : s.energy) hash.add(joule);
   for (const auto& [body, joule] : s.heat_given) hash.add(joule);
   for (const auto& [name, value] : s.gauges) hash.add(value);
@@ -79,8 +88,14 @@ std::string state_hash(const Snapshot& s) {
   for (const double T : s.temperature) hash.add(T);
   for (const auto& [name, value] : s.gauges) hash.add(value);
   for (const BodyState& b : s.bodies) {
-    hash.add(b.position), hash.add(b.velocity), hash.add(b.angular_velocity), hash.add(b.mass);
-    hash.add(b.orientation.w), hash.add(b.orientation.x), hash.add(b.orientation.y), hash.add(b.orientation.z);
+    hash.add(b.position);
+    hash.add(b.velocity);
+    hash.add(b.angular_velocity);
+    hash.add(b.mass);
+    hash.add(b.orientation.w);
+    hash.add(b.orientation.x);
+    hash.add(b.orientation.y);
+    hash.add(b.orientation.z);
   }
   return hash.text();
 }

@@ -105,7 +105,8 @@ void put_body(const Table& row, const InitialState& initial, const std::vector<M
   body.mass = start[b].mass;
   body.position = row.vector("x", "y", "z");
   body.velocity = row.vector("vx", "vy", "vz");
-  body.orientation = {}, body.angular_velocity = {};  // an engine that writes none does not turn
+  body.orientation = {};
+  body.angular_velocity = {};  // an engine that writes none does not turn
   if (row.has("qw")) body.orientation = {row["qw"], row["qx"], row["qy"], row["qz"]};
   if (row.has("wx")) body.angular_velocity = row.vector("wx", "wy", "wz");
   for (std::size_t i = 0; i < initial.size(); ++i) {

@@ -221,7 +221,10 @@ Trajectory read_trajectory(const std::string& path) {
   Trajectory trajectory;
   Frames& frames = trajectory.frames;
   frames.resize(in.frames());
-  for (std::size_t f = 0; f < frames.size(); ++f) frames[f].time = in.time(f), frames[f].step = in.step(f);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    frames[f].time = in.time(f);
+    frames[f].step = in.step(f);
+  }
   read_vectors(in, "particles/all/position", "m", frames, &Snapshot::position);
   read_vectors(in, "particles/all/velocity", "m s-1", frames, &Snapshot::velocity);
   read_reals(in, "mass", "kg", frames, &Snapshot::mass);

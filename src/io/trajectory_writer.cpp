@@ -142,7 +142,10 @@ void TrajectoryWriter::Impl::put_bodies(const Snapshot& s) {
   vectors("torque", "N m", &BodyState::torque);
   std::vector<Quaternion> orientation;
   std::vector<double> mass;
-  for (const BodyState& b : s.bodies) orientation.push_back(b.orientation), mass.push_back(b.mass);
+  for (const BodyState& b : s.bodies) {
+    orientation.push_back(b.orientation);
+    mass.push_back(b.mass);
+  }
   static_assert(sizeof(Quaternion) == 4 * sizeof(double));
   put("particles/bodies/orientation", h5::Type::float64, n, 4, "1", orientation.data());
   put("particles/bodies/mass", h5::Type::float64, n, 0, "kg", mass.data());

@@ -42,9 +42,16 @@ void write_xdmf(const std::string& folder, const std::vector<double>& times, con
     const auto whole = [&](const char* name, const std::vector<int>& column) {
       if (!column.empty()) attribute(out, name, item(f, frames, n, 1, name, true), false);
     };
-    real("mass", s.mass), real("temperature", s.temperature), real("temperature_error", s.temperature_error);
-    real("density", s.density), real("pressure", s.pressure), real("liquid_fraction", s.liquid_fraction);
-    whole("id", s.id), whole("phase", s.phase), whole("body", s.body), whole("material", s.material);
+    real("mass", s.mass);
+    real("temperature", s.temperature);
+    real("temperature_error", s.temperature_error);
+    real("density", s.density);
+    real("pressure", s.pressure);
+    real("liquid_fraction", s.liquid_fraction);
+    whole("id", s.id);
+    whole("phase", s.phase);
+    whole("body", s.body);
+    whole("material", s.material);
     out << "</Grid>\n";
   }
   out << "</Grid></Domain></Xdmf>\n";

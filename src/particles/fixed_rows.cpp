@@ -21,14 +21,17 @@ constexpr std::size_t rows_a_block = 1024;
 void Neighbours::learn_still(const Particles& particles, const Grid& grid, const Resting& resting) {
   const auto x = positions(particles);
   const auto body = particles[field::body], id = particles[field::id];
-  still_.id.clear(), still_.place.assign(particles.size(), ~std::uint32_t{0});
+  still_.id.clear();
+  still_.place.assign(particles.size(), ~std::uint32_t{0});
   std::vector<std::array<int, 3>> stretch;
   still_.count = {1, 1, 1};
   for (std::size_t i = 0; i < particles.size(); ++i) {
     if (body[i] < 0 || !resting.bodies[static_cast<std::size_t>(body[i])]) continue;
     if (still_.id.empty()) still_.low = still_.high = x.at(i);
-    for (std::size_t a = 0; a < 3; ++a)
-      still_.low[a] = std::min(still_.low[a], x.at(i)[a]), still_.high[a] = std::max(still_.high[a], x.at(i)[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      still_.low[a] = std::min(still_.low[a], x.at(i)[a]);
+      still_.high[a] = std::max(still_.high[a], x.at(i)[a]);
+    }
     still_.place[static_cast<std::size_t>(id[i])] = static_cast<std::uint32_t>(still_.id.size());
     still_.id.push_back(static_cast<std::uint32_t>(id[i]));
     stretch.push_back(Grid::stretch(grid.place(x.at(i))));
@@ -67,7 +70,8 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
           }
         };
         std::ranges::fill(line, char{0});
-        spread(true), spread(false);
+        spread(true);
+        spread(false);
         for (int m = 0; m < n[a]; ++m) marks[from + static_cast<std::size_t>(m) * step[a]] = line[static_cast<std::size_t>(m)];
       }
     }
@@ -141,19 +145,25 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
   row[asleep] += row[read];
   const std::size_t first_read = row[read], first_asleep = row[asleep];
   std::vector<std::uint32_t> was(m), from, to;
-  order_.resize(m), meets_.resize(m);
+  order_.resize(m);
+  meets_.resize(m);
   moving_first_.assign(grid.cells() + 1, 0);
   for (std::size_t c = 0; c < grid.cells(); ++c) {
     for (std::uint32_t at = grid.first[c]; at < grid.first[c + 1]; ++at) {
       const std::uint32_t k = place[at], r = row[part[k]]++;
-      order_[at] = r, was[r] = rows[k], meets_[r] = can_meet[k];
+      order_[at] = r;
+      was[r] = rows[k];
+      meets_[r] = can_meet[k];
     }
     moving_first_[c + 1] = row[moves];
   }
   std::vector<char> taken(n, 0);
   for (const std::uint32_t one : rows) taken[one] = 1;
   for (std::uint32_t r = 0; r < m; ++r)
-    if (was[r] != r) from.push_back(was[r]), to.push_back(r);
+    if (was[r] != r) {
+      from.push_back(was[r]);
+      to.push_back(r);
+    }
   for (std::uint32_t r = 0; r < m; ++r)
     if (!taken[r]) from.push_back(r);
   for (std::uint32_t r = static_cast<std::uint32_t>(m); to.size() < from.size(); ++r)
@@ -221,7 +231,11 @@ void Neighbours::list_sleeping() {
   if (listed_sleeping_ || clusters_.on_demand.empty()) return;
   listed_sleeping_ = true;
   AlignedVector<double> x(rows() + vector_bytes), y(x.size()), z(x.size());  // readable a whole vector past the last
-  for (std::size_t i = 0; i < rows(); ++i) x[i] = built_[i].x, y[i] = built_[i].y, z[i] = built_[i].z;
+  for (std::size_t i = 0; i < rows(); ++i) {
+    x[i] = built_[i].x;
+    y[i] = built_[i].y;
+    z[i] = built_[i].z;
+  }
   list({x.data(), y.data(), z.data()}, *grid_, clusters_.on_demand, listed_by_[2]);
 }
 

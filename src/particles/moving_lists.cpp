@@ -36,7 +36,9 @@ class Ids {
 Bond bond_from(const double* n, std::uint32_t other) {
   Bond b;
   b.other = other;
-  b.x = {n[1], n[2], n[3]}, b.gradient = {n[4], n[5], n[6]}, b.weight = n[7];
+  b.x = {n[1], n[2], n[3]};
+  b.gradient = {n[4], n[5], n[6]};
+  b.weight = n[7];
   return b;
 }
 
@@ -109,8 +111,10 @@ std::size_t most_list_numbers(const Bonds& bonds, const OwnPairs& own) {
 void take_lists(const Share& share, Bonds& bonds, OwnPairs& own) {
   const Ids ids(share.number);
   const std::size_t count = share.number.size();
-  bonds = {}, own = {};
-  bonds.grow(count), own.grow(count);
+  bonds = {};
+  own = {};
+  bonds.grow(count);
+  own.grow(count);
   for (std::size_t id = 0; id < count; ++id) {
     if (ids.first(share.number[id]) != id) continue;  // another image has its lists
     if (const std::vector<Bond> list = bonds_of(share, ids, id); !list.empty()) bonds.replace(id, list);
@@ -118,7 +122,8 @@ void take_lists(const Share& share, Bonds& bonds, OwnPairs& own) {
     if (const std::vector<OwnPair> list = own_of(share, ids, id); !list.empty()) own.replace(id, list);
   }
   set_twins(bonds, count);
-  bonds.compact(), own.compact();
+  bonds.compact();
+  own.compact();
 }
 
 double longest_bond(const Particles& particles, const Bonds& bonds, std::size_t owned, const PeriodicBox& box) {

@@ -54,7 +54,8 @@ Neighbours::Neighbours(double support, double skin, const PeriodicBox& box, int 
 
 Neighbours Neighbours::anew(const PeriodicBox& box) const {
   Neighbours lists(support_, skin_, box, threads_, clusters_.lanes);
-  lists.rebuilds_ = rebuilds_, lists.whole_lists_ = whole_lists_;
+  lists.rebuilds_ = rebuilds_;
+  lists.whole_lists_ = whole_lists_;
   return lists;
 }
 
@@ -126,12 +127,16 @@ void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
   const auto x = positions(particles);
   Vec3 low = n ? x.at(0) : Vec3{}, high = low;
   const auto reach_to = [&](const Vec3& r) {
-    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], r[a]), high[a] = std::max(high[a], r[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], r[a]);
+      high[a] = std::max(high[a], r[a]);
+    }
   };
   for (std::size_t i = 0; i < moving; ++i) reach_to(x.at(i));
   if (moving < n) {
     for (std::size_t i = built_.size(); i < n; ++i) reach_to(x.at(i));
-    reach_to(still_.low), reach_to(still_.high);
+    reach_to(still_.low);
+    reach_to(still_.high);
   }
   Grid grid = whole_ ? Grid::over(whole_->low, whole_->high, support_ + skin_, box_, whole_->particles)
                      : Grid::over(low, high, support_ + skin_, box_, n);
@@ -143,12 +148,15 @@ void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
     sort_all(particles, grid);
     still_.known = false;
     if (same_cells && same_bodies) learn_still(particles, grid, resting);
-    still_.origin = grid.origin, still_.width = grid.width, still_.bodies = resting.bodies;
+    still_.origin = grid.origin;
+    still_.width = grid.width;
+    still_.bodies = resting.bodies;
     ++whole_lists_;
   } else {
     sort_awake(particles, grid, resting);
   }
-  marked_ = listed_sleeping_ = false, are_made_ = true;
+  marked_ = listed_sleeping_ = false;
+  are_made_ = true;
   moving_ = particles.moving();
   form_clusters(particles, grid);
   const auto sorted = positions(particles);
@@ -174,26 +182,37 @@ void Neighbours::sort_all(Particles& particles, Grid& grid) {
     const auto row = static_cast<std::uint32_t>(particles.row(whole_ ? whole_->ids[k] : k));
     order[next[cell_of[row]]++] = row;
   }
-  std::vector<std::uint32_t>().swap(cell_of), std::vector<std::uint32_t>().swap(next);  // before columns are held twice
+  // Before columns are held twice.
+  std::vector<std::uint32_t>().swap(cell_of);
+  std::vector<std::uint32_t>().swap(next);
   particles.permute(order, threads_);
   std::vector<std::uint32_t>().swap(order);
   const auto sorted = positions(particles);
   built_.resize(n);
   for (std::size_t i = 0; i < n; ++i) built_[i] = sorted.at(i);
-  order_.clear(), meets_.clear(), moving_first_.clear(), row_blocks_.clear(), grid_.reset();
+  order_.clear();
+  meets_.clear();
+  moving_first_.clear();
+  row_blocks_.clear();
+  grid_.reset();
 }
 
 /// Clusters of what moves, then of what is fixed. The first are those that have lists.
 void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   Clusters& c = clusters_;
   const std::size_t rows = order_.empty() ? particles.size() : order_.size();
-  c.first.clear(), c.listed.clear(), c.unlisted.clear(), c.on_demand.clear();
+  c.first.clear();
+  c.listed.clear();
+  c.unlisted.clear();
+  c.on_demand.clear();
   add_clusters(grid, 0, particles.moving());
   add_clusters(grid, particles.moving(), particles.awake());
   add_clusters(grid, particles.awake(), rows);
   c.first.push_back(static_cast<std::uint32_t>(rows));
   c.start.assign(c.size() + 1, 0);
-  c.own.clear(), c.within.clear(), c.acting.clear();
+  c.own.clear();
+  c.within.clear();
+  c.acting.clear();
   for (std::uint32_t k = 0; k < c.size() && c.first[k] < particles.moving(); ++k) c.listed.push_back(k);
 }
 
@@ -235,7 +254,8 @@ std::size_t Neighbours::list(const Places& places, const Grid& grid, std::span<c
   do {
     rooms.assign(1, kept);
     for (const std::size_t entries : listed_by) rooms.push_back(rooms.back() + entries + entries / 32);
-    fit(c.entries, rooms.back(), kept), fit(c.near, rooms.back(), kept);
+    fit(c.entries, rooms.back(), kept);
+    fit(c.near, rooms.back(), kept);
   } while (!(pairs = list_into(places, grid, clusters, rooms, listed_by)));
   std::size_t end = kept;
   for (std::size_t part = 0; part < listed_by.size(); ++part) {
@@ -243,7 +263,10 @@ std::size_t Neighbours::list(const Places& places, const Grid& grid, std::span<c
       const auto room = column.begin() + static_cast<std::ptrdiff_t>(rooms[part]);
       std::copy(room, room + static_cast<std::ptrdiff_t>(listed_by[part]), column.begin() + static_cast<std::ptrdiff_t>(end));
     };
-    if (rooms[part] != end) close(c.entries), close(c.near);
+    if (rooms[part] != end) {
+      close(c.entries);
+      close(c.near);
+    }
     end += listed_by[part];
   }
   for (std::size_t k = first; k < c.size(); ++k) c.start[k + 1] += c.start[k];
@@ -271,12 +294,18 @@ std::optional<std::size_t> Neighbours::list_into(const Places& places, const Gri
       const std::size_t k = clusters[n];
       Vec3 low = at(c.first[k]), high = low;
       for (std::size_t i = c.first[k] + 1; i < c.first[k + 1]; ++i) {
-        for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], at(i)[a]), high[a] = std::max(high[a], at(i)[a]);
+        for (std::size_t a = 0; a < 3; ++a) {
+          low[a] = std::min(low[a], at(i)[a]);
+          high[a] = std::max(high[a], at(i)[a]);
+        }
       }
       grid.candidates(low, high, reach, box_, ranges);
       std::size_t candidates = 0;
       for (const CandidateRange& r : ranges) candidates += r.to - r.from;
-      if (entries.size() < candidates) entries.resize(candidates), near.resize(candidates);
+      if (entries.size() < candidates) {
+        entries.resize(candidates);
+        near.resize(candidates);
+      }
       const unsigned members = (1u << (c.first[k + 1] - c.first[k])) - 1u;
       const Scan task{places.x,      places.y,      places.z,      c.first[k],    members,
                       ranges.data(), ranges.size(), shift_.data(), reach * reach, order_.empty() ? nullptr : order_.data(),
@@ -284,8 +313,8 @@ std::optional<std::size_t> Neighbours::list_into(const Places& places, const Gri
       const Scanned found = scan_(task, entries.data(), near.data());
       if (rooms[part] + size + found.entries <= rooms[part + 1]) {
         const auto to = static_cast<std::ptrdiff_t>(rooms[part] + size);
-        std::copy_n(entries.begin(), found.entries, c.entries.begin() + to),
-            std::copy_n(near.begin(), found.entries, c.near.begin() + to);
+        std::copy_n(entries.begin(), found.entries, c.entries.begin() + to);
+        std::copy_n(near.begin(), found.entries, c.near.begin() + to);
       }
       c.start[k + 1] = found.entries;
       size += found.entries;

@@ -141,7 +141,12 @@ class Neighbours {
   [[nodiscard]] bool outdated(const Particles&) const;
   /// Rows stand for other particles: update() then makes lists whatever has moved.
   /// @param whole what these particles are a part of; none: all that there are
-  void forget(std::optional<Whole> whole) { built_.clear(), still_ = {}, are_made_ = false, whole_ = std::move(whole); }
+  void forget(std::optional<Whole> whole) {
+    built_.clear();
+    still_ = {};
+    are_made_ = false;
+    whole_ = std::move(whole);
+  }
 
   /// Threads from now on. They change neither lists nor their order.
   void use_threads(int threads) { threads_ = threads; }

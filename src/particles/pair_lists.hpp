@@ -116,7 +116,8 @@ using OwnPairs = PairLists<OwnPair>;
 
 /// Adds the bond of i and j to both lists. @param of_i,of_j x, gradient and weight of each; other and twin are set here
 inline void connect(Bonds& bonds, std::uint32_t i, std::uint32_t j, Bond of_i, Bond of_j) {
-  of_i.other = j, of_j.other = i;
+  of_i.other = j;
+  of_j.other = i;
   of_i.twin = static_cast<std::uint32_t>(bonds.of(j).size());
   of_j.twin = static_cast<std::uint32_t>(bonds.of(i).size());
   bonds.add(i, of_i);

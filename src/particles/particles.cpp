@@ -17,7 +17,11 @@ std::size_t Particles::append() {
   append_row();
   (*this)[field::id][row] = static_cast<int>(row);
   row_of_id_.push_back(static_cast<std::uint32_t>(row));
-  if (moving_ == row) ++moving_, ++awake_;  // where some sleep, it is awake from the next lists on
+  // Where some sleep, it is awake from the next lists on.
+  if (moving_ == row) {
+    ++moving_;
+    ++awake_;
+  }
   return row;
 }
 
@@ -33,7 +37,8 @@ void Particles::rearrange(std::span<const std::uint32_t> from, std::span<const s
   Columns::rearrange(from, to, threads);
   const auto id = (*this)[field::id];
   for (const std::uint32_t row : to) row_of_id_[static_cast<std::size_t>(id[row])] = row;
-  moving_ = moving, awake_ = awake;
+  moving_ = moving;
+  awake_ = awake;
 }
 
 std::vector<FieldInfo> common_fields(bool periodic) {

@@ -55,7 +55,11 @@ struct Triple {
   [[nodiscard]] Vec3 at(std::size_t row) const {
     return {static_cast<double>(x[row]), static_cast<double>(y[row]), static_cast<double>(z[row])};
   }
-  void set(std::size_t row, const Vec3& v) const { x[row] = v.x, y[row] = v.y, z[row] = v.z; }
+  void set(std::size_t row, const Vec3& v) const {
+    x[row] = v.x;
+    y[row] = v.y;
+    z[row] = v.z;
+  }
 };
 template <class T, class P>
 [[nodiscard]] auto triple(P& particles, const Field<T>& x, const Field<T>& y, const Field<T>& z) {

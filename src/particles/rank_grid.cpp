@@ -18,7 +18,10 @@ std::array<int, 3> rank_grid(int ranks, const Vec3& length, const std::array<boo
         const int cuts = periodic[a] && grid[a] > 1 ? grid[a] : grid[a] - 1;
         area += cuts * length[(a + 1) % 3] * length[(a + 2) % 3];
       }
-      if (area < least) least = area, best = grid;
+      if (area < least) {
+        least = area;
+        best = grid;
+      }
     }
   }
   return best;

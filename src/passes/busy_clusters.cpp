@@ -51,7 +51,8 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
   double asked = group[first];
   unsigned of_another = 0;  // bits of the members whose group is not the one that was asked for
   const auto look = [&](double g) {
-    asked = g, of_another = 0;
+    asked = g;
+    of_another = 0;
     for (std::uint32_t i = first; i < past; ++i) of_another |= static_cast<unsigned>(group[i] != g) << (i - first);
   };
   look(asked);
@@ -84,7 +85,8 @@ void BusyClusters::find(World& world, bool leaves_own) {
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t k = 0; k < c.size(); ++k)
     work[k] = work_of(c, k, group, fixed, world.particles.moving(), leaves_own, c.acting.data() + within_start(c.start[k], k));
-  in_density_ = {}, in_rates_ = {};
+  in_density_ = {};
+  in_rates_ = {};
   still_.clear();
   for (std::uint32_t k = 0; k < c.size() && c.first[k] < world.particles.awake(); ++k) {
     if ((work[k] & density) != 0) in_density_.clusters.push_back(k);

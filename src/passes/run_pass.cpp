@@ -52,7 +52,9 @@ void run_pass_among(const PassFunction& function, Particles& particles, Neighbou
                     int threads, const std::vector<std::uint64_t>& entries) {
   PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
-  task.columns = columns.data(), task.within = nullptr, task.only = entries.data();
+  task.columns = columns.data();
+  task.within = nullptr;
+  task.only = entries.data();
   function.run(task);
 }
 
@@ -61,7 +63,9 @@ void run_pass_over(const PassFunction& function, Particles& particles, Neighbour
   if (!function.run || chosen.clusters.empty()) return;
   PassTask task = task_of(particles, neighbours, kernels, threads);
   const std::vector<double*> columns = columns_of(function, particles);
-  task.columns = columns.data(), task.chosen = chosen.clusters.data(), task.count = chosen.clusters.size();
+  task.columns = columns.data();
+  task.chosen = chosen.clusters.data();
+  task.count = chosen.clusters.size();
   if (!chosen.members.empty()) task.members = chosen.members.data();
   if (!function.finds && !neighbours.clusters().acting.empty()) task.only = neighbours.clusters().acting.data();
   function.run(task);
@@ -72,8 +76,10 @@ ChosenClusters clusters_of(const Clusters& c, const std::vector<std::uint32_t>& 
   for (const std::uint32_t row : rows) {
     const std::uint32_t cluster = c.of(row);
     assert(chosen.clusters.empty() || chosen.clusters.back() <= cluster);
-    if (chosen.clusters.empty() || chosen.clusters.back() != cluster)
-      chosen.clusters.push_back(cluster), chosen.members.push_back(0);
+    if (chosen.clusters.empty() || chosen.clusters.back() != cluster) {
+      chosen.clusters.push_back(cluster);
+      chosen.members.push_back(0);
+    }
     chosen.members.back() = static_cast<std::uint8_t>(chosen.members.back() | 1u << (row - c.first[cluster]));
   }
   return chosen;

@@ -36,8 +36,10 @@ Camera::Camera(std::span<const Vec3> places, double room, const CameraAxes& axes
   double right = -most, left = -most, top = -most, bottom = -most;
   for (const Vec3& r : places) {
     const double x = dot(r, axes.right), y = dot(r, axes.upward), f = dot(r, axes.forward) - room;
-    right = std::max(right, x + room - w * f), left = std::max(left, -x + room - w * f);
-    top = std::max(top, y + room - h * f), bottom = std::max(bottom, -y + room - h * f);
+    right = std::max(right, x + room - w * f);
+    left = std::max(left, -x + room - w * f);
+    top = std::max(top, y + room - h * f);
+    bottom = std::max(bottom, -y + room - h * f);
   }
   if (places.empty()) right = left = top = bottom = 1.0;
   const double along = std::min(-(right + left) / (2.0 * w), -(top + bottom) / (2.0 * h));
@@ -57,7 +59,8 @@ Span inside(const Ray& ray, const Box& box) noexcept {
     }
     double near = (box.low[a] - ray.from[a]) / ray.along[a], far = (box.high[a] - ray.from[a]) / ray.along[a];
     if (near > far) std::swap(near, far);
-    s.from = std::max(s.from, near), s.to = std::min(s.to, far);
+    s.from = std::max(s.from, near);
+    s.to = std::min(s.to, far);
   }
   return s;
 }

@@ -33,7 +33,10 @@ class Tracer {
         sun_(unit(0.9 * display.up - 0.45 * camera.axes().right + 0.55 * camera.towards())),
         nudge_(1e-3 * display.size),
         middle_(box_middle(display)) {
-    for (const auto& t : display.targets) gazes_.push_back(t->gaze()), boxes_.push_back(t->bounds());
+    for (const auto& t : display.targets) {
+      gazes_.push_back(t->gaze());
+      boxes_.push_back(t->bounds());
+    }
   }
 
   Seen seen(const Ray& ray) {
@@ -43,7 +46,10 @@ class Tracer {
       const Span in = inside(ray, boxes_[n]);
       const Span span{std::max(in.from, 0.0), std::min(in.to, hit ? hit->distance : infinite)};
       if (span.empty()) continue;
-      if (const auto found = gazes_[n]->first(ray, span)) hit = found, what = n + 2;
+      if (const auto found = gazes_[n]->first(ray, span)) {
+        hit = found;
+        what = n + 2;
+      }
     }
     if (const auto t = ground_distance(ray); t && !(hit && hit->distance < *t)) return {on_ground(ray, *t), 1};
     if (!hit) return {sky(ray), 0};

@@ -19,11 +19,13 @@ double closed_in(SurfaceProbe& probe, const Ray& ray, double outer, double inner
     const double phi = probe.phi(ray.at(t));
     if (std::abs(phi) < tolerance * ir) return t;
     if (phi > 0.0) {
-      outer = t, phi_outer = phi;
+      outer = t;
+      phi_outer = phi;
       if (kept == 1) phi_inner *= 0.5;
       kept = 1;
     } else {
-      inner = t, phi_inner = phi;
+      inner = t;
+      phi_inner = phi;
       if (kept == -1) phi_outer *= 0.5;
       kept = -1;
     }
@@ -42,7 +44,10 @@ class SurfaceGaze : public Gaze {
     const Vec3 place = ray.at(*t), g = probe_.gradient(place);
     Hit hit{*t, norm(g) > 0.0 ? g / norm(g) : -ray.along, {}};
     double weights = 0.0;
-    probe_.weigh(place, [&](std::uint32_t row, double w) { hit.colour += w * colours_[row], weights += w; });
+    probe_.weigh(place, [&](std::uint32_t row, double w) {
+      hit.colour += w * colours_[row];
+      weights += w;
+    });
     if (weights > 0.0) hit.colour *= 1.0 / weights;
     return hit;
   }
@@ -79,7 +84,9 @@ std::optional<double> first_crossing(const ImplicitSurface& surface, SurfaceProb
       if (phi <= 0.0 && outside) return closed_in(probe, ray, before, t, phi_before, phi, ir);
       step = std::clamp(share * std::abs(phi), shortest * ir, longest * ir);
     }
-    outside = phi > 0.0, before = t, phi_before = phi;
+    outside = phi > 0.0;
+    before = t;
+    phi_before = phi;
     t += step;
   }
   return {};

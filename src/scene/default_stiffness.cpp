@@ -21,7 +21,8 @@ double extent_along_gravity(const Scene& s, Test test) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 r{corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z};
       const double height = dot(s.gravity, r) / g;
-      least = std::min(least, height), most = std::max(most, height);
+      least = std::min(least, height);
+      most = std::max(most, height);
     }
   }
   return most > least && std::isfinite(most - least) ? most - least : 0.0;

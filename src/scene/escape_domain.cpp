@@ -11,13 +11,17 @@ namespace {
 Bounds nothing() { return {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}; }
 
 void include(Bounds& box, const Vec3& r) {
-  for (std::size_t a = 0; a < 3; ++a) box.min[a] = std::min(box.min[a], r[a]), box.max[a] = std::max(box.max[a], r[a]);
+  for (std::size_t a = 0; a < 3; ++a) {
+    box.min[a] = std::min(box.min[a], r[a]);
+    box.max[a] = std::max(box.max[a], r[a]);
+  }
 }
 
 /// The box at another place, and larger by `by` on each side.
 void include(Bounds& box, const Bounds& part, const Vec3& shift, double by) {
   const Vec3 room{by, by, by};
-  include(box, part.min + shift - room), include(box, part.max + shift + room);
+  include(box, part.min + shift - room);
+  include(box, part.max + shift + room);
 }
 
 /// Boxes around the particles of each body.

@@ -78,11 +78,13 @@ class Compiler {
     if (++depth_ > 50) refuse("nested deeper than 50 brackets: write it flatter");
     product();
     for (;;) {
-      if (take('+'))
-        product(), emit(Op::add);
-      else if (take('-'))
-        product(), emit(Op::subtract);
-      else
+      if (take('+')) {
+        product();
+        emit(Op::add);
+      } else if (take('-')) {
+        product();
+        emit(Op::subtract);
+      } else
         break;
     }
     --depth_;
@@ -90,19 +92,22 @@ class Compiler {
   void product() {
     signed_power();
     for (;;) {
-      if (take('*'))
-        signed_power(), emit(Op::multiply);
-      else if (take('/'))
-        signed_power(), emit(Op::divide);
-      else
+      if (take('*')) {
+        signed_power();
+        emit(Op::multiply);
+      } else if (take('/')) {
+        signed_power();
+        emit(Op::divide);
+      } else
         break;
     }
   }
   void signed_power() {
     if (++depth_ > 50) refuse("nested deeper than 50 signs and brackets: write it flatter");
-    if (take('-'))
-      signed_power(), emit(Op::negate);
-    else if (take('+'))
+    if (take('-')) {
+      signed_power();
+      emit(Op::negate);
+    } else if (take('+'))
       signed_power();
     else
       power();
@@ -110,12 +115,18 @@ class Compiler {
   }
   void power() {
     atom();
-    if (take('^')) signed_power(), emit(Op::power);
+    if (take('^')) {
+      signed_power();
+      emit(Op::power);
+    }
   }
   void atom() {
     if (ends()) refuse("it ends where a value belongs: write a number, x, y, z, a function or a bracket");
     const char c = text_[at_];
-    if (take('(')) return sum(), expect(')');
+    if (take('(')) {
+      sum();
+      return expect(')');
+    }
     if ((c >= '0' && c <= '9') || c == '.') return number();
     if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')) return name();
     refuse(fmt::format("`{}` stands where a value belongs: write a number, x, y, z, a function or a bracket",
@@ -142,7 +153,10 @@ class Compiler {
       if (f.name != word) continue;
       expect('(');
       sum();
-      if (f.arguments == 2) expect(','), sum();
+      if (f.arguments == 2) {
+        expect(',');
+        sum();
+      }
       expect(')');
       return emit(f.op);
     }
@@ -157,7 +171,10 @@ class Compiler {
   }
   /// sum(n, 1, 40, f): n is a name that stands in f.
   void series(std::size_t begin) {
-    if (!index_.empty()) at_ = begin, refuse("a sum stands in a sum: write the inner one out");
+    if (!index_.empty()) {
+      at_ = begin;
+      refuse("a sum stands in a sum: write the inner one out");
+    }
     expect('(');
     if (ends() || !((text_[at_] >= 'a' && text_[at_] <= 'z') || (text_[at_] >= 'A' && text_[at_] <= 'Z')))
       refuse("a sum begins with the name of its index: sum(n, 1, 40, ...)");

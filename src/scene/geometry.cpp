@@ -19,7 +19,10 @@ Bounds everything() { return {{-infinite, -infinite, -infinite}, {infinite, infi
 Bounds of_points(const std::vector<Vec3>& points) {
   Bounds b{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};
   for (const auto& p : points)
-    for (std::size_t a = 0; a < 3; ++a) b.min[a] = std::min(b.min[a], p[a]), b.max[a] = std::max(b.max[a], p[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      b.min[a] = std::min(b.min[a], p[a]);
+      b.max[a] = std::max(b.max[a], p[a]);
+    }
   return b;
 }
 
@@ -28,7 +31,8 @@ Bounds of_cylinder(const Shape& s) {
   Bounds b = of_points({s.base, head});
   for (std::size_t a = 0; a < 3; ++a) {
     const double reach = s.radius * std::sqrt(std::max(0.0, 1.0 - s.axis[a] * s.axis[a]));
-    b.min[a] -= reach, b.max[a] += reach;
+    b.min[a] -= reach;
+    b.max[a] += reach;
   }
   return b;
 }
@@ -47,7 +51,10 @@ Bounds of_union(const Shape& s) {
   Bounds b{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};
   for (const auto& part : s.of) {
     const Bounds p = bounds(part);
-    for (std::size_t a = 0; a < 3; ++a) b.min[a] = std::min(b.min[a], p.min[a]), b.max[a] = std::max(b.max[a], p.max[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      b.min[a] = std::min(b.min[a], p.min[a]);
+      b.max[a] = std::max(b.max[a], p.max[a]);
+    }
   }
   return b;
 }

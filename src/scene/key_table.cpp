@@ -79,10 +79,15 @@ void add_rows_of_kinds(std::vector<Key>& list, const auto& kinds) {
 /// Those that every scene reads; in each table behind them those that effects bring.
 std::vector<Key> all_keys() {
   std::vector<Key> list(top_keys.begin(), top_keys.end());
-  add_rows(list, record<Scene>), add_rows(list, record<Material>), add_rows(list, record<Body>), add_rows(list, record<Keyframe>);
-  add_rows_of_kinds(list, kinds<Shape>), add_rows_of_kinds(list, kinds<TemperatureField>);
+  add_rows(list, record<Scene>);
+  add_rows(list, record<Material>);
+  add_rows(list, record<Body>);
+  add_rows(list, record<Keyframe>);
+  add_rows_of_kinds(list, kinds<Shape>);
+  add_rows_of_kinds(list, kinds<TemperatureField>);
   add_rows_of_kinds(list, kinds<VelocityField>);
-  add_rows(list, record<Event>), add_rows(list, record<Inflow>);
+  add_rows(list, record<Event>);
+  add_rows(list, record<Inflow>);
   for (const EffectRule& rule : effect_rules()) {
     for (const EffectKey& key : rule.keys) {
       const auto last = std::find_if(list.rbegin(), list.rend(), [&](const Key& k) { return k.table == key.row.table; });

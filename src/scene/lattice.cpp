@@ -72,7 +72,8 @@ Lattice lattice_of(const Scene& s, const Body& b) {
       throw InputError(b.place, fmt::format("body \"{}\" lies {:.2g} spacings from {} = {} m, where a number cannot tell one "
                                             "particle's place from the next: move it nearer",
                                             b.name, std::abs(span.first), "xyz"[a], span.origin));
-    lattice.origin[a] = span.origin, lattice.first[a] = static_cast<long>(span.first),
+    lattice.origin[a] = span.origin;
+    lattice.first[a] = static_cast<long>(span.first);
     lattice.count[a] = static_cast<long>(span.count);
   }
   return lattice;

@@ -14,11 +14,16 @@ Eigen::Matrix3d inertia(const std::vector<Vec3>& position, const std::vector<dou
   Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < position.size(); ++i) {
     const Vec3 d = position[i] - centre;
-    I(0, 0) += mass[i] * (d.y * d.y + d.z * d.z), I(1, 1) += mass[i] * (d.z * d.z + d.x * d.x),
-        I(2, 2) += mass[i] * (d.x * d.x + d.y * d.y);
-    I(0, 1) -= mass[i] * d.x * d.y, I(0, 2) -= mass[i] * d.x * d.z, I(1, 2) -= mass[i] * d.y * d.z;
+    I(0, 0) += mass[i] * (d.y * d.y + d.z * d.z);
+    I(1, 1) += mass[i] * (d.z * d.z + d.x * d.x);
+    I(2, 2) += mass[i] * (d.x * d.x + d.y * d.y);
+    I(0, 1) -= mass[i] * d.x * d.y;
+    I(0, 2) -= mass[i] * d.x * d.z;
+    I(1, 2) -= mass[i] * d.y * d.z;
   }
-  I(1, 0) = I(0, 1), I(2, 0) = I(0, 2), I(2, 1) = I(1, 2);
+  I(1, 0) = I(0, 1);
+  I(2, 0) = I(0, 2);
+  I(2, 1) = I(1, 2);
   return I;
 }
 
@@ -41,8 +46,10 @@ Eigen::Matrix3d axes_of_diagonal(const Eigen::Vector3d& moments, Eigen::Vector3d
       if (moments(order[static_cast<std::size_t>(i + 1)]) < moments(order[i]) - tie)
         std::swap(order[i], order[static_cast<std::size_t>(i + 1)]);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
-  for (int k = 0; k < 3; ++k)
-    axes(order[static_cast<std::size_t>(k)], k) = 1.0, ascending(k) = moments(order[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < 3; ++k) {
+    axes(order[static_cast<std::size_t>(k)], k) = 1.0;
+    ascending(k) = moments(order[static_cast<std::size_t>(k)]);
+  }
   return axes;
 }
 
@@ -50,7 +57,10 @@ Eigen::Matrix3d axes_of_diagonal(const Eigen::Vector3d& moments, Eigen::Vector3d
 
 MassProperties mass_properties(const std::vector<Vec3>& position, const std::vector<double>& mass) {
   MassProperties p;
-  for (std::size_t i = 0; i < position.size(); ++i) p.mass += mass[i], p.centre += mass[i] * position[i];
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    p.mass += mass[i];
+    p.centre += mass[i] * position[i];
+  }
   if (!(p.mass > 0.0)) return p;
   p.centre = p.centre / p.mass;
   const Eigen::Matrix3d I = inertia(position, mass, p.centre);
@@ -63,7 +73,8 @@ MassProperties mass_properties(const std::vector<Vec3>& position, const std::vec
     axes = axes_of_diagonal(I.diagonal(), moments);
   } else {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(I);
-    moments = solver.eigenvalues(), axes = solver.eigenvectors();
+    moments = solver.eigenvalues();
+    axes = solver.eigenvectors();
   }
   fix_signs(axes);
   for (int k = 0; k < 3; ++k)

@@ -121,7 +121,10 @@ void bend_by_events(const Scene& s, std::vector<Path>& paths) {
       const bool grips = e.kind == Event::Kind::grip && inside, merges = e.kind == Event::Kind::merge && named;
       const bool stops = (e.kind == Event::Kind::hold || e.kind == Event::Kind::release) && named;
       if (grips || merges || (stops && !p.keyframes.empty())) p.lost = std::min(p.lost, e.time);
-      if (stops) p.velocity = hull(p.velocity, Box{}), p.acceleration = hull(point(s.gravity), Box{});
+      if (stops) {
+        p.velocity = hull(p.velocity, Box{});
+        p.acceleration = hull(point(s.gravity), Box{});
+      }
       if (e.kind == Event::Kind::split && named) p.spread += p.rim;
     }
   }
@@ -140,15 +143,19 @@ void bend_by_joints(const Scene& s, std::vector<Path>& paths) {
       std::ranges::replace(group, std::max(from, to), std::min(from, to));
     }
   std::vector<Box> velocity(paths.size()), acceleration(paths.size());
-  for (std::size_t n = 0; n < paths.size(); ++n) velocity[n] = velocities_of(paths[n]), acceleration[n] = paths[n].acceleration;
+  for (std::size_t n = 0; n < paths.size(); ++n) {
+    velocity[n] = velocities_of(paths[n]);
+    acceleration[n] = paths[n].acceleration;
+  }
   for (std::size_t n = 0; n < paths.size(); ++n) {
     if (std::ranges::count(group, group[n]) < 2 || s.bodies[n].motion != Motion::free) continue;
     paths[n].bends = true;
     for (std::size_t m = 0; m < paths.size(); ++m) {
       if (group[m] != group[n]) continue;
-      paths[n].velocity = hull(paths[n].velocity, velocity[m]),
+      paths[n].velocity = hull(paths[n].velocity, velocity[m]);
       paths[n].acceleration = hull(paths[n].acceleration, acceleration[m]);
-      paths[n].spread = std::max(paths[n].spread, paths[m].spread), paths[n].lost = std::min(paths[n].lost, paths[m].lost);
+      paths[n].spread = std::max(paths[n].spread, paths[m].spread);
+      paths[n].lost = std::min(paths[n].lost, paths[m].lost);
     }
   }
 }
@@ -186,7 +193,10 @@ bool near(const Scene& s, std::size_t axis, const Bounds& a, const Bounds& b, Ra
 bool meet(const Scene& s, const Path& a, const Path& b, double until) {
   if (until > a.lost || until > b.lost) return true;
   Box v, g;
-  for (std::size_t k = 0; k < 3; ++k) v[k] = a.velocity[k] - b.velocity[k], g[k] = a.acceleration[k] - b.acceleration[k];
+  for (std::size_t k = 0; k < 3; ++k) {
+    v[k] = a.velocity[k] - b.velocity[k];
+    g[k] = a.acceleration[k] - b.acceleration[k];
+  }
   const double spread = a.spread + b.spread;
   const bool still =
       size(v) == 0.0 && size(g) == 0.0 && spread == 0.0 && a.keyframes.empty() && b.keyframes.empty() && !a.turns && !b.turns;

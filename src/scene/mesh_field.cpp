@@ -22,7 +22,8 @@ TripointMeshField* tripoint_mesh_field_make(const double* points, std::size_t po
     openvdb::initialize();
     std::vector<openvdb::Vec3s> corners;
     std::vector<openvdb::Vec3I> faces;
-    corners.reserve(point_count), faces.reserve(triangle_count);
+    corners.reserve(point_count);
+    faces.reserve(triangle_count);
     for (std::size_t i = 0; i < 3 * point_count; i += 3)
       corners.emplace_back(static_cast<float>(points[i]), static_cast<float>(points[i + 1]), static_cast<float>(points[i + 2]));
     for (std::size_t i = 0; i < 3 * triangle_count; i += 3) faces.emplace_back(triangles[i], triangles[i + 1], triangles[i + 2]);

@@ -31,8 +31,10 @@ struct Module {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
       if (function == nullptr) failure = fmt::format("it has no function {}", name);
     };
-    find(make, "tripoint_mesh_field_make"), find(free, "tripoint_mesh_field_free");
-    find(deepest, "tripoint_mesh_field_deepest"), find(at, "tripoint_mesh_field_at");
+    find(make, "tripoint_mesh_field_make");
+    find(free, "tripoint_mesh_field_free");
+    find(deepest, "tripoint_mesh_field_deepest");
+    find(at, "tripoint_mesh_field_at");
   }
 };
 
@@ -57,7 +59,8 @@ MeshInterior::MeshInterior(const Mesh& mesh, double voxel, const std::string& fi
     throw InputError({file, 0, 0}, fmt::format("the part of the program that reads meshes cannot be loaded: {}", vdb.failure));
   std::vector<double> points;
   std::vector<std::uint32_t> triangles;
-  points.reserve(3 * mesh.points.size()), triangles.reserve(3 * mesh.triangles.size());
+  points.reserve(3 * mesh.points.size());
+  triangles.reserve(3 * mesh.triangles.size());
   for (const auto& p : mesh.points) points.insert(points.end(), {p.x, p.y, p.z});
   for (const auto& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
   TripointMeshField* field = vdb.make(points.data(), mesh.points.size(), triangles.data(), mesh.triangles.size(), voxel);

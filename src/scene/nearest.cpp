@@ -32,7 +32,10 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   std::size_t least = std::max<std::size_t>(word.size() / 2, 1) + 1;
   for (const auto& k : known) {
     const auto d = distance(word, k);
-    if (d < least) least = d, best = k;
+    if (d < least) {
+      least = d;
+      best = k;
+    }
   }
   return best;
 }

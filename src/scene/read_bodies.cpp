@@ -85,7 +85,8 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
     for (const auto& m : materials) known.push_back(m.name);
     in.refuse("material", fmt::format("no material is named \"{}\"{}", printable(b.material), suggestion(b.material, known)));
   }
-  read("shape"), read("temperature");
+  read("shape");
+  read("temperature");
   if (read("phase")) {
     const auto [found, why] = phase_rule(*material, b.temperature);
     b.phase = found;
@@ -100,7 +101,8 @@ Body read_body(const TomlNode& node, const std::vector<Material>& materials, Rea
   for (const char* key : {"velocity", "angular_velocity", "temperature_held"}) read(key);
   if (b.temperature_held && !b.temperature)
     in.refuse("temperature_held", "no temperature is given to hold: give temperature too");
-  read("motion"), read("keyframes");
+  read("motion");
+  read("keyframes");
   if (!b.keyframes.empty() && (in.has("velocity") || in.has("angular_velocity")))
     in.refuse(in.has("velocity") ? "velocity" : "angular_velocity",
               "the keyframes of the body give its velocities: remove it, or the keyframes");
@@ -167,10 +169,18 @@ Event read_event(const TomlNode& node, std::size_t number, Reading& reading) {
   };
   if (e.kind == Event::Kind::merge && e.bodies.size() < 2)
     in.refuse("bodies", "a merge needs at least two bodies: name another one, which bodies[0] absorbs, or remove the event");
-  if (e.kind == Event::Kind::split) needs(e.region.has_value(), "region"), needs(!e.name.empty(), "name");
-  if (e.kind == Event::Kind::heat)
-    needs(e.temperature.has_value(), "temperature"), needs(e.region || !e.bodies.empty(), "region` or `bodies");
-  if (e.kind == Event::Kind::grip) needs(e.region.has_value(), "region"), needs(!e.keyframes.empty(), "keyframes");
+  if (e.kind == Event::Kind::split) {
+    needs(e.region.has_value(), "region");
+    needs(!e.name.empty(), "name");
+  }
+  if (e.kind == Event::Kind::heat) {
+    needs(e.temperature.has_value(), "temperature");
+    needs(e.region || !e.bodies.empty(), "region` or `bodies");
+  }
+  if (e.kind == Event::Kind::grip) {
+    needs(e.region.has_value(), "region");
+    needs(!e.keyframes.empty(), "keyframes");
+  }
   if (e.kind == Event::Kind::hold) needs(!e.bodies.empty(), "bodies");
   if (e.kind == Event::Kind::release) needs(!e.bodies.empty(), "bodies");
   refuse_keys_of_others(in, kind);
@@ -185,7 +195,10 @@ Inflow read_inflow(const TomlNode& node, std::size_t number, double end_time, Re
   TableReader in(node, "inflow", fmt::format("inflow.{}", number), reading.decisions);
   Inflow f;
   RecordReader(in, f, reading).all([&](std::string_view key) {
-    if (key == "stop") f.stop = end_time, in.ruled("stop", show(end_time), "end_time");
+    if (key == "stop") {
+      f.stop = end_time;
+      in.ruled("stop", show(end_time), "end_time");
+    }
   });
   if (!(norm(f.velocity) > 0.0))
     in.refuse("velocity", "nothing flows in at rest: give a velocity, its direction serves where rate is given");

@@ -55,7 +55,9 @@ void check_domain(const TableReader& in, const Scene& s) {
 
 /// [scene], but for spacing, which its bodies decide where it is not given.
 void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Reading& reading) {
-  read("end_time"), read("gravity"), read("mode");
+  read("end_time");
+  read("gravity");
+  read("mode");
   read_modes(in, s);
   read_clamp(in, s);
   read("time_step");
@@ -64,8 +66,11 @@ void read_scene_table(TableReader& in, Scene& s, RecordReader<Scene>& read, Read
   if (s.time_step && s.end_time > most_steps * *s.time_step)
     in.refuse("time_step", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made; lengthen it",
                                        *s.time_step, s.end_time / *s.time_step, s.end_time, most_steps));
-  read("seed"), read("jitter");
-  read("min"), read("max"), read("periodic");
+  read("seed");
+  read("jitter");
+  read("min");
+  read("max");
+  read("periodic");
   check_domain(in, s);
   if (read("output_interval"))
     in.ruled("output_interval", show(s.output_interval = s.end_time / 20.0), "a twentieth of end_time");
@@ -113,7 +118,10 @@ void resolve_spacing(TableReader& in, Scene& s, RecordReader<Scene>& read) {
   for (const auto& b : s.bodies) {
     const Vec3 e = bounds(b.shape).extent();
     for (std::size_t a = 0; a < 3; ++a)
-      if (e[a] < least) least = e[a], which = b.name;
+      if (e[a] < least) {
+        least = e[a];
+        which = b.name;
+      }
   }
   if (!std::isfinite(least) || !(least > 0.0))
     in.refuse("spacing", "no body has a finite extent to take a tenth of: give scene.spacing");

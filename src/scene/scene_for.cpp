@@ -17,9 +17,10 @@ Scene scene_for(Scene s, const RunChoice& choice) {
   if (choice.time_step) s.time_step = *choice.time_step;
   if (choice.jitter) s.jitter = *choice.jitter;
   if (choice.seed) s.seed = *choice.seed;
-  if (choice.support_ratio)
-    s.support_ratio = *choice.support_ratio, s.support_ratio_given = true;
-  else if (!s.support_ratio_given)
+  if (choice.support_ratio) {
+    s.support_ratio = *choice.support_ratio;
+    s.support_ratio_given = true;
+  } else if (!s.support_ratio_given)
     s.support_ratio = s.default_support_ratio();
   if (!s.merge_distance_given) s.merge_distance = default_merge_distance(s);
   if (const auto stiffness = default_stiffness(s)) {

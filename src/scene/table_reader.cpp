@@ -22,27 +22,34 @@ TomlNode fallback_value(const Key& row) {
   TomlNode n;
   const auto text = row.fallback;
   if (text == "true" || text == "false") {
-    n.kind = Kind::boolean, n.flag = text == "true";
+    n.kind = Kind::boolean;
+    n.flag = text == "true";
   } else if (text.starts_with('"')) {
-    n.kind = Kind::text, n.text = text.substr(1, text.size() - 2);
+    n.kind = Kind::text;
+    n.text = text.substr(1, text.size() - 2);
   } else if (text.starts_with('[')) {
     n.kind = Kind::array;
     std::string plain(text.substr(1, text.size() - 2));
     std::replace(plain.begin(), plain.end(), ',', ' ');
     for (const auto& word : split_words(plain)) {
       TomlNode item;
-      if (word.starts_with('"'))
-        item.kind = Kind::text, item.text = word.substr(1, word.size() - 2);
-      else
-        item.kind = Kind::real, item.real = std::stod(word);
+      if (word.starts_with('"')) {
+        item.kind = Kind::text;
+        item.text = word.substr(1, word.size() - 2);
+      } else {
+        item.kind = Kind::real;
+        item.real = std::stod(word);
+      }
       n.items.push_back(item);
     }
   } else if (text == "{}") {
     n.kind = Kind::table;
   } else if (row.type == ValueType::integer) {
-    n.kind = Kind::integer, n.integer = std::stol(std::string(text));
+    n.kind = Kind::integer;
+    n.integer = std::stol(std::string(text));
   } else {
-    n.kind = Kind::real, n.real = std::stod(std::string(text));
+    n.kind = Kind::real;
+    n.real = std::stod(std::string(text));
   }
   return n;
 }
@@ -125,11 +132,13 @@ TableReader::Found TableReader::find(std::string_view key) const {
 
 void TableReader::record(const Found& f, std::string value) {
   Decision d{path_of(f.row->name), std::move(value), "", f.from_case, {}};
-  if (f.from_case)
-    d.reason = "given", d.place = f.value->place;
-  else if (f.value)
-    d.reason = library_reason_, d.place = f.value->place;
-  else
+  if (f.from_case) {
+    d.reason = "given";
+    d.place = f.value->place;
+  } else if (f.value) {
+    d.reason = library_reason_;
+    d.place = f.value->place;
+  } else
     d.reason = f.row->note;
   decisions_.push_back(std::move(d));
 }

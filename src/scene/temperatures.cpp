@@ -9,7 +9,8 @@ namespace tripoint {
 namespace {
 
 void add(TemperatureRange& range, double T) {
-  range.least = std::min(range.least, T), range.greatest = std::max(range.greatest, T);
+  range.least = std::min(range.least, T);
+  range.greatest = std::max(range.greatest, T);
 }
 
 void add(TemperatureRange& range, const TemperatureField& f) {
@@ -17,11 +18,14 @@ void add(TemperatureRange& range, const TemperatureField& f) {
     case TemperatureField::Kind::constant:
       return add(range, f.value);
     case TemperatureField::Kind::cosine:
-      return add(range, f.mean - std::abs(f.amplitude)), add(range, f.mean + std::abs(f.amplitude));
+      add(range, f.mean - std::abs(f.amplitude));
+      return add(range, f.mean + std::abs(f.amplitude));
     case TemperatureField::Kind::step:
-      return add(range, f.behind), add(range, f.ahead);
+      add(range, f.behind);
+      return add(range, f.ahead);
     case TemperatureField::Kind::expression:
-      return add(range, 0.0), add(range, INFINITY);  // anything
+      add(range, 0.0);
+      return add(range, INFINITY);  // anything
   }
 }
 

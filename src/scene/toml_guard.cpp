@@ -79,7 +79,10 @@ class Scanner {
   }
 
   void comment() {
-    while (at_ < text_.size() && text_[at_] != '\n') control(text_[at_]), ++at_;
+    while (at_ < text_.size() && text_[at_] != '\n') {
+      control(text_[at_]);
+      ++at_;
+    }
   }
 
   void string(char quote) {

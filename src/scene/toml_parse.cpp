@@ -60,16 +60,20 @@ TomlNode convert(const toml::node& from, const std::string& file) {
       for (const auto& item : *from.as_array()) to.items.push_back(convert(item, file));
       break;
     case toml::node_type::string:
-      to.kind = TomlNode::Kind::text, to.text = from.as_string()->get();
+      to.kind = TomlNode::Kind::text;
+      to.text = from.as_string()->get();
       break;
     case toml::node_type::integer:
-      to.kind = TomlNode::Kind::integer, to.integer = from.as_integer()->get();
+      to.kind = TomlNode::Kind::integer;
+      to.integer = from.as_integer()->get();
       break;
     case toml::node_type::floating_point:
-      to.kind = TomlNode::Kind::real, to.real = from.as_floating_point()->get();
+      to.kind = TomlNode::Kind::real;
+      to.real = from.as_floating_point()->get();
       break;
     case toml::node_type::boolean:
-      to.kind = TomlNode::Kind::boolean, to.flag = from.as_boolean()->get();
+      to.kind = TomlNode::Kind::boolean;
+      to.flag = from.as_boolean()->get();
       break;
     default:
       to.kind = TomlNode::Kind::date;

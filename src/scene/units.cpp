@@ -65,7 +65,10 @@ Unit named(std::string_view name) {
 
 void multiply(Unit& into, Unit factor, int power) {
   if (power < 0) std::swap(factor.numerator, factor.denominator);
-  for (int i = 0; i < std::abs(power); ++i) into.numerator *= factor.numerator, into.denominator *= factor.denominator;
+  for (int i = 0; i < std::abs(power); ++i) {
+    into.numerator *= factor.numerator;
+    into.denominator *= factor.denominator;
+  }
   for (std::size_t i = 0; i < 4; ++i) into.dimension[i] += power * factor.dimension[i];
 }
 

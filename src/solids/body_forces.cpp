@@ -98,7 +98,10 @@ void add_over_halo(const World& world, const std::vector<char>& asked, std::vect
   if (!world.halo || sums.empty()) return;
   const std::vector<double> told = world.halo->all_of(told_members(world, asked, sums));
   const std::vector<Felt> felt = felt_forces(world);
-  for (BodyForces& sum : sums) sum.forces = {}, sum.torques = {};
+  for (BodyForces& sum : sums) {
+    sum.forces = {};
+    sum.torques = {};
+  }
   for (const double* from : records_in_order(told, 2 + 6 * felt.size())) {
     BodyForces& sum = sums[static_cast<std::size_t>(from[1])];
     from += 2;

@@ -147,7 +147,10 @@ void connect_solids(World& world) {
       const Vec3 x = separation(world, j, i);
       const double r = norm(x);
       const bool bonded = r < reach;
-      if (bonded) bonds.push_back(bond_of(kernel, x)), bonds.back().other = found.ids[other];
+      if (bonded) {
+        bonds.push_back(bond_of(kernel, x));
+        bonds.back().other = found.ids[other];
+      }
       if (meets && !mates && (bonded || !paper)) own.push_back({found.ids[other], paper ? 0.0 : own_weight(world.scene, r)});
     }
     std::ranges::sort(bonds, {}, &Bond::other);

@@ -111,7 +111,8 @@ inline void give_heat(World& world, std::size_t row, double joules) {
     T = settled(fusion, temperature_at(fusion, H / capacity, f), f).temperature;
   } else {
     const ThermalState state = settled(fusion, T + joules / capacity, f);
-    T = state.temperature, f = state.liquid_fraction;
+    T = state.temperature;
+    f = state.liquid_fraction;
   }
 }
 

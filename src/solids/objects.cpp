@@ -38,7 +38,8 @@ class Sets {
   }
   /// The lowest node is the root. Two driven bodies stay two.
   void unite(std::uint32_t a, std::uint32_t b) {
-    a = root(a), b = root(b);
+    a = root(a);
+    b = root(b);
     if (a == b || (driven_[a] >= 0 && driven_[b] >= 0 && driven_[a] != driven_[b])) return;
     if (b < a) std::swap(a, b);
     parent_[b] = a;
@@ -208,7 +209,10 @@ void Grouping::end_pairs(const BeforeRelisting& before) {
     for (const Bond& bond : world_.bonds.of(node.id)) {
       const int other = holder(bond.other);
       if (other == own || other == -1) continue;
-      if (norm(bond.x) < joins) joints.insert({own, other}), joints.insert({other, own});
+      if (norm(bond.x) < joins) {
+        joints.insert({own, other});
+        joints.insert({other, own});
+      }
       across.emplace_back(node.id, bond.other);
     }
   }

@@ -130,7 +130,12 @@ struct SymmetricColumns {
   std::span<T> xx, yy, zz, yz, xz, xy;
   [[nodiscard]] Symmetric at(std::size_t row) const { return {xx[row], yy[row], zz[row], yz[row], xz[row], xy[row]}; }
   void set(std::size_t row, const Symmetric& e) const {
-    xx[row] = e.xx, yy[row] = e.yy, zz[row] = e.zz, yz[row] = e.yz, xz[row] = e.xz, xy[row] = e.xy;
+    xx[row] = e.xx;
+    yy[row] = e.yy;
+    zz[row] = e.zz;
+    yz[row] = e.yz;
+    xz[row] = e.xz;
+    xy[row] = e.xy;
   }
 };
 template <class P>

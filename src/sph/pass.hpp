@@ -112,7 +112,10 @@ struct FieldsOf {
   static constexpr std::array<const Field<double>*, reads + adds> list = [] {
     std::array<const Field<double>*, reads + adds> all{};
     std::size_t n = 0;
-    while (n < reads) all[n] = unique.list[n], ++n;
+    while (n < reads) {
+      all[n] = unique.list[n];
+      ++n;
+    }
     const auto take = [&](const auto& some) {
       for (const Field<double>* f : some) all[n++] = f;
     };
@@ -205,7 +208,9 @@ template <int L, class ForUnit, bool finds, class... Terms>
       V dx = t.x[row_j] - xi, dy = t.y[row_j] - yi, dz = t.z[row_j] - zi;
       if (entry.image() != Entry::box_itself) [[unlikely]] {
         const Vec3& s = t.shift[entry.image()];
-        dx += s.x, dy += s.y, dz += s.z;
+        dx += s.x;
+        dy += s.y;
+        dz += s.z;
       }
       const V r2 = dx * dx + dy * dy + dz * dz;
       // What is within the support is near: nothing has moved by more than half the skin. But for a member, which is not near to

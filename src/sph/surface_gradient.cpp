@@ -27,7 +27,10 @@ bool at_surface(std::span<const GradientPoint> points) {
   constexpr double round_off = 1e-9;
   Vec3 inward;
   double size = 0.0;
-  for (const GradientPoint& p : points) inward += p.weight * p.x, size += p.weight * norm(p.x);
+  for (const GradientPoint& p : points) {
+    inward += p.weight * p.x;
+    size += p.weight * norm(p.x);
+  }
   const double length = norm(inward);
   if (length <= round_off * size) return false;
   return std::ranges::none_of(points,

@@ -263,7 +263,8 @@ void Simulation::restore(const Checkpoint& kept) {
   restore_bodies(world_, kept);
   const std::vector<double>& lagged = take(kept.real, "step/lagged", 3);
   const std::vector<double>& guards = take(kept.real, "step/guards", 2);
-  guards_.turned_over = guards[0], guards_.first_step = guards[1];
+  guards_.turned_over = guards[0];
+  guards_.first_step = guards[1];
   world_.lagged = {lagged[0], lagged[1], static_cast<int>(lagged[2])};
   if (options_.halo) sharing_.follow(world_, effects_);
 }

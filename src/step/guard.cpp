@@ -73,7 +73,10 @@ std::size_t fastest(const World& world) {
   double most = -1.0;
   std::size_t row = 0;
   for (std::size_t i = 0; i < m.size(); ++i)
-    if (const double e = m[i] * dot(v.at(i), v.at(i)); e > most) most = e, row = i;
+    if (const double e = m[i] * dot(v.at(i), v.at(i)); e > most) {
+      most = e;
+      row = i;
+    }
   return row;
 }
 

@@ -70,8 +70,11 @@ void Recovery::restore(const Checkpoint& kept) {
   const auto last = kept.text.find("good/last");
   if (step == kept.real.end() || step->second.size() != 4 || last == kept.text.end() || last->second.size() != 1)
     throw InputError("the checkpoint lacks the good states of a scene that recovers");
-  share_ = step->second[0], failed_at_ = step->second[1], count_ = static_cast<long>(step->second[2]),
-  good_ = static_cast<long>(step->second[3]), last_ = last->second[0];
+  share_ = step->second[0];
+  failed_at_ = step->second[1];
+  count_ = static_cast<long>(step->second[2]);
+  good_ = static_cast<long>(step->second[3]);
+  last_ = last->second[0];
   older_ = take(kept, older_prefix);
   newer_ = take(kept, newer_prefix);
 }

@@ -26,16 +26,20 @@ Scene still_scene(Scene s) {
   s.set_all_modes(Mode::corrected);
   if (!s.support_ratio_given) s.support_ratio = s.default_support_ratio();
   s.time_step.reset();
-  s.transport_velocity = false, s.recovers = false;
-  s.events.clear(), s.inflows.clear();
+  s.transport_velocity = false;
+  s.recovers = false;
+  s.events.clear();
+  s.inflows.clear();
   for (Material& m : s.materials) m.viscosity = 0.0;
   for (Body& b : s.bodies) {
-    b.temperature.reset(), b.temperature_held = false;
+    b.temperature.reset();
+    b.temperature_held = false;
     if (b.phase == Phase::liquid) continue;
     if (b.motion == Motion::free)
       throw InputError(b.place, "settle = true needs solids that stand or are led, and body \"" + b.name +
                                     "\" is free: lay it into the liquid at rest, or leave settle out");
-    b.motion = Motion::fixed, b.keyframes.clear();
+    b.motion = Motion::fixed;
+    b.keyframes.clear();
   }
   return s;
 }
@@ -46,7 +50,8 @@ double depth(const Scene& s, const InitialState& at) {
   double least = HUGE_VAL, most = -HUGE_VAL;
   for (std::size_t i = 0; i < at.size(); ++i) {
     if (at.body[i] >= 0) continue;
-    least = std::min(least, dot(at.position[i], down)), most = std::max(most, dot(at.position[i], down));
+    least = std::min(least, dot(at.position[i], down));
+    most = std::max(most, dot(at.position[i], down));
   }
   return most - least + s.spacing;
 }

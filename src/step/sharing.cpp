@@ -54,13 +54,17 @@ Whole whole_of(const World& world, std::span<const Vec3> places, std::size_t par
   constexpr double none = std::numeric_limits<double>::infinity();
   Whole whole{{none, none, none}, {-none, -none, -none}, particles, {}};
   for (const Vec3& r : places)
-    for (std::size_t a = 0; a < 3; ++a)
-      whole.low[a] = std::min(whole.low[a], r[a]), whole.high[a] = std::max(whole.high[a], r[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      whole.low[a] = std::min(whole.low[a], r[a]);
+      whole.high[a] = std::max(whole.high[a], r[a]);
+    }
   const std::vector<double> all =
       world.halo->all_of({whole.low.x, whole.low.y, whole.low.z, whole.high.x, whole.high.y, whole.high.z});
   for (std::size_t k = 0; k < all.size(); k += 6)
-    for (std::size_t a = 0; a < 3; ++a)
-      whole.low[a] = std::min(whole.low[a], all[k + a]), whole.high[a] = std::max(whole.high[a], all[k + 3 + a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      whole.low[a] = std::min(whole.low[a], all[k + a]);
+      whole.high[a] = std::max(whole.high[a], all[k + 3 + a]);
+    }
   const std::span<const int> number = world.halo->numbers();
   whole.ids.resize(number.size());
   std::iota(whole.ids.begin(), whole.ids.end(), 0u);

@@ -76,7 +76,8 @@ Vec3 SurfaceProbe::gradient(const Vec3& r) {
   Vec3 g;
   for (std::size_t a = 0; a < 3; ++a) {
     Vec3 ahead = r, behind = r;
-    ahead[a] += d, behind[a] -= d;
+    ahead[a] += d;
+    behind[a] -= d;
     g[a] = (phi(ahead) - phi(behind)) / (2.0 * d);
   }
   return g;

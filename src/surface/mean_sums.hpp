@@ -37,9 +37,19 @@ template <class ForUnit>
     const V t = where<V>(inside > 0.0, inside);
     const V u = t * t, w_j = u * t;
     const V u_x = u * x, u_y = u * y, u_z = u * z;
-    w += w_j, wx += w_j * x, wy += w_j * y, wz += w_j * z;
-    ux += u_x, uy += u_y, uz += u_z;
-    uxx += u_x * x, uyy += u_y * y, uzz += u_z * z, uyz += u_y * z, uxz += u_x * z, uxy += u_x * y;
+    w += w_j;
+    wx += w_j * x;
+    wy += w_j * y;
+    wz += w_j * z;
+    ux += u_x;
+    uy += u_y;
+    uz += u_z;
+    uxx += u_x * x;
+    uyy += u_y * y;
+    uzz += u_z * z;
+    uyz += u_y * z;
+    uxz += u_x * z;
+    uxy += u_x * y;
   }
   MeanSums s;
   s.w = sum_of_lanes(w);

@@ -30,7 +30,10 @@ void save(const std::string& path, const std::string& bytes) {
 
 void write_ply(const std::string& path, const std::vector<SurfacePart>& parts) {
   std::size_t corners = 0, triangles = 0;
-  for (const SurfacePart& p : parts) corners += p.mesh.points.size(), triangles += p.mesh.triangles.size();
+  for (const SurfacePart& p : parts) {
+    corners += p.mesh.points.size();
+    triangles += p.mesh.triangles.size();
+  }
   std::string bytes = fmt::format(
       "ply\nformat binary_{}_endian 1.0\ncomment phi = 0 of particles; x y z in m, temperature in K; phase 0 liquid, 1 elastic, "
       "2 rigid\n"
@@ -43,8 +46,9 @@ void write_ply(const std::string& path, const std::vector<SurfacePart>& parts) {
     for (std::size_t i = 0; i < p.mesh.points.size(); ++i) {
       for (std::size_t a = 0; a < 3; ++a) append(bytes, p.mesh.points[i][a]);
       append(bytes, static_cast<float>(p.temperature.empty() ? not_a_number : p.temperature[i]));
-      append(bytes, static_cast<std::int32_t>(p.phase[i])), append(bytes, static_cast<std::int32_t>(p.body[i])),
-          append(bytes, static_cast<std::int32_t>(n));
+      append(bytes, static_cast<std::int32_t>(p.phase[i]));
+      append(bytes, static_cast<std::int32_t>(p.body[i]));
+      append(bytes, static_cast<std::int32_t>(n));
     }
   }
   std::uint32_t first = 0;

@@ -20,9 +20,11 @@ double distance2(const Points& p, std::uint32_t a, std::uint32_t b) { return (p[
 /// A quad is cut along its shorter diagonal.
 void append_quad(const Points& points, const openvdb::Vec4I& q, std::vector<std::array<std::uint32_t, 3>>& out) {
   if (distance2(points, q[0], q[2]) <= distance2(points, q[1], q[3])) {
-    out.push_back({q[0], q[1], q[2]}), out.push_back({q[0], q[2], q[3]});
+    out.push_back({q[0], q[1], q[2]});
+    out.push_back({q[0], q[2], q[3]});
   } else {
-    out.push_back({q[0], q[1], q[3]}), out.push_back({q[1], q[2], q[3]});
+    out.push_back({q[0], q[1], q[3]});
+    out.push_back({q[1], q[2], q[3]});
   }
 }
 
@@ -51,7 +53,8 @@ TripointTriangles* tripoint_mesher_make(const std::int32_t* corners, const float
     for (std::size_t i = 0; i < points.size(); ++i)
       for (int a = 0; a < 3; ++a) places[3 * i + static_cast<std::size_t>(a)] = static_cast<double>(points[i][a]);
     for (std::size_t i = 0; i < faces.size(); ++i) std::copy(faces[i].begin(), faces[i].end(), corners_of.get() + 3 * i);
-    made->points = places.release(), made->triangles = corners_of.release();
+    made->points = places.release();
+    made->triangles = corners_of.release();
     return made.release();
   } catch (const std::exception&) {
     return nullptr;

@@ -31,7 +31,8 @@ struct Module {
       function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(library, name));
       if (function == nullptr) failure = std::string("it has no function ") + name;
     };
-    find(make, "tripoint_mesher_make"), find(free, "tripoint_mesher_free");
+    find(make, "tripoint_mesher_make");
+    find(free, "tripoint_mesher_free");
   }
 };
 
@@ -44,7 +45,8 @@ Mesh sign_changes(const std::vector<std::int32_t>& corners, const std::vector<fl
       loaded.make(corners.data(), values.data(), corners.size() / 3, outside), loaded.free);
   if (!made) throw EngineError("OpenVDB made no mesh of the surface (not enough memory?)");
   Mesh mesh;
-  mesh.points.reserve(made->point_count), mesh.triangles.reserve(made->triangle_count);
+  mesh.points.reserve(made->point_count);
+  mesh.triangles.reserve(made->triangle_count);
   for (std::size_t i = 0; i < made->point_count; ++i)
     mesh.points.push_back({made->points[3 * i], made->points[3 * i + 1], made->points[3 * i + 2]});
   for (std::size_t i = 0; i < made->triangle_count; ++i)

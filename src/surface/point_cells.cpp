@@ -24,7 +24,10 @@ Box box_around(std::span<const Vec3> points) noexcept {
   constexpr double most = std::numeric_limits<double>::max();
   Box b{{most, most, most}, {-most, -most, -most}};
   for (const Vec3& r : points)
-    for (std::size_t a = 0; a < 3; ++a) b.low[a] = std::min(b.low[a], r[a]), b.high[a] = std::max(b.high[a], r[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      b.low[a] = std::min(b.low[a], r[a]);
+      b.high[a] = std::max(b.high[a], r[a]);
+    }
   return b;
 }
 
@@ -41,9 +44,13 @@ PointCells::PointCells(std::span<const Vec3> points, double side) : side_(side),
   for (const auto& [key, row] : order) {
     if (keys_.empty() || keys_.back() != key) {
       table_.insert(key, static_cast<std::uint32_t>(keys_.size()));
-      keys_.push_back(key), first_.push_back(static_cast<std::uint32_t>(row_.size()));
+      keys_.push_back(key);
+      first_.push_back(static_cast<std::uint32_t>(row_.size()));
     }
-    x_.push_back(points[row].x), y_.push_back(points[row].y), z_.push_back(points[row].z), row_.push_back(row);
+    x_.push_back(points[row].x);
+    y_.push_back(points[row].y);
+    z_.push_back(points[row].z);
+    row_.push_back(row);
   }
   first_.push_back(static_cast<std::uint32_t>(row_.size()));
 }
@@ -61,7 +68,10 @@ Box PointCells::box_of(const CellIndex& c) const noexcept {
 }
 
 void PointCells::gather(const CellIndex& c, double reach, NearPoints& out) const {
-  out.x.clear(), out.y.clear(), out.z.clear(), out.row.clear();
+  out.x.clear();
+  out.y.clear();
+  out.z.clear();
+  out.row.clear();
   const int rings = static_cast<int>(std::ceil(reach / side_));
   const Box b = box_of(c);
   for (int i = -rings; i <= rings; ++i)
@@ -73,10 +83,17 @@ void PointCells::gather(const CellIndex& c, double reach, NearPoints& out) const
           const double dx = outside(x_[n], b.low.x, b.high.x), dy = outside(y_[n], b.low.y, b.high.y),
                        dz = outside(z_[n], b.low.z, b.high.z);
           if (dx * dx + dy * dy + dz * dz >= reach * reach) continue;
-          out.x.push_back(x_[n]), out.y.push_back(y_[n]), out.z.push_back(z_[n]), out.row.push_back(row_[n]);
+          out.x.push_back(x_[n]);
+          out.y.push_back(y_[n]);
+          out.z.push_back(z_[n]);
+          out.row.push_back(row_[n]);
         }
       }
-  while (out.x.size() % vector_width != 0) out.x.push_back(far_away), out.y.push_back(far_away), out.z.push_back(far_away);
+  while (out.x.size() % vector_width != 0) {
+    out.x.push_back(far_away);
+    out.y.push_back(far_away);
+    out.z.push_back(far_away);
+  }
 }
 
 const NearPoints& NearCache::around(const Vec3& r) {
@@ -84,7 +101,8 @@ const NearPoints& NearCache::around(const Vec3& r) {
   Entry& entry = entries_[static_cast<std::size_t>(CellTable::key(c) * 0x9e3779b97f4a7c15ULL >> 54) % slots];
   if (!entry.filled || entry.cell != c) {
     cells_->gather(c, reach_, entry.points);
-    entry.cell = c, entry.filled = true;
+    entry.cell = c;
+    entry.filled = true;
   }
   return entry.points;
 }

@@ -29,7 +29,8 @@ struct Samples {
 /// Blocks that hold a point within ir of a particle.
 Samples blocks_of(const ImplicitSurface& surface, double voxel) {
   Samples s;
-  s.voxel = voxel, s.origin = surface.bounds().low;
+  s.voxel = voxel;
+  s.origin = surface.bounds().low;
   const double ir = surface.options().influence_radius, side = block * voxel;
   CellTable known(surface.near_cells().size());
   const Box all = surface.bounds();
@@ -81,7 +82,8 @@ Vec3 onto_surface(SurfaceProbe& probe, const Vec3& start, double voxel, double d
     const Vec3 next = r - (phi / g2) * g;
     const double then = probe.phi(next);
     if (norm(next - start) > 0.5 * voxel || !(std::abs(then) < std::abs(phi))) break;
-    r = next, phi = then;
+    r = next;
+    phi = then;
   }
   return r;
 }
@@ -122,7 +124,10 @@ std::vector<double> mean_at(const ImplicitSurface& surface, std::span<const Vec3
     for (std::size_t i = 0; i < places.size(); ++i) {
       double sum = 0.0, weights = 0.0;
       probe.weigh(places[i], [&](std::uint32_t row, double w) {
-        if (std::isfinite(values[row])) sum += w * values[row], weights += w;
+        if (std::isfinite(values[row])) {
+          sum += w * values[row];
+          weights += w;
+        }
       });
       if (weights > 0.0) out[i] = sum / weights;
     }
@@ -143,7 +148,10 @@ std::vector<int> label_at(const ImplicitSurface& surface, std::span<const Vec3> 
       probe.weigh(places[i], [&](std::uint32_t row, double w) { weight[labels[row]] += w; });
       double most = 0.0;
       for (const auto& [label, w] : weight)
-        if (w > most) most = w, out[i] = label;
+        if (w > most) {
+          most = w;
+          out[i] = label;
+        }
     }
   }
   return out;
@@ -169,13 +177,17 @@ MeshMeasures measures_of(const Mesh& mesh) {
     while (end < edges.size() && edges[end] >> 1 == edges[i] >> 1) ++end;
     const bool once_each_way = end - i == 2 && (edges[i] & 1U) == 0 && (edges[i + 1] & 1U) == 1;
     m.open_edges += once_each_way ? 0 : 1;
-    ++count, i = end;
+    ++count;
+    i = end;
   }
   std::vector<char> used(mesh.points.size(), 0);
   for (const auto& t : mesh.triangles)
     for (const std::uint32_t c : t) used[c] = 1;
   long corners = 0;
-  for (std::uint32_t i = 0; i < parent.size(); ++i) corners += used[i], m.pieces += used[i] != 0 && root_of(parent, i) == i;
+  for (std::uint32_t i = 0; i < parent.size(); ++i) {
+    corners += used[i];
+    m.pieces += used[i] != 0 && root_of(parent, i) == i;
+  }
   m.euler = corners - count + static_cast<long>(mesh.triangles.size());
   return m;
 }

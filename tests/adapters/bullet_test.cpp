@@ -111,7 +111,8 @@ Prepared two_tumbling() {
 TEST(Bullet, MergesWithTheMomentaOfBoth) {
   Prepared p = two_tumbling();
   Event merge;
-  merge.time = 0.01, merge.bodies = {"cube", "bar"};
+  merge.time = 0.01;
+  merge.bodies = {"cube", "bar"};
   BulletEngine apart, joined;
   apart.load(p.job, p.initial);
   p.job.scene.events = {merge};
@@ -129,9 +130,12 @@ TEST(Bullet, MergesWithTheMomentaOfBoth) {
 TEST(Bullet, SplitsWithoutLosingMomentumOrEnergy) {
   Prepared p = test::block({{0.3, 0, 0}, {1, 2, 3}}, {}, 0.02, 2, 1e-3);
   Event split;
-  split.kind = Event::Kind::split, split.time = 0.01, split.name = "piece";
+  split.kind = Event::Kind::split;
+  split.time = 0.01;
+  split.name = "piece";
   split.region = Shape{};
-  split.region->kind = Shape::Kind::half_space, split.region->normal = {0, 0, 1};
+  split.region->kind = Shape::Kind::half_space;
+  split.region->normal = {0, 0, 1};
   BulletEngine whole, parted;
   whole.load(p.job, p.initial);
   p.job.scene.events = {split};
@@ -176,7 +180,8 @@ TEST(Bullet, KeepsACollinearBodyFinite) {
 /// A block of 4 x 4 x 2 on a floor.
 Prepared on_floor(double friction, const Vec3& velocity, const Vec3& gravity) {
   Scene s;
-  s.spacing = 0.1, s.gravity = gravity;
+  s.spacing = 0.1;
+  s.gravity = gravity;
   s.materials = {test::material(1000.0)};
   s.bodies = {test::rigid("block", test::box({0, -0.2, 0}, {0.4, 0.2, 0.2}), {velocity, {}}),
               test::rigid("floor", test::box({-1, -0.5, -0.2}, {3, 0.5, 0}), {}, Motion::fixed)};

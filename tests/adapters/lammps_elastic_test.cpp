@@ -18,7 +18,10 @@ constexpr double pi = 3.14159265358979323846;
 
 Body elastic(const std::string& name, const Shape& shape) {
   Body b;
-  b.name = name, b.material = "solid", b.phase = Phase::elastic, b.shape = shape;
+  b.name = name;
+  b.material = "solid";
+  b.phase = Phase::elastic;
+  b.shape = shape;
   return b;
 }
 
@@ -27,7 +30,8 @@ Scene bar() {
   Scene s;
   s.spacing = 5e-3;
   s.materials = {test::material(1000.0)};
-  s.materials[0].young_modulus = 1e5, s.materials[0].poisson_ratio = 0.3;
+  s.materials[0].young_modulus = 1e5;
+  s.materials[0].poisson_ratio = 0.3;
   s.bodies = {elastic("bar", test::box({}, {0.1, 0.02, 0.02}))};
   return s;
 }
@@ -36,7 +40,8 @@ TEST(LammpsElastic, SwingsLikeAThinBar) {
   NEEDS_THE_WHEEL();
   Scene s = bar();
   s.bodies[0].velocity.kind = VelocityField::Kind::cosine;
-  s.bodies[0].velocity.amplitude = {0.01, 0, 0}, s.bodies[0].velocity.wave_vector = {pi / 0.1, 0, 0};
+  s.bodies[0].velocity.amplitude = {0.01, 0, 0};
+  s.bodies[0].velocity.wave_vector = {pi / 0.1, 0, 0};
   const Prepared p = test::prepare(s, 0.02, 40);
   const Outcome out = test::run(wheel, p);
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
@@ -64,7 +69,8 @@ TEST(LammpsElastic, FliesFreelyWithItsSpin) {
   NEEDS_THE_WHEEL();
   Scene s = bar();
   s.gravity = {0, 0, -9.81};
-  s.bodies[0].velocity.value = {1, 0, 2}, s.bodies[0].angular_velocity = {0, 0.5, 0};
+  s.bodies[0].velocity.value = {1, 0, 2};
+  s.bodies[0].angular_velocity = {0, 0.5, 0};
   const Prepared p = test::prepare(s, 0.05, 1);
   const Outcome out = test::run(wheel, p);
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
@@ -98,7 +104,8 @@ TEST(LammpsElastic, FollowsDrivenEndsAndKeepsHeldOnes) {
 TEST(LammpsElastic, StandsForAllLayersOfABarInPlaneStrain) {
   NEEDS_THE_WHEEL();
   Scene s = bar();
-  s.min = Vec3{-0.1, -0.1, 0}, s.max = Vec3{0.2, 0.1, 0.02};
+  s.min = Vec3{-0.1, -0.1, 0};
+  s.max = Vec3{0.2, 0.1, 0.02};
   s.periodic = {false, false, true};
   s.bodies.push_back(test::rigid("foot", test::box({-0.015, 0, 0}, {0, 0.02, 0.02}), {}, Motion::fixed));
   s.bodies.push_back(test::rigid("grip", test::box({0.1, 0, 0}, {0.115, 0.02, 0.02}), {}, Motion::prescribed));
@@ -142,11 +149,17 @@ TEST(LammpsElastic, SaysWhatItCannotRun) {
   refused([](Scene& s) { s.materials[0].fracture_stretch = 1.1; }, "yields or breaks");
   refused([](Scene& s) { s.events.resize(1); }, "reference shape");
   const auto wrap = [](Scene& s, std::size_t k) {
-    s.min = Vec3{-1, -1, 0}, s.max = Vec3{1, 1, 0.02};
+    s.min = Vec3{-1, -1, 0};
+    s.max = Vec3{1, 1, 0.02};
     s.periodic[k] = true;
   };
   refused([&](Scene& s) { wrap(s, 0); }, "periodic image");
-  refused([&](Scene& s) { wrap(s, 2), s.jitter = 0.1; }, "jittered");
+  refused(
+      [&](Scene& s) {
+        wrap(s, 2);
+        s.jitter = 0.1;
+      },
+      "jittered");
   refused([](Scene& s) { s.mode = Mode::paper; }, "paper");
 }
 

@@ -19,7 +19,10 @@ constexpr double pi = 3.14159265358979323846;
 
 Body liquid(const Shape& shape) {
   Body b;
-  b.name = "liquid", b.material = "solid", b.phase = Phase::liquid, b.shape = shape;
+  b.name = "liquid";
+  b.material = "solid";
+  b.phase = Phase::liquid;
+  b.shape = shape;
   return b;
 }
 
@@ -28,13 +31,15 @@ Prepared wave(double end) {
   Scene s;
   s.spacing = 0.05;
   s.modes[term::clamp] = Mode::paper;
-  s.min = Vec3{}, s.max = Vec3{1.0, 0.3, 0.3};
+  s.min = Vec3{};
+  s.max = Vec3{1.0, 0.3, 0.3};
   s.periodic = {true, true, true};
   s.materials = {test::material(1000.0)};
   s.materials[0].stiffness = 100.0;
   s.bodies = {liquid(test::box({}, {1.0, 0.3, 0.3}))};
   s.bodies[0].velocity.kind = VelocityField::Kind::cosine;
-  s.bodies[0].velocity.amplitude = {0.01, 0, 0}, s.bodies[0].velocity.wave_vector = {2.0 * pi, 0, 0};
+  s.bodies[0].velocity.amplitude = {0.01, 0, 0};
+  s.bodies[0].velocity.wave_vector = {2.0 * pi, 0, 0};
   Prepared p = test::prepare(s, end, 2);
   p.job.settings["cutoff"] = 3.0;
   p.job.settings["time_step"] = 1e-4;
@@ -82,10 +87,12 @@ Scene column() {
   Scene s;
   s.spacing = 0.1;
   s.gravity = {0, 0, -9.81};
-  s.min = Vec3{0, 0, -1}, s.max = Vec3{0.6, 0.6, 2};
+  s.min = Vec3{0, 0, -1};
+  s.max = Vec3{0.6, 0.6, 2};
   s.periodic = {true, true, false};
   s.materials = {test::material(1000.0)};
-  s.materials[0].stiffness = 785.0, s.materials[0].viscosity = 300.0;
+  s.materials[0].stiffness = 785.0;
+  s.materials[0].viscosity = 300.0;
   s.bodies = {liquid(test::box({}, {0.6, 0.6, 0.8})),
               test::rigid("floor", test::box({0, 0, -0.3}, {0.6, 0.6, 0}), {}, Motion::fixed)};
   return s;
@@ -97,7 +104,10 @@ TEST(LammpsLiquid, FloorCarriesTheWeightOfTheColumn) {
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   double pressure = 0.0, count = 0.0;
   for (std::size_t n = 15; n <= 30; ++n)
-    for (std::size_t i = 0; i < 36; ++i) pressure += out.trajectory.frames[n].pressure[i], count += 1.0;
+    for (std::size_t i = 0; i < 36; ++i) {
+      pressure += out.trajectory.frames[n].pressure[i];
+      count += 1.0;
+    }
   EXPECT_NEAR(pressure / count / (1000.0 * 9.81 * 0.75), 1.0, 0.1)
       << "mean over the column's swings; the lowest layer begins at 0.75 m below the surface and sinks by some hundredths";
   EXPECT_LT(norm(out.result.readback.gravity - Vec3{0, 0, -9.81}), 1e-12) << "read from LAMMPS's forces";
@@ -120,7 +130,8 @@ TEST(LammpsLiquid, SaysWhatItCannotRun) {
   refused(
       [](Scene& s) {
         s.materials.push_back(s.materials[0]);
-        s.materials[1].name = "oil", s.materials[1].density = 500.0;
+        s.materials[1].name = "oil";
+        s.materials[1].density = 500.0;
         s.bodies.push_back(liquid(test::box({0, 0, 0.8}, {0.6, 0.6, 1.0})));
         s.bodies[2].name = s.bodies[2].material = "oil";
       },

@@ -23,7 +23,11 @@ TemperatureField at(double kelvin) {
 
 Body wax(const std::string& name, const Shape& shape) {
   Body b;
-  b.name = name, b.material = "wax", b.phase = Phase::elastic, b.shape = shape, b.temperature = at(300.0);
+  b.name = name;
+  b.material = "wax";
+  b.phase = Phase::elastic;
+  b.shape = shape;
+  b.temperature = at(300.0);
   return b;
 }
 
@@ -33,8 +37,15 @@ Scene scene() {
   s.spacing = 0.01;
   Material m = test::material(1000.0);
   m.name = "wax";
-  m.viscosity = 2.0, m.stiffness = 16.0, m.young_modulus = 8000.0, m.poisson_ratio = 0.25;
-  m.conductivity = 5000.0, m.heat_capacity = 1000.0, m.t_melt = m.t_solid = 330.0, m.latent_heat = 2e4, m.solid = "elastic";
+  m.viscosity = 2.0;
+  m.stiffness = 16.0;
+  m.young_modulus = 8000.0;
+  m.poisson_ratio = 0.25;
+  m.conductivity = 5000.0;
+  m.heat_capacity = 1000.0;
+  m.t_melt = m.t_solid = 330.0;
+  m.latent_heat = 2e4;
+  m.solid = "elastic";
   s.materials = {m};
   return s;
 }
@@ -42,7 +53,10 @@ Scene scene() {
 Event heat(const std::string& body, double kelvin, double from, double until) {
   Event e;
   e.kind = Event::Kind::heat;
-  e.bodies = {body}, e.temperature = kelvin, e.time = from, e.until = until;
+  e.bodies = {body};
+  e.temperature = kelvin;
+  e.time = from;
+  e.until = until;
   return e;
 }
 
@@ -57,15 +71,20 @@ TEST(LammpsPhase, MeltsABlockOnAHotFloorAndFreezesItThere) {
   NEEDS_THE_WHEEL();
   Scene s = scene();
   s.gravity = {0, 0, -1};
-  s.min = Vec3{0, 0, -1}, s.max = Vec3{0.04, 0.04, 1};
+  s.min = Vec3{0, 0, -1};
+  s.max = Vec3{0.04, 0.04, 1};
   s.periodic = {true, true, false};
   Material floor = s.materials[0];
-  floor.name = "floor", floor.t_melt.reset(), floor.t_solid.reset(), floor.latent_heat.reset();
+  floor.name = "floor";
+  floor.t_melt.reset();
+  floor.t_solid.reset();
+  floor.latent_heat.reset();
   s.materials.push_back(floor);
   for (Material& m : s.materials) m.conductivity = 1e4;
   s.bodies = {wax("block", test::box({}, {0.04, 0.04, 0.03})),
               test::rigid("floor", test::box({0, 0, -0.02}, {0.04, 0.04, 0}), {}, Motion::fixed)};
-  s.bodies[1].material = "floor", s.bodies[1].temperature = at(300.0);
+  s.bodies[1].material = "floor";
+  s.bodies[1].temperature = at(300.0);
   s.events = {heat("floor", 400.0, 0.0, 0.15), heat("floor", 250.0, 0.15, 0.3)};
   const Outcome out = test::run(wheel, test::prepare(s, 0.3, 12));
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
@@ -145,10 +164,16 @@ TEST(LammpsPhase, KeepsHeatWhileAHeldBarMelts) {
   NEEDS_THE_WHEEL();
   Scene s = scene();
   s.bodies = {wax("cold", test::box({}, {0.06, 0.03, 0.03})), wax("hot", test::box({0.06, 0, 0}, {0.12, 0.03, 0.03}))};
-  for (Body& b : s.bodies) b.phase = Phase::rigid, b.motion = Motion::fixed;
-  s.bodies[0].temperature = at(329.0), s.bodies[1].temperature = at(310.0);
+  for (Body& b : s.bodies) {
+    b.phase = Phase::rigid;
+    b.motion = Motion::fixed;
+  }
+  s.bodies[0].temperature = at(329.0);
+  s.bodies[1].temperature = at(310.0);
   s.bodies.push_back(wax("source", test::box({-0.03, 0, 0}, {0, 0.03, 0.03})));
-  s.bodies[2].phase = Phase::liquid, s.bodies[2].motion = Motion::fixed, s.bodies[2].temperature = at(400.0);
+  s.bodies[2].phase = Phase::liquid;
+  s.bodies[2].motion = Motion::fixed;
+  s.bodies[2].temperature = at(400.0);
   const Outcome out = test::run(wheel, test::prepare(s, 0.5, 2));
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   const Snapshot &first = out.trajectory.frames.front(), &last = out.trajectory.frames.back();
@@ -178,7 +203,12 @@ TEST(LammpsPhase, SaysWhatItCannotRun) {
         s.events[0].region->kind = Shape::Kind::cylinder;
       },
       "boxes and spheres");
-  refused([](Scene& s) { s.events.push_back(s.events[0]), s.events[1].kind = Event::Kind::grip; }, "heating only");
+  refused(
+      [](Scene& s) {
+        s.events.push_back(s.events[0]);
+        s.events[1].kind = Event::Kind::grip;
+      },
+      "heating only");
   refused([](Scene& s) { s.materials[0].plastic_limit = s.materials[0].elastic_limit = 0.1; }, "yields or breaks");
 }
 

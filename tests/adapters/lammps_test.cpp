@@ -125,7 +125,9 @@ TEST(Lammps, RunsOneThreadWhateverTheEnvironmentSays) {
 Prepared step(double walkers) {
   TemperatureField f;
   f.kind = TemperatureField::Kind::step;
-  f.point = {4e-3, 0, 0}, f.behind = 310.0, f.ahead = 300.0;
+  f.point = {4e-3, 0, 0};
+  f.behind = 310.0;
+  f.ahead = 300.0;
   Prepared p = test::bar(20, 10e-3, f, false, 2.0, 2);
   p.job.resolution.walkers = walkers;
   return p;
@@ -158,7 +160,10 @@ Fit fit(const Outcome& out, const Prepared& p) {
                  expected = (exact - 300.0) / unit;
     f.error += e * e / n;
     f.standard_error += s.temperature_error[i] * s.temperature_error[i] / n;
-    if (expected >= 10.0) f.chi2 += e * e / (unit * unit * expected), judged += 1.0;
+    if (expected >= 10.0) {
+      f.chi2 += e * e / (unit * unit * expected);
+      judged += 1.0;
+    }
   }
   return {std::sqrt(f.error), std::sqrt(f.standard_error), f.chi2 / judged};
 }
@@ -202,14 +207,18 @@ Prepared between_plates(const TemperatureField& start, std::optional<double> low
   Scene s = test::bar(20, length, start, false, end, 1).job.scene;
   const auto add = [&](const char* name, double from, double to, double T) {
     Body plate = s.bodies[0];
-    plate.name = name, plate.shape.min.x = from, plate.shape.max.x = to, plate.temperature_held = true;
+    plate.name = name;
+    plate.shape.min.x = from;
+    plate.shape.max.x = to;
+    plate.temperature_held = true;
     plate.temperature = TemperatureField{};
     plate.temperature->value = T;
     s.bodies.push_back(plate);
   };
   if (low) add("low", -1e-3, 0.0, *low);
   if (high) add("high", length, length + 1e-3, *high);
-  s.min->x = low ? -1e-3 : 0.0, s.max->x = length + (high ? 1e-3 : 0.0);
+  s.min->x = low ? -1e-3 : 0.0;
+  s.max->x = length + (high ? 1e-3 : 0.0);
   Prepared p = test::prepare(s, end, 1);
   p.job.resolution.walkers = 2e5;
   return p;
@@ -218,7 +227,10 @@ Prepared between_plates(const TemperatureField& start, std::optional<double> low
 TemperatureField sine(double k) {
   TemperatureField f;
   f.kind = TemperatureField::Kind::cosine;
-  f.mean = 300.0, f.amplitude = 10.0, f.wave_vector = {k, 0, 0}, f.phase = -0.5 * pi;
+  f.mean = 300.0;
+  f.amplitude = 10.0;
+  f.wave_vector = {k, 0, 0};
+  f.phase = -0.5 * pi;
   return f;
 }
 
@@ -227,8 +239,10 @@ double amplitude(const Outcome& out, const Prepared& p, double k) {
   const Snapshot& s = out.trajectory.frames.back();
   double sum = 0.0, squares = 0.0;
   for (std::size_t i = 0; i < p.initial.size(); ++i)
-    if (p.initial.source[i] == 0)
-      sum += (s.temperature[i] - 300.0) * std::sin(k * s.position[i].x), squares += std::pow(std::sin(k * s.position[i].x), 2);
+    if (p.initial.source[i] == 0) {
+      sum += (s.temperature[i] - 300.0) * std::sin(k * s.position[i].x);
+      squares += std::pow(std::sin(k * s.position[i].x), 2);
+    }
   return sum / squares;
 }
 
@@ -249,8 +263,10 @@ void expect_sine_between_plates(const std::string& engine, const std::string& co
   EXPECT_NEAR(amplitude(a, both, pi / length) / (10.0 * std::exp(-D * std::pow(pi / length, 2) * 10.0)), 1.0, 0.025);
   EXPECT_NEAR(amplitude(b, low, 0.5 * pi / length) / (10.0 * std::exp(-D * std::pow(0.5 * pi / length, 2) * 40.0)), 1.0, 0.025);
   double mean_low = 0.0, mean_high = 0.0;
-  for (std::size_t i = 0; i < low.initial.size(); ++i)
-    mean_low += b.trajectory.frames.back().temperature[i], mean_high += c.trajectory.frames.back().temperature[i];
+  for (std::size_t i = 0; i < low.initial.size(); ++i) {
+    mean_low += b.trajectory.frames.back().temperature[i];
+    mean_high += c.trajectory.frames.back().temperature[i];
+  }
   EXPECT_NEAR(mean_low / mean_high, 1.0, 2e-4) << "mirrored: 0.06 K of 300";
   const double measured = a.result.extra.at("diffusivity"), error = a.result.extra.at("diffusivity_error");
   EXPECT_LT(error, 0.0025 * D);
@@ -287,7 +303,8 @@ TEST(LammpsWalkers, BetweenEndsOfTwoTemperaturesSignedWalkersFindTheSeries) {
     double exact = 290.0 + 20.0 * s.position[i].x / length;
     for (int n = 2; n <= 40; n += 2)
       exact += 40.0 / (n * pi) * std::exp(-D * std::pow(n * pi / length, 2) * 2.0) * std::sin(n * pi * s.position[i].x / length);
-    squares += std::pow(s.temperature[i] - exact, 2), stated += std::pow(s.temperature_error[i], 2);
+    squares += std::pow(s.temperature[i] - exact, 2);
+    stated += std::pow(s.temperature_error[i], 2);
   }
   EXPECT_LT(squares, 2.5 * stated) << "20 layers: the mean of 20 squares of normal deviates lies below 1.9 in 99 of 100 cases";
   EXPECT_GT(squares, 0.2 * stated);
@@ -307,10 +324,13 @@ TEST(LammpsWalkers, RefuseTwoDiffusivities) {
   Prepared p = step(1e4);
   Scene s = p.job.scene;
   s.materials.push_back(s.materials[0]);
-  s.materials[1].name = "other", s.materials[1].conductivity = 4.0;
+  s.materials[1].name = "other";
+  s.materials[1].conductivity = 4.0;
   s.bodies.push_back(s.bodies[0]);
-  s.bodies[0].shape.max.x = 5e-3, s.bodies[1].shape.min.x = 5e-3;
-  s.bodies[1].name = "end", s.bodies[1].material = "other";
+  s.bodies[0].shape.max.x = 5e-3;
+  s.bodies[1].shape.min.x = 5e-3;
+  s.bodies[1].name = "end";
+  s.bodies[1].material = "other";
   const Outcome out = test::run(debian, test::prepare(s, 1.0, 1));
   EXPECT_EQ(out.exit_code, 4);
   EXPECT_NE(out.result.message.find("one diffusivity"), std::string::npos) << out.result.message;
@@ -321,7 +341,10 @@ TEST(LammpsSph, DecaysACosineWithinOnePercentAtTwentyAWavelength) {
   TemperatureField f;
   f.kind = TemperatureField::Kind::cosine;
   const double k = 2.0 * 3.14159265358979323846 / 10e-3;
-  f.mean = 300.0, f.amplitude = 10.0, f.wave_vector = {k, 0, 0}, f.phase = 0.7;
+  f.mean = 300.0;
+  f.amplitude = 10.0;
+  f.wave_vector = {k, 0, 0};
+  f.phase = 0.7;
   Prepared p = test::bar(20, 10e-3, f, true, 1.4, 1);
   p.job.preset = "conduction";
   const Outcome out = test::run(wheel, p);

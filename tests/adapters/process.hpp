@@ -63,7 +63,9 @@ inline void expect_sums(const Snapshot& frame, const InitialState& initial) {
   for (std::size_t i = 0; i < count && i < frame.velocity.size(); ++i) {
     const double m = i < frame.mass.size() ? frame.mass[i] : initial.mass[i];
     if (std::isnan(m)) continue;  // not there yet
-    mass += m, momentum += m * frame.velocity[i], size += m * norm(frame.velocity[i]);
+    mass += m;
+    momentum += m * frame.velocity[i];
+    size += m * norm(frame.velocity[i]);
   }
   EXPECT_NEAR(frame.total_mass, mass, 1e-12 * mass) << "at t = " << frame.time;
   EXPECT_NEAR(norm(frame.momentum - momentum), 0.0, 1e-12 * mass + 1e-9 * size) << "at t = " << frame.time;
@@ -76,7 +78,9 @@ inline void expect_bodies(const Snapshot& frame, const InitialState& initial) {
     Vec3 moment, momentum;
     for (std::size_t i = 0; i < initial.size() && i < frame.body.size(); ++i) {
       if (frame.body[i] != static_cast<int>(b)) continue;
-      mass += initial.mass[i], moment += initial.mass[i] * frame.position[i], momentum += initial.mass[i] * frame.velocity[i];
+      mass += initial.mass[i];
+      moment += initial.mass[i] * frame.position[i];
+      momentum += initial.mass[i] * frame.velocity[i];
     }
     if (mass == 0.0) continue;
     EXPECT_NEAR(frame.bodies[b].mass, mass, 1e-9 * mass) << "body " << b << " at t = " << frame.time;
@@ -101,7 +105,10 @@ inline Outcome run(const std::string& engine, const Prepared& p, const std::stri
   for (const JobGauge& gauge : p.job.gauges) gauges.push_back(gauge.metric);
   if (std::filesystem::exists(folder.at("gauges.csv"))) read_gauges_csv(folder.at("gauges.csv"), gauges, out.trajectory);
   if (out.exit_code == 0 && std::filesystem::exists(folder.at("trajectory.h5")))
-    for (const Snapshot& frame : out.trajectory.frames) expect_sums(frame, p.initial), expect_bodies(frame, p.initial);
+    for (const Snapshot& frame : out.trajectory.frames) {
+      expect_sums(frame, p.initial);
+      expect_bodies(frame, p.initial);
+    }
   return out;
 }
 

@@ -67,7 +67,9 @@ TEST(Ranks, TellOfALayerThatHasJustFlowedIn) {
   NEEDS_RANKS();
   Scene s = test::eventful().job.scene;
   Material wax = test::wax(5e4);
-  wax.name = "oil", wax.viscosity = 0.5, wax.stiffness = 1.5e4;
+  wax.name = "oil";
+  wax.viscosity = 0.5;
+  wax.stiffness = 1.5e4;
   s.materials[1] = wax;
   s.events = {};
   const Prepared p = test::prepare(s, 0.05, 5);

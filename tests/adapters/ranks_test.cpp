@@ -18,14 +18,18 @@ using test::Outcome, test::Prepared;
 Prepared hot_bar(Mode mode) {
   TemperatureField wave;
   wave.kind = TemperatureField::Kind::cosine;
-  wave.mean = 300.0, wave.amplitude = 40.0, wave.wave_vector = {20.0, 0, 0};
+  wave.mean = 300.0;
+  wave.amplitude = 40.0;
+  wave.wave_vector = {20.0, 0, 0};
   Prepared p = test::bar(24, 0.3, wave, false, 6.0, 3);
   Scene s = p.job.scene;
   s.modes[term::heat] = mode;
   s.jitter = 0.1;
   Body held = s.bodies[0];
-  held.name = "held", held.temperature_held = true;
-  held.shape = test::box({0.2, 0, 0}, s.bodies[0].shape.max), s.bodies[0].shape.max.x = 0.2;
+  held.name = "held";
+  held.temperature_held = true;
+  held.shape = test::box({0.2, 0, 0}, s.bodies[0].shape.max);
+  s.bodies[0].shape.max.x = 0.2;
   s.bodies.push_back(held);
   return test::prepare(s, 6.0, 3);
 }
@@ -44,15 +48,21 @@ TEST(Ranks, ConductHeatAsPrinted) {
 /// copied walls are whole by chance.
 Prepared dam(double end, int frames) {
   Scene s;
-  s.spacing = 0.01, s.jitter = 0.2;
+  s.spacing = 0.01;
+  s.jitter = 0.2;
   s.gravity = {0, 0, -9.81};
   s.periodic = {false, true, false};
-  s.min = Vec3{-0.03, 0.0, -0.03}, s.max = Vec3{0.33, 0.05, 0.3};
+  s.min = Vec3{-0.03, 0.0, -0.03};
+  s.max = Vec3{0.33, 0.05, 0.3};
   Material water = test::material(1000.0);
-  water.name = "water", water.viscosity = 1e-3, water.stiffness = 400.0;
+  water.name = "water";
+  water.viscosity = 1e-3;
+  water.stiffness = 400.0;
   s.materials = {water, test::material(1000.0)};
   Body column;
-  column.name = "water", column.material = "water", column.phase = Phase::liquid,
+  column.name = "water";
+  column.material = "water";
+  column.phase = Phase::liquid;
   column.shape = test::box({0, 0, 0}, {0.1, 0.05, 0.15});
   Shape tank;
   tank.kind = Shape::Kind::difference;
@@ -77,7 +87,8 @@ TEST(Ranks, CarryFreeAndDrivenBodiesAsOneProcessDoes) {
   Body block = test::rigid("block", test::box({0.12, 0.0, 0.06}, {0.2, 0.03, 0.1}), {{0.2, 0, -0.5}, {}});
   block.material = "wood";
   Body lid = test::rigid("lid", test::box({0.02, 0.0, 0.06}, {0.06, 0.05, 0.08}), {{0.3, 0, 0}, {}}, Motion::prescribed);
-  s.bodies.push_back(block), s.bodies.push_back(lid);
+  s.bodies.push_back(block);
+  s.bodies.push_back(lid);
   expect_equal_on_ranks(test::prepare(s, 0.02, 2));
 }
 
@@ -85,14 +96,18 @@ TEST(Ranks, CarryFreeAndDrivenBodiesAsOneProcessDoes) {
 /// ranks there are.
 Prepared thrown_hammer(bool flows, double jitter, double bending) {
   Scene s;
-  s.spacing = 0.01, s.jitter = jitter;
+  s.spacing = 0.01;
+  s.jitter = jitter;
   s.values["bending"] = bending;
   Material rubber = test::material(1000.0);
-  rubber.young_modulus = 3e5, rubber.poisson_ratio = 0.3, rubber.stiffness = 100.0;
+  rubber.young_modulus = 3e5;
+  rubber.poisson_ratio = 0.3;
+  rubber.stiffness = 100.0;
   if (flows) rubber.elastic_limit = 0.005;
   s.materials = {rubber};
   Body bar = test::rigid("bar", test::box({0, 0, 0}, {0.16, 0.03, 0.03}), {{5.0, 0, 0}, {0, 0, 6.0}});
-  bar.phase = Phase::elastic, bar.joined_to = {"head"};
+  bar.phase = Phase::elastic;
+  bar.joined_to = {"head"};
   const Body head = test::rigid("head", test::box({0.16, -0.01, 0}, {0.19, 0.04, 0.03}), {{5.0, 0, 0}, {}});
   Body mark =
       test::rigid("mark", test::box({0.0, 0.1, 0}, {0.04, 0.13, 0.03}));  // stays behind, so that the box does not go along
@@ -144,15 +159,18 @@ TEST(Ranks, SwingElasticBodiesAsPrinted) {
 TEST(Ranks, WrapBondsAroundAPeriodicDirection) {
   NEEDS_RANKS();
   Scene s;
-  s.spacing = 0.01, s.jitter = 0.1;
+  s.spacing = 0.01;
+  s.jitter = 0.1;
   Material rubber = test::material(1000.0);
-  rubber.young_modulus = 3e5, rubber.poisson_ratio = 0.3;
+  rubber.young_modulus = 3e5;
+  rubber.poisson_ratio = 0.3;
   s.materials = {rubber};
   Body rod = test::rigid("rod", test::box({0, 0, 0}, {0.24, 0.03, 0.03}), {{5.0, 0, 0}, {}});
   rod.phase = Phase::elastic;
   s.bodies = {rod};
   s.periodic = {true, false, false};
-  s.min = Vec3{0, -0.1, -0.1}, s.max = Vec3{0.24, 0.1, 0.1};
+  s.min = Vec3{0, -0.1, -0.1};
+  s.max = Vec3{0.24, 0.1, 0.1};
   Prepared p = test::prepare(s, 0.02, 2);
   for (std::size_t i = 0; i < p.initial.size(); ++i)
     p.initial.velocity[i] += Vec3{0.2 * std::sin(2.0 * M_PI * p.initial.position[i].x / 0.24),
@@ -187,10 +205,12 @@ TEST(Ranks, FollowBondsThatAreLongerThanListsReach) {
   Scene s;
   s.spacing = 0.01;
   Material rubber = test::material(1000.0);
-  rubber.young_modulus = 1e4, rubber.poisson_ratio = 0.0;
+  rubber.young_modulus = 1e4;
+  rubber.poisson_ratio = 0.0;
   s.materials = {rubber};
   Body bar = test::rigid("bar", test::box({0, 0, 0}, {0.12, 0.03, 0.03}));
-  bar.phase = Phase::elastic, bar.joined_to = {"held", "pulled"};
+  bar.phase = Phase::elastic;
+  bar.joined_to = {"held", "pulled"};
   const Body held = test::rigid("held", test::box({-0.03, 0, 0}, {0, 0.03, 0.03}), {}, Motion::fixed);
   const Body pulled = test::rigid("pulled", test::box({0.12, 0, 0}, {0.15, 0.03, 0.03}), {{2.0, 0, 0}, {}}, Motion::prescribed);
   s.bodies = {bar, held, pulled};
@@ -214,8 +234,10 @@ TEST(Ranks, CloseTheLedger) {
   ASSERT_EQ(out.exit_code, 0) << out.result.message;
   const auto &start = out.trajectory.frames.front().energy, &end = out.trajectory.frames.back().energy;
   double sum = 0.0, moved = 0.0;
-  for (const auto& [entry, joule] : end)
-    sum += joule - start.at(entry), moved = std::max(moved, std::abs(joule - start.at(entry)));
+  for (const auto& [entry, joule] : end) {
+    sum += joule - start.at(entry);
+    moved = std::max(moved, std::abs(joule - start.at(entry)));
+  }
   EXPECT_GT(moved, 1e-3);
   EXPECT_NEAR(sum, 0.0, 1e-12 * moved + 1e-13) << "every joule is in an entry, whichever rank booked it";
 }

@@ -16,14 +16,16 @@ struct Prepared {
 
 inline Shape box(const Vec3& min, const Vec3& max) {
   Shape s;
-  s.min = min, s.max = max;
+  s.min = min;
+  s.max = max;
   return s;
 }
 
 inline Shape sphere(const Vec3& centre, double radius) {
   Shape s;
   s.kind = Shape::Kind::sphere;
-  s.centre = centre, s.radius = radius;
+  s.centre = centre;
+  s.radius = radius;
   return s;
 }
 
@@ -40,7 +42,11 @@ struct Spin {
 
 inline Body rigid(const std::string& name, const Shape& shape, const Spin& spin = {}, Motion motion = Motion::free) {
   Body b;
-  b.name = name, b.material = "solid", b.phase = Phase::rigid, b.motion = motion, b.shape = shape;
+  b.name = name;
+  b.material = "solid";
+  b.phase = Phase::rigid;
+  b.motion = motion;
+  b.shape = shape;
   b.velocity.value = spin.velocity;
   b.angular_velocity = spin.angular_velocity;
   return b;
@@ -56,12 +62,20 @@ inline Prepared prepare(Scene scene, double end, int frames) {
     std::vector<Vec3> at;
     std::vector<double> mass;
     for (std::size_t i = 0; i < p.initial.size(); ++i)
-      if (p.initial.source[i] == static_cast<int>(b)) at.push_back(p.initial.position[i]), mass.push_back(p.initial.mass[i]);
+      if (p.initial.source[i] == static_cast<int>(b)) {
+        at.push_back(p.initial.position[i]);
+        mass.push_back(p.initial.mass[i]);
+      }
     JobBody body;
     const Body& given = scene.bodies[b];
-    body.name = given.name, body.material = given.material, body.index = rows[b], body.phase = given.phase,
+    body.name = given.name;
+    body.material = given.material;
+    body.index = rows[b];
+    body.phase = given.phase;
     body.motion = given.motion;
-    body.keyframes = given.keyframes, body.velocity = given.velocity.value, body.angular_velocity = given.angular_velocity;
+    body.keyframes = given.keyframes;
+    body.velocity = given.velocity.value;
+    body.angular_velocity = given.angular_velocity;
     body.temperature_held = given.temperature_held;
     body.properties = mass_properties(at, mass);
     p.job.bodies.push_back(body);
@@ -93,13 +107,15 @@ inline Prepared bar(int count, double length, const TemperatureField& temperatur
   Scene s;
   s.spacing = length / count;
   Material m = material(1000.0);
-  m.conductivity = 1.0, m.heat_capacity = 1000.0;
+  m.conductivity = 1.0;
+  m.heat_capacity = 1000.0;
   s.materials = {m};
   const Vec3 corner{length, 6 * s.spacing, 6 * s.spacing};
   s.bodies = {rigid("bar", box({}, corner), {}, Motion::fixed)};
   s.bodies[0].temperature = temperature;
   s.periodic = {periodic, true, true};
-  s.min = Vec3{}, s.max = corner;
+  s.min = Vec3{};
+  s.max = corner;
   return prepare(s, end, frames);
 }
 

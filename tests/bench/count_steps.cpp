@@ -23,7 +23,10 @@ extern "C" [[gnu::noipa]] void counted_steps(Simulation& simulation, long steps)
 
 int main(int argc, char** argv) {
   tripoint::set_settler(tripoint::settled);
-  if (argc < 5) return std::fputs("count-steps CASE.toml corrected|paper WARM STEPS [a.b=VALUE]...\n", stderr), 2;
+  if (argc < 5) {
+    std::fputs("count-steps CASE.toml corrected|paper WARM STEPS [a.b=VALUE]...\n", stderr);
+    return 2;
+  }
   try {
     const CaseReading reading = read_case(argv[1], std::vector<std::string>(argv + 5, argv + argc));
     RunChoice choice;
@@ -35,6 +38,7 @@ int main(int argc, char** argv) {
     std::printf("%zu particles, %s, %zu bytes\n", simulation.world().particles.size(), __VERSION__,
                 plan(scene).bytes_per_particle);
   } catch (const std::exception& e) {
-    return std::fprintf(stderr, "count-steps: %s\n", e.what()), 1;
+    std::fprintf(stderr, "count-steps: %s\n", e.what());
+    return 1;
   }
 }

@@ -47,7 +47,10 @@ int main(int argc, char** argv) {
     }
     try {
       const Case read = read_case(argv[i]).value;
-      for (const Mode mode : read.modes) fmt::print("{} {}: {} steps\n", read.id, to_string(mode), run(read, mode, work)), ++runs;
+      for (const Mode mode : read.modes) {
+        fmt::print("{} {}: {} steps\n", read.id, to_string(mode), run(read, mode, work));
+        ++runs;
+      }
     } catch (const std::exception& e) {
       fmt::print("{}: {}\n", argv[i], e.what());
       ++wrong;

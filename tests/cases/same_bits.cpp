@@ -24,8 +24,14 @@ namespace {
 /// Every number of threads that the project promises, and every width that this machine has, each at least once.
 std::vector<Way> ways() {
   std::vector<Way> list{{2, 1}, {7, 1}};
-  if (machine_has_avx2()) list.push_back({1, 4}), list.push_back({3, 4});
-  if (machine_has_avx512()) list.push_back({1, 8}), list.push_back({7, 8});
+  if (machine_has_avx2()) {
+    list.push_back({1, 4});
+    list.push_back({3, 4});
+  }
+  if (machine_has_avx512()) {
+    list.push_back({1, 8});
+    list.push_back({7, 8});
+  }
   list.push_back({.threads = 2, .lanes = 0, .changes = true});
   return list;
 }
@@ -93,10 +99,14 @@ int main(int argc, char** argv) {
         budget = std::atof(argv[++i]);
         continue;
       }
-      for (const Mode mode : read_case(argv[i]).value.modes) all = agrees(argv[i], mode, most, budget) && all, ++states;
+      for (const Mode mode : read_case(argv[i]).value.modes) {
+        all = agrees(argv[i], mode, most, budget) && all;
+        ++states;
+      }
     }
   } catch (const std::exception& e) {
-    return fmt::print(stderr, "same-bits: {}\n", e.what()), 2;
+    fmt::print(stderr, "same-bits: {}\n", e.what());
+    return 2;
   }
   fmt::print("{} states, {} ways each\n", states, ways().size() + 1);
   return all && states > 0 ? 0 : 1;

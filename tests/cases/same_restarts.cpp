@@ -170,7 +170,10 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
     counts.of[k] += within;
     if (counts.every_step > 0) fmt::print("{:>8}", within);
   }
-  if (counts.every_step > 0) fmt::print("   equal\n"), std::fflush(stdout);
+  if (counts.every_step > 0) {
+    fmt::print("   equal\n");
+    std::fflush(stdout);
+  }
   return true;
 }
 
@@ -216,7 +219,8 @@ int main(int argc, char** argv) {
       for (const Mode mode : read_case(argv[i]).value.modes) all = agrees(argv[i], mode, budget, counts) && all;
     }
   } catch (const std::exception& e) {
-    return fmt::print(stderr, "same-restarts: {}\n", e.what()), 2;
+    fmt::print(stderr, "same-restarts: {}\n", e.what());
+    return 2;
   }
   for (std::size_t k = 0; k < kinds.size() && counts.every_step > 0; ++k) fmt::print("{} cuts: {}\n", kinds[k], counts.of[k]);
   fmt::print("{} states, {} cuts, {} of them at a change, {} restarts\n", counts.states, counts.cuts, counts.turns,

@@ -91,7 +91,8 @@ int main(int argc, char** argv) {
       }
     }
   } catch (const std::exception& e) {
-    return fmt::print(stderr, "state-hashes: {}\n", e.what()), 2;
+    fmt::print(stderr, "state-hashes: {}\n", e.what());
+    return 2;
   }
   return 0;
 }

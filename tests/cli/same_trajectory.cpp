@@ -10,7 +10,8 @@ int main(int argc, char** argv) {
   const Trajectory a = read_trajectory(argv[1]), b = read_trajectory(argv[2]);
   for (std::size_t f = 0; f < a.frames.size() && f < b.frames.size(); ++f) {
     FramesHash x, y;
-    x.add(a.frames[f]), y.add(b.frames[f]);
+    x.add(a.frames[f]);
+    y.add(b.frames[f]);
     if (x.text() == y.text() && a.frames[f].bodies.size() == b.frames[f].bodies.size() &&
         a.frames[f].energy.size() == b.frames[f].energy.size())
       continue;

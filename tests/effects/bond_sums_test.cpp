@@ -25,12 +25,15 @@ struct Star {
     const auto vector = [&] { return Vec3{any(), any(), any()}; };
     const auto bond = [&](double slope) {
       Bond b;
-      b.x = vector(), b.gradient = slope * b.x, b.weight = any();
+      b.x = vector();
+      b.gradient = slope * b.x;
+      b.weight = any();
       return b;
     };
     for (std::uint32_t j = 1; j <= partners; ++j) connect(bonds, 0, j, bond(any()), bond(any()));
     lists.follow(bonds);
-    places.resize(partners + 1), deformed.resize(partners + 1);
+    places.resize(partners + 1);
+    deformed.resize(partners + 1);
     for (Place& p : places) p = {vector(), 1.0 + any()};
     for (Deformed& d : deformed) {
       d.measure = {{any(), any(), any(), any()}, {any(), any(), any(), any()}, {any(), any(), any(), any()}};

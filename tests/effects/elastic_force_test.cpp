@@ -96,8 +96,10 @@ TEST(ElasticForce, KeepsMomentumAndAngularMomentumToRoundOff) {
     double forces = 0.0, torques = 0.0;
     for (std::size_t id = 0; id < body.size(); ++id) {
       const Vec3 f = body.force(id), r = body.world().particles.position(body.world().particles.row(id));
-      sum += f, torque += cross(r, f);
-      forces += norm(f), torques += norm(r) * norm(f);
+      sum += f;
+      torque += cross(r, f);
+      forces += norm(f);
+      torques += norm(r) * norm(f);
     }
     EXPECT_LT(norm(sum) / forces, 1e-13);
     EXPECT_LT(norm(torque) / torques, 1e-13);
@@ -112,7 +114,9 @@ TEST(ElasticForce, OfListsThatDoNotMirrorEachOtherIsTheGradientStill) {
   const ElasticityKernel kernel = solid::bond_kernel(w.scene);
   for (Bond& b : w.bonds.edit(21)) {
     const Bond turned = solid::bond_of(kernel, 1.02 * rotate(q, b.x));
-    b.x = turned.x, b.gradient = turned.gradient, b.weight = turned.weight;
+    b.x = turned.x;
+    b.gradient = turned.gradient;
+    b.weight = turned.weight;
   }
   solid::refresh_shapes(w, std::vector<std::uint32_t>{21});
   body.place(bent);

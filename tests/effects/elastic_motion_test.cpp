@@ -149,7 +149,8 @@ Modes modes_of(double hourglass) {
       for (std::size_t j = 0; j < i; ++j) {
         if (norm(lab.initial.position[i] - lab.initial.position[j]) > 1.01 * dx) continue;
         const auto of = [&](std::size_t id) { return mode.segment<3>(static_cast<Eigen::Index>(3 * id)); };
-        differences += (of(i) - of(j)).squaredNorm(), pairs += 1.0;
+        differences += (of(i) - of(j)).squaredNorm();
+        pairs += 1.0;
       }
     }
     modes.roughness.push_back(differences / pairs * static_cast<double>(body.size()));

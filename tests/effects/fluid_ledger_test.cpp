@@ -63,7 +63,8 @@ lab::Lab pressed_cube() {
   const double dx = 0.1;
   lab::Lab lab = lab::liquid_lab(dx, 1000.0, 0.0, 400.0);
   const std::size_t rubber = lab::add_material_like(lab, 1000.0, 0.0);
-  lab.scene.materials[rubber].young_modulus = 1e5, lab.scene.materials[rubber].poisson_ratio = 0.3;
+  lab.scene.materials[rubber].young_modulus = 1e5;
+  lab.scene.materials[rubber].poisson_ratio = 0.3;
   lab.scene.materials[rubber].solid = "elastic";
   lab.scene.values["face_pressure"] = 1.0;
   lab.scene.values["bulk_viscosity"] = 0.0;

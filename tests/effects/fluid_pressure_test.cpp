@@ -34,7 +34,10 @@ double hydrostatic_error(int depth, double time, double disturbed = 0.05, double
   double sum = 0.0;
   int count = 0;
   for (std::size_t id = 0; id < mean.size(); ++id)
-    if (lab.initial.body[id] < 0) sum += mean[id] * mean[id], ++count;
+    if (lab.initial.body[id] < 0) {
+      sum += mean[id] * mean[id];
+      ++count;
+    }
   return std::sqrt(sum / count);
 }
 
@@ -87,7 +90,8 @@ TEST(FreeSurface, IsPressedByTheGradientOfTheEnergyThatTheLedgerHolds) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double step = 1e-5 * lab.scene.spacing;
       lab::Lab ahead = lab, behind = lab;
-      ahead.initial.position[id][axis] += step, behind.initial.position[id][axis] -= step;
+      ahead.initial.position[id][axis] += step;
+      behind.initial.position[id][axis] -= step;
       EXPECT_NEAR(F.at(p.row(id))[axis], -(compression(ahead) - compression(behind)) / (2.0 * step), 1e-4 * norm(F.at(p.row(id))))
           << "particle " << id << ", axis " << axis;  // round-off of energies over a step of 1e-5
     }

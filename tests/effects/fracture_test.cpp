@@ -127,7 +127,8 @@ TEST(Fracture, GoesOnBitForBitFromACheckpoint) {
     Simulation whole(lab.scene, lab.initial, {});
     whole.advance_to(cut);
     Simulation rest(lab.scene, lab.initial, {}, whole.checkpoint());
-    whole.advance_to(8.0), rest.advance_to(8.0);
+    whole.advance_to(8.0);
+    rest.advance_to(8.0);
     EXPECT_GT(bodies_alive(whole), 1u);
     EXPECT_EQ(whole.checkpoint().real, rest.checkpoint().real);
     EXPECT_EQ(whole.checkpoint().whole, rest.checkpoint().whole);

@@ -127,7 +127,8 @@ TEST(Heat, MakesNoNewExtremesAtItsOwnTimeStep) {
       const auto [lower, higher] = std::ranges::minmax(lab::by_id(s, field::temperature));
       EXPECT_GE(lower, low * (1.0 - 1e-15));
       EXPECT_LE(higher, high * (1.0 + 1e-15));
-      low = lower, high = higher;
+      low = lower;
+      high = higher;
     }
   }
 }

@@ -20,7 +20,9 @@ lab::Lab slab(int across, const std::function<double(const Vec3&)>& temperature)
   lab.make_periodic({false, true, true}, {0.5 * dx, 0.5 * dx, 0.5 * dx}, count);
   lab.add({.corner = {0.5 * dx, 0.5 * dx, 0.5 * dx}, .count = count, .motion = Motion::fixed, .temperature = temperature});
   Body& body = lab.scene.bodies[0];
-  body.shape.kind = Shape::Kind::box, body.shape.min = {0.0, -1.0, -1.0}, body.shape.max = {0.01, 1.0, 1.0};
+  body.shape.kind = Shape::Kind::box;
+  body.shape.min = {0.0, -1.0, -1.0};
+  body.shape.max = {0.01, 1.0, 1.0};
   lab.scene.materials[0].values["surface_temperature"] = 300.0;
   return lab;
 }
@@ -34,7 +36,8 @@ double error_of_rate(int across) {
   double sum = 0.0, of_sine = 0.0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double wave = std::sin(k * x[i]);
-    sum += (T[i] - 300.0) * wave, of_sine += wave * wave;
+    sum += (T[i] - 300.0) * wave;
+    of_sine += wave * wave;
   }
   return -std::log(sum / of_sine / 10.0) / time / (D * k * k) - 1.0;
 }
@@ -60,7 +63,9 @@ TEST(HeldSurface, KeepsAStraightProfileAtRest) {
              .motion = Motion::fixed,
              .temperature = [](const Vec3& r) { return 300.0 + 1000.0 * r.x; }});
     Body& body = lab.scene.bodies.back();
-    body.shape.kind = Shape::Kind::box, body.shape.min = {5 * n * dx, -1.0, -1.0}, body.shape.max = {5 * (n + 1) * dx, 1.0, 1.0};
+    body.shape.kind = Shape::Kind::box;
+    body.shape.min = {5 * n * dx, -1.0, -1.0};
+    body.shape.max = {5 * (n + 1) * dx, 1.0, 1.0};
     lab.scene.materials[static_cast<std::size_t>(n)].values["surface_temperature"] = 300.0 + 10.0 * n;
   }
   const Simulation s = lab.run(1.0);

@@ -26,7 +26,9 @@ std::string why_without(const Plan& p, std::string_view effect) {
 lab::Lab splash(Mode mode) {
   lab::Lab lab = lab::liquid_lab(0.05, 1000.0, 0.1, 100.0, mode);
   Material& m = lab.scene.materials[0];
-  m.t_melt = 260.0, m.t_solid = 250.0, m.latent_heat = 3e5;
+  m.t_melt = 260.0;
+  m.t_solid = 250.0;
+  m.latent_heat = 3e5;
   lab.scene.gravity = {0.0, 0.0, -9.81};
   const auto warm = [](const Vec3&) { return 300.0; };
   lab.add_material(2500.0, 1.0, 800.0);
@@ -100,7 +102,8 @@ TEST(OnlyWhatIsCalledFor, OneOtherTemperatureOfBodyInflowOrEventMakesThemUnequal
   EXPECT_EQ(equal_temperature(with_event(lab, 1.0, 301.0).scene), std::nullopt);
   lab::Lab inflow = lab;
   Inflow& poured = inflow.scene.inflows.emplace_back();
-  poured.material = lab.scene.materials[0].name, poured.temperature = 299.0;
+  poured.material = lab.scene.materials[0].name;
+  poured.temperature = 299.0;
   EXPECT_EQ(equal_temperature(inflow.scene), std::nullopt);
   poured.temperature = 300.0;
   EXPECT_EQ(equal_temperature(inflow.scene), 300.0);
@@ -150,8 +153,10 @@ TEST(UnbrokenProof, NeverHoldsWhereABondIsBeyondItsLimitAndMostlyHoldsWhereNoneI
   for (; least_room() > 0.0 && steps < 100'000; ++steps) {
     if (unbroken.holds(world))
       ++held;
-    else
-      ++looked, unbroken.set(world, least_room());
+    else {
+      ++looked;
+      unbroken.set(world, least_room());
+    }
     for (std::size_t i = 0; i < n; ++i) x.set(i, x.at(i) + Vec3{0.3, 0.0, 0.0} + Vec3{kick(random), kick(random), kick(random)});
   }
   EXPECT_LT(steps, 100'000) << "a bond must have broken";

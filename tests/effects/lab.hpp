@@ -53,7 +53,10 @@ struct Lab {
     scene.min = corner - Vec3{0.5 * dx, 0.5 * dx, 0.5 * dx};
     scene.max = *scene.min + Vec3{count[0] * dx, count[1] * dx, count[2] * dx};
     for (std::size_t a = 0; a < 3; ++a)
-      if (!periodic[a]) (*scene.min)[a] -= 1e6 * dx, (*scene.max)[a] += 1e6 * dx;
+      if (!periodic[a]) {
+        (*scene.min)[a] -= 1e6 * dx;
+        (*scene.max)[a] += 1e6 * dx;
+      }
   }
   /// A body of particles at any places; their velocities are those of rigid motion.
   void add_points(const Block& b, const std::vector<Vec3>& points, double mass) {

@@ -140,7 +140,8 @@ TEST(PairPasses, FuseTheTermOfOneMoreEffectWithThoseOfTheOthers) {
     for (std::size_t j = 0; j < p.size(); ++j) {
       const double r = norm(x.at(j) - x.at(i));
       if (j == i || r >= support) continue;
-      far += p[field::mass][j] * r, crowd += PairKernels(support).wendland.value(r);
+      far += p[field::mass][j] * r;
+      crowd += PairKernels(support).wendland.value(r);
     }
     EXPECT_NEAR(p[field::conductance][i], far, 1e-13 * far);  // round-off of some 30 neighbours
     EXPECT_NEAR(p[field::number_density][i], crowd, 1e-13 * crowd);

@@ -282,7 +282,8 @@ TEST(Phase, GoesOnFromACheckpointBitForBit) {
     lab.add(
         {.name = "drop", .corner = {0.0, 0.3, 0.0}, .count = {2, 2, 2}, .phase = Phase::liquid, .temperature = constant(cold)});
     Simulation whole(lab.scene, lab.initial), first(lab.scene, lab.initial);
-    whole.advance_to(cut), whole.advance_to(1e-2);
+    whole.advance_to(cut);
+    whole.advance_to(1e-2);
     first.advance_to(cut);
     const Checkpoint kept = first.checkpoint();
     Simulation second(lab.scene, lab.initial, {}, kept);

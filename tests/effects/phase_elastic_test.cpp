@@ -36,7 +36,8 @@ void turn_and_stretch(World& world, double stretch) {
   const Quaternion q = from_rotation_vector(0.5 * std::numbers::pi * Vec3{1.0, 2.0, -0.5} / norm(Vec3{1.0, 2.0, -0.5}));
   for (std::size_t i = 0; i < world.particles.size(); ++i) {
     Vec3 r = x.at(i);
-    r.x *= 1.0 + stretch, r.y *= 1.0 - 0.3 * stretch;
+    r.x *= 1.0 + stretch;
+    r.y *= 1.0 - 0.3 * stretch;
     x.set(i, rotate(q, r));
   }
 }
@@ -95,7 +96,8 @@ TEST(Freezing, OfElasticMatterBesideATurnedRigidBodyMakesNothingJump) {
   lab::Lab lab = lab::melting_lab(dx, {.t_solid = 340.0, .solid = "elastic"});
   lab.scene.materials[0].stiffness = 1e-12;
   lab.scene.materials.push_back(lab.scene.materials[0]);
-  lab.scene.materials[1].name = "rigid wax", lab.scene.materials[1].solid = "rigid";
+  lab.scene.materials[1].name = "rigid wax";
+  lab.scene.materials[1].solid = "rigid";
   lab.scene.time_step = 2e-4;
   lab.add({.name = "rigid",
            .material = 1,
@@ -211,7 +213,8 @@ TEST(Softening, TakesStiffnessWithTheLiquidFractionAndClosesTheLedger) {
   for (const bool printed : {false, true}) {
     lab::Lab lab = swinging_bar();
     Material& m = lab.scene.materials[0];
-    m.t_solid = 320.0, m.t_melt = 360.0;
+    m.t_solid = 320.0;
+    m.t_melt = 360.0;
     if (printed)
       lab.scene.modes[term::phase] = Mode::paper;
     else
@@ -267,12 +270,16 @@ Simulation spinning_pair(double first, double second, bool softens = true) {
   lab.scene.modes[term::phase] = Mode::paper;
   lab.scene.merge_distance = 2.12;
   Material& m = lab.scene.materials[0];
-  m.young_modulus = 1e5, m.poisson_ratio = 0.3, m.softens = softens;
+  m.young_modulus = 1e5;
+  m.poisson_ratio = 0.3;
+  m.softens = softens;
   const auto temperature = [=](const Vec3& r) { return r.x < 0.05 ? first : second; };
   lab.add_points({.name = "pair", .phase = Phase::rigid, .angular_velocity = {0.0, 0.0, 2.0}, .temperature = temperature},
                  {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}}, 1.0);
   TemperatureField& field = *lab.scene.bodies[0].temperature;
-  field.kind = TemperatureField::Kind::step, field.behind = first, field.ahead = second;
+  field.kind = TemperatureField::Kind::step;
+  field.behind = first;
+  field.ahead = second;
   lab.scene.time_step = 1e-6;
   return lab.run(1e-6);
 }
@@ -311,7 +318,8 @@ TEST(Phase, OfDeformableSolidsGoesOnFromACheckpointBitForBit) {
   lab.scene.events = {heat(0.01, hot, 0.45), heat(0.012, 250.0, 0.0)};
   for (const double cut : {0.0101, 0.0112, 0.0125}) {
     Simulation whole(lab.scene, lab.initial), first(lab.scene, lab.initial);
-    whole.advance_to(cut), whole.advance_to(0.02);
+    whole.advance_to(cut);
+    whole.advance_to(0.02);
     first.advance_to(cut);
     const Checkpoint kept = first.checkpoint();
     Simulation second(lab.scene, lab.initial, {}, kept);

@@ -162,7 +162,8 @@ TEST(Melting, TogglesNothingAndLosesNoHeat) {
 
 TEST(Melting, OfUnlikePhasesConductsByThePhaseAndLosesNoHeat) {
   lab::Lab lab = melting_bar();
-  lab.scene.materials[0].solid_conductivity = 3000.0, lab.scene.materials[0].solid_heat_capacity = 500.0;
+  lab.scene.materials[0].solid_conductivity = 3000.0;
+  lab.scene.materials[0].solid_heat_capacity = 500.0;
   Simulation s(lab.scene, lab.initial);
   const double start = lab::total_energy(s.ledger());
   for (int n = 1; n <= 20; ++n) s.advance_to(5.0 * n);
@@ -172,7 +173,8 @@ TEST(Melting, OfUnlikePhasesConductsByThePhaseAndLosesNoHeat) {
   for (std::size_t i = 0; i < 108; ++i) {           // the bar, 1 kg a particle
     EXPECT_EQ(k[i], f[i] > 0.0 ? 1000.0 : 3000.0);  // what melts conducts as the liquid that it becomes
     EXPECT_NEAR(H[i], (1.0 - f[i]) * 500.0 * T[i] + f[i] * (500.0 * 350.0 + 2e4 + 1000.0 * (T[i] - 350.0)), 1e-9 * H[i]);
-    between += f[i] > 0.0 && f[i] < 1.0 ? 1.0 : 0.0, melted += f[i];
+    between += f[i] > 0.0 && f[i] < 1.0 ? 1.0 : 0.0;
+    melted += f[i];
   }
   EXPECT_GT(between, 0.0);
   EXPECT_GT(melted, 18.0);

@@ -25,7 +25,10 @@ inline Lab melting_lab(double spacing, const Meltable& m = {}) {
   material.t_solid = m.t_solid;
   material.latent_heat = m.latent_heat;
   material.solid = m.solid;
-  if (m.solid == "elastic") material.young_modulus = 1e5, material.poisson_ratio = 0.3;
+  if (m.solid == "elastic") {
+    material.young_modulus = 1e5;
+    material.poisson_ratio = 0.3;
+  }
   return lab;
 }
 

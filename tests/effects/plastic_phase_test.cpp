@@ -21,7 +21,8 @@ Event heat(double time, double temperature, double beyond) {
   e.temperature = temperature;
   e.region.emplace();
   e.region->kind = Shape::Kind::box;
-  e.region->min = {beyond, -10.0, -10.0}, e.region->max = {10.0, 10.0, 10.0};
+  e.region->min = {beyond, -10.0, -10.0};
+  e.region->max = {10.0, 10.0, 10.0};
   return e;
 }
 

@@ -38,7 +38,8 @@ lab::Lab jet_of(double density) {
   lab::Lab lab = jet();
   lab.scene.materials[0].viscosity = 0.0;  // leaves the bound to sound
   Material other = lab.scene.materials[0];
-  other.name = "jet", other.density = density;
+  other.name = "jet";
+  other.density = density;
   lab.scene.materials.push_back(other);
   lab.scene.inflows[0].material = other.name;
   lab.scene.inflows[0].velocity = {0.0, 0.0, -1e-8 * speed};  // the bound counts it beside sound

@@ -19,7 +19,8 @@ constexpr double slope = 45.0 / (64.0 * pi);  // of spiky at 1, towards the part
 lab::Lab printed(const std::vector<Vec3>& places, bool heat = false) {
   lab::Lab lab = lab::liquid_lab(1.0, 2.0, mu, k, Mode::paper);
   lab.scene.support_ratio = 2.0;
-  lab.scene.materials[0].conductivity = 10.0, lab.scene.materials[0].heat_capacity = 1.0;  // c = 10/(2 1) = 5 m2/s
+  lab.scene.materials[0].conductivity = 10.0;
+  lab.scene.materials[0].heat_capacity = 1.0;  // c = 10/(2 1) = 5 m2/s
   lab::Block block{.phase = Phase::liquid};
   if (heat) block.temperature = [](const Vec3& r) { return 300.0 + 10.0 * r.x; };
   lab.add_points(block, places, mass);
@@ -107,8 +108,13 @@ double drag_at_solid(double temperature, double contact_viscosity) {
   lab.scene.contact_viscosity = contact_viscosity;
   lab.add_material(2.0, 10.0, 1.0);
   Material& solid = lab.scene.materials[1];
-  solid.viscosity = 6.0, solid.stiffness = k, solid.solid = "elastic", solid.young_modulus = 1.0, solid.poisson_ratio = 0.3;
-  solid.t_solid = 320.0, solid.t_melt = 360.0;
+  solid.viscosity = 6.0;
+  solid.stiffness = k;
+  solid.solid = "elastic";
+  solid.young_modulus = 1.0;
+  solid.poisson_ratio = 0.3;
+  solid.t_solid = 320.0;
+  solid.t_melt = 360.0;
   if (contact_viscosity == 0.0) solid.values["solid_viscosity"] = 12.0;
   const auto at = [=](const Vec3&) { return temperature; };
   lab.add_points({.name = "drop", .phase = Phase::liquid, .temperature = at}, {{0.0, 0.0, 0.0}}, mass);
@@ -116,7 +122,8 @@ double drag_at_solid(double temperature, double contact_viscosity) {
                  {{1.0, 0.0, 0.0}}, mass);
   for (Body& body : lab.scene.bodies) body.temperature->value = temperature;
   lab.initial.velocity[0] = {0.0, 4.0, 0.0};
-  lab.scene.materials[0].conductivity = 1e-12, solid.conductivity = 1e-12;
+  lab.scene.materials[0].conductivity = 1e-12;
+  solid.conductivity = 1e-12;
   lab.scene.time_step = 1e-9;
   return -viscous(lab.run(1e-9), 0).y;
 }

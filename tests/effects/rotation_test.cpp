@@ -60,7 +60,8 @@ TEST(NoSquishRotation, SpansTheKnownErrorsOverTheSixAxisOrders) {
     const double e = error_of(order, 1e-2);
     RecordProperty("order_" + std::to_string(order[0]) + std::to_string(order[1]) + std::to_string(order[2]), std::to_string(e));
     std::printf("axes outer to inner %zu %zu %zu: %.3e rad\n", order[0], order[1], order[2], e);
-    least = std::min(least, e), greatest = std::max(greatest, e);
+    least = std::min(least, e);
+    greatest = std::max(greatest, e);
   }
   EXPECT_NEAR(least, 7.8e-4, 0.3e-4);  // two digits, from an implementation apart
   EXPECT_NEAR(greatest, 1e-2, 1e-3);

@@ -16,8 +16,10 @@ inline Lab elastic_lab(double spacing, double poisson = 0.3, Mode mode = Mode::c
   Lab lab(spacing, mode);
   Material& m = lab.scene.materials[0];
   m.density = 1.0;
-  m.conductivity.reset(), m.heat_capacity.reset();
-  m.young_modulus = 1.0, m.poisson_ratio = poisson;
+  m.conductivity.reset();
+  m.heat_capacity.reset();
+  m.young_modulus = 1.0;
+  m.poisson_ratio = poisson;
   m.solid = "elastic";
   return lab;
 }

@@ -37,7 +37,8 @@ void expect_gradient(const lab::Lab& lab) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double step = 1e-5 * lab.scene.spacing;
       lab::Lab ahead = lab, behind = lab;
-      ahead.initial.position[id][axis] += step, behind.initial.position[id][axis] -= step;
+      ahead.initial.position[id][axis] += step;
+      behind.initial.position[id][axis] -= step;
       const double slope = (compression(ahead) - compression(behind)) / (2.0 * step);
       EXPECT_NEAR(F.at(p.row(id))[axis], -slope, 1e-5 * norm(F.at(p.row(id))))
           << "particle " << id << ", axis " << axis;  // round-off of energies over a step of 1e-5
@@ -86,8 +87,10 @@ TEST(Walls, HaveTheMeanDensityOfTheirFaceAndTheRestDensityBehindIt) {
       EXPECT_EQ(relative, 1.0) << "of a particle between two layers";
     }
     if (z < -1.0) continue;
-    least = std::min(least, relative), most = std::max(most, relative);
-    least_own = std::min(least_own, own(id)), most_own = std::max(most_own, own(id));
+    least = std::min(least, relative);
+    most = std::max(most, relative);
+    least_own = std::min(least_own, own(id));
+    most_own = std::max(most_own, own(id));
   }
   EXPECT_GT(least, 1.0) << "the liquid is pressed on the floor";
   EXPECT_LT(most - least, 0.5 * (most_own - least_own))
@@ -136,8 +139,10 @@ TEST(Walls, OfAJitteredSceneAreFeltFromTheirLattice) {
     const auto rho = lab::by_id(s, field::density), f = lab::by_id(s, field::force_z);
     std::array<std::vector<double>, 2> lowest;
     for (std::size_t id = 0; id < rho.size(); ++id)
-      if (const double z = lab.initial.position[id].z; lab.initial.body[id] < 0 && z < lab.scene.spacing)
-        lowest[0].push_back(rho[id] / 1000.0), lowest[1].push_back(f[id]);
+      if (const double z = lab.initial.position[id].z; lab.initial.body[id] < 0 && z < lab.scene.spacing) {
+        lowest[0].push_back(rho[id] / 1000.0);
+        lowest[1].push_back(f[id]);
+      }
     return lowest;
   };
   const auto farthest = [](const std::vector<double>& a, const std::vector<double>& b) {

@@ -401,8 +401,10 @@ int main(int argc, char** argv) {
     else
       paths.emplace_back(word);
   }
-  if (paths.size() < 2)
-    return fmt::print(stderr, "usage: seeded-faults BUILD CASE.toml... [--count N | --runs N] [--seed S] [--jobs N]\n"), 2;
+  if (paths.size() < 2) {
+    fmt::print(stderr, "usage: seeded-faults BUILD CASE.toml... [--count N | --runs N] [--seed S] [--jobs N]\n");
+    return 2;
+  }
   const fs::path scratch = fs::path(fs::exists("/dev/shm") ? "/dev/shm" : "/tmp") / fmt::format("tripoint-seeded-{}", getpid());
   fs::create_directories(scratch);
   table = new (mmap(nullptr, sizeof(Table), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) Table{};

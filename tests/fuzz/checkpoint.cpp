@@ -46,8 +46,10 @@ bool is_refused(const std::string& path) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::Folder folder;
   fuzz::Bytes bytes(data, size);
-  if (!bytes.flag())
-    return static_cast<void>(is_refused(folder.write("foreign.h5", fuzz::text_of(data + (size > 0), size - (size > 0))))), 0;
+  if (!bytes.flag()) {
+    static_cast<void>(is_refused(folder.write("foreign.h5", fuzz::text_of(data + (size > 0), size - (size > 0)))));
+    return 0;
+  }
   const unsigned places = bytes.one_of(4), first = bytes.byte() * 256u + bytes.byte(), change = 1 + bytes.one_of(255);
   const Checkpoint made = made_of(bytes);
   write_checkpoint(folder / "own.h5", made);

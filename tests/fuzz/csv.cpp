@@ -11,8 +11,13 @@ namespace {
 InitialState eight_particles() {
   InitialState s;
   for (int k = 0; k < 8; ++k) {
-    s.position.push_back({0.1 * k, 0.0, 0.0}), s.velocity.push_back({});
-    s.mass.push_back(1.0), s.phase.push_back(2), s.body.push_back(k / 4), s.material.push_back(0), s.source.push_back(0);
+    s.position.push_back({0.1 * k, 0.0, 0.0});
+    s.velocity.push_back({});
+    s.mass.push_back(1.0);
+    s.phase.push_back(2);
+    s.body.push_back(k / 4);
+    s.material.push_back(0);
+    s.source.push_back(0);
   }
   return s;
 }

@@ -20,7 +20,8 @@ bool is_plain(const std::string& name) {
 
 void read_info(const std::string& text) {
   EngineEntry entry;
-  entry.name = "stranger", entry.executable = "engine-stranger";
+  entry.name = "stranger";
+  entry.executable = "engine-stranger";
   entry = with_info(entry, text);
   fuzz::expect(is_plain(entry.name), "an engine's name is plain, whatever it calls itself");
   fuzz::expect(!entry.available || std::all_of(entry.presets.begin(), entry.presets.end(), is_plain),

@@ -46,7 +46,9 @@ void write_unit(hid_t dataset, const char* unit) {
   H5Tset_size(type, std::strlen(unit) + 1);
   const hid_t attribute = H5Acreate2(dataset, "unit", type, space, H5P_DEFAULT, H5P_DEFAULT);
   H5Awrite(attribute, type, unit);
-  H5Aclose(attribute), H5Sclose(space), H5Tclose(type);
+  H5Aclose(attribute);
+  H5Sclose(space);
+  H5Tclose(type);
 }
 
 /// A dataset of this shape (a hostile input bends it), filled from the input.
@@ -68,7 +70,8 @@ void write_dataset(fuzz::Bytes& bytes, hid_t file, const std::string& name, int 
     H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
   if (dataset >= 0 && unit) write_unit(dataset, bytes.one_of(32) == 0 ? "furlong" : unit);
   if (dataset >= 0) H5Dclose(dataset);
-  H5Pclose(links), H5Sclose(space);
+  H5Pclose(links);
+  H5Sclose(space);
 }
 
 void write_file(fuzz::Bytes& bytes, const std::string& path) {

@@ -18,7 +18,8 @@ constexpr JudgedMode modes[] = {JudgedMode::corrected, JudgedMode::paper, Judged
 
 Gate made_gate(fuzz::Bytes& bytes) {
   Gate g;
-  g.metric = bytes.one_of(8) == 0 ? "other" : "error", g.reason = "fuzz";
+  g.metric = bytes.one_of(8) == 0 ? "other" : "error";
+  g.reason = "fuzz";
   const unsigned kinds = bytes.byte();
   if (kinds & 1) g.limit = bytes.real();
   if (kinds & 2) g.at_least = bytes.real();
@@ -30,21 +31,26 @@ Gate made_gate(fuzz::Bytes& bytes) {
 
 RunRow made_run(fuzz::Bytes& bytes, unsigned k) {
   RunRow run;
-  run.base = true, run.group = "group " + std::to_string(bytes.flag() ? k : 0);
-  run.status = states[bytes.one_of(11)], run.comparable = bytes.one_of(8) != 0, run.knobs.mode = modes[bytes.one_of(3)];
+  run.base = true;
+  run.group = "group " + std::to_string(bytes.flag() ? k : 0);
+  run.status = states[bytes.one_of(11)];
+  run.comparable = bytes.one_of(8) != 0;
+  run.knobs.mode = modes[bytes.one_of(3)];
   if (bytes.one_of(8) != 0) run.metrics["error"] = {bytes.real(), {0.0, bytes.flag() ? bytes.real() : 0.0, 0.0, 0.0}, {}, {}, {}};
   return run;
 }
 
 CaseResult made_case(fuzz::Bytes& bytes) {
   CaseResult c;
-  c.id = "fuzz/one", c.kind = CaseKind::verification;
+  c.id = "fuzz/one";
+  c.kind = CaseKind::verification;
   c.metrics.resize(1);
   c.metrics[0].name = "error";
   for (unsigned k = 0, n = bytes.one_of(4); k < n; ++k) c.gates.push_back(made_gate(bytes));
   for (unsigned e = 0, n = bytes.one_of(3); e < n; ++e) {
     EngineRow engine;
-    engine.name = e == 0 ? "one" : "two", engine.required = bytes.flag();
+    engine.name = e == 0 ? "one" : "two";
+    engine.required = bytes.flag();
     for (unsigned k = 0, runs = bytes.one_of(4); k < runs; ++k) engine.runs.push_back(made_run(bytes, k));
     c.engines.push_back(engine);
   }

@@ -13,7 +13,9 @@ namespace {
 
 EngineRow row(const std::string& name, double e, const std::string& preset = "default") {
   EngineRow r;
-  r.name = name, r.preset = preset, r.runs = {run_with({{"error", value(e)}})};
+  r.name = name;
+  r.preset = preset;
+  r.runs = {run_with({{"error", value(e)}})};
   r.runs[0].cost.cpu_s = 2.0;
   return r;
 }
@@ -21,7 +23,9 @@ EngineRow row(const std::string& name, double e, const std::string& preset = "de
 Gate declared(const std::string& engine, double low, double high) {
   auto g = limit("error", 0.0);
   g.limit.reset();
-  g.engine = engine, g.band = {low, high}, g.reason = "known defect no-term: it leaves the term out";
+  g.engine = engine;
+  g.band = {low, high};
+  g.reason = "known defect no-term: it leaves the term out";
   return g;
 }
 
@@ -138,7 +142,8 @@ TEST(Scorecard, TellsFailRefusedCrashedAndKnownDefectsApart) {
   EXPECT_NE(of(card_of(r), "stone").reason.find("no-term"), std::string::npos);
   r = with(0.05);
   auto& run = r.cases[0].engines[1].runs[0];
-  run.status = Status::refused, run.reason = "knows no heat";
+  run.status = Status::refused;
+  run.reason = "knows no heat";
   EXPECT_EQ(of(card_of(r), "stone").verdict, Score::refused);
   EXPECT_EQ(of(card_of(r), "stone").reason, "knows no heat");
   run.status = Status::timeout;
@@ -164,7 +169,10 @@ TEST(Scorecard, SaysWhoIsRightWhereTwoDiffer) {
 TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
   auto r = green();
   auto& mine = engine(r);
-  mine.name = "mine", mine.required = false, mine.runs[0].status = Status::refused, mine.runs[0].reason = "knows no heat";
+  mine.name = "mine";
+  mine.required = false;
+  mine.runs[0].status = Status::refused;
+  mine.runs[0].reason = "knows no heat";
   EXPECT_EQ(exit_of(r), exit_missing);  // nobody chose: a case that no gate judges
   r.only_engines = r.asked = {"mine"};
   judge(r);
@@ -175,8 +183,10 @@ TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
   EXPECT_NE(r.problems[0].find("knows no heat"), std::string::npos) << r.problems[0];
   EXPECT_EQ(verdict_word(exit_missing, r, verdict_remarks(r)), "REFUSED");
   auto other = green().cases[0];
-  other.id = "test/two", other.engines[0].name = "mine";
-  r.cases.push_back(other), r.planned.push_back(other.id);
+  other.id = "test/two";
+  other.engines[0].name = "mine";
+  r.cases.push_back(other);
+  r.planned.push_back(other.id);
   judge(r);
   EXPECT_EQ(r.exit_code, exit_pass);
   EXPECT_EQ(r.cases[0].verdict, CaseVerdict::refused);
@@ -190,7 +200,9 @@ TEST(Refusal, OfACaseByAllThatWereChosenIsNoFailureUnlessItIsOfEveryCase) {
 Results expected_to_refuse(Status status, const std::string& reason) {
   auto r = with(0.05);
   auto& stone = r.cases[0].engines[1];
-  stone.refuses = "no heat", stone.runs[0].status = status, stone.runs[0].reason = reason;
+  stone.refuses = "no heat";
+  stone.runs[0].status = status;
+  stone.runs[0].reason = reason;
   return r;
 }
 
@@ -217,7 +229,8 @@ TEST(ExpectedRefusal, ForAnotherReasonIsRed) {
 
 TEST(ExpectedRefusal, OfWhoIsNotHereIsNoFailure) {
   auto r = expected_to_refuse(Status::missing, "");
-  r.cases[0].engines[1].status = Status::missing, r.cases[0].engines[1].runs.clear();
+  r.cases[0].engines[1].status = Status::missing;
+  r.cases[0].engines[1].runs.clear();
   EXPECT_EQ(exit_of(r), exit_pass);
 }
 
@@ -228,7 +241,8 @@ TEST(ExpectedRefusal, IsASettingThatIsKeptBack) {
 
 TEST(Scorecard, LeavesOutWhoIsNotHereUnlessAskedFor) {
   auto r = with(0.05);
-  r.cases[0].engines[1].runs.clear(), r.cases[0].engines[1].status = Status::missing;
+  r.cases[0].engines[1].runs.clear();
+  r.cases[0].engines[1].status = Status::missing;
   EXPECT_EQ(card_of(r).engines.size(), 1U);
   r.asked = {"stone"};
   EXPECT_EQ(of(card_of(r), "stone").verdict, Score::missing);

@@ -92,14 +92,17 @@ size = 0.01
 AdoptedCase adopted() {
   AdoptedCase c{"rigid/throw", "throw.toml", {AdoptedRow{"default", Status::ok, "", {}, {"heat"}, {}}}};
   auto g = adopted_gate("position", {0.04, 0.04}, 0.0, 1.5, round_off);
-  g.engine = "stone", g.level = 0.01, g.date = "2026-11-22";
+  g.engine = "stone";
+  g.level = 0.01;
+  g.date = "2026-11-22";
   c.rows[0].gates = {g};
   return c;
 }
 
 EngineEntry stone() {
   EngineEntry e;
-  e.name = "stone", e.version = "2";
+  e.name = "stone";
+  e.version = "2";
   return e;
 }
 

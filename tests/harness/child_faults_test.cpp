@@ -27,7 +27,11 @@ namespace {
 struct FailingCall {
   std::atomic<int> calls{0}, failing{0}, error{0};
   bool fails() { return ++calls == failing; }
-  void plan(int which, int why) { calls = 0, failing = which, error = why; }
+  void plan(int which, int why) {
+    calls = 0;
+    failing = which;
+    error = why;
+  }
 };
 FailingCall spawns, forks, pipes;
 
@@ -46,11 +50,17 @@ int posix_spawn(pid_t* pid, const char* path, const posix_spawn_file_actions_t* 
   return next<decltype(posix_spawn)>("posix_spawn")(pid, path, actions, attributes, argv, environment);
 }
 pid_t fork() noexcept {
-  if (forks.fails()) return errno = forks.error, -1;
+  if (forks.fails()) {
+    errno = forks.error;
+    return -1;
+  }
   return next<pid_t()>("fork")();
 }
 int pipe2(int* ends, int flags) noexcept {
-  if (pipes.fails()) return errno = pipes.error, -1;
+  if (pipes.fails()) {
+    errno = pipes.error;
+    return -1;
+  }
   return next<int(int*, int)>("pipe2")(ends, flags);
 }
 }

@@ -20,7 +20,8 @@ CaseResult second_order() {
 Scene unit_box() {
   Scene s;
   Body b;
-  b.shape.min = {0.0, 0.0, 0.0}, b.shape.max = {1.0, 1.0, 1.0};
+  b.shape.min = {0.0, 0.0, 0.0};
+  b.shape.max = {1.0, 1.0, 1.0};
   s.bodies = {b};
   return s;
 }
@@ -96,14 +97,17 @@ TEST(Uncertainty, OfAnInputIsHalfOfWhatItsEndsMove) {
   auto r = green();
   for (const auto& [end, v] : {std::pair{"material.stuff.density=990", 0.047}, std::pair{"material.stuff.density=1010", 0.055}}) {
     auto run = run_with({{"error", value(v)}});
-    run.base = false, run.input = end, run.group = end;
+    run.base = false;
+    run.input = end;
+    run.group = end;
     engine(r).runs.push_back(run);
   }
   judge(r);
   ASSERT_EQ(engine(r).gates.size(), 1u);  // the ends themselves are not judged
   EXPECT_NEAR(engine(r).gates[0].budget.input, 0.004, 1e-15);
   EXPECT_NEAR(engine(r).gates[0].uncertainty, 0.004, 1e-15);
-  engine(r).runs.back().status = Status::killed, engine(r).runs.back().reason = "it was";
+  engine(r).runs.back().status = Status::killed;
+  engine(r).runs.back().reason = "it was";
   judge(r);
   EXPECT_NE(r.exit_code, exit_pass);  // an end that gave no value leaves the uncertainty unknown
 }
@@ -113,7 +117,8 @@ TEST(Uncertainty, OfAnInputOfACaseIsMeasuredByTwoMoreRuns) {
   const auto value = read_flight_case(
       folder, "[[input]]\nkey = \"body.cube.velocity\"\nlow = \"[0.99, 0.0, 2.0]\"\nhigh = \"[1.01, 0.0, 2.0]\"\n");
   SuiteOptions options;
-  options.out = folder / "out", options.selection.engines = {"fake"};
+  options.out = folder / "out";
+  options.selection.engines = {"fake"};
   const auto result = run_suite({value}, {ask_engine(fake_engine(folder, "nothing"))}, options).cases.at(0);
   ASSERT_EQ(result.engines.at(0).runs.size(), 3u);
   EXPECT_EQ(result.engines[0].status, Status::ok) << result.engines[0].reason;

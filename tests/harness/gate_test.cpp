@@ -84,7 +84,8 @@ TEST(Slack, ADatedReasonIsShownAndDoesNotFail) {
 TEST(Slack, TheRunThatUsesMostOfAGateDecides) {
   auto r = green();
   auto coarse = engine(r).runs[0];
-  coarse.base = false, coarse.group = "coarse";
+  coarse.base = false;
+  coarse.group = "coarse";
   engine(r).runs.push_back(coarse);
   error(r).value = 1e-4;
   EXPECT_TRUE(slack_remarks(judged(r)).empty());
@@ -101,7 +102,10 @@ TEST(Slack, LimitsOfRoundOffAndCountsHaveNoneToGive) {
 
 TEST(Slack, OrdersAndClassesHaveNoRoomToTighten) {
   GateRow row;
-  row.metric = "error.order", row.verdict = Verdict::pass, row.value = 2.0, row.gate.at_least = 0.1;
+  row.metric = "error.order";
+  row.verdict = Verdict::pass;
+  row.value = 2.0;
+  row.gate.at_least = 0.1;
   EXPECT_FALSE(slack_of({}, row).has_value());
   row.metric = "error";
   EXPECT_TRUE(slack_of({}, row).has_value());
@@ -112,7 +116,8 @@ TEST(Slack, OrdersAndClassesHaveNoRoomToTighten) {
 TEST(Slack, ABandIsAskedOnBothSides) {
   auto r = green();
   auto& gate = r.cases[0].gates[0];
-  gate.limit.reset(), gate.band = {0.01, 0.06};
+  gate.limit.reset();
+  gate.band = {0.01, 0.06};
   EXPECT_EQ(slack_of(r.cases[0], judged(r).cases[0].engines[0].gates[0]).value(), 5.0);  // 0.05 / 0.01
 }
 
@@ -145,8 +150,10 @@ TEST(Recheck, ACaseThatTheResultsLeaveOutIsAnError) {
   const TestFolder folder;
   write_text(folder / "cases/test/flight.toml", flight_case());
   auto r = green();
-  r.cases.clear(), r.planned.clear();
-  r.filter_known = true, r.what = {folder / "cases"};
+  r.cases.clear();
+  r.planned.clear();
+  r.filter_known = true;
+  r.what = {folder / "cases"};
   const auto remarks = recheck_remarks(r);
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_TRUE(remarks[0].error);
@@ -162,7 +169,8 @@ struct Kept {
     write_text(folder / "cases/test/one.toml", "format = 1\n");
     std::filesystem::create_directories(folder / "baselines");
     r.cases[0].file = folder / "cases/test/one.toml";
-    engine(r).runs[0].cost.pairs = 1000.0, engine(r).runs[0].cost.steps = 10.0,
+    engine(r).runs[0].cost.pairs = 1000.0;
+    engine(r).runs[0].cost.steps = 10.0;
     engine(r).runs[0].folder = "runs/test/one/tripoint/corrected";
     judge(r);
   }
@@ -220,7 +228,9 @@ TEST(Baselines, AValueThatMovesByMoreThanTheDriftThatItsGateStatesIsRedBothWays)
 TEST(Baselines, InstructionsAreComparedWithWhatTheSameMachineCountedInTheSameWay) {
   Kept kept;
   auto& cost = engine(kept.r).runs[0].cost;
-  cost.instructions = 1e6, cost.counted_by = "callgrind", kept.r.tool.cpu = "this one";
+  cost.instructions = 1e6;
+  cost.counted_by = "callgrind";
+  kept.r.tool.cpu = "this one";
   (void)kept.accept_all();
   engine(kept.r).runs[0].cost.instructions = 1.02e6;
   EXPECT_EQ(baseline_remarks(kept.r).at(0).code, exit_cost);
@@ -316,11 +326,13 @@ TEST(Baselines, GatesAtLevelsFindTheirOwn) {
   Kept kept;
   auto& runs = engine(kept.r).runs;
   runs.push_back(runs[0]);
-  runs[1].group = "fine", runs[1].levels = {{{Axis::spacing}, 0.05}};
+  runs[1].group = "fine";
+  runs[1].levels = {{{Axis::spacing}, 0.05}};
   runs[0].levels = {{{Axis::spacing}, 0.1}};
   auto& gates = kept.r.cases[0].gates;
   gates.push_back(gates[0]);
-  gates[0].level = 0.1, gates[1].level = 0.05;
+  gates[0].level = 0.1;
+  gates[1].level = 0.05;
   judge(kept.r);
   (void)kept.accept_all();
   EXPECT_TRUE(baseline_remarks(kept.r).empty());

@@ -18,16 +18,22 @@ namespace {
 ChangedScene lopsided() {
   ChangedScene c;
   c.scene.gravity = {0.25, -1.0, -9.75};
-  c.scene.min = Vec3{-1.0, -2.0, -3.0}, c.scene.max = Vec3{1.5, 2.5, 3.5};
+  c.scene.min = Vec3{-1.0, -2.0, -3.0};
+  c.scene.max = Vec3{1.5, 2.5, 3.5};
   c.scene.periodic = {false, true, false};
-  c.scene.spacing = 0.1, c.scene.end_time = 2.0, c.scene.output_interval = 0.5, c.scene.time_step = 0.01;
+  c.scene.spacing = 0.1;
+  c.scene.end_time = 2.0;
+  c.scene.output_interval = 0.5;
+  c.scene.time_step = 0.01;
   for (int i = 0; i < 7; ++i) {
     const double n = i;
     c.initial.position.push_back({0.1 * n, 0.3 - 0.01 * n * n, 1.0 / (1.0 + n)});
     c.initial.velocity.push_back({1.0 - n, 0.5 * n, 0.125 * n * n});
     c.initial.mass.push_back(1.0 + n);
-    c.initial.phase.push_back(2), c.initial.body.push_back(i % 2), c.initial.material.push_back(0),
-        c.initial.source.push_back(i % 2);
+    c.initial.phase.push_back(2);
+    c.initial.body.push_back(i % 2);
+    c.initial.material.push_back(0);
+    c.initial.source.push_back(i % 2);
   }
   return c;
 }
@@ -35,9 +41,14 @@ ChangedScene lopsided() {
 /// A frame that shows a scene's own start, and a body of it.
 Snapshot seen(const ChangedScene& c) {
   Snapshot s;
-  s.position = c.initial.position, s.velocity = c.initial.velocity, s.mass = c.initial.mass;
-  s.phase = c.initial.phase, s.body = c.initial.body, s.material = c.initial.material;
-  s.density = c.initial.mass, s.pressure = c.initial.mass;
+  s.position = c.initial.position;
+  s.velocity = c.initial.velocity;
+  s.mass = c.initial.mass;
+  s.phase = c.initial.phase;
+  s.body = c.initial.body;
+  s.material = c.initial.material;
+  s.density = c.initial.mass;
+  s.pressure = c.initial.mass;
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     s.id.push_back(static_cast<int>(i));
     s.total_mass += s.mass[i];
@@ -111,7 +122,8 @@ TEST(Harmless, ASpinIsAnAxialVector) {
 TEST(Harmless, IsRefusedWhereItIsNoSymmetry) {
   auto c = lopsided();
   EXPECT_NE(harmless_change("boost").refusal(c.scene), "");  // periodic, and gravity
-  c.scene.periodic = {}, c.scene.gravity = {};
+  c.scene.periodic = {};
+  c.scene.gravity = {};
   EXPECT_EQ(harmless_change("boost").refusal(c.scene), "");
   c.scene.bodies.resize(1);
   c.scene.bodies[0].motion = Motion::fixed;

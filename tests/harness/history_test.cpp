@@ -24,7 +24,8 @@ Results measured_value(double v) {
   auto r = green();
   error(r).value = v;
   judge(r);
-  r.date = "2026-11-21T12:00:00Z", r.tool.commit = "abc";
+  r.date = "2026-11-21T12:00:00Z";
+  r.tool.commit = "abc";
   return r;
 }
 

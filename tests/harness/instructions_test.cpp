@@ -42,7 +42,8 @@ TEST(Instructions, OfTheProcessorAreOfTheChildAloneOrNotCounted) {
 TEST(Instructions, ThatWereNotCountedAreSaidToBeNotMeasured) {
   auto r = green();
   EXPECT_NE(results_text(r).find("\"counted_by\": \"not measured\""), std::string::npos);
-  engine(r).runs[0].cost.instructions = 1e6, engine(r).runs[0].cost.counted_by = "callgrind";
+  engine(r).runs[0].cost.instructions = 1e6;
+  engine(r).runs[0].cost.counted_by = "callgrind";
   const TestFolder folder;
   write_text(folder / "results.json", results_text(r));
   const auto back = read_results(folder / "results.json");

@@ -42,7 +42,8 @@ TEST(Kills, EveryFrameAnnouncedAsWrittenIsReadableAfterTwentyKills) {
     write_job(out + "/job.json", job);
     ProcessSpec spec;
     spec.argv = {engine.executable, "--run", out + "/job.json"};
-    spec.folder = out, spec.log = out + "/log.txt";
+    spec.folder = out;
+    spec.log = out + "/log.txt";
     spec.wall_limit = 0.06 + 0.013 * n;  // SIGKILL to the group, at twenty different moments
     const auto end = run_process(spec);
     killed += end.how == ProcessEnd::How::timed_out;

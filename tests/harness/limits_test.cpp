@@ -100,7 +100,9 @@ TEST(Limits, TwoEnginesAreEqualWithinTheMarginOnly) {
 
 Gate gate_of(std::optional<double> limit, std::optional<double> at_least, std::optional<std::array<double, 2>> band) {
   Gate g;
-  g.limit = limit, g.at_least = at_least, g.band = band;
+  g.limit = limit;
+  g.at_least = at_least;
+  g.band = band;
   return g;
 }
 
@@ -202,7 +204,11 @@ TEST(ExitCodes, EachHasItsWord) {
 
 GateRow passed(double value, double u, const Gate& gate) {
   GateRow row;
-  row.metric = "error", row.verdict = Verdict::pass, row.value = value, row.uncertainty = u, row.gate = gate;
+  row.metric = "error";
+  row.verdict = Verdict::pass;
+  row.value = value;
+  row.uncertainty = u;
+  row.gate = gate;
   return row;
 }
 
@@ -230,20 +236,25 @@ TEST(SlackEdges, ACountUsesAHalfAtLeastUnlessItIsScaled) {
   c.metrics[0].name = "error";
   const auto row = passed(0.0, 0.0, gate_of(2.0, {}, {}));
   for (const char* count : {"body_count", "bonded_objects", "object_count", "phase_count", "event_count", "toggles"}) {
-    c.metrics[0].quantity = count, c.metrics[0].scale = 1.0;
+    c.metrics[0].quantity = count;
+    c.metrics[0].scale = 1.0;
     EXPECT_EQ(slack_of(c, row), 4.0) << count;
     EXPECT_EQ(slack_of(c, passed(1.0, 0.0, gate_of(2.0, {}, {}))), 2.0) << count;
     c.metrics[0].scale = 2.0;
     EXPECT_EQ(slack_of(c, row), infinity) << count;
   }
-  c.metrics[0].name = "another", c.metrics[0].scale = 1.0;
+  c.metrics[0].name = "another";
+  c.metrics[0].scale = 1.0;
   EXPECT_EQ(slack_of(c, row), infinity);
 }
 
 AcceptedGate accepted(std::optional<double> limit, std::optional<double> at_least, std::optional<std::array<double, 2>> band,
                       std::optional<double> drift = {}) {
   AcceptedGate g;
-  g.limit = limit, g.at_least = at_least, g.band = band, g.drift = drift;
+  g.limit = limit;
+  g.at_least = at_least;
+  g.band = band;
+  g.drift = drift;
   return g;
 }
 

@@ -35,7 +35,8 @@ class Accepted {
     SuiteOptions options;
     options.out = folder / "out";
     Results results = run_suite({read_case(file()).value}, {ask_engine(fake_engine(folder, wrong, "tripoint"))}, options);
-    results.filter_known = true, results.what = {folder / "cases"};
+    results.filter_known = true;
+    results.what = {folder / "cases"};
     return results;
   }
 
@@ -85,8 +86,13 @@ TEST(NeverFailsGate, Way22ABandOfAnOlderBaselineIsReadFromItsWords) {
   Accepted suite(two_sided);
   const auto path = baseline_file(suite.file());
   auto b = read_baseline(path);
-  for (auto& g : b.gates) g.band.reset(), g.limit.reset(), g.measures.clear();
-  b.scene.clear(), b.case_hash.clear();
+  for (auto& g : b.gates) {
+    g.band.reset();
+    g.limit.reset();
+    g.measures.clear();
+  }
+  b.scene.clear();
+  b.case_hash.clear();
   write_text(path, baseline_text(b));
   EXPECT_TRUE(says(suite.after("band = [0.1, 2.0]", "band = [0.2, 2.1]"), "its upper edge", "LOOSENED"));
 }
@@ -120,7 +126,8 @@ TEST(NeverFailsGate, Way26ACaseThatIsDeletedOrTakenOffItsProfileIsGone) {
   Accepted suite;
   auto other = suite.r;
   write_text(suite.folder / "cases/test/second.toml", flight_case());
-  other.cases[0].file = suite.folder / "cases/test/second.toml", other.cases[0].id = "test/second";
+  other.cases[0].file = suite.folder / "cases/test/second.toml";
+  other.cases[0].id = "test/second";
   suite.write("", "claims = \"it flies\"", "claims = \"it flies\"\nprofiles = [\"nightly\"]");
   EXPECT_TRUE(says(lost_case_remarks(other), "was accepted in the profile commit", "GONE"));
   std::filesystem::remove(suite.file());
@@ -134,8 +141,13 @@ TEST(NeverFailsGate, OnlyAWholeRunOfAProfileOwesAllItsCases) {
   Accepted suite;
   auto whole = suite.r;
   write_text(suite.folder / "cases/test/second.toml", flight_case());
-  whole.cases[0].file = suite.folder / "cases/test/second.toml", whole.cases[0].id = "test/second";
-  whole.filter_known = true, whole.profile = "commit", whole.what.clear(), whole.tag.clear(), whole.shard.clear();
+  whole.cases[0].file = suite.folder / "cases/test/second.toml";
+  whole.cases[0].id = "test/second";
+  whole.filter_known = true;
+  whole.profile = "commit";
+  whole.what.clear();
+  whole.tag.clear();
+  whole.shard.clear();
   EXPECT_TRUE(says(lost_case_remarks(whole), "the results of that profile do not hold it", "GONE"));
   const auto none = [](Results r, auto change) {
     change(r);
@@ -173,7 +185,8 @@ TEST(NeverFailsGate, Way28AnOptionalEngineThatCrashesOrRefusesWhatItOnceRanIsRed
   refused.cases[0].exit_code = exit_pass;  // another engine's gates are green
   EXPECT_TRUE(says(baseline_remarks(refused), "judges nothing any more", "GONE"));
   auto missing = suite.run("nothing");
-  missing.cases[0].engines[0].status = Status::missing, missing.cases[0].engines[0].runs.clear(),
+  missing.cases[0].engines[0].status = Status::missing;
+  missing.cases[0].engines[0].runs.clear();
   missing.cases[0].engines[0].gates.clear();
   missing.cases[0].exit_code = exit_pass;
   EXPECT_TRUE(baseline_remarks(missing).empty());
@@ -264,10 +277,13 @@ TEST(NeverFailsGate, Way54AMetricWhoseOwnReferenceWasAnotherIsSeenThoughItIsPutB
 TEST(NeverFailsGate, Way34TheRedRowOfThePrintedFormDoesNotStandForTheCorrectedOne) {
   auto r = green();
   auto paper = engine(r).runs[0];
-  engine(r).runs[0].knobs.mode = JudgedMode::corrected, paper.knobs.mode = JudgedMode::paper, paper.group = "paper";
+  engine(r).runs[0].knobs.mode = JudgedMode::corrected;
+  paper.knobs.mode = JudgedMode::paper;
+  paper.group = "paper";
   paper.metrics["error"].value = 5.0;
   engine(r).runs.push_back(paper);
-  r.cases[0].gates[0].mode = JudgedMode::corrected, r.cases[0].gates[0].limit = 1e9;
+  r.cases[0].gates[0].mode = JudgedMode::corrected;
+  r.cases[0].gates[0].limit = 1e9;
   auto printed = limit("error", 0.1);
   printed.mode = JudgedMode::paper;
   r.cases[0].gates.push_back(printed);

@@ -19,7 +19,8 @@ CaseResult fly_as(const std::string& from, const std::string& to, const std::str
   text.replace(text.find(from), from.size(), to);
   write_text(folder / "cases/test/flight.toml", text);
   SuiteOptions options;
-  options.out = folder / "out", options.selection.engines = {"fake"};
+  options.out = folder / "out";
+  options.selection.engines = {"fake"};
   return run_suite({read_case(folder / "cases/test/flight.toml").value}, {ask_engine(fake_engine(folder, wrong))}, options)
       .cases.at(0);
 }
@@ -47,7 +48,8 @@ TEST(NeverFailsLies, Way47ATrajectoryThatIsALinkIsNotTheEnginesOwn) {
     const TestFolder folder;
     const auto value = read_flight_case(folder, "[engines.a-good]\nrequired = true\n[engines.mine]\nrequired = true\n");
     SuiteOptions options;
-    options.out = folder / "out", options.selection.engines = {"a-good", "mine"};
+    options.out = folder / "out";
+    options.selection.engines = {"a-good", "mine"};
     const auto c =
         run_suite({value}, {ask_engine(fake_engine(folder, "nothing", "a-good")), ask_engine(fake_engine(folder, wrong, "mine"))},
                   options)
@@ -74,9 +76,12 @@ TEST(NeverFailsLies, Way52AColumnOfOtherTimesThanThePlacesIsNotOfTheFrame) {
 
 TEST(NeverFailsLies, Way49AnotherEnginesDivergenceDoesNotStandForTheOneThatIsRequired) {
   auto r = green();
-  r.cases[0].expect = Expect::diverges, r.cases[0].gates.clear();
+  r.cases[0].expect = Expect::diverges;
+  r.cases[0].gates.clear();
   auto other = engine(r);
-  other.name = "mine", other.required = false, other.runs[0].status = Status::diverged;
+  other.name = "mine";
+  other.required = false;
+  other.runs[0].status = Status::diverged;
   r.cases[0].engines.push_back(other);
   EXPECT_EQ(exit_of(r), exit_fail);
   engine(r).runs[0].status = Status::diverged;
@@ -92,7 +97,11 @@ TEST(NeverFailsLies, Way50AnEngineThatWasAskedForAndRefusesThePartThatItWouldFai
   auto& e = engine(r);
   e.required = false;
   auto finest = e.runs[0];
-  finest.base = false, finest.status = Status::refused, finest.reason = "too fine", finest.group = "fine", finest.metrics.clear();
+  finest.base = false;
+  finest.status = Status::refused;
+  finest.reason = "too fine";
+  finest.group = "fine";
+  finest.metrics.clear();
   e.runs.push_back(finest);
   EXPECT_EQ(exit_of(r), exit_pass) << "an engine that nobody asked for may";
   r.asked = {"tripoint"};
@@ -105,7 +114,9 @@ TEST(NeverFailsLies, Way51AnEngineWhoseProgramHasChangedIsRunAgainOnResume) {
   const TestFolder folder;
   const auto value = read_flight_case(folder, "[engines.fake]\nrequired = true\n");
   SuiteOptions options;
-  options.out = folder / "out", options.selection.engines = {"fake"}, options.resume = true;
+  options.out = folder / "out";
+  options.selection.engines = {"fake"};
+  options.resume = true;
   ASSERT_EQ(run_suite({value}, {ask_engine(fake_engine(folder, "nothing"))}, options).exit_code, exit_pass);
   const TestFolder other;  // the same name and version, and another program
   EXPECT_EQ(run_suite({value}, {ask_engine(fake_engine(other, "one per cent of gravity"))}, options).exit_code, exit_fail);

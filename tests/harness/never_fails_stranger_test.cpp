@@ -33,7 +33,8 @@ TEST(NeverFailsStranger, Way31ATrajectoryThatWasSwappedIsNotKeptOnResume) {
   const TestFolder folder;
   const auto value = read_flight_case(folder, "[engines.fake]\nrequired = true\n");
   SuiteOptions options;
-  options.out = folder / "out", options.selection.engines = {"fake"};
+  options.out = folder / "out";
+  options.selection.engines = {"fake"};
   const auto wrong = ask_engine(fake_engine(folder, "one per cent of gravity"));
   ASSERT_EQ(run_suite({value}, {wrong}, options).exit_code, exit_fail);
   SuiteOptions right = options;
@@ -50,7 +51,8 @@ TEST(NeverFailsStranger, Way32AnEngineThatWritesIntoTheSharedParticlesIsAnErrorA
   const TestFolder folder;
   const auto value = read_flight_case(folder, "[engines.a-bad]\nrequired = true\n[engines.good]\nrequired = true\n");
   SuiteOptions options;
-  options.out = folder / "out", options.selection.engines = {"a-bad", "good"};
+  options.out = folder / "out";
+  options.selection.engines = {"a-bad", "good"};
   const auto c = run_suite({value},
                            {ask_engine(fake_engine(folder, "writes into the particles", "a-bad")),
                             ask_engine(fake_engine(folder, "nothing", "good"))},
@@ -117,18 +119,23 @@ TEST(NeverFailsStranger, Way41ARequiredEngineThatNoGateLooksAtIsMissing) {
 TEST(NeverFailsStranger, Way42AGateForAPresetThatNobodyHasIsNotExcusedByAChoiceOfEngines) {
   auto r = green();
   auto none = limit("error", 0.1);
-  none.engine = "tripoint", none.preset = "no-such";
+  none.engine = "tripoint";
+  none.preset = "no-such";
   r.cases[0].gates.push_back(none);
   r.only_engines = {"tripoint"};
   EXPECT_EQ(exit_of(r), exit_missing);
-  r.cases[0].gates[1].engine = "bullet", r.cases[0].gates[1].preset.clear();
+  r.cases[0].gates[1].engine = "bullet";
+  r.cases[0].gates[1].preset.clear();
   EXPECT_EQ(exit_of(r), exit_pass);
 }
 
 TEST(NeverFailsStranger, Way43AnOptionalEngineThatBreaksOffIsAFailedTestAndNotASkippedOne) {
   auto r = green();
   auto second = engine(r);
-  second.name = "second", second.required = false, second.runs[0].status = Status::killed, second.runs[0].reason = "signal 11";
+  second.name = "second";
+  second.required = false;
+  second.runs[0].status = Status::killed;
+  second.runs[0].reason = "signal 11";
   r.cases[0].engines.push_back(second);
   judge(r);
   EXPECT_EQ(r.exit_code, exit_missing);

@@ -171,7 +171,8 @@ TEST(NeverFails, Way16AFailedRunAWrongUnitAndAShiftedTimeAxisAreSeen) {
 Results with_stranger(const std::string& judged) {
   auto r = green();
   auto mine = engine(r);
-  mine.name = "mine", mine.required = false;
+  mine.name = "mine";
+  mine.required = false;
   r.cases[0].engines.push_back(mine);
   r.cases[0].gates[0].engine = judged;
   r.asked = {"mine"};
@@ -197,11 +198,14 @@ TEST(NeverFails, Way18AnEngineThatWasAskedForAndIsNotThereOrDidNotRunDoesNotPass
   for (const auto status : {Status::missing, Status::refused, Status::killed, Status::timeout, Status::error}) {
     auto r = with_stranger("");
     auto& mine = r.cases[0].engines[1];
-    mine.status = status, mine.reason = "why";
+    mine.status = status;
+    mine.reason = "why";
     if (mine.status == Status::missing)
       mine.runs.clear();
-    else
-      mine.runs[0].status = status, mine.runs[0].reason = "why";
+    else {
+      mine.runs[0].status = status;
+      mine.runs[0].reason = "why";
+    }
     judge(r);
     EXPECT_EQ(r.exit_code, exit_missing) << status;
     ASSERT_FALSE(r.problems.empty()) << status;

@@ -32,7 +32,8 @@ Results results_in(const TestFolder& folder, double error) {
   write_text(r.cases[0].file, flight_case());
   fs::create_directories(folder / "baselines");
   r.cases[0].engines[0].runs[0].metrics["error"] = value(error);
-  r.date = "2026-01-02T03:04:05Z", r.tool.commit = "abc";
+  r.date = "2026-01-02T03:04:05Z";
+  r.tool.commit = "abc";
   judge(r);
   return r;
 }

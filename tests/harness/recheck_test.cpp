@@ -24,16 +24,22 @@ constexpr const char* more =
 /// Results as the suite writes them: a row for each engine that is planned, a run for each that it plans.
 Results results_of(const Case& file) {
   CaseResult c;
-  c.id = file.id, c.file = file.file, c.expect = file.expect, c.reference = with_source_of_file(file.reference),
-  c.metrics = file.metrics, c.gates = file.gates;
+  c.id = file.id;
+  c.file = file.file;
+  c.expect = file.expect;
+  c.reference = with_source_of_file(file.reference);
+  c.metrics = file.metrics;
+  c.gates = file.gates;
   c.studies = file.studies;
   c.hashes = case_hashes(file.file);
   for (const auto& plan : plan_runs(file, {}, {})) {
     EngineRow e;
-    e.name = plan.name, e.preset = plan.preset, e.required = plan.required;
+    e.name = plan.name;
+    e.preset = plan.preset;
+    e.required = plan.required;
     for (const auto& p : plan.runs) {
       RunRow run;
-      run.group = p.group,
+      run.group = p.group;
       run.folder = "runs/test/flight/" + plan.name + "/" + (plan.preset == "default" ? "" : plan.preset + "-") + p.label;
       for (const auto& m : file.metrics) run.metrics[m.name] = {2.0, {}, {}, {0.0, 0.5}, {1.0, 2.0}};
       e.runs.push_back(run);
@@ -132,7 +138,8 @@ TEST(RecheckParts, EachPartThatIsAnotherIsNamedAlone) {
 
 TEST(RecheckParts, PointAtTheLineOfTheFileOrAtItsFirst) {
   Flown f;
-  f.r.cases[0].gates.pop_back(), f.r.cases[0].expect = Expect::diverges;
+  f.r.cases[0].gates.pop_back();
+  f.r.cases[0].expect = Expect::diverges;
   const auto list = recheck_remarks(f.r);
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list[0].place.file, f.file.file);
@@ -143,7 +150,8 @@ TEST(RecheckParts, PointAtTheLineOfTheFileOrAtItsFirst) {
 
 TEST(RecheckParts, AFileOfAnotherCaseEndsTheComparison) {
   Flown f;
-  f.r.cases[0].id = "test/other", f.r.cases[0].expect = Expect::diverges;
+  f.r.cases[0].id = "test/other";
+  f.r.cases[0].expect = Expect::diverges;
   const auto list = recheck_remarks(f.r);
   ASSERT_EQ(list.size(), 1u);
   EXPECT_NE(list[0].text.find("is that of test/flight"), std::string::npos);
@@ -171,7 +179,10 @@ TEST(RecheckParts, EnginesAndRunsThatAreNotThereAreNamed) {
   only("tripoint is required, and they say that it is not", [](Flown& f) { f.row("tripoint").required = false; });
   only("", [](Flown& f) { f.row("exact").required = true; });
   only("the run corrected-spacing=0.05 of tripoint is not in them", [](Flown& f) { f.row("tripoint").runs.pop_back(); });
-  only("", [](Flown& f) { f.row("tripoint").status = Status::missing, f.row("tripoint").runs.clear(); });
+  only("", [](Flown& f) {
+    f.row("tripoint").status = Status::missing;
+    f.row("tripoint").runs.clear();
+  });
   only("", [](Flown& f) {
     f.r.only_engines = {"tripoint"};
     std::erase_if(f.r.cases[0].engines, [](const auto& e) { return e.name != "tripoint"; });
@@ -211,8 +222,15 @@ TEST(RecheckParts, AValueIsTheNormOfItsSeriesToRoundOff) {
   EXPECT_EQ(remark(with("late", 2.5)), "2.5 of late in tripoint corrected is not the final of its series, 2");
   EXPECT_EQ(remark(with("position", std::nan(""))), "");  // fails by itself
   EXPECT_EQ(remark([](RunRow& run) { run.metrics.erase("late"); }), "tripoint has no value of late in its run corrected");
-  EXPECT_EQ(remark([](RunRow& run) { run.metrics.erase("late"), run.status = Status::killed; }), "");
-  EXPECT_EQ(remark([](RunRow& run) { run.metrics.at("late").series.clear(), run.metrics.at("late").value = 9.0; }),
+  EXPECT_EQ(remark([](RunRow& run) {
+              run.metrics.erase("late");
+              run.status = Status::killed;
+            }),
+            "");
+  EXPECT_EQ(remark([](RunRow& run) {
+              run.metrics.at("late").series.clear();
+              run.metrics.at("late").value = 9.0;
+            }),
             "");  // nothing to compare with
 }
 
@@ -220,7 +238,8 @@ TEST(RecheckSelection, OnlyAWholeRunOfAFolderOwesItsOtherCases) {
   Flown f;
   write_text(f.folder / "cases/test/second.toml", flight_case());
   EXPECT_TRUE(recheck_remarks(f.r).empty());
-  f.r.filter_known = true, f.r.what = {f.folder / "cases"};
+  f.r.filter_known = true;
+  f.r.what = {f.folder / "cases"};
   auto list = recheck_remarks(f.r);
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].title, "test/second");
@@ -228,7 +247,8 @@ TEST(RecheckSelection, OnlyAWholeRunOfAFolderOwesItsOtherCases) {
   EXPECT_TRUE(list[0].error && list[0].code == exit_missing && list[0].word == "CHANGED");
   f.r.shard = "1/2";
   EXPECT_TRUE(recheck_remarks(f.r).empty());
-  f.r.shard.clear(), f.r.what = {f.folder / "nowhere"};
+  f.r.shard.clear();
+  f.r.what = {f.folder / "nowhere"};
   list = recheck_remarks(f.r);
   ASSERT_EQ(list.size(), 1u);
   EXPECT_EQ(list[0].title, "the results");
@@ -272,9 +292,11 @@ TEST(GateVerdictParts, PartsAndChosenCasesAreSaidAndTurnNothingRed) {
   EXPECT_EQ(said(r, "are part 2/3 of a suite"), 1);
   r.shard = "1/1";
   EXPECT_EQ(said(r, "are part"), 0);
-  r.filter_known = true, r.what = {f.folder / "cases"};
+  r.filter_known = true;
+  r.what = {f.folder / "cases"};
   EXPECT_EQ(said(r, "are of chosen cases"), 0);
-  r.filter_known = false, r.cases.clear();
+  r.filter_known = false;
+  r.cases.clear();
   EXPECT_EQ(said(r, "are of chosen cases"), 0);
 }
 

@@ -12,23 +12,33 @@ namespace {
 Release release(const std::string& version, double error, double order, Verdict gate_verdict = Verdict::pass,
                 const std::string& build = "double precision") {
   Release r;
-  r.engine.name = "stone", r.engine.version = version, r.engine.build = build;
+  r.engine.name = "stone";
+  r.engine.version = version;
+  r.engine.build = build;
   EngineRow e;
-  e.name = "stone", e.version = version, e.preset = "RK4";
+  e.name = "stone";
+  e.version = version;
+  e.preset = "RK4";
   RunRow run;
   run.base = true;
   run.metrics["angle"].value = error;
   e.runs.push_back(run);
   OrderRow fit;
-  fit.metric = "angle", fit.axes = {Axis::time_step}, fit.order.value = order, fit.step = {0.02, 0.01},
+  fit.metric = "angle";
+  fit.axes = {Axis::time_step};
+  fit.order.value = order;
+  fit.step = {0.02, 0.01};
   fit.error = {4 * error, error};
   e.order.push_back(fit);
   GateRow gate;
-  gate.metric = "angle", gate.verdict = gate_verdict, gate.why = "0.2 is above limit 0.1";
+  gate.metric = "angle";
+  gate.verdict = gate_verdict;
+  gate.why = "0.2 is above limit 0.1";
   e.gates.push_back(gate);
   r.result.engines.push_back(e);
   MetricChoice angle;
-  angle.name = "angle", angle.unit = "rad";
+  angle.name = "angle";
+  angle.unit = "rad";
   r.result.metrics.push_back(angle);
   return r;
 }
@@ -92,10 +102,14 @@ TEST(Releases, TheCaseIsRunOnTheOneEngineInItsPresets) {
   Case value;
   value.scene.time_step = 0.01;
   value.engines.resize(2);
-  value.engines[0].name = "tripoint", value.engines[0].required = true;
-  value.engines[1].name = "stone", value.engines[1].required = true, value.engines[1].presets = {"RK4"};
+  value.engines[0].name = "tripoint";
+  value.engines[0].required = true;
+  value.engines[1].name = "stone";
+  value.engines[1].required = true;
+  value.engines[1].presets = {"RK4"};
   EngineEntry engine;
-  engine.name = "stone", engine.presets = {"Euler", "RK4"};
+  engine.name = "stone";
+  engine.presets = {"Euler", "RK4"};
   const auto own = case_for_releases(value, engine, {}, {});
   ASSERT_EQ(own.engines.size(), 1U);
   EXPECT_FALSE(own.engines[0].required);

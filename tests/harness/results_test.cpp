@@ -37,7 +37,8 @@ TEST(ResultsFile, JudgedFromTheFileTheVerdictIsTheSame) {
 TEST(ResultsFile, KeepsTheLibraryOfAnEngineAndTheTagsOfACase) {
   auto r = green();
   r.cases[0].tags = {"table1", "feature-fluids"};
-  r.cases[0].engines[0].library_path = "/lib/libx.so", r.cases[0].engines[0].library_hash = "fnv1a64:0123";
+  r.cases[0].engines[0].library_path = "/lib/libx.so";
+  r.cases[0].engines[0].library_hash = "fnv1a64:0123";
   const auto stored = written_and_read(r);
   EXPECT_EQ(stored.cases[0].tags, r.cases[0].tags);
   EXPECT_EQ(stored.cases[0].engines[0].library_path, "/lib/libx.so");
@@ -102,7 +103,8 @@ TEST(Judge, AnUncertaintyThatReachesTheLimitIsInconclusiveAndNotGreen) {
 TEST(Judge, AnEngineThatNobodyRequiresMayNotRefuseOneSeedOfARun) {
   auto r = green();
   auto other = engine(r);
-  other.name = "other", other.required = false;
+  other.name = "other";
+  other.required = false;
   other.runs[0].metrics["error"] = value(7.0);  // far above the limit
   other.runs.push_back(run_with({}));
   other.runs[1].status = Status::refused;
@@ -116,7 +118,8 @@ TEST(Judge, AnEngineThatWasAskedForAndThatNoGateNamesIsToldHowManyCasesItRan) {
   auto r = green();
   r.cases[0].gates[0].engine = "tripoint";
   r.cases[0].engines.push_back(engine(r));
-  r.cases[0].engines[1].name = "other", r.cases[0].engines[1].required = false;
+  r.cases[0].engines[1].name = "other";
+  r.cases[0].engines[1].required = false;
   r.asked = {"other"};
   judge(r);
   EXPECT_EQ(r.exit_code, exit_missing);
@@ -128,7 +131,9 @@ TEST(Judge, ARunThatBrokeOffIsNoRefusal) {
   for (const auto status : {Status::killed, Status::timeout, Status::error}) {
     auto r = green();
     r.cases[0].engines.push_back(engine(r));
-    r.cases[0].engines[1].name = "other", r.cases[0].engines[1].required = false, r.cases[0].engines[1].runs[0].status = status;
+    r.cases[0].engines[1].name = "other";
+    r.cases[0].engines[1].required = false;
+    r.cases[0].engines[1].runs[0].status = status;
     EXPECT_EQ(exit_of(r), exit_missing) << status;
   }
 }
@@ -149,14 +154,16 @@ TEST(Judge, WhereThePrintedFormIsDeclaredToDivergeTheCorrectedOneMayNot) {
   auto r = green();
   r.cases[0].expect = Expect::paper_diverges;
   RunRow printed = engine(r).runs[0];
-  printed.knobs.mode = JudgedMode::paper, printed.status = Status::diverged;
+  printed.knobs.mode = JudgedMode::paper;
+  printed.status = Status::diverged;
   engine(r).runs[0].knobs.mode = JudgedMode::corrected;
   engine(r).runs.push_back(printed);
   for (Gate& gate : r.cases[0].gates) gate.mode = JudgedMode::corrected;
   EXPECT_EQ(exit_of(r), exit_pass);
   engine(r).runs[1].status = Status::ok;
   EXPECT_EQ(exit_of(r), exit_fail) << "the declaration is stale";
-  engine(r).runs[1].status = Status::diverged, engine(r).runs[0].status = Status::diverged;
+  engine(r).runs[1].status = Status::diverged;
+  engine(r).runs[0].status = Status::diverged;
   EXPECT_EQ(exit_of(r), exit_diverged);
 }
 
@@ -208,11 +215,13 @@ TEST(Shards, MergedShardsHaveTheVerdictOfTheWholeSuite) {
   auto second = green().cases[0];
   second.id = "test/two";
   second.engines[0].runs[0].metrics["error"] = value(0.3);
-  whole.cases.push_back(second), whole.planned.push_back("test/two");
+  whole.cases.push_back(second);
+  whole.planned.push_back("test/two");
   judge(whole);
   for (int k = 0; k < 2; ++k) {
     auto part = whole;
-    part.cases = {whole.cases[static_cast<std::size_t>(k)]}, part.planned = {part.cases[0].id};
+    part.cases = {whole.cases[static_cast<std::size_t>(k)]};
+    part.planned = {part.cases[0].id};
     part.shard = std::to_string(k + 1) + "/2";
     judge(part);
     write_text(folder / ("s" + std::to_string(k) + "/results.json"), results_text(part));

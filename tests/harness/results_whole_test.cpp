@@ -18,24 +18,44 @@ RunRow whole_run() {
   RunRow r;
   r.knobs = {0.01, 0.02, 2.5, 3.0, 4.0, JudgedMode::paper, 5, 6, 0.07};
   r.levels = {{{Axis::spacing, false, true}, 0.11}, {{Axis::walkers}, 12.0}};
-  r.base = true, r.group = "the group", r.input = "material.water.viscosity=2", r.reason = "the reason", r.comparable = false;
+  r.base = true;
+  r.group = "the group";
+  r.input = "material.water.viscosity=2";
+  r.reason = "the reason";
+  r.comparable = false;
   r.metrics["error"] = {0.13, {0.14, 0.15, 0.16, 0.17}, "the note", {0.18, 0.19}, {0.20, 0.21}};
   r.metrics["other"].value = not_a_number;
   r.cost = {22.0, 23.0, 24.0, 25.0, 26.0, 27.0, 28.0, 29.0, 30.0, 31.0, {32.0, 33.0}, "callgrind"};
-  r.state_hash = "the state", r.time_step_bound = "the bound", r.folder = "runs/test/one/tripoint/paper";
+  r.state_hash = "the state";
+  r.time_step_bound = "the bound";
+  r.folder = "runs/test/one/tripoint/paper";
   return r;
 }
 
 Results whole_results() {
   auto r = green();
   r.tool = {"1.2", "abc", "g++", "-O2", "a cpu", 34};
-  r.command = "tripoint validate", r.profile = "commit", r.date = "2026-11-22", r.seed = 35, r.history = "history.jsonl",
-  r.shard = "2/3", r.tag = "table1";
-  r.filter_known = true, r.seed_given = true, r.what = {"cases/a", "cases/b"}, r.only_engines = {"tripoint", "exact"},
-  r.asked = {"bullet"}, r.planned = {"test/one", "test/two"};
+  r.command = "tripoint validate";
+  r.profile = "commit";
+  r.date = "2026-11-22";
+  r.seed = 35;
+  r.history = "history.jsonl";
+  r.shard = "2/3";
+  r.tag = "table1";
+  r.filter_known = true;
+  r.seed_given = true;
+  r.what = {"cases/a", "cases/b"};
+  r.only_engines = {"tripoint", "exact"};
+  r.asked = {"bullet"};
+  r.planned = {"test/one", "test/two"};
   auto& c = r.cases[0];
-  c.kind = CaseKind::validation, c.requirement = "R1", c.claims = "it holds", c.file = "cases/test/one.toml",
-  c.repeat = "tripoint validate one", c.expect = Expect::defect, c.tags = {"x", "y"};
+  c.kind = CaseKind::validation;
+  c.requirement = "R1";
+  c.claims = "it holds";
+  c.file = "cases/test/one.toml";
+  c.repeat = "tripoint validate one";
+  c.expect = Expect::defect;
+  c.tags = {"x", "y"};
   c.reference = {ReferenceKind::discrete_exact,
                  "beam",
                  "beam.csv",
@@ -44,24 +64,48 @@ Results whole_results() {
                  39.0};
   c.metrics = {{"error", "position", "cube", "all", Norm::L2, {0.40, 0.41}, 42.0, "mm", {}, {}}};
   Study s;
-  s.axes = {Axis::spacing, true, false}, s.levels = {0.2, 0.1}, s.jitter = 0.43, s.seeds = 44, s.engine = "tripoint",
-  s.mode = JudgedMode::corrected, s.expect = FitClass::asymptotic, s.order = 2.0, s.metric = "error",
+  s.axes = {Axis::spacing, true, false};
+  s.levels = {0.2, 0.1};
+  s.jitter = 0.43;
+  s.seeds = 44;
+  s.engine = "tripoint";
+  s.mode = JudgedMode::corrected;
+  s.expect = FitClass::asymptotic;
+  s.order = 2.0;
+  s.metric = "error";
   s.place = {"one.toml", 45, 0};
   c.studies = {s};
   Gate g;
-  g.metric = "error", g.engine = "tripoint", g.mode = JudgedMode::not_paper, g.preset = "tuned", g.limit = 46.0,
-  g.at_least = 47.0, g.band = {48.0, 49.0}, g.level = 50.0, g.drift = 51.0;
-  g.reason = "a reason", g.by = "somebody", g.date = "2026-11-21", g.place = {"one.toml", 52, 0};
+  g.metric = "error";
+  g.engine = "tripoint";
+  g.mode = JudgedMode::not_paper;
+  g.preset = "tuned";
+  g.limit = 46.0;
+  g.at_least = 47.0;
+  g.band = {48.0, 49.0};
+  g.level = 50.0;
+  g.drift = 51.0;
+  g.reason = "a reason";
+  g.by = "somebody";
+  g.date = "2026-11-21";
+  g.place = {"one.toml", 52, 0};
   c.gates = {g};
   EngineRow e;
-  e.name = "tripoint", e.version = "1.3", e.preset = "tuned", e.library_path = "/lib/x.so", e.library_hash = "the hash",
-  e.required = true, e.refuses = "no gas", e.reason = "the engine's reason";
+  e.name = "tripoint";
+  e.version = "1.3";
+  e.preset = "tuned";
+  e.library_path = "/lib/x.so";
+  e.library_hash = "the hash";
+  e.required = true;
+  e.refuses = "no gas";
+  e.reason = "the engine's reason";
   e.runs = {whole_run()};
   c.engines = {e};
   c.equivalence = {{"a1", "b1", "error", 53.0, 54.0, 55.0, 56.0, 57.0, Equivalence::equivalent},
                    {"a2", "b2", "error", 58.0, 59.0, {}, 60.0, 61.0, Equivalence::no_margin}};
   c.ledger = {{"kinetic", 62.0}, {"heat", not_a_number}};
-  c.timing_rounds = 63, c.timing_floor = 1.64;
+  c.timing_rounds = 63;
+  c.timing_floor = 1.64;
   c.hashes = CaseHashes{"the scene", "the reference", {{"error", "its hash"}}, {}, {}};
   return r;
 }

@@ -49,8 +49,10 @@ TEST(Seeds, AGateThatTurnsWithOneOfThemIsAFalseAlarm) {
 TEST(Seeds, ADivergenceThatTheCaseDeclaresIsNoAlarmAndAnotherIs) {
   for (const auto& [expect, code] : {std::pair{Expect::diverges, exit_pass}, std::pair{Expect::pass, exit_selftest}}) {
     auto r = green();
-    r.cases[0].expect = expect, r.cases[0].gates.clear();
-    engine(r).runs[0].status = Status::diverged, engine(r).runs[0].metrics.clear();
+    r.cases[0].expect = expect;
+    r.cases[0].gates.clear();
+    engine(r).runs[0].status = Status::diverged;
+    engine(r).runs[0].metrics.clear();
     judge(r);
     SeedsOutcome all;
     add_seed(r.cases[0], 1, all);
@@ -64,7 +66,9 @@ TEST(Seeds, GatesThatJudgeTheSameLevelOfTwoStudiesAreNotMixed) {
   for (const unsigned seed : {1u, 2u}) {
     auto r = green();
     auto second = engine(r).runs[0];
-    second.group = "other", second.base = false, second.metrics["error"].value = 0.01;
+    second.group = "other";
+    second.base = false;
+    second.metrics["error"].value = 0.01;
     engine(r).runs.push_back(second);
     judge(r);
     add_seed(r.cases[0], seed, all);

@@ -48,8 +48,14 @@ TEST(SmallestDefect, HasGrownWhenALimitIsLoosenedByMoreThanAQuarter) {
 TEST(SmallestDefect, IsInTheTableAndTheDocumentOfTheSelfTest) {
   SelftestOutcome outcome;
   SmallestOutcome s;
-  s.defect = "heat.conductivity", s.case_id = "heat/cosine-mode", s.metric = "rate", s.size = 0.0052, s.hidden = 0.005,
-  s.stored = 0.004, s.verdict = Size::grew, s.place = {"cases/heat/cosine-mode.toml", 7, 1};
+  s.defect = "heat.conductivity";
+  s.case_id = "heat/cosine-mode";
+  s.metric = "rate";
+  s.size = 0.0052;
+  s.hidden = 0.005;
+  s.stored = 0.004;
+  s.verdict = Size::grew;
+  s.place = {"cases/heat/cosine-mode.toml", 7, 1};
   outcome.smallest = {s};
   EXPECT_NE(selftest_table(outcome).find("GREW        heat.conductivity"), std::string::npos) << selftest_table(outcome);
   EXPECT_NE(selftest_table(outcome).find("cosine-mode.toml:7"), std::string::npos);

@@ -30,9 +30,11 @@ CaseResult two(double a, double b, double floor) {
   auto r = green();
   auto other = engine(r);
   other.name = "bullet";
-  engine(r).runs[0].cost.repeats = {a, a, a}, other.runs[0].cost.repeats = {b, b, b};
+  engine(r).runs[0].cost.repeats = {a, a, a};
+  other.runs[0].cost.repeats = {b, b, b};
   r.cases[0].engines.push_back(other);
-  r.cases[0].timing_rounds = 3, r.cases[0].timing_floor = floor;
+  r.cases[0].timing_rounds = 3;
+  r.cases[0].timing_floor = floor;
   return r.cases[0];
 }
 

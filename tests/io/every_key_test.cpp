@@ -31,9 +31,18 @@ void change(E& v) { v = static_cast<E>(1); }
 template <class Owner>
 void change_all(Owner& owner);
 
-void change(Shape& v) { v.kind = Shape::Kind::cylinder, change_all(v); }
-void change(TemperatureField& v) { v.kind = TemperatureField::Kind::step, change_all(v); }
-void change(VelocityField& v) { v.kind = VelocityField::Kind::linear, change_all(v); }
+void change(Shape& v) {
+  v.kind = Shape::Kind::cylinder;
+  change_all(v);
+}
+void change(TemperatureField& v) {
+  v.kind = TemperatureField::Kind::step;
+  change_all(v);
+}
+void change(VelocityField& v) {
+  v.kind = VelocityField::Kind::linear;
+  change_all(v);
+}
 void change(std::vector<Keyframe>& v) { change_all(v.emplace_back()); }
 template <class T>
 void change(std::optional<T>& v) {
@@ -77,10 +86,14 @@ std::string different(const Owner& a, const Owner& b) {
 
 Scene sent_and_received(const Scene& scene) {
   Job job;
-  job.case_id = "a/b", job.scene = scene, job.times = {0.0};
+  job.case_id = "a/b";
+  job.scene = scene;
+  job.times = {0.0};
   for (const Body& b : scene.bodies) {
     JobBody& j = job.bodies.emplace_back();
-    j.name = b.name, j.material = b.material, j.angular_velocity = b.angular_velocity;
+    j.name = b.name;
+    j.material = b.material;
+    j.angular_velocity = b.angular_velocity;
   }
   const auto path = std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + "-every-key.json");
   write_job(path.string(), job);
@@ -98,8 +111,10 @@ Owner changed() {
 
 TEST(EveryKey, GoesIntoAJobAndComesBack) {
   Scene sent = changed<Scene>();
-  sent.materials = {changed<Material>()}, sent.bodies = {changed<Body>()};
-  sent.events = {changed<Event>()}, sent.inflows = {changed<Inflow>()};
+  sent.materials = {changed<Material>()};
+  sent.bodies = {changed<Body>()};
+  sent.events = {changed<Event>()};
+  sent.inflows = {changed<Inflow>()};
   const Scene received = sent_and_received(sent);
   EXPECT_EQ(different(sent, received), "");
   EXPECT_EQ(different(sent.materials[0], received.materials.at(0)), "");
@@ -118,7 +133,8 @@ std::vector<Body> one_a_kind(T Body::*member) {
     owner.kind = kind.kind;
     change_all(owner);
     Body& b = bodies.emplace_back();
-    b.name = kind.word, b.*member = owner;
+    b.name = kind.word;
+    b.*member = owner;
   };
   std::apply([&](const auto&... all) { (add(all), ...); }, kinds<Owner>);
   return bodies;

@@ -28,7 +28,9 @@ Job example() {
   Material m;
   m.name = "water";
   m.density = 1000.0;
-  m.conductivity = 0.6, m.solid_conductivity = 2.2, m.solid_heat_capacity = 2100.0;
+  m.conductivity = 0.6;
+  m.solid_conductivity = 2.2;
+  m.solid_heat_capacity = 2100.0;
   s.materials.push_back(m);
   Body b;
   b.name = "bar";

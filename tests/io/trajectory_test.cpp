@@ -48,11 +48,13 @@ Snapshot frame_at(double time, int particles, int bodies) {
 
 TEST_F(Io, FramesOfAPeriodicDomainAreReadBackAsOthersAre) {
   Domain domain;
-  domain.min = {0.0, -1.0, -std::numeric_limits<double>::infinity()},
-  domain.max = {3.0, 1.0, std::numeric_limits<double>::infinity()}, domain.periodic = {true, false, false};
+  domain.min = {0.0, -1.0, -std::numeric_limits<double>::infinity()};
+  domain.max = {3.0, 1.0, std::numeric_limits<double>::infinity()};
+  domain.periodic = {true, false, false};
   for (const auto& [name, of] : {std::pair{"open.h5", Domain{}}, std::pair{"periodic.h5", domain}}) {
     TrajectoryWriter writer(path(name), of);
-    writer.append(frame_at(0.0, 5, 1)), writer.append(frame_at(1.0, 5, 1));
+    writer.append(frame_at(0.0, 5, 1));
+    writer.append(frame_at(1.0, 5, 1));
     writer.close();
   }
   const Trajectory open = read_trajectory(path("open.h5")), periodic = read_trajectory(path("periodic.h5"));
@@ -63,8 +65,13 @@ TEST_F(Io, FramesOfAPeriodicDomainAreReadBackAsOthersAre) {
 
 TEST_F(Io, ACsvWithTwoRowsForOneBodyOrParticleAtATimeIsRefused) {
   InitialState initial;
-  initial.position = {{0, 0, 0}, {1, 0, 0}}, initial.velocity = {{}, {}}, initial.mass = {1.0, 1.0}, initial.phase = {2, 2},
-  initial.body = {0, 0}, initial.material = {0, 0}, initial.source = {0, 0};
+  initial.position = {{0, 0, 0}, {1, 0, 0}};
+  initial.velocity = {{}, {}};
+  initial.mass = {1.0, 1.0};
+  initial.phase = {2, 2};
+  initial.body = {0, 0};
+  initial.material = {0, 0};
+  initial.source = {0, 0};
   const auto refusal = [&](const std::string& text) -> std::string {
     std::ofstream(path("trajectory.csv")) << text;
     try {
@@ -84,8 +91,13 @@ TEST_F(Io, ACsvWithTwoRowsForOneBodyOrParticleAtATimeIsRefused) {
 
 TEST_F(Io, ACsvOfBodiesWithoutTurningDoesNotTurn) {
   InitialState initial;
-  initial.position = {{0, 0, 0}, {1, 0, 0}}, initial.velocity = {{}, {}}, initial.mass = {1.0, 1.0}, initial.phase = {2, 2},
-  initial.body = {0, 0}, initial.material = {0, 0}, initial.source = {0, 0};
+  initial.position = {{0, 0, 0}, {1, 0, 0}};
+  initial.velocity = {{}, {}};
+  initial.mass = {1.0, 1.0};
+  initial.phase = {2, 2};
+  initial.body = {0, 0};
+  initial.material = {0, 0};
+  initial.source = {0, 0};
   std::ofstream(path("trajectory.csv")) << "time,body,x,y,z,vx,vy,vz\n0,0,0.5,0,0,1,2,3\n";
   const auto frame = read_trajectory_csv(path("trajectory.csv"), initial, 1).frames.at(0);
   EXPECT_EQ(frame.bodies[0].angular_velocity, Vec3{});
@@ -120,7 +132,8 @@ TEST_F(Io, EveryNumberOfABodyReadsBackInItsPlace) {
                             b + 14,
                             {b + 15, b + 16, b + 17},
                             {b + 18, b + 19, b + 20}});
-  wrote.momentum = {21, 22, 23}, wrote.angular_momentum = {24, 25, 26};
+  wrote.momentum = {21, 22, 23};
+  wrote.angular_momentum = {24, 25, 26};
   TrajectoryWriter writer(path("trajectory.h5"));
   writer.append(wrote);
   writer.close();

@@ -14,7 +14,8 @@ using namespace test;
 /// A body on a principal axis, one frame a turn.
 Prepared spinning(double turns_a_frame) {
   auto s = block({0.0, 0.0, 10.0}, turns_a_frame * 2.0 * pi / 10.0 * 5.0, 5);
-  s.job.reference.kind = ReferenceKind::invariant, s.job.reference.function = "";
+  s.job.reference.kind = ReferenceKind::invariant;
+  s.job.reference.function = "";
   return s;
 }
 
@@ -110,7 +111,8 @@ TEST(Audit, FindsARunWhosePlacesAreThoseOfTheStart) {
 TEST(Audit, LetsAThrownBodyComeBack) {
   auto s = thrown_block();
   for (auto& v : s.initial.velocity) v = {0.0, 0.0, 9.81};
-  s.job.bodies[0].velocity = {0.0, 0.0, 9.81}, s.job.bodies[0].angular_velocity = {};
+  s.job.bodies[0].velocity = {0.0, 0.0, 9.81};
+  s.job.bodies[0].angular_velocity = {};
   set_times(s, 2.0, 1);
   Trial t(std::move(s), "ballistic");
   auto& last = t.run.frames.back();
@@ -173,8 +175,11 @@ Prepared hot_and_cold(int gap) {
 TEST(Audit, AsksForNoHeatBetweenBodiesThatDoNotTouch) {
   const auto kept = [](Prepared s) {
     Trial t(std::move(s), "invariant");
-    for (auto& f : t.run.frames)
-      f.position = t.s.initial.position, f.velocity = t.s.initial.velocity, f.temperature = t.s.initial.temperature;
+    for (auto& f : t.run.frames) {
+      f.position = t.s.initial.position;
+      f.velocity = t.s.initial.velocity;
+      f.temperature = t.s.initial.temperature;
+    }
     return t.sound();
   };
   EXPECT_EQ(kept(hot_and_cold(3)), "");

@@ -56,7 +56,10 @@ inline Prepared warm_bar() {
       {20, 4, 4}, dx, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + 0.7); }, 60.0, 10, true);
   TemperatureField field;
   field.kind = TemperatureField::Kind::cosine;
-  field.mean = 300.0, field.amplitude = 10.0, field.phase = 0.7, field.wave_vector = {k, 0, 0};
+  field.mean = 300.0;
+  field.amplitude = 10.0;
+  field.phase = 0.7;
+  field.wave_vector = {k, 0, 0};
   s.job.scene.bodies[0].temperature = field;
   return s;
 }

@@ -13,8 +13,11 @@ struct Still {
     for (const double t : s.job.times) {
       Snapshot frame;
       frame.time = t;
-      frame.position = s.initial.position, frame.velocity = s.initial.velocity;
-      frame.mass = s.initial.mass, frame.phase = s.initial.phase, frame.body = s.initial.body;
+      frame.position = s.initial.position;
+      frame.velocity = s.initial.velocity;
+      frame.mass = s.initial.mass;
+      frame.phase = s.initial.phase;
+      frame.body = s.initial.body;
       for (std::size_t i = 0; i < s.initial.size(); ++i) frame.id.push_back(static_cast<int>(i));
       for (const auto& b : s.job.bodies)
         if (b.index >= 0) {

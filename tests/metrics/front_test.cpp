@@ -33,7 +33,10 @@ struct Dam {
     run.frames.clear();
     for (const double t : s.job.times) {
       Snapshot frame;
-      frame.time = t, frame.position = s.initial.position, frame.velocity = s.initial.velocity, frame.mass = s.initial.mass;
+      frame.time = t;
+      frame.position = s.initial.position;
+      frame.velocity = s.initial.velocity;
+      frame.mass = s.initial.mass;
       for (auto& r : frame.position) r.x += (place(t) - 0.4) * (r.x > 0.3 ? 1.0 : 0.0);
       run.frames.push_back(frame);
     }
@@ -76,7 +79,10 @@ TEST(Front, OfTwoLeadsOfOneSizeTheFirstIsTold) {
   Trajectory run;
   for (const double t : s.job.times) {
     Snapshot frame;
-    frame.time = t, frame.position = s.initial.position, frame.velocity = s.initial.velocity, frame.mass = s.initial.mass;
+    frame.time = t;
+    frame.position = s.initial.position;
+    frame.velocity = s.initial.velocity;
+    frame.mass = s.initial.mass;
     run.frames.push_back(frame);
   }
   const auto lead = evaluate(metric("front_lead", "final", "water"), s.job, s.initial, run,

@@ -42,11 +42,14 @@ TEST(ImpactMetrics, TurnTheSurfaceWithItsBody) {
 TEST(ImpactMetrics, KnowSpheresAndUnions) {
   Still f = block_above_floor();
   Shape ball;
-  ball.kind = Shape::Kind::sphere, ball.centre = {0.2, 0.2, 0.2}, ball.radius = 0.25;
+  ball.kind = Shape::Kind::sphere;
+  ball.centre = {0.2, 0.2, 0.2};
+  ball.radius = 0.25;
   f.s.job.scene.bodies[0].shape = ball;
   EXPECT_NEAR(f.stated(metric("sunk", "max", "block"), floor_at_0), 0.05, 1e-15);
   Shape both;
-  both.kind = Shape::Kind::unite, both.of = {ball, ball};
+  both.kind = Shape::Kind::unite;
+  both.of = {ball, ball};
   both.of[1].radius = 0.3;
   f.s.job.scene.bodies[0].shape = both;
   EXPECT_NEAR(f.stated(metric("sunk", "max", "block"), floor_at_0), 0.1, 1e-15);

@@ -79,7 +79,8 @@ const std::vector<Figure>& figures() {
        10.0,
        {},
        [](Snapshot&, Snapshot& s) {
-         s.velocity[3] = {0, 3, 4}, s.mass[3] = 2.0;
+         s.velocity[3] = {0, 3, 4};
+         s.mass[3] = 2.0;
        }},
       // two particles 0.1 m apart along z with opposite velocities of 2 m/s along x: 1 kg x 0.1 m x 2 m/s
       {"angular_momentum",
@@ -87,7 +88,8 @@ const std::vector<Figure>& figures() {
        0.2,
        {},
        [](Snapshot&, Snapshot& s) {
-         s.velocity[0] = {2, 0, 0}, s.velocity[1] = {-2, 0, 0};
+         s.velocity[0] = {2, 0, 0};
+         s.velocity[1] = {-2, 0, 0};
        }},
       // 1/2 x 1 kg x 25 m2/s2 + 1 kg x 10 m/s2 x 0.3 m
       {"energy",
@@ -95,21 +97,24 @@ const std::vector<Figure>& figures() {
        15.5,
        {},
        [](Snapshot&, Snapshot& s) {
-         s.velocity[3] = {0, 3, 4}, s.position[5].z += 0.3;
+         s.velocity[3] = {0, 3, 4};
+         s.position[5].z += 0.3;
        }},
       {"ledger.kinetic",
        "",
        12.5,
        {},
        [](Snapshot&, Snapshot& s) {
-         s.velocity[3] = {0, 3, 4}, s.position[5].z += 0.3;
+         s.velocity[3] = {0, 3, 4};
+         s.position[5].z += 0.3;
        }},
       {"ledger.potential",
        "",
        3.0,
        {},
        [](Snapshot&, Snapshot& s) {
-         s.velocity[3] = {0, 3, 4}, s.position[5].z += 0.3;
+         s.velocity[3] = {0, 3, 4};
+         s.position[5].z += 0.3;
        }},
       {"ledger.elastic",
        "",
@@ -123,14 +128,16 @@ const std::vector<Figure>& figures() {
        5.0,
        {},
        [](Snapshot& first, Snapshot& s) {
-         first.energy = {{"elastic", 2.0}, {"walls", -1.0}}, s.energy = {{"elastic", 5.0}, {"walls", 1.0}};
+         first.energy = {{"elastic", 2.0}, {"walls", -1.0}};
+         s.energy = {{"elastic", 5.0}, {"walls", 1.0}};
        }},
       {"energy_ratio",
        "",
        -0.25,
        {{"energy_ratio", 0.5}},
        [](Snapshot& first, Snapshot& s) {
-         first.velocity[3] = {0, 2, 0}, s.velocity[4] = {0, 0, 1};
+         first.velocity[3] = {0, 2, 0};
+         s.velocity[4] = {0, 0, 1};
        }},
       {"bonded_objects", "", -2.0, {{"value", 5.0}}, [](Snapshot&, Snapshot& s) { s.counts["objects"] = 3.0; }},
       {"recoveries", "", 4.0, {}, [](Snapshot&, Snapshot& s) { s.counts["recoveries"] = 4.0; }},
@@ -151,8 +158,10 @@ const std::vector<Figure>& figures() {
        -1.5,
        {{"value", 1.0}},
        [](Snapshot& first, Snapshot& s) {
-         first.velocity[0] = {2, 0, 0}, first.velocity[1] = {-2, 0, 0};
-         s.velocity[0] = {-1, 0, 0}, s.velocity[1] = {1, 0, 0};
+         first.velocity[0] = {2, 0, 0};
+         first.velocity[1] = {-2, 0, 0};
+         s.velocity[0] = {-1, 0, 0};
+         s.velocity[1] = {1, 0, 0};
        }},
   };
   return list;
@@ -183,10 +192,13 @@ TEST(KnownFigures, AreNoNumberWhereTheRunHasNoVelocities) {
 TEST(KnownFigures, OfDensitiesAndPressuresAreByVolume) {
   auto f = still_blocks();
   Snapshot truth = f.run.frames.front();
-  truth.density.assign(truth.position.size(), 1000.0), truth.pressure.assign(truth.position.size(), 50.0);
+  truth.density.assign(truth.position.size(), 1000.0);
+  truth.pressure.assign(truth.position.size(), 50.0);
   auto& last = f.run.frames.back();
-  last.density = truth.density, last.pressure = truth.pressure;
-  last.density[0] -= 8.0, last.pressure[1] += 16.0;
+  last.density = truth.density;
+  last.pressure = truth.pressure;
+  last.density[0] -= 8.0;
+  last.pressure[1] += 16.0;
   const auto of = [&](const char* quantity, const char* norm) {
     return evaluate(metric(quantity, norm, "left"), f.s.job, f.s.initial, f.run, Known(truth, {})).value;
   };
@@ -228,7 +240,8 @@ Still counted(const std::vector<double>& objects) {
 double of_series(const Still& f, const std::string& norm, const std::string& at = "",
                  const std::array<double, 2>& window = {0.0, 0.0}) {
   auto choice = metric("bonded_objects", norm);
-  choice.at = at, choice.window = window;
+  choice.at = at;
+  choice.window = window;
   return value(f, choice, {{"value", 0.0}}).value;
 }
 

@@ -33,24 +33,52 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
        [](Snapshot&, Snapshot& t) { t.position[3].x = nan; }},
       {"position", "", "position of particle 3 is not finite or missing",
        [](Snapshot& r, Snapshot& t) { r.position[3].x = t.position[3].x = nan; }},
-      {"position", "", "", [](Snapshot& r, Snapshot& t) { r.position[3].x = t.position[3].x = nan, r.id[3] = -1; }},
+      {"position", "", "",
+       [](Snapshot& r, Snapshot& t) {
+         r.position[3].x = t.position[3].x = nan;
+         r.id[3] = -1;
+       }},
       {"position", "", "position of particle 3 is there, but not in the reference",
-       [](Snapshot& r, Snapshot& t) { t.position[3].x = nan, r.id[3] = -1; }},
+       [](Snapshot& r, Snapshot& t) {
+         t.position[3].x = nan;
+         r.id[3] = -1;
+       }},
       {"velocity", "", "the trajectory has no velocity", [](Snapshot& r, Snapshot&) { r.velocity.clear(); }},
       {"velocity", "", "the reference does not know the velocity", [](Snapshot&, Snapshot& t) { t.velocity.clear(); }},
       {"velocity", "", "velocity: 136 particles against 135", [](Snapshot&, Snapshot& t) { t.velocity.pop_back(); }},
       {"temperature", "", "temperature of particle 5 is not finite or missing",
-       [=](Snapshot& r, Snapshot& t) { warm(r), warm(t), r.temperature[5] = nan; }},
+       [=](Snapshot& r, Snapshot& t) {
+         warm(r);
+         warm(t);
+         r.temperature[5] = nan;
+       }},
       {"temperature", "", "temperature of particle 5 is there, but not in the reference",
-       [=](Snapshot& r, Snapshot& t) { warm(r), warm(t), t.temperature[5] = nan; }},
+       [=](Snapshot& r, Snapshot& t) {
+         warm(r);
+         warm(t);
+         t.temperature[5] = nan;
+       }},
       {"temperature", "", "",
-       [=](Snapshot& r, Snapshot& t) { warm(r), warm(t), r.temperature[5] = t.temperature[5] = nan, r.id[5] = -1; }},
+       [=](Snapshot& r, Snapshot& t) {
+         warm(r);
+         warm(t);
+         r.temperature[5] = t.temperature[5] = nan;
+         r.id[5] = -1;
+       }},
       {"temperature", "", "a standard error of the temperature is not finite",
-       [=](Snapshot& r, Snapshot& t) { warm(r), warm(t), r.temperature_error.assign(136, 0.1), r.temperature_error[9] = nan; }},
+       [=](Snapshot& r, Snapshot& t) {
+         warm(r);
+         warm(t);
+         r.temperature_error.assign(136, 0.1);
+         r.temperature_error[9] = nan;
+       }},
       {"temperature_error", "", "the trajectory has no temperature_error",
        [](Snapshot& r, Snapshot&) { r.temperature_error.assign(135, 0.0); }},
       {"temperature_error", "", "temperature_error of particle 7 is not finite or missing",
-       [](Snapshot& r, Snapshot&) { r.temperature_error.assign(136, 0.0), r.temperature_error[7] = nan; }},
+       [](Snapshot& r, Snapshot&) {
+         r.temperature_error.assign(136, 0.0);
+         r.temperature_error[7] = nan;
+       }},
       {"orientation", "", "", [](Snapshot&, Snapshot&) {}},
       {"orientation", "", "the reference does not know the bodies", [](Snapshot&, Snapshot& t) { t.bodies.clear(); }},
       {"orientation", "pool", "body `pool` is liquid and has no row", [](Snapshot&, Snapshot&) {}},
@@ -75,8 +103,16 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
        [](Snapshot& r, Snapshot&) { r.body.clear(); }},
       {"mass", "", "the reference does not know the mass: use norm = \"drift\"",
        [](Snapshot&, Snapshot& t) { t.position.clear(); }},
-      {"mass", "", "", [](Snapshot&, Snapshot& t) { t.position.clear(), t.total_mass = 136.0; }},
-      {"momentum", "", "", [](Snapshot&, Snapshot& t) { t.position.clear(), t.total_mass = 136.0; }},
+      {"mass", "", "",
+       [](Snapshot&, Snapshot& t) {
+         t.position.clear();
+         t.total_mass = 136.0;
+       }},
+      {"momentum", "", "",
+       [](Snapshot&, Snapshot& t) {
+         t.position.clear();
+         t.total_mass = 136.0;
+       }},
       {"momentum", "", "the trajectory has no positions and velocities", [](Snapshot& r, Snapshot&) { r.velocity.clear(); }},
       {"momentum", "", "the reference has no particles to sum the momentum of: use norm = \"drift\"",
        [](Snapshot&, Snapshot& t) { t.position.clear(); }},
@@ -88,7 +124,11 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
       {"ledger.elastic", "", "the reference does not know the ledger term `elastic`: use norm = \"drift\"",
        [](Snapshot& r, Snapshot&) { r.energy["elastic"] = 1.0; }},
       {"ledger.elastic", "", "", [](Snapshot& r, Snapshot& t) { r.energy["elastic"] = t.energy["elastic"] = 1.0; }},
-      {"ledger.thermal", "", "the trajectory has no ledger term `thermal`", [=](Snapshot& r, Snapshot& t) { warm(r), warm(t); }},
+      {"ledger.thermal", "", "the trajectory has no ledger term `thermal`",
+       [=](Snapshot& r, Snapshot& t) {
+         warm(r);
+         warm(t);
+       }},
       {"energy_ratio", "", "the reference does not know the energy ratio", [](Snapshot&, Snapshot&) {}},
       {"object_count", "", "the trajectory has no positions, phases and bodies of all particles",
        [](Snapshot& r, Snapshot&) { r.phase.clear(); }},
@@ -98,9 +138,15 @@ TEST(KnownGaps, OfParticlesAndBodiesAreToldApart) {
       {"pressure_factor", "", "the reference does not know the pressure",
        [](Snapshot& r, Snapshot&) { r.pressure.assign(136, 1.0); }},
       {"pressure_factor", "", "the true pressure is zero everywhere",
-       [](Snapshot& r, Snapshot& t) { r.pressure.assign(136, 1.0), t.pressure.assign(136, 0.0); }},
-      {"pressure_factor", "", "",
-       [](Snapshot& r, Snapshot& t) { r.pressure.assign(136, 2.0), t.pressure.assign(136, 2.0), t.pressure[0] = nan; }}};
+       [](Snapshot& r, Snapshot& t) {
+         r.pressure.assign(136, 1.0);
+         t.pressure.assign(136, 0.0);
+       }},
+      {"pressure_factor", "", "", [](Snapshot& r, Snapshot& t) {
+         r.pressure.assign(136, 2.0);
+         t.pressure.assign(136, 2.0);
+         t.pressure[0] = nan;
+       }}};
   for (const auto& row : gaps) {
     auto f = still_blocks();
     Snapshot truth = f.run.frames.back();
@@ -148,7 +194,8 @@ TEST(KnownGaps, AFrontThatFreezesIsTheVolumeThatIsNoLongerLiquid) {
   last.liquid_fraction.assign(136, 1.0);
   for (std::size_t i = 0; i < 16; ++i) last.liquid_fraction[i] = 0.25;
   Measuring m;
-  m.bar = 0, m.melts = false;
+  m.bar = 0;
+  m.melts = false;
   const auto of = [&](const char* quantity, double truth) {
     auto choice = metric(quantity, "final");
     choice.window = {0.9, 1.0};
@@ -180,7 +227,10 @@ TEST(KnownGaps, ARunIsFrozenWhereItsWayWouldShow) {
     const Vec3 v{share * 6e-8 * farthest / 0.25, 0, 0};
     f.s.job.bodies[0].velocity = v;
     for (auto& frame : f.run.frames)
-      for (std::size_t i = 0; i < 64; ++i) frame.velocity[i] = v, frame.bodies[0].velocity = v;
+      for (std::size_t i = 0; i < 64; ++i) {
+        frame.velocity[i] = v;
+        frame.bodies[0].velocity = v;
+      }
     // the last frame is another, so that the run as a whole has moved
     for (auto& r : f.run.frames.back().position) r.x += 1e-3;
     for (auto& b : f.run.frames.back().bodies) b.position.x += 1e-3;

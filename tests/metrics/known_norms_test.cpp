@@ -26,7 +26,8 @@ using test::Still;
 
 FrameError two_samples(bool with_errors) {
   FrameError e;
-  e.add(3.0, 1.0, 10), e.add(-1.0, 3.0, 11);
+  e.add(3.0, 1.0, 10);
+  e.add(-1.0, 3.0, 11);
   if (with_errors) e.sigma = {1.0, 0.5};
   return e;
 }
@@ -61,7 +62,10 @@ TEST(KnownNorms, HaveNoNegativeSquareAndNoErrorOfNothing) {
   EXPECT_TRUE(std::isnan(spatial_norm(Norm::chi, e).value));
   EXPECT_TRUE(std::isnan(spatial_norm(Norm::chi, two_samples(false)).value));
   FrameError eight;
-  for (int n = 0; n < 8; ++n) eight.add(n == 5 ? -4.0 : 1.0, 1.0, n), eight.sigma.push_back(n == 2 ? 0.3 : 0.1);
+  for (int n = 0; n < 8; ++n) {
+    eight.add(n == 5 ? -4.0 : 1.0, 1.0, n);
+    eight.sigma.push_back(n == 2 ? 0.3 : 0.1);
+  }
   EXPECT_NEAR(spatial_norm(Norm::Linf, eight).uncertainty, 0.3 * std::sqrt(2.0 * std::log(8.0)), 1e-14);
   EXPECT_EQ(spatial_norm(Norm::Linf, eight).worst, 5);
   EXPECT_EQ(spatial_norm(Norm::Linf, eight).value, 4.0);
@@ -94,11 +98,13 @@ TEST(KnownNorms, TheFourKindsOfUncertaintyAddInSquares) {
 TEST(KnownHeat, OfASolidUpToItsMeltingAndOfALiquidFromThere) {
   Material water;
   water.heat_capacity = 4000.0;
-  water.latent_heat = 3e5, water.t_melt = 273.0;
+  water.latent_heat = 3e5;
+  water.t_melt = 273.0;
   Snapshot s;
   s.temperature = {283.0};
   const auto heat = [&](std::vector<double> fraction, std::vector<int> phase) {
-    s.liquid_fraction = std::move(fraction), s.phase = std::move(phase);
+    s.liquid_fraction = std::move(fraction);
+    s.phase = std::move(phase);
     return static_cast<double>(heat_per_mass(water, s, 0));
   };
   EXPECT_NEAR(heat({}, {0}), 1132000.0, 1e-6);
@@ -121,7 +127,10 @@ using List = std::vector<double>;
 template <class F>
 DominantFrequency of_function(int n, F f) {
   List t, y;
-  for (int k = 0; k < n; ++k) t.push_back(k), y.push_back(f(static_cast<double>(k)));
+  for (int k = 0; k < n; ++k) {
+    t.push_back(k);
+    y.push_back(f(static_cast<double>(k)));
+  }
   return dominant_frequency(t, y);
 }
 
@@ -167,7 +176,10 @@ TEST(KnownFrequency, ExplainsHalfOfTheVarianceAtLeast) {
 
 TEST(KnownFrequency, OfASwingIsLookedForFromTwoFifthsToFiveHalves) {
   List t, y;
-  for (int n = 0; n < 200; ++n) t.push_back(0.5 * n), y.push_back(0.3 + 2.0 * std::cos(1.0 * t.back() + 0.4));
+  for (int n = 0; n < 200; ++n) {
+    t.push_back(0.5 * n);
+    y.push_back(0.3 + 2.0 * std::cos(1.0 * t.back() + 0.4));
+  }
   for (const double guess : {0.42, 1.0, 2.4}) {
     const auto s = fit_swing(t, y, guess);
     EXPECT_EQ(s.problem, "") << guess;
@@ -200,7 +212,10 @@ TEST(KnownFits, APowerLawHasTheIntervalOfALine) {
   // freedom
   List h, e;
   const double off[] = {0.1, -0.2, 0.1};
-  for (int n = 0; n < 3; ++n) h.push_back(std::exp(-n)), e.push_back(-std::exp(-2.0 * n + off[n]));
+  for (int n = 0; n < 3; ++n) {
+    h.push_back(std::exp(-n));
+    e.push_back(-std::exp(-2.0 * n + off[n]));
+  }
   const auto fit = fit_power_law(h, e);
   EXPECT_NEAR(fit.order.value, 2.0, 1e-12);
   EXPECT_NEAR(fit.residual, 0.06, 1e-12);
@@ -215,7 +230,10 @@ TEST(KnownFits, APowerLawHasTheIntervalOfALine) {
 
 TEST(KnownFits, AFloorIsFoundWithItsPower) {
   List h, e;
-  for (int n = 0; n < 6; ++n) h.push_back(std::pow(0.5, n)), e.push_back(0.25 + 3.0 * std::pow(h.back(), 1.5));
+  for (int n = 0; n < 6; ++n) {
+    h.push_back(std::pow(0.5, n));
+    e.push_back(0.25 + 3.0 * std::pow(h.back(), 1.5));
+  }
   const auto fit = fit_floored_power_law(h, e);
   ASSERT_TRUE(fit.found);
   EXPECT_NEAR(fit.order.value, 1.5, 1e-5);

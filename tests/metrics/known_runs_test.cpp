@@ -42,7 +42,8 @@ TEST(KnownBoxes, HoldWhatLiesOnTheirFaces) {
       const double none = in_box(low, high);
       EXPECT_TRUE(held == 1.0 ? none == 0.0 : std::isnan(none)) << quantity << " high " << k;
       low = high = place;
-      low[k] += 1e-9, high[k] += 2e-9;
+      low[k] += 1e-9;
+      high[k] += 2e-9;
       const double beyond = in_box(low, high);
       EXPECT_TRUE(held == 1.0 ? beyond == 0.0 : std::isnan(beyond)) << quantity << " low " << k;
     }
@@ -52,7 +53,8 @@ TEST(KnownBoxes, HoldWhatLiesOnTheirFaces) {
 TEST(KnownBoxes, NeedTheBodyThatTheyFollow) {
   auto f = still_blocks();
   Measuring m;
-  m.box = MeasuredBox{{-1, -1, -1}, {1, 1, 1}}, m.follows = true;
+  m.box = MeasuredBox{{-1, -1, -1}, {1, 1, 1}};
+  m.follows = true;
   const auto of = [&](const char* body) { return value(f, metric("mass_in_region", "final", body), {{"value", 0.0}}, m).value; };
   EXPECT_NEAR(of("left"), 128.0, 1e-12);
   EXPECT_TRUE(std::isnan(of("")));
@@ -134,7 +136,8 @@ TEST(KnownUnits, OfAValueAreItsOwnOrThoseThatItsScaleGives) {
                          Row{"position", "max", "spacings", 0.1, false}, Row{"position", "max", "s", 1.0, false}}) {
     auto f = still_blocks();
     auto choice = metric(row.quantity, row.norm);
-    choice.unit = row.unit, choice.scale = row.scale;
+    choice.unit = row.unit;
+    choice.scale = row.scale;
     if (row.refused)
       EXPECT_THROW((void)value(f, choice), InputError) << row.quantity << " " << row.norm << " " << row.unit;
     else
@@ -258,7 +261,8 @@ Still spreading(double pattern) {
   const double warm[2][4] = {{0, 4, 0, 0}, {1, 2, 1, 0}};
   for (std::size_t n = 0; n < 2; ++n) {
     auto& frame = f.run.frames[n];
-    frame.temperature.assign(f.s.initial.size(), 300.0), frame.temperature_error.assign(f.s.initial.size(), 0.0);
+    frame.temperature.assign(f.s.initial.size(), 300.0);
+    frame.temperature_error.assign(f.s.initial.size(), 0.0);
     for (std::size_t i = 0; i < 64; ++i) frame.temperature[i] += warm[n][i / 16] * (1.0 + (i % 2 == 0 ? pattern : -pattern));
     for (std::size_t i = 0; i < 16; ++i) frame.temperature_error[i] = n == 0 ? 0.0 : 0.1;
   }
@@ -312,11 +316,15 @@ TEST(KnownHeat, OfALayerIsKnownAsItsParticlesAreOrAsTheirOneCount) {
   const auto chi = [&] {
     return evaluate(metric("temperature_profile", "chi", "left"), f.s.job, f.s.initial, f.run, truth).value;
   };
-  for (std::size_t i = 0; i < last.temperature.size(); ++i)
-    last.temperature[i] += i % 2 == 0 ? 3.0 : -1.0, last.temperature_error.push_back(i % 2 == 0 ? 0.4 : 0.2);
+  for (std::size_t i = 0; i < last.temperature.size(); ++i) {
+    last.temperature[i] += i % 2 == 0 ? 3.0 : -1.0;
+    last.temperature_error.push_back(i % 2 == 0 ? 0.4 : 0.2);
+  }
   EXPECT_NEAR(chi(), std::sqrt(160.0), 1e-9);  // variance (8 x 0.16 + 8 x 0.04)/16^2
-  for (std::size_t i = 0; i < last.temperature.size(); ++i)
-    last.temperature[i] = 301.0 - 25.0 * static_cast<double>(3 - i / 16 % 4), last.temperature_error[i] = 0.5;
+  for (std::size_t i = 0; i < last.temperature.size(); ++i) {
+    last.temperature[i] = 301.0 - 25.0 * static_cast<double>(3 - i / 16 % 4);
+    last.temperature_error[i] = 0.5;
+  }
   Snapshot steps = f.run.frames.front();
   for (std::size_t i = 0; i < steps.temperature.size(); ++i) steps.temperature[i] = last.temperature[i] - 1.0;
   const Known same(steps, {}, along(0));
@@ -333,13 +341,25 @@ TEST(KnownFaults, AreNamedWithParticleAndTime) {
       {"position of particle 3 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.position[3].y = nan; }},
       {"velocity of particle 5 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.velocity[5].z = nan; }},
       {"temperature of particle 7 is not finite at t = 0.500000 s",
-       [](Still&, Snapshot& s) { s.temperature.assign(136, 1.0), s.temperature[7] = nan; }},
+       [](Still&, Snapshot& s) {
+         s.temperature.assign(136, 1.0);
+         s.temperature[7] = nan;
+       }},
       {"temperature_error of particle 0 is not finite at t = 0.500000 s",
-       [](Still&, Snapshot& s) { s.temperature_error.assign(136, 1.0), s.temperature_error[0] = nan; }},
+       [](Still&, Snapshot& s) {
+         s.temperature_error.assign(136, 1.0);
+         s.temperature_error[0] = nan;
+       }},
       {"density of particle 135 is not finite at t = 0.500000 s",
-       [](Still&, Snapshot& s) { s.density.assign(136, 1.0), s.density[135] = nan; }},
+       [](Still&, Snapshot& s) {
+         s.density.assign(136, 1.0);
+         s.density[135] = nan;
+       }},
       {"pressure of particle 1 is not finite at t = 0.500000 s",
-       [](Still&, Snapshot& s) { s.pressure.assign(136, 1.0), s.pressure[1] = nan; }},
+       [](Still&, Snapshot& s) {
+         s.pressure.assign(136, 1.0);
+         s.pressure[1] = nan;
+       }},
       {"body row 1 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.bodies[1].velocity.x = nan; }},
       {"body row 0 is not finite at t = 0.500000 s", [](Still&, Snapshot& s) { s.bodies[0].position.x = nan; }},
       {"particle 9 is lost at t = 0.500000 s", [](Still&, Snapshot& s) { s.id[9] = -1; }},
@@ -356,11 +376,14 @@ TEST(KnownFaults, AreNamedWithParticleAndTime) {
        }},
       {"",
        [](Still& f, Snapshot& s) {
-         s.velocity[64] = {0, 0, 64.0}, s.bodies[1].velocity = {0, 0, 1.05}, (void)f;
+         s.velocity[64] = {0, 0, 64.0};
+         s.bodies[1].velocity = {0, 0, 1.05};
+         (void)f;
        }},
       {"body row 1 moves otherwise than its particles, by 0.070000 m/s at t = 0.500000 s",
        [](Still&, Snapshot& s) {
-         s.velocity[64] = {0, 0, 64.0}, s.bodies[1].velocity = {0, 0, 1.07};
+         s.velocity[64] = {0, 0, 64.0};
+         s.bodies[1].velocity = {0, 0, 1.07};
        }},
       {"", [](Still& f, Snapshot&) { f.run.frames[0].position[4].x += 0.9e-7; }},
       {"the first frame is not the job's start: particle 4 is elsewhere (other units, permuted ids or a shifted time?)",
@@ -388,7 +411,10 @@ TEST(KnownFaults, OfAFrameWithoutIdsAreThoseOfAll) {
 TEST(KnownFaults, WhatIsNotAliveHasNeitherMassNorMotion) {
   auto f = still_blocks();
   auto& last = f.run.frames.back();
-  last.velocity[3] = {0, 30, 40}, last.position[3].z += 7.0, last.mass[3] = 9.0, last.id[3] = -1;
+  last.velocity[3] = {0, 30, 40};
+  last.position[3].z += 7.0;
+  last.mass[3] = 9.0;
+  last.id[3] = -1;
   const double height = f.s.initial.position[3].z;
   for (const auto& [quantity, figure] :
        {std::pair{"ledger.kinetic", 0.0}, std::pair{"ledger.potential", -10.0 * height}, std::pair{"mass", -1.0},

@@ -47,7 +47,8 @@ TEST(Metric, MeasuresAKnownShift) {
 TEST(Metric, TakesTheNearestImageInAPeriodicDirection) {
   Trial t(test::thrown_block(), "torque_free");
   t.s.job.scene.periodic = {true, false, false};
-  t.s.job.scene.min = Vec3{-2, -2, -2}, t.s.job.scene.max = Vec3{2, 2, 2};
+  t.s.job.scene.min = Vec3{-2, -2, -2};
+  t.s.job.scene.max = Vec3{2, 2, 2};
   for (auto& r : t.run.frames.back().position) r.x -= 4.0;
   EXPECT_LT(t.value(metric("position", "max")).value, 1e-12);
 }
@@ -182,9 +183,10 @@ TEST(Walkers, StateAnUncertaintyThatCoversTheTruthForManyAndForPooledCounts) {
 TEST(Metric, GivesTheFirstParticleThatFlowsInNoVolumeOfTheStart) {
   auto s = test::thrown_block();
   const auto last = s.initial.size() - 1;
-  s.initial.mass.push_back(7.0),
-      s.initial.mass.pop_back();  // what lies behind the last is memory that a careless look would take for a particle
-  s.initial.material.push_back(0), s.initial.material.pop_back();
+  s.initial.mass.push_back(7.0);
+  s.initial.mass.pop_back();  // what lies behind the last is memory that a careless look would take for a particle
+  s.initial.material.push_back(0);
+  s.initial.material.pop_back();
   const auto choice = metric("position", "max");
   const auto truth = make_reference(test::function("torque_free"), s.job, s.initial);
   const MetricInput in{choice, s.job, s.initial, *truth};

@@ -93,8 +93,10 @@ TEST(GateThatNeverFails, EveryParticleAndEveryBodyIsCompared) {
 
 TEST(GateThatNeverFails, ADeadRunIsNotAgreement) {
   auto t = flight();  // both sides zero: a run that shows zeros everywhere
-  for (auto& f : t.run.frames)
-    std::fill(f.position.begin(), f.position.end(), Vec3{}), std::fill(f.velocity.begin(), f.velocity.end(), Vec3{});
+  for (auto& f : t.run.frames) {
+    std::fill(f.position.begin(), f.position.end(), Vec3{});
+    std::fill(f.velocity.begin(), f.velocity.end(), Vec3{});
+  }
   EXPECT_NE(t.sound(), "");
   EXPECT_FALSE(passes(t.value(metric("position", "max")), 0.01));
 }
@@ -175,8 +177,10 @@ TEST(GateThatNeverFails, AParticleThatIsLostIsFoundWhereverNoMetricLooksAtIt) {
   auto t = flight();
   for (auto& f : t.run.frames)
     if (f.time > 0.0)
-      for (std::size_t i = 1; i < f.id.size(); ++i)
-        f.id[i] = -1, f.position[i] = f.velocity[i] = {not_a_number, not_a_number, not_a_number};
+      for (std::size_t i = 1; i < f.id.size(); ++i) {
+        f.id[i] = -1;
+        f.position[i] = f.velocity[i] = {not_a_number, not_a_number, not_a_number};
+      }
   EXPECT_NE(t.sound().find("particle 1 is lost"), std::string::npos) << t.sound();
 }
 
@@ -184,7 +188,11 @@ TEST(GateThatNeverFails, ABodysRowThatTellsOtherwiseThanItsParticlesIsFound) {
   auto t = flight();
   t.run.frames.back().bodies[0].position.z += 0.1;  // a metric of the body alone would see this, and one of particles the other
   EXPECT_NE(t.sound().find("from the centre of its particles"), std::string::npos) << t.sound();
-  for (auto& f : t.run.frames) f.body.clear(), f.mass.clear();  // and an engine that leaves these columns out hides nothing
+  // An engine that leaves these columns out hides nothing either.
+  for (auto& f : t.run.frames) {
+    f.body.clear();
+    f.mass.clear();
+  }
   EXPECT_NE(t.sound().find("from the centre of its particles"), std::string::npos) << t.sound();
   auto faster = flight();
   faster.run.frames.back().bodies[0].velocity.z *= 1.1;

@@ -33,7 +33,8 @@ TEST(PhaseMetrics, WeighWhatIsInABoxOrOutsideIt) {
   EXPECT_NEAR(f.stated(metric("mass_in_region", "final"), box), 32.0, 1e-12);
   EXPECT_NEAR(f.stated(metric("mass_in_region", "final", "left"), box), 0.0, 1e-12);
   auto rest = box;
-  rest["outside"] = true, rest["phase"] = std::string("liquid");
+  rest["outside"] = true;
+  rest["phase"] = std::string("liquid");
   EXPECT_NEAR(f.stated(metric("mass_in_region", "final"), rest), 8.0, 1e-12);
   EXPECT_TRUE(std::isnan(f.stated(metric("mass_in_region", "final"), {{"value", 0.0}})));
 }
@@ -67,8 +68,10 @@ TEST(PhaseMetrics, CountOnlyWhatTurnsBack) {
 TEST(PhaseMetrics, FindTheFrontFinerThanAParticle) {
   Still f(test::stefan_bar({}));
   const auto truth = make_reference(test::function("stefan"), f.s.job, f.s.initial);
-  for (auto& frame : f.run.frames)
-    frame.liquid_fraction = truth->at(frame.time).liquid_fraction, frame.phase = truth->at(frame.time).phase;
+  for (auto& frame : f.run.frames) {
+    frame.liquid_fraction = truth->at(frame.time).liquid_fraction;
+    frame.phase = truth->at(frame.time).phase;
+  }
   EXPECT_NEAR(f.of(metric("front_position", "max"), "stefan").value, 0.0, 1e-12);
   EXPECT_NEAR(f.of(metric("phase_count", "max"), "stefan").value, 0.0, 1e-12);
   EXPECT_TRUE(std::isnan(f.of(metric("front_ratio", "max"), "stefan").value));  // nothing has melted at the start

@@ -21,7 +21,8 @@ Still linear_fields() {
     for (std::size_t i = 0; i < frame.position.size(); ++i) {
       const Vec3 r = frame.position[i];
       frame.temperature.push_back(300.0 + 20.0 * r.x - 5.0 * r.z);
-      frame.pressure.push_back(100.0 * r.y), frame.density.push_back(1000.0 + r.x);
+      frame.pressure.push_back(100.0 * r.y);
+      frame.density.push_back(1000.0 + r.x);
       frame.velocity[i] = {r.y, 2.0 * r.z, 3.0 * r.x};
     }
   return f;
@@ -159,7 +160,9 @@ TEST(Frequency, IsRefusedWhereThereIsNone) {
   std::vector<double> t, flat, ramp, slow;
   for (int n = 0; n <= 100; ++n) {
     t.push_back(0.01 * n);
-    flat.push_back(5.0), ramp.push_back(t.back()), slow.push_back(std::sin(2.0 * test::pi * 0.8 * t.back()));
+    flat.push_back(5.0);
+    ramp.push_back(t.back());
+    slow.push_back(std::sin(2.0 * test::pi * 0.8 * t.back()));
   }
   EXPECT_NE(dominant_frequency(t, flat).problem.find("does not change"), std::string::npos);
   EXPECT_NE(dominant_frequency({0, 1, 2}, {1, 2, 1}).problem.find("eight output times"), std::string::npos);
@@ -185,7 +188,10 @@ TEST(Frequency, IsANormOfAnySingleNumber) {
 /// A bar that warms by 2 K a second beside a held block.
 Still warming() {
   auto s = test::blocks();
-  for (auto& m : s.job.scene.materials) m.conductivity = 1.0, m.heat_capacity = 500.0;
+  for (auto& m : s.job.scene.materials) {
+    m.conductivity = 1.0;
+    m.heat_capacity = 500.0;
+  }
   s.job.bodies[1].temperature_held = true;
   Still f(std::move(s));
   for (auto& frame : f.run.frames)
@@ -212,8 +218,10 @@ TEST(Diffusivity, IsHalfOfWhatTheMeanSquareDistanceOfHeatGrowsASecond) {
   Still f(test::blocks());
   double low = 1e9, high = -1e9;
   for (std::size_t i = 0; i < f.s.initial.size(); ++i)
-    if (f.s.initial.source[i] == 0)
-      low = std::min(low, f.s.initial.position[i].x), high = std::max(high, f.s.initial.position[i].x);
+    if (f.s.initial.source[i] == 0) {
+      low = std::min(low, f.s.initial.position[i].x);
+      high = std::max(high, f.s.initial.position[i].x);
+    }
   const auto heat = [&](Snapshot& frame, double share) {  // of the two ends; the rest at the two layers beside the middle
     frame.temperature.assign(frame.position.size(), 300.0);
     for (std::size_t i = 0; i < frame.position.size(); ++i) {
@@ -262,7 +270,10 @@ TEST(Gauge, OfADiffusivityIsTheEnginesOwnAtTheEndWithItsStandardError) {
 TEST(Gauge, ItsStandardErrorIsAnUncertaintyOfTheValue) {
   Still f = linear_fields();
   const auto choice = metric("temperature_at", "final");
-  for (auto& frame : f.run.frames) frame.gauges[choice.name] = 300.0, frame.gauges[gauge_error_key(choice.name)] = 0.5;
+  for (auto& frame : f.run.frames) {
+    frame.gauges[choice.name] = 300.0;
+    frame.gauges[gauge_error_key(choice.name)] = 0.5;
+  }
   const double largest =
       std::sqrt(2.0 * std::log(2.0));  // what the largest of two samples is off in the mean: the norm takes at least two
   EXPECT_NEAR(f.of(choice, "stated", at(0.2, 0.2, 0.2, 300.0)).uncertainty.statistical, 0.5 * largest, 1e-12);
@@ -274,7 +285,8 @@ TEST(Gauge, AnEngineWithoutParticlesIsJudgedByItsGaugesAlone) {
   for (auto& frame : f.run.frames) {
     const double time = frame.time;
     frame = Snapshot{};
-    frame.time = time, frame.gauges[choice.name] = 0.1 * time;
+    frame.time = time;
+    frame.gauges[choice.name] = 0.1 * time;
   }
   EXPECT_EQ(audit(f.s.job, f.s.initial, f.run), "");
   EXPECT_NEAR(f.stated(choice, at(0.0, 0.2, 0.2, 0.04, "x")), 0.06, 1e-15);

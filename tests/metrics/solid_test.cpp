@@ -97,7 +97,7 @@ Still stretched_bar(const test::Prepared& s, const Settings& args = {}) {
     frame.bodies.resize(3);
     frame.bodies[1].force = frame.bodies[0].force;
     frame.bodies[2].force = -1.0 * frame.bodies[0].force;
-    frame.bodies[1].position = f.s.job.bodies[1].properties.centre,
+    frame.bodies[1].position = f.s.job.bodies[1].properties.centre;
     frame.bodies[2].position = f.s.job.bodies[2].properties.centre;
   }
   return f;
@@ -137,7 +137,8 @@ TEST(SolidMetrics, FindTheFrequencyOfAShearWave) {
   auto s = test::beam(0.0);
   auto& start = s.job.scene.bodies[0].velocity;
   start.kind = VelocityField::Kind::cosine;
-  start.amplitude = {0, 0, 0.01}, start.wave_vector = {10 * pi, 0, 0};
+  start.amplitude = {0, 0, 0.01};
+  start.wave_vector = {10 * pi, 0, 0};
   test::set_times(s, 0.05, 100);
   Still f(s);
   const double w = 0.9 * *make_reference(test::function("elastic_wave"), s.job, s.initial)->number("frequency");

@@ -37,7 +37,8 @@ TEST(StationaryMean, CorrelationIsNotTakenForKnowledge) {
   for (unsigned seed = 1; seed <= runs; ++seed) {
     const auto x = correlated(8192, a, 2.0, seed);
     const auto m = stationary_mean(x);
-    stated += m.uncertainty / runs, true_square += (m.value - 2.0) * (m.value - 2.0) / runs;
+    stated += m.uncertainty / runs;
+    true_square += (m.value - 2.0) * (m.value - 2.0) / runs;
     naive += 1.0 / std::sqrt(8192.0) / runs;
   }
   EXPECT_GT(std::sqrt(true_square) / naive, 5.0);  // what a naive standard error would claim

@@ -254,7 +254,10 @@ TEST(Neighbours, WhatSleepsChangesNoListNoCountAndNoOrder) {
             const bool leaves =
                 (*p)[field::id][i] + 1 == static_cast<int>(p->size());  // to the side and up: there are more cells
             positions(*p).x[i] += round < 5 ? 0.9 : -1.4;               // far at once: what slept wakes, and what woke sleeps
-            if (leaves && round > 2) positions(*p).y[i] += 0.4, positions(*p).z[i] += 0.4;
+            if (leaves && round > 2) {
+              positions(*p).y[i] += 0.4;
+              positions(*p).z[i] += 0.4;
+            }
           }
       ASSERT_TRUE(sleepy.update(some, 0.0, [] { return Resting{{1}, 0.5}; }));
       whole.update(all, 0.0);
@@ -316,8 +319,10 @@ TEST(Neighbours, OfAPartHaveTheOrderOfTheWhole) {
   std::vector<std::size_t> number;  // of each id of the part, descending
   for (std::size_t id = whole.size(); id-- > 0;) {
     const Vec3 r = whole.position(whole.row(id));
-    for (std::size_t a = 0; a < 3; ++a)
-      known.low[a] = std::min(known.low[a], r[a]), known.high[a] = std::max(known.high[a], r[a]);
+    for (std::size_t a = 0; a < 3; ++a) {
+      known.low[a] = std::min(known.low[a], r[a]);
+      known.high[a] = std::max(known.high[a], r[a]);
+    }
     if (r.x > border - support - skin) number.push_back(id);
   }
   Particles part(number.size(), common_fields(false));

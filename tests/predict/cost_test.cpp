@@ -10,7 +10,11 @@ namespace {
 
 Machine machine() {
   Machine m;
-  m.latency = 2e-6, m.bandwidth = 1e9, m.allreduce = 3e-6, m.pack_rate = 4e9, m.waiting = 0.1;
+  m.latency = 2e-6;
+  m.bandwidth = 1e9;
+  m.allreduce = 3e-6;
+  m.pack_rate = 4e9;
+  m.waiting = 0.1;
   return m;
 }
 
@@ -90,7 +94,8 @@ TEST(Cost, RanksAndCoresChangeTheirOwnPart) {
   s.ranks.assign(1000, {500, 100, 30000});
   s.messages = 6.0;
   Machine fast = machine();
-  fast.core_speed = 2.0, fast.waiting = 0.0;
+  fast.core_speed = 2.0;
+  fast.waiting = 0.0;
   const Prediction p = predict(s, {500000, 0, 25e6}, {0.0, 1e-7, 1e-9, 0.0}, {}, {6, 10, 8, 0, 34}, fast);
   EXPECT_NEAR(p.collectives, 8 * 10 * 3e-6, 1e-15);
   EXPECT_NEAR(p.work, 45e-6, 1e-15);

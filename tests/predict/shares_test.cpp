@@ -13,7 +13,9 @@ namespace {
 /// A lattice of n particles along each direction, a cell of 1 each, in its middle.
 Cloud lattice(int nx, int ny, int nz, bool periodic) {
   Cloud c;
-  c.spacing = 1.0, c.reach = 2.5, c.pair_reach = 1.1;
+  c.spacing = 1.0;
+  c.reach = 2.5;
+  c.pair_reach = 1.1;
   c.max = {static_cast<double>(nx), static_cast<double>(ny), static_cast<double>(nz)};
   if (periodic) c.periodic = {true, true, true};
   for (int z = 0; z < nz; ++z)
@@ -101,7 +103,8 @@ TEST(Shares, ByVolumeNothingIsLostHoweverManyRanks) {
 /// A reach of whole layers, so that both ways see the same copies.
 TEST(Shares, PairsByVolumeAreThoseThatAreCounted) {
   Cloud c = lattice(24, 24, 24, true);
-  c.reach = 3.0, c.pair_reach = 3.0;
+  c.reach = 3.0;
+  c.pair_reach = 3.0;
   const Shares counted = share_out(c, 8), scaled = share_volume(c, 8, 24.0 * 24.0 * 24.0);
   EXPECT_NEAR(scaled.ranks[0].pairs / counted.ranks[0].pairs, 1.0, 0.03);  // layers against the mean of a ball, 13/16
   EXPECT_NEAR(share_volume(c, 1, 1e9).ranks[0].pairs / share_out(c, 1).ranks[0].pairs, 1e9 / (24.0 * 24.0 * 24.0), 1e-3);

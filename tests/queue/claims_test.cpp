@@ -33,7 +33,10 @@ TEST(Claims, AreWonByOneWorkerEach) {
     threads.emplace_back([&, n] {
       const Worker worker(folder.dir(), n);
       for (const auto& job : queue.jobs)
-        if (worker.claim(job.id)) ++won, worker.finish(job.id, "{}", false);
+        if (worker.claim(job.id)) {
+          ++won;
+          worker.finish(job.id, "{}", false);
+        }
     });
   for (auto& t : threads) t.join();
   EXPECT_EQ(won, 400);
@@ -109,7 +112,8 @@ TEST(Claims, AJobThatIsNowhereIsLost) {
 RunRow row_of(double value, double seconds) {
   RunRow row;
   row.metrics["position"] = {value, {}, "", {}, {}};
-  row.cost.cpu_s = seconds, row.state_hash = "abc";
+  row.cost.cpu_s = seconds;
+  row.state_hash = "abc";
   return row;
 }
 
@@ -117,7 +121,10 @@ TEST(Publishing, PutsTheFirstResultAndRefusesTheSecond) {
   const auto queue = queue_of(1);
   const SuiteFolder folder(queue);
   const auto& job = queue.jobs[0];
-  for (const char* name : {"a", "b"}) fs::create_directories(folder / name), std::ofstream(folder / name / "result.json") << name;
+  for (const char* name : {"a", "b"}) {
+    fs::create_directories(folder / name);
+    std::ofstream(folder / name / "result.json") << name;
+  }
   EXPECT_EQ(published_id(folder.dir(), job), "");
   EXPECT_THROW(static_cast<void>(published_row(folder.dir(), job)), InputError);
   EXPECT_TRUE(publish(folder.dir(), job, row_of(0.1, 1.0), (folder / "a").string(), "one"));
@@ -132,7 +139,8 @@ TEST(Publishing, ClearsAwayWhatAnotherJobLeftInItsPlace) {
   const SuiteFolder folder(queue);
   auto older = queue.jobs[0];
   older.id = "00000000000000ff";  // the same place in the report, of a case that has changed since
-  fs::create_directories(folder / "a"), fs::create_directories(folder / "b");
+  fs::create_directories(folder / "a");
+  fs::create_directories(folder / "b");
   ASSERT_TRUE(publish(folder.dir(), older, row_of(0.1, 1.0), (folder / "a").string(), "one"));
   EXPECT_TRUE(publish(folder.dir(), queue.jobs[0], row_of(0.2, 1.0), (folder / "b").string(), "two"));
   EXPECT_DOUBLE_EQ(published_row(folder.dir(), queue.jobs[0]).metrics.at("position").value, 0.2);

@@ -11,7 +11,11 @@ namespace {
 
 EmitOptions options() {
   EmitOptions o;
-  o.program = "bin/tripoint", o.dir = "it's here", o.typed = "suite", o.shards = 9, o.numbers = {1, 2, 3, 5, 8, 9},
+  o.program = "bin/tripoint";
+  o.dir = "it's here";
+  o.typed = "suite";
+  o.shards = 9;
+  o.numbers = {1, 2, 3, 5, 8, 9};
   o.longest = 1000.0;
   return o;
 }

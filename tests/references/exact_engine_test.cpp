@@ -46,12 +46,14 @@ TEST_F(ExactEngineTest, ServesTheTruthAtEveryTime) {
 
 TEST_F(ExactEngineTest, PlacesTheParticlesOfBodiesThatTheReferenceKnows) {
   s_ = {};
-  s_.job.scene.spacing = 0.1, s_.job.scene.gravity = {0, 0, -9.81};
+  s_.job.scene.spacing = 0.1;
+  s_.job.scene.gravity = {0, 0, -9.81};
   s_.job.settings["friction"] = 0.25;
   test::add_body(s_, "block", {{4, 4, 2}, 0.1, {}, 4.0}, {{1, 0, 0}, {}});
   test::add_body(s_, "floor", {{20, 4, 1}, 0.1, {-0.5, 0.0, -0.1}, 1.0}, {}, Motion::fixed);
   test::set_times(s_, 0.2, 2);
-  s_.job.reference = test::function("sliding"), s_.job.particles = file_.string();
+  s_.job.reference = test::function("sliding");
+  s_.job.particles = file_.string();
   write_particles(file_.string(), s_.initial);
   ExactEngine engine;
   ASSERT_EQ(engine.refusal(s_.job), "");

@@ -52,7 +52,10 @@ TEST(BallisticSemiImplicit, IsWhatTheSchemeDoesStepByStep) {
   s.job.resolution.time_step = 0.01;
   const auto reference = make_reference(test::function("ballistic_semi_implicit"), s.job, s.initial);
   Vec3 x = s.job.bodies[0].properties.centre, v = s.job.bodies[0].velocity;
-  for (int n = 0; n < 100; ++n) v += 0.01 * s.job.scene.gravity, x += 0.01 * v;
+  for (int n = 0; n < 100; ++n) {
+    v += 0.01 * s.job.scene.gravity;
+    x += 0.01 * v;
+  }
   EXPECT_LT(norm(reference->at(1.0).bodies[0].position - x), 1e-13);  // round-off of 100 sums
   const auto exact = make_reference(test::function("ballistic"), s.job, s.initial);
   EXPECT_NEAR(exact->at(1.0).bodies[0].position.z - x.z, 0.04905, 1e-13);  // g dt T/2
@@ -63,7 +66,10 @@ TEST(BallisticSemiImplicit, ShortensItsStepsToMeetTheOutputTimes) {
   s.job.resolution.time_step = 0.004;  // three steps of 10/3 ms to each output time
   const auto reference = make_reference(test::function("ballistic_semi_implicit"), s.job, s.initial);
   Vec3 x = s.job.bodies[0].properties.centre, v = s.job.bodies[0].velocity;
-  for (int n = 0; n < 300; ++n) v += (0.01 / 3) * s.job.scene.gravity, x += (0.01 / 3) * v;
+  for (int n = 0; n < 300; ++n) {
+    v += (0.01 / 3) * s.job.scene.gravity;
+    x += (0.01 / 3) * v;
+  }
   EXPECT_LT(norm(reference->at(1.0).bodies[0].position - x), 1e-13);
 }
 

@@ -21,7 +21,10 @@ test::Prepared cosine_bar(int n, bool periodic, double phase) {
       {n, 4, 4}, dx, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }, 100.0, 10, periodic);
   TemperatureField field;
   field.kind = TemperatureField::Kind::cosine;
-  field.mean = 300.0, field.amplitude = 10.0, field.phase = phase, field.wave_vector = {k, 0, 0};
+  field.mean = 300.0;
+  field.amplitude = 10.0;
+  field.phase = phase;
+  field.wave_vector = {k, 0, 0};
   s.job.scene.bodies[0].temperature = field;
   return s;
 }
@@ -66,7 +69,9 @@ TEST(CosineSum, SolvesTheHeatEquationInAllDirectionsByItsOwnDifferences) {
   const auto start = [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(dot(k1, r) + 0.7) + 4.0 * std::cos(dot(k2, r) - 0.4); };
   const auto s = test::bar({20, 4, 4}, 0.005, start, 100.0, 10, true);
   auto box = s;
-  box.job.scene.min = Vec3{}, box.job.scene.max = Vec3{L, W, W}, box.job.scene.periodic = {true, true, true};
+  box.job.scene.min = Vec3{};
+  box.job.scene.max = Vec3{L, W, W};
+  box.job.scene.periodic = {true, true, true};
   const auto list = [](const Vec3& v) { return std::vector<double>{v.x, v.y, v.z}; };
   Settings args{{"mean", 300.0},  {"amplitude_1", 10.0}, {"wave_vector_1", list(k1)},
                 {"phase_1", 0.7}, {"amplitude_2", 4.0},  {"wave_vector_2", list(k2)},
@@ -77,8 +82,10 @@ TEST(CosineSum, SolvesTheHeatEquationInAllDirectionsByItsOwnDifferences) {
   const double h = 1e-5, tau = 1e-3, t = 3.0;
   auto near = box;
   const Vec3 around[] = {{}, {h, 0, 0}, {-h, 0, 0}, {0, h, 0}, {0, -h, 0}, {0, 0, h}, {0, 0, -h}};
-  for (std::size_t n = 0; n < 7; ++n)
-    near.initial.position[n] = r + around[n], near.initial.temperature[n] = start(r + around[n]);
+  for (std::size_t n = 0; n < 7; ++n) {
+    near.initial.position[n] = r + around[n];
+    near.initial.temperature[n] = start(r + around[n]);
+  }
   const auto sum = make_reference(test::function("cosine_sum", args), near.job, near.initial);
   const auto T = sum->at(t).temperature;
   const double laplacian = (T[1] + T[2] + T[3] + T[4] + T[5] + T[6] - 6 * T[0]) / (h * h);
@@ -227,7 +234,10 @@ TEST(StepInsulated, TurnsWithTheNormalOfTheStep) {
       {20, 2, 2}, 0.005, [](const Vec3& r) { return r.x < 0.05 ? 400.0 : 300.0; }, 10.0, 2, false);
   TemperatureField field;
   field.kind = TemperatureField::Kind::step;
-  field.point = {0.05, 0, 0}, field.normal = {-1, 0, 0}, field.behind = 300.0, field.ahead = 400.0;
+  field.point = {0.05, 0, 0};
+  field.normal = {-1, 0, 0};
+  field.behind = 300.0;
+  field.ahead = 400.0;
   s.job.scene.bodies[0].temperature = field;
   const auto reference = make_reference(test::function("step_insulated"), s.job, s.initial);
   EXPECT_EQ(reference->at(0.0).temperature, s.initial.temperature);

@@ -25,8 +25,10 @@ CoulombMotion::State stepped(const CoulombMotion::Plane& plane, const CoulombMot
     const double slip = s.speed - (contact.share > 0.0 ? s.spin * contact.radius : 0.0),
                  stop = -(slip / dt + plane.pull) / (1.0 + contact.share);  // friction that ends the slip in this step
     const double friction = std::clamp(stop, -plane.grip, plane.grip);
-    s.speed += dt * (plane.pull + friction), s.spin -= dt * friction * contact.share / contact.radius;
-    s.way += dt * s.speed, s.angle += dt * s.spin;
+    s.speed += dt * (plane.pull + friction);
+    s.spin -= dt * friction * contact.share / contact.radius;
+    s.way += dt * s.speed;
+    s.angle += dt * s.spin;
   }
   return s;
 }

@@ -28,7 +28,11 @@ std::unique_ptr<Reference> made(const Prepared& s, const std::string& name, cons
 TEST(KnownHeat, EachPhaseHasItsOwnValues) {
   auto s = test::stefan_bar({});
   auto& m = s.job.scene.materials[0];
-  m.density = 500.0, m.conductivity = 2.0, m.heat_capacity = 1000.0, m.solid_conductivity = 8.0, m.solid_heat_capacity = 250.0;
+  m.density = 500.0;
+  m.conductivity = 2.0;
+  m.heat_capacity = 1000.0;
+  m.solid_conductivity = 8.0;
+  m.solid_heat_capacity = 250.0;
   EXPECT_EQ(phase_values(s.job, 0, Phase::liquid).conductivity, 2.0);
   EXPECT_EQ(phase_values(s.job, 0, Phase::liquid).heat_per_volume, 5e5);
   for (const auto phase : {Phase::rigid, Phase::elastic}) {
@@ -37,7 +41,8 @@ TEST(KnownHeat, EachPhaseHasItsOwnValues) {
   }
   EXPECT_NEAR(diffusivity(s.job, 0), 8.0 / 1.25e5, 1e-18);
   EXPECT_NEAR(effusivity(s.job, 0), std::sqrt(8.0 * 1.25e5), 1e-9);
-  m.solid_conductivity.reset(), m.solid_heat_capacity.reset();
+  m.solid_conductivity.reset();
+  m.solid_heat_capacity.reset();
   EXPECT_NEAR(diffusivity(s.job, 0), 4e-6, 1e-18);
 }
 
@@ -102,7 +107,8 @@ TEST(KnownHeat, TwoLayersAreTheSameInEitherOrder) {
     auto s = test::bar(
         {10, 2, 2}, 0.005, [](const Vec3&) { return 400.0; }, 20.0, 2, false);
     auto cold = s.job.scene.materials[0];
-    cold.name = "cold", cold.conductivity = 0.2;
+    cold.name = "cold";
+    cold.conductivity = 0.2;
     s.job.scene.materials.push_back(cold);
     test::add_body(s, "other", {{10, 2, 2}, 0.005, {swapped ? -0.05 : 0.05, 0, 0}, 1.0}, {});
     s.job.bodies[1].material = "cold";
@@ -135,7 +141,10 @@ TEST(KnownHeat, AFrontIsAtItsOwnTemperature) {
 TEST(KnownHeat, AnEventThatOnlyReachesAThresholdChangesNothing) {
   auto s = test::heated_block();
   auto& events = s.job.scene.events;
-  events[0].temperature = 300.0, events[1].temperature = 300.1, events[2].temperature = 290.0, events[3].temperature = 289.9;
+  events[0].temperature = 300.0;
+  events[1].temperature = 300.1;
+  events[2].temperature = 290.0;
+  events[3].temperature = 289.9;
   const auto loop = made(s, "hysteresis");
   for (const auto& [time, phase] : {std::pair{0.5, 1}, std::pair{1.5, 1}, std::pair{2.0, 1}, std::pair{2.5, 0}, std::pair{3.5, 0},
                                     std::pair{4.0, 0}, std::pair{4.5, 1}}) {
@@ -183,9 +192,11 @@ TEST(KnownBars, TheStretchIsThatOfTheKeyframes) {
   for (auto& key : s.job.bodies[2].keyframes) key.time += 0.5;
   EXPECT_NEAR(*made(s, "tension")->number_at("stretch", 0.25), 1.0, 1e-12);
   EXPECT_NEAR(*made(s, "tension")->number_at("stretch", 1.0), 1.05, 1e-12);
-  s.job.bodies[2].keyframes.clear(), s.job.bodies[2].velocity = {0.04, 0, 0};
+  s.job.bodies[2].keyframes.clear();
+  s.job.bodies[2].velocity = {0.04, 0, 0};
   EXPECT_NEAR(*made(s, "tension")->number_at("stretch", 2.0), 1.4, 1e-12);
-  s.job.bodies[1].motion = Motion::prescribed, s.job.bodies[1].velocity = {-0.02, 0, 0};
+  s.job.bodies[1].motion = Motion::prescribed;
+  s.job.bodies[1].velocity = {-0.02, 0, 0};
   EXPECT_NEAR(*made(s, "tension")->number_at("stretch", 2.0), 1.6, 1e-12);
   s.job.bodies[2].motion = Motion::fixed;
   EXPECT_NEAR(*made(s, "tension")->number_at("stretch", 2.0), 1.2, 1e-12);
@@ -205,7 +216,8 @@ TEST(KnownBars, TearAtTheStretchOfTheirMaterial) {
   EXPECT_FALSE(made(s, "tension")->number("event_time"));
   s.job.scene.events.resize(2);
   for (std::size_t n = 0; n < 2; ++n) {
-    s.job.scene.events[n].kind = Event::Kind::release, s.job.scene.events[n].time = 0.75 - 0.25 * static_cast<double>(n);
+    s.job.scene.events[n].kind = Event::Kind::release;
+    s.job.scene.events[n].time = 0.75 - 0.25 * static_cast<double>(n);
     s.job.scene.events[n].bodies = {n == 0 ? "held" : "other"};
   }
   EXPECT_NEAR(*made(s, "tension")->number_at("stretch", 0.6), 1.06, 1e-12);
@@ -216,7 +228,10 @@ TEST(KnownBars, TearAtTheStretchOfTheirMaterial) {
 
 TEST(KnownBars, FlowKeepsItsStrainWithinTheLimits) {
   BarLaw law;
-  law.young = 1000.0, law.poisson_ratio = 0.25, law.elastic_limit = 0.01, law.plastic_limit = 0.05;
+  law.young = 1000.0;
+  law.poisson_ratio = 0.25;
+  law.elastic_limit = 0.01;
+  law.plastic_limit = 0.05;
   EXPECT_NEAR(law.yield_stress(), std::sqrt(6.0) * 400.0 * 0.01, 1e-12);
   const double half = std::sqrt(1.5) * 0.01 / 1.25, cap = 0.05 / std::sqrt(1.5);
   for (const double strain : {0.5 * half, 3.0 * half, -3.0 * half, 0.3, -0.3}) {
@@ -273,7 +288,8 @@ TEST(KnownTables, AFormulaOfOneComponentLeavesTheOthersAtRest) {
     const std::string name = std::string("velocity_") + "xyz"[k];
     const auto field = made(s, "expression", {{name, std::string("2*x + 3*y + t")}, {"density", std::string("5*z")}});
     Snapshot now;
-    now.time = 0.5, now.position = {{1, 10, 100}, {2, 20, 200}, {not_a_number, 0, 0}};
+    now.time = 0.5;
+    now.position = {{1, 10, 100}, {2, 20, 200}, {not_a_number, 0, 0}};
     const auto truth = field->beside(now);
     ASSERT_EQ(truth.velocity.size(), 3u);
     for (std::size_t c = 0; c < 3; ++c) {

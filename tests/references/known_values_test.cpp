@@ -30,12 +30,23 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance, const std::stri
 
 TEST(KnownPlaces, OnTheSurfaceOfARegionAreInIt) {
   Shape box, ball, tube, half, both, hollow;
-  box.min = {1, 2, 3}, box.max = {2, 4, 6};
-  ball.kind = Shape::Kind::sphere, ball.centre = {1, 0, 0}, ball.radius = 5.0;
-  tube.kind = Shape::Kind::cylinder, tube.base = {1, 1, 1}, tube.axis = {0, 0, 2}, tube.length = 3.0, tube.radius = 5.0;
-  half.kind = Shape::Kind::half_space, half.point = {0, 0, 1}, half.normal = {0, 0, 1};
-  both.kind = Shape::Kind::unite, both.of = {box, ball};
-  hollow.kind = Shape::Kind::difference, hollow.of = {ball, box};
+  box.min = {1, 2, 3};
+  box.max = {2, 4, 6};
+  ball.kind = Shape::Kind::sphere;
+  ball.centre = {1, 0, 0};
+  ball.radius = 5.0;
+  tube.kind = Shape::Kind::cylinder;
+  tube.base = {1, 1, 1};
+  tube.axis = {0, 0, 2};
+  tube.length = 3.0;
+  tube.radius = 5.0;
+  half.kind = Shape::Kind::half_space;
+  half.point = {0, 0, 1};
+  half.normal = {0, 0, 1};
+  both.kind = Shape::Kind::unite;
+  both.of = {box, ball};
+  hollow.kind = Shape::Kind::difference;
+  hollow.of = {ball, box};
   struct Row {
     const Shape& shape;
     Vec3 place;
@@ -55,8 +66,11 @@ TEST(KnownPlaces, OnTheSurfaceOfARegionAreInIt) {
 
 TEST(KnownPlaces, OfAPrescribedBodyAreThoseOfItsKeyframes) {
   JobBody body;
-  body.motion = Motion::prescribed, body.properties.mass = 3.0, body.properties.centre = {1, 0, 0};
-  body.velocity = {0, 2, 0}, body.angular_velocity = {0, 0, 1.5};
+  body.motion = Motion::prescribed;
+  body.properties.mass = 3.0;
+  body.properties.centre = {1, 0, 0};
+  body.velocity = {0, 2, 0};
+  body.angular_velocity = {0, 0, 1.5};
   const auto moved = prescribed_motion(body, 2.0);
   expect_near(moved.position, {1, 4, 0}, 1e-15, "without keyframes");
   EXPECT_NEAR(angle_between(moved.orientation, from_rotation_vector({0, 0, 3.0})), 0.0, 1e-7);
@@ -166,10 +180,13 @@ TEST(KnownLiquids, LayersBearTheirWeightWhicheverWayIsUp) {
 
 TEST(KnownLiquids, ADropIsPressedLeastAtItsSurface) {
   VelocityField v;
-  v.kind = VelocityField::Kind::linear, v.centre = {0.5, 0.5, 0};
-  v.gradient[0] = {-2, 0, 0}, v.gradient[1] = {0, 2, 0};
+  v.kind = VelocityField::Kind::linear;
+  v.centre = {0.5, 0.5, 0};
+  v.gradient[0] = {-2, 0, 0};
+  v.gradient[1] = {0, 2, 0};
   auto s = test::swinging(v, 10);
-  s.job.scene.bodies[0].shape.kind = Shape::Kind::cylinder, s.job.scene.bodies[0].shape.radius = 0.5;
+  s.job.scene.bodies[0].shape.kind = Shape::Kind::cylinder;
+  s.job.scene.bodies[0].shape.radius = 0.5;
   const auto drop = made(s, "elliptic_drop");
   for (const double time : {0.0, 0.2}) {
     const auto now = elliptic_drop(2.0, 0.5, time);
@@ -180,7 +197,8 @@ TEST(KnownLiquids, ADropIsPressedLeastAtItsSurface) {
     // along x Euler's equation is rho (A^2 - A') x = -dp/dx, and p = 0 at x = a
     const double middle = 500.0 * (now.rate * now.rate - change) * now.a * now.a;
     Snapshot frame;
-    frame.time = time, frame.position = s.initial.position;
+    frame.time = time;
+    frame.position = s.initial.position;
     const auto at = [&](double x, double y) {
       frame.position[0] = {0.5 + x, 0.5 + y, 0};
       return drop->beside(frame);
@@ -222,7 +240,8 @@ TEST(KnownLiquids, BetweenCylindersTheTorqueIsThatOfTheirRadii) {
   now.position = s.initial.position;
   const Vec3 centre = s.job.bodies[2].properties.centre;
   for (const auto& [r, u] : {std::pair{0.2, 0.3}, std::pair{0.4, 0.0}, std::pair{0.25, 0.195}}) {
-    now.position[0] = centre + Vec3{r, 0, 0}, now.position[1] = centre + Vec3{0, r, 0.5};
+    now.position[0] = centre + Vec3{r, 0, 0};
+    now.position[1] = centre + Vec3{0, r, 0.5};
     expect_near(flow->beside(now).velocity[0], {0, u, 0}, 1e-12, "along x");
     expect_near(flow->beside(now).velocity[1], {-u, 0, 0}, 1e-12, "along y");
   }
@@ -234,7 +253,8 @@ TEST(KnownLiquids, SoundIsAQuarterPeriodFromSpeedToPressure) {
   EXPECT_NEAR(*wave->number("frequency"), 10.0 * pi, 1e-12);
   Snapshot now;
   now.position = s.initial.position;
-  now.position[0].x = -0.7 / (2.0 * pi), now.position[1].x = (0.5 * pi - 0.7) / (2.0 * pi);  // phases 0 and pi/2
+  now.position[0].x = -0.7 / (2.0 * pi);
+  now.position[1].x = (0.5 * pi - 0.7) / (2.0 * pi);  // phases 0 and pi/2
   const auto start = wave->beside(now);
   EXPECT_NEAR(start.velocity[0].x, 0.01, 1e-15);
   EXPECT_NEAR(start.velocity[1].x, 0.0, 1e-15);
@@ -250,7 +270,9 @@ TEST(KnownLiquids, SoundIsAQuarterPeriodFromSpeedToPressure) {
 TEST(KnownLiquids, ABallTurnsAsABodyAtItsStart) {
   auto s = test::swinging({}, 10, 2.0);
   auto& body = s.job.scene.bodies[0];
-  body.shape.kind = Shape::Kind::sphere, body.shape.centre = {0.5, 0, 0}, body.shape.radius = 0.5,
+  body.shape.kind = Shape::Kind::sphere;
+  body.shape.centre = {0.5, 0, 0};
+  body.shape.radius = 0.5;
   body.angular_velocity = {0, 0, 3};
   Snapshot now;
   now.position = s.initial.position;
@@ -266,7 +288,8 @@ TEST(KnownLiquids, AColumnsFrontIsKnownAtNineteenTimes) {
   auto s = test::pool(350.0);
   test::set_times(s, 0.2, 4);
   auto& box = s.job.scene.bodies[0].shape;
-  box.min = {0.25, 0, 0}, box.max = {0.75, 1, 0.5};
+  box.min = {0.25, 0, 0};
+  box.max = {0.75, 1, 0.5};
   const auto column = made(s, "collapsing_column", {{"cells", 4.0}});
   const auto* front = column->measured("front");
   ASSERT_NE(front, nullptr);
@@ -316,10 +339,13 @@ TEST(KnownBodies, TwoCubesChangeTheirSpeedsWhereTheyTouch) {
     const auto right = [&] {
       test::add_matter(t, "right", Phase::rigid, {{4, 4, 4}, 0.1, {0.2, 0, 0}, 1.0}, {{-0.5, 0, 0}, {}}, 3000.0);
     };
-    if (swapped)
-      right(), left();
-    else
-      left(), right();
+    if (swapped) {
+      right();
+      left();
+    } else {
+      left();
+      right();
+    }
     test::set_times(t, 1.0, 10);
     const auto hit = made(t, "elastic_collision");
     EXPECT_NEAR(*hit->number("event_time"), 0.4 / 1.5, 1e-14);

@@ -165,7 +165,8 @@ TEST(SoundWave, SolvesTheLinearEquationsByItsOwnDifferences) {
   const auto wave = make_reference(test::function("sound_wave"), s.job, s.initial);
   const double h = 1e-5, rho = 1000.0, c2 = 100.0, t = 0.03;
   Snapshot here;
-  here.time = t, here.position = s.initial.position;
+  here.time = t;
+  here.position = s.initial.position;
   const auto at = [&](double dx, double dt) {
     Snapshot now = here;
     now.time += dt;
@@ -184,7 +185,9 @@ double taylor_green_residual(const test::Prepared& s, const Settings& args) {
   const auto flow = make_reference(test::function("taylor_green", args), s.job, s.initial);
   const auto at = [&](double x, double y, double t) {
     Snapshot now;
-    now.time = t, now.position = s.initial.position, now.position[0] = {x, y, 0};
+    now.time = t;
+    now.position = s.initial.position;
+    now.position[0] = {x, y, 0};
     const auto truth = flow->beside(now);
     return std::pair{truth.velocity[0].x, std::pair{truth.velocity[0].y, truth.pressure[0]}};
   };
@@ -203,7 +206,8 @@ double taylor_green_residual(const test::Prepared& s, const Settings& args) {
 test::Prepared vortices(const Vec3& origin = {}, const Vec3& carried = {}) {
   VelocityField v;
   v.kind = VelocityField::Kind::taylor_green;
-  v.speed = 1.0, v.wavelength = 1.0;
+  v.speed = 1.0;
+  v.wavelength = 1.0;
   auto s = test::swinging(v, 20, 10.0);
   const double k = 2 * pi;
   for (std::size_t i = 0; i < s.initial.size(); ++i) {
@@ -237,7 +241,8 @@ TEST(CouetteCylinders, BalancesTheTorqueBetweenAnyTwoRadiiAndSticksToBothWalls) 
   const Vec3 centre = s.job.bodies[1].properties.centre;
   const auto speed = [&](double r) {
     Snapshot now;
-    now.position = s.initial.position, now.position[0] = centre + r * Vec3{0.6, 0.8, 0.0};
+    now.position = s.initial.position;
+    now.position[0] = centre + r * Vec3{0.6, 0.8, 0.0};
     return dot(flow->beside(now).velocity[0], Vec3{-0.8, 0.6, 0.0});
   };
   EXPECT_NEAR(speed(a), spin * a, 1e-12);
@@ -343,8 +348,13 @@ TEST(Bouncing, IsTheFallStepByStepWithTheHitsTurnedRound) {
     double z = gap, v = 0.0, t = 0.0;
     const double rest = bounce->at(0.0).bodies[1].position.x - gap;
     for (int n = 1; n <= 200000; ++n) {
-      z += v * dt - 0.5 * 9.81 * dt * dt, v -= 9.81 * dt, t += dt;
-      if (z < 0.0 && v < 0.0) z = -e * z, v = -e * v;
+      z += v * dt - 0.5 * 9.81 * dt * dt;
+      v -= 9.81 * dt;
+      t += dt;
+      if (z < 0.0 && v < 0.0) {
+        z = -e * z;
+        v = -e * v;
+      }
       if (n % 20000 != 0 || (e < 1.0 && t > 0.8)) continue;
       EXPECT_NEAR(bounce->at(t).bodies[1].position.x - rest, z, 5e-4)
           << e << " at " << t;  // three hits, each seen up to a step late: v dt of place, and 2 v dt of later times

@@ -15,7 +15,9 @@ inline void add_matter(Prepared& s, const std::string& name, Phase phase, const 
   const auto row = static_cast<int>(s.job.scene.materials.size());
   Material m;
   m.name = name;
-  m.density = density, m.viscosity = viscosity, m.stiffness = 100.0;
+  m.density = density;
+  m.viscosity = viscosity;
+  m.stiffness = 100.0;
   s.job.scene.materials.push_back(m);
   int solids = 0;
   for (const auto& b : s.job.bodies) solids += b.phase == Phase::liquid ? 0 : 1;
@@ -24,12 +26,17 @@ inline void add_matter(Prepared& s, const std::string& name, Phase phase, const 
   body.material = s.job.scene.bodies.back().material = name;
   body.phase = s.job.scene.bodies.back().phase = phase;
   body.index = index;
-  for (std::size_t i = first; i < s.initial.size(); ++i)
-    s.initial.phase[i] = static_cast<int>(phase), s.initial.body[i] = index, s.initial.material[i] = row;
+  for (std::size_t i = first; i < s.initial.size(); ++i) {
+    s.initial.phase[i] = static_cast<int>(phase);
+    s.initial.body[i] = index;
+    s.initial.material[i] = row;
+  }
 }
 
 inline void close_box(Prepared& s, const Vec3& min, const Vec3& max, const std::array<bool, 3>& periodic) {
-  s.job.scene.min = min, s.job.scene.max = max, s.job.scene.periodic = periodic;
+  s.job.scene.min = min;
+  s.job.scene.max = max;
+  s.job.scene.periodic = periodic;
 }
 
 /// Liquid of nu = 0.01 m2/s between plates 1 m apart across z.
@@ -94,7 +101,9 @@ inline Prepared swinging(const VelocityField& start, int n, double viscosity = 0
 inline VelocityField sound_start() {
   VelocityField v;
   v.kind = VelocityField::Kind::cosine;
-  v.amplitude = {0.01, 0, 0}, v.wave_vector = {2 * pi, 0, 0}, v.phase = 0.7;
+  v.amplitude = {0.01, 0, 0};
+  v.wave_vector = {2 * pi, 0, 0};
+  v.phase = 0.7;
   return v;
 }
 

@@ -37,7 +37,9 @@ inline std::string sealed(const std::string& text) { return "# hash: " + experim
 
 inline ReferenceChoice experiment(const DataFile& file, const std::string& axis = "x") {
   ReferenceChoice choice;
-  choice.kind = ReferenceKind::experiment, choice.file = file.path(), choice.args["axis"] = axis;
+  choice.kind = ReferenceKind::experiment;
+  choice.file = file.path();
+  choice.args["axis"] = axis;
   return choice;
 }
 

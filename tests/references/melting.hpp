@@ -18,9 +18,15 @@ inline Prepared stefan_bar(const Heating& h) {
   add_matter(s, "bar", h.wall > h.bar ? Phase::rigid : Phase::liquid, {{40, 2, 2}, dx, {}, 1.0}, {}, 1000.0);
   add_matter(s, "wall", Phase::rigid, {{3, 2, 2}, dx, {h.from_above ? 40 * dx : -3 * dx, 0, 0}, 1.0}, {}, 1000.0, 0.0,
              Motion::fixed);
-  for (auto& m : s.job.scene.materials) m.conductivity = 2.0, m.heat_capacity = 1000.0;
+  for (auto& m : s.job.scene.materials) {
+    m.conductivity = 2.0;
+    m.heat_capacity = 1000.0;
+  }
   auto& m = s.job.scene.materials[0];
-  m.t_melt = 300.0, m.t_solid = 290.0, m.latent_heat = 1e5, m.solid = "rigid";
+  m.t_melt = 300.0;
+  m.t_solid = 290.0;
+  m.latent_heat = 1e5;
+  m.solid = "rigid";
   const double temperature[] = {h.bar, h.wall};
   for (std::size_t b = 0; b < 2; ++b) {
     TemperatureField field;
@@ -39,11 +45,16 @@ inline Prepared heated_block() {
   s.job.scene.spacing = 0.1;
   add_matter(s, "block", Phase::elastic, {{2, 2, 2}, 0.1, {}, 1.0}, {}, 1000.0);
   auto& m = s.job.scene.materials[0];
-  m.t_melt = 300.0, m.t_solid = 290.0, m.solid = "elastic";
+  m.t_melt = 300.0;
+  m.t_solid = 290.0;
+  m.solid = "elastic";
   const double temperature[] = {310.0, 295.0, 280.0, 295.0};
   for (int n = 0; n < 4; ++n) {
     Event e;
-    e.kind = Event::Kind::heat, e.time = n + 1.0, e.bodies = {"block"}, e.temperature = temperature[n];
+    e.kind = Event::Kind::heat;
+    e.time = n + 1.0;
+    e.bodies = {"block"};
+    e.temperature = temperature[n];
     s.job.scene.events.push_back(e);
   }
   set_times(s, 5.0, 50);

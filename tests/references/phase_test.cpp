@@ -40,7 +40,8 @@ TEST(Neumann, BalancesTheHeatAtTheFrontByItsOwnDifferences) {
 
 TEST(Neumann, BalancesTheHeatAtTheFrontOfUnlikePhases) {
   for (NeumannFront f : {NeumannFront{253, 273, 283, 1.05e-6, 159}, NeumannFront{400, 300, 250, 2e-6, 100}}) {
-    f.far_diffusivity_ratio = 0.13, f.far_conductivity_ratio = 0.25;
+    f.far_diffusivity_ratio = 0.13;
+    f.far_conductivity_ratio = 0.25;
     const double t = 30.0, X = f.front(t), h = 1e-7, flow = f.surface > f.far ? 1.0 : -1.0;
     const double before = (f.temperature(X - h, t) - f.temperature(X - 2 * h, t)) / h,
                  after = (f.temperature(X + 2 * h, t) - f.temperature(X + h, t)) / h;
@@ -60,12 +61,14 @@ TEST(Neumann, BalancesTheHeatAtTheFrontOfUnlikePhases) {
 TEST(Stefan, TakesThePropertiesOfEachPhase) {
   auto s = test::stefan_bar({230.0, 300.0, true});
   auto& m = s.job.scene.materials[0];
-  m.solid_conductivity = 8.0, m.solid_heat_capacity = 500.0;  // ice of 1.6e-5 m2/s from water of 2e-6 m2/s, changing at 290 K
+  m.solid_conductivity = 8.0;
+  m.solid_heat_capacity = 500.0;  // ice of 1.6e-5 m2/s from water of 2e-6 m2/s, changing at 290 K
   s.job.scene.end_time = 1.0;
   const auto bar = make_reference(function("stefan"), s.job, s.initial);
   NeumannFront front{230.0, 290.0, 300.0, 8.0 / 5e5,
                      (1e5 - 500.0 * 10.0) / 500.0};  // 10 K below t_melt the liquid holds 500 J/kg/K more
-  front.far_diffusivity_ratio = 2e-6 / 1.6e-5, front.far_conductivity_ratio = 0.25;
+  front.far_diffusivity_ratio = 2e-6 / 1.6e-5;
+  front.far_conductivity_ratio = 0.25;
   EXPECT_NEAR(*bar->number("lambda"), front.lambda(), 1e-12);
   EXPECT_NEAR(*bar->number_at("front_position", 1.0), front.front(1.0), 1e-15);
 }

@@ -17,14 +17,18 @@ Prepared warm(bool periodic, double phase) {
       {20, 4, 4}, 0.005, [&](const Vec3& r) { return 300.0 + 10.0 * std::cos(k * r.x + phase); }, 10.0, 2, periodic);
   TemperatureField field;
   field.kind = TemperatureField::Kind::cosine;
-  field.mean = 300.0, field.amplitude = 10.0, field.phase = phase, field.wave_vector = {k, 0, 0};
+  field.mean = 300.0;
+  field.amplitude = 10.0;
+  field.phase = phase;
+  field.wave_vector = {k, 0, 0};
   s.job.scene.bodies[0].temperature = field;
   return s;
 }
 
 void second_body(Prepared& s, double conductivity) {
   auto other = s.job.scene.materials[0];
-  other.name = "other", other.conductivity = conductivity;
+  other.name = "other";
+  other.conductivity = conductivity;
   s.job.scene.materials.push_back(other);
   test::add_body(s, "second", {{2, 4, 4}, 0.005, {0.1, 0, 0}, 1.0}, {});
   s.job.bodies[1].material = "other";
@@ -40,7 +44,11 @@ TEST(Refusals, OfHeat) {
        [](Prepared& s, Settings&) {
          s.job.bodies[0].keyframes = {{0.0, {}, {}}};
        }},
-      {"", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.y = 1.0, s.job.bodies[0].motion = Motion::fixed; }},
+      {"",
+       [](Prepared& s, Settings&) {
+         s.job.bodies[0].velocity.y = 1.0;
+         s.job.bodies[0].motion = Motion::fixed;
+       }},
       {"`bar` holds its temperature", [](Prepared& s, Settings&) { s.job.bodies[0].temperature_held = true; }},
       {"`bar` falls",
        [](Prepared& s, Settings&) {
@@ -48,12 +56,21 @@ TEST(Refusals, OfHeat) {
        }},
       {"",
        [](Prepared& s, Settings&) {
-         s.job.scene.gravity = {0, 0, -1}, s.job.bodies[0].motion = Motion::fixed;
+         s.job.scene.gravity = {0, 0, -1};
+         s.job.bodies[0].motion = Motion::fixed;
        }},
       {"no events or inflows", [](Prepared& s, Settings&) { s.job.scene.events.resize(1); }},
       {"no events or inflows", [](Prepared& s, Settings&) { s.job.scene.inflows.resize(1); }},
-      {"needs scene.min and scene.max", [](Prepared& s, Settings&) { s.job.scene.periodic[0] = true, s.job.scene.min.reset(); }},
-      {"needs scene.min and scene.max", [](Prepared& s, Settings&) { s.job.scene.periodic[0] = true, s.job.scene.max.reset(); }},
+      {"needs scene.min and scene.max",
+       [](Prepared& s, Settings&) {
+         s.job.scene.periodic[0] = true;
+         s.job.scene.min.reset();
+       }},
+      {"needs scene.min and scene.max",
+       [](Prepared& s, Settings&) {
+         s.job.scene.periodic[0] = true;
+         s.job.scene.max.reset();
+       }},
       {"needs conductivity and heat_capacity", [](Prepared& s, Settings&) { s.job.scene.materials[0].conductivity.reset(); }},
       {"needs conductivity and heat_capacity", [](Prepared& s, Settings&) { s.job.scene.materials[0].heat_capacity.reset(); }},
       {"which the scene does not have", [](Prepared& s, Settings&) { s.job.bodies[0].material = "none"; }},
@@ -62,9 +79,15 @@ TEST(Refusals, OfHeat) {
   hold("cosine_mode", warm(false, 0.0), {}, at_rest);
   hold("cosine_mode", warm(false, 0.0), {},
        {{"differ in diffusivity",
-         [](Prepared& s, Settings&) { second_body(s, 3.0), s.job.scene.bodies[0].temperature->wave_vector.x = test::pi / 0.11; }},
+         [](Prepared& s, Settings&) {
+           second_body(s, 3.0);
+           s.job.scene.bodies[0].temperature->wave_vector.x = test::pi / 0.11;
+         }},
         {"",
-         [](Prepared& s, Settings&) { second_body(s, 2.0), s.job.scene.bodies[0].temperature->wave_vector.x = test::pi / 0.11; }},
+         [](Prepared& s, Settings&) {
+           second_body(s, 2.0);
+           s.job.scene.bodies[0].temperature->wave_vector.x = test::pi / 0.11;
+         }},
         {"not level at the insulated ends", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->phase = 0.1; }},
         {"not level at the insulated ends",
          [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->wave_vector.x *= 1.01; }},
@@ -76,8 +99,16 @@ TEST(Refusals, OfHeat) {
        {as_it_is,
         {"", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.x = 1.0; }},
         {"at one velocity", [](Prepared& s, Settings&) { s.job.bodies[0].angular_velocity.x = 1.0; }},
-        {"at one velocity", [](Prepared& s, Settings&) { second_body(s, 2.0), s.job.bodies[1].velocity.x = 1.0; }},
-        {"", [](Prepared& s, Settings&) { second_body(s, 2.0), s.job.bodies[0].velocity.x = s.job.bodies[1].velocity.x = 1.0; }},
+        {"at one velocity",
+         [](Prepared& s, Settings&) {
+           second_body(s, 2.0);
+           s.job.bodies[1].velocity.x = 1.0;
+         }},
+        {"",
+         [](Prepared& s, Settings&) {
+           second_body(s, 2.0);
+           s.job.bodies[0].velocity.x = s.job.bodies[1].velocity.x = 1.0;
+         }},
         {"has gravity", [](Prepared& s, Settings&) { s.job.scene.gravity.x = 1.0; }},
         {"has no bodies", [](Prepared& s, Settings&) { s.job.bodies.clear(); }}});
   hold("cosine_mode_lattice", warm(true, 0.7), {{"support_ratio", 2.5}},
@@ -100,32 +131,60 @@ TEST(Refusals, OfHeat) {
            a["wave_vector_1"] = std::vector<double>{30.0 * test::pi, 0, 0};
          }},
         {"no argument `amplitude_5`", [](Prepared&, Settings& a) { a["amplitude_5"] = 1.0; }},
-        {"needs amplitude_1 and wave_vector_1", [](Prepared&, Settings& a) { a.erase("amplitude_1"), a.erase("wave_vector_1"); }},
+        {"needs amplitude_1 and wave_vector_1",
+         [](Prepared&, Settings& a) {
+           a.erase("amplitude_1");
+           a.erase("wave_vector_1");
+         }},
         {"does not start with the waves", [](Prepared& s, Settings&) { s.initial.temperature[5] += 1.1e-8; }},
         {"", [](Prepared& s, Settings&) { s.initial.temperature[5] += 0.9e-8; }}});
   hold("sine_held_ends", warm(false, -0.5 * test::pi), {},
        {as_it_is,
         {"one body whose temperature is not held", [](Prepared& s, Settings&) { s.job.bodies[0].temperature_held = true; }},
         {"all bodies but one", [](Prepared& s, Settings&) { second_body(s, 2.0); }},
-        {"", [](Prepared& s, Settings&) { second_body(s, 2.0), s.job.bodies[1].temperature_held = true; }},
-        {"differ in diffusivity", [](Prepared& s, Settings&) { second_body(s, 3.0), s.job.bodies[1].temperature_held = true; }},
+        {"",
+         [](Prepared& s, Settings&) {
+           second_body(s, 2.0);
+           s.job.bodies[1].temperature_held = true;
+         }},
+        {"differ in diffusivity",
+         [](Prepared& s, Settings&) {
+           second_body(s, 3.0);
+           s.job.bodies[1].temperature_held = true;
+         }},
         {"at its mean at the held ends", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->phase += 1e-3; }}});
   hold("two_conductivities", warm(false, 0.0), {},
        {{"for two bodies", [](Prepared&, Settings&) {}},
         {"must start at one temperature", [](Prepared& s, Settings&) { second_body(s, 3.0); }},
-        {"", [](Prepared& s, Settings&) { second_body(s, 3.0), s.initial.temperature.assign(s.initial.size(), 300.0); }},
-        {"must start at one temperature", [](Prepared& s, Settings&) { second_body(s, 3.0), s.initial.temperature.clear(); }},
+        {"",
+         [](Prepared& s, Settings&) {
+           second_body(s, 3.0);
+           s.initial.temperature.assign(s.initial.size(), 300.0);
+         }},
+        {"must start at one temperature",
+         [](Prepared& s, Settings&) {
+           second_body(s, 3.0);
+           s.initial.temperature.clear();
+         }},
         {"do not touch",
          [](Prepared& s, Settings&) {
-           second_body(s, 3.0), s.job.scene.bodies[1].shape.min.x += 1e-6, s.job.scene.bodies[1].shape.max.x += 1e-6;
+           second_body(s, 3.0);
+           s.job.scene.bodies[1].shape.min.x += 1e-6;
+           s.job.scene.bodies[1].shape.max.x += 1e-6;
          }},
-        {"touch twice", [](Prepared& s, Settings&) { second_body(s, 3.0), s.job.scene.periodic[0] = true; }}});
+        {"touch twice", [](Prepared& s, Settings&) {
+           second_body(s, 3.0);
+           s.job.scene.periodic[0] = true;
+         }}});
 }
 
 TEST(Refusals, OfAStepOfTemperature) {
   auto s = warm(false, 0.0);
   TemperatureField step;
-  step.kind = TemperatureField::Kind::step, step.normal = {1, 0, 0}, step.point = {0.05, 0, 0}, step.behind = 400.0,
+  step.kind = TemperatureField::Kind::step;
+  step.normal = {1, 0, 0};
+  step.point = {0.05, 0, 0};
+  step.behind = 400.0;
   step.ahead = 300.0;
   s.job.scene.bodies[0].temperature = step;
   const auto place = [](double x) { return [=](Prepared&, Settings& a) { a["place"] = x; }; };
@@ -150,7 +209,11 @@ TEST(Refusals, OfMelting) {
         {"several bodies hold", [](Prepared& s, Settings&) { s.job.bodies[0].temperature_held = true; }},
         {"a material with t_melt", [](Prepared& s, Settings&) { s.job.scene.materials[0].t_melt.reset(); }},
         {"`walls`", [](Prepared&, Settings& a) { a["wall"] = std::string("walls"); }},
-        {"", [](Prepared&, Settings& a) { a["wall"] = std::string("wall"), a["body"] = std::string("bar"); }},
+        {"",
+         [](Prepared&, Settings& a) {
+           a["wall"] = std::string("wall");
+           a["body"] = std::string("bar");
+         }},
         {"`bar` needs one temperature", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature.reset(); }},
         {"`wall` needs one temperature",
          [](Prepared& s, Settings&) { s.job.scene.bodies[1].temperature->kind = TemperatureField::Kind::step; }},
@@ -158,11 +221,16 @@ TEST(Refusals, OfMelting) {
          [](Prepared& s, Settings&) { s.job.scene.materials[0].latent_heat.reset(); }},
         {"needs t_melt, heat_capacity and latent_heat",
          [](Prepared& s, Settings&) { s.job.scene.materials[0].heat_capacity.reset(); }},
-        {"", [](Prepared& s, Settings& a) { s.job.scene.materials[0].latent_heat.reset(), a["latent_heat"] = 1e5; }},
+        {"",
+         [](Prepared& s, Settings& a) {
+           s.job.scene.materials[0].latent_heat.reset();
+           a["latent_heat"] = 1e5;
+         }},
         {"must lie between", [](Prepared& s, Settings&) { s.job.scene.bodies[0].temperature->value = 310.0; }},
         {"must lie between",
          [](Prepared& s, Settings&) {
-           s.job.scene.bodies[1].temperature->value = 299.0, s.job.scene.bodies[0].temperature->value = 280.0;
+           s.job.scene.bodies[1].temperature->value = 299.0;
+           s.job.scene.bodies[0].temperature->value = 280.0;
          }},
         {"half space", [](Prepared& s, Settings&) { test::set_times(s, 2000.0, 20); }},
         {"every direction is periodic", [](Prepared& s, Settings&) { s.job.scene.periodic[0] = true; }}});
@@ -172,7 +240,10 @@ TEST(Refusals, OfMelting) {
         {"needs a temperature", [](Prepared& s, Settings&) { s.job.scene.events[2].temperature.reset(); }},
         {"must hold all that can melt", [](Prepared& s, Settings&) { s.job.scene.events[1].bodies = {"other"}; }},
         {"", [](Prepared& s, Settings&) { s.job.scene.events[1].bodies.clear(); }},
-        {"", [](Prepared& s, Settings&) { s.job.scene.events[1].bodies = {"other"}, s.job.scene.materials[0].t_melt.reset(); }}});
+        {"", [](Prepared& s, Settings&) {
+           s.job.scene.events[1].bodies = {"other"};
+           s.job.scene.materials[0].t_melt.reset();
+         }}});
 }
 
 TEST(Refusals, OfBarsAndBeams) {
@@ -217,11 +288,14 @@ TEST(Refusals, OfBarsAndBeams) {
         {"at each end", [](Prepared& s, Settings&) { s.job.bodies[2].phase = Phase::liquid; }},
         {"hold the same end", [](Prepared& s, Settings&) { s.job.bodies[1].properties.centre.x = 0.3; }},
         {"no closed form", [](Prepared& s, Settings& a) {
-           s.job.scene.materials[0].elastic_limit = 0.01, a["sides"] = std::string("plane_strain");
+           s.job.scene.materials[0].elastic_limit = 0.01;
+           a["sides"] = std::string("plane_strain");
          }}});
   auto swinging = test::driven_bar(1.0);
   auto& v = swinging.job.scene.bodies[0].velocity;
-  v.kind = VelocityField::Kind::cosine, v.wave_vector = {test::pi / 0.2, 0, 0}, v.amplitude = {0.1, 0, 0};
+  v.kind = VelocityField::Kind::cosine;
+  v.wave_vector = {test::pi / 0.2, 0, 0};
+  v.amplitude = {0.1, 0, 0};
   hold("elastic_wave", swinging, {},
        {as_it_is,
         {"kind = \"cosine\"", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.kind = VelocityField::Kind::linear; }},
@@ -265,9 +339,21 @@ TEST(Refusals, OfWhatACaseStates) {
         {"names body `rigt`", [](Prepared&, Settings& a) { a["other"] = std::string("rigt"); }},
         {"both `min` and `max`", [=](Prepared&, Settings& a) { a["min"] = vector(0, 0, 0); }},
         {"both `min` and `max`", [=](Prepared&, Settings& a) { a["max"] = vector(0, 0, 0); }},
-        {"above `min` in x", [=](Prepared&, Settings& a) { a["min"] = vector(1, 0, 0), a["max"] = vector(1, 1, 1); }},
-        {"above `min` in y", [=](Prepared&, Settings& a) { a["min"] = vector(0, 1, 0), a["max"] = vector(1, 1, 1); }},
-        {"above `min` in z", [=](Prepared&, Settings& a) { a["min"] = vector(0, 0, 2), a["max"] = vector(1, 1, 1); }},
+        {"above `min` in x",
+         [=](Prepared&, Settings& a) {
+           a["min"] = vector(1, 0, 0);
+           a["max"] = vector(1, 1, 1);
+         }},
+        {"above `min` in y",
+         [=](Prepared&, Settings& a) {
+           a["min"] = vector(0, 1, 0);
+           a["max"] = vector(1, 1, 1);
+         }},
+        {"above `min` in z",
+         [=](Prepared&, Settings& a) {
+           a["min"] = vector(0, 0, 2);
+           a["max"] = vector(1, 1, 1);
+         }},
         {"must be greater than 0", [](Prepared&, Settings& a) { a["frequency"] = 0.0; }},
         {"no argument `valu`", [](Prepared&, Settings& a) { a["valu"] = 0.0; }}});
   hold("cosine_mod", test::cubes(), {}, {{"unknown reference function `cosine_mod`", [](Prepared&, Settings&) {}}});

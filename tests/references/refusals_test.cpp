@@ -25,7 +25,8 @@ Prepared falling_box() {
 Prepared lying_box() {
   auto s = falling_box();
   auto& shape = s.job.scene.bodies[0].shape;
-  shape.min.z -= 0.2, shape.max.z -= 0.2;
+  shape.min.z -= 0.2;
+  shape.max.z -= 0.2;
   return s;
 }
 
@@ -87,12 +88,26 @@ TEST(Refusals, OfBodiesThatFallLieOrSlide) {
         {"must touch", [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.min.z -= 1e-8; }},
         {"leaves the plane", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.z = 1.0; }},
         {"leaves the plane", [](Prepared& s, Settings&) { s.job.bodies[0].velocity.z = -1.0; }},
-        {"not on one line", [](Prepared& s, Settings&) { s.job.scene.gravity.x = 1.0, s.job.bodies[0].velocity.y = 1.0; }},
-        {"", [](Prepared& s, Settings&) { s.job.scene.gravity.x = 1.0, s.job.bodies[0].velocity.x = -1.0; }},
+        {"not on one line",
+         [](Prepared& s, Settings&) {
+           s.job.scene.gravity.x = 1.0;
+           s.job.bodies[0].velocity.y = 1.0;
+         }},
+        {"",
+         [](Prepared& s, Settings&) {
+           s.job.scene.gravity.x = 1.0;
+           s.job.bodies[0].velocity.x = -1.0;
+         }},
         {"does not turn",
-         [](Prepared& s, Settings&) { s.job.bodies[0].velocity.x = 1.0, s.job.bodies[0].angular_velocity.y = 1.0; }},
+         [](Prepared& s, Settings&) {
+           s.job.bodies[0].velocity.x = 1.0;
+           s.job.bodies[0].angular_velocity.y = 1.0;
+         }},
         {"rolls about only",
-         [](Prepared& s, Settings&) { s.job.bodies[0].velocity.x = 1.0, s.job.bodies[0].angular_velocity.z = 1.0; }},
+         [](Prepared& s, Settings&) {
+           s.job.bodies[0].velocity.x = 1.0;
+           s.job.bodies[0].angular_velocity.z = 1.0;
+         }},
         {"0 or more", [](Prepared&, Settings& a) { a["friction"] = -0.1; }},
         {"", [](Prepared&, Settings& a) { a["friction"] = 0.0; }},
         {"", [](Prepared&, Settings& a) { a["friction"] = 0.999; }},
@@ -105,7 +120,8 @@ TEST(Refusals, OfFreeFlight) {
   const auto event = [](Event::Kind kind) {
     return [kind](Prepared& s, Settings&) {
       s.job.scene.events.resize(1);
-      s.job.scene.events[0].kind = kind, s.job.scene.events[0].time = 0.5;
+      s.job.scene.events[0].kind = kind;
+      s.job.scene.events[0].time = 0.5;
     };
   };
   for (const char* name : {"ballistic", "torque_free"})
@@ -170,7 +186,8 @@ TEST(Refusals, OfLiquids) {
         no_gravity,
         {"", [](Prepared& s, Settings&) { s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere; }},
         {"no liquid", [](Prepared& s, Settings&) {
-           s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere, s.job.bodies[0].phase = Phase::rigid,
+           s.job.scene.bodies[1].shape.kind = Shape::Kind::sphere;
+           s.job.bodies[0].phase = Phase::rigid;
            s.job.bodies[0].motion = Motion::fixed;
          }}});
   hold("hydrostatic", test::layers(5.0), {},
@@ -190,10 +207,14 @@ TEST(Refusals, OfLiquids) {
         {"along the plates", [](Prepared& s, Settings&) { s.job.scene.gravity.z = 0.01; }},
         {"beside a body force at rest",
          [](Prepared& s, Settings&) {
-           s.job.bodies[2].motion = Motion::prescribed, s.job.bodies[2].velocity = {1, 0, 0};
+           s.job.bodies[2].motion = Motion::prescribed;
+           s.job.bodies[2].velocity = {1, 0, 0};
          }},
         {"needs a viscosity", [](Prepared& s, Settings&) { s.job.scene.materials[0].viscosity = 0.0; }},
-        {"", [](Prepared& s, Settings& a) { s.job.scene.materials[0].viscosity = 0.0, a["kinematic_viscosity"] = 0.01; }}});
+        {"", [](Prepared& s, Settings& a) {
+           s.job.scene.materials[0].viscosity = 0.0;
+           a["kinematic_viscosity"] = 0.01;
+         }}});
   hold("couette", test::channel({}, {2, 0, 0}), {},
        {as_it_is,
         {"no plate moves", [](Prepared& s, Settings&) { s.job.bodies[2].velocity = {}; }},
@@ -212,20 +233,27 @@ TEST(Refusals, OfLiquids) {
         }},
        {"along its wave vector", [](Prepared& s, Settings&) { s.job.scene.bodies[0].velocity.amplitude.y = 0.001; }},
        {"stiffness or a speed of sound", [](Prepared& s, Settings&) { s.job.scene.materials[0].stiffness.reset(); }},
-       {"", [](Prepared& s, Settings& a) { s.job.scene.materials[0].stiffness.reset(), a["sound_speed"] = 10.0; }}});
+       {"", [](Prepared& s, Settings& a) {
+          s.job.scene.materials[0].stiffness.reset();
+          a["sound_speed"] = 10.0;
+        }}});
   hold("taylor_green", sound, {},
        {{"periodic in x and y", [](Prepared& s, Settings&) { s.job.scene.periodic[0] = false; }},
         {"periodic in x and y", [](Prepared& s, Settings&) { s.job.scene.periodic[1] = false; }},
         {"or the arguments speed and wavelength", [](Prepared&, Settings&) {}},
         {"or the arguments speed and wavelength", [](Prepared&, Settings& a) { a["speed"] = 1.0; }},
         {"or the arguments speed and wavelength", [](Prepared&, Settings& a) { a["wavelength"] = 1.0; }},
-        {"does not start with these vortices",
-         [](Prepared& s, Settings& a) { s.job.scene.materials[0].viscosity = 1.0, a["speed"] = 1.0, a["wavelength"] = 1.0; }}});
+        {"does not start with these vortices", [](Prepared& s, Settings& a) {
+           s.job.scene.materials[0].viscosity = 1.0;
+           a["speed"] = 1.0;
+           a["wavelength"] = 1.0;
+         }}});
   hold("liquid_ball", sound, {},
        {{"a sphere of liquid", [](Prepared&, Settings&) {}},
         {"does not turn", [](Prepared& s, Settings&) { s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere; }},
         {"", [](Prepared& s, Settings&) {
-           s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere, s.job.scene.bodies[0].angular_velocity = {0, 0, 1};
+           s.job.scene.bodies[0].shape.kind = Shape::Kind::sphere;
+           s.job.scene.bodies[0].angular_velocity = {0, 0, 1};
          }}});
   hold("couette_cylinders", test::channel({}, {2, 0, 0}), {{"inner_radius", 0.1}, {"outer_radius", 0.2}},
        {{"periodic in z", [](Prepared&, Settings&) {}},
@@ -246,13 +274,15 @@ TEST(Refusals, OfLiquids) {
 VelocityField drawn_out() {
   VelocityField v;
   v.kind = VelocityField::Kind::linear;
-  v.gradient[0] = {-2, 0, 0}, v.gradient[1] = {0, 2, 0};
+  v.gradient[0] = {-2, 0, 0};
+  v.gradient[1] = {0, 2, 0};
   return v;
 }
 
 TEST(Refusals, OfADropThatIsNotDrawnOutByHalves) {
   auto s = test::swinging(drawn_out(), 10);
-  s.job.scene.bodies[0].shape.kind = Shape::Kind::cylinder, s.job.scene.bodies[0].shape.radius = 0.5;
+  s.job.scene.bodies[0].shape.kind = Shape::Kind::cylinder;
+  s.job.scene.bodies[0].shape.radius = 0.5;
   const char* words = "needs a cylinder of liquid along z";
   const auto with = [&](std::size_t row, const Vec3& gradient) {
     return Row{words, [=](Prepared& p, Settings&) { p.job.scene.bodies[0].velocity.gradient[row] = gradient; }};
@@ -266,7 +296,8 @@ TEST(Refusals, OfADropThatIsNotDrawnOutByHalves) {
         with(2, {0, 0, 0.1}),
         {words,
          [](Prepared& p, Settings&) {
-           p.job.scene.bodies[0].velocity.gradient[0].x = 2, p.job.scene.bodies[0].velocity.gradient[1].y = -2;
+           p.job.scene.bodies[0].velocity.gradient[0].x = 2;
+           p.job.scene.bodies[0].velocity.gradient[1].y = -2;
          }},
         {words, [](Prepared& p, Settings&) { p.job.scene.bodies[0].velocity.kind = VelocityField::Kind::constant; }},
         {words, [](Prepared& p, Settings&) { p.job.scene.bodies[0].shape.kind = Shape::Kind::box; }}});

@@ -167,7 +167,9 @@ TEST(Tension, KnowsTheTearAndTheRestAfterARelease) {
   s.job.scene.materials[0].fracture_stretch.reset();
   s.job.scene.materials[0].elastic_limit = 0.01;
   Event let_go;
-  let_go.kind = Event::Kind::release, let_go.time = 1.0, let_go.bodies = {"pulled"};
+  let_go.kind = Event::Kind::release;
+  let_go.time = 1.0;
+  let_go.bodies = {"pulled"};
   s.job.scene.events.push_back(let_go);
   const auto kept = make_reference(function("tension"), s.job, s.initial);
   const double yield = 3 * 0.01 / (std::sqrt(6.0) * 1.3);
@@ -179,7 +181,8 @@ TEST(ElasticWave, HasTheModulusLeftWhenFreeSidesGiveWay) {
   auto s = test::beam(0.0);
   auto& start = s.job.scene.bodies[0].velocity;
   start.kind = VelocityField::Kind::cosine;
-  start.amplitude = {0.01, 0, 0}, start.wave_vector = {10, 0, 0};
+  start.amplitude = {0.01, 0, 0};
+  start.wave_vector = {10, 0, 0};
   const double E = 2e6, nu = 0.3975, lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
   for (int held = 0; held <= 2; ++held) {  // sides that are held keep their width; the free ones relax until they bear no stress
     double side[2] = {};
@@ -196,7 +199,8 @@ TEST(ElasticWave, HasTheSpeedsOfTheRodThePlateAndTheBody) {
   auto s = test::beam(0.0);
   auto& start = s.job.scene.bodies[0].velocity;
   start.kind = VelocityField::Kind::cosine;
-  start.amplitude = {0.01, 0, 0}, start.wave_vector = {10, 0, 0};
+  start.amplitude = {0.01, 0, 0};
+  start.wave_vector = {10, 0, 0};
   const double E = 2e6, nu = 0.3975, rho = 1000.0, lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu));
   const auto speed = [&] { return *make_reference(function("elastic_wave"), s.job, s.initial)->number("frequency") / 10; };
   EXPECT_NEAR(speed(), std::sqrt(4 * mu * (lambda + mu) / (lambda + 2 * mu) / rho), 1e-9);  // a plate: periodic in y

@@ -109,7 +109,8 @@ Display display_of(std::vector<Vec3> places, bool balls) {
     display.targets.push_back(std::make_unique<SphereTarget>(places, 0.5 * dx, colours));
   else
     display.targets.push_back(std::make_unique<SurfaceTarget>(places, SurfaceOptions::for_spacing(dx), colours));
-  display.ground = 0.0, display.size = 20 * dx;
+  display.ground = 0.0;
+  display.size = 20 * dx;
   return display;
 }
 

@@ -298,7 +298,11 @@ TEST(SceneFor, WhatFreezesJoinsAllThatItsBondsReachWherePhaseIsPrintedAndNearest
 TEST(SceneFor, ResolvesModesAndSupportRatioForEachRun) {
   const auto c = read_text(six_lines, {"scene.modes.heat=paper"}).value;
   RunChoice paper;
-  paper.mode = Mode::paper, paper.spacing = 0.1, paper.time_step = 1e-4, paper.seed = 7, paper.jitter = 0.1;
+  paper.mode = Mode::paper;
+  paper.spacing = 0.1;
+  paper.time_step = 1e-4;
+  paper.seed = 7;
+  paper.jitter = 0.1;
   const auto s = scene_for(c, paper);
   EXPECT_EQ(s.support_ratio, 2.12) << "every term is paper";
   EXPECT_EQ(s.spacing, 0.1);

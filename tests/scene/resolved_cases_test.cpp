@@ -36,7 +36,8 @@ TEST(ResolvedCases, AreTheSameCasesAndExtendNothing) {
     if (!is_case(entry.path())) continue;
     const auto file = entry.path().string();
     const auto reading = read_case(file);
-    before[file] = shown(reading), texts[file] = resolved_case(reading);
+    before[file] = shown(reading);
+    texts[file] = resolved_case(reading);
     extend += read_toml(file).find("extends") != nullptr;
   }
   EXPECT_GT(before.size(), 200U);

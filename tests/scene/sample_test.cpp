@@ -117,7 +117,8 @@ TEST(Sample, JitterIsBoundedHasNoDriftAndFollowsTheSeed) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Vec3 d = b.position[i] - a.position[i];
     for (std::size_t k = 0; k < 3; ++k) ASSERT_LE(std::abs(d[k]), 0.02);
-    mean += d, square += dot(d, d) / 3.0;
+    mean += d;
+    square += dot(d, d) / 3.0;
   }
   const double n = static_cast<double>(a.size()), sigma = 0.02 / std::sqrt(3.0);
   EXPECT_LT(norm(mean / n), 4.0 * sigma * std::sqrt(3.0 / n));  // 4 standard errors

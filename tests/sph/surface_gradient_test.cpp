@@ -110,7 +110,8 @@ TEST(SurfaceGradient, GrowsLittleWhateverTheClusterIsLike) {
     double first = 0.0, second = 0.0;
     for (std::size_t n = 0; n < points.size(); ++n) {
       const Vec3 d = points[n].weight * (shape.inverse * points[n].x);
-      first += dot(d, d), second += dot(d + c[n], d + c[n]);
+      first += dot(d, d);
+      second += dot(d + c[n], d + c[n]);
     }
     EXPECT_LT(second, 6.0 * first);  // without the cut it is more than a thousand
   }

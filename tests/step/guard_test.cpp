@@ -117,7 +117,8 @@ TEST(Guard, NamesTheParticleThatLeavesTheDomainAndLetsWallsStandOutsideIt) {
   lab.add({.name = "wall", .corner = {-1.0, 0.0, 0.0}, .count = {1, 3, 3}, .motion = Motion::fixed});
   lab.add({.name = "drop", .corner = {0.5, 0.5, 0.5}, .count = {3, 1, 1}, .phase = Phase::liquid, .velocity = {0.1, 0.0, 0.0}});
   lab.make_periodic({false, false, false}, {0.0, 0.0, 0.0}, {10, 10, 10});
-  lab.scene.min = Vec3{0.0, 0.0, 0.0}, lab.scene.max = Vec3{1.0, 1.0, 1.0};
+  lab.scene.min = Vec3{0.0, 0.0, 0.0};
+  lab.scene.max = Vec3{1.0, 1.0, 1.0};
   Simulation s(lab.scene, lab.initial);
   EXPECT_NO_THROW(s.advance_to(3.0));
   const Diverged e = tripped([&] { s.advance_to(5.0); });

@@ -13,15 +13,22 @@ using lab::far, lab::greatest_difference, lab::Seen, lab::seen_shared, lab::seen
 /// A column of jittered water that falls over between walls, which a block falls into.
 test::Prepared splash(bool floats_oil = false) {
   Scene s;
-  s.spacing = 0.01, s.jitter = 0.2;
+  s.spacing = 0.01;
+  s.jitter = 0.2;
   s.gravity = {0, 0, -9.81};
   s.periodic = {false, true, false};
-  s.min = Vec3{-0.03, 0.0, -0.03}, s.max = Vec3{0.18, 0.03, 0.2};
+  s.min = Vec3{-0.03, 0.0, -0.03};
+  s.max = Vec3{0.18, 0.03, 0.2};
   Material water = test::material(1000.0), wood = test::material(500.0);
-  water.name = "water", water.viscosity = 1e-3, water.stiffness = 400.0, wood.name = "wood";
+  water.name = "water";
+  water.viscosity = 1e-3;
+  water.stiffness = 400.0;
+  wood.name = "wood";
   s.materials = {water, test::material(1000.0), wood};
   Body column;
-  column.name = "water", column.material = "water", column.phase = Phase::liquid,
+  column.name = "water";
+  column.material = "water";
+  column.phase = Phase::liquid;
   column.shape = test::box({0, 0, 0}, {0.07, 0.03, 0.06});
   Shape tank;
   tank.kind = Shape::Kind::difference;
@@ -31,10 +38,13 @@ test::Prepared splash(bool floats_oil = false) {
   s.bodies = {column, test::rigid("tank", tank, {}, Motion::fixed), block};
   if (floats_oil) {
     Material oil = water;
-    oil.name = "oil", oil.density = 700.0;
+    oil.name = "oil";
+    oil.density = 700.0;
     s.materials.push_back(oil);
     s.bodies[2] = column;
-    s.bodies[2].name = "oil", s.bodies[2].material = "oil", s.bodies[2].shape = test::box({0, 0, 0.06}, {0.07, 0.03, 0.09});
+    s.bodies[2].name = "oil";
+    s.bodies[2].material = "oil";
+    s.bodies[2].shape = test::box({0, 0, 0.06}, {0.07, 0.03, 0.09});
     s.values["interface_weight"] = 1.0;
   }
   return test::prepare(s, 0.02, 1);
@@ -63,7 +73,10 @@ INSTANTIATE_TEST_SUITE_P(Halo, Splash, testing::Bool());
 TEST(Halo, ListsOutliveWhatIsDecidedOfTheWhole) {
   test::Prepared p = splash();
   Event hold;
-  hold.kind = Event::Kind::hold, hold.time = 0.0071, hold.until = 0.0093, hold.bodies = {"block"};
+  hold.kind = Event::Kind::hold;
+  hold.time = 0.0071;
+  hold.until = 0.0093;
+  hold.bodies = {"block"};
   p.job.scene.events = {hold};
   const Seen whole = seen_whole(p);
   for (const Checkpoint* from : {static_cast<const Checkpoint*>(nullptr), &whole.kept}) {
@@ -88,10 +101,13 @@ TEST(Halo, AColumnThatIsNotHandedOnIsSeen) {
 /// is to be one.
 test::Prepared thrown_bar(bool flows, bool meets, double spin, double bending) {
   Scene s;
-  s.spacing = 0.01, s.jitter = 0.1;
+  s.spacing = 0.01;
+  s.jitter = 0.1;
   s.values["bending"] = bending;
   Material rubber = test::material(1000.0);
-  rubber.young_modulus = 3e5, rubber.poisson_ratio = 0.3, rubber.stiffness = 100.0;
+  rubber.young_modulus = 3e5;
+  rubber.poisson_ratio = 0.3;
+  rubber.stiffness = 100.0;
   if (flows) rubber.elastic_limit = 0.001;
   s.materials = {rubber};
   Body bar = test::rigid("bar", test::box({0, 0, 0}, {0.12, 0.04, 0.03}), {{0.5, 0, 0}, {0, 0, spin}});

@@ -101,7 +101,11 @@ std::uint64_t bits_with(const std::string& set) {
   const Particles& p = run.world().particles;
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
-    for (const Vec3& v : {p.position(i), p.velocity(i)}) add(v.x), add(v.y), add(v.z);
+    for (const Vec3& v : {p.position(i), p.velocity(i)}) {
+      add(v.x);
+      add(v.y);
+      add(v.z);
+    }
     add(p[field::temperature][i]);
   }
   return hash;

@@ -90,12 +90,24 @@ Journey flight_with_events(Mode mode) {
            .velocity = {-0.02, 0.0, 0.001},
            .temperature = [](const Vec3&) { return 350.0; }});
   Event heat;
-  heat.kind = Event::Kind::heat, heat.time = 0.05, heat.until = 0.21, heat.bodies = {"a"}, heat.temperature = 400.0;
+  heat.kind = Event::Kind::heat;
+  heat.time = 0.05;
+  heat.until = 0.21;
+  heat.bodies = {"a"};
+  heat.temperature = 400.0;
   Event merge;
-  merge.kind = Event::Kind::merge, merge.time = 0.13, merge.bodies = {"a", "b"};
+  merge.kind = Event::Kind::merge;
+  merge.time = 0.13;
+  merge.bodies = {"a", "b"};
   Event split;
-  split.kind = Event::Kind::split, split.time = 0.3, split.name = "born", split.bodies = {"a"}, split.region = Shape{};
-  split.region->kind = Shape::Kind::half_space, split.region->point = {7e-3, 0, 0}, split.region->normal = {1, 0, 0};
+  split.kind = Event::Kind::split;
+  split.time = 0.3;
+  split.name = "born";
+  split.bodies = {"a"};
+  split.region = Shape{};
+  split.region->kind = Shape::Kind::half_space;
+  split.region->point = {7e-3, 0, 0};
+  split.region->normal = {1, 0, 0};
   lab.scene.events = {heat, merge, split};
   return {lab, {0.1, 0.2, 0.4, 0.5}};
 }
@@ -107,10 +119,17 @@ Journey bodies_only() {
   lab.scene.time_step = 0.01;
   lab.add({.name = "second", .corner = {2.0, 0.0, 0.0}, .count = {3, 3, 3}, .velocity = {-1.0, 0.0, 0.0}});
   Event merge;
-  merge.kind = Event::Kind::merge, merge.time = 0.313, merge.bodies = {"block", "second"};
+  merge.kind = Event::Kind::merge;
+  merge.time = 0.313;
+  merge.bodies = {"block", "second"};
   Event split;
-  split.kind = Event::Kind::split, split.time = 0.72, split.name = "born", split.region = Shape{};
-  split.region->kind = Shape::Kind::half_space, split.region->point = {1.0, 0, 0}, split.region->normal = {-1, 0, 0};
+  split.kind = Event::Kind::split;
+  split.time = 0.72;
+  split.name = "born";
+  split.region = Shape{};
+  split.region->kind = Shape::Kind::half_space;
+  split.region->point = {1.0, 0, 0};
+  split.region->normal = {-1, 0, 0};
   lab.scene.events = {merge, split};
   return {lab, {0.25, 0.5, 1.0}};
 }
@@ -139,7 +158,8 @@ Journey two_liquids_with_a_soft_cube() {
   Journey j = liquid_with_body("central", false);
   lab::Lab& lab = j.lab;
   lab.scene.values["face_pressure"] = lab.scene.values["interface_weight"] = 1.0;
-  lab.scene.materials[1].young_modulus = 1e4, lab.scene.materials[1].poisson_ratio = 0.3,
+  lab.scene.materials[1].young_modulus = 1e4;
+  lab.scene.materials[1].poisson_ratio = 0.3;
   lab.scene.materials[1].solid = "elastic";
   lab.add({.name = "oil", .material = 1, .corner = {0.0, 0.0, 0.4}, .count = {6, 6, 3}, .phase = Phase::liquid});
   lab.add({.name = "cube",
@@ -156,7 +176,10 @@ Journey two_liquids_with_a_soft_cube() {
 Journey melting_of_unlike_phases() {
   lab::Lab lab(0.1);
   Material& m = lab.scene.materials[0];
-  m.conductivity = 1000.0, m.solid_conductivity = 3000.0, m.solid_heat_capacity = 500.0, m.t_melt = m.t_solid = 350.0,
+  m.conductivity = 1000.0;
+  m.solid_conductivity = 3000.0;
+  m.solid_heat_capacity = 500.0;
+  m.t_melt = m.t_solid = 350.0;
   m.latent_heat = 2e4;
   lab.add_material(1000.0, 1000.0, 1000.0);
   lab.add({.name = "bar", .count = {6, 3, 3}, .motion = Motion::fixed, .temperature = [](const Vec3&) { return 345.0; }});
@@ -219,7 +242,8 @@ TEST(Restart, OfALiquidThatTheTransportVelocityMovesIsTheUnbrokenRun) {
   Journey j = liquid_with_body("central", false);
   j.lab.scene.modes[term::clamp] = Mode::paper;
   j.lab.scene.transport_velocity = true;
-  j.lab.scene.values["mean_pressure"] = 1.0, j.lab.scene.values["sound_damping"] = 0.2;
+  j.lab.scene.values["mean_pressure"] = 1.0;
+  j.lab.scene.values["sound_damping"] = 0.2;
   expect_same_bits(j, 2);
 }
 

@@ -20,12 +20,19 @@ std::uint64_t hash_of(const Simulation& s) {
   const Particles& p = s.world().particles;
   for (std::size_t id = 0; id < p.size(); ++id) {
     const std::size_t i = p.row(id);
-    for (const Vec3& v : {p.position(i), p.velocity(i)}) add(v.x), add(v.y), add(v.z);
+    for (const Vec3& v : {p.position(i), p.velocity(i)}) {
+      add(v.x);
+      add(v.y);
+      add(v.z);
+    }
     if (p.has("temperature")) add(p[field::temperature][i]);
   }
   for (std::size_t b = 0; b < s.world().bodies.size(); ++b) {
-    for (const Vec3& v : {s.world().bodies[field::body_centre][b], s.world().bodies[field::body_angular_momentum][b]})
-      add(v.x), add(v.y), add(v.z);
+    for (const Vec3& v : {s.world().bodies[field::body_centre][b], s.world().bodies[field::body_angular_momentum][b]}) {
+      add(v.x);
+      add(v.y);
+      add(v.z);
+    }
   }
   return hash;
 }

@@ -44,9 +44,12 @@ class SlabHalo : public Halo {
   /// At first all is the first rank's.
   void share_out(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox& box, std::span<const Vec3> places) override {
     places_ = places;
-    numbers_.clear(), lists_.clear();
-    for (int n = 0; n < static_cast<int>(p.size()); ++n)
-      numbers_.push_back(n), lists_.push_back(lists_as_numbers(bonds, pairs, static_cast<std::size_t>(n)));
+    numbers_.clear();
+    lists_.clear();
+    for (int n = 0; n < static_cast<int>(p.size()); ++n) {
+      numbers_.push_back(n);
+      lists_.push_back(lists_as_numbers(bonds, pairs, static_cast<std::size_t>(n)));
+    }
     owned_ = rank_ == 0 ? p.size() : 0;
     longest_list_ = most_list_numbers(bonds, pairs);
     migrate(p, bonds, pairs, box);
@@ -82,12 +85,14 @@ class SlabHalo : public Halo {
     owned_ = own.size();
     own.insert(own.end(), near.begin(), near.end());
     p = particles_of(own, p.fields());
-    numbers_.clear(), lists_.clear();
+    numbers_.clear();
+    lists_.clear();
     for (const Row& row : own) {
       numbers_.push_back(static_cast<int>(row[0]));
       lists_.emplace_back(lists_in(row).begin(), lists_in(row).end());
     }
-    bonds = {}, pairs = {};
+    bonds = {};
+    pairs = {};
     if (longest_list_ > 0)
       take_lists({owned_, numbers_, [this](std::size_t id) { return std::span<const double>(lists_[id]); }}, bonds, pairs);
     ++migrations;
@@ -203,11 +208,15 @@ struct Seen {
 
 inline void see_particle(Seen& seen, std::size_t number, const World& world, std::size_t row) {
   if (seen.position.size() <= number) {
-    seen.position.resize(number + 1), seen.velocity.resize(number + 1);
-    seen.body.resize(number + 1), seen.phase.resize(number + 1);
+    seen.position.resize(number + 1);
+    seen.velocity.resize(number + 1);
+    seen.body.resize(number + 1);
+    seen.phase.resize(number + 1);
   }
-  seen.position[number] = world.unwrapped(row), seen.velocity[number] = world.particles.velocity(row);
-  seen.body[number] = world.particles[field::body][row], seen.phase[number] = world.particles[field::phase][row];
+  seen.position[number] = world.unwrapped(row);
+  seen.velocity[number] = world.particles.velocity(row);
+  seen.body[number] = world.particles[field::body][row];
+  seen.phase[number] = world.particles[field::phase][row];
 }
 
 inline void see_bodies(Seen& seen, const World& world) {
@@ -255,8 +264,11 @@ inline Seen seen_shared(const test::Prepared& p, const std::vector<double>& plan
       const std::size_t objects = count_objects(part.world());
       const std::lock_guard lock(alone);
       if (rank == 0) {
-        seen.ledger = ledger, seen.objects = objects, seen.kept = kept;
-        seen.migrations = halo.migrations, seen.gatherings = halo.gatherings;
+        seen.ledger = ledger;
+        seen.objects = objects;
+        seen.kept = kept;
+        seen.migrations = halo.migrations;
+        seen.gatherings = halo.gatherings;
         see_bodies(seen, part.world());
       }
       for (std::size_t id = 0; id < halo.owned(); ++id)

@@ -34,7 +34,8 @@ Lab pressed_sea(double ratio, Place place) {
     std::mt19937_64 random(4);
     for (std::size_t i = 0; i < s.size(); ++i) {
       const int is_heavy = static_cast<int>(random() % 2);
-      s.material[i] = s.source[i] = is_heavy, s.mass[i] = is_heavy ? ratio : 1.0;
+      s.material[i] = s.source[i] = is_heavy;
+      s.mass[i] = is_heavy ? ratio : 1.0;
     }
   }
   const double squeeze = 0.998;

@@ -49,12 +49,17 @@ void make_rigid(const Lab& lab, bool turns, std::vector<Vec3>& u) {
       for (std::size_t i = 0; i < u.size(); ++i)
         if (s.body[i] == b) visit(i, s.mass[i]);
     };
-    each([&](std::size_t i, double m) { mass += m, centre += m * s.position[i], P += m * u[i]; });
+    each([&](std::size_t i, double m) {
+      mass += m;
+      centre += m * s.position[i];
+      P += m * u[i];
+    });
     if (mass == 0.0) continue;
     centre = centre / mass;
     each([&](std::size_t i, double m) {
       const Vec3 arm = s.position[i] - centre;
-      moment += 2.0 / 3.0 * m * dot(arm, arm), L += m * cross(arm, u[i]);
+      moment += 2.0 / 3.0 * m * dot(arm, arm);
+      L += m * cross(arm, u[i]);
     });
     const Vec3 spin = turns && moment > 0.0 ? L / moment : Vec3{};
     each([&](std::size_t i, double) { u[i] = P / mass + cross(spin, s.position[i] - centre); });

@@ -14,9 +14,12 @@ using lab::Lab;
 /// Two blocks beside each other in a periodic box, the upper one of material 1.
 void add_two(Lab& lab, const lab::Block& like) {
   lab::Block block = like;
-  block.name = "low", block.count = {side, side, side};
+  block.name = "low";
+  block.count = {side, side, side};
   lab.add(block);
-  block.name = "high", block.material = 1, block.corner = {0.0, 0.0, double(side)};
+  block.name = "high";
+  block.material = 1;
+  block.corner = {0.0, 0.0, double(side)};
   lab.add(block);
   lab.make_periodic({true, true, true}, {}, {side, side, 2 * side});
 }
@@ -79,7 +82,8 @@ Point hourglass(double stiffness) {
 Point joined(double ratio) {
   Lab lab = lab::elastic_lab(1.0);
   Material stiff = lab.scene.materials[0];
-  stiff.name = "stiff", stiff.young_modulus = ratio;
+  stiff.name = "stiff";
+  stiff.young_modulus = ratio;
   lab.scene.materials.push_back(stiff);
   lab.add({.name = "soft", .count = {side, side, side}, .phase = Phase::elastic});
   lab.add(
@@ -92,13 +96,19 @@ Point joined(double ratio) {
 Point frozen(double jitter) {
   Lab lab = lab::melting_lab(1.0, {.t_solid = 340.0, .solid = "elastic"});
   Material& m = lab.scene.materials[0];
-  m.density = 1.0, m.young_modulus = 1.0, m.stiffness = 1e-16, m.viscosity = 0.0, m.heat_capacity = 1.0;
+  m.density = 1.0;
+  m.young_modulus = 1.0;
+  m.stiffness = 1e-16;
+  m.viscosity = 0.0;
+  m.heat_capacity = 1.0;
   lab.add({.count = {side, side, side}, .phase = Phase::liquid, .temperature = [](const Vec3&) { return 345.0; }});
   lab::jitter_all(lab, jitter);
   Event cool;
   cool.kind = Event::Kind::heat;
   cool.bodies = {"block"};
-  cool.time = 0.0, cool.until = 1e-4, cool.temperature = 300.0;
+  cool.time = 0.0;
+  cool.until = 1e-4;
+  cool.temperature = 300.0;
   lab.scene.events.push_back(cool);
   Simulation cold(lab.scene, lab.initial);
   cold.advance_to(2e-4);

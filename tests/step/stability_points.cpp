@@ -67,7 +67,10 @@ Wave fastest_wave(Mode mode, double q, double stiffness) {
     const Vec3 g = mode == Mode::paper ? slope(Spiky(q), q, k) : slope(WendlandC2(q), q, k);
     const double w2 = mode == Mode::paper ? stiffness * volume * volume * 0.5 * dot(slope(Poly6Slope{q}, q, k), g)
                                           : stiffness * dot(g, g) / (m.density * m.gradient);
-    if (w2 > most) most = w2, wave = {k, g / norm(g), 2.0 / std::sqrt(w2)};
+    if (w2 > most) {
+      most = w2;
+      wave = {k, g / norm(g), 2.0 / std::sqrt(w2)};
+    }
     return w2;
   });
   return wave;
@@ -146,8 +149,11 @@ Point heat(const char* parameter, double value, double q, double latent) {
   lab.scene.support_ratio = q;
   lab.scene.materials[0].density = lab.scene.materials[0].heat_capacity.emplace(1.0);
   if (latent >= 0.0) {
-    lab.scene.materials[0].t_melt = 1000.0, lab.scene.materials[0].t_solid = 1000.0, lab.scene.materials[0].latent_heat = latent;
-    lab.scene.materials[0].viscosity = 0.0, lab.scene.materials[0].stiffness = 1e-12;
+    lab.scene.materials[0].t_melt = 1000.0;
+    lab.scene.materials[0].t_solid = 1000.0;
+    lab.scene.materials[0].latent_heat = latent;
+    lab.scene.materials[0].viscosity = 0.0;
+    lab.scene.materials[0].stiffness = 1e-12;
   }
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

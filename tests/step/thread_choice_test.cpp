@@ -19,7 +19,8 @@ double share_of_all(ThreadChoice& choice, int most, const Machine& machine, doub
   double now = 0.0, all = 0.0, steps = 0.0;
   while (now < seconds) {
     const double step = machine.step(choice.now());
-    all += choice.now() == most ? 1.0 : 0.0, steps += 1.0;
+    all += choice.now() == most ? 1.0 : 0.0;
+    steps += 1.0;
     choice.took(step, static_cast<long>(machine.pushed_aside * step));
     now += step;
   }
@@ -55,7 +56,8 @@ TEST(ThreadChoice, LosesLittleByLooking) {
   while (seconds < 100.0) {
     const double step = crowded.step(choice.now());
     choice.took(step, static_cast<long>(crowded.pushed_aside * step));
-    seconds += step, steps += 1.0;
+    seconds += step;
+    steps += 1.0;
   }
   EXPECT_LT(seconds / steps, 1.2 * crowded.step(1));
 }

@@ -48,7 +48,8 @@ TEST(ImplicitSurface, OfAFlatFaceLiesWhereTheContinuumSays) {
     for (int j = -n; j <= n; ++j)
       for (int k = 0; k < depth; ++k) places.push_back(dx * Vec3{static_cast<double>(i), static_cast<double>(j), -k - 0.5});
   SurfaceOptions o;
-  o.influence_radius = 12.0 * dx, o.distance = 63.0 / 256.0 / detector_factor(1.0) * o.influence_radius;
+  o.influence_radius = 12.0 * dx;
+  o.distance = 63.0 / 256.0 / detector_factor(1.0) * o.influence_radius;
   const ImplicitSurface surface(places, o);
   SurfaceProbe probe(surface);
   const SurfaceValue at_face = probe.value({0.0, 0.0, 0.0});
@@ -106,7 +107,8 @@ struct Between {
     const auto body = shapes::ball(5 * dx);
     std::vector<Vec3> places;
     for (const Vec3& r : shapes::lattice(body, dx, {0.5, 0.5, 0.5})) {
-      places.push_back(r - Vec3{0, 0, 5 * dx + 0.5 * gap}), places.push_back(r + Vec3{0, 0, 5 * dx + 0.5 * gap});
+      places.push_back(r - Vec3{0, 0, 5 * dx + 0.5 * gap});
+      places.push_back(r + Vec3{0, 0, 5 * dx + 0.5 * gap});
     }
     const ImplicitSurface surface(places, options(detector));
     SurfaceProbe probe(surface);
@@ -142,9 +144,11 @@ TEST(Detector, FillsAConcaveCornerLess) {
 TEST(ImplicitSurface, RefusesLengthsThatAreNone) {
   SurfaceOptions o;
   EXPECT_THROW(ImplicitSurface(std::vector<Vec3>{{0, 0, 0}}, o), InputError);
-  o = options(), o.distance = -1.0;
+  o = options();
+  o.distance = -1.0;
   EXPECT_THROW(ImplicitSurface(std::vector<Vec3>{{0, 0, 0}}, o), InputError);
-  o = options(), o.limits = {2.0, 0.4};
+  o = options();
+  o.limits = {2.0, 0.4};
   EXPECT_THROW(ImplicitSurface(std::vector<Vec3>{{0, 0, 0}}, o), InputError);
 }
 

@@ -39,7 +39,8 @@ Vec3 plain_mean(const std::vector<Vec3>& places, const Vec3& r) {
   double weights = 0.0;
   for (const Vec3& r_j : places) {
     const double w = W.value(norm(r - r_j));
-    sum += w * r_j, weights += w;
+    sum += w * r_j;
+    weights += w;
   }
   return sum / weights;
 }

@@ -30,7 +30,8 @@ void ladder(const shapes::ExactBody& body, const std::vector<double>& counts, bo
     };
     std::printf("| %g | %.2g %% | %.2f | %.2g %% | %.2f | %.2f | %.2f |\n", n, 100 * e.volume, order(before.volume, e.volume),
                 100 * e.area, order(before.area, e.area), e.hausdorff / dx, order(before.hausdorff, e.hausdorff));
-    before = e, spacing_before = dx;
+    before = e;
+    spacing_before = dx;
   }
 }
 
@@ -59,5 +60,9 @@ int main(int argc, char** argv) {
   }
   if (what == "factor")
     for (int n = 0; n <= 240; ++n) std::printf("%g %.6f\n", 0.01 * n, detector_factor(0.01 * n));
-  if (what == "times" || what == "all") times(20), times(34), times(60);
+  if (what == "times" || what == "all") {
+    times(20);
+    times(34);
+    times(60);
+  }
 }

@@ -82,7 +82,8 @@ ExactBody slab(double width, double height) {
       for (int j = 0; j <= n; ++j)
         for (const double side : {-1.0, 1.0}) {
           Vec3 r;
-          r[a] = side * half[a], r[(a + 1) % 3] = (2.0 * i / n - 1.0) * half[(a + 1) % 3],
+          r[a] = side * half[a];
+          r[(a + 1) % 3] = (2.0 * i / n - 1.0) * half[(a + 1) % 3];
           r[(a + 2) % 3] = (2.0 * j / n - 1.0) * half[(a + 2) % 3];
           b.surface.push_back(r);
         }
@@ -126,7 +127,9 @@ SurfaceErrors errors_at(const ExactBody& body, double spacing, bool detector) {
     o.detector = detector;
     const SurfaceErrors e =
         errors_of(surface_mesh(ImplicitSurface(lattice(body, spacing, offset), o), 0.5 * spacing, 2), body, spacing);
-    sum.volume += e.volume * e.volume, sum.area += e.area * e.area, sum.hausdorff += e.hausdorff * e.hausdorff;
+    sum.volume += e.volume * e.volume;
+    sum.area += e.area * e.area;
+    sum.hausdorff += e.hausdorff * e.hausdorff;
   }
   const auto n = static_cast<double>(body.offsets.size());
   return {std::sqrt(sum.volume / n), std::sqrt(sum.area / n), std::sqrt(sum.hausdorff / n)};

@@ -83,8 +83,10 @@ TEST(SurfaceMesh, HasTheSameBitsForAnyNumberOfThreads) {
 
 std::vector<Vec3> two_balls(double gap) {
   std::vector<Vec3> places;
-  for (const Vec3& r : shapes::lattice(shapes::ball(5 * dx), dx, {0.5, 0.5, 0.5}))
-    places.push_back(r - Vec3{0, 0, 5 * dx + 0.5 * gap}), places.push_back(r + Vec3{0, 0, 5 * dx + 0.5 * gap});
+  for (const Vec3& r : shapes::lattice(shapes::ball(5 * dx), dx, {0.5, 0.5, 0.5})) {
+    places.push_back(r - Vec3{0, 0, 5 * dx + 0.5 * gap});
+    places.push_back(r + Vec3{0, 0, 5 * dx + 0.5 * gap});
+  }
   return places;
 }
 
@@ -117,7 +119,10 @@ TEST(SurfaceMesh, KnowsWhatItsParticlesKnow) {
   std::vector<Vec3> places = shapes::lattice(shapes::slab(12 * dx, 6 * dx), dx, {0.5, 0.5, 0.5});
   std::vector<double> T;
   std::vector<int> body;
-  for (const Vec3& r : places) T.push_back(300.0 + 1000.0 * r.x), body.push_back(r.x < 0.0 ? 4 : 7);
+  for (const Vec3& r : places) {
+    T.push_back(300.0 + 1000.0 * r.x);
+    body.push_back(r.x < 0.0 ? 4 : 7);
+  }
   T.front() = std::nan("");
   const ImplicitSurface surface(places, SurfaceOptions::for_spacing(dx));
   const Vec3 top{0.02, 0.01, 3 * dx};
@@ -138,8 +143,9 @@ class MeshFiles : public testing::Test {
       std::vector<Vec3> places;
       for (const Vec3& r : shapes::lattice(shapes::ball(5 * dx), dx, {0.5, 0.5, 0.5})) places.push_back(r + Vec3{0, 0, z});
       SurfacePart part{z < 0 ? "body 0" : "liquid wax", mesh_of(places), {}, {}, {}};
-      part.temperature.assign(part.mesh.points.size(), 300.0), part.phase.assign(part.mesh.points.size(), 2),
-          part.body.assign(part.mesh.points.size(), z < 0 ? 0 : -1);
+      part.temperature.assign(part.mesh.points.size(), 300.0);
+      part.phase.assign(part.mesh.points.size(), 2);
+      part.body.assign(part.mesh.points.size(), z < 0 ? 0 : -1);
       parts.push_back(part);
     }
   }

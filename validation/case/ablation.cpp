@@ -30,7 +30,9 @@ Case corrected(Case value) {
   // What the transport velocity moves cannot clamp: no scene of it would run.
   std::erase_if(value.scene.modes_given,
                 [&](const auto& given) { return !(value.scene.transport_velocity && given.first == term::clamp); });
-  value.studies.clear(), value.gates.clear(), value.inputs.clear();
+  value.studies.clear();
+  value.gates.clear();
+  value.inputs.clear();
   return value;
 }
 

@@ -165,7 +165,10 @@ void add_short_forms(std::vector<Key>& list) {
   for (Key key : list) {
     if (key.table != "gate") continue;
     key.table = "gates";
-    if (key.name == "metric") key.fallback = "=", key.note = "the metric that holds it";
+    if (key.name == "metric") {
+      key.fallback = "=";
+      key.note = "the metric that holds it";
+    }
     more.push_back(key);
   }
   for (const Invariant& one : invariants())
@@ -177,10 +180,18 @@ void add_short_forms(std::vector<Key>& list) {
                of_gate = key.table == "gate" && key.name != "metric";
     if (!of_gate && (!of_metric || key.name == "reason")) continue;
     key.table = "invariant";
-    if (key.name == "name") key.fallback = "=", key.note = "the invariant's";
-    if (key.name == "norm") key.fallback = "=", key.note = "the invariant's";
-    if (key.name == "reason")
-      key.fallback = "=", key.note = "round-off, of mass, momentum, angular_momentum and ledger; required by the others";
+    if (key.name == "name") {
+      key.fallback = "=";
+      key.note = "the invariant's";
+    }
+    if (key.name == "norm") {
+      key.fallback = "=";
+      key.note = "the invariant's";
+    }
+    if (key.name == "reason") {
+      key.fallback = "=";
+      key.note = "round-off, of mass, momentum, angular_momentum and ledger; required by the others";
+    }
     more.push_back(key);
   }
   list.insert(list.end(), more.begin(), more.end());

@@ -70,7 +70,8 @@ class IdleKeys {
     std::vector<long> in(scene_.bodies.size(), 0), all(scene_.bodies.size(), 0);
     for (std::size_t i = 0; i < state_.size(); ++i) {
       const auto source = static_cast<std::size_t>(state_.source[i]);
-      ++all[source], in[source] += inside(state_.position[i]);
+      ++all[source];
+      in[source] += inside(state_.position[i]);
     }
     for (std::size_t n = 0; n < scene_.bodies.size(); ++n) {
       const Body& b = scene_.bodies[n];
@@ -228,8 +229,10 @@ class IdleKeys {
       const auto source = static_cast<std::size_t>(state_.source[i]);
       if (source != a && source != b) continue;
       Bounds& of = box[source == a ? 0 : 1];
-      for (std::size_t k = 0; k < 3; ++k)
-        of.min[k] = std::min(of.min[k], state_.position[i][k]), of.max[k] = std::max(of.max[k], state_.position[i][k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        of.min[k] = std::min(of.min[k], state_.position[i][k]);
+        of.max[k] = std::max(of.max[k], state_.position[i][k]);
+      }
     }
     Vec3 apart;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -254,7 +257,9 @@ class IdleKeys {
           given(path + "temperature"),
           fmt::format("the temperature of the inflow is not followed: {}; give every body one, or remove it", why_idle("heat")));
     Body source;
-    source.name = fmt::format("inflow {}", number), source.material = f.material, source.shape = f.shape;
+    source.name = fmt::format("inflow {}", number);
+    source.material = f.material;
+    source.shape = f.shape;
     try {
       static_cast<void>(fill(scene_, source));
     } catch (const InputError&) {
@@ -275,7 +280,9 @@ class IdleKeys {
       if (const auto place = given(path + std::string(key)); !place.file.empty() && !calls(effect))
         warn(place, fmt::format("{} of material \"{}\" never acts: {}", key, m.name, why_idle(effect)));
     };
-    limit("elastic_limit", "plastic"), limit("fracture_stretch", "fracture"), limit("fracture_distance", "fracture");
+    limit("elastic_limit", "plastic");
+    limit("fracture_stretch", "fracture");
+    limit("fracture_distance", "fracture");
     for (const EffectRule& rule : effect_rules())
       for (const EffectKey& key : rule.keys)
         if (key.row.table == "material" && value_of(m.values, key.row.name) != 0.0) effect_limit(m, rule, key);

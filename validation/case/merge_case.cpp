@@ -56,7 +56,8 @@ void merge_value(TomlNode& base, TomlNode own, const std::string& path);
 
 void merge_table(TomlNode& base, TomlNode own, const std::string& path) {
   if (path == "gate" || path.starts_with("invariants.")) forget_bounds(base, own);
-  base.place = own.place, base.key_place = own.key_place;
+  base.place = own.place;
+  base.key_place = own.key_place;
   for (auto& [key, value] : own.members) {
     if (auto* there = base.find(key))
       merge_value(*there, std::move(value), path.empty() ? key : path + "." + key);
@@ -84,7 +85,8 @@ void merge_items(TomlNode& base, TomlNode own, const std::string& array) {
       merge_table(base.items[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())],
                   std::move(item), array);
   }
-  base.place = own.place, base.key_place = own.key_place;
+  base.place = own.place;
+  base.key_place = own.key_place;
 }
 
 /// A table that says anew of what kind it is shares no key with the old one.

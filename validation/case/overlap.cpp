@@ -84,7 +84,8 @@ std::vector<Overlap> find_overlaps(const Scene& s, const InitialState& state, do
               .try_emplace({state.source[i], state.source[j]}, Overlap{static_cast<std::size_t>(state.source[i]),
                                                                        static_cast<std::size_t>(state.source[j]), 0, INFINITY})
               .first->second;
-      ++o.pairs, o.nearest = std::min(o.nearest, r);
+      ++o.pairs;
+      o.nearest = std::min(o.nearest, r);
     });
   std::vector<Overlap> out;
   for (const auto& [pair, o] : found) out.push_back(o);

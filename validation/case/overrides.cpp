@@ -55,7 +55,8 @@ TomlNode parse_value(const std::string& text, const std::string& set) {
     const bool bare = text.find_first_of("\"'[]{}=,#\\") == std::string::npos &&
                       std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32; });
     if (!bare) refuse(set, fmt::format("the value is no TOML value ({})", e.what()));
-    value.kind = Kind::text, value.text = text;
+    value.kind = Kind::text;
+    value.text = text;
   }
   set_places(value, place);
   return value;
@@ -74,7 +75,8 @@ TomlNode& entry(TomlNode& array, const std::string& part, const std::string& tab
   if (number >= 1 && number <= array.items.size()) return array.items[number - 1];
   if (table == "material" && !library_file(part).empty()) {  // a material of the library that the case takes as it is
     TomlNode fresh, name;
-    name.kind = Kind::text, name.text = part;
+    name.kind = Kind::text;
+    name.text = part;
     fresh.members.emplace_back("name", std::move(name));
     set_places(fresh, {"--set " + printable(set, 120), 0, 0});
     array.items.push_back(std::move(fresh));

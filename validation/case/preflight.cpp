@@ -92,8 +92,10 @@ class Preflight {
     Vec3 low{INFINITY, INFINITY, INFINITY}, high = -low;
     for (std::size_t i = 0; i < state_.size(); ++i) {
       if (state_.source[i] != static_cast<int>(n)) continue;
-      for (std::size_t a = 0; a < 3; ++a)
-        low[a] = std::min(low[a], state_.position[i][a]), high[a] = std::max(high[a], state_.position[i][a]);
+      for (std::size_t a = 0; a < 3; ++a) {
+        low[a] = std::min(low[a], state_.position[i][a]);
+        high[a] = std::max(high[a], state_.position[i][a]);
+      }
     }
     for (std::size_t a = 0; a < 3; ++a) {
       const long across = std::lround((high[a] - low[a]) / scene_.spacing) + 1;
@@ -125,7 +127,10 @@ class Preflight {
     Vec3 centre;
     double count = 0.0;
     for (std::size_t i = 0; i < state_.size(); ++i)
-      if (state_.source[i] == static_cast<int>(n)) centre += state_.position[i], count += 1.0;
+      if (state_.source[i] == static_cast<int>(n)) {
+        centre += state_.position[i];
+        count += 1.0;
+      }
     centre = centre / count;
     const double jump = norm(b.keyframes.front().position - centre);
     if (jump > 1e-6 * scene_.spacing) {
@@ -176,7 +181,10 @@ class Preflight {
       const double capacity = std::min(heat_capacity_of(m, Phase::rigid), heat_capacity_of(m, Phase::liquid)),
                    conductivity = std::max(conductivity_of(m, Phase::rigid), conductivity_of(m, Phase::liquid));
       const double bound = c * h * h * m.density * capacity / conductivity;
-      if (bound < least) least = bound, which = fmt::format("heat in body \"{}\"", b.name);
+      if (bound < least) {
+        least = bound;
+        which = fmt::format("heat in body \"{}\"", b.name);
+      }
     }
     return least;
   }
@@ -187,7 +195,10 @@ class Preflight {
     for (const auto& b : scene_.bodies) {
       if (b.phase != Phase::rigid || b.motion != Motion::free || !(norm(b.angular_velocity) > 0.0)) continue;
       const double turning = 0.5 / norm(b.angular_velocity);
-      if (turning < bound) bound = turning, which = fmt::format("rotation of body \"{}\", |angular_velocity| dt <= 0.5,", b.name);
+      if (turning < bound) {
+        bound = turning;
+        which = fmt::format("rotation of body \"{}\", |angular_velocity| dt <= 0.5,", b.name);
+      }
     }
     if (scene_.time_step && *scene_.time_step > bound) {
       auto what = fmt::format("time_step = {} s is above the bound of {} {:.4g} s: shorten it, or write \"auto\"",

@@ -37,8 +37,12 @@ void read_head(const TomlNode& node, Case& c, Reading& reading) {
     c.title = *title;
   else
     in.ruled("title", "\"" + (c.title = c.id) + "\"", "the id");
-  c.requirement = in.text("requirement"), c.claims = in.text("claims"), c.kind = from_word<CaseKind>(in.text("kind"));
-  c.profiles = in.texts("profiles"), c.tags = in.texts("tags"), c.expect = from_word<Expect>(in.text("expect"));
+  c.requirement = in.text("requirement");
+  c.claims = in.text("claims");
+  c.kind = from_word<CaseKind>(in.text("kind"));
+  c.profiles = in.texts("profiles");
+  c.tags = in.texts("tags");
+  c.expect = from_word<Expect>(in.text("expect"));
   if (in.has("modes")) {
     c.modes.clear();
     for (const auto& word : in.texts("modes")) c.modes.push_back(mode_from(word));
@@ -95,7 +99,8 @@ std::string resolved_case(const CaseReading& reading, const std::vector<std::str
   if (auto* given = document.find("case")) head = std::move(*given);
   std::erase_if(document.members, [](const auto& m) { return m.first == "case"; });
   std::erase_if(head.members, [](const auto& m) { return m.first == "id"; });
-  id.kind = TomlNode::Kind::text, id.text = reading.value.id;
+  id.kind = TomlNode::Kind::text;
+  id.text = reading.value.id;
   head.members.insert(head.members.begin(), {"id", std::move(id)});
   document.members.insert(document.members.begin(), {"case", std::move(head)});
   return document_text(document);

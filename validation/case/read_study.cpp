@@ -19,7 +19,8 @@ EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading&
   e.name = name;
   const bool says = in.has("required");
   e.required = in.flag("required") || (name == "tripoint" && !says);  // ours is required where a case says nothing else
-  e.presets = in.texts("preset"), e.settings = in.settings("settings");
+  e.presets = in.texts("preset");
+  e.settings = in.settings("settings");
   if (const auto refuses = in.maybe_text("refuses")) {
     if (refuses->empty()) in.refuse("refuses", "write words of the engine's own reason");
     if (e.required)
@@ -85,13 +86,16 @@ MetricChoice read_metric(const TomlNode& node, Reading& reading) {
   m.place = node.place;
   m.name = in.text("name");
   plain_name(in, "name", m.name);
-  m.quantity = in.text("quantity"), m.norm = from_word<Norm>(in.text("norm"));
-  m.body = in.text("body"), m.at = in.text("at");
+  m.quantity = in.text("quantity");
+  m.norm = from_word<Norm>(in.text("norm"));
+  m.body = in.text("body");
+  m.at = in.text("at");
   const auto window = in.numbers("window");
   if (window.size() != 2 || (in.has("window") && !(window[1] > window[0] && window[0] >= 0.0)))
     in.refuse("window", "write [from, to] in s, 0 <= from < to");
   m.window = {window[0], window[1]};
-  m.scale = in.number("scale"), m.unit = in.text("unit");
+  m.scale = in.number("scale");
+  m.unit = in.text("unit");
   if (const auto* r = in.composite("reference")) m.reference = read_reference(*r, in.path() + ".reference", reading);
   return m;
 }
@@ -118,7 +122,8 @@ Study read_study(const TomlNode& node, std::size_t number, double end_time, Read
   Study s;
   s.place = node.place;
   const auto axis = from_word<Axis>(in.text("axis"));
-  s.axes.axis = axis, s.levels = in.numbers_in(axis == Axis::spacing ? "m" : axis == Axis::time_step ? "s" : "", "levels");
+  s.axes.axis = axis;
+  s.levels = in.numbers_in(axis == Axis::spacing ? "m" : axis == Axis::time_step ? "s" : "", "levels");
   if (s.levels.size() < 2)
     in.refuse("levels", "a study has at least two levels, and at least three for an order with its interval");
   const bool upward = refines_upward(axis);
@@ -133,15 +138,20 @@ Study read_study(const TomlNode& node, std::size_t number, double end_time, Read
   if (axis == Axis::time_step && end_time > most_steps * s.levels.back())
     in.refuse("levels", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made",
                                     s.levels.back(), end_time / s.levels.back(), end_time, most_steps));
-  s.support_ratios = read_together(in, "support_ratios", s), s.time_steps = read_together(in, "time_steps", s);
-  s.axes.support_ratio = !s.support_ratios.empty(), s.axes.time_step = !s.time_steps.empty();
+  s.support_ratios = read_together(in, "support_ratios", s);
+  s.time_steps = read_together(in, "time_steps", s);
+  s.axes.support_ratio = !s.support_ratios.empty();
+  s.axes.time_step = !s.time_steps.empty();
   s.jitter = in.number("jitter");
   constexpr long most_seeds = 1000;
   const long seeds = in.integer("seeds");
   if (seeds > most_seeds)
     in.refuse("seeds", fmt::format("{} runs for each level are more than the {} that can be planned", seeds, most_seeds));
   s.seeds = static_cast<int>(seeds);
-  s.engine = in.text("engine"), s.mode = read_mode(in), s.order = in.maybe_number("order"), s.metric = in.text("metric");
+  s.engine = in.text("engine");
+  s.mode = read_mode(in);
+  s.order = in.maybe_number("order");
+  s.metric = in.text("metric");
   if (const auto word = in.text("expect"); !word.empty()) s.expect = from_word<FitClass>(word);
   return s;
 }
@@ -150,8 +160,12 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in = case_table(node, "gate", fmt::format("gate.{}", number), reading);
   Gate g;
   g.place = node.place;
-  g.metric = in.text("metric"), g.engine = in.text("engine"), g.mode = read_mode(in), g.preset = in.text("preset");
-  g.limit = in.maybe_number("limit"), g.at_least = in.maybe_number("at_least");
+  g.metric = in.text("metric");
+  g.engine = in.text("engine");
+  g.mode = read_mode(in);
+  g.preset = in.text("preset");
+  g.limit = in.maybe_number("limit");
+  g.at_least = in.maybe_number("at_least");
   if (const auto band = in.maybe_numbers("band")) {
     if (band->size() != 2 || !((*band)[0] <= (*band)[1])) in.refuse("band", "write [low, high] with low <= high");
     g.band = std::array<double, 2>{(*band)[0], (*band)[1]};
@@ -160,11 +174,13 @@ Gate read_gate(const TomlNode& node, std::size_t number, Reading& reading) {
     in.refuse("", fmt::format("the gate on \"{}\" has no limit and would pass anything: give limit, at_least or band",
                               printable(g.metric)));
   g.place = in.place(g.limit ? "limit" : g.at_least ? "at_least" : "band");  // the line that a red gate points at
-  g.level = in.maybe_number("level"), g.drift = in.maybe_number("drift");
+  g.level = in.maybe_number("level");
+  g.drift = in.maybe_number("drift");
   g.reason = in.text("reason");
   if (g.reason.find_first_not_of(" \t\n") == std::string::npos)
     in.refuse("reason", "a limit needs a reason: say where the number comes from");
-  g.by = in.text("by"), g.date = in.text("date");
+  g.by = in.text("by");
+  g.date = in.text("date");
   return g;
 }
 
@@ -172,7 +188,9 @@ UncertainInput read_input(const TomlNode& node, std::size_t number, Reading& rea
   TableReader in = case_table(node, "input", fmt::format("input.{}", number), reading);
   UncertainInput u;
   u.place = node.place;
-  u.key = in.text("key"), u.low = in.text("low"), u.high = in.text("high");
+  u.key = in.text("key");
+  u.low = in.text("low");
+  u.high = in.text("high");
   if (u.key.find('.') == std::string::npos || u.key.find('=') != std::string::npos)
     in.refuse("key", "write a key as --set takes it: scene.viscosity_form, material.water.viscosity");
   if (u.low == u.high) in.refuse("high", "low and high are the same: that is an exact input");
@@ -183,7 +201,9 @@ Defect read_defect(const TomlNode& node, std::size_t number, Reading& reading) {
   TableReader in = case_table(node, "defect", fmt::format("defect.{}", number), reading);
   Defect d;
   d.place = node.place;
-  d.name = in.text("name"), d.size = in.number("size"), d.smallest = in.maybe_number("smallest"),
+  d.name = in.text("name");
+  d.size = in.number("size");
+  d.smallest = in.maybe_number("smallest");
   d.killed_by = in.texts("killed_by");
   return d;
 }

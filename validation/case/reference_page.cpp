@@ -25,7 +25,10 @@ std::string type_cell(const Key& k) {
   if (!k.words.empty() && (k.type == ValueType::word || k.type == ValueType::words)) {
     text += ": ";
     bool first = true;
-    for (const auto& w : split_words(k.words)) text += fmt::format("{}`{}`", first ? "" : " ", w), first = false;
+    for (const auto& w : split_words(k.words)) {
+      text += fmt::format("{}`{}`", first ? "" : " ", w);
+      first = false;
+    }
   }
   return cell(text);
 }
@@ -122,8 +125,10 @@ std::string case_reference_page() {
     if (t.name == "invariants") out += invariants_page();
     if (t.name == "scene") {
       out += "`modes.TERM` sets one term: `modes.heat = \"paper\"`. TERM: ";
-      for (const char* between = ""; const DeclaredTerm& one : declared_terms())
-        out += fmt::format("{}`{}`", between, one.term.name), between = " ";
+      for (const char* between = ""; const DeclaredTerm& one : declared_terms()) {
+        out += fmt::format("{}`{}`", between, one.term.name);
+        between = " ";
+      }
       out += ".\n`kernel` can only say what `mode` says: each term brings the kernel of its form.\n\n";
     }
   }

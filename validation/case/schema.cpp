@@ -28,10 +28,12 @@ json number_schema(const Key& k) {
       number["minimum"] = 0;
       break;
     case Range::fraction:
-      number["minimum"] = 0, number["maximum"] = 1;
+      number["minimum"] = 0;
+      number["maximum"] = 1;
       break;
     case Range::poisson:
-      number["exclusiveMinimum"] = -1, number["exclusiveMaximum"] = 0.5;
+      number["exclusiveMinimum"] = -1;
+      number["exclusiveMaximum"] = 0.5;
       break;
     case Range::above_one:
       number["exclusiveMinimum"] = 1;
@@ -43,7 +45,8 @@ json number_schema(const Key& k) {
 
 json vector_schema(const Key& k) {
   json v = array_of(number_schema(k));
-  v["minItems"] = 3, v["maxItems"] = 3;
+  v["minItems"] = 3;
+  v["maxItems"] = 3;
   return v;
 }
 
@@ -153,7 +156,10 @@ json table_schema(std::string_view name) {
   json s{{"type", "object"}, {"additionalProperties", false}, {"properties", json::object()}};
   json required = json::array();
   const auto dot = name.find('.');
-  if (dot != std::string_view::npos) s["properties"]["kind"] = {{"const", name.substr(dot + 1)}}, required.push_back("kind");
+  if (dot != std::string_view::npos) {
+    s["properties"]["kind"] = {{"const", name.substr(dot + 1)}};
+    required.push_back("kind");
+  }
   for (const auto* k : case_keys().of(name)) s["properties"][std::string(k->name)] = key_schema(*k);
   if (is_always_whole(name))
     for (const auto& key : required_keys(name)) required.push_back(key);
@@ -172,8 +178,10 @@ std::string case_schema() {
   out["if"] = {{"not", {{"required", {"extends"}}}}};
   out["then"] = rule_of_whole_cases();
   for (const auto& t : case_keys().tables())
-    if (!t.name.empty())
-      out["$defs"][std::string(t.name)] = table_schema(t.name), out["$defs"][std::string(t.name)]["description"] = t.meaning;
+    if (!t.name.empty()) {
+      out["$defs"][std::string(t.name)] = table_schema(t.name);
+      out["$defs"][std::string(t.name)]["description"] = t.meaning;
+    }
   json modes{{"type", "object"}, {"additionalProperties", false}, {"properties", json::object()}};
   for (const DeclaredTerm& one : declared_terms())
     modes["properties"][std::string(one.term.name)] = {{"enum", {"corrected", "paper"}}};

@@ -17,7 +17,9 @@ using Kind = TomlNode::Kind;
 
 TomlNode text_node(std::string_view text, const SourcePlace& place) {
   TomlNode n;
-  n.kind = Kind::text, n.text = text, n.place = n.key_place = place;
+  n.kind = Kind::text;
+  n.text = text;
+  n.place = n.key_place = place;
   return n;
 }
 
@@ -32,7 +34,8 @@ std::optional<TomlNode> take(TomlNode& table, std::string_view key) {
 TomlNode& array_of(TomlNode& document, std::string_view key, const SourcePlace& place) {
   if (auto* there = document.find(key)) return *there;
   TomlNode fresh;
-  fresh.kind = Kind::array, fresh.place = fresh.key_place = place;
+  fresh.kind = Kind::array;
+  fresh.place = fresh.key_place = place;
   return document.members.emplace_back(key, std::move(fresh)).second;
 }
 
@@ -45,7 +48,8 @@ void collect_levels(const TomlNode& limits, const std::string& head, std::vector
       continue;
     }
     TomlNode level;
-    level.kind = Kind::real, level.place = level.key_place = value.key_place;
+    level.kind = Kind::real;
+    level.place = level.key_place = value.key_place;
     const auto end = name.data() + name.size();
     if (const auto read = std::from_chars(name.data(), end, level.real); read.ec != std::errc() || read.ptr != end)
       throw InputError(
@@ -116,7 +120,8 @@ std::vector<TomlNode> gates_of(TomlNode& metric) {
             : "`reason` of a metric is that of its `limits`, and there are none: give `limits`, or write the reason into a gate");
   if (limits) {
     TomlNode gate;
-    gate.place = limits->place, gate.key_place = limits->key_place;
+    gate.place = limits->place;
+    gate.key_place = limits->key_place;
     gate.members.emplace_back("limits", std::move(*limits));
     gate.members.emplace_back("reason", std::move(*reason));
     name_metric(gate, name->text, gate.place);
@@ -146,7 +151,8 @@ void spell_out(TomlNode& document) {
   for (auto& [name, value] : given->members) {
     if (value.kind == Kind::table) continue;
     TomlNode entry;
-    entry.place = value.place, entry.key_place = value.key_place;
+    entry.place = value.place;
+    entry.key_place = value.key_place;
     entry.members.emplace_back("limit", std::move(value));
     value = std::move(entry);
   }
@@ -184,7 +190,8 @@ void add_reference(TomlNode& metric, std::optional<TomlNode> value, const Invari
     throw InputError(metric.place, fmt::format("`invariants.{}` lacks the key `value`: {}", what.name, what.meaning));
   if (!value) {
     value.emplace();
-    value->kind = Kind::real, value->place = value->key_place = metric.place;
+    value->kind = Kind::real;
+    value->place = value->key_place = metric.place;
     value->real = std::stod(std::string(what.value));
   }
   metric.members.emplace_back("reference", stated(std::move(*value)));
@@ -199,7 +206,8 @@ TomlNode metric_of(const std::string& name, TomlNode entry) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
   };
   TomlNode metric, gate;
-  metric.place = gate.place = place, metric.key_place = gate.key_place = entry.key_place;
+  metric.place = gate.place = place;
+  metric.key_place = gate.key_place = entry.key_place;
   auto value = take(entry, "value");
   for (auto& [key, given] : entry.members) {
     const bool of_gate = is_of(gate_keys, key) && key != "metric";
@@ -222,7 +230,8 @@ TomlNode metric_of(const std::string& name, TomlNode entry) {
                      fmt::format("`{}` beside `gates`: write it into one of them", gate.members.front().first));
   if (!gates) {
     TomlNode one;
-    one.kind = Kind::array, one.place = place;
+    one.kind = Kind::array;
+    one.place = place;
     one.items.push_back(std::move(gate));
     gates = &metric.members.emplace_back("gates", std::move(one)).second;
   }

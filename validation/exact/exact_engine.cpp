@@ -33,7 +33,8 @@ void place_by_bodies(const Job& job, const InitialState& initial, Snapshot& fram
     const auto row = static_cast<std::size_t>(initial.body[i]);
     const BodyState& b = frame.bodies[row];
     const Vec3 arm = rotate(b.orientation, initial.position[i] - centre[row]);
-    frame.position.push_back(b.position + arm), frame.velocity.push_back(b.velocity + cross(b.angular_velocity, arm));
+    frame.position.push_back(b.position + arm);
+    frame.velocity.push_back(b.velocity + cross(b.angular_velocity, arm));
   }
 }
 

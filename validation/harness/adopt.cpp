@@ -41,8 +41,10 @@ Spread spread_of(const std::vector<double>& values) {
 CaseResult run_once(const Case& value, const EngineEntry& engine, const AdoptOptions& o, const std::string& name,
                     std::optional<std::uint64_t> seed) {
   SuiteOptions suite;
-  suite.selection.engines = {engine.name}, suite.selection.seed = seed;
-  suite.jobs = o.jobs, suite.out = (fs::path(o.work) / name).string();
+  suite.selection.engines = {engine.name};
+  suite.selection.seed = seed;
+  suite.jobs = o.jobs;
+  suite.out = (fs::path(o.work) / name).string();
   if (name != "first")  // orders are of the first run
     suite.wanted = [](const EnginePlan&, const RunPlan& run) { return run.base; };
   auto results = run_suite({value}, {engine}, suite);
@@ -68,7 +70,9 @@ const RunRow* run_of(const CaseResult& c, const std::string& preset) {
 
 AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, const EngineEntry& engine, const AdoptOptions& o) {
   AdoptedRow row;
-  row.preset = first.preset, row.status = first.status, row.reason = first.reason;
+  row.preset = first.preset;
+  row.status = first.status;
+  row.reason = first.reason;
   const auto* base = base_run(first);
   if (!base || base->status != Status::ok || !base->comparable) return row;
   const double round_off = engine.build.find("single") == std::string::npos ? double_round_off : single_round_off;
@@ -96,8 +100,11 @@ AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, c
     if (std::isfinite(order.order.low) && std::isfinite(order.order.high) && order.order.fit_class != FitClass::roundoff &&
         order.order.fit_class != FitClass::noise_limited)
       row.gates.push_back(adopted_order_gate(order));
-  for (auto& gate : row.gates)
-    gate.engine = engine.name, gate.preset = row.preset == "default" ? "" : row.preset, gate.date = o.date;
+  for (auto& gate : row.gates) {
+    gate.engine = engine.name;
+    gate.preset = row.preset == "default" ? "" : row.preset;
+    gate.date = o.date;
+  }
   return row;
 }
 
@@ -141,18 +148,28 @@ Gate adopted_order_gate(const OrderRow& order) {
 
 Case case_to_adopt(Case value, const EngineEntry& engine) {
   EngineChoice choice;
-  choice.name = engine.name, choice.required = true;
+  choice.name = engine.name;
+  choice.required = true;
   for (const auto& e : value.engines)
-    if (e.name == engine.name) choice.presets = e.presets, choice.settings = e.settings;
+    if (e.name == engine.name) {
+      choice.presets = e.presets;
+      choice.settings = e.settings;
+    }
   EngineChoice ours;
   ours.name = "tripoint";
   value.engines = {choice};
   if (engine.name != "tripoint") value.engines.push_back(ours);
-  value.modes = {Mode::corrected}, value.gates.clear(), value.defects.clear(), value.harmless.clear();
+  value.modes = {Mode::corrected};
+  value.gates.clear();
+  value.defects.clear();
+  value.harmless.clear();
   std::erase_if(value.studies, [](const Study& s) {
     return !s.engine.empty() || (s.mode != JudgedMode::none && s.mode != JudgedMode::not_paper);
   });
-  for (auto& s : value.studies) s.expect.reset(), s.mode = JudgedMode::none;
+  for (auto& s : value.studies) {
+    s.expect.reset();
+    s.mode = JudgedMode::none;
+  }
   return value;
 }
 

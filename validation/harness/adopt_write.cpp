@@ -32,8 +32,10 @@ std::vector<Block> blocks_of(const std::string& text) {
       Block next;
       next.header = line.substr(0, line.rfind(']') + 1);
       auto& before = blocks.back().lines;
-      while (!before.empty() && before.back().starts_with("#") && !(blocks.size() == 1 && before.size() == 1))
-        next.lines.insert(next.lines.begin(), before.back()), before.pop_back();
+      while (!before.empty() && before.back().starts_with("#") && !(blocks.size() == 1 && before.size() == 1)) {
+        next.lines.insert(next.lines.begin(), before.back());
+        before.pop_back();
+      }
       next.lines.push_back(line);
       blocks.push_back(next);
     } else {

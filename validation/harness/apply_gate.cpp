@@ -61,14 +61,18 @@ std::vector<Group> groups_for(const Gate& gate, const EngineRow& engine) {
 
 GateRow new_row(const Gate& gate, JudgedMode mode) {
   GateRow row;
-  row.metric = gate.metric, row.mode = mode, row.level = gate.level, row.gate = gate;
+  row.metric = gate.metric;
+  row.mode = mode;
+  row.level = gate.level;
+  row.gate = gate;
   row.value = not_a_number;
   return row;
 }
 
 GateRow missing_row(const Gate& gate, const std::string& why) {
   auto row = new_row(gate, gate.mode);
-  row.verdict = Verdict::missing, row.why = why;
+  row.verdict = Verdict::missing;
+  row.why = why;
   return row;
 }
 
@@ -106,7 +110,8 @@ bool judge_group(const CaseResult& result, const Gate& gate, const Group& group,
     }
     auto value = measured(*run, gate.metric);
     if (!value) {
-      row.verdict = Verdict::missing, row.why = "the run has no metric of this name";
+      row.verdict = Verdict::missing;
+      row.why = "the run has no metric of this name";
       engine.gates.push_back(row);
       return true;
     }
@@ -146,7 +151,10 @@ Applied judge_order(const CaseResult& result, const Gate& gate, EngineRow& engin
   for (const auto& order : engine.order) {
     if (order.metric != name_of_order(gate.metric) || !fits_mode(gate, order.mode)) continue;
     auto row = new_row(gate, order.mode);
-    row.value = order.order.value, row.low = order.order.low, row.high = order.order.high, row.fit_class = order.order.fit_class;
+    row.value = order.order.value;
+    row.low = order.order.low;
+    row.high = order.order.high;
+    row.fit_class = order.order.fit_class;
     // An engine that is exact has no order to show: where any engine is asked for one at least, errors of round-off will do.
     const bool exact =
         gate.engine.empty() && gate.at_least && !gate.band && !gate.limit && order.order.fit_class == FitClass::roundoff;
@@ -224,14 +232,20 @@ Applied apply_expected_class(const CaseResult& result, const Study& study, Engin
                              : result.metrics.empty() ? std::string()
                                                       : result.metrics.front().name;
   Gate gate;
-  gate.metric = metric + ".order", gate.engine = engine.name, gate.mode = study.mode, gate.place = study.place;
+  gate.metric = metric + ".order";
+  gate.engine = engine.name;
+  gate.mode = study.mode;
+  gate.place = study.place;
   gate.reason = fmt::format("the study over {} declares the class {}", to_string(study.axes), *study.expect);
   auto applied = Applied::not_applicable;
   for (const auto& order : fit_orders(result, engine, study)) {
     if (order.metric != metric) continue;
     auto row = new_row(gate, order.mode);
-    row.value = order.order.value, row.low = order.order.low, row.high = order.order.high;
-    row.expect = study.expect, row.fit_class = order.order.fit_class;
+    row.value = order.order.value;
+    row.low = order.order.low;
+    row.high = order.order.high;
+    row.expect = study.expect;
+    row.fit_class = order.order.fit_class;
     row.verdict = row.fit_class == study.expect ? Verdict::pass : Verdict::fail;
     if (row.fit_class != study.expect) row.why = fmt::format("converges as {}, declared is {}", *row.fit_class, *study.expect);
     engine.gates.push_back(row);

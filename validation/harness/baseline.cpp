@@ -19,7 +19,8 @@ namespace {
 
 std::string quoted(const std::string& text) {
   TomlNode node;
-  node.kind = TomlNode::Kind::text, node.text = text;
+  node.kind = TomlNode::Kind::text;
+  node.text = text;
   return to_toml(node);
 }
 
@@ -77,7 +78,9 @@ std::vector<T> tables(const TomlNode& from, std::string_view key, Read read) {
 /// The edges that were accepted, as the gate of a case.
 Gate edges_of(const AcceptedGate& accepted) {
   Gate gate;
-  gate.limit = accepted.limit, gate.at_least = accepted.at_least, gate.band = accepted.band;
+  gate.limit = accepted.limit;
+  gate.at_least = accepted.at_least;
+  gate.band = accepted.band;
   return gate;
 }
 
@@ -98,12 +101,19 @@ JudgedMode mode(const TomlNode& from) {
 /// today's.
 AcceptedGate read_gate(const TomlNode& from) {
   AcceptedGate g;
-  g.metric = text(from, "metric"), g.engine = text(from, "engine"), g.preset = text(from, "preset"), g.mode = mode(from);
+  g.metric = text(from, "metric");
+  g.engine = text(from, "engine");
+  g.preset = text(from, "preset");
+  g.mode = mode(from);
   g.level = maybe_number(from, "level");
-  g.limit = maybe_number(from, "limit"), g.at_least = maybe_number(from, "at_least"), g.drift = maybe_number(from, "drift");
+  g.limit = maybe_number(from, "limit");
+  g.at_least = maybe_number(from, "at_least");
+  g.drift = maybe_number(from, "drift");
   g.band = maybe_band(from);
-  g.value = number(from, "value"), g.uncertainty = number(from, "uncertainty");
-  g.measures = text(from, "measures"), g.fit_class = fit_class(from);
+  g.value = number(from, "value");
+  g.uncertainty = number(from, "uncertainty");
+  g.measures = text(from, "measures");
+  g.fit_class = fit_class(from);
   g.allows = from.find("allows") ? text(from, "allows") : describe(edges_of(g));
   g.room = maybe_number(from, "room").value_or(room_of(edges_of(g)));
   g.first_room = maybe_number(from, "first_room").value_or(g.room);
@@ -170,7 +180,9 @@ Baseline read_baseline(const std::string& file) {
   const auto top = read_toml(file);
   if (number(top, "format") != 1.0) throw InputError(file + ": has not format = 1");
   Baseline b;
-  b.id = text(top, "case"), b.case_hash = text(top, "case_hash"), b.seed = whole_number<std::uint64_t>(number(top, "seed"));
+  b.id = text(top, "case");
+  b.case_hash = text(top, "case_hash");
+  b.seed = whole_number<std::uint64_t>(number(top, "seed"));
   b.accepted = tables<Acceptance>(top, "accepted", [](const TomlNode& n) {
     return Acceptance{text(n, "date"), text(n, "commit"), text(n, "reason")};
   });
@@ -178,8 +190,10 @@ Baseline read_baseline(const std::string& file) {
   b.cost = tables<AcceptedCost>(top, "cost", [](const TomlNode& n) {
     return AcceptedCost{text(n, "run"), number(n, "pairs"), number(n, "steps"), number(n, "instructions"), text(n, "counted_on")};
   });
-  b.scene = text(top, "scene"), b.reference = text(top, "reference");
-  b.profiles = texts(top, "profiles"), b.required = texts(top, "required");
+  b.scene = text(top, "scene");
+  b.reference = text(top, "reference");
+  b.profiles = texts(top, "profiles");
+  b.required = texts(top, "required");
   const auto seal = text(top, "seal");  // older versions wrote neither hashes nor seal
   b.sealed = seal.empty() ? b.scene.empty() : seal == text_hash(unsealed(text_of_file(file)));
   b.removed = whole_number<int>(number(top, "removed"));
@@ -211,10 +225,13 @@ class Row {
 
 std::string row_of(const AcceptedGate& g) {
   Row row;
-  row.say("metric", g.metric), row.say("engine", g.engine);
+  row.say("metric", g.metric);
+  row.say("engine", g.engine);
   if (g.preset != "default") row.say("preset", g.preset);
   row.say("mode", std::string(to_string(g.mode)));
-  row.say("level", g.level), row.say("limit", g.limit), row.say("at_least", g.at_least);
+  row.say("level", g.level);
+  row.say("limit", g.limit);
+  row.say("at_least", g.at_least);
   if (g.band) row.add("band", fmt::format("[{}, {}]", number((*g.band)[0]), number((*g.band)[1])));
   row.say("drift", g.drift);
   if (g.allows != describe(edges_of(g))) row.say("allows", g.allows);
@@ -222,7 +239,8 @@ std::string row_of(const AcceptedGate& g) {
   row.say("value", g.value);
   row.say_unless(0.0, "uncertainty", g.uncertainty);
   if (g.fit_class) row.say("class", std::string(to_string(*g.fit_class)));
-  row.say_unless(g.room, "first_room", g.first_room), row.say_unless(g.value, "first_value", g.first_value);
+  row.say_unless(g.room, "first_room", g.first_room);
+  row.say_unless(g.value, "first_value", g.first_value);
   row.say_unless(0.0, "loosened", g.loosened);
   row.say("measures", g.measures);
   return row.text();
@@ -230,14 +248,17 @@ std::string row_of(const AcceptedGate& g) {
 
 std::string row_of(const Acceptance& a) {
   Row row;
-  row.say("date", a.date), row.say("commit", a.commit), row.say("reason", a.reason);
+  row.say("date", a.date);
+  row.say("commit", a.commit);
+  row.say("reason", a.reason);
   return row.text();
 }
 
 std::string row_of(const AcceptedCost& c) {
   Row row;
   row.say("run", c.run);
-  row.say("pairs", c.pairs), row.say("steps", c.steps);
+  row.say("pairs", c.pairs);
+  row.say("steps", c.steps);
   row.say_unless(0.0, "instructions", c.instructions);
   row.say("counted_on", c.counted_on);
   return row.text();

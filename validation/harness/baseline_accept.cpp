@@ -21,21 +21,27 @@ namespace fs = std::filesystem;
 Baseline accepted_from(const CaseResult& c, const Tool& tool, std::uint64_t seed, const Baseline* before,
                        const Acceptance& acceptance, bool engines_were_chosen) {
   Baseline b;
-  b.id = c.id, b.case_hash = hash_of_file(c), b.seed = seed;
+  b.id = c.id;
+  b.case_hash = hash_of_file(c);
+  b.seed = seed;
   const auto hashes = case_hashes(c.file);
   if (hashes) {
-    b.scene = hashes->scene, b.reference = hashes->reference, b.profiles = hashes->profiles;
+    b.scene = hashes->scene;
+    b.reference = hashes->reference;
+    b.profiles = hashes->profiles;
     for (const auto& [name, required] : hashes->required)
       if (required) b.required.push_back(name);
   }
   if (before) b.accepted = before->accepted;
   b.accepted.push_back(acceptance);
-  b.gates = gates_of(c, hashes), b.cost = costs_of(c, tool);
+  b.gates = gates_of(c, hashes);
+  b.cost = costs_of(c, tool);
   const auto own = b.gates;
   for (std::size_t k = 0; k < own.size(); ++k) {
     auto& g = b.gates[k];
     const auto* old = before ? counterpart(own, k, before->gates) : nullptr;
-    g.first_room = old ? old->first_room : g.room, g.first_value = old ? old->first_value : g.value;
+    g.first_room = old ? old->first_room : g.room;
+    g.first_value = old ? old->first_value : g.value;
     if (old) g.loosened = old->loosened + (g.room > old->room && old->room > 0.0 ? std::log(g.room / old->room) : 0.0);
   }
   if (!before) return b;
@@ -91,7 +97,10 @@ std::string changes(const Baseline* before, const Baseline& after) {
 
 double loosenings(const Baseline& b, int& count) {
   double sum = 0.0;
-  for (const auto& g : b.gates) sum += g.loosened, count += g.loosened > 0.0;
+  for (const auto& g : b.gates) {
+    sum += g.loosened;
+    count += g.loosened > 0.0;
+  }
   return sum;
 }
 
@@ -125,17 +134,23 @@ std::vector<Proposal> proposals(const Results& results, const std::vector<std::s
   std::vector<Proposal> list;
   for (const auto* c : chosen) {
     Proposal p;
-    p.id = c->id, p.file = baseline_file(c->file);
+    p.id = c->id;
+    p.file = baseline_file(c->file);
     std::optional<Baseline> before;
-    if (fs::exists(p.file)) before = read_baseline(p.file), p.before = text_of_file(p.file);
+    if (fs::exists(p.file)) {
+      before = read_baseline(p.file);
+      p.before = text_of_file(p.file);
+    }
     const auto after =
         accepted_from(*c, results.tool, results.seed, before ? &*before : nullptr, acceptance, engines_were_chosen);
-    p.after = baseline_text(after), p.changes = changes(before ? &*before : nullptr, after);
+    p.after = baseline_text(after);
+    p.changes = changes(before ? &*before : nullptr, after);
     if (before)
       for (const auto* g : gone(*c, gates_of(*c, {}), *before, engines_were_chosen))
         p.removed +=
             one_line(fmt::format("{} {} {} {}: REMOVED, it was {}", c->id, g->engine, g->mode, g->metric, g->allows)) + "\n";
-    p.loosened = loosenings(after, p.limits_loosened), p.limits_removed = after.removed;
+    p.loosened = loosenings(after, p.limits_loosened);
+    p.limits_removed = after.removed;
     list.push_back(std::move(p));
   }
   return list;
@@ -150,7 +165,9 @@ std::string accept(const Results& results, const std::vector<std::string>& ids, 
     fs::create_directories(fs::path(p.file).parent_path());
     write_durably(p.file, p.after);
     text += p.changes + p.removed;
-    sum += p.loosened, count += p.limits_loosened, removed += p.limits_removed;
+    sum += p.loosened;
+    count += p.limits_loosened;
+    removed += p.limits_removed;
   }
   return text + fmt::format(
                     "{} cases accepted; since the first baseline {} limits were loosened, in all by a factor {:.4g} (sum of ln "

@@ -138,8 +138,10 @@ void compare_case(const Results& results, const CaseResult& c, const Baseline& b
   for (const auto& e : c.engines)
     for (const auto& row : e.gates)
       if (is_accepted(row)) {
-        if (const auto* old = counterpart(now, k, b.gates))
-          compare_limits(c, now[k], row.gate.place, *old, list), compare_value(c, now[k], row.gate.place, *old, list);
+        if (const auto* old = counterpart(now, k, b.gates)) {
+          compare_limits(c, now[k], row.gate.place, *old, list);
+          compare_value(c, now[k], row.gate.place, *old, list);
+        }
         ++k;
       }
   if (c.exit_code == exit_pass)  // a red gate is no gate that is gone

@@ -36,9 +36,11 @@ std::vector<Line> aligned(const std::vector<std::string>& a, const std::vector<s
   std::vector<Line> list;
   std::size_t i = 0, j = 0;
   while (i < a.size() || j < b.size()) {
-    if (i < a.size() && j < b.size() && a[i] == b[j])
-      list.push_back({' ', a[i]}), ++i, ++j;
-    else if (i < a.size() && (j == b.size() || common[i + 1][j] >= common[i][j + 1]))
+    if (i < a.size() && j < b.size() && a[i] == b[j]) {
+      list.push_back({' ', a[i]});
+      ++i;
+      ++j;
+    } else if (i < a.size() && (j == b.size() || common[i + 1][j] >= common[i][j + 1]))
       list.push_back({'-', a[i++]});
     else
       list.push_back({'+', b[j++]});
@@ -120,7 +122,10 @@ std::string patch_text(const std::vector<Proposal>& list, const std::string& res
   for (const auto& p : list) {
     if (p.before == p.after || (p.changes.empty() && p.removed.empty()))
       continue;  // accepted as it stands: only the reason would be new
-    ++count, ids += " " + word(p.id), changes += p.changes + p.removed, patch += file_patch(p, root);
+    ++count;
+    ids += " " + word(p.id);
+    changes += p.changes + p.removed;
+    patch += file_patch(p, root);
   }
   if (count == 0) return "# No baseline would change: nothing is proposed.\n";
   std::string text = fmt::format(

@@ -29,11 +29,19 @@ std::string metric_of(const std::string& gated) {
 AcceptedGate gate_of(const EngineRow& e, const GateRow& row, const std::optional<CaseHashes>& hashes) {
   AcceptedGate g;
   g.metric = row.expect ? fmt::format("{} is {}", row.metric, *row.expect) : row.metric;
-  g.engine = e.name, g.preset = e.preset == "default" ? "" : e.preset, g.mode = row.mode, g.level = row.level;
+  g.engine = e.name;
+  g.preset = e.preset == "default" ? "" : e.preset;
+  g.mode = row.mode;
+  g.level = row.level;
   g.allows = row.expect ? fmt::format("class {}", *row.expect) : describe(row.gate);
   g.room = row.expect ? 1.0 : room_of(row.gate);
-  g.value = row.value, g.uncertainty = row.uncertainty, g.fit_class = row.fit_class;
-  g.limit = row.gate.limit, g.at_least = row.gate.at_least, g.band = row.gate.band, g.drift = row.gate.drift;
+  g.value = row.value;
+  g.uncertainty = row.uncertainty;
+  g.fit_class = row.fit_class;
+  g.limit = row.gate.limit;
+  g.at_least = row.gate.at_least;
+  g.band = row.gate.band;
+  g.drift = row.gate.drift;
   if (!hashes) return g;
   if (const auto at = hashes->metrics.find(metric_of(row.metric)); at != hashes->metrics.end()) g.measures = at->second;
   return g;

@@ -62,14 +62,22 @@ Knobs knobs_of(const CaseRun& run, const Result& result) {
 
 EngineRow row_of(const EnginePlan& plan) {
   EngineRow row;
-  row.name = plan.name, row.preset = plan.preset, row.required = plan.required, row.refuses = declared_refusal(plan.settings);
-  if (plan.entry)
-    row.version = plan.entry->version, row.library_path = plan.entry->library_path, row.library_hash = plan.entry->library_hash;
-  if (!plan.entry)
-    row.status = Status::missing,
+  row.name = plan.name;
+  row.preset = plan.preset;
+  row.required = plan.required;
+  row.refuses = declared_refusal(plan.settings);
+  if (plan.entry) {
+    row.version = plan.entry->version;
+    row.library_path = plan.entry->library_path;
+    row.library_hash = plan.entry->library_hash;
+  }
+  if (!plan.entry) {
+    row.status = Status::missing;
     row.reason = fmt::format("there is no engine-{} beside the program or in TRIPOINT_ENGINE_PATH", plan.name);
-  else if (!plan.entry->available)
-    row.status = Status::missing, row.reason = plan.entry->reason;
+  } else if (!plan.entry->available) {
+    row.status = Status::missing;
+    row.reason = plan.entry->reason;
+  }
   return row;
 }
 
@@ -149,7 +157,11 @@ void add_runs(CaseRuns& all, const SuiteOptions& options) {
       CaseRun run;
       const Scene scene = scene_of(value, plan);
       const auto& [initial, file, hash] = sampler.of(scene);
-      run.engine = e, run.plan = plan, run.initial = initial, run.particles = file, run.particles_hash = hash;
+      run.engine = e;
+      run.plan = plan;
+      run.initial = initial;
+      run.particles = file;
+      run.particles_hash = hash;
       run.job = make_job(value, engine, plan, scene, *initial);
       run.job.threads = options.threads;
       if (options.change) run.changed = changed_run(value, engine, run, *options.change, all.runs.size());
@@ -164,13 +176,20 @@ namespace {
 RunRequest request_of(const CaseRuns& all, const CaseRun& run, const SuiteOptions& options) {
   const auto& engine = all.engines[run.engine];
   RunRequest request;
-  request.engine = engine.entry, request.job = &run.job, request.initial = run.initial.get();
-  if (run.changed) request.job = &run.changed->job, request.initial = &run.changed->initial;
-  request.folder = fs::absolute(run.folder).string(),
+  request.engine = engine.entry;
+  request.job = &run.job;
+  request.initial = run.initial.get();
+  if (run.changed) {
+    request.job = &run.changed->job;
+    request.initial = &run.changed->initial;
+  }
+  request.folder = fs::absolute(run.folder).string();
   request.particles = fs::absolute(run.changed ? run.changed->particles : run.particles).string();
   request.particles_hash = run.changed ? run.changed->particles_hash : run.particles_hash;
-  request.wall_limit = wall_limit(engine, options), request.environment = options.environment;
-  request.keep_finished = options.resume, request.count_below = options.count_below;
+  request.wall_limit = wall_limit(engine, options);
+  request.environment = options.environment;
+  request.keep_finished = options.resume;
+  request.count_below = options.count_below;
   return request;
 }
 
@@ -178,19 +197,25 @@ RunRequest request_of(const CaseRuns& all, const CaseRun& run, const SuiteOption
 void describe_run(CaseRun& run, const Result& result, const SuiteOptions& options) {
   auto& row = run.row;
   row.knobs = knobs_of(run, result);
-  row.levels = run.plan.levels, row.base = run.plan.base, row.group = run.plan.group, row.input = run.plan.input;
+  row.levels = run.plan.levels;
+  row.base = run.plan.base;
+  row.group = run.plan.group;
+  row.input = run.plan.input;
   row.folder = fs::relative(run.folder, options.out).string();
 }
 
 /// A run that somebody else has made. Its frames are read where engines are compared by them.
 void take_row(const CaseRuns& all, CaseRun& run, RunRow row, const SuiteOptions& options) {
-  run.row = std::move(row), run.kept = true;
+  run.row = std::move(row);
+  run.kept = true;
   if (!run.plan.base || run.row.status != Status::ok) return;
   ProcessEnd end;
   end.how = ProcessEnd::How::exited;
   const auto outcome = read_back(request_of(all, run, options), end);
-  if (outcome.status != Status::ok)
-    run.row.status = Status::error, run.row.reason = "its frames are not as it left them: " + outcome.reason;
+  if (outcome.status != Status::ok) {
+    run.row.status = Status::error;
+    run.row.reason = "its frames are not as it left them: " + outcome.reason;
+  }
   run.trajectory = outcome.trajectory;
 }
 
@@ -205,7 +230,8 @@ std::string run_id(const CaseRuns& all, const CaseRun& run, const SuiteOptions& 
 
 void give_up(CaseRun& run, Status status, const std::string& reason, const SuiteOptions& options) {
   describe_run(run, {}, options);
-  run.row.status = status, run.row.reason = reason;
+  run.row.status = status;
+  run.row.reason = reason;
 }
 
 void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
@@ -215,8 +241,12 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
   run.kept = outcome.kept;
   describe_run(run, outcome.result, options);
   auto& row = run.row;
-  row.status = outcome.status, row.reason = outcome.reason, row.comparable = outcome.comparable, row.cost = outcome.cost;
-  row.state_hash = outcome.result.state_hash, row.time_step_bound = outcome.result.time_step_bound;
+  row.status = outcome.status;
+  row.reason = outcome.reason;
+  row.comparable = outcome.comparable;
+  row.cost = outcome.cost;
+  row.state_hash = outcome.result.state_hash;
+  row.time_step_bound = outcome.result.time_step_bound;
   if (outcome.trajectory) row.metrics = evaluate_all(*all.value, run.job, *run.initial, *outcome.trajectory);
   if (run.plan.base) run.trajectory = outcome.trajectory;
 }
@@ -224,10 +254,18 @@ void make_run(const CaseRuns& all, CaseRun& run, const SuiteOptions& options) {
 CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   const auto& value = *all.value;
   CaseResult result;
-  result.id = value.id, result.title = value.title, result.kind = value.kind, result.requirement = value.requirement;
-  result.claims = value.claims, result.file = value.file, result.expect = value.expect,
-  result.reference = with_source_of_file(value.reference), result.tags = value.tags;
-  result.metrics = value.metrics, result.studies = value.studies, result.gates = value.gates;
+  result.id = value.id;
+  result.title = value.title;
+  result.kind = value.kind;
+  result.requirement = value.requirement;
+  result.claims = value.claims;
+  result.file = value.file;
+  result.expect = value.expect;
+  result.reference = with_source_of_file(value.reference);
+  result.tags = value.tags;
+  result.metrics = value.metrics;
+  result.studies = value.studies;
+  result.gates = value.gates;
   result.hashes = all.hashes;
   result.repeat = repeat_command(value, options);
   for (std::size_t e = 0; e < all.engines.size(); ++e) {

@@ -38,8 +38,12 @@ std::string unit_of(const CaseResult& c, const std::string& metric) {
 
 Row new_row(const CaseResult& c, const EngineRow& e, JudgedMode mode, const std::string& metric) {
   Row row;
-  row.change.case_id = c.id, row.change.engine = label_of(e.name, e.preset), row.change.mode = mode, row.change.metric = metric;
-  row.change.unit = unit_of(c, metric), row.change.place = {c.file, 1, 0};
+  row.change.case_id = c.id;
+  row.change.engine = label_of(e.name, e.preset);
+  row.change.mode = mode;
+  row.change.metric = metric;
+  row.change.unit = unit_of(c, metric);
+  row.change.place = {c.file, 1, 0};
   return row;
 }
 
@@ -59,10 +63,14 @@ int seeds_of(const EngineRow& e, const GateRow& g) {
 
 Row row_of(const CaseResult& c, const EngineRow& e, const GateRow& g) {
   auto row = new_row(c, e, g.mode, g.expect ? g.metric + " class" : g.metric);
-  row.change.level = g.level, row.gate = g.gate;
+  row.change.level = g.level;
+  row.gate = g.gate;
   if (!g.gate.place.file.empty()) row.change.place = g.gate.place;
   auto& s = row.standing;
-  s.value = g.value, s.verdict = g.verdict, s.fit_class = g.fit_class, s.seeds = seeds_of(e, g);
+  s.value = g.value;
+  s.verdict = g.verdict;
+  s.fit_class = g.fit_class;
+  s.seeds = seeds_of(e, g);
   s.allows = g.expect ? fmt::format("class {}", *g.expect) : describe(g.gate);
   s.used = g.expect ? not_a_number : used_of(g.gate, g.value);
   s.noise =
@@ -79,7 +87,9 @@ void add_unjudged(const CaseResult& c, const EngineRow& e, std::vector<Row>& row
                                       [&](const auto& g) { return g.metric == name && g.mode == run.knobs.mode; });
       if (judged) continue;
       auto row = new_row(c, e, run.knobs.mode, name);
-      row.standing.value = value.value, row.standing.used = not_a_number, row.standing.noise = value.uncertainty.statistical;
+      row.standing.value = value.value;
+      row.standing.used = not_a_number;
+      row.standing.noise = value.uncertainty.statistical;
       rows.push_back(row);
     }
   }
@@ -154,12 +164,16 @@ void settle(MetricChange& c, const Gate& base_gate, const Gate& head_gate, doubl
   if (std::isnan(unit)) return settle_unlimited(c, again);
   const double before = used_of(gate, c.base->value), now = used_of(gate, c.head->value);
   if (!std::isfinite(before) || !std::isfinite(now)) {
-    c.change = std::isfinite(before) ? infinity : std::isfinite(now) ? -infinity : 0.0, c.noise_from = "no value";
+    c.change = std::isfinite(before) ? infinity : std::isfinite(now) ? -infinity : 0.0;
+    c.noise_from = "no value";
   } else {
     c.change = now - before;
     c.noise = noise_between(*c.base, *c.head, again) / unit;
     c.noise_from = source_of_noise(*c.base, *c.head, c.head->fit_class.has_value(), again);
-    if (is_roundoff(gate) && c.noise < 1.0) c.noise = 1.0, c.noise_from = "round-off";
+    if (is_roundoff(gate) && c.noise < 1.0) {
+      c.noise = 1.0;
+      c.noise_from = "round-off";
+    }
   }
   if (std::abs(c.change) > std::max(c.noise, least_change)) c.trend = c.change > 0.0 ? Trend::worse : Trend::better;
 }
@@ -208,7 +222,8 @@ int Comparison::count(Trend trend) const {
 
 Comparison compare_results(const Results& base, const Results& head, const std::string& base_name, const Results* repeat) {
   Comparison all;
-  all.base_name = base_name, all.remarks = remarks_on(base, head);
+  all.base_name = base_name;
+  all.remarks = remarks_on(base, head);
   std::map<Key, Row> before, again;
   for (auto& row : rows_of(base)) before.emplace(row.key, row);
   if (repeat)
@@ -219,7 +234,8 @@ Comparison compare_results(const Results& base, const Results& head, const std::
     Gate base_gate;
     double differs = 0.0;
     if (at != before.end()) {
-      row.change.base = at->second.standing, base_gate = at->second.gate;
+      row.change.base = at->second.standing;
+      base_gate = at->second.gate;
       if (const auto twin = again.find(row.key); twin != again.end())
         differs = std::abs(twin->second.standing.value - at->second.standing.value);
       before.erase(at);

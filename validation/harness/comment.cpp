@@ -28,7 +28,10 @@ Count gates_of(const Results& r) {
   Count n;
   for (const auto& c : r.cases)
     for (const auto& e : c.engines)
-      for (const auto& g : e.gates) ++n.all, n.green += g.verdict == Verdict::pass;
+      for (const auto& g : e.gates) {
+        ++n.all;
+        n.green += g.verdict == Verdict::pass;
+      }
   return n;
 }
 
@@ -68,7 +71,10 @@ std::string table_of(const Comparison& all, const CommentOptions& o) {
   for (const auto& c : all.changes) {
     const bool moved =
         c.trend == Trend::better || c.trend == Trend::worse || (c.trend == Trend::same && std::abs(c.change) >= least_change);
-    if (moved && count < o.most) ++count, rows += row_of(c, o);
+    if (moved && count < o.most) {
+      ++count;
+      rows += row_of(c, o);
+    }
   }
   if (rows.empty()) return "No metric of the base has changed by a thousandth of its limit or more.\n";
   return "| | change | case | metric | base -> head | of the limit | noise |\n|---|---:|---|---|---|---|---|\n" + rows +

@@ -116,8 +116,11 @@ Prepared prepare(const CheckScene& scene, const EngineEntry& engine, const fs::p
 Outcome run(const CheckScene& scene, const EngineEntry& engine, const Prepared& p, const fs::path& folder,
             const std::string& name) {
   RunRequest request;
-  request.engine = &engine, request.job = &p.job, request.initial = &p.initial;
-  request.folder = (folder / name).string(), request.particles = (folder / (scene.name + ".h5")).string();
+  request.engine = &engine;
+  request.job = &p.job;
+  request.initial = &p.initial;
+  request.folder = (folder / name).string();
+  request.particles = (folder / (scene.name + ".h5")).string();
   request.wall_limit = 120.0;
   return run_one(request);
 }

@@ -82,11 +82,15 @@ std::optional<Outcome> finished_run(const RunRequest& request, const std::string
     const auto record = nlohmann::json::parse(text_of(record_file(request)));
     if (record.at("run") != hash || record.at("files") != hash_of_files(request)) return {};
     ProcessEnd end;
-    end.how = ProcessEnd::How::exited, end.code = record.at("code");
-    end.cpu_s = record.at("cpu_s"), end.wall_s = record.at("wall_s"), end.peak_bytes = record.at("peak_bytes");
+    end.how = ProcessEnd::How::exited;
+    end.code = record.at("code");
+    end.cpu_s = record.at("cpu_s");
+    end.wall_s = record.at("wall_s");
+    end.peak_bytes = record.at("peak_bytes");
     Outcome outcome = read_back(request, end);
     if (to_string(outcome.status) != record.at("status").get<std::string>()) return {};
-    outcome.cost.instructions = record.at("instructions"), outcome.cost.counted_by = record.at("counted_by");
+    outcome.cost.instructions = record.at("instructions");
+    outcome.cost.counted_by = record.at("counted_by");
     outcome.kept = true;
     return outcome;
   } catch (const std::exception&) {

@@ -152,8 +152,10 @@ std::string command_text(std::string_view text, bool property) {
   for (const char c : text) {
     if (c != '\r' && c != '\n')
       line += c;
-    else
-      end_line(), out += c == '\r' ? "%0D" : "%0A";
+    else {
+      end_line();
+      out += c == '\r' ? "%0D" : "%0A";
+    }
   }
   end_line();
   for (auto at = out.find("##["); at != std::string::npos; at = out.find("##[", at)) out.insert(at + 1, 1, ' ');

@@ -19,11 +19,12 @@ std::optional<LadderPoint> point_of(const std::vector<const RunRow*>& runs, Axis
     const auto value = measured(*run, metric);
     if (run->status != Status::ok || !value || !std::isfinite(value->value)) return {};
     values.push_back(*value);
-    point.cpu_s += run->cost.cpu_s / static_cast<double>(runs.size()),
-        point.pairs += run->cost.pairs / static_cast<double>(runs.size());
+    point.cpu_s += run->cost.cpu_s / static_cast<double>(runs.size());
+    point.pairs += run->cost.pairs / static_cast<double>(runs.size());
   }
   const auto pool = pooled(values);
-  point.level = level, point.step = step_of(axis, level);
+  point.level = level;
+  point.step = step_of(axis, level);
   point.error = std::abs(pool.value) + 2.0 * pool.uncertainty.combined();
   if (!(point.error > 0.0) || !std::isfinite(point.error) || !(point.cpu_s > 0.0)) return {};
   return point;

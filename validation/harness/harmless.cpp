@@ -83,8 +83,14 @@ void gather(std::vector<T>& values, const std::vector<std::size_t>& from) {
 void shuffle(ChangedScene& changed) {
   auto& p = changed.initial;
   const auto from = shuffled(p.size());
-  gather(p.position, from), gather(p.velocity, from), gather(p.mass, from), gather(p.temperature, from);
-  gather(p.phase, from), gather(p.body, from), gather(p.material, from), gather(p.source, from);
+  gather(p.position, from);
+  gather(p.velocity, from);
+  gather(p.mass, from);
+  gather(p.temperature, from);
+  gather(p.phase, from);
+  gather(p.body, from);
+  gather(p.material, from);
+  gather(p.source, from);
 }
 
 void sort_back(const ChangedScene& before, Trajectory& run) {
@@ -92,10 +98,17 @@ void sort_back(const ChangedScene& before, Trajectory& run) {
   std::vector<std::size_t> back(from.size());
   for (std::size_t n = 0; n < from.size(); ++n) back[from[n]] = n;
   for (auto& s : run.frames) {
-    gather(s.position, back), gather(s.velocity, back), gather(s.mass, back), gather(s.temperature, back),
-        gather(s.temperature_error, back);
-    gather(s.density, back), gather(s.pressure, back), gather(s.liquid_fraction, back), gather(s.phase, back),
-        gather(s.body, back), gather(s.material, back);
+    gather(s.position, back);
+    gather(s.velocity, back);
+    gather(s.mass, back);
+    gather(s.temperature, back);
+    gather(s.temperature_error, back);
+    gather(s.density, back);
+    gather(s.pressure, back);
+    gather(s.liquid_fraction, back);
+    gather(s.phase, back);
+    gather(s.body, back);
+    gather(s.material, back);
     gather(s.id, back);
     for (std::size_t i = 0; i < std::min(s.id.size(), back.size()); ++i)
       if (s.id[i] >= 0) s.id[i] = static_cast<int>(i);

@@ -25,14 +25,18 @@ void measure_in(const Units& u, Material& m) {
   m.density *= u.mass / (u.length * u.length * u.length);
   m.viscosity *= pressure * u.time;
   scale(m.values, "solid_viscosity", pressure * u.time);
-  scale(m.stiffness, speed * speed), scale(m.young_modulus, pressure);
+  scale(m.stiffness, speed * speed);
+  scale(m.young_modulus, pressure);
   for (auto* k : {&m.conductivity, &m.solid_conductivity}) scale(*k, u.mass * u.length / (u.time * u.time * u.time));
   for (auto* c : {&m.heat_capacity, &m.solid_heat_capacity, &m.latent_heat}) scale(*c, speed * speed);
 }
 
 void measure_in(const Units& u, Body& b) {
   b.angular_velocity *= 1.0 / u.time;
-  for (auto& k : b.keyframes) k.time *= u.time, k.position *= u.length;
+  for (auto& k : b.keyframes) {
+    k.time *= u.time;
+    k.position *= u.length;
+  }
 }
 
 }  // namespace
@@ -44,7 +48,10 @@ Quaternion SignedAxes::rotation(const Quaternion& q) const {
 
 SignedAxes SignedAxes::inverse() const {
   SignedAxes back{{}, {}, determinant};
-  for (std::size_t a = 0; a < 3; ++a) back.from[from[a]] = a, back.sign[from[a]] = sign[a];
+  for (std::size_t a = 0; a < 3; ++a) {
+    back.from[from[a]] = a;
+    back.sign[from[a]] = sign[a];
+  }
   return back;
 }
 
@@ -77,7 +84,9 @@ void turn(const SignedAxes& to, Snapshot& s) {
 
 void measure_in(const Units& u, ChangedScene& changed) {
   Scene& s = changed.scene;
-  s.end_time *= u.time, s.output_interval *= u.time, s.spacing *= u.length;
+  s.end_time *= u.time;
+  s.output_interval *= u.time;
+  s.spacing *= u.length;
   scale(s.time_step, u.time);
   s.gravity *= u.length / (u.time * u.time);
   if (s.min) *s.min *= u.length;
@@ -86,21 +95,35 @@ void measure_in(const Units& u, ChangedScene& changed) {
   scale(s.values, "heat_constant", u.length * u.length / u.time);
   for (auto& m : s.materials) measure_in(u, m);
   for (auto& b : s.bodies) measure_in(u, b);
-  for (auto& e : s.events) e.time *= u.time, scale(e.until, u.time);
+  for (auto& e : s.events) {
+    e.time *= u.time;
+    scale(e.until, u.time);
+  }
   auto& p = changed.initial;
-  scale(p.position, u.length), scale(p.velocity, u.length / u.time), scale(p.mass, u.mass);
+  scale(p.position, u.length);
+  scale(p.velocity, u.length / u.time);
+  scale(p.mass, u.mass);
 }
 
 void measure_in(const Units& u, Snapshot& s) {
   const double speed = u.length / u.time, force = u.mass * speed / u.time, pressure = force / (u.length * u.length);
   s.time *= u.time;
-  scale(s.position, u.length), scale(s.velocity, speed), scale(s.mass, u.mass);
-  scale(s.density, u.mass / (u.length * u.length * u.length)), scale(s.pressure, pressure);
+  scale(s.position, u.length);
+  scale(s.velocity, speed);
+  scale(s.mass, u.mass);
+  scale(s.density, u.mass / (u.length * u.length * u.length));
+  scale(s.pressure, pressure);
   for (auto& b : s.bodies) {
-    b.position *= u.length, b.velocity *= speed, b.angular_velocity *= 1.0 / u.time, b.mass *= u.mass;
-    b.force *= force, b.torque *= force * u.length;
+    b.position *= u.length;
+    b.velocity *= speed;
+    b.angular_velocity *= 1.0 / u.time;
+    b.mass *= u.mass;
+    b.force *= force;
+    b.torque *= force * u.length;
   }
-  s.total_mass *= u.mass, s.momentum *= u.mass * speed, s.angular_momentum *= u.mass * speed * u.length;
+  s.total_mass *= u.mass;
+  s.momentum *= u.mass * speed;
+  s.angular_momentum *= u.mass * speed * u.length;
   for (auto* energies : {&s.energy, &s.heat_given})
     for (auto& [name, energy] : *energies) energy *= u.mass * speed * speed;
 }
@@ -112,7 +135,10 @@ void ride(const Vec3& U, Snapshot& s) {
     if (finite(s.position[i])) lever += s.mass[i] * s.position[i];
   for (auto& r : s.position) r += way;
   for (auto& v : s.velocity) v += U;
-  for (auto& b : s.bodies) b.position += way, b.velocity += U;
+  for (auto& b : s.bodies) {
+    b.position += way;
+    b.velocity += U;
+  }
   const double M = s.total_mass;
   s.momentum += M * U;
   s.angular_momentum += cross(lever, U) + cross(way, P);

@@ -29,9 +29,13 @@ std::string on_path(const std::string& name) {
 InstructionCounter::InstructionCounter() {
   perf_event_attr what{};
   what.size = sizeof what;
-  what.type = PERF_TYPE_HARDWARE, what.config = PERF_COUNT_HW_INSTRUCTIONS;
-  what.disabled = 1, what.inherit = 1, what.enable_on_exec = 1;  // of the children, from their exec on, with all that they start
-  what.exclude_kernel = 1, what.exclude_hv = 1;
+  what.type = PERF_TYPE_HARDWARE;
+  what.config = PERF_COUNT_HW_INSTRUCTIONS;
+  what.disabled = 1;
+  what.inherit = 1;
+  what.enable_on_exec = 1;  // of the children, from their exec on, with all that they start
+  what.exclude_kernel = 1;
+  what.exclude_hv = 1;
   fd_ = static_cast<int>(::syscall(SYS_perf_event_open, &what, 0, -1, -1, PERF_FLAG_FD_CLOEXEC));
 }
 
@@ -59,7 +63,8 @@ std::optional<double> callgrind_instructions(const ProcessSpec& run) {
   const auto valgrind = on_path("valgrind");
   if (valgrind.empty()) return {};
   spec.argv.insert(spec.argv.begin(), {valgrind, "--tool=callgrind", "--trace-children=yes", "--callgrind-out-file=/dev/null"});
-  spec.progress = {}, spec.status = {};
+  spec.progress = {};
+  spec.status = {};
   const auto end = run_process(spec);
   if (end.how != ProcessEnd::How::exited || end.code != 0) return {};
   return collected_instructions(end.log_tail);

@@ -27,7 +27,8 @@ struct Findings {
 /// The row says what its worst run says; a row that claims to be ok and has no run is a hole in the results.
 void settle_status(const CaseResult& result, EngineRow& engine, Findings& findings) {
   if (engine.runs.empty() && engine.status == Status::ok) {
-    engine.status = Status::error, engine.reason = "the results hold no run of it";
+    engine.status = Status::error;
+    engine.reason = "the results hold no run of it";
     findings.add(exit_missing, label_of(engine.name, engine.preset) + ": " + engine.reason);
   }
   for (const auto& run : engine.runs) {
@@ -153,7 +154,10 @@ void check_divergence(const CaseResult& result, Findings& findings) {
 }
 
 void check_planned(const Results& results, std::vector<std::string>& problems, std::set<int>& codes) {
-  const auto say = [&](const std::string& what) { problems.push_back(what), codes.insert(exit_missing); };
+  const auto say = [&](const std::string& what) {
+    problems.push_back(what);
+    codes.insert(exit_missing);
+  };
   if (results.cases.empty() && !results.interrupted) say("the results hold no case");
   std::set<std::string> seen;
   for (const auto& c : results.cases)
@@ -180,7 +184,8 @@ void judge(CaseResult& result, bool engines_were_chosen) {
   if (result.engines.empty()) findings.add(exit_missing, "no engine ran this case");
   for (auto& engine : result.engines) {
     settle_status(result, engine, findings);
-    engine.order.clear(), engine.gates.clear();
+    engine.order.clear();
+    engine.gates.clear();
     for (const auto& study : result.studies)
       for (auto& row : fit_orders(result, engine, study)) engine.order.push_back(std::move(row));
   }
@@ -210,7 +215,10 @@ void judge(Results& results) {
   const bool all_refused =
       codes == std::set<int>{exit_pass} &&
       std::all_of(results.cases.begin(), results.cases.end(), [](const auto& c) { return c.verdict == CaseVerdict::refused; });
-  for (const auto& what : unanswered(results)) results.problems.push_back(what), codes.insert(exit_missing);
+  for (const auto& what : unanswered(results)) {
+    results.problems.push_back(what);
+    codes.insert(exit_missing);
+  }
   results.exit_code = first_of(codes);
   results.verdict = all_refused ? CaseVerdict::refused : verdict_of(results.exit_code);
 }

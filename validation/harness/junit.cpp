@@ -63,7 +63,8 @@ std::string suite_text(const std::string& name, const std::vector<TestCase>& tes
   std::string body;
   int failures = 0, skipped = 0;
   for (const auto& t : tests) {
-    failures += t.failed, skipped += t.skipped;
+    failures += t.failed;
+    skipped += t.skipped;
     body += fmt::format("    <testcase classname=\"{}\" name=\"{}\">{}</testcase>\n", xml(t.class_name), xml(t.name), t.body);
   }
   return fmt::format("  <testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" skipped=\"{}\">\n{}  </testsuite>\n", xml(name),

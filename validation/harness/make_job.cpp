@@ -20,15 +20,24 @@ struct Gathered {
 Gathered gather(const InitialState& initial, int source) {
   Gathered g;
   for (std::size_t i = 0; i < initial.size(); ++i)
-    if (initial.source[i] == source)
-      g.position.push_back(initial.position[i]), g.velocity.push_back(initial.velocity[i]), g.mass.push_back(initial.mass[i]);
+    if (initial.source[i] == source) {
+      g.position.push_back(initial.position[i]);
+      g.velocity.push_back(initial.velocity[i]);
+      g.mass.push_back(initial.mass[i]);
+    }
   return g;
 }
 
 JobBody job_body(const Body& body, int row, const Gathered& particles) {
   JobBody b;
-  b.name = body.name, b.material = body.material, b.index = row, b.phase = body.phase, b.motion = body.motion;
-  b.keyframes = body.keyframes, b.temperature_held = body.temperature_held, b.angular_velocity = body.angular_velocity;
+  b.name = body.name;
+  b.material = body.material;
+  b.index = row;
+  b.phase = body.phase;
+  b.motion = body.motion;
+  b.keyframes = body.keyframes;
+  b.temperature_held = body.temperature_held;
+  b.angular_velocity = body.angular_velocity;
   if (particles.mass.empty()) return b;
   b.properties = mass_properties(particles.position, particles.mass);
   Vec3 momentum;

@@ -55,7 +55,10 @@ Results merge_shards(const std::vector<std::string>& folders, const std::string&
   fs::create_directories(out);
   Results whole = parts.front();
   whole.interrupted = false;  // what a shard that was stopped lacks is missing in the whole
-  whole.shard.clear(), whole.history.clear(), whole.cases.clear(), whole.planned.clear();
+  whole.shard.clear();
+  whole.history.clear();
+  whole.cases.clear();
+  whole.planned.clear();
   for (std::size_t k = 0; k < parts.size(); ++k) {
     std::move(parts[k].cases.begin(), parts[k].cases.end(), std::back_inserter(whole.cases));
     whole.planned.insert(whole.planned.end(), parts[k].planned.begin(), parts[k].planned.end());

@@ -160,10 +160,12 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
   const std::uint64_t seed = selection.seed.value_or(value.scene.seed);
   for (const JudgedMode mode : modes) {
     RunPlan base;
-    base.mode = mode, base.base = true;
+    base.mode = mode;
+    base.base = true;
     if (mode != JudgedMode::none) base.choice.mode = mode_from(to_string(mode));
     base.choice.seed = seed;
-    base.walkers = number_setting(engine.settings, "walkers"), base.iterations = number_setting(engine.settings, "iterations");
+    base.walkers = number_setting(engine.settings, "walkers");
+    base.iterations = number_setting(engine.settings, "iterations");
     base.label = base.group = mode == JudgedMode::none ? "base" : to_string(mode);
     const Scene scene = scene_of(value, base);
     for (const auto& study :
@@ -191,7 +193,9 @@ std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEnt
   std::vector<EnginePlan> plans;
   for (const auto& engine : engines_of(value, found, selection)) {
     EnginePlan plan;
-    plan.name = engine.name, plan.required = engine.required, plan.settings = settings_of(value, engine);
+    plan.name = engine.name;
+    plan.required = engine.required;
+    plan.settings = settings_of(value, engine);
     plan.entry = find_engine(found, engine.name);
     if (plan.entry && !plan.entry->available)
       plan.runs.clear();

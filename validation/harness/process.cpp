@@ -90,7 +90,8 @@ class BoundedLog {
       const ssize_t n = ::write(file_.get(), data, size);
       if (n < 0 && errno == EINTR) continue;
       if (n <= 0) return file_.reset();  // a full disk must not stop the run: the tail is still in memory
-      data += n, size -= static_cast<std::size_t>(n);
+      data += n;
+      size -= static_cast<std::size_t>(n);
     }
   }
   Descriptor file_;
@@ -247,7 +248,10 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
   const auto take_output = [&](const char* p, std::size_t n) {
     end.output.append(p, std::min(n, kept_output - std::min(kept_output, end.output.size())));
   };
-  const auto take_log = [&](const char* p, std::size_t n) { log.add(p, n), progress.add(p, n); };
+  const auto take_log = [&](const char* p, std::size_t n) {
+    log.add(p, n);
+    progress.add(p, n);
+  };
   const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
   std::array<pollfd, 3> wait{pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}, pollfd{child.get(), POLLIN, 0}};
   bool reaped = false;
@@ -295,10 +299,16 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   watch_for_our_end(our_stray_mark());
   ProcessEnd end;
   int out[2], err[2];
-  if (::pipe2(out, O_CLOEXEC | O_NONBLOCK) != 0) return end.log_tail = std::strerror(errno), end;
+  if (::pipe2(out, O_CLOEXEC | O_NONBLOCK) != 0) {
+    end.log_tail = std::strerror(errno);
+    return end;
+  }
   const Descriptor out_read(out[0]);
   Descriptor out_write(out[1]);
-  if (::pipe2(err, O_CLOEXEC | O_NONBLOCK) != 0) return end.log_tail = std::strerror(errno), end;
+  if (::pipe2(err, O_CLOEXEC | O_NONBLOCK) != 0) {
+    end.log_tail = std::strerror(errno);
+    return end;
+  }
   const Descriptor err_read(err[0]);
   Descriptor err_write(err[1]);
   for (const int end_of_child : {out[1], err[1]}) ::fcntl(end_of_child, F_SETFL, 0);  // the child writes blocking

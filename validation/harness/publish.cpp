@@ -33,7 +33,10 @@ Badge badge_of(const Results& results, const GateVerdict& verdict) {
   int all = 0, green = 0;
   for (const auto& c : results.cases)
     for (const auto& e : c.engines)
-      for (const auto& g : e.gates) ++all, green += g.verdict == Verdict::pass;
+      for (const auto& g : e.gates) {
+        ++all;
+        green += g.verdict == Verdict::pass;
+      }
   const std::string count = fmt::format("{}/{} gates", green, all);
   if (verdict.code == exit_pass) return {count, "#2e7d32"};
   const bool open = verdict.code == exit_inconclusive || verdict.code == exit_cost || verdict.code == exit_interrupted;
@@ -59,7 +62,10 @@ std::string badge_text(const Results& results, const GateVerdict& verdict, bool 
   const auto badge = badge_of(results, verdict);
   if (!json) return svg_of("accuracy", badge);
   Json answer;
-  answer["schemaVersion"] = 1, answer["label"] = "accuracy", answer["message"] = badge.message, answer["color"] = badge.colour;
+  answer["schemaVersion"] = 1;
+  answer["label"] = "accuracy";
+  answer["message"] = badge.message;
+  answer["color"] = badge.colour;
   return dumped(answer);
 }
 

@@ -164,7 +164,9 @@ class Recheck {
 void recheck_selection(const Results& results, std::vector<Remark>& list) {
   if (!results.filter_known || !results.shard.empty()) return;
   CaseFilter filter;
-  filter.what = results.what, filter.profile = results.profile, filter.tag = results.tag;
+  filter.what = results.what;
+  filter.profile = results.profile;
+  filter.tag = results.tag;
   const auto say = [&](const std::string& id, const std::string& what) {
     list.push_back({true, exit_missing, {}, id, what, infinity, "CHANGED"});
   };

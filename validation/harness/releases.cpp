@@ -77,7 +77,9 @@ Case case_for_releases(Case value, const EngineEntry& engine, const std::vector<
     if (levels.empty() && s.axes.axis == Axis::time_step && s.engine == engine.name) studies.push_back(s);
   if (studies.empty()) {
     Study study;
-    study.axes.axis = Axis::time_step, study.engine = engine.name, study.levels = levels;
+    study.axes.axis = Axis::time_step;
+    study.engine = engine.name;
+    study.levels = levels;
     const auto own = value.scene.time_step;
     if (levels.empty() && !own)
       throw InputError(value.id + " leaves the time step to the engine: name --levels a,b,c, coarse to fine [s]");

@@ -63,7 +63,10 @@ std::string table_of(const ReleaseTable& t, const MetricChoice& metric) {
   for (const auto& r : t.releases)
     for (const auto& e : r.result.engines)
       if (std::find(presets.begin(), presets.end(), e.preset) == presets.end()) presets.push_back(e.preset);
-  for (const auto& preset : presets) text += fmt::format(" {} |", markdown(preset)), rule += "---|";
+  for (const auto& preset : presets) {
+    text += fmt::format(" {} |", markdown(preset));
+    rule += "---|";
+  }
   text += "\n" + rule + "\n";
   for (const auto& r : t.releases) {
     text += fmt::format("| {} {} |", markdown(r.engine.name), markdown(r.engine.version));
@@ -96,7 +99,8 @@ std::string gates_of(const ReleaseTable& t) {
     std::string red;
     for (const auto& e : r.result.engines)
       for (const auto& g : e.gates) {
-        ++all, good += g.verdict == Verdict::pass;
+        ++all;
+        good += g.verdict == Verdict::pass;
         if (g.verdict != Verdict::pass) red += fmt::format("{}{} {}: {}", red.empty() ? "" : "; ", e.preset, g.metric, g.why);
       }
     any = any || all > 0;

@@ -22,7 +22,9 @@ int code_of(Verdict verdict) {
 
 Remark remark_on(const CaseResult& c, const EngineRow& e, const GateRow& row) {
   Remark remark;
-  remark.code = code_of(row.verdict), remark.place = row.gate.place, remark.excess = share_used(row);
+  remark.code = code_of(row.verdict);
+  remark.place = row.gate.place;
+  remark.excess = share_used(row);
   remark.title = fmt::format("{} {}{} {}{}", c.id, label_of(e.name, e.preset), after_blank(row.mode), row.metric,
                              row.level ? fmt::format(" at {:g}", *row.level) : "");
   remark.text = fmt::format("{}: {}; the limit is there because: {}", row.verdict, row.why, row.gate.reason);

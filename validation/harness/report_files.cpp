@@ -101,7 +101,8 @@ std::string notes_text(const Results& results) {
       names += fmt::format("{}{} in {} case{}", names.empty() ? "" : ", ", name, count, count == 1 ? "" : "s");
     if (!names.empty()) text += fmt::format("{}: {}\n", what, one_line(names));
   };
-  list("missing", missing), list("not judged", unjudged);
+  list("missing", missing);
+  list("not judged", unjudged);
   return text;
 }
 

@@ -136,7 +136,8 @@ class Reader {
   }
   void end(Status& status, std::string& reason) const {
     std::optional<Status> word;
-    (*this)("status", word), (*this)("reason", reason);
+    (*this)("status", word);
+    (*this)("reason", reason);
     status = word.value_or(Status::error);
     if (!word) reason = "the results give no status";
   }

@@ -65,7 +65,10 @@ class Writer {
   void operator()(const char* key, const std::optional<T>& record) {
     if (record) to_[key] = json(*record);
   }
-  void end(Status status, const std::string& reason) { (*this)("status", status), (*this)("reason", reason); }
+  void end(Status status, const std::string& reason) {
+    (*this)("status", status);
+    (*this)("reason", reason);
+  }
 
   template <class T>
   static Json json(const T& value) {

@@ -113,8 +113,13 @@ void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& ou
   auto second = request;
   second.folder = folder.string();
   write_job((folder / "job.json").string(), job_in_folder(second));
-  spec.argv.back() = (folder / "job.json").string(), spec.folder = second.folder, spec.log.clear();
-  if (const auto count = callgrind_instructions(spec)) outcome.cost.instructions = *count, outcome.cost.counted_by = "callgrind";
+  spec.argv.back() = (folder / "job.json").string();
+  spec.folder = second.folder;
+  spec.log.clear();
+  if (const auto count = callgrind_instructions(spec)) {
+    outcome.cost.instructions = *count;
+    outcome.cost.counted_by = "callgrind";
+  }
   fs::remove_all(folder, ignored);
 }
 
@@ -251,7 +256,8 @@ Outcome run_one(const RunRequest& request) {
   spec.log = (fs::path(request.folder) / "log.txt").string();
   std::error_code none;
   fs::remove(spec.log, none);  // --check may have left a link there, to a file of somebody else
-  spec.progress = request.progress, spec.status = request.status;
+  spec.progress = request.progress;
+  spec.status = request.status;
   const auto end = run_process(spec);
   auto outcome = read_back(request, end);
   if (particles_were_changed(request))

@@ -69,7 +69,8 @@ void conservation(const CaseResult& c, const RunRow& run, ScoreRow& row) {
     const auto at = run.metrics.find(m.name);
     if (!is_conserved(m) || at == run.metrics.end() || !std::isfinite(at->second.value)) continue;
     if (std::isfinite(row.drift) && std::abs(at->second.value) <= std::abs(row.drift)) continue;
-    row.drift = at->second.value, row.drift_metric = m.name;
+    row.drift = at->second.value;
+    row.drift_metric = m.name;
   }
 }
 
@@ -80,7 +81,11 @@ void observed(const EngineRow& e, ScoreRow& row) {
     if (o.mode == JudgedMode::paper) continue;
     if (!chosen || (o.metric == row.metric && chosen->metric != row.metric)) chosen = &o;
   }
-  if (chosen) row.order = chosen->order.value, row.order_metric = chosen->metric, row.order_class = chosen->order.fit_class;
+  if (chosen) {
+    row.order = chosen->order.value;
+    row.order_metric = chosen->metric;
+    row.order_class = chosen->order.fit_class;
+  }
 }
 
 std::string why(const GateRow& g) { return g.metric + ": " + (g.why.empty() ? std::string(to_string(g.verdict)) : g.why); }
@@ -102,7 +107,10 @@ Score score_of(Verdict verdict) {
 }
 
 void settle(const EngineRow& e, ScoreRow& row) {
-  const auto set = [&](Score verdict, const std::string& reason) { row.verdict = verdict, row.reason = reason; };
+  const auto set = [&](Score verdict, const std::string& reason) {
+    row.verdict = verdict;
+    row.reason = reason;
+  };
   if (const auto broken = broken_refusal(e); !broken.empty()) return set(Score::fail, broken);
   if (refuses_as_expected(e)) return set(Score::refused, "as expected: " + e.reason);
   if (e.status == Status::missing) return set(Score::missing, e.reason);
@@ -128,12 +136,16 @@ void settle(const EngineRow& e, ScoreRow& row) {
 
 ScoreRow row_of(const CaseResult& c, const EngineRow& e) {
   ScoreRow row;
-  row.case_id = c.id, row.title = c.title;
+  row.case_id = c.id;
+  row.title = c.title;
   const auto* gate = ranking_gate(c);
   if (gate) {
     const auto* metric = metric_of(c, gate->metric);
-    row.metric = gate->metric, row.unit = metric ? metric->unit : "", row.allowed = describe(*gate);
-    row.error = error_of(e, gate), row.share = std::abs(row.error) / edge(*gate);
+    row.metric = gate->metric;
+    row.unit = metric ? metric->unit : "";
+    row.allowed = describe(*gate);
+    row.error = error_of(e, gate);
+    row.share = std::abs(row.error) / edge(*gate);
     place(c, gate, e, row);
   }
   observed(e, row);
@@ -180,8 +192,11 @@ std::optional<Disagreement> disagreement_of(const CaseResult& c, const Case* val
   Disagreement d{c.id, gate->metric, metric ? metric->unit : "", describe(*gate), {}, {}, 0.0, {}};
   for (std::size_t i = 0; i < ran.size(); ++i)
     for (std::size_t j = i + 1; j < ran.size(); ++j)
-      if (const double x = apart(c, *gate, *ran[i], *ran[j]); x > d.difference)
-        d.difference = x, d.a = label_of(ran[i]->name, ran[i]->preset), d.b = label_of(ran[j]->name, ran[j]->preset);
+      if (const double x = apart(c, *gate, *ran[i], *ran[j]); x > d.difference) {
+        d.difference = x;
+        d.a = label_of(ran[i]->name, ran[i]->preset);
+        d.b = label_of(ran[j]->name, ran[j]->preset);
+      }
   if (!(d.difference > disagreement * edge(*gate))) return {};
   std::stable_sort(ran.begin(), ran.end(),
                    [&](const auto* a, const auto* b) { return std::abs(error_of(*a, gate)) < std::abs(error_of(*b, gate)); });
@@ -223,7 +238,10 @@ int EngineScore::count(Score verdict) const {
 
 Scorecard scorecard_of(const Results& results, const std::vector<Case>& cases, const std::vector<EngineEntry>& engines) {
   Scorecard card;
-  card.command = results.command, card.verdict = results.verdict, card.exit_code = results.exit_code, card.date = results.date,
+  card.command = results.command;
+  card.verdict = results.verdict;
+  card.exit_code = results.exit_code;
+  card.date = results.date;
   card.commit = results.tool.commit;
   for (const auto& c : results.cases) {
     const auto at = std::find_if(cases.begin(), cases.end(), [&](const auto& value) { return value.id == c.id; });

@@ -243,7 +243,9 @@ std::string write_scorecard(const Scorecard& card, const std::string& folder) {
   ProcessSpec spec;
   spec.argv = {python_program(), (fs::path(share_folder()) / "reports" / "scorecard.py").string(),
                (out / "scorecard.json").string()};
-  spec.wall_limit = page_limit, spec.outlives_interrupt = true, spec.log = (out / "scorecard.log").string();
+  spec.wall_limit = page_limit;
+  spec.outlives_interrupt = true;
+  spec.log = (out / "scorecard.log").string();
   const auto end = run_process(spec);
   if (end.how == ProcessEnd::How::exited && end.code == 0 && fs::exists(out / "scorecard.html")) return {};
   return fmt::format("the page of the scorecard {}: {}", describe(end), end.log_tail);

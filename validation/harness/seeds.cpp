@@ -35,8 +35,13 @@ SeedOutcome& outcome_for(const CaseResult& c, const EngineRow& e, const GateRow&
       return g;
     }
   SeedOutcome g;
-  g.case_id = c.id, g.engine = label_of(e.name, e.preset), g.mode = row.mode, g.metric = row.metric, g.allows = allows,
-  g.level = row.level, g.gate = row.gate;
+  g.case_id = c.id;
+  g.engine = label_of(e.name, e.preset);
+  g.mode = row.mode;
+  g.metric = row.metric;
+  g.allows = allows;
+  g.level = row.level;
+  g.gate = row.gate;
   all.gates.push_back(g);
   taken.insert(&all.gates.back());
   return all.gates.back();
@@ -88,7 +93,8 @@ void settle(SeedsOutcome& all) {
     double sum = 0.0, squares = 0.0;
     for (const double v : g.values) sum += v / n;
     for (const double v : g.values) squares += (v - sum) * (v - sum);
-    g.mean = sum, g.deviation = n > 1.0 ? std::sqrt(squares / (n - 1.0)) : not_a_number;
+    g.mean = sum;
+    g.deviation = n > 1.0 ? std::sqrt(squares / (n - 1.0)) : not_a_number;
     g.distance = g.deviation > 0.0 ? room(g.gate, g.mean) / g.deviation : not_a_number;
     alarm = alarm || !g.alarms.empty();
   }
@@ -108,7 +114,8 @@ SeedsOutcome try_seeds(const std::vector<Case>& cases, const std::vector<EngineE
     all.cases.push_back(value.id);
     for (int k = 1; k <= count; ++k) {
       SuiteOptions suite;
-      suite.jobs = o.jobs, suite.say = o.say;
+      suite.jobs = o.jobs;
+      suite.say = o.say;
       suite.out = (fs::path(o.out) / "seeds").string();
       suite.selection.seed = value.scene.seed + seeds_apart * static_cast<std::uint64_t>(k);
       suite.wanted = [&](const EnginePlan& e, const RunPlan&) {

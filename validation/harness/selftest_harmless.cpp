@@ -93,7 +93,9 @@ std::vector<HarmlessOutcome> try_harmless(const Case& value, const EngineEntry& 
     SuiteOptions suite;
     suite.selection.engines = {"tripoint"};
     suite.environment["OMP_WAIT_POLICY"] = "passive";  // two threads on a busy core would spin for each other
-    suite.jobs = o.jobs, suite.say = o.say, suite.change = change;
+    suite.jobs = o.jobs;
+    suite.say = o.say;
+    suite.change = change;
     suite.out = (std::filesystem::path(o.out) / (change ? "harmless-" + std::string(change->name) : "no-change")).string();
     suite.wanted = [](const EnginePlan&, const RunPlan& plan) { return plan.base; };
     auto results = run_suite({value}, {engine}, suite);

@@ -46,7 +46,8 @@ CaseResult run_with_defect(const Case& value, const EngineEntry& engine, const s
                            const std::string& defect, const std::string& folder, const SelftestOptions& o) {
   SuiteOptions suite;
   suite.selection.engines = {engine.name};
-  suite.jobs = o.jobs, suite.say = o.say;
+  suite.jobs = o.jobs;
+  suite.say = o.say;
   suite.out = (std::filesystem::path(o.out) / folder).string();
   if (!defect.empty()) suite.environment["TRIPOINT_DEFECT"] = defect;
   suite.wanted = [&](const EnginePlan&, const RunPlan& run) { return is_needed(value, engine.name, metrics, run); };

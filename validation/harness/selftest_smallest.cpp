@@ -18,7 +18,10 @@ std::string red_metric(const CaseResult& result, const std::vector<std::string>&
 
 SmallestOutcome bisect(const Case& value, const Defect& defect, const EngineEntry& engine, const SelftestOptions& o) {
   SmallestOutcome outcome;
-  outcome.defect = defect.name, outcome.case_id = value.id, outcome.stored = *defect.smallest, outcome.place = defect.place;
+  outcome.defect = defect.name;
+  outcome.case_id = value.id;
+  outcome.stored = *defect.smallest;
+  outcome.place = defect.place;
   for (const auto& d : engine.defects)
     if (d.name == defect.name) outcome.what = d.what;
   const auto is_red = [&](double size) {
@@ -31,7 +34,8 @@ SmallestOutcome bisect(const Case& value, const Defect& defect, const EngineEntr
   // Of either sign: a value that happens to lie close to one edge of its limit would make the defects towards that edge look
   // visible however small.
   const auto found = smallest_visible(*defect.smallest, defect.size, [&](double size) { return is_red(size) && is_red(-size); });
-  outcome.runs = found.runs, outcome.hidden = found.hidden;
+  outcome.runs = found.runs;
+  outcome.hidden = found.hidden;
   if (found.size) outcome.size = *found.size;
   if (!found.size)
     outcome.verdict = Size::unseen;

@@ -49,7 +49,9 @@ Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool eng
   Remark r;
   r.error = slack > slack_fails && row.gate.date.empty() && !some_engine_is_absent(c, row.gate) &&
             !(engines_were_chosen && row.gate.engine.empty());
-  r.code = r.error ? exit_fail : exit_pass, r.place = row.gate.place, r.excess = slack;
+  r.code = r.error ? exit_fail : exit_pass;
+  r.place = row.gate.place;
+  r.excess = slack;
   r.title = fmt::format("{}: the limit of {} is loose", c.id, row.metric);
   r.text = fmt::format("{} is asked, {:.3g} with standard uncertainty {:.2g} was measured: room by a factor of {:.3g}{}",
                        describe(row.gate), row.value, row.uncertainty, slack,

@@ -24,15 +24,23 @@ SmallestVisible smallest_visible(double start, double greatest, const std::funct
       red = red ? std::min(*red, size) : size;
     else
       green = green ? std::max(*green, size) : size;
-    if (red && !green && *red < least_share * start) return result.size = red, result;
-    if (green && !red && *green >= greatest) return result.hidden = *green, result;
+    if (red && !green && *red < least_share * start) {
+      result.size = red;
+      return result;
+    }
+    if (green && !red && *green >= greatest) {
+      result.hidden = *green;
+      return result;
+    }
     size = red ? *red / stride : std::min(*green * stride, greatest);
   }
   while (*red / *green > smallest_resolution * (1.0 + 1e-9)) {  // 1e-9: the first stride itself, rounded, is fine enough
     const double middle = std::sqrt(*red * *green);
     (is_seen(middle) ? red : green) = middle;
   }
-  result.size = red, result.hidden = *green, result.found = true;
+  result.size = red;
+  result.hidden = *green;
+  result.found = true;
   return result;
 }
 

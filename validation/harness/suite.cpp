@@ -164,7 +164,8 @@ Results run_suite(const std::vector<Case>& cases, const std::vector<EngineEntry>
   Results results;
   results.tool = this_tool();
   results.seed = options.selection.seed.value_or(1);
-  results.only_engines = options.selection.engines, results.asked = options.selection.asked;
+  results.only_engines = options.selection.engines;
+  results.asked = options.selection.asked;
   results.seed_given = options.selection.seed.has_value();
   for (const auto& c : cases) results.planned.push_back(c.id);
   results.cases = Suite(cases, engines, options).run();

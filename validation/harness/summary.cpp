@@ -31,7 +31,10 @@ std::string engines_of(const CaseResult& c) {
 int green(const CaseResult& c, int& all) {
   int passed = 0;
   for (const auto& e : c.engines)
-    for (const auto& g : e.gates) ++all, passed += g.verdict == Verdict::pass;
+    for (const auto& g : e.gates) {
+      ++all;
+      passed += g.verdict == Verdict::pass;
+    }
   return passed;
 }
 

@@ -90,7 +90,10 @@ std::vector<TimingPair> timing_pairs(const CaseResult& result) {
 void time_case(const Case& value, const std::vector<EngineEntry>& found, int rounds, const SuiteOptions& options,
                CaseResult& result) {
   auto alone = options;
-  alone.out = (fs::path(options.out) / "timing").string(), alone.jobs = 1, alone.resume = false, alone.count_below = 0.0;
+  alone.out = (fs::path(options.out) / "timing").string();
+  alone.jobs = 1;
+  alone.resume = false;
+  alone.count_below = 0.0;
   alone.wanted = [&](const EnginePlan& engine, const RunPlan& plan) {
     const auto* row = engine.name == "exact" || !plan.input.empty() ? nullptr : row_of(result, engine, plan);
     return row && row->status == Status::ok;
@@ -117,7 +120,8 @@ void time_case(const Case& value, const std::vector<EngineEntry>& found, int rou
   for (const auto& timed : runs)
     if (std::any_of(timed.row->cost.repeats.begin(), timed.row->cost.repeats.end(), [](double s) { return !(s > 0.0); }))
       timed.row->cost.repeats.clear();
-  result.timing_rounds = rounds, result.timing_floor = not_a_number;
+  result.timing_rounds = rounds;
+  result.timing_floor = not_a_number;
   for (const auto& [engine, pairs] : twice)
     if (const double floor = noise_floor(pairs); !(result.timing_floor >= floor)) result.timing_floor = floor;
   fs::remove_all(alone.out);

@@ -99,8 +99,13 @@ void check_ledger_terms(const Case& c, std::vector<Finding>& findings) {
 Snapshot still_frame(const Job& job, const InitialState& initial, double time) {
   Snapshot s;
   s.time = time;
-  s.position = initial.position, s.velocity = initial.velocity, s.mass = initial.mass, s.temperature = initial.temperature;
-  s.phase = initial.phase, s.body = initial.body, s.material = initial.material;
+  s.position = initial.position;
+  s.velocity = initial.velocity;
+  s.mass = initial.mass;
+  s.temperature = initial.temperature;
+  s.phase = initial.phase;
+  s.body = initial.body;
+  s.material = initial.material;
   for (std::size_t i = 0; i < initial.size(); ++i) {
     s.id.push_back(static_cast<int>(i));
     s.density.push_back(job.scene.materials.at(static_cast<std::size_t>(initial.material[i])).density);
@@ -164,11 +169,16 @@ class Samples {
 void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, const Job& job, const Samples::Sample& from,
                const fs::path& folder, std::vector<Finding>& findings) {
   RunRequest request;
-  request.engine = engine.entry, request.job = &job, request.initial = &from.state;
-  request.folder = folder.string(), request.particles = from.file;
+  request.engine = engine.entry;
+  request.job = &job;
+  request.initial = &from.state;
+  request.folder = folder.string();
+  request.particles = from.file;
   const Outcome answer = ask(request);
   EngineRow row;
-  row.refuses = declared_refusal(engine.settings), row.status = answer.status, row.reason = answer.reason;
+  row.refuses = declared_refusal(engine.settings);
+  row.status = answer.status;
+  row.reason = answer.reason;
   if (const auto broken = broken_refusal(row); !broken.empty())
     return findings.push_back(
         {true, fmt::format("engine {} {}", label_of(engine.name, engine.preset), broken), {value.file, 0, 0}});

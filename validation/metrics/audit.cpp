@@ -75,7 +75,9 @@ std::string apart_from_its_particles(const Job& job, const InitialState& initial
     for (std::size_t k = 0; k < 3; ++k)
       sums[b].wraps =
           sums[b].wraps || (job.scene.periodic[k] && std::abs(arm[k]) > 0.25 * ((*job.scene.max)[k] - (*job.scene.min)[k]));
-    sums[b].mass += mass[i], sums[b].off += mass[i] * arm, sums[b].momentum += mass[i] * s.velocity[i];
+    sums[b].mass += mass[i];
+    sums[b].off += mass[i] * arm;
+    sums[b].momentum += mass[i] * s.velocity[i];
     sums[b].fastest = std::max(sums[b].fastest, norm(s.velocity[i]));
   }
   for (std::size_t b = 0; b < sums.size(); ++b) {

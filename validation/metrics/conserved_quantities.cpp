@@ -23,7 +23,9 @@ Vec3 vector_sum(const Snapshot& s, F term) {
   for (std::size_t i = 0; i < s.position.size(); ++i) {
     if (is_dead(s, i)) continue;
     const Vec3 t = term(i);
-    x += t.x, y += t.y, z += t.z;
+    x += t.x;
+    y += t.y;
+    z += t.z;
   }
   return {double(x), double(y), double(z)};
 }

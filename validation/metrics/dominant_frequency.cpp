@@ -24,7 +24,9 @@ Fit fit_at(const std::vector<double>& t, const std::vector<double>& y, double fr
   for (std::size_t n = 0; n < t.size(); ++n) {
     const double angle = 2.0 * std::numbers::pi * frequency * (t[n] - t.front());
     const Eigen::Vector3d basis(1.0, std::cos(angle), std::sin(angle));
-    A += basis * basis.transpose(), b += y[n] * basis, square += y[n] * y[n];
+    A += basis * basis.transpose();
+    b += y[n] * basis;
+    square += y[n] * y[n];
   }
   const Eigen::Vector3d x = A.ldlt().solve(b);
   return {x, std::max(0.0, square - x.dot(b))};
@@ -44,9 +46,15 @@ DominantFrequency dominant_frequency(const std::vector<double>& time, const std:
   const double length = time.back() - time.front(), highest = (count - 1.0) / length / least_samples_a_period,
                lowest = least_periods / length;
   double mean = 0.0, variance = 0.0, largest = 0.0;
-  for (const double y : value) mean += y / count, largest = std::max(largest, std::abs(y));
+  for (const double y : value) {
+    mean += y / count;
+    largest = std::max(largest, std::abs(y));
+  }
   std::vector<double> y;
-  for (const double one : value) y.push_back(one - mean), variance += y.back() * y.back();
+  for (const double one : value) {
+    y.push_back(one - mean);
+    variance += y.back() * y.back();
+  }
   if (!std::isfinite(variance)) return none("the quantity is not finite at all output times of the window");
   if (!(variance > 1e-24 * largest * largest * count)) return none("the quantity does not change: it has no frequency");
   if (!(highest > lowest)) return none("the window has too few output times for a frequency");
@@ -55,7 +63,10 @@ DominantFrequency dominant_frequency(const std::vector<double>& time, const std:
   int best = 0;
   double least = fit_at(time, y, lowest).rest;
   for (int n = 1; n <= steps; ++n)
-    if (const double rest = fit_at(time, y, lowest + n * step).rest; rest < least) least = rest, best = n;
+    if (const double rest = fit_at(time, y, lowest + n * step).rest; rest < least) {
+      least = rest;
+      best = n;
+    }
   if (best == 0 || best == steps)
     return none(
         "the quantity swings less than one and a half times in the window, or too fast for its output times: lengthen the window "

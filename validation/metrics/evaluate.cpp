@@ -124,9 +124,14 @@ double mean_over_time(const Series& s) {
 std::pair<double, double> slope_over_time(const Series& s) {
   const double n = static_cast<double>(s.value.size());
   double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0;
-  for (std::size_t i = 0; i < s.value.size(); ++i) t0 += s.times[i] / n, y0 += s.value[i] / n;
-  for (std::size_t i = 0; i < s.value.size(); ++i)
-    tt += (s.times[i] - t0) * (s.times[i] - t0), ty += (s.times[i] - t0) * (s.value[i] - y0);
+  for (std::size_t i = 0; i < s.value.size(); ++i) {
+    t0 += s.times[i] / n;
+    y0 += s.value[i] / n;
+  }
+  for (std::size_t i = 0; i < s.value.size(); ++i) {
+    tt += (s.times[i] - t0) * (s.times[i] - t0);
+    ty += (s.times[i] - t0) * (s.value[i] - y0);
+  }
   for (std::size_t i = 0; i < s.value.size(); ++i) rest += std::pow(s.value[i] - y0 - ty / tt * (s.times[i] - t0), 2);
   return {ty / tt, n > 2.0 ? std::sqrt(rest / (n - 2.0) / tt) : not_a_number};
 }
@@ -145,7 +150,8 @@ MetricValue stationary(const Series& s, MetricValue v) {
 /// The dominant frequency less the one that the case states: of a damped or uneven swing as of a sine.
 MetricValue frequency(const MetricInput& in, const Series& s) {
   MetricValue v;
-  v.times = s.times, v.series = s.value;
+  v.times = s.times;
+  v.series = s.value;
   const auto truth = in.reference.number("stated_frequency");
   if (!truth)
     return unformed("the norm frequency needs the true one in Hz: reference = {function = \"stated\", args = {frequency = ...}}");
@@ -160,7 +166,8 @@ MetricValue frequency(const MetricInput& in, const Series& s) {
 
 MetricValue over_time(Norm norm, const Series& s) {
   MetricValue v;
-  v.times = s.times, v.series = s.value;
+  v.times = s.times;
+  v.series = s.value;
   std::size_t k = s.value.size() - 1;
   if (norm == Norm::rms) {
     v.value = rms_over_time(s);
@@ -192,7 +199,10 @@ MetricValue l2_of_means(const MetricInput& in, const Quantity& quantity, const F
   for (const auto* now : chosen) {
     const auto error = quantity.error({in, *now, in.reference.beside(*now), *all.front()});
     if (!error.problem.empty()) return unformed(error.problem);
-    if (sum.error.empty()) sum = error, std::fill(sum.error.begin(), sum.error.end(), 0.0);
+    if (sum.error.empty()) {
+      sum = error;
+      std::fill(sum.error.begin(), sum.error.end(), 0.0);
+    }
     if (error.row != sum.row) return unformed("L2mean needs the same samples at all times of its window");
     for (std::size_t i = 0; i < error.error.size(); ++i) sum.error[i] += error.error[i] / static_cast<double>(chosen.size());
   }

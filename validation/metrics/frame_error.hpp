@@ -32,7 +32,11 @@ struct FrameError {
   std::vector<double> sigma;   ///< standard error of each sample; empty = none
   std::vector<long> row;       ///< particle id or body row, -1 for a single number
   std::string problem;
-  void add(double e, double w, long r) { error.push_back(e), weight.push_back(w), row.push_back(r); }
+  void add(double e, double w, long r) {
+    error.push_back(e);
+    weight.push_back(w);
+    row.push_back(r);
+  }
 };
 
 [[nodiscard]] inline FrameError problem(const std::string& why) {

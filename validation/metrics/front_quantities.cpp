@@ -48,7 +48,10 @@ Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames)
   const auto* curve = in.reference.measured("front");
   if (!axis || !curve) return {{}, {}, {}, {}, "the reference has no measured front, or names no axis along which it runs"};
   std::vector<double> t, x;
-  for (const auto* s : frames) t.push_back(s->time), x.push_back(front_of(in, *s, *axis));
+  for (const auto* s : frames) {
+    t.push_back(s->time);
+    x.push_back(front_of(in, *s, *axis));
+  }
   Fronts f;
   for (std::size_t n = 0; n < curve->time.size(); ++n) {
     const auto next = std::lower_bound(t.begin(), t.end(), curve->time[n]);
@@ -60,8 +63,10 @@ Fronts fronts(const MetricInput& in, const std::vector<const Snapshot*>& frames)
               "a front was measured at t = " + std::to_string(curve->time[n]) + " s, which the run's frames do not enclose"};
     const auto k = static_cast<std::size_t>(next - t.begin());
     const double share = (curve->time[n] - t[k - 1]) / (t[k] - t[k - 1]);
-    f.time.push_back(curve->time[n]), f.run.push_back(x[k - 1] + share * (x[k] - x[k - 1]));
-    f.measured.push_back(curve->value[n]), f.uncertainty.push_back(curve->uncertainty[n]);
+    f.time.push_back(curve->time[n]);
+    f.run.push_back(x[k - 1] + share * (x[k] - x[k - 1]));
+    f.measured.push_back(curve->value[n]);
+    f.uncertainty.push_back(curve->uncertainty[n]);
     if (!std::isfinite(f.run.back()))
       return {{}, {}, {}, {}, "the liquid has no front at t = " + std::to_string(f.time.back()) + " s"};
   }
@@ -74,10 +79,12 @@ MetricValue front_lead(const MetricInput& in, const std::vector<const Snapshot*>
   MetricValue v;
   std::size_t worst = 0;
   for (std::size_t n = 0; n < f.time.size(); ++n) {
-    v.times.push_back(f.time[n]), v.series.push_back(f.run[n] - f.measured[n]);
+    v.times.push_back(f.time[n]);
+    v.series.push_back(f.run[n] - f.measured[n]);
     if (std::abs(v.series[n]) > std::abs(v.series[worst])) worst = n;
   }
-  v.value = v.series[worst], v.uncertainty.data = f.uncertainty[worst];
+  v.value = v.series[worst];
+  v.uncertainty.data = f.uncertainty[worst];
   v.note = "at t = " + std::to_string(f.time[worst]) + " s";
   return v;
 }

@@ -82,7 +82,10 @@ std::optional<Spread> spread_of(const MetricInput& in, const Snapshot& s, std::s
     if (takes(in, i) && is_alive(s, i)) layers[s.position[i][axis]].push_back(i);
   double heat = 0.0, first = 0.0, square = 0.0, variance = 0.0;
   for (const auto& [x, list] : layers)
-    for (const auto i : list) heat += s.temperature[i] - base, first += x * (s.temperature[i] - base);
+    for (const auto i : list) {
+      heat += s.temperature[i] - base;
+      first += x * (s.temperature[i] - base);
+    }
   if (!(heat > 0.0)) return {};
   for (const auto& [x, list] : layers)
     for (const auto i : list) square += std::pow(x - first / heat, 2) * (s.temperature[i] - base);
@@ -92,7 +95,10 @@ std::optional<Spread> spread_of(const MetricInput& in, const Snapshot& s, std::s
     const bool one_count =
         std::ranges::all_of(list, [&](std::size_t i) { return s.temperature[i] == s.temperature[list.front()]; });
     double sum = 0.0, squares = 0.0;
-    for (const auto i : list) sum += s.temperature_error[i], squares += std::pow(s.temperature_error[i], 2);
+    for (const auto i : list) {
+      sum += s.temperature_error[i];
+      squares += std::pow(s.temperature_error[i], 2);
+    }
     variance += std::pow((std::pow(x - first / heat, 2) - square) / heat, 2) * (one_count ? sum * sum : squares);
   }
   return Spread{square, std::sqrt(variance)};

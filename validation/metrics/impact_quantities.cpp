@@ -39,8 +39,12 @@ MetricValue energy_gain(const MetricInput& in, const Frames& frames) {
     const double now = free_energy(in, *s);
     if (!std::isfinite(now)) return not_formed("the energy is not finite at t = " + std::to_string(s->time) + " s");
     least = std::min(least, now);
-    if (now - least > v.value) v.value = now - least, v.note = "most at t = " + std::to_string(s->time) + " s";
-    v.times.push_back(s->time), v.series.push_back(now);
+    if (now - least > v.value) {
+      v.value = now - least;
+      v.note = "most at t = " + std::to_string(s->time) + " s";
+    }
+    v.times.push_back(s->time);
+    v.series.push_back(now);
   }
   return v;
 }

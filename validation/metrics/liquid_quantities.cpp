@@ -39,7 +39,8 @@ FrameError at_interface(const FramePair& f, std::vector<double> Snapshot::*colum
   for (std::size_t i = 0; i < f.in.initial.size(); ++i) {
     const double away = std::abs(f.in.initial.position[i][*axis] - *place);
     if (!takes(f.in, i) || std::isnan(truth[i]) || away > f.in.job.scene.spacing) continue;
-    sum += run[i] - truth[i], count += 1.0;
+    sum += run[i] - truth[i];
+    count += 1.0;
   }
   return count > 0.0 ? single(sum / count) : problem("no particle of the metric's body begins at the interface");
 }
@@ -85,7 +86,8 @@ FrameError half_length(const FramePair& f) {
   for (std::size_t i = 0; i < f.in.initial.size(); ++i) {
     if (!takes(f.in, i)) continue;
     const double x = f.now.position[i][k];
-    low = std::min(low, x), high = std::max(high, x);
+    low = std::min(low, x);
+    high = std::max(high, x);
   }
   return high >= low ? single(0.5 * (high - low) + 0.5 * f.in.job.scene.spacing - *truth)
                      : problem("the metric takes no particle");

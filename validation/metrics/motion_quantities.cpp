@@ -26,8 +26,14 @@ struct Line {
 Line fit(const std::vector<double>& t, const std::vector<double>& y) {
   const double n = static_cast<double>(t.size());
   double t0 = 0.0, y0 = 0.0, tt = 0.0, ty = 0.0, rest = 0.0, last = 0.0;
-  for (std::size_t i = 0; i < t.size(); ++i) t0 += t[i] / n, y0 += y[i] / n;
-  for (std::size_t i = 0; i < t.size(); ++i) tt += (t[i] - t0) * (t[i] - t0), ty += (t[i] - t0) * (y[i] - y0);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    t0 += t[i] / n;
+    y0 += y[i] / n;
+  }
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    tt += (t[i] - t0) * (t[i] - t0);
+    ty += (t[i] - t0) * (y[i] - y0);
+  }
   double independent = 0.0;
   for (std::size_t i = 0; i < t.size(); ++i) {
     const double off = y[i] - y0 - ty / tt * (t[i] - t0);
@@ -116,8 +122,13 @@ MetricValue frequency_squared(const MetricInput& in, const Frames& frames) {
   std::vector<double> a;
   for (const auto* s : frames) a.push_back(mode_amplitude(in, *s, wave->wave_vector, wave->phase));
   double ss = 0.0, sp = 0.0, pp = 0.0, sn = 0.0, pn = 0.0;  // of now, previous and next
-  for (std::size_t n = 1; n + 1 < a.size(); ++n)
-    ss += a[n] * a[n], sp += a[n] * a[n - 1], pp += a[n - 1] * a[n - 1], sn += a[n] * a[n + 1], pn += a[n - 1] * a[n + 1];
+  for (std::size_t n = 1; n + 1 < a.size(); ++n) {
+    ss += a[n] * a[n];
+    sp += a[n] * a[n - 1];
+    pp += a[n - 1] * a[n - 1];
+    sn += a[n] * a[n + 1];
+    pn += a[n - 1] * a[n + 1];
+  }
   const double determinant = ss * pp - sp * sp, b = (sn * pp - pn * sp) / determinant, q = -(pn * ss - sn * sp) / determinant;
   const double cosine = 0.5 * b / std::sqrt(q),
                step = (frames.back()->time - frames.front()->time) / static_cast<double>(frames.size() - 1);
@@ -138,7 +149,9 @@ double spin_of(const MetricInput& in, const Snapshot& s) {
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
     if (!takes(in, i)) continue;
     const double m = in.initial.mass[i];
-    mass += m, centre += m * s.position[i], momentum += m * s.velocity[i];
+    mass += m;
+    centre += m * s.position[i];
+    momentum += m * s.velocity[i];
     L += m * cross(s.position[i], s.velocity[i]);
   }
   return norm(L - (1.0 / mass) * cross(centre, momentum));
@@ -149,7 +162,10 @@ MetricValue spin_rate(const MetricInput& in, const Frames& frames) {
   if (!truth) return unformed("the reference does not know how a spin decays");
   if (frames.size() < 2) return unformed("a rate needs two output times or more");
   std::vector<double> t, y;
-  for (const auto* s : frames) t.push_back(s->time), y.push_back(std::log(spin_of(in, *s)));
+  for (const auto* s : frames) {
+    t.push_back(s->time);
+    y.push_back(std::log(spin_of(in, *s)));
+  }
   const auto line = fit(t, y);
   MetricValue v;
   v.value = -line.slope - *truth;
@@ -167,10 +183,12 @@ MetricValue sway_frequency(const MetricInput& in, const Frames& frames) {
   for (const auto* s : frames) {
     double mass = 0.0, moment = 0.0;
     for (std::size_t i = 0; i < in.initial.size(); ++i)
-      if (takes(in, i))
-        mass += in.initial.mass[i],
-            moment += in.initial.mass[i] * displacement(in.job.scene, s->position[i], in.initial.position[i])[*axis];
-    t.push_back(s->time), y.push_back(moment / mass);
+      if (takes(in, i)) {
+        mass += in.initial.mass[i];
+        moment += in.initial.mass[i] * displacement(in.job.scene, s->position[i], in.initial.position[i])[*axis];
+      }
+    t.push_back(s->time);
+    y.push_back(moment / mass);
   }
   const Swing swing = fit_swing(t, y, 2.0 * std::numbers::pi * *truth);
   if (!swing.problem.empty()) return unformed(swing.problem);

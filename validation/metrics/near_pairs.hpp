@@ -24,7 +24,8 @@ void for_near_pairs(const Scene& scene, const std::vector<Vec3>& position, const
     if (!scene.periodic[k] || !scene.min || !scene.max) continue;
     const double length = (*scene.max)[k] - (*scene.min)[k];
     count[k] = std::max(1L, static_cast<long>(length / reach));
-    size[k] = length / static_cast<double>(count[k]), origin[k] = (*scene.min)[k];
+    size[k] = length / static_cast<double>(count[k]);
+    origin[k] = (*scene.min)[k];
   }
   const auto wrap = [&](Cell c) {
     for (std::size_t k = 0; k < 3; ++k)

@@ -70,9 +70,12 @@ bool has_floor(const FlooredPowerLaw& floored, const PowerLaw& plain, const List
 
 Order sized(FitClass name, double p, double low, double high, double coefficient, double floor = 0.0) {
   Order order;
-  order.value = p, order.low = low, order.high = high;
+  order.value = p;
+  order.low = low;
+  order.high = high;
   order.fit_class = name;
-  order.coefficient = coefficient, order.floor = floor;
+  order.coefficient = coefficient;
+  order.floor = floor;
   return order;
 }
 

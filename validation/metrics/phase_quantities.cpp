@@ -42,7 +42,8 @@ struct Box {
 std::string box_of(const FramePair& f, Box& box) {
   const auto measuring = f.in.reference.measuring();
   if (!measuring.box) return "mass_in_region needs a box: reference = {function = \"stated\", args = {min = [...], max = [...]}}";
-  box.low = measuring.box->low, box.high = measuring.box->high;
+  box.low = measuring.box->low;
+  box.high = measuring.box->high;
   if (!measuring.follows) return {};
   const long row = body_row(f.in);
   if (row < 0 || static_cast<std::size_t>(row) >= f.now.bodies.size() ||
@@ -76,7 +77,8 @@ std::string front(const FramePair& f, double& place, double& truth) {
     const double liquid = i < f.now.liquid_fraction.size() ? f.now.liquid_fraction[i] : f.now.phase[i] == 0 ? 1.0 : 0.0;
     volume += static_cast<long double>(rest_volume(f.in, i)) * (*melts ? liquid : 1.0 - liquid);
   }
-  place = double(volume) / *area, truth = *exact;
+  place = double(volume) / *area;
+  truth = *exact;
   return {};
 }
 
@@ -110,7 +112,10 @@ std::vector<long> changes(const MetricInput& in, const std::vector<std::vector<i
 /// none.
 MetricValue toggles(const MetricInput& in, const Frames& frames) {
   std::vector<std::vector<int>> run, true_phases;
-  for (const auto* s : frames) run.push_back(s->phase), true_phases.push_back(in.reference.beside(*s).phase);
+  for (const auto* s : frames) {
+    run.push_back(s->phase);
+    true_phases.push_back(in.reference.beside(*s).phase);
+  }
   const auto count = changes(in, run), truth = changes(in, true_phases);
   if (count.empty()) return not_formed("the trajectory has no phases");
   const auto returns = [](const std::vector<long>& list) {

@@ -69,7 +69,10 @@ double akaike(double residual, std::size_t n, std::size_t parameters) {
 PowerLaw fit_power_law(const std::vector<double>& h, const std::vector<double>& e) {
   const double n = static_cast<double>(h.size());
   double x_mean = 0.0, y_mean = 0.0, xx = 0.0, xy = 0.0;
-  for (std::size_t i = 0; i < h.size(); ++i) x_mean += std::log(h[i]) / n, y_mean += std::log(std::abs(e[i])) / n;
+  for (std::size_t i = 0; i < h.size(); ++i) {
+    x_mean += std::log(h[i]) / n;
+    y_mean += std::log(std::abs(e[i])) / n;
+  }
   for (std::size_t i = 0; i < h.size(); ++i) {
     const double x = std::log(h[i]) - x_mean;
     xx += x * x;

@@ -55,7 +55,9 @@ Column at_point(const MetricInput& in, const std::vector<Vec3>& place, const std
     if (!std::isfinite(value[i])) return {{}, "particle " + std::to_string(i) + " beside the probe has no finite value"};
     const double w = (1.0 - q) * (1.0 - q) * (1.0 + 2.0 * q);
     const Eigen::Vector4d basis(1.0, d.x, d.y, d.z);
-    A += w * basis * basis.transpose(), b += w * value[i] * basis, ++seen;
+    A += w * basis * basis.transpose();
+    b += w * value[i] * basis;
+    ++seen;
   }
   if (seen == 0)
     return {{}, "no particle that the metric takes lies within " + std::to_string(reach) + " m of the probe's point"};
@@ -117,7 +119,8 @@ FrameError mean(const FramePair& f, Of what, const char* quantity) {
     for (const auto i : particles) {
       if (!std::isfinite(column.value[i])) return {{}, "particle " + std::to_string(i) + " of the region has no finite value"};
       const long double v = i < f.in.initial.size() ? rest_volume(f.in, i) : particle_mass(f.in, f.now, i);
-      sum += v * column.value[i], volume += v;
+      sum += v * column.value[i];
+      volume += v;
     }
     return {{double(sum / volume)}, ""};
   };
@@ -153,7 +156,8 @@ FrameError centre(const FramePair& f) {
   for (std::size_t i = 0; i < f.now.position.size(); ++i) {
     if (!counts(f.in, f.now, i)) continue;
     const long double m = particle_mass(f.in, f.now, i);
-    sum += m * f.now.position[i][*axis], mass += m;
+    sum += m * f.now.position[i][*axis];
+    mass += m;
   }
   if (!(mass > 0)) return problem("the metric takes no particle that is alive");
   return against_truth(f, "centre", double(sum / mass));

@@ -33,7 +33,9 @@ std::map<long, Layer> layers(const FramePair& f, std::size_t axis) {
     layer.greatest_sigma = std::max(layer.greatest_sigma, sigma);
   }
   for (auto& [row, layer] : list) {
-    layer.place /= layer.weight, layer.run /= layer.weight, layer.truth /= layer.weight;
+    layer.place /= layer.weight;
+    layer.run /= layer.weight;
+    layer.truth /= layer.weight;
     layer.variance =
         layer.one_count ? layer.greatest_sigma * layer.greatest_sigma : layer.variance / (layer.weight * layer.weight);
   }

@@ -29,7 +29,8 @@ std::vector<double> mode_shape(const MetricInput& in, const Vec3& k, double phas
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
     shape.push_back(takes(in, i) ? std::cos(dot(k, in.initial.position[i]) + phase) : 0.0);
     const double w = takes(in, i) ? rest_volume(in, i) : 0.0;
-    mean += w * shape.back(), weight += w;
+    mean += w * shape.back();
+    weight += w;
   }
   for (std::size_t i = 0; i < shape.size(); ++i) shape[i] -= takes(in, i) ? double(mean / weight) : 0.0;
   return shape;
@@ -64,12 +65,17 @@ MetricValue decay_rate(const MetricInput& in, const Frames& frames) {
     if (y.empty() && a.value < 0.0) sign = -1.0;
     if (!(sign * a.value > 0.0))
       return unformed("the mode has no amplitude of its first sign at t = " + std::to_string(s->time) + " s");
-    t.push_back(s->time), y.push_back(std::log(sign * a.value)), u.push_back(a.sigma / std::abs(a.value));
+    t.push_back(s->time);
+    y.push_back(std::log(sign * a.value));
+    u.push_back(a.sigma / std::abs(a.value));
   }
   double mean = 0.0, tt = 0.0, ty = 0.0, spread = 0.0;
   for (const double x : t) mean += x / static_cast<double>(t.size());
-  for (std::size_t n = 0; n < t.size(); ++n)
-    tt += (t[n] - mean) * (t[n] - mean), ty += (t[n] - mean) * y[n], spread += std::abs(t[n] - mean) * u[n];
+  for (std::size_t n = 0; n < t.size(); ++n) {
+    tt += (t[n] - mean) * (t[n] - mean);
+    ty += (t[n] - mean) * y[n];
+    spread += std::abs(t[n] - mean) * u[n];
+  }
   MetricValue v;
   v.value = -ty / tt / *rate - 1.0;
   v.uncertainty.statistical = spread / tt / *rate;

@@ -22,7 +22,8 @@ Extent extent_of(const MetricInput& in) {
   const double half = 0.5 * in.job.scene.spacing;
   for (const auto i : sampled(in, e.bar)) {
     const double x = in.initial.position[i][e.axis];
-    e.low = std::min(e.low, x - half), e.high = std::max(e.high, x + half);
+    e.low = std::min(e.low, x - half);
+    e.high = std::max(e.high, x + half);
   }
   return e;
 }
@@ -114,7 +115,10 @@ Swing fit_swing(const std::vector<double>& t, const std::vector<double>& y, doub
   int best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int n = 0; n <= count; ++n)
-    if (const double r = rest(place(n)); r < least) least = r, best = n;
+    if (const double r = rest(place(n)); r < least) {
+      least = r;
+      best = n;
+    }
   if (best == 0 || best == count) return {0, 0, 0, "the swing's frequency is not between 0.4 and 2.5 of the true one"};
   double low = place(best - 1), high = place(best + 1);
   const double golden = 0.5 * (std::sqrt(5.0) - 1.0);

@@ -54,7 +54,8 @@ std::string deflections(const MetricInput& in, const Frames& frames, std::vector
   for (const auto* s : frames) {
     const auto measured = deflection(in, *s);
     if (!measured.problem.empty()) return measured.problem;
-    t.push_back(s->time), w.push_back(measured.value);
+    t.push_back(s->time);
+    w.push_back(measured.value);
   }
   return {};
 }
@@ -117,7 +118,8 @@ MetricValue residual_stretch(const MetricInput& in, const Frames& frames) {
     const auto f = reaction(in, *s), l = stretch(in, *s, in.reference.number("stretch_gauge").value_or(1.0));
     for (const auto& m : {f, l})
       if (!m.problem.empty()) return not_formed(m.problem);
-    force.push_back(f.value), length.push_back(l.value);
+    force.push_back(f.value);
+    length.push_back(l.value);
   }
   const auto longest = static_cast<std::size_t>(std::max_element(length.begin(), length.end()) - length.begin());
   for (std::size_t n = longest + 1; n < force.size(); ++n) {

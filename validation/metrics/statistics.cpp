@@ -27,9 +27,13 @@ std::size_t burn_in_of(const List& x) {
   double least = std::numeric_limits<double>::infinity(), sum = 0.0, sum_of_squares = 0.0;
   const double about = mean(x, 0);
   for (std::size_t cut = x.size(); cut-- > 0;) {  // from the back: what is left grows by one sample a turn
-    sum += x[cut] - about, sum_of_squares += (x[cut] - about) * (x[cut] - about);
+    sum += x[cut] - about;
+    sum_of_squares += (x[cut] - about) * (x[cut] - about);
     const double n = static_cast<double>(x.size() - cut), error = (sum_of_squares - sum * sum / n) / (n * n);
-    if (2 * cut <= x.size() && x.size() - cut >= least_blocks && error <= least * (1.0 + 1e-12)) least = error, best = cut;
+    if (2 * cut <= x.size() && x.size() - cut >= least_blocks && error <= least * (1.0 + 1e-12)) {
+      least = error;
+      best = cut;
+    }
   }
   return best;
 }

@@ -63,7 +63,8 @@ Results join(const std::string& dir, const Queue& queue, const std::vector<Engin
   for (const auto& job : queue.jobs) jobs[{job.case_id, job.engine, job.preset, job.label}] = &job;
   copy_runs(dir, out);
   auto options = options_of(queue);
-  options.out = out, options.on_case = on_case;
+  options.out = out;
+  options.on_case = on_case;
   options.made = [&](const CaseRuns& all, const CaseRun& run) {
     const auto& engine = all.engines[run.engine];
     const auto at = jobs.find({all.value->id, engine.name, engine.preset, run.plan.label});
@@ -76,7 +77,9 @@ Results join(const std::string& dir, const Queue& queue, const std::vector<Engin
     return published_row(dir, *at->second);
   };
   auto results = run_suite(cases_of(queue), engines, options);
-  results.profile = queue.filter.profile, results.what = queue.filter.what, results.tag = queue.filter.tag;
+  results.profile = queue.filter.profile;
+  results.what = queue.filter.what;
+  results.tag = queue.filter.tag;
   results.filter_known = queue.filter.substring.empty();
   return results;
 }

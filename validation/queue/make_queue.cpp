@@ -25,7 +25,10 @@ void add_jobs(const Case& value, const std::vector<EngineEntry>& engines, const 
     QueuedJob job;
     const auto& engine = all.engines[run.engine];
     job.id = run_id(all, run, options);
-    job.case_id = value.id, job.engine = engine.name, job.preset = engine.preset, job.label = run.plan.label;
+    job.case_id = value.id;
+    job.engine = engine.name;
+    job.preset = engine.preset;
+    job.label = run.plan.label;
     const auto known = costs.find(run_folder(job));
     made.measured += known == costs.end() ? 0 : 1;
     job.cost = known == costs.end() ? predicted_cost(run.job, engine.name, run.initial->size()) : known->second;

@@ -18,13 +18,19 @@ namespace {
 
 Queue queue_from(const Json& document) {
   Queue q;
-  q.folder = document.at("folder"), q.command = document.at("command");
-  q.filter.what = document.at("what"), q.filter.profile = document.at("profile"), q.filter.tag = document.at("tag"),
+  q.folder = document.at("folder");
+  q.command = document.at("command");
+  q.filter.what = document.at("what");
+  q.filter.profile = document.at("profile");
+  q.filter.tag = document.at("tag");
   q.filter.substring = document.at("substring");
-  q.selection.engines = document.at("only_engines"), q.selection.extra = document.at("extra"),
+  q.selection.engines = document.at("only_engines");
+  q.selection.extra = document.at("extra");
   q.selection.asked = document.at("asked");
   if (!document.at("seed").is_null()) q.selection.seed = document.at("seed").get<std::uint64_t>();
-  q.engine_words = document.at("engine_words"), q.threads = document.at("threads"), q.wall_limit = document.at("wall_limit");
+  q.engine_words = document.at("engine_words");
+  q.threads = document.at("threads");
+  q.wall_limit = document.at("wall_limit");
   for (const auto& c : document.at("cases")) q.cases.push_back({c.at("id"), c.at("file")});
   q.jobs.reserve(document.at("jobs").size());
   for (const auto& j : document.at("jobs"))
@@ -107,7 +113,9 @@ std::vector<Case> cases_of(const Queue& queue) {
 
 SuiteOptions options_of(const Queue& queue) {
   SuiteOptions options;
-  options.selection = queue.selection, options.threads = queue.threads, options.wall_limit = queue.wall_limit;
+  options.selection = queue.selection;
+  options.threads = queue.threads;
+  options.wall_limit = queue.wall_limit;
   return options;
 }
 

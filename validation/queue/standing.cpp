@@ -50,10 +50,14 @@ Standing look(const std::string& dir, const Queue& queue) {
   std::unordered_map<std::string, std::string> holder;
   for (const auto& name : running) {
     const auto [id, worker] = parts_of(name);
-    holder[id] = worker, all.workers[worker] = {};
+    holder[id] = worker;
+    all.workers[worker] = {};
   }
   std::map<std::string, bool> alive;
-  for (auto& [name, sign] : all.workers) sign = read_sign(dir, name, now), alive[name] = is_alive(sign);
+  for (auto& [name, sign] : all.workers) {
+    sign = read_sign(dir, name, now);
+    alive[name] = is_alive(sign);
+  }
   for (const auto& name : names_in(dir, state::lost)) ++all.losses[parts_of(name).first];
   all.doubled = names_in(dir, state::doubled);
   for (const auto& job : queue.jobs) {

@@ -39,7 +39,9 @@ void learn_speed(const std::string& dir, const Queue& queue, std::size_t sample,
   for (std::size_t n = 0; n < queue.jobs.size(); ++n) {
     if (status.standing.jobs[n].stand != Stand::done || seen++ % every != 0) continue;
     const auto note = note_of(place(dir, state::done, queue.jobs[n].id));
-    took += note.value("wall_s", 0.0), predicted += queue.jobs[n].cost, ++status.sampled;
+    took += note.value("wall_s", 0.0);
+    predicted += queue.jobs[n].cost;
+    ++status.sampled;
   }
   if (took > 0.0 && predicted > 0.0) status.speed = took / predicted;
 }

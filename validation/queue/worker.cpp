@@ -94,7 +94,9 @@ WorkerSign read_sign(const std::string& dir, const std::string& worker, double n
   sign.age = changed < 0.0 ? std::numeric_limits<double>::infinity() : std::max(0.0, now_file - changed);
   const auto document = nlohmann::json::parse(text_of(file), nullptr, false);
   if (!document.is_object()) return sign;
-  sign.host = document.value("host", ""), sign.machine = document.value("machine", ""), sign.pid = document.value("pid", 0L),
+  sign.host = document.value("host", "");
+  sign.machine = document.value("machine", "");
+  sign.pid = document.value("pid", 0L);
   sign.started = document.value("started", "");
   return sign;
 }

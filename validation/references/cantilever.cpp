@@ -60,7 +60,8 @@ double end_velocity(const ReferenceInput& in, std::size_t bar, std::size_t axis,
   for (std::size_t i = 0; i < in.initial.size(); ++i) {
     if (in.initial.source[i] != static_cast<int>(bar) || end * (face - in.initial.position[i][axis]) > in.job.scene.spacing)
       continue;
-    sum += dot(in.initial.velocity[i], direction), count += 1.0;
+    sum += dot(in.initial.velocity[i], direction);
+    count += 1.0;
   }
   return count > 0.0 ? sum / count : 0.0;
 }

@@ -46,10 +46,13 @@ struct CollapseMesh::System {
         damping_force(damping * std::sqrt(height) / (16.0 * cells)),
         cell_area(height / (static_cast<double>(across) * up)) {
     const auto nodes = static_cast<Eigen::Index>(across + 1) * (up + 1);
-    place.resize(2 * nodes), fall = Vector::Zero(2 * nodes), mass = Vector::Zero(nodes);
+    place.resize(2 * nodes);
+    fall = Vector::Zero(2 * nodes);
+    mass = Vector::Zero(nodes);
     for (int i = 0; i <= across; ++i)
       for (int j = 0; j <= up; ++j) {
-        place[2 * node(i, j)] = static_cast<double>(i) / across, place[2 * node(i, j) + 1] = height * j / up;
+        place[2 * node(i, j)] = static_cast<double>(i) / across;
+        place[2 * node(i, j) + 1] = height * j / up;
         fall[2 * node(i, j) + 1] = j == 0 ? 0.0 : -1.0;
       }
     for (int i = 0; i < across; ++i)
@@ -61,7 +64,8 @@ struct CollapseMesh::System {
     for (Eigen::Index n = 0; n < nodes; ++n) mobility[2 * n] = mobility[2 * n + 1] = 1.0 / mass[n];
     for (int j = 0; j <= up; ++j) mobility[2 * node(0, j)] = 0.0;          // the wall
     for (int i = 0; i <= across; ++i) mobility[2 * node(i, 0) + 1] = 0.0;  // the floor
-    velocity = Vector::Zero(2 * nodes), multiplier = Vector::Zero(static_cast<Eigen::Index>(corners.size()));
+    velocity = Vector::Zero(2 * nodes);
+    multiplier = Vector::Zero(static_cast<Eigen::Index>(corners.size()));
     first_energy = energy();
   }
 
@@ -88,7 +92,8 @@ struct CollapseMesh::System {
       for (std::size_t k = 0; k < 4; ++k) {
         const auto g = corners[c].gradient(place, k);
         const auto row = static_cast<int>(c), column = static_cast<int>(2 * corners[c].node[k]);
-        entries.emplace_back(row, column, g[0]), entries.emplace_back(row, column + 1, g[1]);
+        entries.emplace_back(row, column, g[0]);
+        entries.emplace_back(row, column + 1, g[1]);
       }
     Matrix out(static_cast<Eigen::Index>(corners.size()), place.size());
     out.setFromTriplets(entries.begin(), entries.end());
@@ -102,15 +107,23 @@ struct CollapseMesh::System {
     for (const auto& c : corners) {
       std::array<double, 4> shape = turns;
       double along_x = 0.0, along_y = 0.0;
-      for (std::size_t k = 0; k < 4; ++k) along_x += turns[k] * c.x(place, k), along_y += turns[k] * c.y(place, k);
+      for (std::size_t k = 0; k < 4; ++k) {
+        along_x += turns[k] * c.x(place, k);
+        along_y += turns[k] * c.y(place, k);
+      }
       for (std::size_t k = 0; k < 4; ++k) {
         const auto g = c.gradient(place, k);
         shape[k] -= (g[0] * along_x + g[1] * along_y) / cell_area;
       }
       double x = 0.0, y = 0.0;
-      for (std::size_t k = 0; k < 4; ++k) x += shape[k] * c.x(velocity, k), y += shape[k] * c.y(velocity, k);
-      for (std::size_t k = 0; k < 4; ++k)
-        force[2 * c.node[k]] -= damping_force * shape[k] * x, force[2 * c.node[k] + 1] -= damping_force * shape[k] * y;
+      for (std::size_t k = 0; k < 4; ++k) {
+        x += shape[k] * c.x(velocity, k);
+        y += shape[k] * c.y(velocity, k);
+      }
+      for (std::size_t k = 0; k < 4; ++k) {
+        force[2 * c.node[k]] -= damping_force * shape[k] * x;
+        force[2 * c.node[k] + 1] -= damping_force * shape[k] * y;
+      }
     }
     return force;
   }
@@ -127,9 +140,11 @@ struct CollapseMesh::System {
          error = excess(next)) {  // not a number, too
       if (++round > most_rounds || !error.allFinite()) throw InputError("collapsing_column: the mesh is too distorted to go on");
       const Vector more = solver.solve(error);
-      next -= push * more, multiplier -= more;
+      next -= push * more;
+      multiplier -= more;
     }
-    velocity = (next - place) / dt, place = next;
+    velocity = (next - place) / dt;
+    place = next;
   }
 
   int across, up;
@@ -181,7 +196,8 @@ double CollapseMesh::pressure_at(double x, double y) const {
     for (int j = std::max(0, nearest[1] - 1); j <= std::min(s.up - 1, nearest[1] + 1); ++j) {
       const Eigen::Vector2d away = middle(i, j) - at;
       const Eigen::Vector3d basis(1.0, away[0], away[1]);
-      A += basis * basis.transpose(), b += pressure(i, j) * basis;
+      A += basis * basis.transpose();
+      b += pressure(i, j) * basis;
     }
   return A.ldlt().solve(b)[0];
 }
@@ -193,7 +209,10 @@ std::vector<double> fronts_of(const LiquidColumn& column, int cells, const std::
   std::vector<double> out;
   double before = mesh.front();
   for (const double t : times) {
-    while (mesh.time() < t) before = mesh.front(), mesh.step();
+    while (mesh.time() < t) {
+      before = mesh.front();
+      mesh.step();
+    }
     const double share = 1.0 - (mesh.time() - t) / mesh.step_size();
     out.push_back(mesh.time() > 0.0 ? before + share * (mesh.front() - before) : before);
   }

@@ -26,7 +26,10 @@ class EllipticDrop : public LiquidReference {
 
  protected:
   [[nodiscard]] LiquidState state(const Vec3& place, double time, std::size_t) const override {
-    if (time != time_) now_ = elliptic_drop(rate_, radius_, time), time_ = time;
+    if (time != time_) {
+      now_ = elliptic_drop(rate_, radius_, time);
+      time_ = time;
+    }
     const Vec3 d = place - centre_;
     LiquidState s;
     s.velocity = {-now_.rate * d.x, now_.rate * d.y, 0.0};

@@ -92,8 +92,10 @@ class Reader {
       hash_ = value;
     else if (key == "unit" && !column.empty())
       units_[column] = unit(value);
-    else if (key == "uncertainty" && !column.empty())
-      uncertainty_[column] = uncertainty(value), words_[column] = value;
+    else if (key == "uncertainty" && !column.empty()) {
+      uncertainty_[column] = uncertainty(value);
+      words_[column] = value;
+    }
   }
 
   double unit(const std::string& value) const {
@@ -150,13 +152,16 @@ class Reader {
 
   [[nodiscard]] ExperimentFile finished() const {
     ExperimentFile file;
-    file.source = source_, file.uncertainty = words_, file.first = columns_.front();
+    file.source = source_;
+    file.uncertainty = words_;
+    file.first = columns_.front();
     for (std::size_t c = 1; c < columns_.size(); ++c) {
       const auto& u = uncertainty_.at(columns_[c]);
       const double unit = units_.at(columns_[c]);
       auto& curve = file.curves[columns_[c]];
       for (const auto& values : rows_) {
-        curve.time.push_back(values[0] * units_.at(columns_.front())), curve.value.push_back(values[c] * unit);
+        curve.time.push_back(values[0] * units_.at(columns_.front()));
+        curve.value.push_back(values[c] * unit);
         curve.uncertainty.push_back(u.rest == "%" ? 0.01 * u.number * std::abs(values[c]) * unit : u.number * unit);
       }
     }

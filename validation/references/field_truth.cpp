@@ -29,7 +29,9 @@ Snapshot fields_beside(const Snapshot& now, const FieldOf& field) {
     const auto f = field(name);
     for (std::size_t i = 0; f && i < now.position.size(); ++i) column.push_back(f(now.position[i]));
   };
-  fill("temperature", out.temperature), fill("pressure", out.pressure), fill("density", out.density);
+  fill("temperature", out.temperature);
+  fill("pressure", out.pressure);
+  fill("density", out.density);
   const std::function<double(const Vec3&)> v[3] = {field("velocity_x"), field("velocity_y"), field("velocity_z")};
   if (!v[0] && !v[1] && !v[2]) return out;
   for (const Vec3& r : now.position) {

@@ -71,7 +71,9 @@ class Landing : public Reference {
     out.bodies = rows_;
     auto& b = out.bodies[row_];
     const FreeBox& now = time <= touch_ ? before_ : after_;
-    b.position = now.place(time), b.velocity = now.speed(time), b.orientation = now.orientation(time),
+    b.position = now.place(time);
+    b.velocity = now.speed(time);
+    b.orientation = now.orientation(time);
     b.angular_velocity = now.angular_velocity(time);
     if (time > known_to_) b.position = {not_a_number, not_a_number, not_a_number};
     return out;

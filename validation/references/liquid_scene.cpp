@@ -62,9 +62,12 @@ Snapshot LiquidReference::fields(const std::vector<Vec3>& places, double time) c
   bool velocity = false, pressure = false, density = false;
   for (std::size_t i = 0; i < std::min(places.size(), initial_.size()); ++i) {
     const LiquidState s = is_liquid(i) ? state(places[i], time, i) : LiquidState{};
-    out.velocity.push_back(s.velocity), velocity |= finite(s.velocity);
-    out.pressure.push_back(s.pressure), pressure |= std::isfinite(s.pressure);
-    out.density.push_back(s.density), density |= std::isfinite(s.density);
+    out.velocity.push_back(s.velocity);
+    velocity |= finite(s.velocity);
+    out.pressure.push_back(s.pressure);
+    pressure |= std::isfinite(s.pressure);
+    out.density.push_back(s.density);
+    density |= std::isfinite(s.density);
   }
   if (!velocity) out.velocity.clear();  // what it knows of no particle it does not know
   if (!pressure) out.pressure.clear();

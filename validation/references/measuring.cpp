@@ -54,11 +54,13 @@ std::vector<ReferenceArgument> measuring_arguments() {
 
 Measuring stated_measuring(const ReferenceInput& in, const std::string& function) {
   Measuring m;
-  m.outside = in.args.flag("outside").value_or(false), m.follows = in.args.flag("follows").value_or(false);
+  m.outside = in.args.flag("outside").value_or(false);
+  m.follows = in.args.flag("follows").value_or(false);
   if (const auto word = in.args.word("phase")) m.phase = phase_of(*word, function);
   m.axis = in.args.axis("axis");
   if (const auto word = in.args.word("other")) m.other = body_named(in.job, *word, function);
-  m.box = stated_box(in, function), m.point = in.args.vector("point");
+  m.box = stated_box(in, function);
+  m.point = in.args.vector("point");
   return m;
 }
 

@@ -49,7 +49,8 @@ BodyOnPlane body_on_plane(const ReferenceInput& in, const char* function) {
   if (norm(g) == 0.0 || bodies.size() != 2)
     throw InputError(name + " holds for one free body on one that is held or moved, with gravity");
   BodyOnPlane s;
-  s.body = bodies[0].motion == Motion::free ? 0 : 1, s.plane = 1 - s.body;
+  s.body = bodies[0].motion == Motion::free ? 0 : 1;
+  s.plane = 1 - s.body;
   const auto &body = bodies[s.body], &plane = bodies[s.plane];
   if (body.motion != Motion::free || plane.motion == Motion::free || !plane.keyframes.empty() ||
       norm(plane.angular_velocity) > 0.0)
@@ -74,12 +75,15 @@ BodyOnPlane body_on_plane(const ReferenceInput& in, const char* function) {
   if (norm(body.angular_velocity - s.spin * about) > round_off * norm(body.angular_velocity))
     throw InputError(name + ": the body may spin about the axis that it rolls about only");
   s.half_length = half_along(shape, s.along);
-  s.pull = dot(g, s.along), s.press = -dot(g, s.up), s.speed = dot(relative, s.along);
+  s.pull = dot(g, s.along);
+  s.press = -dot(g, s.up);
+  s.speed = dot(relative, s.along);
   s.friction = in.args.number("friction").value_or(law_of_contact(in.job, "friction").value_or(0.0));
   if (s.friction < 0.0) throw InputError(name + ": friction is 0 or more");
   for (const auto& b : bodies) {
     BodyState row;
-    row.position = b.properties.centre, row.mass = b.properties.mass;
+    row.position = b.properties.centre;
+    row.mass = b.properties.mass;
     s.start.push_back(row);
   }
   return s;

@@ -31,7 +31,10 @@ class PlaneShear : public LiquidReference {
 std::size_t open_axis(const Job& job, const char* function) {
   std::size_t axis = 0, count = 0;
   for (std::size_t k = 0; k < 3; ++k)
-    if (!job.scene.periodic[k]) axis = k, ++count;
+    if (!job.scene.periodic[k]) {
+      axis = k;
+      ++count;
+    }
   if (count != 1)
     throw InputError(std::string(function) +
                      " holds between two plates: every direction but the one across them must be periodic");
@@ -87,7 +90,8 @@ std::unique_ptr<Reference> make_plane_shear(const ReferenceInput& in, const char
   flow.kinematic_viscosity =
       in.args.number("kinematic_viscosity") ? *in.args.number("kinematic_viscosity") : kinematic_viscosity(in.job, liquid);
   flow.drive = by_walls ? 0.0 : norm(drive);
-  flow.low_speed = dot(low, along), flow.high_speed = dot(high, along);
+  flow.low_speed = dot(low, along);
+  flow.high_speed = dot(high, along);
   return std::make_unique<PlaneShear>(in, flow, across, extent.low, along);
 }
 

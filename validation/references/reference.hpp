@@ -73,7 +73,8 @@ class Reference {
   }
   /// Standard uncertainty of what it says of a quantity at a time, in SI; empty where its data state none.
   [[nodiscard]] virtual std::optional<double> uncertainty(std::string_view quantity, double time) const {
-    (void)quantity, (void)time;
+    (void)quantity;
+    (void)time;
     return {};
   }
   /// A number that changes in time: stretch, front_position ...; one that does not is the same at all times.

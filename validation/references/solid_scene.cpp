@@ -72,7 +72,8 @@ BarLaw bar_law(const ReferenceInput& in, std::size_t bar, std::size_t axis) {
   const auto elastic = elastic_constants(in.job, bar);
   const auto& material = in.job.scene.material(in.job.bodies[bar].material);
   BarLaw law;
-  law.young = elastic.young, law.poisson_ratio = elastic.poisson_ratio;
+  law.young = elastic.young;
+  law.poisson_ratio = elastic.poisson_ratio;
   law.sides = bar_sides(in, axis);
   law.elastic_limit = material.elastic_limit.value_or(law.elastic_limit);
   law.plastic_limit = material.plastic_limit.value_or(law.plastic_limit);
@@ -81,7 +82,9 @@ BarLaw bar_law(const ReferenceInput& in, std::size_t bar, std::size_t axis) {
   if (form == "corrected") return law;
   const double given = in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
   const auto lattice = elastic_lattice_factors(in.args.number("support_ratio").value_or(given));
-  law.strain_factor = 1.0, law.moment = lattice.moment, law.volume = lattice.volume;
+  law.strain_factor = 1.0;
+  law.moment = lattice.moment;
+  law.volume = lattice.volume;
   return law;
 }
 

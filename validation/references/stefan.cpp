@@ -131,7 +131,8 @@ std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
   if (!material.t_melt || !material.heat_capacity || !(latent > 0.0))
     throw InputError("stefan: material `" + material.name + "` needs t_melt, heat_capacity and latent_heat");
   NeumannFront front;
-  front.surface = constant_temperature(in.job, course.wall), front.far = constant_temperature(in.job, course.bar);
+  front.surface = constant_temperature(in.job, course.wall);
+  front.far = constant_temperature(in.job, course.bar);
   course.melts = front.surface > front.far;
   front.change = course.melts ? *material.t_melt : material.t_solid.value_or(*material.t_melt);
   const Phase solid = Phase::rigid, liquid = Phase::liquid;
@@ -141,7 +142,7 @@ std::unique_ptr<Reference> make_stefan(const ReferenceInput& in) {
       (phase_values(in.job, course.bar, liquid).heat_per_volume - phase_values(in.job, course.bar, solid).heat_per_volume) /
       material.density;
   front.diffusivity = near.diffusivity();
-  front.far_diffusivity_ratio = left.diffusivity() / near.diffusivity(),
+  front.far_diffusivity_ratio = left.diffusivity() / near.diffusivity();
   front.far_conductivity_ratio = left.conductivity / near.conductivity;
   front.latent_over_capacity = (latent + more * (front.change - *material.t_melt)) * material.density /
                                near.heat_per_volume;  // the heat of fusion at the front (Kirchhoff)

@@ -60,13 +60,20 @@ std::unique_ptr<Reference> make_contact(const ReferenceInput& in) {
   const auto axis = contact_axis(in);
   auto a = body_along(axis, 0, in.job, in.initial), b = body_along(axis, 1, in.job, in.initial);
   std::size_t low = 0, high = 1;
-  if (a.low > b.low) std::swap(a, b), std::swap(low, high);
+  if (a.low > b.low) {
+    std::swap(a, b);
+    std::swap(low, high);
+  }
   TwoLayers s;
   s.interface = a.high;
-  s.length_low = a.length(), s.length_high = b.length();
-  s.diffusivity_low = diffusivity(in.job, low), s.diffusivity_high = diffusivity(in.job, high);
-  s.effusivity_low = effusivity(in.job, low), s.effusivity_high = effusivity(in.job, high);
-  s.start_low = uniform_temperature(in, low), s.start_high = uniform_temperature(in, high);
+  s.length_low = a.length();
+  s.length_high = b.length();
+  s.diffusivity_low = diffusivity(in.job, low);
+  s.diffusivity_high = diffusivity(in.job, high);
+  s.effusivity_low = effusivity(in.job, low);
+  s.effusivity_high = effusivity(in.job, high);
+  s.start_low = uniform_temperature(in, low);
+  s.start_high = uniform_temperature(in, high);
   return std::make_unique<Contact>(in, axis, s);
 }
 

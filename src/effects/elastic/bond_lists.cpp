@@ -49,19 +49,27 @@ bool BondLists::follow(const Bonds& bonds) {
   if (bonds.changes() == followed_) return false;
   const bool mostly_left = shapes_.size() > 2 * bonds.pairs() + 1024;  // shapes that no bond has any more
   if (bonds.changes() < followed_ || mostly_left) clear();
-  other_.resize(bonds.places()), shape_.resize(bonds.places()), seen_.resize(bonds.places());
+  other_.resize(bonds.places());
+  shape_.resize(bonds.places());
+  seen_.resize(bonds.places());
   std::vector<std::uint32_t> ids;
   for (std::uint32_t id = 0; id < bonds.particles(); ++id)
     if (bonds.changed(id) > followed_) ids.push_back(id);
   for (const std::uint32_t id : ids) {
     std::size_t at = bonds.start(id);
-    for (const Bond& b : bonds.of(id)) other_[at] = b.other, shape_[at] = shape_of(b), ++at;
+    for (const Bond& b : bonds.of(id)) {
+      other_[at] = b.other;
+      shape_[at] = shape_of(b);
+      ++at;
+    }
   }
   for (const std::uint32_t id : ids) {
     std::size_t at = bonds.start(id);
     for (const Bond& b : bonds.of(id)) {
       const std::size_t twin = bonds.start(b.other) + b.twin;
-      seen_[at] = shape_[twin], seen_[twin] = shape_[at], ++at;
+      seen_[at] = shape_[twin];
+      seen_[twin] = shape_[at];
+      ++at;
     }
   }
   followed_ = bonds.changes();

@@ -76,9 +76,15 @@ template <class Columns>
 }
 template <class Columns>
 inline void set(Columns& to, const Matrix3& a) noexcept {
-  to.x.x = a.xx, to.x.y = a.yx, to.x.z = a.zx;
-  to.y.x = a.xy, to.y.y = a.yy, to.y.z = a.zy;
-  to.z.x = a.xz, to.z.y = a.yz, to.z.z = a.zz;
+  to.x.x = a.xx;
+  to.x.y = a.yx;
+  to.x.z = a.zx;
+  to.y.x = a.xy;
+  to.y.y = a.yy;
+  to.y.z = a.zy;
+  to.z.x = a.xz;
+  to.z.y = a.yz;
+  to.z.z = a.zz;
 }
 static_assert(sizeof(Deformed) == 3 * vector_bytes);
 
@@ -137,7 +143,9 @@ struct Quads {
   Quad x{}, y{}, z{};
 };
 [[gnu::always_inline]] inline void store(Columned& to, const Quads& from) noexcept {
-  store(&to.x, from.x), store(&to.y, from.y), store(&to.z, from.z);
+  store(&to.x, from.x);
+  store(&to.y, from.y);
+  store(&to.z, from.z);
 }
 
 /// A difference of places as the nearest images have it: both lie in the box, or apart by less than a bond.
@@ -179,14 +187,17 @@ void sum_reference(const BondLists::List& list, const BondShape* shapes, const P
     }
     if constexpr (hourglass) {
       const Quad wx = (volume * bond.hourglass) * x;
-      moment.x += bond.x.x * wx, moment.y += bond.x.y * wx, moment.z += bond.x.z * wx;
+      moment.x += bond.x.x * wx;
+      moment.y += bond.x.y * wx;
+      moment.z += bond.x.z * wx;
       weighted += wx;
     }
   }
   Columned columns;
   store(columns, moment);
   Column c, w;
-  store(&c, gradient), store(&w, weighted);
+  store(&c, gradient);
+  store(&w, weighted);
   out = {columns, c, w};
 }
 
@@ -202,25 +213,34 @@ void sum_list(const BondLists::List& list, const BondShape* shapes, const Place*
     const BondShape& bond = shapes[list.shape[n]];
     const Place& j = places[list.other[n]];
     Quad x, u;
-    load(x, &bond), load(u, &j);
+    load(x, &bond);
+    load(u, &j);
     u -= i;
     nearest<periodic>(u, box);
     u += x;
     const Quad ux = bond.x.x * u, uy = bond.x.y * u, uz = bond.x.z * u;
     if constexpr (bends) {
       const Vec3 g = j.volume * bond.gradient;
-      displacement.x += g.x * u, displacement.y += g.y * u, displacement.z += g.z * u;
+      displacement.x += g.x * u;
+      displacement.y += g.y * u;
+      displacement.z += g.z * u;
     } else {
       const double slope = j.volume * bond.slope;
-      displacement.x += slope * ux, displacement.y += slope * uy, displacement.z += slope * uz;
+      displacement.x += slope * ux;
+      displacement.y += slope * uy;
+      displacement.z += slope * uz;
     }
     if constexpr (hourglass) {
       const double w = j.volume * bond.hourglass;
-      swept.x += w * ux, swept.y += w * uy, swept.z += w * uz;
+      swept.x += w * ux;
+      swept.y += w * uy;
+      swept.z += w * uz;
       residual += w * u;
     }
   }
-  store(out.displacement, displacement), store(out.swept, swept), store(&out.residual, residual);
+  store(out.displacement, displacement);
+  store(out.swept, swept);
+  store(&out.residual, residual);
 }
 
 /// sum_j -T_j gradW(x_ji), and sum_j -k_j v_j W(x_ji)/|x_ji|^2 ((F_j - I) x_ji + u_ij), k = a E/2: x_ji as j has it in its list.
@@ -236,7 +256,9 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
     const Deformed& j = deformed[list.other[n]];
     const Vec3& x = bond.x;
     Quads T;
-    load(T.x, &j.T.x), load(T.y, &j.T.y), load(T.z, &j.T.z);
+    load(T.x, &j.T.x);
+    load(T.y, &j.T.y);
+    load(T.z, &j.T.z);
     if constexpr (bends)
       stress -= bond.gradient.x * T.x + bond.gradient.y * T.y + bond.gradient.z * T.z;
     else
@@ -244,15 +266,19 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
     if constexpr (hourglass) {
       Quads G;
       Quad u, r;
-      load(G.x, &j.measure.x), load(G.y, &j.measure.y), load(G.z, &j.measure.z);
-      load(u, &bond), load(r, &places[list.other[n]]);
+      load(G.x, &j.measure.x);
+      load(G.y, &j.measure.y);
+      load(G.z, &j.measure.z);
+      load(u, &bond);
+      load(r, &places[list.other[n]]);
       r = i - r;
       nearest<periodic>(r, box);
       u += r;
       of_hourglass -= (j.measure.x.hourglass_energy * bond.hourglass) * (x.x * G.x + x.y * G.y + x.z * G.z + u);
     }
   }
-  store(&out.stress, stress), store(&out.hourglass, of_hourglass);
+  store(&out.stress, stress);
+  store(&out.hourglass, of_hourglass);
 }
 
 template <bool periodic, bool hourglass, bool bends, class ForUnit>

@@ -59,7 +59,9 @@ void FacePressure::find(const World& world) {
   };
   for (std::size_t i = 0; i < p.awake(); ++i)
     if (elastic_[i]) each_pair(i, [&](const Pair& pair) { pressed[i] = pressed[pair.row] = 1; });
-  rows_.clear(), start_.assign(1, 0), pairs_.clear();
+  rows_.clear();
+  start_.assign(1, 0);
+  pairs_.clear();
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     if (!pressed[i]) continue;
     each_pair(i, [&](const Pair& pair) { pairs_.push_back(pair); });

@@ -78,7 +78,10 @@ class Fluid : public Effect {
   void state(World&) override;
   void bonds(World&) override;
   void form_fixed(World&) override;
-  void happen(World& world, const Happening&) override { set_groups(world), clear_walls(); }
+  void happen(World& world, const Happening&) override {
+    set_groups(world);
+    clear_walls();
+  }
   void renumber(World&) override { clear_walls(); }
   void adopt(World&) override;
   void check(const World& world) const override { refuse_overlap(world, numbers_); }
@@ -93,7 +96,12 @@ class Fluid : public Effect {
   void set_material(World&, std::size_t row) const;
   void set_own_density(World&, std::size_t row) const;
   void set_groups(World&);
-  void clear_walls() { walls_.clear(), laid_.clear(), faces_.clear(), interfaces_.clear(); }
+  void clear_walls() {
+    walls_.clear();
+    laid_.clear();
+    faces_.clear();
+    interfaces_.clear();
+  }
   void follow_temperature(World&) const;
 
   SceneNumbers numbers_;
@@ -112,7 +120,10 @@ class Fluid : public Effect {
 };
 
 void Fluid::load(World& world, const InitialState&) {
-  for (std::size_t i = 0; i < world.particles.size(); ++i) set_material(world, i), set_own_density(world, i);
+  for (std::size_t i = 0; i < world.particles.size(); ++i) {
+    set_material(world, i);
+    set_own_density(world, i);
+  }
   set_groups(world);
 }
 

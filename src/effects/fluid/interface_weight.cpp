@@ -34,7 +34,9 @@ void InterfaceWeight::find(const World& world) {
   known_ = world.neighbours->rebuilds();
   const Particles& p = world.particles;
   const auto group = p[field::group], rest = p[field::rest_density];
-  rows_.clear(), start_.assign(1, 0), pairs_.clear();
+  rows_.clear();
+  start_.assign(1, 0);
+  pairs_.clear();
   for (std::uint32_t i = 0; i < p.moving(); ++i) {
     if (group[i] != -1.0) continue;
     for (const Entry e : world.neighbours->of(i)) {

@@ -34,7 +34,8 @@ void LaidWalls::find_moves(World& world) {
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t a = 0; a < 3 && fixed(i) && world.owns(i); ++a) {
       const double angle = 2.0 * pi * x.at(i)[a] / dx;
-      sums[first_of(i) + 2 * a] += std::cos(angle), sums[first_of(i) + 2 * a + 1] += std::sin(angle);
+      sums[first_of(i) + 2 * a] += std::cos(angle);
+      sums[first_of(i) + 2 * a + 1] += std::sin(angle);
     }
   if (world.halo) world.halo->add(sums);
   moves_.assign(p.size(), {});
@@ -54,7 +55,9 @@ void LaidWalls::find(World& world) {
   const auto group = p[field::group];
   const auto id = p[field::id];
   const auto move = [&](std::size_t row) { return moves_[static_cast<std::size_t>(id[row])]; };
-  rows_.clear(), start_.assign(1, 0), pairs_.clear();
+  rows_.clear();
+  start_.assign(1, 0);
+  pairs_.clear();
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     const bool liquid = is_liquid(group[i]);
     if (!liquid && move(i) == Vec3{}) continue;

@@ -32,7 +32,10 @@ class LaidWalls {
   /// After the pass of rates: the same to the pressure force, so that it is the gradient of the energy at these densities.
   void lay_forces(World&, const PairKernels&);
   /// Groups have changed: look again which particles are walls.
-  void clear() { known_ = -1, moves_.clear(); }
+  void clear() {
+    known_ = -1;
+    moves_.clear();
+  }
 
  private:
   /// A neighbour, and what the lattice adds to its distance vector [m].

@@ -107,7 +107,10 @@ void Walls::find_exposed(World& world, const SceneNumbers& n, const PairKernels&
     }
     std::ranges::sort(shares);
     double wall = kernels.wendland.value(0.0), from_lattice = wall;
-    for (const Share& s : shares) wall += s.as_it_is, from_lattice += s.from_lattice;
+    for (const Share& s : shares) {
+      wall += s.as_it_is;
+      from_lattice += s.from_lattice;
+    }
     const bool exposed = wall < (1.0 - n.least_exposure) * full;
     at_face_[static_cast<std::size_t>(id[i])] = exposed ? 1 : 0;
     if (!jittered) world.unread[static_cast<std::size_t>(id[i])] = !exposed && !drags && stick[i] == 0.0 ? 1 : 0;
@@ -151,14 +154,18 @@ void Walls::find_rows(const World& world) {
   const Particles& p = world.particles;
   const auto group = p[field::group];
   const auto id = p[field::id];
-  hidden_.clear(), awake_.clear(), row_.clear();
+  hidden_.clear();
+  awake_.clear();
+  row_.clear();
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     if (group[i] != wall_group) continue;
     const auto one = static_cast<std::size_t>(id[i]);
     if (at_face_[one] == 0)
       hidden_.push_back(i);
-    else
-      awake_.push_back(place_[one]), row_.push_back(i);
+    else {
+      awake_.push_back(place_[one]);
+      row_.push_back(i);
+    }
   }
 }
 
@@ -168,15 +175,21 @@ void Walls::find_faces(World& world, const SceneNumbers& n, const PairKernels& k
   known_faces_ = world.neighbours->rebuilds();
   if (at_face_.empty()) {
     find_exposed(world, n, kernels);
-    hand_to_copies(world, at_face_), hand_to_copies(world, excess_);
+    hand_to_copies(world, at_face_);
+    hand_to_copies(world, excess_);
   }
   if (known_whole_ != world.neighbours->whole_lists()) {
     known_whole_ = world.neighbours->whole_lists();
-    face_.clear(), start_.assign(1, 0), patch_.clear(), place_.clear();
+    face_.clear();
+    start_.assign(1, 0);
+    patch_.clear();
+    place_.clear();
     add_faces(world, true);
     fixed_faces_ = face_.size();
   } else {
-    face_.resize(fixed_faces_), start_.resize(fixed_faces_ + 1), patch_.resize(start_.back());
+    face_.resize(fixed_faces_);
+    start_.resize(fixed_faces_ + 1);
+    patch_.resize(start_.back());
   }
   add_faces(world, false);
   for (auto* column : {&density_, &mean_, &mean_of_mean_, &part_, &part_again_, &share_}) column->resize(face_.size());
@@ -208,7 +221,10 @@ void Walls::average_density(World& world, const SceneNumbers& n, const PairKerne
   find_faces(world, n, kernels);
   Particles& p = world.particles;
   const auto rho = p[field::density], rest = p[field::rest_density], m = p[field::mass], V = p[field::volume];
-  for (const std::uint32_t i : hidden_) rho[i] = rest[i], V[i] = m[i] / rest[i];
+  for (const std::uint32_t i : hidden_) {
+    rho[i] = rest[i];
+    V[i] = m[i] / rest[i];
+  }
   for (std::size_t a = 0; a < awake_.size(); ++a)
     density_[awake_[a]] = rho[row_[a]] / rest[row_[a]] - (excess_.empty() ? 0.0 : excess_[face_[awake_[a]]]);
   sum_patches(density_, world.threads, [&](std::size_t k, double sum) { mean_[k] = sum / members(k); });

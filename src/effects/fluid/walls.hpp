@@ -31,7 +31,8 @@ class Walls {
   /// Groups have changed: look again which particles are walls.
   void clear() {
     known_ = known_faces_ = known_whole_ = -1;
-    at_face_.clear(), excess_.clear();
+    at_face_.clear();
+    excess_.clear();
   }
 
  private:

@@ -27,7 +27,10 @@ class Fracture : public Effect {
   [[nodiscard]] bool wants_change(World&) override;
   void change(World&) override;
   void adopt(World&) override { unbroken_.clear(); }
-  void renumber(World&) override { unbroken_.clear(), found_.reset(); }
+  void renumber(World&) override {
+    unbroken_.clear();
+    found_.reset();
+  }
   void happen(World&, const Happening&) override { unbroken_.clear(); }
   void add_to(const World& world, Ledger& ledger) const override { ledger.energy["fracture"] += world.booked[let_go_by_bonds]; }
 
@@ -168,7 +171,10 @@ void Fracture::change(World& world) {
   // Of the kicks around a drift the first has the force of a bond and the second has not, so it broke half way: what it stored
   // there is what it lets go, to second order in the step.
   Release release(world, back_);
-  for (const auto& [i, j] : pairs) release.touch(i), release.touch(j);
+  for (const auto& [i, j] : pairs) {
+    release.touch(i);
+    release.touch(j);
+  }
   for (const auto& [i, j] : pairs) {
     disconnect(world.bonds, i, [&, j = j](const Bond& b) { return b.other == j; });
     end_own(world.own, i, j);

@@ -168,7 +168,12 @@ void CorrectedHeat::state(World& world) {
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
     const Symmetric a = pseudo_inverse({axx[i], ayy[i], azz[i], ayz[i], axz[i], axy[i]}, moment_cut);
-    axx[i] = a.xx, ayy[i] = a.yy, azz[i] = a.zz, ayz[i] = a.yz, axz[i] = a.xz, axy[i] = a.xy;
+    axx[i] = a.xx;
+    ayy[i] = a.yy;
+    azz[i] = a.zz;
+    ayz[i] = a.yz;
+    axz[i] = a.xz;
+    axy[i] = a.xy;
   }
 }
 

@@ -72,7 +72,8 @@ void PaperHeat::drift(World& world, double dt) {
     T[i] += dt * rate[i];
     if (!melts) return;
     const ThermalState state = settled(fusions[static_cast<std::size_t>(material[i])], T[i], f[i]);
-    T[i] = state.temperature, f[i] = state.liquid_fraction;
+    T[i] = state.temperature;
+    f[i] = state.liquid_fraction;
   });
   world.booked[account::walls] += to_walls[0];
   book_held(world, [&](std::size_t i) { return enthalpy_of(m[i], c_p[i], rate[i] * dt); });

@@ -193,7 +193,10 @@ void HeldSurfaces::load(World& world, const InitialState& initial) {
     const auto id = static_cast<std::uint32_t>(p[field::id][i]);
     const auto beyond = places_beyond(scene, insides[source], initial.position[id], steps, laid);
     if (!acts(scene)) {
-      if (leaves_by_a_face(beyond, dx)) p[field::held][i] = 1, p[field::temperature][i] = *held_at;
+      if (leaves_by_a_face(beyond, dx)) {
+        p[field::held][i] = 1;
+        p[field::temperature][i] = *held_at;
+      }
       continue;
     }
     if (beyond.empty()) continue;
@@ -202,8 +205,10 @@ void HeldSurfaces::load(World& world, const InitialState& initial) {
     for (const Beyond& b : beyond) {
       const double r = norm(b.away), K = -2.0 * kernel.derivative_over_r(r);
       const auto rr = outer(b.away);
-      for (std::size_t c = 0; c < 6; ++c)
-        near.moment[c] += 0.5 * volume * K * rr[c], near.exchange[c] += own * volume * K * rr[c] / (r * r * b.within);
+      for (std::size_t c = 0; c < 6; ++c) {
+        near.moment[c] += 0.5 * volume * K * rr[c];
+        near.exchange[c] += own * volume * K * rr[c] / (r * r * b.within);
+      }
     }
     near_.push_back(near);
   }

@@ -96,7 +96,9 @@ void FreeMotion::add_to(const World& world, Ledger& ledger) const {
   const RigidMembers is_member(world);
   std::vector<std::array<double, entries>> blocks;
   const auto add = [](std::array<double, entries>& sum, std::size_t first, const Vec3& a) {
-    sum[first] += a.x, sum[first + 1] += a.y, sum[first + 2] += a.z;
+    sum[first] += a.x;
+    sum[first + 1] += a.y;
+    sum[first + 2] += a.z;
   };
   const auto sums = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, entries>& sum) {
     if (is_member(i)) return;

@@ -24,8 +24,12 @@ Matrix3 inverse(const Matrix3& a) {
 void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
   if (!p.has(field::plastic_strain_xx.name)) return;
   const Symmetric e = symmetric_part(R * full(solid::plastic_strain_of(p, row)) * transposed(R));
-  p[field::plastic_strain_xx][row] = e.xx, p[field::plastic_strain_yy][row] = e.yy, p[field::plastic_strain_zz][row] = e.zz;
-  p[field::plastic_strain_yz][row] = e.yz, p[field::plastic_strain_xz][row] = e.xz, p[field::plastic_strain_xy][row] = e.xy;
+  p[field::plastic_strain_xx][row] = e.xx;
+  p[field::plastic_strain_yy][row] = e.yy;
+  p[field::plastic_strain_zz][row] = e.zz;
+  p[field::plastic_strain_yz][row] = e.yz;
+  p[field::plastic_strain_xz][row] = e.xz;
+  p[field::plastic_strain_xy][row] = e.xy;
 }
 
 /// Turns the list of a deformable solid, and what has flowed in it, into the present frame: no energy changes, and F has an
@@ -37,7 +41,10 @@ Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
   const solid::Deformation before = solid::deformation_of(world, id);
   if (before.rank == 0) return identity3;
   const Matrix3 R = solid::rotation_of(before.F, before.P, before.rank);
-  for (Bond& bond : world.bonds.edit(id)) bond.x = R * bond.x, bond.gradient = R * bond.gradient;
+  for (Bond& bond : world.bonds.edit(id)) {
+    bond.x = R * bond.x;
+    bond.gradient = R * bond.gradient;
+  }
   turn_plastic_strain(world.particles, world.particles.row(id), R);
   solid::refresh_shapes(world, std::array{id}, true);
   const Matrix3 F = solid::deformation_of(world, id).F;
@@ -52,7 +59,8 @@ void take_present_vectors(World& world, const ElasticityKernel& kernel, std::uin
   const std::size_t i = world.particles.row(id);
   for (Bond& bond : world.bonds.edit(id)) {
     Bond now = solid::bond_of(kernel, solid::separation(world, world.particles.row(bond.other), i));
-    now.other = bond.other, now.twin = bond.twin;
+    now.other = bond.other;
+    now.twin = bond.twin;
     bond = now;
   }
 }

@@ -51,8 +51,14 @@ void settle_material(TableReader& in, Material& m) {
   if (m.softens && !m.t_melt)
     in.refuse("softens", "without t_melt the material does not melt: give t_melt too, or remove softens");
   if (!m.t_melt) return;
-  if (!m.t_solid) m.t_solid = m.t_melt, in.ruled("t_solid", show(*m.t_solid), "t_melt: no soft band and no hysteresis");
-  if (!m.latent_heat) m.latent_heat = 0.0, in.ruled("latent_heat", "0", "melts at once");
+  if (!m.t_solid) {
+    m.t_solid = m.t_melt;
+    in.ruled("t_solid", show(*m.t_solid), "t_melt: no soft band and no hysteresis");
+  }
+  if (!m.latent_heat) {
+    m.latent_heat = 0.0;
+    in.ruled("latent_heat", "0", "melts at once");
+  }
   if (*m.t_solid > *m.t_melt)
     in.refuse("t_solid", fmt::format("{} K is above t_melt = {} K: matter is solid below t_solid and liquid above t_melt; "
                                      "give a t_solid of at most t_melt",

@@ -26,7 +26,10 @@ Entrance::Entrance(const Scene& scene, std::size_t inflow)
   const std::vector<Vec3> places = fill(scene, source);
   const double sign = v[along] > 0.0 ? 1.0 : -1.0;
   double first = INFINITY, last = -INFINITY;
-  for (const Vec3& r : places) first = std::min(first, sign * r[along]), last = std::max(last, sign * r[along]);
+  for (const Vec3& r : places) {
+    first = std::min(first, sign * r[along]);
+    last = std::max(last, sign * r[along]);
+  }
   for (const Vec3& r : places)
     if (sign * r[along] < first + 0.5 * spacing_) section_.push_back(r);
   depth_ = last - first + spacing_;

@@ -141,9 +141,10 @@ void Prescribed::happen(World& world, const Happening& now) {
     } else if (holds || releases) {
       const auto source = static_cast<std::size_t>(p[field::source][i]);
       if (source >= world.scene.bodies.size() || !named(event, world.scene.bodies[source].name)) continue;
-      if (holds && now.begins && driven[i] == 0)
-        driven[i] = driven_still, guide(world, i, world.unwrapped(i), {});
-      else if (driven[i] == driven_still)
+      if (holds && now.begins && driven[i] == 0) {
+        driven[i] = driven_still;
+        guide(world, i, world.unwrapped(i), {});
+      } else if (driven[i] == driven_still)
         driven[i] = 0;
     }
   }
