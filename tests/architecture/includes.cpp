@@ -171,7 +171,8 @@ std::vector<Offence> strayed_libraries(const Source& source) {
     bool nowhere = false, at_home = include.quoted;
     for (const auto& home : homes) {
       if (!is_of(home.header)) continue;
-      nowhere = nowhere || home.room.empty(), at_home = at_home || room == home.room;
+      nowhere = nowhere || home.room.empty();
+      at_home = at_home || room == home.room;
       rooms += (rooms.empty() ? "" : " and ") + std::string(home.room);
     }
     if (nowhere && !at_home)
