@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "core/aligned.hpp"
 #include "particles/grid.hpp"
@@ -14,6 +15,49 @@ namespace tripoint {
 namespace {
 
 constexpr std::size_t rows_a_block = 1024;
+
+/// Counting sort of rows by cell, and by id within each. Sets grid.first. @return at each place, which of `rows` stands there
+std::vector<std::uint32_t> sort_by_cell(const std::vector<std::uint32_t>& rows, const auto& x, std::span<const int> id,
+                                        auto& grid, int threads) {
+  const std::size_t m = rows.size();
+  grid.first.assign(grid.cells() + 1, 0);
+  std::vector<std::uint32_t> cell_of(m), place(m);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t k = 0; k < m; ++k) cell_of[k] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(rows[k]))));
+  for (const std::uint32_t c : cell_of) ++grid.first[c + 1];
+  for (std::size_t c = 0; c < grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
+  std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
+  for (std::uint32_t k = 0; k < m; ++k) {
+    const std::uint32_t c = cell_of[k];
+    std::uint32_t at = next[c]++;
+    for (; at > grid.first[c] && id[rows[place[at - 1]]] > id[rows[k]]; --at) place[at] = place[at - 1];  // a cell holds few
+    place[at] = k;
+  }
+  return place;
+}
+
+/// What moves where.
+struct Moves {
+  std::vector<std::uint32_t> from, to;
+};
+
+/// The rows `was` come to the front, in that order. What was in these rows goes to those that were left; the rest stays.
+Moves bring_to_front(const std::vector<std::uint32_t>& was, std::size_t all) {
+  std::vector<char> taken(all, 0);
+  for (const std::uint32_t one : was) taken[one] = 1;
+  const auto m = static_cast<std::uint32_t>(was.size());
+  Moves moves;
+  for (std::uint32_t r = 0; r < m; ++r)
+    if (was[r] != r) {
+      moves.from.push_back(was[r]);
+      moves.to.push_back(r);
+    }
+  for (std::uint32_t r = 0; r < m; ++r)
+    if (!taken[r]) moves.from.push_back(r);
+  for (std::uint32_t r = m; moves.to.size() < moves.from.size(); ++r)
+    if (taken[r]) moves.to.push_back(r);
+  return moves;
+}
 
 }  // namespace
 
@@ -116,37 +160,22 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
     }
   }
 
-  const std::size_t m = rows.size();
-  grid.first.assign(grid.cells() + 1, 0);
-  std::vector<std::uint32_t> cell_of(m), place(m);
-#pragma omp parallel for schedule(static) num_threads(threads_)
-  for (std::size_t k = 0; k < m; ++k) cell_of[k] = static_cast<std::uint32_t>(grid.index(grid.place(x.at(rows[k]))));
-  for (const std::uint32_t c : cell_of) ++grid.first[c + 1];
-  for (std::size_t c = 0; c < grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
-  std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-  for (std::uint32_t k = 0; k < m; ++k) {
-    const std::uint32_t c = cell_of[k];
-    std::uint32_t at = next[c]++;
-    for (; at > grid.first[c] && id[rows[place[at - 1]]] > id[rows[k]]; --at) place[at] = place[at - 1];  // a cell holds few
-    place[at] = k;
-  }
-
+  const std::vector<std::uint32_t> place = sort_by_cell(rows, x, id, grid, threads_);
   if (!grid_ || grid_->count != grid.count) {  // their order stays where there are more cells or fewer
     still_.in_cell.assign(grid.cells() + 1, 0);
     for (const std::uint32_t one : still_.id) ++still_.in_cell[grid.index(grid.place(x.at(particles.row(one)))) + 1];
     for (std::size_t c = 0; c < grid.cells(); ++c) still_.in_cell[c + 1] += still_.in_cell[c];
   }
 
-  // The row of each place: a part after the other. What was in these rows goes to those that were left; what is fixed often
-  // stays.
+  // The row of each place: a part after the other.
   std::array<std::uint32_t, 3> row{};
   for (const Part one : part)
     if (one < asleep) ++row[one + 1u];
   row[asleep] += row[read];
   const std::size_t first_read = row[read], first_asleep = row[asleep];
-  std::vector<std::uint32_t> was(m), from, to;
-  order_.resize(m);
-  meets_.resize(m);
+  std::vector<std::uint32_t> was(rows.size());
+  order_.resize(rows.size());
+  meets_.resize(rows.size());
   moving_first_.assign(grid.cells() + 1, 0);
   for (std::size_t c = 0; c < grid.cells(); ++c) {
     for (std::uint32_t at = grid.first[c]; at < grid.first[c + 1]; ++at) {
@@ -157,17 +186,7 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
     }
     moving_first_[c + 1] = row[moves];
   }
-  std::vector<char> taken(n, 0);
-  for (const std::uint32_t one : rows) taken[one] = 1;
-  for (std::uint32_t r = 0; r < m; ++r)
-    if (was[r] != r) {
-      from.push_back(was[r]);
-      to.push_back(r);
-    }
-  for (std::uint32_t r = 0; r < m; ++r)
-    if (!taken[r]) from.push_back(r);
-  for (std::uint32_t r = static_cast<std::uint32_t>(m); to.size() < from.size(); ++r)
-    if (taken[r]) to.push_back(r);
+  const auto& [from, to] = bring_to_front(was, n);
   particles.rearrange(from, to, first_read, first_asleep, threads_);
   const auto sorted = positions(particles);
   built_.resize(n);
