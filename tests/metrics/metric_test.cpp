@@ -180,6 +180,15 @@ TEST(Walkers, StateAnUncertaintyThatCoversTheTruthForManyAndForPooledCounts) {
   }
 }
 
+/// The mean of sixteen equal temperatures is not always that temperature, to the last bit.
+TEST(Walkers, OfOneCountALayerAreOneSampleInAProfileToo) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const auto t = noisy_bar(0.3, 0.2, seed, true);
+    const double pooled = t.value(metric("temperature", "L2")).uncertainty.statistical;
+    EXPECT_NEAR(t.value(metric("temperature_profile", "L2")).uncertainty.statistical, pooled, 1e-12) << seed;
+  }
+}
+
 TEST(Metric, GivesTheFirstParticleThatFlowsInNoVolumeOfTheStart) {
   auto s = test::thrown_block();
   const auto last = s.initial.size() - 1;

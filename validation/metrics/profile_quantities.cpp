@@ -11,7 +11,8 @@ namespace {
 
 /// Means over layers one spacing thick, across the axis that the reference names.
 struct Layer {
-  double weight = 0.0, place = 0.0, run = 0.0, truth = 0.0, variance = 0.0, least_sigma = 1e300, greatest_sigma = 0.0;
+  double weight = 0.0, place = 0.0, run = 0.0, truth = 0.0, variance = 0.0, greatest_sigma = 0.0;
+  double first = 0.0;     ///< temperature of its first particle
   bool one_count = true;  ///< all its particles show one count of walkers
 };
 
@@ -24,7 +25,8 @@ std::map<long, Layer> layers(const FramePair& f, std::size_t axis) {
     if (!takes(f.in, i)) continue;
     auto& layer = list[static_cast<long>(std::floor(start[i][axis] / f.in.job.scene.spacing + 1e-9))];
     const double w = rest_volume(f.in, i), sigma = i < f.now.temperature_error.size() ? f.now.temperature_error[i] : 0.0;
-    if (layer.weight > 0.0 && f.now.temperature[i] != layer.run / layer.weight) layer.one_count = false;
+    if (layer.weight == 0.0) layer.first = f.now.temperature[i];
+    if (f.now.temperature[i] != layer.first) layer.one_count = false;
     layer.weight += w;
     layer.place += w * start[i][axis];
     layer.run += w * f.now.temperature[i];
