@@ -346,7 +346,9 @@ TEST(Baselines, AreAcceptedByIdsThatTheResultsHold) {
   Kept kept;
   const Acceptance words{"2026-11-21", "abc", "a test"};
   EXPECT_THROW((void)accept(kept.r, {"test/other"}, words), InputError);
-  EXPECT_NO_THROW((void)accept(kept.r, {"test/one"}, words));
+  EXPECT_EQ(accept(kept.r, {"test/one"}, words).find("nobody can build again"), std::string::npos);
+  const std::string said = accept(kept.r, {"test/one"}, {words.date, "abc-dirty", words.reason});
+  EXPECT_NE(said.find("note: measured by a tripoint of changed sources (abc-dirty)"), std::string::npos) << said;
 }
 
 TEST(Baselines, AProposalCountsTheLimitsThatWereLoosened) {

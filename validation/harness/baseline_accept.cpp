@@ -114,6 +114,16 @@ void check_reason(const Acceptance& acceptance) {
     throw InputError("gate accept: --reason says who decided what, and why");
 }
 
+/// A line of warning where the sources of the program that measured are in no commit; else nothing.
+std::string unreproducible(const std::string& commit) {
+  if (!commit.ends_with("-dirty")) return "";
+  return one_line(
+             fmt::format("note: measured by a tripoint of changed sources ({}), which nobody can build again: commit, build and "
+                         "validate before you accept what others rely on",
+                         commit)) +
+         "\n";
+}
+
 void check_acceptable(const CaseResult& c) {
   if (c.exit_code != exit_pass)
     throw InputError(fmt::format("{}: is {} and cannot be accepted; what is measured must be green first", c.id, c.verdict));
@@ -169,6 +179,7 @@ std::string accept(const Results& results, const std::vector<std::string>& ids, 
     count += p.limits_loosened;
     removed += p.limits_removed;
   }
+  text += unreproducible(acceptance.commit);
   return text + fmt::format(
                     "{} cases accepted; since the first baseline {} limits were loosened, in all by a factor {:.4g} (sum of ln "
                     "new/old {:.3g}), and {} were removed\n",
