@@ -145,6 +145,17 @@ TEST(BaselineEdges, EachRemarkOnAFilePointsAtItsFirstLine) {
   EXPECT_EQ(none[0].excess, infinity);
 }
 
+TEST(BaselineEdges, ABaselineOfAnOlderVersionWarnsOfAnotherText) {
+  Kept k;
+  k.b.scene.clear();
+  EXPECT_EQ(remarks_text(k.remarks()), "");
+  k.b.case_hash = "of another text";
+  const auto list = k.remarks();
+  ASSERT_EQ(list.size(), 1u) << remarks_text(list);
+  EXPECT_EQ(list[0].text, "the case file has changed since its figures were accepted");
+  EXPECT_FALSE(list[0].error);
+}
+
 TEST(BaselineEdges, AnEdgeOfWordsIsFoundWhereverItStands) {
   const auto words = [](const std::string& allows) {
     AcceptedGate g;

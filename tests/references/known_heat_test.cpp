@@ -11,6 +11,7 @@
 #include "validation/references/heat_scene.hpp"
 #include "validation/references/neumann.hpp"
 #include "validation/references/reference.hpp"
+#include "validation/references/solid_scene.hpp"
 #include "validation/references/step_images.hpp"
 
 namespace tripoint {
@@ -177,6 +178,25 @@ TEST(KnownBars, TheModulusIsThatOfTheHeldSides) {
   EXPECT_EQ(gauged->number("stretch_gauge"), 0.25);
   EXPECT_EQ(gauged->number("area"), 2.0);
   EXPECT_NEAR(*gauged->number_at("stretch", 1.0), 1.05, 1e-12);
+}
+
+TEST(KnownBars, SidesAreHeldByEachPeriodAcrossTheBar) {
+  const auto sides = [](std::array<bool, 3> periodic, std::size_t axis) {
+    const auto s = test::driven_bar(1.1, periodic);
+    const ReferenceChoice choice;
+    const ReferenceFunction function;
+    const Arguments none(choice, function);
+    return bar_sides({none, s.job, s.initial}, axis);
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<bool, 3> one{}, other{}, both{};
+    one[(axis + 1) % 3] = other[(axis + 2) % 3] = true;
+    both[(axis + 1) % 3] = both[(axis + 2) % 3] = true;
+    EXPECT_EQ(sides({}, axis), BarSides::free) << axis;
+    EXPECT_EQ(sides(one, axis), BarSides::plane_strain) << axis;
+    EXPECT_EQ(sides(other, axis), BarSides::plane_strain) << axis;
+    EXPECT_EQ(sides(both, axis), BarSides::confined) << axis;
+  }
 }
 
 TEST(KnownBars, TheStretchIsThatOfTheKeyframes) {
