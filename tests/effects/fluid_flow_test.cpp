@@ -89,12 +89,11 @@ double taylor_green_error(int n, bool transport) {
   const double decay = std::exp(-2.0 * wave * wave * nu * time);
   const auto x = lab::positions_by_id(s);
   const auto v = lab::velocities_by_id(s);
-  double wrong = 0.0, right = 0.0, along = 0.0;
+  double wrong = 0.0, right = 0.0;
   for (std::size_t id = 0; id < x.size(); ++id) {
     const Vec3 u = decay * exact(x[id]);
     wrong += dot(v[id] - u, v[id] - u);
     right += dot(u, u);
-    along += dot(v[id], u);
   }
   return std::sqrt(wrong / right);
 }
