@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/effect_rule.hpp"
+#include "scene/phase_values.hpp"
+
 namespace tripoint {
 namespace {
 
@@ -26,23 +29,41 @@ bool has_forces(const Scene& scene) {
                      [](const Body& b) { return b.phase != Phase::rigid && b.motion == Motion::free; });
 }
 
-/// Fastest sound of the materials that the scene holds [m/s]; 0 where none has one.
+/// Fastest sound of what flows or bends [m/s]; 0 where nothing does. Rigid matter has none, whatever its material says.
 double fastest_sound(const Scene& scene) {
+  const bool flows = calls_for(scene, "fluid"), bends = calls_for(scene, "elastic");
   double fastest = 0.0;
-  for (const auto& body : scene.bodies)
-    for (const auto& m : scene.materials) {
-      if (m.name != body.material) continue;
-      if (m.stiffness) fastest = std::max(fastest, std::sqrt(*m.stiffness));
-      if (m.young_modulus && body.phase != Phase::rigid) fastest = std::max(fastest, std::sqrt(*m.young_modulus / m.density));
-    }
+  for (const auto& body : scene.bodies) {
+    const Material& m = scene.material(body.material);
+    const bool is_elastic = body.phase == Phase::elastic || m.solid == "elastic";
+    if (flows && m.stiffness) fastest = std::max(fastest, std::sqrt(*m.stiffness));
+    if (bends && is_elastic && m.young_modulus) fastest = std::max(fastest, std::sqrt(*m.young_modulus / m.density));
+  }
   return fastest;
+}
+
+/// Greatest diffusivity of what grows warmer or colder [m2/s]; 0 where nothing does. What is held at a temperature bounds no
+/// step.
+double greatest_diffusivity(const Scene& scene) {
+  double greatest = 0.0;
+  if (!calls_for(scene, "heat")) return greatest;
+  for (const auto& body : scene.bodies) {
+    const Material& m = scene.material(body.material);
+    if (body.temperature_held || !m.conductivity || !m.heat_capacity) continue;
+    for (const Phase phase : {Phase::liquid, Phase::rigid})
+      greatest = std::max(greatest, conductivity_of(m, phase) / (m.density * heat_capacity_of(m, phase)));
+  }
+  return greatest;
 }
 
 double steps_of(const Job& job) {
   if (job.resolution.time_step) return job.scene.end_time / *job.resolution.time_step;
-  const double sound = fastest_sound(job.scene), frames = static_cast<double>(job.times.size());
-  if (sound <= 0.0) return std::max(1000.0, frames);
-  return std::max(frames, job.scene.end_time * sound / (0.2 * job.resolution.support_ratio * job.resolution.spacing));
+  const double sound = fastest_sound(job.scene), diffusivity = greatest_diffusivity(job.scene);
+  const double frames = static_cast<double>(job.times.size()), dx = job.resolution.spacing;
+  if (sound <= 0.0 && diffusivity <= 0.0) return std::max(1000.0, frames);
+  const double waves = job.scene.end_time * sound / (0.2 * job.resolution.support_ratio * dx);
+  const double conduction = 5.0 * job.scene.end_time * diffusivity / (dx * dx);
+  return std::max({frames, waves, conduction});
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace tripoint {
 [[nodiscard]] std::map<std::string, double> measured_costs(const Results&);
 
 /// CPU seconds of one run by particles times steps, with a cost a particle and step for each kind of engine. [CPU s]
-/// The step where the scene gives none is 0.2 h/c, c the fastest sound of its materials: the order of every bound of the solver.
+/// The step where the scene gives none is the lesser of 0.2 h/c, c the fastest sound of what flows or bends, and of
+/// dx^2/(5 alpha), alpha the greatest diffusivity of what conducts: the order of the solver's bounds.
 [[nodiscard]] double predicted_cost(const Job&, const std::string& engine, std::size_t particles);
 
 }  // namespace tripoint
