@@ -2,9 +2,9 @@
 /// Whether cases that are cut and go on have the bits of one unbroken run: cut at the first steps, at steps in which particles
 /// melt, freeze, join, part, tear or flow in, and between; gone on with on 1, 2 and 3 threads, and from the cut of a cut.
 ///   same-restarts [--budget PARTICLE-STEPS] [--every-step N] CASE.toml...
-/// --every-step N: cut after every step from 1 to N, and after every one of N steps about the first of each kind of change; a row
+/// --every-step N: cut after every step from 1 to N, and after every one of N steps about the first of each kind of change. A row
 /// a state says how many cuts lie in a step that melts, freezes, changes bodies, changes bonds, lets particles flow in or meets
-/// an event.
+/// an event, and whether the run was cut after each of its steps to its end: then N and the budget have left nothing out.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using namespace tripoint;
 
 namespace {
 
-constexpr long goes_on = 8;             ///< steps after a cut
+constexpr long goes_on = 8;             ///< steps after a cut, where the run has as many
 constexpr std::size_t most_turns = 12;  ///< cuts at a change, of each state
 
 bool same(const std::vector<double>& a, const std::vector<double>& b) {
@@ -60,7 +60,8 @@ struct Turns {
 };
 
 struct Counts {
-  long states = 0, cuts = 0, turns = 0, restarts = 0, every_step = 0;
+  long states = 0, cuts = 0, turns = 0, restarts = 0, every_step = 0, whole = 0;
+  std::set<std::string> whole_cases;
   std::array<long, kinds.size()> of{};
 };
 
@@ -117,7 +118,8 @@ std::set<long> cuts_of(const Turns& turns, long steps, Counts& counts) {
   const std::size_t some = std::min(turns.any.size(), most_turns);
   for (std::size_t k = 0; k < some; ++k) cuts.insert(turns.any[k * turns.any.size() / some]);
   if (counts.every_step > 0) cuts = every_step(turns, counts.every_step);
-  std::erase_if(cuts, [&](long at) { return at < 1 || at + goes_on > steps; });
+  const long last = counts.every_step > 0 ? steps - 1 : steps - goes_on;
+  std::erase_if(cuts, [&](long at) { return at < 1 || at > last; });
   return cuts;
 }
 
@@ -126,14 +128,14 @@ long inside(const std::set<long>& cuts, const std::vector<long>& turns) {
   return std::ranges::count_if(cuts, [&](long at) { return std::ranges::binary_search(turns, at); });
 }
 
-/// The state so many steps after a cut. @param halfway cut once more on the way
-Checkpoint after(const State& state, const Checkpoint& cut, int threads, bool halfway) {
+/// The state after a step, gone on to from a cut. @param by_way_of cut once more after this step, where it lies before the goal
+Checkpoint after(const State& state, const Checkpoint& cut, int threads, long goal, long by_way_of) {
   const SimulationOptions options{.threads = threads, .force_time_step = true};
   Simulation s(state.scene, state.initial, options, cut);
-  const long goal = s.steps() + goes_on, stop = halfway ? goal - goes_on / 2 : goal;
+  const long stop = std::min(goal, by_way_of);
   go(s, state.scene, [&] { return s.steps() < stop; });
-  if (!halfway) return s.checkpoint();
-  return after(state, s.checkpoint(), threads, false);
+  if (stop == goal) return s.checkpoint();
+  return after(state, s.checkpoint(), threads, goal, goal);
 }
 
 /// @return whether all restarts agree
@@ -145,15 +147,15 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
   Simulation unbroken(state.scene, state.initial, {.force_time_step = true});
   go(unbroken, state.scene, [&] {
     const long now = unbroken.steps();
-    for (const long wanted : {now, now - goes_on, now - goes_on - goes_on / 2})
-      if (cuts.contains(wanted)) at[now] = unbroken.checkpoint();
+    const bool is_goal = now == steps || cuts.contains(now - goes_on) || cuts.contains(now - goes_on - goes_on / 2);
+    if (is_goal || cuts.contains(now)) at[now] = unbroken.checkpoint();
     return now < steps;
   });
   for (const long cut : cuts) {
     for (const int threads : {1, 2, 3}) {
       const bool halfway = threads == 2 && at.contains(cut + goes_on + goes_on / 2);
-      const long goal = cut + goes_on + (halfway ? goes_on / 2 : 0);
-      const std::string what = difference(at.at(goal), after(state, at.at(cut), threads, halfway));
+      const long goal = std::min(steps, cut + goes_on + (halfway ? goes_on / 2 : 0));
+      const std::string what = difference(at.at(goal), after(state, at.at(cut), threads, goal, halfway ? cut + goes_on : goal));
       ++counts.restarts;
       if (what.empty()) continue;
       fmt::print("{}: cut after step {} and gone on with on {} threads{}, {} differs at step {}\n", name, cut, threads,
@@ -164,6 +166,11 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
   counts.cuts += static_cast<long>(cuts.size());
   counts.turns += inside(cuts, turns.any);
   ++counts.states;
+  const bool whole = steps < most && static_cast<long>(cuts.size()) == steps - 1;
+  if (whole) {
+    ++counts.whole;
+    counts.whole_cases.insert(name.substr(0, name.find(' ')));
+  }
   if (counts.every_step > 0) fmt::print("{:44} {:6} {:6}", name, steps, cuts.size());
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     const long within = inside(cuts, turns.of[k]);
@@ -171,7 +178,7 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
     if (counts.every_step > 0) fmt::print("{:>8}", within);
   }
   if (counts.every_step > 0) {
-    fmt::print("   equal\n");
+    fmt::print("   equal{}\n", whole ? ", whole run" : "");
     std::fflush(stdout);
   }
   return true;
@@ -223,6 +230,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   for (std::size_t k = 0; k < kinds.size() && counts.every_step > 0; ++k) fmt::print("{} cuts: {}\n", kinds[k], counts.of[k]);
+  if (counts.every_step > 0)
+    fmt::print("{} states of {} cases cut after each of their steps to the end\n", counts.whole, counts.whole_cases.size());
   fmt::print("{} states, {} cuts, {} of them at a change, {} restarts\n", counts.states, counts.cuts, counts.turns,
              counts.restarts);
   return all && counts.states > 0 ? 0 : 1;
