@@ -38,7 +38,10 @@ bool same(const std::vector<double>& a, const std::vector<double>& b) {
 
 /// Name of the first array in which two states differ; "" where none does.
 std::string difference(const Checkpoint& a, const Checkpoint& b) {
-  if (a.real.size() != b.real.size() || a.whole.size() != b.whole.size()) return "the set of arrays";
+  for (const auto& [name, values] : b.real)
+    if (!a.real.contains(name)) return name + ", which the unbroken run does not have,";
+  for (const auto& [name, values] : b.whole)
+    if (!a.whole.contains(name)) return name + ", which the unbroken run does not have,";
   for (const auto& [name, values] : a.real)
     if (const auto at = b.real.find(name); at == b.real.end() || !same(values, at->second)) return name;
   for (const auto& [name, values] : a.whole)
@@ -65,15 +68,14 @@ struct Counts {
   std::array<long, kinds.size()> of{};
 };
 
-/// Steps to the next output, to the one after it and so on, as a run does, until go_on says no.
-void go(Simulation& s, const Scene& scene, const std::function<bool()>& go_on) {
+/// Steps to an output, to the one after it and so on, as a run does, until go_on says no. It is told to which one the steps lead.
+/// @param output the first to step to, from 1: a run that recovers may have gone back behind one that it has written
+void go(Simulation& s, const Scene& scene, long output, const std::function<bool(long)>& go_on) {
   const double every = scene.output_interval > 0.0 ? scene.output_interval : scene.end_time;
-  double k = std::max(0.0, std::floor(s.world().time / every) - 1.0);
-  while (k * every <= s.world().time) k += 1.0;  // the very next one, however near: an event may lie a rounding error before it
-  for (;; k += 1.0) {
-    const double next = std::min(k * every, scene.end_time);
+  for (;; ++output) {
+    const double next = std::min(static_cast<double>(output) * every, scene.end_time);
     bool goes = true;
-    s.advance_to(next, [&] { return goes = go_on(); });
+    s.advance_to(next, [&] { return goes = go_on(output); });
     if (!goes || !(next < scene.end_time)) return;
   }
 }
@@ -87,20 +89,22 @@ std::array<bool, kinds.size()> changes_of(const World& world, const Scene& scene
           !change.relisted.empty(), !change.born.empty(),   meets_event};
 }
 
-/// Steps of an unbroken run in which something changed, and how many it had.
+/// Steps of an unbroken run in which something changed, and how many it had. A step is counted each time that it is made: a run
+/// that recovers goes back, and makes steps of the same number again.
 Turns turns_of(const State& state, long most, long& steps) {
   Turns turns;
   Simulation s(state.scene, state.initial, {.force_time_step = true});
   double before = s.world().time;
-  go(s, state.scene, [&] {
-    if (!s.world().change.empty()) turns.any.push_back(s.steps());
+  steps = 0;
+  go(s, state.scene, 1, [&](long) {
+    ++steps;
+    if (!s.world().change.empty()) turns.any.push_back(steps);
     const auto changes = changes_of(s.world(), state.scene, before);
     for (std::size_t k = 0; k < kinds.size(); ++k)
-      if (changes[k]) turns.of[k].push_back(s.steps());
+      if (changes[k]) turns.of[k].push_back(steps);
     before = s.world().time;
-    return s.steps() < most;
+    return steps < most;
   });
-  steps = s.steps();
   return turns;
 }
 
@@ -128,14 +132,23 @@ long inside(const std::set<long>& cuts, const std::vector<long>& turns) {
   return std::ranges::count_if(cuts, [&](long at) { return std::ranges::binary_search(turns, at); });
 }
 
-/// The state after a step, gone on to from a cut. @param by_way_of cut once more after this step, where it lies before the goal
-Checkpoint after(const State& state, const Checkpoint& cut, int threads, long goal, long by_way_of) {
+/// A state that is kept, and the output to which its run was on the way.
+struct Kept {
+  Checkpoint state;
+  long output = 1;
+};
+
+/// The state so many steps after a cut. @param cut_again after how many of them it is cut once more; as many: it is not
+Checkpoint after(const State& state, const Kept& cut, int threads, long steps, long cut_again) {
   const SimulationOptions options{.threads = threads, .force_time_step = true};
-  Simulation s(state.scene, state.initial, options, cut);
-  const long stop = std::min(goal, by_way_of);
-  go(s, state.scene, [&] { return s.steps() < stop; });
-  if (stop == goal) return s.checkpoint();
-  return after(state, s.checkpoint(), threads, goal, goal);
+  Simulation s(state.scene, state.initial, options, cut.state);
+  long made = 0, output = cut.output;
+  go(s, state.scene, cut.output, [&](long towards) {
+    output = towards;
+    return ++made < cut_again;
+  });
+  if (cut_again == steps) return s.checkpoint();
+  return after(state, {s.checkpoint(), output}, threads, steps - cut_again, steps - cut_again);
 }
 
 /// @return whether all restarts agree
@@ -143,19 +156,21 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
   long steps = 0;
   const Turns turns = turns_of(state, most, steps);
   const std::set<long> cuts = cuts_of(turns, steps, counts);
-  std::map<long, Checkpoint> at;
+  std::map<long, Kept> at;
   Simulation unbroken(state.scene, state.initial, {.force_time_step = true});
-  go(unbroken, state.scene, [&] {
-    const long now = unbroken.steps();
+  long now = 0;
+  go(unbroken, state.scene, 1, [&](long output) {
+    ++now;
     const bool is_goal = now == steps || cuts.contains(now - goes_on) || cuts.contains(now - goes_on - goes_on / 2);
-    if (is_goal || cuts.contains(now)) at[now] = unbroken.checkpoint();
+    if (is_goal || cuts.contains(now)) at[now] = {unbroken.checkpoint(), output};
     return now < steps;
   });
   for (const long cut : cuts) {
     for (const int threads : {1, 2, 3}) {
       const bool halfway = threads == 2 && at.contains(cut + goes_on + goes_on / 2);
       const long goal = std::min(steps, cut + goes_on + (halfway ? goes_on / 2 : 0));
-      const std::string what = difference(at.at(goal), after(state, at.at(cut), threads, goal, halfway ? cut + goes_on : goal));
+      const Checkpoint there = after(state, at.at(cut), threads, goal - cut, halfway ? goes_on : goal - cut);
+      const std::string what = difference(at.at(goal).state, there);
       ++counts.restarts;
       if (what.empty()) continue;
       fmt::print("{}: cut after step {} and gone on with on {} threads{}, {} differs at step {}\n", name, cut, threads,
