@@ -34,7 +34,8 @@ for target in "${targets[@]}"; do
   inputs=0 used=0 found=nothing
   while ((used < seconds)); do
     left=$((seconds - used < 100 ? seconds - used : 100)) # a part at a time: libFuzzer counts the seconds of the clock
-    { time build-fuzz/tests/fuzz-"$target" -max_total_time="$left" -timeout=25 -rss_limit_mb=3000 -print_final_stats=1 \
+    # Inputs of several of a case file's longest lines: libFuzzer would keep to the length of the corpus.
+    { time build-fuzz/tests/fuzz-"$target" -max_total_time="$left" -timeout=25 -rss_limit_mb=3000 -max_len=65536 -print_final_stats=1 \
       -artifact_prefix="build-fuzz/found/$target-" "build-fuzz/corpus/$target" "tests/fuzz/corpus/$target" >"$log.part" 2>&1; } 2>"$log.time" || found="BROKEN, see $log"
     cat "$log.part" >>"$log"
     executed=$(sed -n 's/^stat::number_of_executed_units: *//p' "$log.part")

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <vector>
+
 #include "scene/toml_node.hpp"
 
-/// toml++ 3.3 aborts on `[,]` and `v=[1,}` and overflows the stack on a 400 kB dotted key: bounds come before it.
+/// toml++ 3.3 aborts on `[,]` and `v=[1,}` and overflows the stack on a 400 kB dotted key: bounds come before it. A dotted key is
+/// as deep as brackets are, so that both count together: what is read is walked by recursion, here and by those who read it.
 namespace tripoint {
 namespace {
 
@@ -16,10 +19,16 @@ class Scanner {
 
   void scan() {
     while (at_ < text_.size()) step();
-    if (!open_.empty()) refuse(fmt::format("the file ends inside a `{}`: close it", open_.back()));
+    if (!open_.empty()) refuse(fmt::format("the file ends inside a `{}`: close it", open_.back().bracket));
   }
 
  private:
+  /// A bracket that waits for its other half, and how many brackets and dots of keys lead to what it holds.
+  struct Open {
+    char bracket;
+    int depth;
+  };
+
   [[noreturn]] void refuse(const std::string& what) const {
     throw InputError({file_, line_, static_cast<int>(at_ - line_start_) + 1}, what);
   }
@@ -36,8 +45,14 @@ class Scanner {
   void newline() {
     ++line_;
     line_start_ = at_ + 1;
+    if (open_.empty()) forget_key();
+  }
+
+  void forget_key() {
+    key_dots_ = 0;
     dots_ = 0;
   }
+  [[nodiscard]] int depth() const { return (open_.empty() ? 0 : open_.back().depth) + key_dots_; }
 
   void step() {
     const char c = text_[at_];
@@ -65,10 +80,14 @@ class Scanner {
         comma();
         break;
       case '.':
-        if (++dots_ > max_dots && open_.empty())
-          refuse(fmt::format("more than {} dots in one line: a dotted key is at most three names long", max_dots));
+        if (++dots_ > max_dots)
+          refuse(
+              fmt::format("more than {} dots in one key or value: a dotted key is at most three names long, and numbers have a "
+                          "comma between them",
+                          max_dots));
         break;
       case '=':
+        key_dots_ = dots_;
         dots_ = 0;
         break;
       default:
@@ -107,28 +126,34 @@ class Scanner {
   }
 
   void open(char c) {
-    if (open_.size() >= max_nesting) refuse(fmt::format("brackets nested deeper than {}: flatten the value", max_nesting));
-    open_ += c;
+    const int inside = depth() + 1;
+    if (inside > max_nesting) refuse(fmt::format("brackets nested deeper than {}: flatten the value", max_nesting));
+    open_.push_back({c, inside});
+    forget_key();
   }
 
   void close(char c) {
     const char want = c == ']' ? '[' : '{';
-    if (open_.empty() || open_.back() != want) refuse(fmt::format("`{}` closes nothing: write the bracket that was opened", c));
+    if (open_.empty() || open_.back().bracket != want)
+      refuse(fmt::format("`{}` closes nothing: write the bracket that was opened", c));
     if (c == '}' && last_ == ',') refuse("a comma before `}`: remove the comma");
     open_.pop_back();
+    forget_key();
   }
 
-  void comma() const {
+  void comma() {
     if (open_.empty()) return;  // the parser says it better
     if (last_ == '[' || last_ == '{' || last_ == ',' || last_ == '=')
       refuse("a comma where a value belongs: remove the comma, or write the value before it");
+    forget_key();
   }
 
   std::string_view text_;
   const std::string& file_;
   std::size_t at_ = 0, line_start_ = 0;
-  int line_ = 1, dots_ = 0;
-  std::string open_;
+  int line_ = 1;
+  int key_dots_ = 0, dots_ = 0;  // of the key before the `=`; since it, or since the key began
+  std::vector<Open> open_;
   char last_ = '\n';
 };
 

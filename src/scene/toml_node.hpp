@@ -47,14 +47,17 @@ inline TomlNode::~TomlNode() = default;
 /// The value as TOML text on one line, numbers with all their digits.
 [[nodiscard]] std::string to_toml(const TomlNode&);
 
-/// @throws InputError (file, line, column) when the text breaks a bound of check_text or is no TOML
-[[nodiscard]] TomlNode parse_toml(const std::string& text, const std::string& file);
+/// A copy of this process reads the text first, so that no text can end us.
+/// @param limit wall clock of the copy [s]; then it is killed
+/// @throws InputError (file, line, column) when the text breaks a bound of check_text, is no TOML, or kills or holds up the copy
+/// @throws std::system_error when there is no process to spare for the copy
+[[nodiscard]] TomlNode parse_toml(const std::string& text, const std::string& file, double limit = 30.0);
 
 /// @throws InputError also when the file is not there, no regular file, empty or above the bound
 [[nodiscard]] TomlNode read_toml(const std::string& file);
 
-/// Bounds before a parser sees a stranger's text: size, line length, control bytes, nesting, length of dotted keys,
-/// a comma where a value belongs. @throws InputError with line and column
+/// Bounds before a parser sees a stranger's text: size, line length, control bytes, length of dotted keys, nesting by brackets
+/// and dots together, a comma where a value belongs. @throws InputError with line and column
 void check_size(std::size_t bytes, const std::string& file);
 void check_text(std::string_view text, const std::string& file);
 

@@ -20,6 +20,8 @@ namespace tripoint {
 #include <cerrno>
 #include <charconv>
 #include <fstream>
+#include <new>
+#include <system_error>
 #include <vector>
 
 #include "core/children.hpp"
@@ -83,35 +85,59 @@ TomlNode convert(const toml::node& from, const std::string& file) {
   return to;
 }
 
-/// True when a child process parses the text without dying. The parser is a pure function of the text: what the child
-/// survives, the parent survives. (Upstream has an open report of unreachable points that are reached.)
-bool child_survives([[maybe_unused]] const std::string& text) {
+TomlNode document_of(const std::string& text, const std::string& file) {
+  TomlNode root = convert_table(toml::parse(text), file);
+  const auto lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  root.place = {file, lines + 1, 0};  // what the file lacks is missing at its end
+  return root;
+}
+
+/// Address space that this process has [bytes]; 0 where the system does not tell.
+rlim_t address_space() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+[[noreturn, maybe_unused]] void be_the_copy(const std::string& text, const std::string& file) {
+  const rlim_t most = address_space() + (rlim_t{2} << 30);
+  const rlimit no_core{0, 0}, seconds{5, 5}, memory{most, most};
+  setrlimit(RLIMIT_CORE, &no_core);
+  setrlimit(RLIMIT_CPU, &seconds);
+#if !defined(__SANITIZE_ADDRESS__)
+  setrlimit(RLIMIT_AS, &memory);
+#else
+  static_cast<void>(memory);
+#endif
+  const int nothing = open("/dev/null", O_WRONLY);
+  dup2(nothing, 2);
+  try {
+    static_cast<void>(document_of(text, file));
+  } catch (const std::bad_alloc&) {
+    _exit(1);
+  } catch (...) {  // a refusal: the parent words it
+  }
+  _exit(0);
+}
+
+/// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function of the text: what
+/// the child survives, the parent survives. (Upstream has an open report of unreachable points that are reached.)
+/// @throws std::system_error where there is no process to spare: no fault of the text, which is not read then
+/// @throws InputError where the child takes longer than the limit
+bool child_survives([[maybe_unused]] const std::string& text, [[maybe_unused]] const std::string& file,
+                    [[maybe_unused]] double limit) {
 #if defined(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
   return true;  // a process for each input would leave a fuzzer no inputs
 #else
   keep_ends_of_children();
   const pid_t child = fork();
-  if (child < 0) return true;  // no process to spare: the bounds have been checked, go on
-  if (child == 0) {
-    const rlimit no_core{0, 0}, seconds{5, 5}, memory{rlim_t{2} << 30, rlim_t{2} << 30};
-    setrlimit(RLIMIT_CORE, &no_core);
-    setrlimit(RLIMIT_CPU, &seconds);
-#if !defined(__SANITIZE_ADDRESS__)
-    setrlimit(RLIMIT_AS, &memory);
-#else
-    static_cast<void>(memory);
-#endif
-    const int nothing = open("/dev/null", O_WRONLY);
-    dup2(nothing, 2);
-    try {
-      static_cast<void>(toml::parse(text));
-    } catch (...) {  // a refusal: the parent words it
-    }
-    _exit(0);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int error = errno;
+  if (child < 0)
+    throw std::system_error(error, std::generic_category(), file + " was not read: there is no process to spare to try it in");
+  if (child == 0) be_the_copy(text, file);
+  const auto [in_time, status] = end_of_child(child, limit);
+  if (!in_time)
+    throw InputError({file, 0, 0}, fmt::format("could not be read within {:g} s: simplify its brackets and keys", limit));
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 #endif
 }
@@ -175,8 +201,8 @@ std::string to_toml(const TomlNode& n) {
 namespace {
 
 /// Whether toml++ ends in one of its asserts, which names no place.
-bool loses_parser(const std::string& text) {
-  if (!child_survives(text)) return true;
+bool loses_parser(const std::string& text, const std::string& file, double limit) {
+  if (!child_survives(text, file, limit)) return true;
   try {
     static_cast<void>(toml::parse(text));
   } catch (const toml::parse_error&) {
@@ -188,30 +214,28 @@ bool loses_parser(const std::string& text) {
 }
 
 /// First line with which the text up to its end loses the parser, by bisection: 20 parses of a million lines.
-int line_that_loses_parser(const std::string& text) {
+int line_that_loses_parser(const std::string& text, const std::string& file, double limit) {
   std::vector<std::size_t> ends;
   for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1)) ends.push_back(at + 1);
-  const auto first = std::ranges::partition_point(ends, [&](std::size_t end) { return !loses_parser(text.substr(0, end)); });
+  const auto first =
+      std::ranges::partition_point(ends, [&](std::size_t end) { return !loses_parser(text.substr(0, end), file, limit); });
   return static_cast<int>(first - ends.begin()) + 1;
 }
 
 }  // namespace
 
-TomlNode parse_toml(const std::string& text, const std::string& file) {
+TomlNode parse_toml(const std::string& text, const std::string& file, double limit) {
   check_text(text, file);
-  if (!child_survives(text))
+  if (!child_survives(text, file, limit))
     throw InputError({file, 0, 0}, "the TOML parser could not read this text and stopped: simplify its brackets and keys");
   try {
-    TomlNode root = convert_table(toml::parse(text), file);
-    root.place = {file, static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1,
-                  0};  // what the file lacks is missing at its end
-    return root;
+    return document_of(text, file);
   } catch (const toml::parse_error& error) {
     throw InputError(place_of(error.source(), file),
                      fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists",
                                  printable(error.description(), 300)));
   } catch (const std::exception& error) {
-    throw InputError({file, line_that_loses_parser(text), 0},
+    throw InputError({file, line_that_loses_parser(text, file, limit), 0},
                      fmt::format("no valid TOML: {}; write key = value, texts in quotes, [a, b] for lists", error.what()));
   }
 }

@@ -14,9 +14,12 @@
 #include <chrono>
 #include <cstring>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "core/errors.hpp"
 #include "harness/fakes.hpp"
+#include "scene/toml_node.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/try_in_child.hpp"
 #include "validation/harness/verdict.hpp"
@@ -34,6 +37,7 @@ struct FailingCall {
   }
 };
 FailingCall spawns, forks, pipes;
+std::atomic<bool> copies_hang{false};  ///< of this process, from their first moment on
 
 template <class F>
 F* next(const char* name) {
@@ -54,7 +58,9 @@ pid_t fork() noexcept {
     errno = forks.error;
     return -1;
   }
-  return next<pid_t()>("fork")();
+  const pid_t child = next<pid_t()>("fork")();
+  while (child == 0 && copies_hang) ::pause();
+  return child;
 }
 int pipe2(int* ends, int flags) noexcept {
   if (pipes.fails()) {
@@ -182,6 +188,31 @@ TEST(Starts, AForeignFileIsNotReadWhereNoCopyCanTryIt) {
   EXPECT_THROW(try_in_child([&] { ++done; }, "a file", 5.0), EngineError);
   forks.plan(0, 0);
   EXPECT_EQ(done, 0);
+}
+
+TEST(Starts, ACaseFileIsNotReadWhereNoCopyCanTryIt) {
+  std::string told;
+  forks.plan(1, EAGAIN);
+  try {
+    static_cast<void>(parse_toml("a = 1\n", "case.toml"));
+  } catch (const std::system_error& e) {
+    told = e.what();
+  }
+  forks.plan(0, 0);
+  EXPECT_NE(told.find("case.toml was not read: there is no process to spare"), std::string::npos) << told;
+  EXPECT_NE(told.find(std::strerror(EAGAIN)), std::string::npos) << told;
+}
+
+TEST(Starts, ACaseFileWhoseCopyHangsIsRefusedAtTheLimit) {
+  std::string told;
+  copies_hang = true;
+  try {
+    static_cast<void>(parse_toml("a = 1\n", "case.toml", 0.2));
+  } catch (const InputError& e) {
+    told = e.what();
+  }
+  copies_hang = false;
+  EXPECT_NE(told.find("case.toml: could not be read within 0.2 s"), std::string::npos) << told;
 }
 
 /// A shell that starts us with `trap '' CHLD` hands that down: the system then throws the ends of children away.

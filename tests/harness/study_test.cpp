@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include "core/errors.hpp"
 #include "harness/fakes.hpp"
 #include "harness/judged.hpp"
@@ -50,6 +52,96 @@ TEST(Studies, WithAnotherNumberOfCompanionsThanLevelsAreRefused) {
   EXPECT_THROW(
       (void)read_flight_case(folder, "[[study]]\naxis = \"support_ratio\"\nlevels = [2.0, 3.0]\nsupport_ratios = [2.0, 3.0]\n"),
       InputError);
+}
+
+/// The plan of our own engine.
+EnginePlan our_plan(const Case& value) {
+  EngineEntry ours;
+  ours.name = "tripoint";
+  Selection only;
+  only.engines = {"tripoint"};
+  return plan_runs(value, {ours}, only).at(0);
+}
+
+TEST(Studies, ShareTheRunsThatAreTheSame) {
+  const TestFolder folder;
+  const auto value = read_flight_case(folder, R"(
+[[study]]
+axis = "spacing"
+levels = [0.1, 0.05]
+[[study]]
+axis = "spacing"
+levels = [0.05000000000001, 0.025]
+[[study]]
+axis = "spacing"
+levels = [0.1, 0.05]
+jitter = 0.1
+seeds = 2
+[[study]]
+axis = "spacing"
+levels = [0.05, 0.025]
+jitter = 0.1
+seeds = 3
+)");
+  std::string planned;
+  for (const auto& run : our_plan(value).runs) planned += run.label + " of " + run.group + "\n";
+  EXPECT_EQ(planned,
+            "corrected of corrected\n"  // 0.1 is the case's own
+            "corrected-spacing=0.05 of corrected-spacing=0.05\n"
+            "corrected-spacing=0.025 of corrected-spacing=0.025\n"
+            "corrected-spacing=0.1-jitter=0.1 of corrected-spacing=0.1-jitter=0.1\n"
+            "corrected-spacing=0.1-jitter=0.1-seed2 of corrected-spacing=0.1-jitter=0.1\n"
+            "corrected-spacing=0.05-jitter=0.1 of corrected-spacing=0.05-jitter=0.1\n"
+            "corrected-spacing=0.05-jitter=0.1-seed2 of corrected-spacing=0.05-jitter=0.1\n"
+            "corrected-spacing=0.05-jitter=0.1-seed3 of corrected-spacing=0.05-jitter=0.1\n"
+            "corrected-spacing=0.025-jitter=0.1 of corrected-spacing=0.025-jitter=0.1\n"
+            "corrected-spacing=0.025-jitter=0.1-seed2 of corrected-spacing=0.025-jitter=0.1\n"
+            "corrected-spacing=0.025-jitter=0.1-seed3 of corrected-spacing=0.025-jitter=0.1\n");
+}
+
+TEST(Studies, OfAThousandSeedsArePlannedAtOnce) {
+  const TestFolder folder;
+  const auto value =
+      read_flight_case(folder, "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.05]\njitter = 0.1\nseeds = 1000\n");
+  const auto start = std::clock();
+  EXPECT_EQ(our_plan(value).runs.size(), 2001U);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0);  // ten seconds where each is compared with all
+}
+
+TEST(Studies, ThatAskForMoreRunsThanCanBePlannedAreRefusedWithTheirLine) {
+  const TestFolder folder;
+  const auto study = [](int number, const std::string& seeds) {
+    return "[[study]]\naxis = \"spacing\"\nlevels = [0.1, 0.09, 0.08, 0.07, 0.06]\njitter = 0.0" + std::to_string(number) +
+           "\nseeds = " + seeds + "\n";
+  };
+  EXPECT_EQ(our_plan(read_flight_case(folder, study(1, "1000") + study(2, "999"))).runs.size(), 9996U);
+  const auto value = read_flight_case(folder, study(1, "1000") + study(2, "1000"));
+  try {
+    static_cast<void>(our_plan(value));
+    FAIL() << "10001 runs";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.place().line, value.studies.at(1).place.line);
+    EXPECT_GT(e.place().line, 0);
+    EXPECT_NE(std::string(e.what()).find("flight.toml"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("more than the 10000 that can be planned"), std::string::npos) << e.what();
+  }
+}
+
+TEST(Studies, OfMoreThanAHundredLevelsAreRefused) {
+  const TestFolder folder;
+  const auto study = [](int levels) {
+    std::string list;
+    for (int k = 0; k < levels; ++k) list += std::to_string(0.3 - 0.001 * k) + ", ";
+    return "[[study]]\naxis = \"spacing\"\nlevels = [" + list + "]\n";
+  };
+  EXPECT_EQ(read_flight_case(folder, study(100)).studies.at(0).levels.size(), 100U);
+  try {
+    static_cast<void>(read_flight_case(folder, study(101)));
+    FAIL() << "101 levels";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("101 levels: write at most 100"), std::string::npos) << e.what();
+    EXPECT_GT(e.place().line, 0);
+  }
 }
 
 TEST(Studies, AJointLadderIsFittedOverItsSpacing) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <stdexcept>
@@ -40,6 +41,23 @@ TEST(TryInChild, WhatHangsIsStoppedAtTheLimit) {
                 },
                 0.2),
             "a file could not be read within 0.2 s");
+}
+
+TEST(TryInChild, WhatHangsIsStoppedWithoutADescriptorToSpareToo) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const int next = ::dup(0);
+  ASSERT_GE(next, 0);
+  ::close(next);
+  const rlimit none_to_spare{static_cast<rlim_t>(next), before.rlim_max};
+  ::setrlimit(RLIMIT_NOFILE, &none_to_spare);
+  const auto told = words_of(
+      [] {
+        for (;;) ::pause();
+      },
+      0.2);
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  EXPECT_EQ(told, "a file could not be read within 0.2 s");
 }
 
 TEST(TryInChild, WhatTakesMoreThanTheMachineHasIsRefused) {

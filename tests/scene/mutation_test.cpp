@@ -117,6 +117,74 @@ TEST(ParserBreakers, AreRefusedWithLineAndRemedy) {
   EXPECT_EQ(tally.refused, static_cast<int>(parser_breakers().size()));
 }
 
+std::string names(int n) {
+  std::string path = "a";
+  for (int k = 1; k < n; ++k) path += ".a";
+  return path;
+}
+
+/// What the reader says of a text that is no case but TOML; "" where it takes it.
+std::string refusal_of_toml(const std::string& text) {
+  try {
+    static_cast<void>(parse_toml(text, "file.toml"));
+    return "";
+  } catch (const InputError& e) {
+    return e.what();
+  }
+}
+
+int depth_of(const TomlNode& n) {
+  int deepest = 0;
+  for (const auto& item : n.items) deepest = std::max(deepest, depth_of(item));
+  for (const auto& [key, value] : n.members) deepest = std::max(deepest, depth_of(value));
+  return deepest + 1;
+}
+
+TEST(DottedKeys, AreBoundedWhereverTheyStand) {
+  const std::string longer = names(14);
+  for (const std::string& text :
+       {longer + " = 1", "[" + longer + "]", "[[" + longer + "]]", "v = {" + longer + " = 1}", "v = {b = 1, " + longer + " = 1}",
+        "v = [1.5, {" + longer + " = 1}]", "v = {b = [{" + longer + " = 1}]}"}) {
+    const auto told = refusal_of_toml("w = 1\n" + text + "\n");
+    EXPECT_NE(told.find("file.toml:2:"), std::string::npos) << text << "\n" << told;
+    EXPECT_NE(told.find("more than 12 dots"), std::string::npos) << text << "\n" << told;
+  }
+}
+
+TEST(DottedKeys, AndBracketsAreCountedTogether) {
+  const std::string path = names(10);
+  const auto nested = [&path](int n) {
+    std::string begin, end;
+    for (int k = 0; k < n; ++k) {
+      begin += "{" + path + " = [";
+      end += "]}";
+    }
+    return "v = " + begin + end + "\n";
+  };
+  EXPECT_EQ(refusal_of_toml(nested(2)), "");  // twice nine dots and two brackets are 22 of 24
+  EXPECT_NE(refusal_of_toml(nested(3)).find("nested deeper than 24"), std::string::npos) << refusal_of_toml(nested(3));
+}
+
+TEST(DottedKeys, OfTablesThatExtendTheSamePathStayAsShallow) {
+  const std::string value = std::string(11, '[') + "{" + names(12) + " = 1}" + std::string(11, ']');
+  std::string text;
+  for (int k = 0; k < 100; ++k) {
+    text += "[" + names(12) + ".b" + std::to_string(k) + "]\n";
+    text += names(13) + " = " + value + "\n";
+  }
+  // The root, 13 names of the table, 13 of its key, 11 lists in the first of them, and 12 names: all bounds together allow no
+  // more.
+  EXPECT_EQ(depth_of(parse_toml(text, "file.toml")), 50);
+}
+
+TEST(DottedKeys, ArePutUpWithWhereTheyAreShort) {
+  std::string numbers = "1.5";
+  for (int k = 0; k < 40; ++k) numbers += k % 8 == 7 ? ",\n  1.5" : ", 1.5";
+  EXPECT_EQ(refusal_of_toml("v = [" + numbers + "]\n"), "");
+  EXPECT_EQ(refusal_of_toml("v = {a.b.c = 1.5, d.e.f = 1.5, g.h.i = [1.5, {j.k.l = 1.5}], m.n.o = 1.5, p.q.r = 1.5}\n"), "");
+  EXPECT_EQ(refusal_of_toml("[a.b.c]\nd.e.f = [" + numbers + "]\n[[a.b.g]]\nh.i = \"x.x.x.x.x.x.x.x.x.x.x.x.x.x.x\"\n"), "");
+}
+
 TEST(Mutants, AreTheSameForTheSameSeed) {
   const auto a = mutants(sources, 50, 7), b = mutants(sources, 50, 7), c = mutants(sources, 50, 8);
   int differ = 0;

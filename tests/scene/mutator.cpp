@@ -246,6 +246,7 @@ std::vector<Mutant> parser_breakers() {
     return text;
   };
   const std::string scene = "[scene]\nend_time = 1\n";
+  const std::string path = many("a.", 6000) + "a";  // 12 kB, so that a line holds it
   return {{"[,]\n", "[,]"},
           {"v = [,]\n", "v = [,]"},
           {"v=[1,}\n", "v=[1,}"},
@@ -256,6 +257,11 @@ std::vector<Mutant> parser_breakers() {
           {scene + "v = " + many("{a=", 2000) + "1" + many("}", 2000) + "\n", "2000 nested tables"},
           {many("a.", 200000) + "b = 1\n", "a dotted key of 400 kB"},
           {"[" + many("a.", 200000) + "b]\n", "a dotted table of 400 kB"},
+          {"v = {" + path + " = [\n{" + path + " = [\n]}]}\n", "two dotted keys of 6000 names in each other"},
+          {"v = " + many("{" + path + " = [\n", 8) + many("]}", 8) + "\n", "eight dotted keys of 6000 names in each other"},
+          {"v = [\n{" + path + " = 1},\n{" + path + " = 1}]\n", "dotted keys of 6000 names beside each other"},
+          {"[" + path + "]\n" + path + " = 1\n", "a dotted table of 6000 names, and a key in it"},
+          {many("[[" + path + "]]\nb = 1\n", 8), "a dotted array of tables of 6000 names, eight times"},
           {many("[[a]]\n", 20000), "20000 tables"},
           {many("a", 400000) + " = 1\n", "a key of 400 kB"},
           {"v = \"" + many("a", 400000) + "\"\n", "a text of 400 kB"},

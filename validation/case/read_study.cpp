@@ -135,6 +135,9 @@ Study read_study(const TomlNode& node, std::size_t number, double end_time, Read
       in.refuse("levels",
                 fmt::format("write the levels from coarse to fine: for {} that is {}", axis, upward ? "rising" : "falling"));
   }
+  constexpr std::size_t most_levels = 100;
+  if (s.levels.size() > most_levels)
+    in.refuse("levels", fmt::format("{} levels: write at most {}", s.levels.size(), most_levels));
   if (axis == Axis::time_step && end_time > most_steps * s.levels.back())
     in.refuse("levels", fmt::format("{} s would need {:.3g} steps to end_time = {} s: at most {:.0e} can be made",
                                     s.levels.back(), end_time / s.levels.back(), end_time, most_steps));

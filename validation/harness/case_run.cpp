@@ -154,6 +154,7 @@ void add_runs(CaseRuns& all, const SuiteOptions& options) {
     if (!engine.entry) continue;
     for (const auto& plan : engine.runs) {
       if (!is_wanted(engine, plan, options)) continue;
+      if (interrupted()) return;  // a thousand seeds are sampled for minutes
       CaseRun run;
       const Scene scene = scene_of(value, plan);
       const auto& [initial, file, hash] = sampler.of(scene);

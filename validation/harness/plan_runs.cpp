@@ -4,7 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <tuple>
+#include <utility>
 
+#include "core/errors.hpp"
 #include "validation/harness/judge.hpp"
 
 namespace tripoint {
@@ -95,30 +99,66 @@ void set_level(RunPlan& run, Axis axis, double level) {
 /// "paper-": how the labels of a mode's runs begin.
 std::string label_start(JudgedMode mode) { return mode == JudgedMode::none ? std::string() : std::string(to_string(mode)) + "-"; }
 
-bool same_run(const Case& value, const RunPlan& a, const RunPlan& b) {
-  const auto s = scene_of(value, a), t = scene_of(value, b);
-  const auto same = [](const std::optional<double>& x, const std::optional<double>& y) {
-    return x.has_value() == y.has_value() && (!x || same_level(*x, *y));
-  };
-  return a.mode == b.mode && a.input == b.input && same_level(s.spacing, t.spacing) && same(s.time_step, t.time_step) &&
-         same_level(s.support_ratio, t.support_ratio) && s.jitter == t.jitter && s.seed == t.seed && same(a.walkers, b.walkers) &&
-         same(a.iterations, b.iterations);
-}
+/// Runs in the order in which they are made. A run is compared with those of its mode, jitter and seed alone, and by numbers that
+/// its scene was asked for once: each seed of a study is a run, and all of them with all others would be millions of scenes.
+class RunList {
+ public:
+  explicit RunList(const Case& value) : case_(value) {}
 
-/// @return the run itself, or the one that is the same and was planned before
-RunPlan& add_run(const Case& value, std::vector<RunPlan>& runs, const RunPlan& run) {
-  const auto at = std::find_if(runs.begin(), runs.end(), [&](const auto& r) { return same_run(value, r, run); });
-  if (at == runs.end()) return runs.emplace_back(run);
-  at->levels.insert(run.levels.begin(), run.levels.end());
-  return *at;
-}
+  /// Also where the same run was planned before. What has an input of its own is never compared: no study has another like it.
+  void append(const RunPlan& run) {
+    if (run.input.empty()) {
+      const auto [key, numbers] = told_apart(run);
+      alike_[key].push_back({numbers, runs_.size()});
+    }
+    runs_.push_back(run);
+  }
+
+  /// @return group of the run, or of the one that is the same and was planned before
+  std::string add(const RunPlan& run) {
+    const auto [key, numbers] = told_apart(run);
+    auto& alike = alike_[key];
+    const auto at = std::find_if(alike.begin(), alike.end(), [&n = numbers](const Placed& p) { return same(p.numbers, n); });
+    if (at != alike.end()) {
+      RunPlan& before = runs_[at->place];
+      before.levels.insert(run.levels.begin(), run.levels.end());
+      return before.group;
+    }
+    alike.push_back({numbers, runs_.size()});
+    return runs_.emplace_back(run).group;
+  }
+
+  [[nodiscard]] std::vector<RunPlan> take() { return std::move(runs_); }
+
+ private:
+  using Key = std::tuple<JudgedMode, double, std::uint64_t>;  // mode, jitter, seed
+  using Numbers = std::array<std::optional<double>, 5>;
+  struct Placed {
+    Numbers numbers;
+    std::size_t place;
+  };
+
+  [[nodiscard]] std::pair<Key, Numbers> told_apart(const RunPlan& run) const {
+    const Scene s = scene_of(case_, run);
+    return {{run.mode, s.jitter, s.seed}, {s.spacing, s.time_step, s.support_ratio, run.walkers, run.iterations}};
+  }
+
+  static bool same(const Numbers& a, const Numbers& b) {
+    return std::equal(a.begin(), a.end(), b.begin(),
+                      [](const auto& x, const auto& y) { return x.has_value() == y.has_value() && (!x || same_level(*x, *y)); });
+  }
+
+  const Case& case_;
+  std::vector<RunPlan> runs_;
+  std::map<Key, std::vector<Placed>> alike_;
+};
 
 void set_together(RunPlan& run, const Study& study, std::size_t k) {
   if (!study.support_ratios.empty()) set_level(run, Axis::support_ratio, study.support_ratios[k]);
   if (!study.time_steps.empty()) set_level(run, Axis::time_step, study.time_steps[k]);
 }
 
-void add_study(const Case& value, const Study& study, const RunPlan& base, std::uint64_t seed, std::vector<RunPlan>& runs) {
+void add_study(const Study& study, const RunPlan& base, std::uint64_t seed, RunList& runs) {
   for (std::size_t k = 0; k < study.levels.size(); ++k) {
     const double level = study.levels[k];
     auto run = base;
@@ -129,36 +169,71 @@ void add_study(const Case& value, const Study& study, const RunPlan& base, std::
     if (study.jitter > 0.0) run.choice.jitter = study.jitter;
     run.label = run.group = fmt::format("{}{}={:g}{}", label_start(base.mode), to_string(study.axes), level,
                                         study.jitter > 0.0 ? fmt::format("-jitter={:g}", study.jitter) : "");
-    const std::string group = add_run(value, runs, run).group;
+    const std::string group = runs.add(run);
     for (int n = 1; n < study.seeds; ++n) {
       auto replica = run;
       replica.choice.seed = seed + static_cast<std::uint64_t>(n);
       replica.group = group;
       replica.label += fmt::format("-seed{}", *replica.choice.seed);
-      add_run(value, runs, replica);
+      static_cast<void>(runs.add(replica));
     }
   }
 }
 
 /// The case's own run at both ends of each uncertain input.
-void add_inputs(const Case& value, const RunPlan& base, std::vector<RunPlan>& runs) {
+void add_inputs(const Case& value, const RunPlan& base, RunList& runs) {
   for (const auto& input : value.inputs)
     for (const auto& [end, what] : {std::pair{"low", input.low}, std::pair{"high", input.high}}) {
       auto run = base;
       run.base = false;
       run.input = input.key + "=" + what;
       run.label = run.group = fmt::format("{}{}-{}", label_start(base.mode), input.key, end);
-      runs.push_back(run);
+      runs.append(run);
     }
 }
 
-std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, const Selection& selection) {
-  std::vector<RunPlan> runs;
+std::vector<JudgedMode> modes_of(const Case& value, const EngineChoice& engine) {
+  if (engine.name != "tripoint") return {JudgedMode::none};
   std::vector<JudgedMode> modes;
   for (const auto mode : value.modes) modes.push_back(from_word<JudgedMode>(to_string(mode)));
-  if (engine.name != "tripoint") modes = {JudgedMode::none};
+  return modes;
+}
+
+std::vector<std::string> presets_of(const EngineChoice& engine, const EngineEntry* entry) {
+  if (!engine.presets.empty()) return engine.presets;
+  return {entry && !contains(entry->presets, "default") ? entry->presets.front() : "default"};
+}
+
+/// Counts what a case asks for before any of it is planned.
+class Budget {
+ public:
+  void spend(std::size_t runs, const SourcePlace& place) {
+    asked_ += runs;
+    if (asked_ > most_runs)
+      throw InputError(place,
+                       fmt::format("here the case asks for {} runs by now, more than the {} that can be planned: give fewer "
+                                   "levels, seeds, modes, presets or engines",
+                                   asked_, most_runs));
+  }
+
+ private:
+  std::size_t asked_ = 0;
+};
+
+void count_runs(const Case& value, const EngineChoice& engine, std::size_t presets, Budget& budget) {
+  for (const JudgedMode mode : modes_of(value, engine)) {
+    budget.spend(presets, {value.file, 0, 0});
+    for (const auto& input : value.inputs) budget.spend(2 * presets, input.place);
+    for (const auto& study : value.studies)
+      if (applies(study, engine.name, mode))
+        budget.spend(presets * study.levels.size() * static_cast<std::size_t>(study.seeds), study.place);
+  }
+}
+
+std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, const Selection& selection) {
+  RunList runs(value);
   const std::uint64_t seed = selection.seed.value_or(value.scene.seed);
-  for (const JudgedMode mode : modes) {
+  for (const JudgedMode mode : modes_of(value, engine)) {
     RunPlan base;
     base.mode = mode;
     base.base = true;
@@ -172,13 +247,13 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
          value.studies)  // a gate on this level means the case's own run too, whichever engine the study is of
       if (const auto level = own_level(scene, base, study.axes.axis); level && study.axes.alone())
         base.levels[study.axes] = *level;
-    runs.push_back(base);
+    runs.append(base);
     base.levels.clear();
     if (engine.name != "exact") add_inputs(value, base, runs);
     for (const auto& study : value.studies)
-      if (applies(study, engine.name, mode)) add_study(value, study, base, seed, runs);
+      if (applies(study, engine.name, mode)) add_study(study, base, seed, runs);
   }
-  return runs;
+  return runs.take();
 }
 
 }  // namespace
@@ -191,19 +266,18 @@ bool has_states(const ReferenceChoice& reference) {
 
 std::vector<EnginePlan> plan_runs(const Case& value, const std::vector<EngineEntry>& found, const Selection& selection) {
   std::vector<EnginePlan> plans;
+  Budget budget;
   for (const auto& engine : engines_of(value, found, selection)) {
     EnginePlan plan;
     plan.name = engine.name;
     plan.required = engine.required;
     plan.settings = settings_of(value, engine);
     plan.entry = find_engine(found, engine.name);
-    if (plan.entry && !plan.entry->available)
-      plan.runs.clear();
-    else
+    const auto presets = presets_of(engine, plan.entry);
+    if (!plan.entry || plan.entry->available) {
+      count_runs(value, engine, presets.size(), budget);
       plan.runs = runs_of(value, engine, selection);
-    auto presets = engine.presets;
-    if (presets.empty())
-      presets = {plan.entry && !contains(plan.entry->presets, "default") ? plan.entry->presets.front() : "default"};
+    }
     for (const auto& preset : presets) {
       plan.preset = preset;
       plans.push_back(plan);

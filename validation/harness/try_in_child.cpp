@@ -3,14 +3,10 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <signal.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
 #include <new>
 
@@ -47,18 +43,6 @@ void bound_the_copy() {
   ::_exit(code);
 }
 
-/// Whether the child ends within this time.
-bool ends_within(pid_t child, double seconds) {
-  const int fd = static_cast<int>(syscall(SYS_pidfd_open, child, 0));
-  if (fd < 0) return true;  // a kernel before 5.3: waited for without limit
-  pollfd wait{fd, POLLIN, 0};
-  int ready = 0;
-  while ((ready = ::poll(&wait, 1, static_cast<int>(1e3 * seconds))) < 0 && errno == EINTR) {
-  }
-  ::close(fd);
-  return ready > 0;
-}
-
 }  // namespace
 
 void try_in_child(const std::function<void()>& deed, const std::string& what, double limit) {
@@ -66,11 +50,7 @@ void try_in_child(const std::function<void()>& deed, const std::string& what, do
   const pid_t child = ::fork();
   if (child < 0) throw EngineError(what + " was not read: there is no process to spare to try it in");
   if (child == 0) be_the_copy(deed);
-  const bool in_time = ends_within(child, limit);
-  if (!in_time) ::kill(child, SIGKILL);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
+  const auto [in_time, status] = end_of_child(child, limit);
   if (!in_time) throw EngineError(fmt::format("{} could not be read within {:g} s", what, limit));
   if (WIFSIGNALED(status))
     throw EngineError(
