@@ -25,6 +25,13 @@ namespace {
 using json = nlohmann::ordered_json;
 enum Exit { ok = 0, failed = 1, bad_job = 2, refused = 4, diverged = 7, interrupted = exit_interrupted };
 
+/// For whoever listens on stderr. A terminal that has closed takes no words; that is no reason to fail.
+template <class... Args>
+void tell(fmt::format_string<Args...> format, Args&&... args) {
+  const std::string words = fmt::format(format, std::forward<Args>(args)...);
+  std::fwrite(words.data(), 1, words.size(), stderr);
+}
+
 double cpu_seconds() {
   timespec t{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -216,8 +223,8 @@ class Run {
       last_ = engine_.observe();
       show(writer, last_);
       tell_status(time);
-      fmt::print(stderr, "frame {} t {:.9g} s\nprogress {:.4f}\n", writer.frames() - 1, time,
-                 (time - job_.times.front()) / std::max(job_.times.back() - job_.times.front(), 1e-300));
+      tell("frame {} t {:.9g} s\nprogress {:.4f}\n", writer.frames() - 1, time,
+           (time - job_.times.front()) / std::max(job_.times.back() - job_.times.front(), 1e-300));
     }
     account();
     result_.state_hash = state_hash(last_);
@@ -251,7 +258,7 @@ class Run {
       Checkpoint kept;
       restartable_->save(kept);
       const std::string path = checkpoints_->write(std::move(kept), now, step, progress_);
-      fmt::print(stderr, "checkpoint {} t {:.9g} s\n", path, now);
+      tell("checkpoint {} t {:.9g} s\n", path, now);
       if (stops) throw Interrupted{path, now};
       return true;
     });
@@ -271,7 +278,7 @@ class Run {
       line["ledger_residual"] = ledger_.residual();
       line["ledger_exchanged"] = ledger_.exchanged();
     }
-    fmt::print(stderr, "status {}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
+    tell("status {}\n", line.dump(-1, ' ', false, json::error_handler_t::replace));
   }
 
   void tell_failure(const Diverged& e) {
@@ -296,11 +303,11 @@ class Run {
 
   int finish(Status status, int code) {
     result_.status = status;
-    if (!result_.message.empty()) fmt::print(stderr, "{}: {}\n", status, result_.message);
+    if (!result_.message.empty()) tell("{}: {}\n", status, result_.message);
     try {
       write_result(result_path_, result_);
     } catch (const std::exception& e) {
-      fmt::print(stderr, "error: {}\n", e.what());
+      tell("error: {}\n", e.what());
       return Exit::failed;
     }
     return code;
@@ -322,10 +329,10 @@ class Run {
 };
 
 int usage(const char* program) {
-  fmt::print(stderr,
-             "usage: {0} --info | --check JOB.json | --run JOB.json\nAn engine of tripoint; `tripoint run CASE --engine NAME` "
-             "writes the job and calls it.\n",
-             program);
+  tell(
+      "usage: {0} --info | --check JOB.json | --run JOB.json\nAn engine of tripoint; `tripoint run CASE --engine NAME` "
+      "writes the job and calls it.\n",
+      program);
   return bad_job;
 }
 
@@ -340,10 +347,10 @@ int serve(int argc, char** argv, MakeEngine make) {
     if (verb == "--run" && argc == 3) return Run(*engine, read_job(argv[2])).go();
     return usage(argv[0]);
   } catch (const InputError& e) {
-    fmt::print(stderr, "error: {}\n", e.what());
+    tell("error: {}\n", e.what());
     return bad_job;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "error: {}\n", e.what());
+    tell("error: {}\n", e.what());
     return failed;
   }
 }

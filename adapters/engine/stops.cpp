@@ -3,6 +3,8 @@
 
 #include <signal.h>
 
+#include "core/stop_signals.hpp"
+
 namespace tripoint {
 namespace {
 
@@ -11,14 +13,7 @@ extern "C" void on_stop(int) { asked = 1; }
 
 }  // namespace
 
-void catch_stops() {
-  struct sigaction action {};
-  action.sa_handler = on_stop;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESETHAND;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
+void catch_stops() { on_stop_signals(on_stop); }
 
 bool stop_asked() noexcept { return asked != 0; }
 

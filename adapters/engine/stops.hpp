@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// Ctrl-C and SIGTERM in a process of an engine that can leave a checkpoint.
+/// Ctrl-C, SIGTERM and SIGHUP in a process of an engine that can leave a checkpoint.
 namespace tripoint {
 
-/// From now on Ctrl-C and SIGTERM ask for a checkpoint and an end; a second one ends us at once.
+/// From now on they ask for a checkpoint and an end, as core/stop_signals.hpp says: a second Ctrl-C or SIGTERM ends us at once,
+/// and where SIGHUP is ignored it stays ignored.
 void catch_stops();
 /// Whether one of them has come since.
 [[nodiscard]] bool stop_asked() noexcept;

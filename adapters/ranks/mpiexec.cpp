@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -18,6 +19,7 @@
 #include "adapters/engine/stops.hpp"
 #include "adapters/ranks/ranks_engine.hpp"
 #include "core/children.hpp"
+#include "core/stop_signals.hpp"
 
 namespace tripoint::ranks {
 namespace {
@@ -29,8 +31,10 @@ std::string log_of(const std::string& output) { return output + "/mpiexec.log"; 
 
 volatile sig_atomic_t mpiexec_pid = 0, stop_came = 0;
 
-/// mpiexec hands SIGINT on to the ranks, which leave a checkpoint; SIGTERM it would answer by killing them.
-extern "C" void on_stop_of_ranks(int) {
+/// mpiexec hands SIGINT on to the ranks, which leave a checkpoint; SIGTERM it would answer by killing them, and so a second
+/// SIGINT, for which a second SIGHUP does not ask.
+extern "C" void on_stop_of_ranks(int signal) {
+  if (signal == SIGHUP && stop_came) return;
   stop_came = 1;
   if (mpiexec_pid > 0) ::kill(static_cast<pid_t>(mpiexec_pid), SIGINT);
 }
@@ -39,21 +43,15 @@ extern "C" void on_stop_of_ranks(int) {
 sigset_t hold_stops() {
   sigset_t stops, before;
   sigemptyset(&stops);
-  sigaddset(&stops, SIGINT);
-  sigaddset(&stops, SIGTERM);
+  for (const int signal : stop_signals) sigaddset(&stops, signal);
   ::sigprocmask(SIG_BLOCK, &stops, &before);
   return before;
 }
 
-/// From now on Ctrl-C and SIGTERM are for the ranks; a second one ends us at once, and them with us.
+/// From now on Ctrl-C, SIGTERM and SIGHUP are for the ranks; a second Ctrl-C or SIGTERM ends us at once, and them with us.
 void hand_stops_on(pid_t mpiexec, const sigset_t& before) {
   mpiexec_pid = mpiexec;
-  struct sigaction action {};
-  action.sa_handler = on_stop_of_ranks;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESETHAND;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  on_stop_signals(on_stop_of_ranks);
   ::sigprocmask(SIG_SETMASK, &before, nullptr);
 }
 
@@ -170,7 +168,7 @@ int run_ranks(const std::string& job_path) {
   if (fs::exists(result, ignored)) return left_checkpoint ? exit_interrupted : exit_code_of(read_result(result));
   Result failed = result_of_failure(job.output, count, status);
   if (stop_came) failed.message = "interrupted before the ranks could leave a checkpoint; " + failed.message;
-  fmt::print(stderr, "{}: {}\n", failed.status, failed.message);
+  std::fputs(fmt::format("{}: {}\n", failed.status, failed.message).c_str(), stderr);
   write_result(result, failed);
   return stop_came ? exit_interrupted : exit_code_of(failed);
 }

@@ -123,7 +123,7 @@ void print_case(const Case& c, const Json& whole, const Json& without_pieces) {
 int ablate(const Options& o) {
   catch_interrupts();
   const std::vector<Case> cases = cases_of(o);
-  make_folder(o.out);
+  const auto lock = hold_folder(o.out);
   const auto base = round(cases, "corrected", o);
   const auto printed = runs_without_pieces(cases, base, o);
   Json document = Json::array();

@@ -10,6 +10,7 @@
 #include "program/cli/common.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
+#include "validation/harness/sandbox.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -33,12 +34,14 @@ constexpr const char* converge_description =
 struct CompareOptions {
   std::string what, engines, out;
   int jobs = 1;
+  bool sandbox = false;
 };
 
 struct ConvergeOptions {
   std::string what, axis = "spacing", engine = "tripoint", out;
   std::vector<double> levels;
   int jobs = 1;
+  bool sandbox = false;
 };
 
 Case one_case(const std::string& what) {
@@ -54,7 +57,7 @@ Results run_one_case(const Case& value, const SuiteOptions& options, const std::
   const auto engines = discover_engines(paths);
   for (const auto& name : options.selection.engines)
     if (!find_engine(engines, name)) throw EngineError(no_such_engine(name, engines));
-  make_folder(options.out);
+  const auto lock = hold_folder(options.out);
   auto results = run_suite({value}, engines, options);
   results.command = command_line();
   if (const auto missing = write_report(results, options.out); !missing.empty()) say("tripoint: no page: " + missing);
@@ -79,11 +82,12 @@ int compare(const CompareOptions& o) {
   const auto value = one_case(o.what);
   const auto words = sort_engine_words(split(o.engines));
   SuiteOptions options;
+  options.out = o.out.empty() ? own_folder("compare", value.id) : o.out;
+  if (o.sandbox) sandbox_strangers(options.out);
   options.selection.engines = words.names;
   for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);
   if (options.selection.engines.size() < 2)
     throw InputError("--engines " + o.engines + ": name two engines or more, for example tripoint,bullet");
-  options.out = o.out.empty() ? own_folder("compare", value.id) : o.out;
   options.jobs = o.jobs;
   options.say = [](const std::string& line) { say(line); };
   options.wanted = [](const EnginePlan&, const RunPlan& run) { return run.base; };
@@ -134,9 +138,10 @@ int converge(const ConvergeOptions& o) {
   value.studies = {study_for(value, o)};
   const auto words = sort_engine_words({o.engine});
   SuiteOptions options;
+  options.out = o.out.empty() ? own_folder("converge", value.id) : o.out;
+  if (o.sandbox) sandbox_strangers(options.out);
   options.selection.engines = words.paths.empty() ? words.names : std::vector<std::string>{ask_engine(words.paths.front()).name};
   value.studies.front().engine = options.selection.engines.front();
-  options.out = o.out.empty() ? own_folder("converge", value.id) : o.out;
   options.jobs = o.jobs;
   options.say = [](const std::string& line) { say(line); };
   options.wanted = [&](const EnginePlan&, const RunPlan& run) { return !run.levels.empty(); };
@@ -155,6 +160,7 @@ void add_compare(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<CompareOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
   command->add_option("--engines", o->engines, "names or paths, A,B")->required();
+  add_sandbox_flag(*command, o->sandbox);
   command->add_option("--out", o->out, "folder of the report and the runs (default: report-compare/CASE)");
   command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->callback([o, &exit_code] { exit_code = guarded([&] { return compare(*o); }); });
@@ -167,6 +173,7 @@ void add_converge(CLI::App& app, int& exit_code) {
   command->add_option("--axis", o->axis, "what is refined")->check(CLI::IsMember(axis_words()))->capture_default_str();
   command->add_option("--levels", o->levels, "a,b,c: coarse to fine")->delimiter(',')->allow_extra_args(false);
   command->add_option("--engine", o->engine, "name or path")->capture_default_str();
+  add_sandbox_flag(*command, o->sandbox);
   command->add_option("--out", o->out, "folder of the report and the runs (default: report-converge/CASE)");
   command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->callback([o, &exit_code] { exit_code = guarded([&] { return converge(*o); }); });

@@ -16,6 +16,7 @@
 #include "scene/library.hpp"
 #include "validation/harness/discover.hpp"
 #include "validation/harness/engine_check.hpp"
+#include "validation/harness/sandbox.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -90,7 +91,10 @@ int make_new(const std::string& name, const std::string& language) {
     fs::permissions(to, entry.status().permissions());
     print(to.string() + "\n");
   }
-  say(fmt::format("next: tripoint engine check {}/engine-{}", name, name));
+  if (language == "cpp")
+    say(fmt::format("next: cmake -S {0} -B {0}/build && cmake --build {0}/build && tripoint engine check {0}/engine-{0}", name));
+  else
+    say(fmt::format("next: tripoint engine check {0}/engine-{0}", name));
   return 0;
 }
 
@@ -115,7 +119,8 @@ std::string executable_of(const std::string& word) {
   return engine->executable;
 }
 
-int check(const std::string& word) {
+int check(const std::string& word, bool sandbox) {
+  if (sandbox) sandbox_strangers("");
   bool good = true;
   for (const auto& c : check_engine(executable_of(word))) {
     print_line(fmt::format("{}  {}{}", c.passed ? "ok   " : "FAILS", c.what, c.found.empty() ? "" : ": " + c.found));
@@ -152,7 +157,9 @@ void add_engine(CLI::App& app, int& exit_code) {
       "Tests an engine against the contract: answers, jobs good and broken, results, times, ids, repeatability.\n  tripoint "
       "engine check bullet\n  tripoint engine check my-engine/engine-my-engine\nExit 0 when every check holds, 1 otherwise.");
   checked->add_option("PATH|NAME", *path, "the engine's executable, or the name of one that is known")->required();
-  checked->callback([=, &exit_code] { exit_code = guarded([&] { return check(*path); }); });
+  auto sandbox = std::make_shared<bool>(false);
+  add_sandbox_flag(*checked, *sandbox);
+  checked->callback([=, &exit_code] { exit_code = guarded([&] { return check(*path, *sandbox); }); });
   auto yes = std::make_shared<bool>(false);
   auto* installed = command->add_subcommand("install", install_description);
   installed->add_option("NAME[@VERSION]", *name, "an engine that `tripoint engines` lists as not installed")->required();

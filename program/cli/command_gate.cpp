@@ -104,7 +104,6 @@ int selftest_seeds(const SelftestOptions& options, const std::string& profile, i
   filter.profile = !profile.empty() ? profile : options.what.empty() ? "commit" : "";
   const auto outcome = try_seeds(select_cases(filter), discover_engines(), count, options);
   print(json ? seeds_json(outcome) : seeds_table(outcome));
-  std::filesystem::create_directories(options.out);
   write_durably((std::filesystem::path(options.out) / "seeds.txt").string(), seeds_table(outcome));
   write_durably((std::filesystem::path(options.out) / "seeds.json").string(), seeds_json(outcome));
   return outcome.exit_code;
@@ -113,10 +112,10 @@ int selftest_seeds(const SelftestOptions& options, const std::string& profile, i
 int selftest(SelftestOptions options, const std::string& profile, int seeds, bool json) {
   catch_interrupts();
   options.say = [](const std::string& line) { say(line); };
+  const auto lock = hold_folder(options.out);
   if (seeds > 0) return selftest_seeds(options, profile, seeds, json);
   const auto outcome = run_selftest(options);
   print(json ? selftest_json(outcome) : selftest_table(outcome));
-  std::filesystem::create_directories(options.out);
   write_durably((std::filesystem::path(options.out) / "selftest.txt").string(), selftest_table(outcome));
   write_durably((std::filesystem::path(options.out) / "selftest.json").string(), selftest_json(outcome));
   return outcome.exit_code;

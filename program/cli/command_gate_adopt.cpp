@@ -20,6 +20,7 @@
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
+#include "validation/harness/sandbox.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -42,7 +43,7 @@ struct GateAdoptOptions {
   std::string engine, out = "cases";
   std::vector<std::string> what;
   AdoptOptions adopt;
-  bool overwrite = false;
+  bool overwrite = false, sandbox = false;
 };
 
 std::string today() {
@@ -84,6 +85,7 @@ std::vector<Case> cases_of(const GateAdoptOptions& o) {
 }
 
 EngineEntry engine_of(const GateAdoptOptions& o, std::vector<EngineEntry>& engines) {
+  if (o.sandbox) sandbox_strangers(o.adopt.work);
   const auto words = sort_engine_words({o.engine});
   engines = discover_engines(words.paths);
   const std::string name = words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name;
@@ -166,6 +168,7 @@ CLI::App* add_gate_adopt(CLI::App& gate, int& exit_code) {
   auto o = std::make_shared<GateAdoptOptions>();
   command->add_option("CASE", o->what, "case files, folders or ids; none = the profile acceptance")->type_name("CASE|DIR");
   command->add_option("--engine", o->engine, "the engine: the path of an executable, or a name")->required();
+  add_sandbox_flag(*command, o->sandbox);
   command->add_option("--margin", o->adopt.margin, "factor by which an error may grow or shrink before that is red")
       ->check(CLI::Range(1.0, 100.0))
       ->capture_default_str();

@@ -210,7 +210,7 @@ int predict_case(Options o) {
   PredictionReport r;
   if (!o.machine.empty()) r.machine = predict::read_machine(o.machine);
   if (o.out.empty()) o.out = own_folder("predict", value.id);
-  make_folder(o.out);
+  const auto lock = hold_folder(o.out);
   const Tool tool = this_tool();
   r.case_id = value.id;
   r.version = tool.version;

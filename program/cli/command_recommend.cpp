@@ -12,6 +12,7 @@
 #include "validation/harness/front.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
+#include "validation/harness/sandbox.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -45,7 +46,7 @@ struct Options {
   std::vector<double> levels;
   double seconds = 0.0;
   int jobs = 1, threads = 1;
-  bool json = false;
+  bool json = false, sandbox = false;
 };
 
 double wish_of(const std::string& text) {
@@ -88,6 +89,7 @@ std::string metric_of(const Options& o, const Case& value) {
 
 CaseResult measure(const Options& o, const Case& value, const std::function<bool(const RunPlan&)>& wanted) {
   const auto words = sort_engine_words(split(o.engines));
+  if (o.sandbox) sandbox_strangers(o.out);
   SuiteOptions options;
   options.selection.engines = words.names;
   for (const auto& path : words.paths) options.selection.engines.push_back(ask_engine(path).name);
@@ -173,7 +175,7 @@ int recommend(Options o) {
   if (o.error.empty() == !(o.seconds > 0.0)) throw InputError("recommend: give --error X or --seconds Y, one of them");
   const auto value = case_of(o);
   if (o.out.empty()) o.out = own_folder("recommend", value.id);
-  make_folder(o.out);
+  const auto lock = hold_folder(o.out);
   const auto metric = metric_of(o, value);
   const auto result = o.from.empty() ? measure(o, value, [](const RunPlan& run) { return !run.levels.empty() || run.base; })
                                      : read_case_of(o.from, value.id);
@@ -219,7 +221,7 @@ int plan_for(Options o) {
   const auto metric = metric_of(o, value);
   const double wish = wish_of(o.error);
   if (o.out.empty()) o.out = own_folder("plan", value.id);
-  make_folder(o.out);
+  const auto lock = hold_folder(o.out);
   const auto result = o.from.empty() ? measure(o, value, [&](const RunPlan& run) { return is_coarse(value, run, 3); })
                                      : read_case_of(o.from, value.id);
   const auto ladders = ladders_of(result, metric);
@@ -262,6 +264,7 @@ void add_common(CLI::App& command, Options& o, const std::string& name) {
   command.add_option("CASE", o.what, "a case file or id")->required();
   command.add_option("--metric", o.metric, "which metric (default: that of the case's first study)");
   command.add_option("--engines", o.engines, "only these engines, A,B");
+  add_sandbox_flag(command, o.sandbox);
   command.add_option("--axis", o.axis, "only this axis")->check(CLI::IsMember(axis_words()));
   command.add_option("--levels", o.levels, "levels of the front in the place of the studies', coarse to fine")
       ->delimiter(',')

@@ -114,9 +114,9 @@ void write_page(const fs::path& out) {
 int releases(const ReleasesOptions& o) {
   const auto value = one_case(o.what);
   catch_interrupts();
+  const auto lock = hold_folder(o.out);
   ReleaseTable table{value.id, value.title, command_line(), o.margin, {}};
   for (const auto& version : versions_of(o)) table.releases.push_back(run_release(o, value, release_of(o, version)));
-  fs::create_directories(o.out);
   write_durably((fs::path(o.out) / "releases.json").string(), releases_text(table));
   write_durably((fs::path(o.out) / "releases.md").string(), releases_markdown(table));
   write_page(o.out);

@@ -37,7 +37,9 @@ std::string finish(const Results& results, const std::string& out, bool pdf = fa
 }
 
 int merge(const std::vector<std::string>& folders, const std::string& out) {
-  auto results = merge_shards(folders, out);
+  auto results = merge_shards(folders);
+  const auto lock = hold_folder(out);
+  copy_runs_of_shards(folders, out);
   results.history = "history.jsonl";
   append_history((std::filesystem::path(out) / results.history).string(), history_lines(results));
   for (const auto& c : results.cases) print(case_line(c) + "\n");

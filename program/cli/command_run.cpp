@@ -22,6 +22,7 @@
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/run_one.hpp"
+#include "validation/harness/sandbox.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/trial.hpp"
 #include "validation/harness/verdict.hpp"
@@ -53,7 +54,7 @@ struct RunOptions {
   int threads = 1;
   double wall_limit = 1e9;
   std::string progress = "auto";
-  bool quiet = false, json = false;
+  bool quiet = false, json = false, sandbox = false;
 };
 
 /// The checkpoint itself, or the last one in a folder. @throws InputError
@@ -205,7 +206,6 @@ void fill_in(RunOptions& o, const Case& value) {
 
 /// Runs the job in its folder, and shows how far it is.
 Outcome run_shown(const EnginePlan& plan, const Job& job, const InitialState& initial, const RunOptions& o) {
-  make_folder(o.out);
   RunRequest request;
   request.engine = plan.entry;
   request.job = &job;
@@ -234,9 +234,11 @@ int run(RunOptions o) {
   const Case& value = reading.value;
   fill_in(o, value);
   const auto words = sort_engine_words({o.engine});
+  if (o.sandbox) sandbox_strangers(o.out);
   const auto engines = discover_engines(words.paths);
   const auto plan = plan_for(value, engines, words.paths.empty() ? o.engine : ask_engine(words.paths.front()).name);
   const Scene scene = scene_of(value, plan.runs.front());
+  const auto lock = hold_folder(o.out);
   if (scene.settle && !o.quiet)
     say("letting the liquids down into equilibrium, which takes as long as some thousand steps (scene.settle)");
   const auto initial = sample(scene);
@@ -263,6 +265,7 @@ void add_run(CLI::App& app, int& exit_code) {
   auto o = std::make_shared<RunOptions>();
   command->add_option("CASE", o->what, "a case file or id")->required();
   command->add_option("--engine", o->engine, "name of an engine, or path of an executable")->capture_default_str();
+  add_sandbox_flag(*command, o->sandbox);
   command->add_option("--out", o->out, "folder of the run (default: runs/CASE/ENGINE)");
   command->add_option("--threads", o->threads, "threads of the engine; they do not change its bits")
       ->check(CLI::Range(1, 1024))

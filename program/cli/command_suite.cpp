@@ -17,6 +17,7 @@
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
+#include "validation/harness/sandbox.hpp"
 #include "validation/harness/verdict.hpp"
 #include "validation/queue/cost.hpp"
 #include "validation/queue/emit.hpp"
@@ -103,6 +104,7 @@ struct MakeOptions {
   std::string dir, engines, costs;
   std::vector<std::string> engine;
   Queue queue;
+  bool sandbox = false;
 };
 
 /// The suite of a folder, and its folder's path from anywhere. Goes to the working folder in which the suite was made: there
@@ -141,6 +143,7 @@ int make(MakeOptions o) {
   queue.command = command_line();
   queue.engine_words = o.engine;
   const auto cases = select_cases(queue.filter);
+  if (o.sandbox) sandbox_strangers(o.dir);
   const auto engines = engines_asked_for(o.engines, o.engine, queue.selection);
   std::map<std::string, double> costs;
   if (!o.costs.empty()) costs = measured_costs(read_results(results_file(o.costs)));
@@ -154,7 +157,7 @@ int make(MakeOptions o) {
   return exit_pass;
 }
 
-int run_worker(const std::string& typed, const std::string& shard, WorkOptions o) {
+int run_worker(const std::string& typed, const std::string& shard, WorkOptions o, bool sandbox) {
   catch_interrupts();
   const auto opened = open(typed);
   const auto& jobs = opened.queue.jobs;
@@ -163,6 +166,7 @@ int run_worker(const std::string& typed, const std::string& shard, WorkOptions o
   o.say = [](const std::string& line) { say(line); };
   const auto start = std::chrono::steady_clock::now();
   go_to_its_folder(opened);
+  if (sandbox) sandbox_strangers(opened.dir);
   const auto done = work(opened.dir, opened.queue, engines_of(opened.queue, o.rows), o);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   print_line(fmt::format("{}: {} of {} jobs made here in {:.1f} s, {} of them failed, {} taken over; {} are not finished", typed,
@@ -181,7 +185,7 @@ int status(const std::string& dir, bool json) {
 int merge(const std::string& typed, const std::string& out, bool page, bool json) {
   const auto opened = open(typed);
   const auto folder = out.empty() ? opened.dir : fs::absolute(out).lexically_normal().string();
-  make_folder(folder);
+  const auto lock = hold_folder(folder);
   set_aside_report(folder);
   std::function<void(const CaseResult&)> on_case;
   if (!json) on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
@@ -256,6 +260,7 @@ void add_make(CLI::App& suite, int& exit_code) {
   command->add_option("--tag", queue.filter.tag, "only cases with this tag");
   command->add_option("-k", queue.filter.substring, "only cases with this in their id")->type_name("SUBSTRING");
   command->add_option("--engines", o->engines, "only these engines, A,B");
+  add_sandbox_flag(*command, o->sandbox);
   command
       ->add_option("--engine", o->engine,
                    "an engine that joins every case: the path of an executable, or a name; may be repeated")
@@ -279,11 +284,13 @@ void add_work(CLI::App& suite, int& exit_code) {
   auto dir = std::make_shared<std::string>(), shard = std::make_shared<std::string>();
   auto o = std::make_shared<WorkOptions>();
   command->add_option("DIR", *dir, "folder of the suite")->required();
+  auto sandbox = std::make_shared<bool>(false);
+  add_sandbox_flag(*command, *sandbox);
   command->add_option("--shard", *shard, "k/n: the jobs of the k-th of n shards alone");
   command->add_option("--jobs", o->jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_flag_callback(
       "--no-wait", [o] { o->waits = false; }, "leave when nothing is to be taken, though others are still at their jobs");
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return run_worker(*dir, *shard, *o); }); });
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return run_worker(*dir, *shard, *o, *sandbox); }); });
 }
 
 void add_status_to(CLI::App& app, const char* words, int& exit_code) {

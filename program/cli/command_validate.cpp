@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "core/errors.hpp"
@@ -66,17 +67,24 @@ std::vector<std::string> failed_last_time(const std::string& out) {
   return failed;
 }
 
+/// Holds OUT where it is there already: what an earlier call has left in it is read and set aside before there are runs.
+std::optional<FolderLock> hold_earlier(const std::string& out) {
+  if (!std::filesystem::is_directory(out)) return {};
+  return hold_folder(out);
+}
+
 /// The cases of this call; the report of an earlier one is set aside, so that what ends 2 leaves nothing to be judged in its
 /// place. A call that selects nothing, as one with a mistyped tag, asks for no run and leaves the report as it is.
-std::vector<Case> cases_of(const ValidateOptions& o) {
+/// @param held a folder that was not there when we came holds nothing of ours to set aside
+std::vector<Case> cases_of(const ValidateOptions& o, bool held) {
   try {
     auto cases = select_cases(o.filter);
-    set_aside_report(o.suite.out);
+    if (held) set_aside_report(o.suite.out);
     return cases;
   } catch (const NothingSelected&) {
     throw;
   } catch (...) {
-    set_aside_report(o.suite.out);
+    if (held) set_aside_report(o.suite.out);
     throw;
   }
 }
@@ -160,13 +168,16 @@ void keep_history(Results& results, const ValidateOptions& o) {
 int validate(ValidateOptions o) {
   catch_interrupts();
   fit_threads(o.suite);
+  auto lock = hold_earlier(o.suite.out);
   choose_cases(o);
-  if (o.sandbox) sandbox_strangers();
-  auto cases = cases_of(o);
+  if (o.sandbox) sandbox_strangers(o.suite.out);
+  auto cases = cases_of(o, lock.has_value());
   const auto engines = engines_asked_for(o.engines, o.engine, o.suite.selection);
   if (o.profile == "acceptance") add_all_presets(cases, engines, o.suite.selection.asked);
-  make_folder(o.suite.out);
-  say(fmt::format("{} case{}, {} engines, into {}", cases.size(), cases.size() == 1 ? "" : "s", engines.size(), o.suite.out));
+  if (!lock) lock.emplace(hold_folder(o.suite.out));
+  const std::size_t asked = o.suite.selection.engines.empty() ? engines.size() : o.suite.selection.engines.size();
+  say(fmt::format("{} case{}, {} engine{}, into {}", cases.size(), cases.size() == 1 ? "" : "s", asked, asked == 1 ? "" : "s",
+                  o.suite.out));
   o.suite.say = [](const std::string& line) { say(line); };
   if (!o.json) o.suite.on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
   auto results = run_all(cases, engines, o);
@@ -200,9 +211,7 @@ void add_validate(CLI::App& app, int& exit_code) {
                    "an engine that joins every case: the path of an executable, or a name; may be repeated")
       ->take_all()
       ->allow_extra_args(false);
-  command->add_flag("--sandbox", o->sandbox,
-                    "run engines that do not belong to this program by bubblewrap: no network, your files out of sight, writing "
-                    "in the run's own folder alone");
+  add_sandbox_flag(*command, o->sandbox);
   command->add_option("--out", o->suite.out, "folder of the report and the runs")->capture_default_str();
   command->add_option("--jobs", o->suite.jobs, "engine processes at a time")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option("--threads", o->suite.threads, "threads of each engine process")

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -154,6 +155,12 @@ std::string results_file(const std::string& path) {
   return std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "results.json").string() : path;
 }
 
+void add_sandbox_flag(CLI::App& command, bool& wanted) {
+  command.add_flag("--sandbox", wanted,
+                   "run engines that do not belong to this program by bubblewrap: no network, your files out of sight, writing "
+                   "in the run's own folder alone");
+}
+
 void make_folder(const std::string& out) {
   std::error_code error;
   std::filesystem::create_directories(out, error);
@@ -163,6 +170,11 @@ void make_folder(const std::string& out) {
         fmt::format("--out {}: the folder cannot be made: {}. Name another with --out", printable(out, 200), error.message()));
   if (::access(out.c_str(), W_OK | X_OK) != 0)
     throw InputError(fmt::format("--out {}: the folder cannot be written to. Name another with --out", printable(out, 200)));
+}
+
+FolderLock hold_folder(const std::string& out) {
+  make_folder(out);
+  return FolderLock(out);
 }
 
 void remember_command_line(int argc, char** argv) {

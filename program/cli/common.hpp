@@ -7,6 +7,7 @@
 #include "assembly/plan.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/harness/discover.hpp"
+#include "validation/harness/folder_lock.hpp"
 #include "validation/harness/plan_runs.hpp"
 
 /// What the commands share: how errors become exit codes, and how lists and progress look.
@@ -60,8 +61,15 @@ struct EngineWords {
 /// A results.json, or that of the folder of a report.
 [[nodiscard]] std::string results_file(const std::string& path);
 
+/// The switch --sandbox. Where it is wanted, sandbox_strangers() is called before the first engine is asked.
+void add_sandbox_flag(CLI::App& command, bool& wanted);
+
 /// Makes the folder of --out before anything runs. @throws InputError that says why it cannot be made or written to
 void make_folder(const std::string& out);
+
+/// The same, and no other call has it while the result lives: for commands that make runs or reports in it.
+/// @throws InputError also where another call has it
+[[nodiscard]] FolderLock hold_folder(const std::string& out);
 
 /// What is said of a command or option that does not exist, with the nearest one; empty where none is mistyped.
 [[nodiscard]] std::string mistyped_word(const CLI::App& app, int argc, char** argv);

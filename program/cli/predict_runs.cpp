@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* engine_name = "tripoint-mpi";
 constexpr double skin = 0.1;  ///< of the neighbour lists, in support radii: the engine's default
-constexpr long least_steps = 10, most_steps = 5000;
+constexpr long least_timed = 10, most_timed = 5000;
 constexpr double probe_limit = 60.0;  ///< [s]; it takes 3 on a machine that does nothing else
 
 /// Whether nothing can move: its lists then have no skin.
@@ -117,7 +117,7 @@ void PredictRuns::choose_end(Prepared& p) {
   if (const double reach = of(pilot.result.extra, "reach_of_copies"); reach > 0.0)
     p.cloud.reach = reach;  // bonds may be longer than a list's reach
   const double took = std::max(1e-7, pilot.result.stepping_cpu / static_cast<double>(pilot.result.steps));
-  const auto steps = std::clamp(static_cast<long>(seconds_ / took), least_steps, most_steps);
+  const auto steps = std::clamp(static_cast<long>(seconds_ / took), least_timed, most_timed);
   p.end = std::min(whole, step * static_cast<double>(steps));
   if (!quiet_)
     say(fmt::format("predict: {}: {} particles, {} steps on one rank", p.label, p.initial.size(),

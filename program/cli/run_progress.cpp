@@ -26,6 +26,9 @@ std::string wall_time(double seconds) {
   return s < 6000 ? fmt::format("{} min {:02} s", s / 60, s % 60) : fmt::format("{} h {:02} min", s / 3600, s / 60 % 60);
 }
 
+/// Shown to whoever looks: a terminal that has closed takes no words, and the run must end as it should all the same.
+void tell(const std::string& words) { std::fwrite(words.data(), 1, words.size(), stderr); }
+
 }  // namespace
 
 std::optional<RunStatus> status_from(const std::string& text) {
@@ -91,12 +94,12 @@ void RunProgress::show(double done) {
     if (last_->ledger_residual) line["ledger_residual"] = *last_->ledger_residual;
     if (last_->ledger_exchanged) line["ledger_exchanged"] = *last_->ledger_exchanged;
     line["seconds_left"] = left ? nlohmann::ordered_json(*left) : nlohmann::ordered_json();
-    fmt::print(stderr, "{}\n", line.dump());
+    tell(line.dump() + "\n");
     return;
   }
   const std::string line = last_ ? status_line(*last_, done, left) : fmt::format("{:3.0f} %", 100.0 * done);
-  if (form_ == ProgressForm::terminal) fmt::print(stderr, "\r\033[K{}", line);
-  if (form_ == ProgressForm::lines) fmt::print(stderr, "{}\n", line);
+  if (form_ == ProgressForm::terminal) tell("\r\033[K" + line);
+  if (form_ == ProgressForm::lines) tell(line + "\n");
   std::fflush(stderr);
 }
 
@@ -107,7 +110,7 @@ std::optional<double> RunProgress::seconds_left(double done) {
 }
 
 void RunProgress::end() {
-  if (form_ == ProgressForm::terminal && begun_) fmt::print(stderr, "\r\033[K");
+  if (form_ == ProgressForm::terminal && begun_) tell("\r\033[K");
 }
 
 }  // namespace tripoint

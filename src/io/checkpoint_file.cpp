@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/checkpoint_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +16,7 @@
 
 #include "core/durable_file.hpp"
 #include "core/errors.hpp"
+#include "core/written_file.hpp"
 #include "io/h5md_file.hpp"
 
 namespace tripoint {
@@ -42,9 +46,17 @@ std::string sealed_block(const std::string& path) {
 
 void seal(const std::string& path) {
   const std::string block = sealed_block(path);
-  std::fstream out(path, std::ios::binary | std::ios::in | std::ios::out);
-  if (!out.write(block.data(), static_cast<std::streamsize>(block.size())).flush())
-    throw EngineError(path + ": cannot be written (no space left?)");
+  const auto fail = [&](int why) { throw EngineError(path + ": cannot be written: " + std::strerror(why)); };
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) fail(errno);
+  off_t at = 0;
+  const int why = write_whole(block, [&](std::string_view rest) {
+    const ssize_t n = ::pwrite(file, rest.data(), rest.size(), at);
+    if (n > 0) at += n;
+    return n;
+  });
+  ::close(file);
+  if (why != 0) fail(why);
 }
 
 void expect_seal(const std::string& path) {

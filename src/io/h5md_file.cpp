@@ -2,7 +2,10 @@
 #include "io/h5md_file.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
+#include <string_view>
 
 #include "core/errors.hpp"
 #include "io/ordered_file.hpp"
@@ -100,10 +103,28 @@ void expect_class(hid_t dataset, H5T_class_t wanted, const std::string& what) {
     throw InputError(what + ": is of the wrong type, expected " + (wanted == H5T_FLOAT ? "floating point" : "integers"));
 }
 
+/// errno of the call of the system that failed: the library writes it among the words of its last error, innermost first, and so
+/// does io/ordered_file.cpp. @return 0 where no such call failed
+int errno_of_last_error() {
+  const auto look = [](unsigned, const H5E_error2_t* error, void* found) -> herr_t {
+    constexpr std::string_view key = "errno = ";
+    const std::string_view words = error->desc ? error->desc : "";
+    const std::size_t at = words.rfind(key);  // the name of a file comes before it
+    if (at == std::string_view::npos) return 0;
+    *static_cast<int*>(found) = std::atoi(words.data() + at + key.size());
+    return 1;
+  };
+  int why = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &why);
+  return why;
+}
+
 }  // namespace
 
 Handle::Handle(hid_t id, Closer closer, const std::string& what) : id_(id), closer_(closer) {
-  if (id < 0) throw EngineError(what + ": HDF5 refused (damaged, a link, no space left or no permission?)");
+  if (id >= 0) return;
+  const int why = errno_of_last_error();
+  throw EngineError(what + (why != 0 ? std::string(": ") + std::strerror(why) : ": HDF5 refused (damaged, or a link?)"));
 }
 
 Handle& Handle::operator=(Handle&& other) noexcept {
@@ -121,7 +142,9 @@ void Handle::reset() noexcept {
 }
 
 void check(herr_t status, const std::string& what) {
-  if (status < 0) throw EngineError(what + ": HDF5 could not write (no space left?)");
+  if (status >= 0) return;
+  const int why = errno_of_last_error();
+  throw EngineError(what + (why != 0 ? std::string(": cannot be written: ") + std::strerror(why) : ": HDF5 could not write"));
 }
 
 Column::Column(hid_t group, const std::string& name, Type type, std::size_t rows, std::size_t width, const std::string& unit)

@@ -14,7 +14,7 @@ namespace tripoint::h5 {
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double), "a Vec3 column is an n x 3 array");
 
-/// Owns an HDF5 id. @throws EngineError in the constructor when the call that made the id failed
+/// Owns an HDF5 id. @throws EngineError in the constructor, with the system's reason, when the call that made the id failed
 class Handle {
  public:
   using Closer = herr_t (*)(hid_t);
@@ -32,7 +32,7 @@ class Handle {
   Closer closer_ = nullptr;
 };
 
-/// @throws EngineError("what: no space left?") when status < 0
+/// Called at once after a call of the library. @throws EngineError with the system's reason when status < 0
 void check(herr_t status, const std::string& what);
 
 enum class Type { float64, int32, int64 };

@@ -10,11 +10,14 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/written_file.hpp"
 
 #if __has_include(<H5FDdevelop.h>)
 #include <H5FDdevelop.h>
@@ -23,33 +26,30 @@
 namespace tripoint::h5 {
 namespace {
 
-bool write_all(int file, haddr_t at, const char* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t n = ::pwrite(file, data, size, static_cast<off_t>(at));
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    data += n;
-    at += static_cast<haddr_t>(n);
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
+/// @return 0, or the errno of the call that failed; so do all that read and change files here
+int write_all(int file, haddr_t at, const char* data, std::size_t size) {
+  return write_whole({data, size}, [&](std::string_view rest) {
+    const ssize_t n = ::pwrite(file, rest.data(), rest.size(), static_cast<off_t>(at));
+    if (n > 0) at += static_cast<haddr_t>(n);
+    return n;
+  });
 }
 
 /// Bytes past the end of the file read as zeros, as HDF5 expects.
-bool read_all(int file, haddr_t at, char* data, std::size_t size) {
+int read_all(int file, haddr_t at, char* data, std::size_t size) {
   while (size > 0) {
     const ssize_t n = ::pread(file, data, size, static_cast<off_t>(at));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return false;
+    if (n < 0) return errno;
     if (n == 0) {
       std::memset(data, 0, size);
-      return true;
+      return 0;
     }
     data += n;
     at += static_cast<haddr_t>(n);
     size -= static_cast<std::size_t>(n);
   }
-  return true;
+  return 0;
 }
 
 /// Which block goes first: the superblock, which says where the file ends; then the nodes of indexes, those nearest to the root
@@ -74,58 +74,61 @@ class OrderedFile {
   OrderedFile(const OrderedFile&) = delete;
   OrderedFile& operator=(const OrderedFile&) = delete;
 
-  bool read(haddr_t at, char* data, std::size_t size) const {
-    if (!read_all(file_, at, data, size)) return false;
+  int read(haddr_t at, char* data, std::size_t size) const {
+    if (const int why = read_all(file_, at, data, size); why != 0) return why;
     for (auto block = first_beyond(held_, at); block != held_.end() && block->first < at + size; ++block) {
       const haddr_t from = std::max(at, block->first), to = std::min(at + size, block->first + block->second.size());
       std::memcpy(data + (from - at), block->second.data() + (from - block->first), to - from);
     }
-    return true;
+    return 0;
   }
 
-  bool write(bool is_raw, haddr_t at, const char* data, std::size_t size) {
+  int write(bool is_raw, haddr_t at, const char* data, std::size_t size) {
     if (!is_raw && is_flushed(at, size)) {
       held_[at].assign(data, size);
-      return true;
+      return 0;
     }
     if (!is_raw) fresh_[at] = size;
-    if (!change(at, data, size)) return false;
+    if (change(at, data, size) != 0) return failure_;
     end_of_file_ = std::max<haddr_t>(end_of_file_, at + size);
-    return true;
+    return 0;
   }
 
-  bool flush() {
+  int flush() {
     std::vector<std::pair<haddr_t, std::string>> blocks(std::make_move_iterator(held_.begin()),
                                                         std::make_move_iterator(held_.end()));
     held_.clear();
     std::sort(blocks.begin(), blocks.end(),
               [](const auto& a, const auto& b) { return std::pair(rank_of(a), a.first) > std::pair(rank_of(b), b.first); });
     for (const auto& [at, bytes] : blocks)
-      if (!change(at, bytes.data(), bytes.size())) return false;
+      if (change(at, bytes.data(), bytes.size()) != 0) return failure_;
     flushed_.merge(fresh_);
     fresh_.clear();
-    return true;
+    return 0;
   }
 
   /// A file must not be shorter than its superblock says, so that it grows before it is flushed and shrinks after.
-  bool set_length(haddr_t length) {
-    if (length == end_of_file_) return true;
-    if (length < end_of_file_ && !flush()) return false;
-    while (!has_failed_ && ::ftruncate(file_, static_cast<off_t>(length)) != 0) has_failed_ = errno != EINTR;
-    if (!has_failed_) end_of_file_ = length;
-    return !has_failed_;
+  int set_length(haddr_t length) {
+    if (length == end_of_file_) return 0;
+    if (length < end_of_file_ && flush() != 0) return failure_;
+    while (failure_ == 0 && ::ftruncate(file_, static_cast<off_t>(length)) != 0) failure_ = errno == EINTR ? 0 : errno;
+    if (failure_ == 0) end_of_file_ = length;
+    return failure_;
   }
 
   /// What could not be kept in memory is a gap as well.
-  void give_up() { has_failed_ = true; }
+  int give_up() {
+    if (failure_ == 0) failure_ = ENOMEM;
+    return failure_;
+  }
 
   [[nodiscard]] int file() const { return file_; }
   [[nodiscard]] haddr_t end_of_file() const { return end_of_file_; }
 
  private:
-  bool change(haddr_t at, const char* data, std::size_t size) {
-    has_failed_ = has_failed_ || !write_all(file_, at, data, size);
-    return !has_failed_;
+  int change(haddr_t at, const char* data, std::size_t size) {
+    if (failure_ == 0) failure_ = write_all(file_, at, data, size);
+    return failure_;
   }
 
   /// The first block that ends beyond a place.
@@ -146,7 +149,7 @@ class OrderedFile {
 
   int file_;
   haddr_t end_of_file_;
-  bool has_failed_ = false;
+  int failure_ = 0;                      ///< errno of the first change that failed
   std::map<haddr_t, std::string> held_;  ///< address -> bytes that replace older ones
   std::map<haddr_t, std::size_t> flushed_,
       fresh_;  ///< address -> size of blocks of the file's structure, before and since the last flush
@@ -162,27 +165,40 @@ struct Open {
 Open& own(H5FD_t* file) { return *reinterpret_cast<Open*>(file); }
 const Open& own(const H5FD_t* file) { return *reinterpret_cast<const Open*>(file); }
 
+/// Puts the reason for a failure where the library's own drivers put it, in their words: who called the library finds it there.
+void note_failure(int why) noexcept {
+  H5Epush2(H5E_DEFAULT, __FILE__, "tripoint-ordered", __LINE__, H5E_ERR_CLS, H5E_IO, H5E_SYSERRSTR,
+           "errno = %d, error message = '%s'", why, std::strerror(why));
+}
+
 /// No exception may pass through the library: for want of memory a call fails, and the file changes no more.
 template <class Act>
 herr_t carry_out(H5FD_t* file, Act act) noexcept {
   OrderedFile& own_file = own(file).file;
+  int why = 0;
   try {
-    return act(own_file) ? 0 : -1;
+    why = act(own_file);
   } catch (const std::bad_alloc&) {
-    own_file.give_up();
-    return -1;
+    why = own_file.give_up();
   }
+  if (why == 0) return 0;
+  note_failure(why);
+  return -1;
 }
 
 H5FD_t* open_file(const char* name, unsigned flags, hid_t /*access*/, haddr_t /*greatest*/) {
   const int create = (flags & H5F_ACC_CREAT) != 0 ? O_CREAT : 0, truncate = (flags & H5F_ACC_TRUNC) != 0 ? O_TRUNC : 0;
   const int exclusive = (flags & H5F_ACC_EXCL) != 0 ? O_EXCL : 0, mode = (flags & H5F_ACC_RDWR) != 0 ? O_RDWR : O_RDONLY;
   const int file = ::open(name, mode | create | truncate | exclusive | O_CLOEXEC, 0666);
-  if (file < 0) return nullptr;
+  if (file < 0) {
+    note_failure(errno);
+    return nullptr;
+  }
   struct stat status {};
   Open* made =
       ::fstat(file, &status) == 0 ? new (std::nothrow) Open{{}, {file, static_cast<haddr_t>(status.st_size)}, 0} : nullptr;
   if (made == nullptr) {
+    note_failure(errno);
     ::close(file);
     return nullptr;
   }

@@ -6,10 +6,9 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <span>
 
-#include "core/errors.hpp"
+#include "core/written_file.hpp"
 
 namespace tripoint {
 namespace {
@@ -38,9 +37,9 @@ std::string encoded(const std::vector<T>& values) {
 }
 
 template <class T>
-void array(std::ofstream& out, const char* type, const std::string& name, std::size_t components, const std::vector<T>& values) {
-  out << fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n", type,
-                     name, components, encoded(values));
+void array(WrittenFile& out, const char* type, const std::string& name, std::size_t components, const std::vector<T>& values) {
+  out.add(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n", type,
+                      name, components, encoded(values)));
 }
 
 }  // namespace
@@ -54,26 +53,26 @@ void write_vtp(const std::string& path, const PointCloud& cloud) {
     points[i] = static_cast<std::int64_t>(i);
     ends[i] = points[i] + 1;
   }
-  std::ofstream out(path);
-  out << fmt::format(
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" "
-      "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n",
-      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
+  WrittenFile out(path);
+  out.add(
+      fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" "
+                  "header_type=\"UInt64\">\n<PolyData>\n<FieldData>\n",
+                  std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian"));
   for (const auto& [name, value] : cloud.numbers)
-    out << fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"binary\">{}</DataArray>\n", name,
-                       encoded(std::vector<double>{value}));
-  out << fmt::format(
-      "</FieldData>\n<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
-      "NumberOfPolys=\"0\">\n<PointData>\n",
-      n);
+    out.add(fmt::format("<DataArray type=\"Float64\" Name=\"{}\" NumberOfTuples=\"1\" format=\"binary\">{}</DataArray>\n", name,
+                        encoded(std::vector<double>{value})));
+  out.add(
+      fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+                  "NumberOfPolys=\"0\">\n<PointData>\n",
+                  n));
   for (const auto& a : cloud.arrays) array(out, "Float64", a.name, a.components, a.values);
-  out << "</PointData>\n<Points>\n";
+  out.add("</PointData>\n<Points>\n");
   array(out, "Float64", "Points", 3, places);
-  out << "</Points>\n<Verts>\n";
+  out.add("</Points>\n<Verts>\n");
   array(out, "Int64", "connectivity", 1, points);
   array(out, "Int64", "offsets", 1, ends);
-  out << "</Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n";
-  if (!out.flush()) throw EngineError(path + ": cannot be written (no space left?)");
+  out.add("</Verts>\n</Piece>\n</PolyData>\n</VTKFile>\n");
+  out.close();
 }
 
 }  // namespace tripoint

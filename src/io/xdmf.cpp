@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <fstream>
+#include <string>
 
-#include "core/errors.hpp"
+#include "core/written_file.hpp"
 #include "io/trajectory.hpp"
 
 namespace tripoint {
@@ -20,21 +20,21 @@ std::string item(std::size_t frame, std::size_t frames, std::size_t n, std::size
       frames, n, tail, frame, zero, one, whole ? "Int" : "Float", element, width > 1 ? 3 : 2, whole ? 4 : 8);
 }
 
-void attribute(std::ofstream& out, const std::string& name, const std::string& data, bool vector) {
-  out << fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n", name,
+void attribute(std::string& out, const std::string& name, const std::string& data, bool vector) {
+  out += fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">{}</Attribute>\n", name,
                      vector ? "Vector" : "Scalar", data);
 }
 
 }  // namespace
 
 void write_xdmf(const std::string& folder, const std::vector<double>& times, const Snapshot& s) {
-  std::ofstream out(folder + "/trajectory.xdmf");
-  out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain><Grid GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  std::string out =
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\"><Domain><Grid GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   const std::size_t frames = times.size(), n = s.position.size();
   for (std::size_t f = 0; f < frames; ++f) {
-    out << fmt::format("<Grid><Time Value=\"{:.17g}\"/><Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n",
+    out += fmt::format("<Grid><Time Value=\"{:.17g}\"/><Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n",
                        times[f], n);
-    out << "<Geometry GeometryType=\"XYZ\">" << item(f, frames, n, 3, "position", false) << "</Geometry>\n";
+    out += "<Geometry GeometryType=\"XYZ\">" + item(f, frames, n, 3, "position", false) + "</Geometry>\n";
     attribute(out, "velocity", item(f, frames, n, 3, "velocity", false), true);
     const auto real = [&](const char* name, const std::vector<double>& column) {
       if (!column.empty()) attribute(out, name, item(f, frames, n, 1, name, false), false);
@@ -52,10 +52,12 @@ void write_xdmf(const std::string& folder, const std::vector<double>& times, con
     whole("phase", s.phase);
     whole("body", s.body);
     whole("material", s.material);
-    out << "</Grid>\n";
+    out += "</Grid>\n";
   }
-  out << "</Grid></Domain></Xdmf>\n";
-  if (!out.flush()) throw EngineError(folder + "/trajectory.xdmf: cannot be written (no space left?)");
+  out += "</Grid></Domain></Xdmf>\n";
+  WrittenFile file(folder + "/trajectory.xdmf");
+  file.add(out);
+  file.close();
 }
 
 }  // namespace tripoint

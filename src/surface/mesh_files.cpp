@@ -5,9 +5,8 @@
 
 #include <bit>
 #include <cstring>
-#include <fstream>
 
-#include "core/errors.hpp"
+#include "core/written_file.hpp"
 #include "scene/initial_state.hpp"
 
 namespace tripoint {
@@ -21,9 +20,9 @@ void append(std::string& bytes, T value) {
 }
 
 void save(const std::string& path, const std::string& bytes) {
-  std::ofstream out(path, std::ios::binary);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!out.flush()) throw EngineError(path + ": cannot be written (no such folder, or no space left?)");
+  WrittenFile out(path);
+  out.add(bytes);
+  out.close();
 }
 
 }  // namespace

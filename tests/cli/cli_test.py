@@ -2,6 +2,7 @@
 """The program as people and CI call it: cli_test.py TRIPOINT FAKE_ENGINE [unittest arguments]."""
 import copy
 import json
+import os
 import resource
 import signal
 import subprocess
@@ -188,6 +189,93 @@ class Cli(unittest.TestCase):
         self.assertNotEqual(self.results()["exit_code"], 0)
         running = [p for p in Path("/proc").iterdir() if p.name.isdigit() and str(self.path).encode() in read_or_empty(p / "cmdline")]
         self.assertEqual(running, [])
+
+    def gated_fake(self):
+        """An engine that says that it runs, and goes on once the file `go` is there."""
+        script, runs, go = self.path / "engine-fake", self.path / "runs", self.path / "go"
+        script.write_text(f"#!/bin/sh\nif [ \"$1\" = --run ]; then touch '{runs}'; while [ ! -e '{go}' ]; do sleep 0.05; done; fi\nexec /usr/bin/python3 '{FAKE}' \"$@\"\n")
+        script.chmod(0o755)
+        return script
+
+    def start_and_wait_for_its_engine(self, *words):
+        runs = self.path / "runs"
+        runs.unlink(missing_ok=True)
+        process = subprocess.Popen([TRIPOINT, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        end = time.monotonic() + 60
+        while not runs.exists():
+            self.assertLess(time.monotonic(), end, "the engine was never started")
+            time.sleep(0.01)
+        return process
+
+    def test_a_second_call_in_the_folder_of_a_call_ends_2_names_its_process_and_harms_nothing(self):
+        self.write_cases("flight")
+        case, engine, out = self.path / "cases/test/flight.toml", self.gated_fake(), self.path / "out"
+        validate = ["validate", self.path / "cases", "--engines", "fake", "--engine", engine, "--out", out, "--no-report"]
+        first = self.start_and_wait_for_its_engine(*validate)
+        before = {file: file.read_bytes() for file in out.rglob("*") if file.is_file()}
+        for words in (validate, [*validate, "--resume"], ["validate", case, "--last-failed", "--out", out], ["run", case, "--engine", "exact", "--out", out], ["compare", case, "--engines", "exact,tripoint", "--out", out],
+                      ["converge", case, "--axis", "time_step", "--levels", "0.02,0.01", "--engine", "tripoint", "--out", out]):
+            with self.subTest(words[0]):
+                second = call(*words)
+                self.assertEqual(second.returncode, 2, second.stdout + second.stderr)
+                self.assertIn(f"process {first.pid} writes into this folder", second.stderr)
+                self.assertIn("name another folder with --out", second.stderr)
+        self.assertEqual({file: file.read_bytes() for file in out.rglob("*") if file.is_file()}, before)
+        (self.path / "go").touch()
+        told, said = first.communicate(timeout=60)
+        self.assertEqual(first.returncode, 0, told + said)
+        self.assertEqual([c["id"] for c in self.results()["cases"]], ["test/flight"])
+        again = call(*validate, "--resume")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertIn("kept, ok", again.stderr)
+
+    def test_merges_keep_out_of_the_folder_of_a_call(self):
+        self.write_cases("a", "b")
+        engine, out = self.gated_fake(), self.path / "out"
+        shards = [self.path / "s1", self.path / "s2"]
+        (self.path / "go").touch()
+        for k, shard in enumerate(shards, 1):
+            self.assertEqual(call("validate", self.path / "cases", "--engines", "fake", "--engine", engine, "--shard", f"{k}/2", "--out", shard, "--no-report").returncode, 0)
+        self.assertEqual(call("suite", "make", self.path / "suite", self.path / "cases", "--engines", "fake", "--engine", engine).returncode, 0)
+        self.assertEqual(call("suite", "work", self.path / "suite").returncode, 0)
+        (self.path / "go").unlink()
+        first = self.start_and_wait_for_its_engine("validate", self.path / "cases", "--engines", "fake", "--engine", engine, "--out", out, "--no-report")
+        for words in (["merge", *shards, "--out", out], ["suite", "merge", self.path / "suite", "--out", out]):
+            second = call(*words)
+            self.assertEqual(second.returncode, 2, second.stdout + second.stderr)
+            self.assertIn(f"process {first.pid} writes into this folder", second.stderr)
+        first.kill()
+        first.communicate(timeout=60)
+        (self.path / "go").touch()
+        for words in (["merge", *shards, "--out", out], ["suite", "merge", self.path / "suite", "--out", out]):
+            second = call(*words)
+            self.assertEqual(second.returncode, 0, "a call that was killed holds nothing: " + second.stdout + second.stderr)
+
+    def test_shards_run_at_once_into_folders_of_their_own(self):
+        self.write_cases("a", "b")
+        common = [TRIPOINT, "validate", self.path / "cases", "--engines", "fake", "--engine", self.fake(), "--no-report"]
+        shards = [subprocess.Popen([*common, "--shard", f"{k}/2", "--out", self.path / f"s{k}"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) for k in (1, 2)]
+        for shard in shards:
+            said = shard.communicate(timeout=60)
+            self.assertEqual(shard.returncode, 0, said)
+
+    def test_a_merge_takes_nothing_that_a_shard_links_to(self):
+        self.write_cases("a", "b")
+        shards = [self.path / "s1", self.path / "s2"]
+        for k, shard in enumerate(shards, 1):
+            self.assertEqual(call("validate", self.path / "cases", "--engines", "fake", "--engine", self.fake(), "--shard", f"{k}/2", "--out", shard, "--no-report").returncode, 0)
+        secret = self.path / "secret.txt"
+        secret.write_text("precious")
+        leak = shards[0] / "runs" / "leak"
+        for put in (lambda: leak.symlink_to(secret), lambda: leak.symlink_to(self.path), lambda: os.mkfifo(leak)):
+            put()
+            refused = call("merge", *shards, "--out", self.path / "merged")
+            self.assertEqual(refused.returncode, 2, refused.stdout + refused.stderr)
+            self.assertIn(str(leak), refused.stderr)
+            self.assertFalse((self.path / "merged").exists())
+            leak.unlink()
+        self.assertEqual(call("merge", *shards, "--out", self.path / "merged").returncode, 0)
 
     def test_the_engine_of_each_template_passes_the_compliance_test(self):
         done = call("engine", "new", "my-engine", "--lang", "python", cwd=self.path)

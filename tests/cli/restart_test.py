@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs that are cut and continued, as people do it: restart_test.py TRIPOINT SAME_TRAJECTORY [unittest arguments]."""
 import json
+import os
+import pty
 import shutil
 import signal
 import subprocess
@@ -11,6 +13,7 @@ import unittest
 from pathlib import Path
 
 TRIPOINT, SAME = sys.argv[1:3]
+ENGINE = Path(TRIPOINT).resolve().parents[1] / "libexec" / "tripoint" / "engine-tripoint"
 FLIGHT = """format = 1
 [case]
 title = "Flight"
@@ -197,6 +200,90 @@ class Restart(unittest.TestCase):
         done = subprocess.run(["/bin/sh", "-c", f"'{TRIPOINT}' {command}"], capture_output=True, text=True, timeout=300)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.expect_same("whole", "cut")
+
+    SLOW = ("--set", "scene.time_step=5e-6", "--until", "0.25")
+
+    def wait_for_its_first_frame(self, folder):
+        end = time.monotonic() + 60
+        while not (folder / "trajectory.h5").exists():
+            self.assertLess(time.monotonic(), end, "it never began")
+            time.sleep(0.01)
+        time.sleep(0.1)
+
+    def expect_left_a_checkpoint(self, folder):
+        result = json.loads((folder / "result.json").read_text())
+        self.assertEqual(result["status"], "error")
+        self.assertRegex(result["message"], r"^interrupted at t = .*; continue with --resume ")
+        self.assertEqual(len(list(folder.glob("checkpoint-*.h5"))), 1)
+
+    def leave_a_job(self, out, *more):
+        """A folder with the job of a slow run, of which nothing is done."""
+        folder = self.path / out
+        process = subprocess.Popen([TRIPOINT, "run", self.case, "--out", folder, "--quiet", *self.SLOW, *more], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.wait_for_its_first_frame(folder)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(timeout=60), 130)
+        for left in (folder / "trajectory.h5", *folder.glob("checkpoint-*.h5")):
+            left.unlink()
+        return folder
+
+    def start_engine(self, folder, **more):
+        return subprocess.Popen([ENGINE, "--run", folder / "job.json"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **more)
+
+    def test_a_hangup_leaves_a_checkpoint_as_ctrl_c_does(self):
+        self.assertEqual(self.run_case("whole", *self.SLOW).returncode, 0)
+        engine = self.start_engine(self.leave_a_job("cut"))
+        self.wait_for_its_first_frame(self.path / "cut")
+        for _ in range(2):  # the system tells it, and the shell
+            engine.send_signal(signal.SIGHUP)
+            time.sleep(0.01)
+        _, said = engine.communicate(timeout=60)
+        self.assertEqual(engine.returncode, 130, said)
+        self.assertIn("interrupted at t = ", said)
+        self.expect_left_a_checkpoint(self.path / "cut")
+        done = self.run_case("cut", *self.SLOW, "--resume", self.path / "cut")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.expect_same("whole", "cut")
+
+    def test_a_hangup_that_was_to_be_ignored_is_ignored(self):
+        folder = self.leave_a_job("cut", "--set", "scene.time_step=1e-5")
+        engine = self.start_engine(folder, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        self.wait_for_its_first_frame(folder)
+        self.assertIsNone(engine.poll(), "it has ended before anything could come")
+        engine.send_signal(signal.SIGHUP)
+        _, said = engine.communicate(timeout=60)
+        self.assertEqual(engine.returncode, 0, said)
+        self.assertEqual(json.loads((folder / "result.json").read_text())["status"], "ok")
+
+    def close_the_terminal_of(self, words, folder):
+        """Runs a command on a terminal of its own, which closes under it; its exit code."""
+        child, terminal = pty.fork()
+        if child == 0:
+            os.execv(words[0], [str(word) for word in words])
+        try:
+            self.wait_for_its_first_frame(folder)
+        finally:
+            os.close(terminal)
+            os.kill(child, signal.SIGHUP)  # as its shell does, besides the system
+        end = time.monotonic() + 60
+        while True:
+            ended, status = os.waitpid(child, os.WNOHANG)
+            if ended:
+                return os.waitstatus_to_exitcode(status)
+            if time.monotonic() > end:
+                os.kill(child, signal.SIGKILL)
+            time.sleep(0.01)
+
+    def test_a_run_whose_terminal_closes_leaves_a_checkpoint(self):
+        code = self.close_the_terminal_of([TRIPOINT, "run", self.case, "--out", self.path / "cut", *self.SLOW], self.path / "cut")
+        self.assertEqual(code, 130)
+        self.expect_left_a_checkpoint(self.path / "cut")
+        self.assertEqual(self.run_case("cut", *self.SLOW, "--resume", self.path / "cut").returncode, 0)
+
+    def test_an_engine_whose_terminal_closes_leaves_a_checkpoint(self):
+        folder = self.leave_a_job("cut")
+        self.assertEqual(self.close_the_terminal_of([ENGINE, "--run", folder / "job.json"], folder), 130)
+        self.expect_left_a_checkpoint(folder)
 
     def test_validate_resume_keeps_what_has_ended_and_makes_the_rest(self):
         def validate(*more):

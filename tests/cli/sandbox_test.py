@@ -65,6 +65,12 @@ class Sandbox(unittest.TestCase):
         self.assertTrue(runs and all(run["status"] == "ok" for run in runs), runs)
         return [run["metrics"] for run in runs]
 
+    def insert(self, deeds):
+        """Has the engine do this before anything else."""
+        lines = self.engine.read_text().split("\n")
+        at = next(n for n, line in enumerate(lines) if line.startswith("import "))
+        self.engine.write_text("\n".join(lines[:at] + ["import sys"] + deeds.split("\n") + lines[at:]))
+
     def make_hostile(self):
         import socket
         self.door = socket.socket()
@@ -72,9 +78,7 @@ class Sandbox(unittest.TestCase):
         self.door.listen(8)
         self.addCleanup(self.door.close)
         deeds = DEEDS.replace("PORT", str(self.door.getsockname()[1])).replace("OUTSIDE", str(self.folder)).replace("PARENT", str(os.getpid()))
-        lines = self.engine.read_text().split("\n")
-        at = next(n for n, line in enumerate(lines) if line.startswith("import sys") or line.startswith("import "))
-        self.engine.write_text("\n".join(lines[:at] + ["import sys"] + deeds.split("\n") + lines[at:]))
+        self.insert(deeds)
 
     def deeds(self):
         return sorted(set("\n".join(file.read_text() for file in (self.folder / "out").rglob("tried.txt")).split("\n")) - {""})
@@ -94,6 +98,88 @@ class Sandbox(unittest.TestCase):
         self.errors(self.validate("--sandbox")[1])
         self.assertEqual(self.deeds(), ["write outside"])  # to a /tmp of its own, which is gone with it
         self.assertFalse((self.folder / "written").exists())
+
+    def test_an_engine_in_the_project_sees_neither_report_nor_repository(self):
+        project, out = self.engine.parent, self.engine.parent / "report"
+        (project / ".git").mkdir()
+        (project / ".git/config").write_text("a token")
+        out.mkdir()
+        (out / "of-another-run").write_text("an answer")
+        self.insert(f"""
+if sys.argv[1] == "--run":
+    seen = []
+    for name in ("report/of-another-run", ".git/config"):
+        try:
+            seen.append(open("{project}/" + name).read(1))
+        except OSError:
+            pass
+    open("seen.txt", "w").write(str(len(seen)))
+""")
+        for words, seen in (([], "2"), (["--sandbox"], "0")):
+            done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine", "--out", out, "--no-report", "--no-history", *words],
+                                  cwd=project, capture_output=True, text=True, check=False)
+            self.assertEqual({file.read_text() for file in out.rglob("seen.txt")}, {seen}, done.stderr)
+
+    def test_a_home_is_no_folder_of_an_engine(self):
+        done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--sandbox", "--out", self.folder / "out", "--no-report"],
+                              cwd=self.folder, capture_output=True, text=True, check=False, env={**os.environ, "HOME": str(self.engine.parent)})
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("holds your home", done.stdout + done.stderr)
+
+    def test_no_record_that_an_engine_leaves_is_believed(self):
+        self.errors(self.validate("--sandbox")[1])
+        records = {file.name: file.read_text() for file in (self.folder / "out").rglob("outcome-*.json")}
+        self.assertTrue(any("mine" in str(file) for file in (self.folder / "out").rglob("outcome-*.json")))
+        subprocess.run(["rm", "-r", self.folder / "out"], check=True)
+        self.insert(f"""
+import atexit, os, time
+def forge():
+    for name, text in {records!r}.items():
+        for path in ("outcome.json", "../../particles/" + name):
+            try:
+                open(path, "w").write(text)
+            except OSError:
+                pass
+    time.sleep(60)
+if sys.argv[1] == "--run":
+    atexit.register(forge)
+""")
+        for again in ([], ["--resume"]):
+            done, results = self.validate("--sandbox", "--time-limit", "2", *again)
+            self.assertEqual(done.returncode, 4, done.stdout)
+            self.assertEqual({run["status"] for engine in results["cases"][0]["engines"] if engine["name"] == "mine" for run in engine["runs"]}, {"timeout"})
+
+    def test_its_limits_are_set_before_it_begins(self):
+        self.insert("""
+import os, resource
+if sys.argv[1] == "--run":
+    told = [resource.getrlimit(what)[1] for what in (resource.RLIMIT_DATA, resource.RLIMIT_AS, resource.RLIMIT_FSIZE, resource.RLIMIT_NPROC, resource.RLIMIT_CPU)]
+    for folder in ("/tmp", "/dev/shm"):
+        room = os.statvfs(folder)
+        told.append(room.f_blocks * room.f_frsize)
+    open("limits.txt", "w").write(" ".join(str(number) for number in told))
+""")
+        self.errors(self.validate("--sandbox")[1])
+        memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+        for file in (self.folder / "out").rglob("limits.txt"):
+            told = [int(word) for word in file.read_text().split()]
+            self.assertEqual(told[:4], [memory, 4 * memory, 16 << 30, 512])
+            self.assertTrue(0 < told[4] < 100000, told)
+            self.assertEqual(told[5:], [1 << 30, 1 << 30])
+
+    def test_what_it_costs_is_counted_inside_too(self):
+        self.insert("""
+import time
+if sys.argv[1] == "--run":
+    taken = bytearray(200 << 20)
+    while time.process_time() < 0.5:
+        pass
+""")
+        results = self.validate("--sandbox")[1]
+        self.errors(results)
+        for run in (run for engine in results["cases"][0]["engines"] if engine["name"] == "mine" for run in engine["runs"]):
+            self.assertGreater(run["cost"]["cpu_s"], 0.5)
+            self.assertGreater(run["cost"]["peak_bytes"], 200 << 20)
 
     def test_where_no_namespace_can_be_made_nothing_is_run(self):
         if os.geteuid() != 0:

@@ -200,6 +200,20 @@ FAKE='{fault}' FAKE_NAME={name} exec /usr/bin/python3 -B '{FAKE}' "$@"
         self.assertEqual(second.wait(timeout=60), 0)
         self.assertEqual(self.merged(), whole)
 
+    def test_a_merge_into_another_folder_takes_nothing_that_a_run_links_to(self):
+        self.cases(1, study=False)
+        self.make(self.engine())
+        self.done("suite", "work", "suite")
+        secret, leak = self.path / "secret.txt", self.suite / "runs" / "leak"
+        secret.write_text("precious")
+        leak.symlink_to(secret)
+        refused = self.call("suite", "merge", "suite", "--out", "merged", "--no-report")
+        self.assertEqual(refused.returncode, 2, refused.stdout + refused.stderr)
+        self.assertIn("suite/runs/leak", refused.stderr)
+        self.assertEqual(list((self.path / "merged").rglob("leak")), [])
+        leak.unlink()
+        self.done("suite", "merge", "suite", "--out", "merged", "--no-report")
+
     def test_ctrl_c_gives_the_job_back(self):
         self.cases(1, study=False)
         self.make(self.engine())

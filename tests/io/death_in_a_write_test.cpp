@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -14,6 +15,7 @@
 
 #include "io/h5md_file.hpp"
 #include "io/trajectory.hpp"
+#include "io/write_calls.hpp"
 
 namespace {
 
@@ -27,12 +29,21 @@ struct Change {
 bool is_recording = false;
 std::vector<Change> changes;
 
+/// Whether a call is to fail; errno then says why.
+bool fails(off_t at) {
+  if (tripoint::test::write_error == 0 || (tripoint::test::only_first_bytes && at != 0)) return false;
+  errno = tripoint::test::write_error;
+  return true;
+}
+
 ssize_t recorded_write(int file, const void* data, size_t size, off_t at) {
+  if (fails(at)) return -1;
   if (is_recording) changes.push_back({at, {static_cast<const char*>(data), size}});
   return syscall(SYS_pwrite64, file, data, size, at);
 }
 
 int recorded_length(int file, off_t size) {
+  if (fails(size)) return -1;
   if (is_recording) changes.push_back({size, {}, true});
   return static_cast<int>(syscall(SYS_ftruncate, file, size));
 }

@@ -11,11 +11,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
-#include "core/nesting.hpp"
+#include "core/foreign_json.hpp"
 #include "io/foreign_file.hpp"
 #include "io/trajectory.hpp"
 #include "scene/sample.hpp"
 #include "validation/harness/run_one.hpp"
+#include "validation/harness/sandbox.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -53,12 +54,15 @@ class Checks {
   std::vector<EngineCheck> list_;
 };
 
-ProcessEnd ask(const std::string& executable, const std::vector<std::string>& words, double limit) {
+/// @param folder that it may write to; "" where it need write nothing
+ProcessEnd ask(const std::string& executable, const std::vector<std::string>& words, double limit,
+               const std::string& folder = "") {
   ProcessSpec spec;
+  spec.folder = folder;
   spec.argv = {executable};
   spec.argv.insert(spec.argv.end(), words.begin(), words.end());
   spec.wall_limit = limit;
-  return run_process(spec);
+  return run_process(sandboxed(spec));
 }
 
 bool check_info(const EngineEntry& engine, Checks& checks) {
@@ -66,7 +70,7 @@ bool check_info(const EngineEntry& engine, Checks& checks) {
   if (!checks.add("--info exits 0 within 10 s", end.how == ProcessEnd::How::exited && end.code == 0,
                   describe(end) + " " + end.log_tail))
     return false;
-  const auto info = nests_too_deep(end.output) ? nlohmann::json() : nlohmann::json::parse(end.output, nullptr, false);
+  const auto info = unfit_json(end.output).empty() ? nlohmann::json::parse(end.output, nullptr, false) : nlohmann::json();
   if (!checks.add("--info prints one JSON object and nothing else", info.is_object(), end.output.substr(0, 80))) return false;
   checks.add("--info says contract 1", info.value("contract", nlohmann::json()) == 1,
              info.value("contract", nlohmann::json()).dump());
@@ -85,7 +89,7 @@ void check_broken_jobs(const std::string& executable, const fs::path& folder, Ch
   const auto broken = (folder / "broken.json").string(), absent = (folder / "absent.json").string();
   std::ofstream(broken) << "{";
   for (const auto& [what, job] : {std::pair{"a broken job", broken}, std::pair{"a job that is not there", absent}}) {
-    const auto end = ask(executable, {"--run", job}, 60.0);
+    const auto end = ask(executable, {"--run", job}, 60.0, folder.string());
     checks.add(fmt::format("--run on {} exits 2", what), end.how == ProcessEnd::How::exited && end.code == 2, describe(end));
   }
 }
@@ -137,7 +141,7 @@ void check_result_file(const std::string& what, const fs::path& file, Checks& ch
     text = text_of_regular_file(file.string(), std::uintmax_t{64} << 20);
   } catch (const InputError&) {  // no object then
   }
-  const auto result = nests_too_deep(text) ? nlohmann::json() : nlohmann::json::parse(text, nullptr, false);
+  const auto result = unfit_json(text).empty() ? nlohmann::json::parse(text, nullptr, false) : nlohmann::json();
   if (!checks.add(what + "result.json is one JSON object", result.is_object(), "it is not")) return;
   for (const char* key : {"contract", "status", "time_reached", "steps", "seconds", "readback"})
     checks.add(fmt::format("{}result.json has {}", what, key), result.contains(key), "it does not");

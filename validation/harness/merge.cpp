@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "validation/harness/judge.hpp"
+#include "validation/harness/plain_tree.hpp"
 #include "validation/harness/report_files.hpp"
 
 namespace tripoint {
@@ -39,20 +40,16 @@ void check_same_question(const std::vector<std::string>& folders, const std::vec
   }
 }
 
-void copy_runs(const fs::path& from, const fs::path& to) {
-  if (!fs::exists(from) || fs::equivalent(from.parent_path(), to.parent_path())) return;
-  fs::copy(from, to, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-}
-
 }  // namespace
 
-Results merge_shards(const std::vector<std::string>& folders, const std::string& out) {
+Results merge_shards(const std::vector<std::string>& folders) {
+  for (const auto& folder : folders)
+    for (const char* taken : {"results.json", "runs"}) expect_plain_tree(fs::path(folder) / taken);
   std::vector<Results> parts;
   for (const auto& folder : folders) parts.push_back(read_results((fs::path(folder) / "results.json").string()));
   if (parts.empty()) throw InputError("no folder of a shard is given");
   check_shards(folders, parts);
   check_same_question(folders, parts);
-  fs::create_directories(out);
   Results whole = parts.front();
   whole.interrupted = false;  // what a shard that was stopped lacks is missing in the whole
   whole.shard.clear();
@@ -62,12 +59,16 @@ Results merge_shards(const std::vector<std::string>& folders, const std::string&
   for (std::size_t k = 0; k < parts.size(); ++k) {
     std::move(parts[k].cases.begin(), parts[k].cases.end(), std::back_inserter(whole.cases));
     whole.planned.insert(whole.planned.end(), parts[k].planned.begin(), parts[k].planned.end());
-    copy_runs(fs::path(folders[k]) / "runs", fs::path(out) / "runs");
   }
   std::sort(whole.cases.begin(), whole.cases.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   std::sort(whole.planned.begin(), whole.planned.end());
   judge(whole);
   return whole;
+}
+
+void copy_runs_of_shards(const std::vector<std::string>& folders, const std::string& out) {
+  for (const fs::path folder : folders)
+    if (fs::exists(folder / "runs") && !fs::equivalent(folder, out)) copy_plain_tree(folder / "runs", fs::path(out) / "runs");
 }
 
 }  // namespace tripoint

@@ -40,7 +40,12 @@ void set_aside_report(const std::string& folder);
 /// One line for a case: its verdict, id and what is not green.
 [[nodiscard]] std::string case_line(const CaseResult&);
 
-/// Shards into one set of results; runs are copied below `out`. @throws InputError when a shard is missing or two overlap
-[[nodiscard]] Results merge_shards(const std::vector<std::string>& folders, const std::string& out);
+/// Shards into one set of results. @throws InputError when a shard is missing, two overlap, or one holds a link, a pipe or a
+/// device
+[[nodiscard]] Results merge_shards(const std::vector<std::string>& folders);
+
+/// Copies the runs of shards below `out`. @throws InputError for a link, a pipe or a device, before anything of its shard is
+/// copied
+void copy_runs_of_shards(const std::vector<std::string>& folders, const std::string& out);
 
 }  // namespace tripoint

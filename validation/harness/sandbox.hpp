@@ -6,19 +6,22 @@
 #include "validation/harness/process.hpp"
 
 /// Engines that somebody else wrote, run by bubblewrap in namespaces of their own: no network, no other process, and of the files
-/// only the system's programs, the engine's own folder and its run.
+/// only the system's programs, the engine's own folder without what the suite and git keep there, and its run. Limits are set
+/// before the engine begins.
 namespace tripoint {
 
 /// Whether an engine is one of this program's own: it lies where they do.
 [[nodiscard]] bool belongs_to_us(const std::string& executable);
 
-/// From now on `sandboxed` acts. Asked once, before the first engine is.
+/// From now on `sandboxed` acts. Asked once, before the first engine is. @param out folder of all runs, of which no engine sees
+/// any but its own; "" where there is none
 /// @throws EngineError where bubblewrap is not installed, or this machine lets it make no namespaces: nothing is run unguarded
 /// then
-void sandbox_strangers();
+void sandbox_strangers(const std::string& out);
 
 /// The child as it is to be started: unchanged where no sandbox is wanted, and where the engine belongs to this program.
 /// @param readable files or folders that it may read besides
+/// @throws EngineError where the engine's folder holds the user's home
 /// @pre spec.folder, where it has one, is all that it may write
 [[nodiscard]] ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable = {});
 

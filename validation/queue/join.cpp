@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "validation/harness/case_run.hpp"
 #include "validation/harness/judge.hpp"
+#include "validation/harness/plain_tree.hpp"
 #include "validation/queue/published.hpp"
 #include "validation/queue/standing.hpp"
 
@@ -49,7 +50,7 @@ void copy_runs(const fs::path& dir, const fs::path& out) {
   std::error_code none;
   fs::create_directories(out);
   if (fs::equivalent(dir, out, none)) return;
-  fs::copy(dir / "runs", out / "runs", fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  copy_plain_tree(dir / "runs", out / "runs");
 }
 
 }  // namespace
