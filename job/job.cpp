@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/durable_file.hpp"
-#include "core/nesting.hpp"
+#include "core/foreign_json.hpp"
 #include "core/whole_number.hpp"
 #include "io/foreign_file.hpp"
 #include "job/scene_json.hpp"
@@ -19,10 +19,11 @@ namespace {
 
 using json = nlohmann::ordered_json;
 constexpr std::uintmax_t greatest_file = 64u << 20;  // a job or result of more than 64 MiB is no job
+constexpr std::size_t most_letters = 4096;           // of a text in a result, which reports show
 
 json parse(const std::string& path) {
   const std::string text = text_of_regular_file(path, greatest_file);
-  if (nests_too_deep(text)) throw InputError(fmt::format("{}: nests deeper than {} levels; refused", path, most_levels));
+  if (const std::string why = unfit_json(text); !why.empty()) throw InputError(fmt::format("{}: {}; refused", path, why));
   json value = json::parse(text, nullptr, false);
   if (value.is_discarded()) throw InputError(path + ": is no JSON");
   return value;
@@ -173,10 +174,11 @@ Status status_from(const JsonObject& o, const std::string& path) {
 Result read_result(const std::string& path) {
   const json value = parse(path);
   const JsonObject o(value, "result");
+  const auto words = [&](const char* key) { return o.text_or(key, "").substr(0, most_letters); };
   if (o.has("contract") && o.integer("contract") != 1) throw InputError(path + ": is not of contract 1");
   Result r;
   r.status = status_from(o, path);
-  r.message = o.text_or("message", "");
+  r.message = words("message");
   r.time_reached = o.number_or("time_reached", 0.0);
   r.steps = whole_number<long>(o.number_or("steps", 0.0));
   if (o.has("counters")) {
@@ -190,8 +192,8 @@ Result read_result(const std::string& path) {
     r.stepping_wall = s.number_or("stepping_wall", 0.0);
     r.stepping_cpu = s.number_or("stepping_cpu", 0.0);
   }
-  r.state_hash = o.text_or("state_hash", "");
-  r.time_step_bound = o.text_or("time_step_bound", "");
+  r.state_hash = words("state_hash");
+  r.time_step_bound = words("time_step_bound");
   if (o.has("readback")) r.readback = readback_from(o.object("readback"));
   if (o.has("divergence")) r.divergence = divergence_from(o.object("divergence"));
   for (const auto& [key, v] : o.settings("extra"))

@@ -24,11 +24,13 @@ inline void make_durable(const std::string& path) {
 }
 
 /// Writes a file so that a reader finds the old contents or all of the new: temporary name, fsync, rename, fsync of the folder.
+/// A link or pipe that somebody has left under the temporary name is removed and not followed.
 /// @throws EngineError naming the file and the system's reason
 inline void write_durably(const std::string& path, std::string_view text) {
   const std::string temporary = path + ".part";
   const auto fail = [&] { throw EngineError(path + ": cannot be written: " + std::strerror(errno)); };
-  const int file = ::open(temporary.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
+  ::unlink(temporary.c_str());
+  const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0644);
   if (file < 0) fail();
   for (std::string_view rest = text; !rest.empty();) {
     const ssize_t n = ::write(file, rest.data(), rest.size());

@@ -23,6 +23,13 @@ void expect_regular_file(const std::string& path, std::uintmax_t most) {
     throw InputError(fmt::format("{}: has {} bytes, more than the {} that it can need; refused", path, size, most));
 }
 
+bool is_no_own_file(const std::string& path) {
+  std::error_code error;
+  const auto status = fs::symlink_status(path, error);
+  if (!fs::exists(status)) return false;
+  return !fs::is_regular_file(status) || fs::hard_link_count(path, error) > 1;
+}
+
 std::string text_of_regular_file(const std::string& path, std::uintmax_t most) {
   expect_regular_file(path, most);
   std::ifstream in(path, std::ios::binary);

@@ -9,6 +9,9 @@ namespace tripoint {
 /// device is endless.
 /// @throws InputError naming what it is instead
 void expect_regular_file(const std::string& path, std::uintmax_t most);
+/// Whether something of this name is there that is no file of its own: a link to elsewhere, a pipe, a device, a folder, or a
+/// second name of another file. Nothing is opened.
+[[nodiscard]] bool is_no_own_file(const std::string& path);
 /// Its whole text. @throws InputError as above
 [[nodiscard]] std::string text_of_regular_file(const std::string& path, std::uintmax_t most);
 

@@ -75,16 +75,22 @@ class TrajectoryWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads trajectory.h5. @throws InputError naming file and what is missing, torn or of the wrong shape; sizes are bounded before
-/// reading.
-[[nodiscard]] Trajectory read_trajectory(const std::string& path);
+inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+
+/// Reads trajectory.h5. @throws InputError naming file and what is missing, torn or of the wrong shape, and where it has more
+/// than most_frames frames; sizes are bounded before reading.
+[[nodiscard]] Trajectory read_trajectory(const std::string& path, std::size_t most_frames = any_number);
 /// Reads a small engine's trajectory.csv (contracts): rows of particles or, with the column `body`, of bodies.
-/// Masses, phases and materials come from `initial`.
-[[nodiscard]] Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial, std::size_t bodies);
+/// Masses, phases and materials come from `initial`. @throws InputError with the line, and where it has more than most_frames
+/// times
+[[nodiscard]] Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial, std::size_t bodies,
+                                             std::size_t most_frames = any_number);
 /// Reads gauges.csv (rows of time, number of the gauge, value) into the frames of their times, and makes these where there are
 /// none.
 /// @param names of the job's gauges, in their order
-void read_gauges_csv(const std::string& path, const std::vector<std::string>& names, Trajectory&);
+/// @throws InputError with the line, and where there would be more than most_frames frames
+void read_gauges_csv(const std::string& path, const std::vector<std::string>& names, Trajectory&,
+                     std::size_t most_frames = any_number);
 
 /// particles.h5: one frame, time 0, of what the harness sampled.
 void write_particles(const std::string& path, const InitialState&);

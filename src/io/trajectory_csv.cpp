@@ -97,8 +97,15 @@ void put_particle(const Table& row, const InitialState& initial, Snapshot& s) {
   s.temperature[i] = row["temperature"];
 }
 
+/// A body before the run: its mass [kg], its centre [m], and the numbers of its particles.
+struct Start {
+  double mass = 0.0;
+  Vec3 centre;
+  std::vector<std::size_t> members;
+};
+
 /// A row of a body places its particles too: they move rigidly with it from where they started.
-void put_body(const Table& row, const InitialState& initial, const std::vector<MassProperties>& start, Snapshot& s) {
+void put_body(const Table& row, const InitialState& initial, const std::vector<Start>& start, Snapshot& s) {
   const std::size_t b = row.row("body", s.bodies.size());
   BodyState& body = s.bodies[b];
   if (std::isfinite(body.mass)) row.refuse("body " + std::to_string(b) + " has a row already at this time");
@@ -109,8 +116,7 @@ void put_body(const Table& row, const InitialState& initial, const std::vector<M
   body.angular_velocity = {};  // an engine that writes none does not turn
   if (row.has("qw")) body.orientation = {row["qw"], row["qx"], row["qy"], row["qz"]};
   if (row.has("wx")) body.angular_velocity = row.vector("wx", "wy", "wz");
-  for (std::size_t i = 0; i < initial.size(); ++i) {
-    if (initial.body[i] != static_cast<int>(b)) continue;
+  for (const std::size_t i : start[b].members) {
     const Vec3 arm = rotate(body.orientation, initial.position[i] - start[b].centre);
     s.id[i] = static_cast<int>(i);
     s.position[i] = body.position + arm;
@@ -118,27 +124,38 @@ void put_body(const Table& row, const InitialState& initial, const std::vector<M
   }
 }
 
-std::vector<MassProperties> centres(const InitialState& initial, std::size_t bodies) {
-  std::vector<MassProperties> all(bodies);
+std::vector<Start> starts(const InitialState& initial, std::size_t bodies) {
+  std::vector<Start> all(bodies);
   for (std::size_t i = 0; i < initial.size(); ++i) {
     if (initial.body[i] < 0 || static_cast<std::size_t>(initial.body[i]) >= bodies) continue;
-    MassProperties& m = all[static_cast<std::size_t>(initial.body[i])];
-    m.mass += initial.mass[i];
-    m.centre += initial.mass[i] * initial.position[i];
+    Start& body = all[static_cast<std::size_t>(initial.body[i])];
+    body.mass += initial.mass[i];
+    body.centre += initial.mass[i] * initial.position[i];
+    body.members.push_back(i);
   }
-  for (MassProperties& m : all) m.centre *= m.mass > 0.0 ? 1.0 / m.mass : 0.0;
+  for (Start& body : all) body.centre *= body.mass > 0.0 ? 1.0 / body.mass : 0.0;
   return all;
+}
+
+/// The frame of a time, made where there is none. @throws InputError where there are too many
+template <class Make>
+Snapshot& frame_at(double time, std::map<double, Snapshot>& frames, std::size_t most, const Table& row, const Make& make) {
+  const auto at = frames.find(time);
+  if (at != frames.end()) return at->second;
+  if (frames.size() >= most) row.refuse("has more than " + std::to_string(most) + " different times, more than it can need");
+  return frames.emplace(time, make()).first->second;
 }
 
 }  // namespace
 
-Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial, std::size_t bodies) {
+Trajectory read_trajectory_csv(const std::string& path, const InitialState& initial, std::size_t bodies,
+                               std::size_t most_frames) {
   std::ifstream file(path);
   if (!file) throw InputError(path + ": cannot be read");
   std::string text;
   if (!std::getline(file, text) || text.size() > greatest_line) throw InputError(path + ": has no header line");
   Table row(path, text);
-  const std::vector<MassProperties> start = centres(initial, bodies);
+  const std::vector<Start> start = starts(initial, bodies);
   std::map<double, Snapshot> frames;
   for (int number = 2; std::getline(file, text); ++number) {
     if (text.empty()) continue;
@@ -146,8 +163,7 @@ Trajectory read_trajectory_csv(const std::string& path, const InitialState& init
     row.line(text, number);
     const double time = row["time"];
     if (!std::isfinite(time)) throw InputError({path, number, 0}, "the time is not finite");
-    if (!frames.contains(time)) frames.emplace(time, empty_frame(time, initial, bodies));
-    Snapshot& frame = frames.at(time);
+    Snapshot& frame = frame_at(time, frames, most_frames, row, [&] { return empty_frame(time, initial, bodies); });
     row.has("body") ? put_body(row, initial, start, frame) : put_particle(row, initial, frame);
   }
   Trajectory trajectory;
@@ -162,7 +178,8 @@ Trajectory read_trajectory_csv(const std::string& path, const InitialState& init
   return trajectory;
 }
 
-void read_gauges_csv(const std::string& path, const std::vector<std::string>& names, Trajectory& trajectory) {
+void read_gauges_csv(const std::string& path, const std::vector<std::string>& names, Trajectory& trajectory,
+                     std::size_t most_frames) {
   std::ifstream file(path);
   std::string text;
   if (!file || !std::getline(file, text) || text.size() > greatest_line) throw InputError(path + ": has no header line");
@@ -177,7 +194,7 @@ void read_gauges_csv(const std::string& path, const std::vector<std::string>& na
     const std::string& name = names.at(row.row("gauge", names.size()));
     if (!std::isfinite(time) || !std::isfinite(row["value"]))
       throw InputError({path, number, 0}, "the gauge `" + name + "` is not finite");
-    Snapshot& frame = frames[time];
+    Snapshot& frame = frame_at(time, frames, most_frames, row, [] { return Snapshot{}; });
     frame.time = time;
     if (!frame.gauges.emplace(name, row["value"]).second)
       throw InputError({path, number, 0}, "the gauge `" + name + "` has two values at this time");

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -216,8 +218,11 @@ void expect_equal_lengths(const std::string& path, const Snapshot& s) {
 
 }  // namespace
 
-Trajectory read_trajectory(const std::string& path) {
+Trajectory read_trajectory(const std::string& path, std::size_t most_frames) {
   Reader in(path);
+  if (in.frames() > most_frames)
+    throw InputError(
+        fmt::format("{}: has {} frames, more than the {} that it can need; refused", path, in.frames(), most_frames));
   Trajectory trajectory;
   Frames& frames = trajectory.frames;
   frames.resize(in.frames());

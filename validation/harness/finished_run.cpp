@@ -1,26 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "validation/harness/finished_run.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "core/durable_file.hpp"
+#include "io/foreign_file.hpp"
 #include "io/trajectory.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+constexpr std::uintmax_t greatest_record = 1u << 20;
+
+/// Beside the particles, which an engine only reads: a record is ours alone.
+std::string record_file(const RunRequest& request) {
+  const fs::path folder(request.folder), engine = folder.parent_path().filename(), run = folder.filename();
+  return (fs::path(request.particles).parent_path() / ("outcome-" + engine.string() + "-" + run.string() + ".json")).string();
 }
 
-fs::path record_file(const RunRequest& request) { return fs::path(request.folder) / "outcome.json"; }
 /// Hash of the files that were left beside the record: what is judged is what the run wrote.
 std::string hash_of_files(const RunRequest& request) {
   const fs::path folder(request.folder);
@@ -30,14 +37,31 @@ std::string hash_of_files(const RunRequest& request) {
   return text_hash(all);
 }
 
+/// Fills a part from a file, but for the last one. @return bytes, 0 at the end, -1 where it cannot be read
+ssize_t read_fully(int file, std::string& part) {
+  std::size_t got = 0;
+  while (got < part.size()) {
+    const ssize_t n = ::read(file, part.data() + got, part.size() - got);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return n;
+    if (n == 0) break;
+    got += static_cast<std::size_t>(n);
+  }
+  return static_cast<ssize_t>(got);
+}
+
 }  // namespace
 
 std::string file_hash(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return {};
+  const int in = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);  // a pipe would keep us waiting
+  struct stat is {};
+  if (in < 0 || ::fstat(in, &is) != 0 || !S_ISREG(is.st_mode)) {
+    if (in >= 0) ::close(in);
+    return {};
+  }
   std::string part(1u << 20, '\0'), all;  // a trajectory may be larger than memory: the hash is of the hashes of its parts
-  while (in.read(part.data(), static_cast<std::streamsize>(part.size())) || in.gcount() > 0)
-    all += text_hash(part.substr(0, static_cast<std::size_t>(in.gcount())));
+  for (ssize_t n = 0; (n = read_fully(in, part)) > 0;) all += text_hash(part.substr(0, static_cast<std::size_t>(n)));
+  ::close(in);
   return text_hash(all);
 }
 
@@ -72,14 +96,14 @@ void record_finished(const RunRequest& request, const std::string& hash, const P
                                       {"instructions", outcome.cost.instructions},
                                       {"counted_by", outcome.cost.counted_by}};
   try {
-    write_durably(record_file(request).string(), record.dump(1));
+    write_durably(record_file(request), record.dump(1));
   } catch (const std::exception&) {  // without a record the run is made again, no more
   }
 }
 
 std::optional<Outcome> finished_run(const RunRequest& request, const std::string& hash) {
   try {
-    const auto record = nlohmann::json::parse(text_of(record_file(request)));
+    const auto record = nlohmann::json::parse(text_of_regular_file(record_file(request), greatest_record));
     if (record.at("run") != hash || record.at("files") != hash_of_files(request)) return {};
     ProcessEnd end;
     end.how = ProcessEnd::How::exited;
@@ -97,6 +121,8 @@ std::optional<Outcome> finished_run(const RunRequest& request, const std::string
     return {};
   }
 }
+
+void forget_finished(const RunRequest& request) { fs::remove(record_file(request)); }
 
 std::vector<std::string> checkpoints_in(const std::string& folder) {
   std::vector<std::string> found;

@@ -26,6 +26,7 @@
 #include <string_view>
 
 #include "core/children.hpp"
+#include "core/stop_signals.hpp"
 #include "validation/harness/instructions.hpp"
 #include "validation/harness/strays.hpp"
 #include "validation/harness/watch.hpp"
@@ -65,7 +66,9 @@ class Descriptor {
 class BoundedLog {
  public:
   explicit BoundedLog(const std::string& path) {
-    if (!path.empty()) file_.reset(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+    if (path.empty()) return;
+    ::unlink(path.c_str());  // an earlier call of the engine may have left a link there, to a file of somebody else
+    file_.reset(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644));
   }
   void add(const char* data, std::size_t size) {
     const std::size_t fits = std::min(size, kept_log - std::min(kept_log, written_));
@@ -236,6 +239,18 @@ void end_group(pid_t leader, ProcessEnd& end, bool leader_reaped) {
   while (::wait4(-leader, &status, 0, &use) > 0) add_cost(end, use);
 }
 
+/// What the first process inside a sandbox has used, and all that it waited for. Bubblewrap ends without waiting for it, and it
+/// comes to us. @param inside 0 where it was never seen
+void add_cost_inside(pid_t inside, ProcessEnd& end) {
+  if (inside == 0) return;
+  const auto begun = Clock::now();
+  std::optional<rusage> use;
+  while (!(use = use_of_orphan(inside)) && seconds_since(begun) < 2.0) ::poll(nullptr, 0, 1);
+  if (!use) return;
+  add_cost(end, *use);
+  end.peak_bytes = std::max(end.peak_bytes, 1024.0 * static_cast<double>(use->ru_maxrss));  // it began small, not as we
+}
+
 void adopt_orphans() {
   static std::once_flag once;
   std::call_once(once, [] { prctl(PR_SET_CHILD_SUBREAPER, 1); });  // daemons that an engine leaves come to us, not to init
@@ -255,6 +270,7 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
   const Descriptor child(static_cast<int>(syscall(SYS_pidfd_open, pid, 0)));
   std::array<pollfd, 3> wait{pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}, pollfd{child.get(), POLLIN, 0}};
   bool reaped = false;
+  pid_t inside = 0;
   std::optional<Clock::time_point> asked;
   while (!reaped) {
     const double left = spec.wall_limit - seconds_since(start);
@@ -267,6 +283,8 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
       break;
     }
     end.peak_bytes = std::max(end.peak_bytes, peak_of(pid));
+    if (spec.in_sandbox && inside == 0)
+      for (const pid_t child : children_of(pid)) inside = child;
     ::poll(wait.data(), wait.size(), static_cast<int>(until_next_look(seconds_since(start), left)));
     if (wait[0].revents && !drain(out, take_output)) wait[0].fd = -1;
     if (wait[1].revents && !drain(err, take_log)) wait[1].fd = -1;
@@ -281,6 +299,7 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
   }
   if (asked) end.how = ProcessEnd::How::interrupted;
   end_group(pid, end, reaped);
+  add_cost_inside(inside, end);
   drain(out, take_output);
   drain(err, take_log);
   end.wall_s = seconds_since(start);
@@ -313,6 +332,7 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   Descriptor err_write(err[1]);
   for (const int end_of_child : {out[1], err[1]}) ::fcntl(end_of_child, F_SETFL, 0);  // the child writes blocking
   pid_t pid = -1;
+  BoundedLog log(spec.log);  // before anybody can put something in its place
   const InstructionCounter counter;
   const std::string mark = new_stray_mark();
   if (const int error = spawn(spec, mark, out[1], err[1], pid); error != 0) {
@@ -322,7 +342,6 @@ ProcessEnd run_process(const ProcessSpec& spec) {
   bound_resources(pid);
   out_write.reset();
   err_write.reset();
-  BoundedLog log(spec.log);
   follow(spec, pid, out[0], err[0], log, end);
   end_strays(mark);
   end.log_tail = log.close();
@@ -346,14 +365,7 @@ std::string describe(const ProcessEnd& end) {
   return "could not be started: " + end.log_tail;
 }
 
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = on_interrupt;
-  sigemptyset(&action.sa_mask);
-  action.sa_flags = SA_RESETHAND;  // a second Ctrl-C ends us at once
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
+void catch_interrupts() { on_stop_signals(on_interrupt); }
 
 bool interrupted() noexcept { return stop_wanted.load(); }
 

@@ -20,6 +20,7 @@ struct ProcessSpec {
   std::function<void(const std::string&)>
       status;                       ///< called with the rest of each line `status REST` of stderr, of 400 bytes at most
   bool outlives_interrupt = false;  ///< Ctrl-C does not end it: it shows what was complete by then
+  bool in_sandbox = false;          ///< argv is bubblewrap's, which leaves the process that it starts to us: that one is paid for
 };
 
 struct ProcessEnd {
@@ -44,8 +45,8 @@ struct ProcessEnd {
 /// "exited with code 3", "was killed by signal 9 (Killed)", "was stopped after 600 s", ...
 [[nodiscard]] std::string describe(const ProcessEnd&);
 
-/// From now on Ctrl-C and SIGTERM ask the children to end, kill those that have not within 10 s, and set interrupted(), instead
-/// of ending this process.
+/// From now on Ctrl-C, SIGTERM and SIGHUP (core/stop_signals.hpp) ask the children to end, kill those that have not within 10 s,
+/// and set interrupted(), instead of ending this process.
 void catch_interrupts();
 [[nodiscard]] bool interrupted() noexcept;
 

@@ -4,27 +4,27 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/nesting.hpp"
+#include "core/foreign_json.hpp"
 
 namespace tripoint {
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 namespace {
 
-constexpr std::size_t most_words = 4096;  // of an engine's reason
+constexpr std::size_t most_letters = 4096;  // of a text that an engine says
 
-Json parsed(const std::string& printed) { return nests_too_deep(printed) ? Json() : Json::parse(printed, nullptr, false); }
+Json parsed(const std::string& printed) { return unfit_json(printed).empty() ? Json::parse(printed, nullptr, false) : Json(); }
 
 std::string text(const Json& from, const char* key) {
   const auto at = from.find(key);
   if (at == from.end() || at->is_null()) return {};
-  return at->is_string() ? at->get<std::string>() : at->dump();
+  return (at->is_string() ? at->get<std::string>() : at->dump()).substr(0, most_letters);
 }
 
 std::vector<std::string> words(const Json& from, const char* key) {
   std::vector<std::string> list;
   if (const auto at = from.find(key); at != from.end() && at->is_array())
     for (const auto& word : *at)
-      if (word.is_string()) list.push_back(word.get<std::string>());
+      if (word.is_string()) list.push_back(word.get<std::string>().substr(0, most_letters));
   return list;
 }
 
@@ -89,7 +89,7 @@ std::string refusal_in(const std::string& printed) {
   if (!answer.is_object() || !answer.contains("can") || !answer["can"].is_boolean()) return "--check did not print {can, reason}";
   if (answer["can"].get<bool>()) return {};
   const auto reason = answer.find("reason");
-  return reason != answer.end() && reason->is_string() && !reason->empty() ? reason->get<std::string>().substr(0, most_words)
+  return reason != answer.end() && reason->is_string() && !reason->empty() ? reason->get<std::string>().substr(0, most_letters)
                                                                            : "it gives no reason";
 }
 

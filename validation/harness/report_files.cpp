@@ -44,6 +44,14 @@ std::string make_page(const fs::path& results, bool pdf) {
   return fmt::format("the report program {}: {}", describe(end), end.log_tail);
 }
 
+/// No old page stands for new results.
+void remove_pages(const fs::path& out) {
+  std::error_code none;
+  for (const char* page : {"index.html", "signable.html", "report.pdf"}) fs::remove(out / page);
+  for (const auto& page : fs::directory_iterator(out / "case", none))
+    if (page.path().extension() == ".html") fs::remove(page.path());
+}
+
 }  // namespace
 
 void write_results(const Results& results, const std::string& folder) {
@@ -52,7 +60,7 @@ void write_results(const Results& results, const std::string& folder) {
   write_durably((out / "results.json").string(), results_text(results));
   write_durably((out / "junit.xml").string(), junit_text(results));
   write_durably((out / "summary.md").string(), summary_text(results));
-  fs::remove(out / "index.html");  // an old page must not stand for new results
+  remove_pages(out);
 }
 
 std::string write_report(const Results& results, const std::string& folder, bool pdf) {
@@ -64,8 +72,9 @@ void set_aside_report(const std::string& folder) {
   const fs::path out(folder);
   std::error_code none;
   if (fs::exists(out / "results.json", none)) fs::rename(out / "results.json", out / "results.previous.json");
-  for (const char* made : {"junit.xml", "summary.md", "index.html", "scorecard.json", "scorecard.md", "scorecard.html"})
+  for (const char* made : {"junit.xml", "summary.md", "scorecard.json", "scorecard.md", "scorecard.html"})
     fs::remove(out / made, none);
+  remove_pages(out);
 }
 
 namespace {

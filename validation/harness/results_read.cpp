@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/nesting.hpp"
+#include "core/foreign_json.hpp"
 #include "core/whole_number.hpp"
 #include "io/foreign_file.hpp"
 #include "validation/harness/results_fields.hpp"
@@ -193,15 +193,15 @@ Record read_record(const Json& from, const std::string& place) {
 }  // namespace
 
 RunRow read_run_row(const std::string& text_of_row, const std::string& place_of_row) {
-  const auto document = nests_too_deep(text_of_row) ? Json() : Json::parse(text_of_row, nullptr, false);
+  const auto document = unfit_json(text_of_row).empty() ? Json::parse(text_of_row, nullptr, false) : Json();
   if (!document.is_object()) throw InputError(place_of_row + ": holds no run of a results.json");
   return read_record<RunRow>(document, place_of_row);
 }
 
 Results read_results(const std::string& path) {
   const std::string text_of_file = text_of_regular_file(path, largest_file);
-  if (nests_too_deep(text_of_file))
-    throw InputError(fmt::format("{}: nests deeper than {} levels, which no results file does", path, most_levels));
+  if (const std::string why = unfit_json(text_of_file); !why.empty())
+    throw InputError(fmt::format("{}: {}, which no results file does", path, why));
   const auto document = Json::parse(text_of_file, nullptr, false);
   if (!document.is_object()) throw InputError(path + ": is not a JSON object (a results.json of tripoint validate is wanted)");
   if (!document.contains("format") || document["format"] != 1) throw InputError(path + ": has not \"format\": 1");

@@ -64,8 +64,8 @@ Job job_in_folder(const RunRequest& request) {
 void prepare_folder(const RunRequest& request) {
   const fs::path folder(request.folder);
   fs::create_directories(folder);
-  for (const char* stale :
-       {"job.json", "result.json", "outcome.json", "trajectory.csv", "gauges.csv", "trajectory.xdmf", "log.txt"})
+  forget_finished(request);
+  for (const char* stale : {"job.json", "result.json", "trajectory.csv", "gauges.csv", "trajectory.xdmf", "log.txt"})
     fs::remove(folder / stale);
   std::error_code ignored;
   const bool goes_on =
@@ -79,6 +79,7 @@ void prepare_folder(const RunRequest& request) {
 
 /// What an engine that was stopped by Ctrl-C says last.
 std::string words_of_the_interrupted(const fs::path& result) {
+  if (is_no_own_file(result.string())) return " without a result";
   try {
     return "; " + read_result(result.string()).message;
   } catch (const std::exception&) {
@@ -109,7 +110,8 @@ void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& ou
     return;
   const fs::path folder = fs::path(request.folder) / "callgrind";
   std::error_code ignored;
-  fs::create_directories(folder, ignored);
+  fs::remove_all(folder, ignored);  // also a link that the engine has left there
+  if (!fs::create_directory(folder, ignored)) return;
   auto second = request;
   second.folder = folder.string();
   write_job((folder / "job.json").string(), job_in_folder(second));
@@ -129,43 +131,56 @@ std::uintmax_t greatest_trajectory(const RunRequest& request) {
   return at_least + a_row * request.job->times.size() * (request.initial->size() + request.job->bodies.size());
 }
 
-/// A link would lead to what another engine, or another run, has written. @throws EngineError
-void refuse_links(const fs::path& file) {
-  std::error_code none;
-  if (fs::is_symlink(file, none) || (fs::exists(file, none) && fs::hard_link_count(file, none) > 1))
-    throw EngineError(file.filename().string() + " is a link to another file: an engine writes its own");
+/// A link would lead to what another engine, or another run, has written; a pipe would keep whoever opens it waiting. No engine
+/// writes any more when this is asked. @throws EngineError
+void expect_own_files(const fs::path& folder) {
+  for (const char* name : {"job.json", "result.json", "trajectory.h5", "trajectory.csv", "gauges.csv"})
+    if (is_no_own_file((folder / name).string()))
+      throw EngineError(fmt::format("{} is a link to another file, or no regular file; refused: an engine writes its own", name));
+}
+
+/// Frames that a trajectory may have: a small one may show each step of its engine, a large one little more than what was asked.
+std::size_t most_frames(const RunRequest& request) {
+  constexpr std::size_t rows = 1'000'000;
+  return std::max(2 * request.job->times.size() + 16, rows / std::max<std::size_t>(1, request.initial->size()));
 }
 
 Trajectory read_particle_trajectory(const RunRequest& request) {
   const fs::path folder(request.folder);
-  if (const std::string file = (folder / "trajectory.h5").string(); fs::exists(file)) {
-    // Nobody promises that HDF5 bears every file. Who is not ours has it tried by a copy of us first.
-    if (!belongs_to_us(request.engine->executable))
-      try_in_child([&] { static_cast<void>(read_trajectory(file)); }, "trajectory.h5", read_limit);
-    return read_trajectory(file);
-  }
+  if (const std::string file = (folder / "trajectory.h5").string(); fs::exists(file))
+    return read_trajectory(file, most_frames(request));
   const auto& bodies = request.job->bodies;
   const auto solids = std::count_if(bodies.begin(), bodies.end(), [](const auto& b) { return b.index >= 0; });
-  return read_trajectory_csv((folder / "trajectory.csv").string(), *request.initial, static_cast<std::size_t>(solids));
+  return read_trajectory_csv((folder / "trajectory.csv").string(), *request.initial, static_cast<std::size_t>(solids),
+                             most_frames(request));
 }
 
 /// Particles, gauges or both: an engine that writes gauges need show no particles.
-std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
-  const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
+Trajectory read_files(const RunRequest& request) {
   const fs::path folder(request.folder), gauges = folder / "gauges.csv";
-  const auto most = greatest_trajectory(request);
-  for (const char* name : {"trajectory.h5", "trajectory.csv", "gauges.csv"}) {
-    if (fs::exists(folder / name)) expect_regular_file((folder / name).string(), most);
-    refuse_links(folder / name);
-  }
   const bool shows_particles = fs::exists(folder / "trajectory.h5") || fs::exists(folder / "trajectory.csv");
-  auto trajectory = std::make_shared<Trajectory>();
-  if (shows_particles || !fs::exists(gauges)) *trajectory = read_particle_trajectory(request);
+  Trajectory trajectory;
+  if (shows_particles || !fs::exists(gauges)) trajectory = read_particle_trajectory(request);
   if (!fs::exists(gauges)) return trajectory;
   std::vector<std::string> names;
   for (const JobGauge& gauge : request.job->gauges) names.push_back(gauge.metric);
-  read_gauges_csv(gauges.string(), names, *trajectory);
+  read_gauges_csv(gauges.string(), names, trajectory, most_frames(request));
   return trajectory;
+}
+
+/// Nobody promises that a library bears every file. What an engine of others has written is tried by a copy of us first.
+std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
+  const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
+  const fs::path folder(request.folder);
+  std::string there;
+  for (const char* name : {"trajectory.h5", "trajectory.csv", "gauges.csv"}) {
+    if (!fs::exists(folder / name)) continue;
+    expect_regular_file((folder / name).string(), greatest_trajectory(request));
+    if (there.empty()) there = name;
+  }
+  if (!there.empty() && !belongs_to_us(request.engine->executable))
+    try_in_child([&] { static_cast<void>(read_files(request)); }, there, read_limit);
+  return std::make_shared<Trajectory>(read_files(request));
 }
 
 double alive_at_the_end(const Trajectory& trajectory) {
@@ -205,8 +220,10 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
   if (end.how == How::timed_out) return failed(outcome, Status::timeout, describe(end) + last_words(end.log_tail));
   const fs::path file = fs::path(request.folder) / "result.json";
   if (end.how == How::interrupted) return failed(outcome, Status::killed, describe(end) + words_of_the_interrupted(file));
-  if (!fs::exists(file)) return failed(outcome, Status::killed, describe(end) + " without a result" + last_words(end.log_tail));
+  if (std::error_code none; !fs::exists(fs::symlink_status(file, none)))
+    return failed(outcome, Status::killed, describe(end) + " without a result" + last_words(end.log_tail));
   try {
+    expect_own_files(request.folder);
     outcome.result = read_result(file.string());
     take_cost(outcome, end);
     const auto& r = outcome.result;
@@ -254,8 +271,6 @@ Outcome run_one(const RunRequest& request) {
   if (auto answer = ask(request); answer.status != Status::ok) return answer;
   auto spec = call(request, "--run", request.wall_limit);
   spec.log = (fs::path(request.folder) / "log.txt").string();
-  std::error_code none;
-  fs::remove(spec.log, none);  // --check may have left a link there, to a file of somebody else
   spec.progress = request.progress;
   spec.status = request.status;
   const auto end = run_process(spec);

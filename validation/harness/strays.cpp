@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -96,16 +98,19 @@ Look look_for(const std::string& entry) {
   return look;
 }
 
-/// Children of ours, the newest first. What an engine leaves comes to us when its parent ends. Empty where the kernel keeps no
-/// such list.
-std::vector<pid_t> our_children() {
-  std::vector<pid_t> found;
-  std::error_code none;
-  for (fs::directory_iterator at("/proc/self/task", none), end; !none && at != end; at.increment(none)) {
-    std::istringstream list(all_of(at->path() / "children"));
-    for (pid_t pid = 0; list >> pid;) found.push_back(pid);
-  }
-  return {found.rbegin(), found.rend()};
+/// What the buried orphans have used, by process.
+std::mutex graves;
+std::map<pid_t, rusage> buried;
+
+/// Waits for a process that came to us, where it has ended. @return whether it had
+bool bury(pid_t pid) {
+  const std::lock_guard lock(graves);
+  rusage use{};
+  if (::wait4(pid, nullptr, WNOHANG, &use) != pid) return false;
+  constexpr std::size_t most = 4096;  // a storm of processes: nobody asks for these
+  if (buried.size() >= most) buried.clear();
+  buried[pid] = use;
+  return true;
 }
 
 /// Kills children of ours that have this entry, and buries those that came to us from sessions of their own and have ended:
@@ -113,13 +118,13 @@ std::vector<pid_t> our_children() {
 /// another process. @return whether there was any of either
 bool end_children(const std::string& entry) {
   bool found = false;
-  for (const pid_t pid : our_children()) {
+  for (const pid_t pid : children_of(::getpid())) {
     const fs::path process = fmt::format("/proc/{}", pid);
     if (carries(all_of(process / "environ"), entry)) {
       ::kill(pid, SIGKILL);
       found = true;
     } else if (const Standing s = standing_of(process); s.known && !s.alive && s.session != ::getsid(0)) {
-      found |= ::waitpid(pid, nullptr, WNOHANG) == pid;
+      found |= bury(pid);
     }
   }
   return found;
@@ -141,6 +146,26 @@ std::string new_stray_mark() {
   return fmt::format("{}{}{}", our_stray_mark(), mark_end, next++);
 }
 
+std::vector<pid_t> children_of(pid_t parent) {
+  std::vector<pid_t> found;
+  std::error_code none;
+  for (fs::directory_iterator at(fmt::format("/proc/{}/task", parent), none), end; !none && at != end; at.increment(none)) {
+    std::istringstream list(all_of(at->path() / "children"));
+    for (pid_t pid = 0; list >> pid;) found.push_back(pid);
+  }
+  return {found.rbegin(), found.rend()};  // the newest first
+}
+
+std::optional<rusage> use_of_orphan(pid_t pid) {
+  static_cast<void>(bury(pid));
+  const std::lock_guard lock(graves);
+  const auto at = buried.find(pid);
+  if (at == buried.end()) return {};
+  const rusage use = at->second;
+  buried.erase(at);
+  return use;
+}
+
 void end_strays(const std::string& mark) {
   using namespace std::chrono_literals;
   constexpr auto patience = 2s;  // to become another program takes milliseconds, on a busy machine too
@@ -157,8 +182,7 @@ void end_strays(const std::string& mark) {
     if (strays.empty() && (!unsure || ran > patience)) return;
     if (ran > longest) return;
     for (const pid_t pid : strays) ::kill(pid, SIGKILL);
-    for (const pid_t pid : strays)
-      ::waitpid(pid, nullptr, WNOHANG);  // orphans come to us; one that stays dead has no environment
+    for (const pid_t pid : strays) bury(pid);  // orphans come to us; one that stays dead has no environment
     if (strays.empty()) std::this_thread::sleep_for(1ms);
   }
 }

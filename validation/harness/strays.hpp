@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <sys/resource.h>
+#include <sys/types.h>
+
+#include <optional>
 #include <string>
+#include <vector>
 
 /// Processes that a child left in sessions of their own, where a signal to its group does not reach them.
 namespace tripoint {
@@ -16,6 +21,13 @@ inline constexpr char mark_end = '/';
 
 /// A mark that no other child of any tripoint on this machine has.
 [[nodiscard]] std::string new_stray_mark();
+
+/// Children of a process, the newest first. Empty where the kernel keeps no such list.
+[[nodiscard]] std::vector<pid_t> children_of(pid_t);
+
+/// What a process has used that came to us when its parent ended, with what it waited for: of one that has ended, whoever of our
+/// threads buried it. Nothing while it runs, or where it never came to us. Told once.
+[[nodiscard]] std::optional<rusage> use_of_orphan(pid_t);
 
 /// Kills every process that carries this mark, or one made of it, in its environment, and those that it starts meanwhile. One
 /// that takes the mark away is not found.

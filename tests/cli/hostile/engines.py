@@ -79,6 +79,17 @@ HOSTILE = (
     Hostile("says ok, with places that are not numbers", "run", 'answer("not a number")\nsys.exit(0)'),
     Hostile("puts a link to a file of ours in place of its log, then stands still", "check",
             '(Path(sys.argv[2]).parent / "log.txt").symlink_to(OUTSIDE / "victim")', wrong="frozen"),
+    Hostile("puts links to a file of ours where files are about to be written, then stands still", "run",
+            'for name in ("job.json.part", "result.json.part", "outcome.json.part", "row.json.part", "callgrind"): Path(name).symlink_to(OUTSIDE / "victim")\nanswer("frozen")\nsys.exit(0)'),
+    Hostile("puts a pipe in place of its job, and where its record would be written", "after",
+            'os.remove("job.json")\nfor name in ("job.json", "outcome.json", "outcome.json.part"): os.mkfifo(name)'),
+    Hostile("says that it diverged, and leaves a pipe as trajectory", "after",
+            'rewrite(status="diverged", message="so it says"); os.remove("trajectory.csv"); os.mkfifo("trajectory.csv")'),
+    Hostile("answers with an object of 300,000 keys", "info", 'says(settings={str(n): "" for n in range(300000)})'),
+    Hostile("leaves a result of 600,000 keys", "after", 'rewrite(extra={str(n): 0 for n in range(600000)})'),
+    Hostile("leaves a trajectory of 200,000 times", "after",
+            'with open("trajectory.csv", "a") as file: file.writelines(f"{1 + n},0,0,0,0,0,0,0,1,0,0,0,0,0,0\\n" for n in range(200000))'),
+    Hostile("says 3 MB in one message", "after", 'rewrite(status="error", message="m" * 3000000)', page=True),
     Hostile("kills its parent", "run", "os.kill(os.getppid(), signal.SIGKILL)\ntime.sleep(1)\nsys.exit(1)", needs=True),
     Hostile("tries for another engine's answer, our secret, our folder, our token, a network", "run", '''
 def worked(act):
