@@ -89,7 +89,7 @@ void take(const JsonObject& o, const std::string& name, const Key& key, std::str
   } else if constexpr (std::is_same_v<T, std::uint64_t>) {
     value = static_cast<std::uint64_t>(o.integer(name));
   } else if constexpr (std::is_enum_v<T>) {
-    value = static_cast<T>(place_of(o, name, split_words(key.words)));
+    if (!later || o.has(name)) value = static_cast<T>(place_of(o, name, split_words(key.words)));
   } else if constexpr (std::is_same_v<T, Vec3>) {
     value = o.vector(name);
   } else if constexpr (std::is_same_v<T, Quaternion>) {

@@ -22,8 +22,8 @@ std::optional<double> modulus_of(const Job& job, std::size_t body) {
   const JobBody& b = job.bodies[body];
   const Material& m = material_of(job, body);
   if (b.motion != Motion::free || (b.phase == Phase::liquid && !m.t_melt)) return {};
-  const bool rigid =
-      b.phase == Phase::rigid || (b.phase == Phase::liquid && m.solid == "rigid") || (m.t_melt && m.solid == "rigid");
+  const bool rigid = b.phase == Phase::rigid || (b.phase == Phase::liquid && m.solid == SolidKind::rigid) ||
+                     (m.t_melt && m.solid == SolidKind::rigid);
   return rigid ? choice_for(job).rigid_modulus : m.young_modulus;
 }
 

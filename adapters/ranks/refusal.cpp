@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // What the solver does in one process and not yet over ranks, each by name.
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "adapters/ranks/ranks_engine.hpp"
 #include "scene/effect_rule.hpp"
@@ -11,17 +9,15 @@
 namespace tripoint::ranks {
 namespace {
 
-/// Effects that run over ranks. What else a scene calls for is refused, also where it is not known here.
-constexpr std::array<std::string_view, 10> shared{"rigid",   "fluid",   "motion",   "prescribed", "density",
-                                                  "elastic", "plastic", "fracture", "heat",       "phase"};
-
 /// What of the scene has no part over ranks; empty where all has.
 std::string refused_part(const Scene& scene) {
   if (scene.recovers) return "recovery, which goes back to a kept state";
   if (!calls_for(scene, "fluid") && !calls_for(scene, "heat") && !calls_for(scene, "elastic"))
     return "a scene of which no particle meets another";
-  for (const CalledEffect& called : needed_effects(scene))
-    if (std::ranges::find(shared, called.name) == shared.end()) return "the effect " + called.name;
+  for (const CalledEffect& needed : needed_effects(scene)) {
+    const auto rule = std::ranges::find(effect_rules(), needed.name, &EffectRule::name);
+    if (!rule->over_processes) return "the effect " + needed.name;
+  }
   return {};
 }
 

@@ -70,5 +70,12 @@ constexpr Symmetric between(const Symmetric& P, const Symmetric& a) noexcept { r
 constexpr double determinant(const Matrix3& a) noexcept {
   return a.xx * (a.yy * a.zz - a.yz * a.zy) - a.xy * (a.yx * a.zz - a.yz * a.zx) + a.xz * (a.yx * a.zy - a.yy * a.zx);
 }
+/// By cofactors; infinite or not a number where det a = 0.
+constexpr Matrix3 inverse(const Matrix3& a) noexcept {
+  const double per_det = 1.0 / determinant(a);
+  return per_det * Matrix3{a.yy * a.zz - a.yz * a.zy, a.xz * a.zy - a.xy * a.zz, a.xy * a.yz - a.xz * a.yy,
+                           a.yz * a.zx - a.yx * a.zz, a.xx * a.zz - a.xz * a.zx, a.xz * a.yx - a.xx * a.yz,
+                           a.yx * a.zy - a.yy * a.zx, a.xy * a.zx - a.xx * a.zy, a.xx * a.yy - a.xy * a.yx};
+}
 
 }  // namespace tripoint

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -30,7 +31,7 @@ struct EffectSpec {
   std::vector<FieldInfo> reads_if_there{};      ///< of others, where the scene has them
   bool sums_forces = false;                     ///< it reads World::forces of all effects
   bool changes = false;                         ///< change() may be called of it: wants_change() is asked
-  bool skips_sleeping = false;  ///< it looks at no particle that sleeps, and needs the forces on fixed ones in form_fixed() alone
+  bool skips_sleeping = false;  ///< it ignores sleeping particles, and needs the forces on fixed ones only in form_fixed()
 };
 
 /// Greatest stable step of an effect, and what sets it.
@@ -42,17 +43,23 @@ inline void tighten(TimeStepBound& bound, double dt, std::string_view name) {
   if (dt < bound.dt) bound = {dt, std::string(name)};
 }
 
+/// Stable step under an acceleration (model 8.10) [s]. @param support radius h of the support [m] @param acceleration its
+/// greatest size, above 0 [m/s2]
+[[nodiscard]] inline double acceleration_step(double support, double acceleration) noexcept {
+  return 0.25 * std::sqrt(support / acceleration);
+}
+
 /// What an effect asks of the fused passes in a scene: of the terms that its pair_slots.hpp has compiled, those that it needs.
 struct PairWork {
   std::vector<PairTerm> terms{};         ///< that the passes of density and rates sum
   bool where_it_acts = false;            ///< its terms add nothing to pairs that do not act on each other (Clusters::acting)
   bool leaves_own_pairs = false;         ///< its density leaves own pairs out
-  bool again = false;                    ///< its rates are had again for a second stage, without those of others
+  bool again = false;                    ///< its rates are computed a second time in each step, without those of others
   const PairKernels* kernels = nullptr;  ///< that all terms of the scene are given; of one effect at most
   double awake_around = 0.0;             ///< how far around what something can reach its sums read fixed particles [m]
 };
 
-/// again: the rates of effects of two stages alone, for the second.
+/// again: the rates at the predicted state, of those effects alone that have a second stage.
 enum class PassName { density, rates, again };
 
 /// An event of the scene as it begins or, where it lasts, ends.
@@ -68,10 +75,13 @@ class Effect {
   virtual ~Effect() = default;
   /// Fills the columns that the effect owns. @throws InputError when the scene lacks what it needs
   virtual void load(World&, const InitialState&) {}
+  /// Velocities gain dt times the present forces over the masses. @param dt half a step [s]
   virtual void kick(World&, double /*dt*/) {}
+  /// Places move by dt times the velocities. @param dt length of the step [s]
   virtual void drift(World&, double /*dt*/) {}
   /// Sets the columns that the pass adds to.
   virtual void clear(World&, PassName) {}
+  /// What follows from the densities of the present places: pressures, temperatures, strains.
   virtual void state(World&) {}
   /// Forces of bonds, after all states of the present time.
   virtual void bonds(World&) {}
@@ -87,8 +97,8 @@ class Effect {
   virtual void adopt(World&) {}
   /// Settles what World::change cost or set free, when all have adopted it.
   virtual void settle(World&) {}
-  /// The second stage of two-stage schemes, with rates at the predicted state. @return whether rates must be had again
-  /// (PassName::again)
+  /// The second stage of two-stage schemes, with rates at the predicted state. @param dt length of the step [s] @return whether
+  /// rates must be computed again (PassName::again)
   virtual bool correct(World&, double /*dt*/) { return false; }
   virtual void happen(World&, const Happening&) {}
   /// Rows and ids stand for other particles (World::halo): what the effect keeps by them is void.

@@ -2,7 +2,8 @@
 #pragma once
 #include "core/field.hpp"
 
-/// The catalogue of fields: one line a field. Vectors of particles are three columns, so that a pair pass loads lanes.
+/// The catalogue of fields that several rooms know: one line a field. One that an effect alone knows stands in its folder, in
+/// fields.hpp. Vectors of particles are three columns, so that a pair pass loads lanes.
 namespace tripoint::field {
 
 // particles: every scene has these
@@ -18,45 +19,20 @@ inline constexpr Field<int> image_x{"image.x", "1"}, image_y{"image.y", "1"}, im
 inline constexpr Field<double> density{"density", "kg/m3"};
 
 // liquids and contact (4), (7)-(9)
-inline constexpr Field<double> number_density{"number_density", "1/m3"}, volume{"volume", "m3"}, pressure{"pressure", "Pa"};
-inline constexpr Field<double> pressure_share{"pressure_share", "Pa m6"};  ///< V^2 p over the kernel's lattice moment
+inline constexpr Field<double> volume{"volume", "m3"}, pressure{"pressure", "Pa"};
 inline constexpr Field<double> force_x{"force.x", "N"}, force_y{"force.y", "N"}, force_z{"force.z", "N"};  ///< of pressure
-inline constexpr Field<double> viscous_force_x{"viscous_force.x", "N"}, viscous_force_y{"viscous_force.y", "N"},
-    viscous_force_z{"viscous_force.z", "N"};
-inline constexpr Field<double> number_density_before{"number_density_before", "1/m3"},
-    bulk_pressure{"bulk_pressure", "Pa"};  ///< of the last places; of the numerical bulk viscosity
-/// Velocity that viscous pairs see: predicted to the full step for liquids, mirrored for walls.
-inline constexpr Field<double> viscous_velocity_x{"viscous_velocity.x", "m/s"}, viscous_velocity_y{"viscous_velocity.y", "m/s"},
-    viscous_velocity_z{"viscous_velocity.z", "m/s"};
-inline constexpr Field<double> viscosity{"viscosity", "Pa s"}, rest_density{"rest_density", "kg/m3"};
-inline constexpr Field<double> solid{"solid", "1"};  ///< 1 for solids and walls, 0 for liquids
-inline constexpr Field<double> stick{"stick", "1"};  ///< 1 where a liquid sticks to this solid, 0 where it slips
-/// Number of the body whose members exert nothing on each other: -1 liquid, 0 all walls, 1 + body for free bodies.
+/// Whose members exert nothing on each other: its values are below.
 inline constexpr Field<double> group{"group", "1"};
-/// What walls sum over the liquid near them: viscous weights, and velocities times these.
-inline constexpr Field<double> wall_weight{"wall.weight", "Pa s/m5"};
-inline constexpr Field<double> wall_velocity_x{"wall.velocity.x", "Pa/m4"}, wall_velocity_y{"wall.velocity.y", "Pa/m4"},
-    wall_velocity_z{"wall.velocity.z", "Pa/m4"};
-/// Transport velocity less velocity; force of the background pressure; force of the stress that the difference carries.
+/// Transport velocity less velocity.
 inline constexpr Field<double> shift_x{"shift.x", "m/s"}, shift_y{"shift.y", "m/s"}, shift_z{"shift.z", "m/s"};
-inline constexpr Field<double> background_x{"background.x", "N"}, background_y{"background.y", "N"},
-    background_z{"background.z", "N"};
-inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, transport_force_y{"transport_force.y", "N"},
-    transport_force_z{"transport_force.z", "N"};
-/// What the mean pressure and the damping of sound sum over neighbours (model 8.3).
-inline constexpr Field<double> pressure_around{"pressure_around", "Pa/m3"}, nearing{"nearing", "1/(s m3)"};
 
 /// sum of W(x_ij) over the own pairs of a member of a deformable body: a constant part of its number density (model 8.2)
 inline constexpr Field<double> own_density{"own_density", "1/m3"};
 
-/// Who moves a particle that forces do not: 0 nobody, else a code of those below; and where a grip took it.
+/// Who moves a particle that forces do not: 0 nobody, else a code of those below.
 inline constexpr Field<int> driven{"driven", "1"};
-inline constexpr Field<double> grip_x{"grip.x", "m"}, grip_y{"grip.y", "m"}, grip_z{"grip.z", "m"};
 
-// elastic solids (10)-(17): force on the particle by strain energy and hourglass energy
-inline constexpr Field<double> elastic_force_x{"elastic_force.x", "N"}, elastic_force_y{"elastic_force.y", "N"},
-    elastic_force_z{"elastic_force.z", "N"};
-
+// elastic solids (10)-(17)
 /// A_i = pinv M_i of the reference list (model 8.7), symmetric; its rank: 3 solid (and members of rigid bodies that own no strain
 /// energy), 2 sheet, 1 chain, 0 without neighbours.
 inline constexpr Field<double> shape_inverse_xx{"shape_inverse.xx", "1"}, shape_inverse_yy{"shape_inverse.yy", "1"},
@@ -86,25 +62,10 @@ inline constexpr Field<double> liquid_fraction{"liquid_fraction", "1"};
 inline constexpr Field<double> stiffness_share{"stiffness_share", "1"};
 
 // heat (21)
-inline constexpr Field<double> temperature{"temperature", "K"}, temperature_rate{"temperature_rate", "K/s"};
-inline constexpr Field<double> enthalpy{"enthalpy", "J"}, heat_rate{"heat_rate", "W"}, heat_rate_before{"heat_rate.before", "W"};
-inline constexpr Field<double> conductivity{"conductivity", "W/m/K"},
-    heat_capacity{"heat_capacity", "J/kg/K"},  ///< of the solid where something melts
-    diffusivity{"diffusivity", "m2/s"};
-inline constexpr Field<double> rest_volume{"rest_volume", "m3"};
-/// sum_j G_ij, the conductance of i to its neighbours: bounds the time step.
-inline constexpr Field<double> conductance{"conductance", "W/K"};
-/// sum_j of the coefficients of T_j - T_i in (21) as printed: bounds the time step.
-inline constexpr Field<double> exchange{"exchange", "1/s"};
+inline constexpr Field<double> temperature{"temperature", "K"};
+inline constexpr Field<double> enthalpy{"enthalpy", "J"};
+inline constexpr Field<double> heat_capacity{"heat_capacity", "J/kg/K"};  ///< of the solid where something melts
 inline constexpr Field<int> held{"temperature.held", "1"};
-/// Pseudo-inverse of M_i of model 8.6: symmetric, six components. Between the density pass and the state, M_i itself.
-inline constexpr Field<double> moment_inverse_xx{"moment_inverse.xx", "1"}, moment_inverse_yy{"moment_inverse.yy", "1"},
-    moment_inverse_zz{"moment_inverse.zz", "1"};
-inline constexpr Field<double> moment_inverse_yz{"moment_inverse.yz", "1"}, moment_inverse_xz{"moment_inverse.xz", "1"},
-    moment_inverse_xy{"moment_inverse.xy", "1"};
-
-// members of rigid bodies: place seen from the centre of mass, in the body's frame at its birth
-inline constexpr Field<double> reference_x{"reference.x", "m"}, reference_y{"reference.y", "m"}, reference_z{"reference.z", "m"};
 
 // solid bodies: one row for each that ever existed, [[body]] order, then births
 inline constexpr Field<double> body_mass{"body.mass", "kg", Per::body};
@@ -136,6 +97,12 @@ inline constexpr Field<int> body_motion{"body.motion", "1", Per::body}, body_ali
 }  // namespace tripoint::field
 
 namespace tripoint {
+
+/// Values of field::group; members of a free rigid body have 1 + its row. What is of one group of 0 and above exerts nothing on
+/// its like.
+inline constexpr double deformable_group = -2.0, liquid_group = -1.0, wall_group = 0.0;
+/// Whether what is of this group exerts something on every other particle, also of its own group.
+[[nodiscard]] constexpr bool acts_on_all(double group) noexcept { return group < wall_group; }
 
 /// Values of field::driven: flowing in, held in place, and from there on the number of the event that grips.
 inline constexpr int driven_in = -1, driven_still = 1, driven_grip = 2;

@@ -36,7 +36,7 @@ std::vector<std::uint32_t> sort_by_cell(const std::vector<std::uint32_t>& rows, 
   return place;
 }
 
-/// What moves where.
+/// A permutation of rows: what is in row from[k] goes to row to[k].
 struct Moves {
   std::vector<std::uint32_t> from, to;
 };
@@ -91,7 +91,7 @@ void Neighbours::learn_still(const Particles& particles, const Grid& grid, const
   still_.known = !still_.id.empty();
 }
 
-/// Of marks on stretches, those that hold what is within a distance of what they hold, and some more: a box around each.
+/// Marks every stretch of cells within `distance` [m] of a marked one. It may mark some more: it takes a box around each.
 std::vector<char> Neighbours::within(std::vector<char> marks, double distance) const {
   const std::array<int, 3>& n = still_.count;
   const std::array<std::size_t, 3> step{1, static_cast<std::size_t>(n[0]), static_cast<std::size_t>(n[0]) * n[1]};
@@ -232,7 +232,8 @@ std::vector<std::uint32_t> Neighbours::rows_in_order(const Particles& particles)
   return rows;
 }
 
-/// Of what is fixed, lists the clusters that are in the lists of what moves: the others would have none of it in theirs.
+/// Makes lists of those fixed clusters that stand in a list of a moving cluster: lists of the others would name nothing that
+/// moves.
 void Neighbours::list_fixed(const Particles& particles, const Places& places, const Grid& grid) {
   Clusters& c = clusters_;
   std::vector<char> is_met(rows(), 0);

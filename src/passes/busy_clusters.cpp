@@ -41,7 +41,7 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
     }
     return any_moves ? density : density_is_still;
   }
-  const bool all_liquid = std::all_of(group.begin() + first, group.begin() + past, [](double g) { return g < 0.0; });
+  const bool all_liquid = std::all_of(group.begin() + first, group.begin() + past, acts_on_all);
   if (all_liquid && c.own.empty()) {  // everything acts on them
     std::fill(acting, acting + (end - start + within_bits - 1) / within_bits, ~std::uint64_t{0});
     return static_cast<Work>(density | rates);
@@ -65,7 +65,7 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
     const std::size_t j = Entry{c.entries[e]}.row();
     any_moves = any_moves || fixed[j] == 0;
     const unsigned apart = c.near[e] & (c.own.empty() ? ~0u : ~static_cast<unsigned>(c.own[e]));
-    const bool acts = (apart & (group[j] < 0.0 ? all : others(group[j]))) != 0;
+    const bool acts = (apart & (acts_on_all(group[j]) ? all : others(group[j]))) != 0;
     any_apart = any_apart || apart != 0;
     any_acts = any_acts || acts;
     acting[(e - start) / within_bits] |= std::uint64_t{acts} << ((e - start) % within_bits);
@@ -173,7 +173,7 @@ void BusyClusters::sum_density(const PassFunction& pass, World& world, const Pai
   keep(pass, world);
 }
 
-/// Who has no list has what it has among what is fixed.
+/// Clusters without a list take the density that was stored for them among fixed particles alone.
 void BusyClusters::sum_fixed_density(const PassFunction& pass, World& world, const PairKernels& kernels) const {
   Neighbours& n = *world.neighbours;
   Particles& p = world.particles;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
 
 #include "scene/phase_values.hpp"
 #include "scene/shared_terms.hpp"
@@ -29,7 +30,7 @@ bool freezes(const Scene& s, const Inflow& f) {
 }
 
 bool is_elastic_when_frozen(const Scene& s, const Material& m) {
-  return (m.solid == "elastic" && m.young_modulus) || turns_elastic(s, m);
+  return (m.solid == SolidKind::elastic && m.young_modulus) || turns_elastic(s, m);
 }
 
 template <class Test>
@@ -107,11 +108,27 @@ std::vector<CalledEffect> idle_effects(const Scene& s) {
   return list;
 }
 
+std::vector<std::string> ledger_entries() {
+  std::vector<std::string> entries{"merging", "walls", "time_integration"};
+  for (const EffectRule& rule : effect_rules())
+    for (const std::string_view entry : rule.ledger_entries)
+      if (std::ranges::find(entries, entry) == entries.end()) entries.emplace_back(entry);
+  return entries;
+}
+
 double kept_number(const EffectValues& values, const Key& row) {
   if (const auto at = values.find(row.name); at != values.end()) return at->second;
   double fallback = 0.0;
   std::from_chars(row.fallback.data(), row.fallback.data() + row.fallback.size(), fallback);
   return fallback;
+}
+
+double acting_number(const Scene& scene, std::string_view key) {
+  for (const EffectRule& rule : effect_rules())
+    for (const EffectKey& one : rule.keys)
+      if (one.row.table == "scene" && one.row.name == key)
+        return one.idle && !one.idle(scene).empty() ? 0.0 : kept_number(scene.values, one.row);
+  throw std::logic_error(fmt::format("no effect brings the key scene.{}", key));
 }
 
 double bond_reach(const Scene& s) { return kept_number(s.values, key_row("scene", "bond_reach")); }

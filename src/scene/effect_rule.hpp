@@ -17,7 +17,7 @@ class TableReader;
 
 /// An effect that a scene calls for, and why.
 struct CalledEffect {
-  std::string name;  ///< fluid elastic plastic fracture rigid heat phase surface
+  std::string name;  ///< of its rule
   std::string why;
 };
 [[nodiscard]] std::vector<CalledEffect> called_effects(const Scene&);
@@ -44,13 +44,14 @@ struct EffectKey {
   /// The effect's settle_material() reads it.
   struct ByRule {};
   Key row;
-  std::variant<std::monostate, ByRule, double Scene::*, bool Scene::*, std::string Scene::*, double Material::*, bool Material::*,
-               std::optional<double> Material::*>
+  std::variant<std::monostate, ByRule, double Scene::*, bool Scene::*, ViscosityForm Scene::*, double Material::*,
+               bool Material::*, std::optional<double> Material::*>
       kept_in{};
   /// Why a value in this scene changes nothing although the effect is on; "" = it acts. None: it acts wherever the effect is on.
   std::string (*idle)(const Scene&) = nullptr;
   bool ablated = false;  ///< of [scene], without a member: 0 leaves out a term that the paper does not have, which is a row of
                          ///< `tripoint ablate`
+  bool limit = false;    ///< of [[material]]: what is beyond it yields or breaks; `tripoint check` tells where nothing ever can
 };
 
 /// What the two forms of a term are of, in the order in which jobs and pages list terms.
@@ -80,10 +81,15 @@ struct EffectRule {
   std::vector<EffectKey> keys{};     ///< of [scene] and [[material]]
   /// What keys of a material say of each other, once all are read: refuses what cannot be, and sets what a rule gives.
   void (*settle_material)(TableReader&, Material&) = nullptr;
+  std::vector<std::string_view> ledger_entries{};  ///< that it tells, or that take the work of its forces
+  bool over_processes = false;                     ///< it also runs where several processes share a scene (World::halo)
 };
 
 /// Of every effect, in the order in which effects run.
 [[nodiscard]] std::span<const EffectRule> effect_rules();
+
+/// Names that entries of the ledger can have, each once: those of all effects, and those of every scene.
+[[nodiscard]] std::vector<std::string> ledger_entries();
 
 /// Every term of two forms, in the order of jobs and pages: what effects declare, the kernel, and the scheme of steps.
 /// @throws std::logic_error where two effects declare one term
@@ -99,6 +105,10 @@ struct EffectRule {
 
 /// The number of a key without a member: as it is kept, else the row's fallback, 0 where it has none.
 [[nodiscard]] double kept_number(const EffectValues&, const Key&);
+
+/// The number of a key of [scene] that an effect brings, 0 where the key changes nothing in this scene (EffectKey::idle). Whether
+/// the scene calls for the effect is not asked. @pre an effect brings the key, and it is a number
+[[nodiscard]] double acting_number(const Scene&, std::string_view key);
 
 /// Reach of the first bonds of elastic bodies, and support of the kernel (17) [spacings]: scene.bond_reach.
 [[nodiscard]] double bond_reach(const Scene&);

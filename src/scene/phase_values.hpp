@@ -15,7 +15,7 @@ namespace tripoint {
 /// Whether a rigid solid of this material is elastic in that stage: where it softens, and has a modulus that can fall. Else it
 /// stays rigid up to t_melt.
 [[nodiscard]] inline bool turns_elastic(const Scene& scene, const Material& m) {
-  return m.softens && m.solid == "rigid" && m.young_modulus && m.poisson_ratio && has_printed_stage(scene, m);
+  return m.softens && m.solid == SolidKind::rigid && m.young_modulus && m.poisson_ratio && has_printed_stage(scene, m);
 }
 
 /// Of a phase [W/m/K]. @pre the material conducts

@@ -15,15 +15,15 @@ namespace {
 
 /// What a body is where the case does not say: by melting, else by what its material can do.
 std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<TemperatureField>& temperature) {
-  const Phase solid = m.solid == "rigid" ? Phase::rigid : Phase::elastic;
+  const Phase solid = m.solid == SolidKind::rigid ? Phase::rigid : Phase::elastic;
   const bool constant = temperature && temperature->kind == TemperatureField::Kind::constant;
   if (m.t_melt && constant) {
     if (temperature->value > *m.t_melt) return {Phase::liquid, fmt::format("its temperature is above t_melt = {} K", *m.t_melt)};
-    return {solid,
-            fmt::format("its temperature is not above t_melt = {} K, and its material is {} when solid", *m.t_melt, m.solid)};
+    return {solid, fmt::format("its temperature is not above t_melt = {} K, and its material is {} when solid", *m.t_melt,
+                               to_string(m.solid))};
   }
   if (m.viscosity > 0.0 && !m.young_modulus) return {Phase::liquid, "its material has a viscosity and no young_modulus"};
-  return {solid, fmt::format("its material is {} when solid", m.solid)};
+  return {solid, fmt::format("its material is {} when solid", to_string(m.solid))};
 }
 
 }  // namespace
@@ -60,13 +60,13 @@ Material read_material(const TomlNode& node, Reading& reading) {
   for (const EffectRule& rule : effect_rules())
     if (rule.settle_material) rule.settle_material(in, m);
   if (read("solid")) {
-    m.solid = m.young_modulus ? "elastic" : "rigid";
+    m.solid = m.young_modulus ? SolidKind::elastic : SolidKind::rigid;
     // A liquid that never freezes is no solid; the word then only says what it would be.
-    if (m.viscosity > 0.0 && !m.young_modulus && !m.t_melt) m.solid = "elastic";
-    in.ruled("solid", "\"" + m.solid + "\"",
-             m.young_modulus        ? "young_modulus is given"
-             : m.solid == "elastic" ? "a liquid that does not freeze"
-                                    : "no young_modulus is given");
+    if (m.viscosity > 0.0 && !m.young_modulus && !m.t_melt) m.solid = SolidKind::elastic;
+    in.ruled("solid", fmt::format("\"{}\"", to_string(m.solid)),
+             m.young_modulus                 ? "young_modulus is given"
+             : m.solid == SolidKind::elastic ? "a liquid that does not freeze"
+                                             : "no young_modulus is given");
   }
   return m;
 }

@@ -9,9 +9,6 @@
 /// The parts of the reader of scenes, one function a table. All throw InputError with the place and what to write instead.
 namespace tripoint {
 
-/// Of one run: years on any machine, and far below what a counter holds.
-inline constexpr double most_steps = 1e12;
-
 /// What the parts share.
 struct Reading {
   std::string file;    ///< of the case

@@ -19,10 +19,13 @@ namespace tripoint {
 
 enum class Phase : int { liquid = 0, elastic = 1, rigid = 2 };
 enum class Motion { free, fixed, prescribed };
+enum class SolidKind { elastic, rigid };          ///< what a material is when solid
+enum class ViscosityForm { laplacian, central };  ///< of corrected viscosity (model 8.5)
 
 [[nodiscard]] std::string_view to_string(Phase);
 [[nodiscard]] std::string_view to_string(Motion);
 [[nodiscard]] std::string_view to_string(Mode);
+[[nodiscard]] std::string_view to_string(SolidKind);
 /// Inverse of to_string. @throws InputError naming the allowed words
 [[nodiscard]] Phase phase_from(std::string_view);
 [[nodiscard]] Motion motion_from(std::string_view);
@@ -46,7 +49,7 @@ struct Material {
       heat_capacity;  ///< of the liquid, and of the solid too where it has none of its own [W/m/K], [J/kg/K]
   std::optional<double> solid_conductivity, solid_heat_capacity;  ///< of the solid where they differ; not as printed
   std::optional<double> t_melt, t_solid, latent_heat;             ///< [K], [K], [J/kg]
-  std::string solid = "elastic";                                  ///< what it is when solid: elastic | rigid
+  SolidKind solid = SolidKind::elastic;
   bool softens = false;
   std::optional<double> elastic_limit, plastic_limit;  ///< strain [1]
   std::optional<double> fracture_stretch;              ///< corrected: |r|/|x| [1]
@@ -139,6 +142,9 @@ inline constexpr double printed_support = 2.12, corrected_support = 2.6;
 /// Reach over nearest and diagonal neighbours of the lattice [spacings].
 inline constexpr double lattice_reach = 1.5;
 
+/// Most steps of one run: years on any machine, and far below what a counter holds.
+inline constexpr double most_steps = 1e12;
+
 struct Scene {
   double end_time = 0.0;                     ///< [s]
   Vec3 gravity;                              ///< [m/s2]
@@ -154,7 +160,7 @@ struct Scene {
   std::optional<Vec3> min, max;  ///< domain; needed where a direction is periodic [m]
   std::array<bool, 3> periodic{};
   double output_interval = 0.0;  ///< [s]
-  std::string viscosity_form = "central";
+  ViscosityForm viscosity_form = ViscosityForm::central;
   bool transport_velocity = false;
   bool settle = false;                    ///< liquids are let down into equilibrium before time 0
   double merge_distance = lattice_reach;  ///< [spacings]

@@ -67,8 +67,10 @@ inline constexpr auto of_material = std::make_tuple(
                            "its name; a name of the library brings the library's values, which keys here replace"}),
     kept(&Material::density,
          {"material", "density", number, "kg/m3", positive, "!", "", "", "rest density, one for both phases"}),
-    kept(&Material::solid, {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid",
-                            "elastic rigid", "what it is when solid"}),
+    kept(&Material::solid,
+         {"material", "solid", word, "", any, "=", "elastic where young_modulus is given, else rigid", "elastic rigid",
+          "what it is when solid"},
+         {.later = true}),
     Key{"material", "source", text, "", any, "", "the case's own values", "", "where the values come from"});
 
 inline constexpr auto of_body = std::make_tuple(

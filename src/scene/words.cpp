@@ -11,6 +11,7 @@ namespace {
 constexpr std::array phase_words{"liquid", "elastic", "rigid"};
 constexpr std::array motion_words{"free", "fixed", "prescribed"};
 constexpr std::array mode_words{"corrected", "paper"};
+constexpr std::array solid_words{"elastic", "rigid"};
 
 template <class E, std::size_t n>
 E from_word(std::string_view word, const std::array<const char*, n>& words, const char* what) {
@@ -33,6 +34,7 @@ const T& by_name(const std::vector<T>& list, std::string_view name, const char* 
 std::string_view to_string(Phase p) { return phase_words[static_cast<std::size_t>(p)]; }
 std::string_view to_string(Motion m) { return motion_words[static_cast<std::size_t>(m)]; }
 std::string_view to_string(Mode m) { return mode_words[static_cast<std::size_t>(m)]; }
+std::string_view to_string(SolidKind s) { return solid_words[static_cast<std::size_t>(s)]; }
 Phase phase_from(std::string_view word) { return from_word<Phase>(word, phase_words, "phase"); }
 Motion motion_from(std::string_view word) { return from_word<Motion>(word, motion_words, "motion"); }
 Mode mode_from(std::string_view word) { return from_word<Mode>(word, mode_words, "mode"); }

@@ -67,8 +67,8 @@ void put(std::vector<double>& to, const Vec3& force, const Vec3& torque) {
   to.insert(to.end(), {force.x, force.y, force.z, torque.x, torque.y, torque.z});
 }
 
-/// What one process tells the others of the members that are its own: of each that feels something its number, its body, and each
-/// force with its torque. Of more members than `most_told` it tells the sums alone, by body: those are then the last.
+/// What a process sends to the others of its own members: for each that feels a force its number, its body, and each force with
+/// its torque. Above `most_told` members it sends only their sums by body.
 constexpr std::size_t most_told = 1024;
 constexpr double sum_of_process = std::numeric_limits<double>::max();  ///< in place of a number
 

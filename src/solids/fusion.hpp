@@ -30,7 +30,7 @@ struct Fusion {
 [[nodiscard]] inline Fusion fusion_of(const Scene& scene, const Material& m) {
   if (!m.t_melt || !m.heat_capacity) return {};
   if (scene.mode_of(term::phase) == Mode::paper) {
-    const bool band = has_printed_stage(scene, m) && (m.solid == "elastic" || turns_elastic(scene, m));
+    const bool band = has_printed_stage(scene, m) && (m.solid == SolidKind::elastic || turns_elastic(scene, m));
     return {*m.t_melt, band ? *m.t_solid : *m.t_melt, 0.0, band};
   }
   return {*m.t_melt, m.t_solid.value_or(*m.t_melt), m.latent_heat.value_or(0.0) / solid_capacity(m), false,

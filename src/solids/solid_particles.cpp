@@ -142,7 +142,7 @@ Symmetric strain_of(const Particles& p, std::size_t row) { return strains(p).at(
 
 bool softens(const Scene& scene, const Material& m) {
   if (turns_elastic(scene, m)) return true;
-  return m.t_melt && m.solid == "elastic" && (m.softens || has_printed_stage(scene, m));
+  return m.t_melt && m.solid == SolidKind::elastic && (m.softens || has_printed_stage(scene, m));
 }
 
 ElasticForms::ElasticForms(const Scene& scene)

@@ -42,9 +42,10 @@ class ElasticParticles {
   RigidMembers is_rigid_;
 };
 
-/// How many times as stiff a member of a rigid body is as the elastic partner that it is bonded to. Such members own strain
-/// energy too: force passes a cut by the stress on both sides of it, so that without theirs the joint bears twice the strain, and
-/// gives way as 2.5 spacings of the bar more would (as 0.9 with 1, 0.2 with 4, 0 with 10, at the price of the time step).
+/// Stiffness of a member of a rigid body over that of the elastic partner that it is bonded to [1]. Such members own strain
+/// energy too, since the stress on both sides of a cut carries the force. Without theirs the joint bears twice the strain, and
+/// gives way as 2.5 spacings more of the bar would. With 1 it gives way as 0.9 spacings would, with 4 as 0.2, with 10 as none. A
+/// stiffer joint needs a shorter time step.
 inline constexpr double joint_stiffness = 4.0;
 
 /// Tells of rows whether they own strain energy: particles of deformable bodies, and members of rigid ones that are bonded to

@@ -46,11 +46,11 @@ struct InterfaceKernel {
   }
 };
 
-/// That at spacing 1 with which the two layers nearest to a flat interface of the lattice are at rest under the exact pressures,
-/// each liquid pressing on the other with the mean of the two in a pair. A layer a from the interface sees layers n > a away of
-/// the other liquid. Of its weight the difference of the densities times (n - a) k_n/M is missing for each, k_n = -sum W' z/r
-/// over that layer; the energy gives half the difference times (n k'_n - K_n)/M, K_n = sum K, k' as k of K. @param q support
-/// ratio, above 2: else a second layer sees nothing, and the square is 0
+/// The kernel, at spacing 1, that keeps the two lattice layers nearest to a flat interface at rest under the exact pressures. In
+/// a pair each liquid presses on the other with the mean of the two pressures. A layer at distance a from the interface sees
+/// layers of the other liquid at distances n > a. Each of these takes the difference of the densities times (n - a) k_n/M from
+/// its weight, k_n = -sum W' z/r over that layer. The energy gives back half the difference times (n k'_n - K_n)/M, where K_n =
+/// sum K and k' is k of K. @param q support ratio [spacings], above 2: else a second layer sees nothing, and the square is 0
 [[nodiscard]] InterfaceKernel interface_kernel(double q);
 
 /// Decay rate over diffusivity of the mode cos(k.r) under (21) as printed, on the cubic lattice:

@@ -65,7 +65,7 @@ constexpr auto joined(Together<A...>, Together<B...>) {
   return Together<A..., B...>{};
 }
 
-/// What of an effect has no name stands for nothing.
+/// A list that an effect's PairSlots do not define is empty.
 template <class Effect>
 constexpr auto density_of() {
   if constexpr (requires { typename Effect::density; })

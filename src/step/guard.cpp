@@ -85,17 +85,18 @@ double entry_of(const Ledger& ledger, std::string_view name) {
   return found == ledger.energy.end() ? 0.0 : found->second;
 }
 
-/// What the scheme has made, or where negative lost, and by what. Effects say which of their entries are energy from nowhere
-/// below 0 (EntryRole); who drives a wall pays for it in the entry `walls`. The printed pressure, which is unbacked, makes some
-/// in every column at rest, which is its known defect, and contacts store some in it.
+/// The largest energy that the scheme has made [J], lost where negative, and what made it. Effects declare which of their entries
+/// mean energy from nowhere where they fall below 0 (EntryRole). Who drives a wall pays for it in the entry `walls`. The printed
+/// pressure has no energy behind it: it makes some in every column at rest, which is its known defect, and contacts store some.
 struct Made {
   double energy = 0.0;
   std::string_view by;
+  bool by_steps = true;  ///< finite steps, which a smaller one cures
 };
 Made made_by_scheme(const Ledger& ledger, const std::vector<GuardedEntry>& entries, bool still) {
   Made most{entry_of(ledger, "time_integration"), "finite steps"};
   const auto look = [&](double energy, std::string_view by) {
-    if (energy > std::abs(most.energy)) most = {energy, by};
+    if (energy > std::abs(most.energy)) most = {energy, by, false};
   };
   double taken = 0.0;
   for (const GuardedEntry& e : entries)
@@ -173,12 +174,12 @@ void check_energy(const World& world, const Ledger& ledger, double start_potenti
   if (std::abs(made.energy) <= 0.5 * std::max(memory.turned_over, least)) return;
   const std::size_t i = fastest(world);
   fail(world, "ledger", i, "energy", "kick",
-       fmt::format("moves fastest ({:.4g} m/s) where the scheme itself has {} {:.4g} J by {}, {:.2g} of all the energy that the "
-                   "scene has turned over: {}",
-                   norm(world.particles.velocity(i)), made.energy > 0.0 ? "made" : "lost", std::abs(made.energy), made.by,
-                   std::abs(made.energy) / memory.turned_over,
-                   made.by == "finite steps" ? "a smaller time step"
-                                             : "the corrected forms, a smaller time step, or a greater speed of sound"));
+       fmt::format(
+           "moves fastest ({:.4g} m/s) where the scheme itself has {} {:.4g} J by {}, {:.2g} of all the energy that the "
+           "scene has turned over: {}",
+           norm(world.particles.velocity(i)), made.energy > 0.0 ? "made" : "lost", std::abs(made.energy), made.by,
+           std::abs(made.energy) / memory.turned_over,
+           made.by_steps ? "a smaller time step" : "the corrected forms, a smaller time step, or a greater speed of sound"));
 }
 
 void check_step(const World& world, const TimeStepBound& bound, GuardMemory& memory) {

@@ -15,10 +15,10 @@ bool (*stop_wanted)() noexcept = nullptr;
 
 bool is_stopped() noexcept { return stop_wanted && stop_wanted(); }
 
-constexpr double rest = 2e-3;        ///< of sqrt(g H), rms: a tenth of what counts as still water
-constexpr double shaken = 0.05;      ///< spacings, to either side
-constexpr long most_steps = 20'000;  ///< tanks 5 to 10 across take 4,000 to 10,000
-constexpr int calm_cycles = 5;       ///< one after the other below `rest`: single low peaks come of the fastest swings
+constexpr double rest = 2e-3;                 ///< of sqrt(g H), rms: a tenth of what counts as still water
+constexpr double shaken = 0.05;               ///< spacings, to either side
+constexpr long most_settling_steps = 20'000;  ///< tanks 5 to 10 across take 4,000 to 10,000
+constexpr int calm_cycles = 5;                ///< one after the other below `rest`: single low peaks come of the fastest swings
 
 /// The scene of the relaxation: solids stand, nothing happens, no heat flows, liquids have no viscosity.
 Scene still_scene(Scene s) {
@@ -86,7 +86,7 @@ double swing(const Scene& scene, InitialState& at, long& steps) {
     const double now = mean_square_speed(simulation.world(), at);
     const bool falls = now < peak;
     peak = std::max(peak, now);
-    return !falls && ++steps < most_steps && !is_stopped();
+    return !falls && ++steps < most_settling_steps && !is_stopped();
   });
   if (is_stopped()) throw SettlingStopped();
   for (std::size_t id = 0; id < at.size(); ++id)
@@ -105,14 +105,14 @@ InitialState settled(const Scene& scene, InitialState initial, Settling* how) {
   if (std::ranges::all_of(initial.body, [](int body) { return body >= 0; })) throw InputError("settle = true needs a liquid");
   Scene still = still_scene(scene);
   const double H = depth(scene, initial), pull = norm(scene.gravity);
-  still.end_time = 1e4 * std::sqrt(H / pull);  // far more than most_steps take
+  still.end_time = 1e4 * std::sqrt(H / pull);  // far more than most_settling_steps take
   InitialState at = initial;
   std::ranges::fill(at.velocity, Vec3{});
   at.temperature.clear();
   shake(scene, at);
   Settling s;
   s.goal = rest * std::sqrt(pull * H);
-  for (int calm = 0; calm < calm_cycles && s.steps < most_steps;) {
+  for (int calm = 0; calm < calm_cycles && s.steps < most_settling_steps;) {
     s.speed = swing(still, at, s.steps);
     calm = s.speed < s.goal ? calm + 1 : 0;
   }

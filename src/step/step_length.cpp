@@ -11,12 +11,6 @@
 #include "step/guard.hpp"
 
 namespace tripoint {
-namespace {
-
-constexpr double most_steps = 1e12;  ///< of a run: years on any machine, and still far below what a counter holds
-
-}  // namespace
-
 TimeStepBound least_bound(const World& world, const std::vector<Active>& effects) {
   TimeStepBound least;
   for_each_effect(world, effects, [&](const Effect& effect) {

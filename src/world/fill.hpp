@@ -7,13 +7,13 @@
 
 namespace tripoint {
 
-/// Of a column the rows that are awake.
+/// The rows of a column that are awake.
 template <class T>
 [[nodiscard]] std::span<T> awake(Particles& p, const Field<T>& field) {
   return p[field].first(p.awake());
 }
 
-/// Of a column some rows.
+/// Some rows of a column.
 template <class T>
 [[nodiscard]] std::span<T> part(std::span<T> column, const Rows& rows) {
   return column.subspan(rows.from, rows.count());

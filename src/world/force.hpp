@@ -19,7 +19,8 @@ struct StoredEnergy {
   std::string_view released_to{};         ///< entry that has what they let go; "" where others tell it
 };
 
-/// Who feels a force: rigid bodies too by the sum over their members, or only what moves by the forces on its own particles.
+/// Who feels a force. all: rigid bodies too, by the sum over their members; particles: only what moves by the forces on its own
+/// particles.
 enum class Feels { all, particles };
 
 struct Force {
@@ -34,7 +35,7 @@ struct Force {
 /// Where the work on what the scene moves is booked.
 [[nodiscard]] inline const Account& work_on_driven(const Force& f) { return f.work_on_driven ? *f.work_on_driven : f.work; }
 
-/// Of a scene at most: sums of all are kept side by side.
+/// Most forces that a scene may have: their sums are kept side by side in arrays of this length.
 inline constexpr std::size_t most_forces = 6;
 
 }  // namespace tripoint

@@ -19,7 +19,7 @@
 
 namespace tripoint {
 
-/// What the next step needs of those before, beside the columns: a checkpoint keeps it.
+/// Numbers that the next step needs of those before it, beside the columns. A checkpoint stores them.
 struct Lagged {
   double half_step = 0.0;                                         ///< length of the last kick of liquids [s]
   double viscous_step = std::numeric_limits<double>::infinity();  ///< greatest stable step of viscosity, as last formed [s]

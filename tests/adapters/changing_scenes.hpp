@@ -15,7 +15,7 @@ inline Prepared brittle_bar(bool flows, Mode mode) {
   s.jitter = 0.05;
   s.modes[term::elastic] = mode;
   Material brittle = material(1000.0);
-  brittle.solid = "elastic";
+  brittle.solid = SolidKind::elastic;
   brittle.young_modulus = 1e6;
   brittle.poisson_ratio = 0.3;
   brittle.fracture_stretch = 1.1;
@@ -41,7 +41,7 @@ inline Prepared brittle_bar(bool flows, Mode mode) {
 
 inline Material wax(double latent_heat) {
   Material m = material(1000.0);
-  m.solid = "rigid";
+  m.solid = SolidKind::rigid;
   m.stiffness = 600.0;
   m.conductivity = 20.0;
   m.heat_capacity = 1000.0;
@@ -59,18 +59,18 @@ inline TemperatureField constant(double T) {
 
 /// Two blocks that tumble past a film of liquid, which they cool: it freezes, and they are one. A third one is hot in its middle,
 /// which melts: it is two.
-inline Prepared merging_and_splitting(const std::string& solid) {
+inline Prepared merging_and_splitting(SolidKind solid) {
   Scene s;
   s.spacing = 1e-3;
   Material m = wax(5e3);
   m.solid = solid;
-  if (solid == "elastic") {
+  if (solid == SolidKind::elastic) {
     m.young_modulus = 4e3;
     m.poisson_ratio = 0.3;
   }
   s.materials = {m};
   s.merge_distance = 1.5;
-  const Phase phase = solid == "elastic" ? Phase::elastic : Phase::rigid;
+  const Phase phase = solid == SolidKind::elastic ? Phase::elastic : Phase::rigid;
   Body left = rigid("left", box({-0.005, -0.002, -0.002}, {-0.001, 0.002, 0.002}), {{0.4, 0, 0}, {0, 2.0, 0}});
   Body film = rigid("film", box({-0.001, -0.001, -0.001}, {0.001, 0.001, 0.001}), {{0.4, 0, 0}, {}});
   Body right = rigid("right", box({0.001, -0.002, -0.001}, {0.004, 0.002, 0.003}), {{0.39, 0.03, 0}, {0, 0, -3.0}});
@@ -95,7 +95,7 @@ inline Prepared warm_rubber() {
   s.spacing = 0.01;
   s.modes[term::phase] = Mode::paper;
   Material m = material(1000.0);
-  m.solid = "elastic";
+  m.solid = SolidKind::elastic;
   m.young_modulus = 1e5;
   m.poisson_ratio = 0.3;
   m.stiffness = 100.0;

@@ -45,7 +45,7 @@ Scene scene() {
   m.heat_capacity = 1000.0;
   m.t_melt = m.t_solid = 330.0;
   m.latent_heat = 2e4;
-  m.solid = "elastic";
+  m.solid = SolidKind::elastic;
   s.materials = {m};
   return s;
 }
@@ -195,7 +195,7 @@ TEST(LammpsPhase, SaysWhatItCannotRun) {
     EXPECT_EQ(out.exit_code, 4);
     EXPECT_NE(out.result.message.find(why), std::string::npos) << out.result.message;
   };
-  refused([](Scene& s) { s.materials[0].solid = "rigid"; }, "rigid_modulus");
+  refused([](Scene& s) { s.materials[0].solid = SolidKind::rigid; }, "rigid_modulus");
   refused([](Scene& s) { s.materials[0].t_solid = 320.0; }, "one temperature for both");
   refused(
       [](Scene& s) {

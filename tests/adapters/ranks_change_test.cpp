@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <thread>
+#include <vector>
 
 #include "adapters/changing_scenes.hpp"
 #include "adapters/ranks_lab.hpp"
@@ -44,7 +45,7 @@ TEST(Ranks, TearBarsAsOneProcessDoes) {
 
 TEST(Ranks, MeltFreezeMergeAndSplitAsOneProcessDoes) {
   NEEDS_RANKS();
-  const Outcome two = expect_changes_equal(test::merging_and_splitting("rigid"));
+  const Outcome two = expect_changes_equal(test::merging_and_splitting(SolidKind::rigid));
   expect_kept(two);
   EXPECT_EQ(two.trajectory.frames.front().counts.at("objects"), 3.0);
   EXPECT_EQ(two.trajectory.frames.back().counts.at("objects"), 3.0) << "two became one, and one two";
@@ -99,7 +100,7 @@ Outcome go_on(const test::Folder& from, Prepared p, int count) {
 
 TEST(Ranks, GoOnFromACheckpointOnAnyNumberOfThem) {
   NEEDS_RANKS();
-  for (Prepared p : {test::brittle_bar(true, Mode::corrected), test::merging_and_splitting("rigid")}) {
+  for (Prepared p : {test::brittle_bar(true, Mode::corrected), test::merging_and_splitting(SolidKind::rigid)}) {
     const Outcome unbroken = run_on(2, p);
     ASSERT_EQ(unbroken.exit_code, 0) << unbroken.result.message;
     p.job.settings["checkpoint_interval"] = 0.55 * p.job.scene.end_time;
@@ -119,8 +120,9 @@ TEST(Ranks, GoOnFromACheckpointOnAnyNumberOfThem) {
   }
 }
 
-/// Runs the job of that folder and sends SIGTERM to the engine once the last rank has told that it steps. @return its exit code
-int run_stopped(const test::Folder& folder) {
+/// Runs the job of that folder and sends these signals to the engine once the last rank has told that it steps. @return its exit
+/// code
+int run_stopped(const test::Folder& folder, const std::vector<int>& signals) {
   int code = -1;
   std::thread engine([&] {
     code = test::shell("'" + over_ranks + "' --run '" + folder.at("job.json") + "' 2> '" + folder.at("stderr") +
@@ -132,14 +134,15 @@ int run_stopped(const test::Folder& folder) {
     steps = test::text_of(folder.at("rank-1.log")).find("step") != std::string::npos;
   }
   EXPECT_TRUE(steps) << "rank 1 never said that it steps";
-  if (steps) ::kill(static_cast<pid_t>(std::stol(test::text_of(folder.at("process")))), SIGTERM);
+  for (const int signal : signals)
+    if (steps) ::kill(static_cast<pid_t>(std::stol(test::text_of(folder.at("process")))), signal);
   engine.join();
   return code;
 }
 
 TEST(Ranks, LeaveACheckpointWhereTheyAreStopped) {
   NEEDS_RANKS();
-  Prepared p = test::merging_and_splitting("rigid");
+  Prepared p = test::merging_and_splitting(SolidKind::rigid);
   p.job.scene.time_step = 2e-5;  // so many steps that it is stopped among them
   const Outcome unbroken = run_on(2, p);
   ASSERT_EQ(unbroken.exit_code, 0) << unbroken.result.message;
@@ -147,7 +150,7 @@ TEST(Ranks, LeaveACheckpointWhereTheyAreStopped) {
   const test::Folder folder;
   write_particles(folder.at("particles.h5"), p.initial);
   write_job(folder.at("job.json"), p.job);
-  EXPECT_EQ(run_stopped(folder), 130) << "as the engine tripoint";
+  EXPECT_EQ(run_stopped(folder, {SIGTERM}), 130) << "as the engine tripoint";
   const Result result = read_result(folder.at("result.json"));
   EXPECT_EQ(result.status, Status::error);
   EXPECT_TRUE(result.message.starts_with("interrupted at t = ")) << result.message;
@@ -159,6 +162,22 @@ TEST(Ranks, LeaveACheckpointWhereTheyAreStopped) {
     EXPECT_LT(rest.result.extra.at("resumed_at"), p.job.scene.end_time);
     EXPECT_EQ(rest.result.state_hash, unbroken.result.state_hash);
   }
+}
+
+/// A terminal that closes is told by the system and by the shell.
+TEST(Ranks, LeaveACheckpointWhereTheirTerminalCloses) {
+  NEEDS_RANKS();
+  Prepared p = test::merging_and_splitting(SolidKind::rigid);
+  p.job.scene.time_step = 2e-5;
+  p.job.settings["ranks"] = 2.0;
+  const test::Folder folder;
+  write_particles(folder.at("particles.h5"), p.initial);
+  write_job(folder.at("job.json"), p.job);
+  EXPECT_EQ(run_stopped(folder, {SIGHUP, SIGHUP}), 130);
+  const Result result = read_result(folder.at("result.json"));
+  EXPECT_TRUE(result.message.starts_with("interrupted at t = ")) << result.message;
+  const Outcome rest = go_on(folder, p, 2);
+  EXPECT_EQ(rest.exit_code, 0) << rest.result.message;
 }
 
 TEST(Ranks, RefuseACheckpointOfAnotherScene) {

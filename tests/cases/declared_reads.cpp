@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Whether the effects of cases ask for no column that they have not declared: each case in all its modes, until its end or until
-/// a sum of particles and steps. The solver is that of the test build, which refuses other columns.
+/// Whether the effects of cases ask for no column and tell no entry of the ledger that they have not declared: each case in all
+/// its modes, until its end or until a sum of particles and steps. The solver is that of the test build, which refuses other
+/// columns.
 ///   declared-reads [--work PARTICLE_STEPS] CASE.toml...
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "scene/effect_rule.hpp"
 #include "scene/sample.hpp"
 #include "step/settle.hpp"
 #include "step/simulation.hpp"
@@ -16,6 +21,14 @@
 using namespace tripoint;
 
 namespace {
+
+/// @throws std::runtime_error where an entry stands in no rule of an effect
+void check_entries(const Ledger& ledger) {
+  const std::vector<std::string> declared = ledger_entries();
+  for (const auto& [entry, joule] : ledger.energy)
+    if (std::ranges::find(declared, entry) == declared.end())
+      throw std::runtime_error("the ledger has an entry \"" + entry + "\", which no effect declares");
+}
 
 /// Steps that were made. @throws UndeclaredField
 long run(const Case& read, Mode mode, double work) {
@@ -27,7 +40,7 @@ long run(const Case& read, Mode mode, double work) {
   try {
     Simulation s(scene, initial, {.force_time_step = true});
     s.advance_to(scene.end_time, [&] { return ++made < steps; });
-    static_cast<void>(s.ledger());
+    check_entries(s.ledger());
   } catch (const Diverged&) {    // a case that is meant to
   } catch (const InputError&) {  // a scene that the solver does not take
   }

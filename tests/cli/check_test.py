@@ -95,6 +95,14 @@ class Check(unittest.TestCase):
                 self.assertEqual("some 0.07 m/s rms" in done.stderr and "scene.settle = true" in done.stderr, wanted, done.stderr)
                 self.assertEqual("lattice" in done.stderr, wanted, done.stderr)
 
+    def test_it_knows_the_entries_of_the_ledger(self):
+        known = ("bulk_viscous", "transport", "kinetic", "time_integration", "residual", "fracture")
+        for entry, warned in [*((entry, False) for entry in known), ("frictoin", True)]:
+            with self.subTest(entry), tempfile.TemporaryDirectory() as folder:
+                done = call("check", scene("end_time = 1.0") + STONE + CUBE + INVARIANT + metric(f"ledger.{entry}", "drift"), folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(f'the ledger has no term "{entry}"' in done.stderr, warned, done.stderr)
+
     def test_it_leaves_nothing_behind(self):
         with tempfile.TemporaryDirectory() as folder:
             before = {p.name for p in Path(tempfile.gettempdir()).glob("tripoint-check-*")}

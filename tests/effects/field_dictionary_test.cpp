@@ -60,10 +60,19 @@ std::map<std::string, std::set<std::string>> owners() {
   return found;
 }
 
-/// The fields that src/particles/catalogue.hpp declares.
+/// The text of every file that declares fields: those that several rooms know, and those of one effect each.
+std::string declarations() {
+  const fs::path src = fs::path(TRIPOINT_SOURCE_DIR) / "src";
+  std::string text = text_of(src / "particles/catalogue.hpp");
+  for (const auto& effect : fs::directory_iterator(src / "effects"))
+    if (fs::exists(effect.path() / "fields.hpp")) text += text_of(effect.path() / "fields.hpp");
+  return text;
+}
+
+/// The fields that they declare.
 Dictionary catalogue() {
   static const std::regex declaration("Field<(\\w+)> ([^;]*);"), one("\\w+\\{\"([^\"]+)\", \"([^\"]+)\"(,\\s+Per::(\\w+))?\\}");
-  const std::string text = text_of(fs::path(TRIPOINT_SOURCE_DIR) / "src/particles/catalogue.hpp");
+  const std::string text = declarations();
   const auto owned_by = owners();
   Dictionary all;
   for (std::sregex_iterator line(text.begin(), text.end(), declaration), end; line != end; ++line) {

@@ -10,7 +10,7 @@ namespace tripoint {
 namespace {
 
 /// Between plates at z = 0 and 1, `across` particles; density 1, mean flow along x.
-lab::Lab channel(int across, double viscosity, const char* form) {
+lab::Lab channel(int across, double viscosity, ViscosityForm form) {
   const double dx = 1.0 / across;
   lab::Lab lab = lab::liquid_lab(dx, 1.0, viscosity, 100.0);
   lab.scene.viscosity_form = form;
@@ -39,7 +39,7 @@ double profile_error(const lab::Lab& lab, const Simulation& s, Exact exact) {
 /// Plane Poiseuille flow from its exact profile u = 4 z (1 - z), Re 10.
 double poiseuille_error(int across) {
   constexpr double nu = 0.1;
-  lab::Lab lab = channel(across, nu, "laplacian");
+  lab::Lab lab = channel(across, nu, ViscosityForm::laplacian);
   const double dx = lab.scene.spacing;
   lab.add(
       {.name = "lid", .corner = {0.0, 0.0, 1.0 + 0.5 * dx}, .count = {4, 4, 3}, .phase = Phase::rigid, .motion = Motion::fixed});
@@ -56,7 +56,7 @@ TEST(Poiseuille, FlowBetweenPlatesIsParabolicWithinFivePercentAtTenAcross) { EXP
 TEST(Poiseuille, FlowBetweenPlatesIsParabolicWithinTwoPercentAtTwentyAcross) { EXPECT_LT(poiseuille_error(20), 0.02); }
 
 TEST(Couette, FlowUnderASlidingLidIsLinear) {
-  lab::Lab lab = channel(10, 0.1, "laplacian");
+  lab::Lab lab = channel(10, 0.1, ViscosityForm::laplacian);
   const double dx = lab.scene.spacing;
   lab.add({.name = "lid",
            .corner = {0.0, 0.0, 1.0 + 0.5 * dx},
@@ -75,7 +75,7 @@ double taylor_green_error(int n, bool transport) {
   constexpr int thick = 6;
   lab::Lab lab = lab::liquid_lab(dx, 1.0, nu, 100.0);
   lab.scene.support_ratio = 3.0;
-  lab.scene.viscosity_form = "laplacian";
+  lab.scene.viscosity_form = ViscosityForm::laplacian;
   lab.scene.modes[term::clamp] = Mode::paper;
   lab.scene.transport_velocity = transport;
   lab.add({.name = "water", .corner = {0.5 * dx, 0.5 * dx, 0.0}, .count = {n, n, thick}, .phase = Phase::liquid});

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid_lab.hpp"
 
 namespace tripoint {
@@ -52,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(Drops, TwoLiquids,
                                          Drop{1.0, Mode::paper}));
 
 /// A free ball of liquid, radius 5 spacings = 0.5 m, in rigid rotation about an axis that is none of the lattice's.
-lab::Lab turning_ball(Mode mode, const char* form) {
+lab::Lab turning_ball(Mode mode, ViscosityForm form) {
   lab::Lab lab = lab::liquid_lab(0.1, 1000.0, 100.0, 1000.0, mode);
   lab.scene.viscosity_form = form;
   std::vector<Vec3> points;
@@ -74,7 +75,7 @@ Vec3 viscous_torque(const Simulation& s) {
 
 TEST(LiquidBall, InRigidRotationFeelsNoCentralViscousTorque) {
   for (const double isotropic : {0.0, 1.0}) {
-    lab::Lab lab = turning_ball(Mode::corrected, "central");
+    lab::Lab lab = turning_ball(Mode::corrected, ViscosityForm::central);
     lab.scene.values["isotropic_shear"] = isotropic;
     const Simulation s(lab.scene, lab.initial);
     const double scale = 100.0 * norm(Vec3{0.3, 0.5, 1.0}) * static_cast<double>(lab.initial.size()) * 1e-3;  // mu Omega V
@@ -87,7 +88,7 @@ TEST(LiquidBall, InRigidRotationFeelsNoCentralViscousTorque) {
 double force_of_parabola(const Vec3& flow, const Vec3& across, double isotropic) {
   constexpr double dx = 0.1;
   lab::Lab lab = lab::liquid_lab(dx, 1000.0, 1.0, 1000.0, Mode::corrected);
-  lab.scene.viscosity_form = "central";
+  lab.scene.viscosity_form = ViscosityForm::central;
   lab.scene.values["isotropic_shear"] = isotropic;
   lab.add({.name = "cube", .corner = {0.0, 0.0, 0.0}, .count = {11, 11, 11}, .phase = Phase::liquid});
   const std::size_t middle = 665;
@@ -114,7 +115,7 @@ TEST(CentralViscosity, ResistsShearAlikeInAllDirectionsOfTheLatticeWithIsotropic
 
 /// (8) brakes it: the torque of its formula, summed with the kernel here and not in the pass.
 TEST(LiquidBall, InRigidRotationIsBrakedByThePrintedViscosity) {
-  const lab::Lab lab = turning_ball(Mode::paper, "central");
+  const lab::Lab lab = turning_ball(Mode::paper, ViscosityForm::central);
   const Simulation s(lab.scene, lab.initial);
   const double scale = 100.0 * norm(Vec3{0.3, 0.5, 1.0}) * static_cast<double>(lab.initial.size()) * 1e-3;
   const double torque = dot(viscous_torque(s), (Vec3{0.3, 0.5, 1.0} / norm(Vec3{0.3, 0.5, 1.0}))) / scale;
@@ -122,7 +123,7 @@ TEST(LiquidBall, InRigidRotationIsBrakedByThePrintedViscosity) {
 }
 
 TEST(LiquidBall, KeepsAngularMomentumToRoundOffWhileItDisperses) {
-  const lab::Lab lab = turning_ball(Mode::corrected, "central");
+  const lab::Lab lab = turning_ball(Mode::corrected, ViscosityForm::central);
   Simulation s(lab.scene, lab.initial);
   const Vec3 before = s.ledger().angular_momentum;
   s.advance_to(2.0);
@@ -135,7 +136,7 @@ lab::Lab mixed_scene() {
   lab::Lab lab = lab::column(6, 6, 5.0, 1000.0, 10.0);
   const std::size_t wood = lab::add_material_like(lab, 500.0, 0.0);
   const double dx = lab.scene.spacing;
-  lab.scene.viscosity_form = "central";
+  lab.scene.viscosity_form = ViscosityForm::central;
   lab.add({.name = "block", .material = wood, .corner = {dx, dx, 6.5 * dx}, .count = {3, 3, 3}});
   lab::jitter(lab, 0.1);
   for (const Vec3& r : lab.initial.position) lab.initial.temperature.push_back(300.0 + 10.0 * r.z);

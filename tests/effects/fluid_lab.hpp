@@ -32,7 +32,7 @@ inline Lab column(int depth, int width, double viscosity, double stiffness, doub
   const double dx = 1.0 / depth;
   Lab lab = liquid_lab(dx, 1000.0, viscosity, stiffness, mode);
   lab.scene.gravity = {0.0, 0.0, -gravity};
-  lab.scene.viscosity_form = "laplacian";
+  lab.scene.viscosity_form = ViscosityForm::laplacian;
   lab.add({.name = "water", .corner = {0.0, 0.0, 0.5 * dx}, .count = {width, width, depth}, .phase = Phase::liquid});
   lab.add({.name = "floor",
            .corner = {0.0, 0.0, -2.5 * dx},

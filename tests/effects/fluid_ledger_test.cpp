@@ -65,7 +65,7 @@ lab::Lab pressed_cube() {
   const std::size_t rubber = lab::add_material_like(lab, 1000.0, 0.0);
   lab.scene.materials[rubber].young_modulus = 1e5;
   lab.scene.materials[rubber].poisson_ratio = 0.3;
-  lab.scene.materials[rubber].solid = "elastic";
+  lab.scene.materials[rubber].solid = SolidKind::elastic;
   lab.scene.values["face_pressure"] = 1.0;
   lab.scene.values["bulk_viscosity"] = 0.0;
   const Quaternion turn = from_rotation_vector({0.2, 0.5, -0.3});

@@ -198,7 +198,7 @@ Interface interface_of(Mode mode) {
   lab.scene.modes[term::clamp] = Mode::corrected;
   const std::size_t oil = lab::add_material_like(lab, light, 10.0);
   lab.scene.gravity = {0.0, 0.0, -g};
-  lab.scene.viscosity_form = "laplacian";
+  lab.scene.viscosity_form = ViscosityForm::laplacian;
   lab.add({.name = "water", .corner = {0.0, 0.0, 0.5 * dx}, .count = {4, 4, layers}, .phase = Phase::liquid});
   lab.add(
       {.name = "oil", .material = oil, .corner = {0.0, 0.0, 1.0 + 0.5 * dx}, .count = {4, 4, layers}, .phase = Phase::liquid});

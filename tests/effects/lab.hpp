@@ -43,7 +43,7 @@ struct Lab {
     m.density = density;
     m.conductivity = conductivity;
     m.heat_capacity = heat_capacity;
-    m.solid = "rigid";
+    m.solid = SolidKind::rigid;
     scene.materials.push_back(m);
   }
   /// Domain from corner - dx/2, periodic where asked; elsewhere so wide that nothing leaves it.

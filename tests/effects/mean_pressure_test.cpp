@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid_lab.hpp"
 #include "scene/shared_terms.hpp"
 

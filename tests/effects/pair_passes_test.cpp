@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "passes/pair_passes.hpp"
+#include "effects/fluid/fields.hpp"
+#include "effects/heat/fields.hpp"
 
 #include <gtest/gtest.h>
 

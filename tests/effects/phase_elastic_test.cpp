@@ -15,7 +15,7 @@ const auto constant = [](double T) { return [T](const Vec3&) { return T; }; };
 
 /// A block of elastic matter and one liquid particle beside it, as it is when it has been loaded.
 World block_and_drop(std::array<int, 3> count, const Vec3& drop) {
-  lab::Lab lab = lab::melting_lab(dx, {.solid = "elastic"});
+  lab::Lab lab = lab::melting_lab(dx, {.solid = SolidKind::elastic});
   lab.scene.materials[0].stiffness = 1e-12;
   lab.add({.name = "block", .count = count, .phase = Phase::elastic, .temperature = constant(cold)});
   lab.add({.name = "drop", .corner = drop, .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(345.0)});
@@ -93,11 +93,11 @@ TEST(Freezing, BesideTurnedChainsAndSheetsMakesNothingJump) {
 }
 
 TEST(Freezing, OfElasticMatterBesideATurnedRigidBodyMakesNothingJump) {
-  lab::Lab lab = lab::melting_lab(dx, {.t_solid = 340.0, .solid = "elastic"});
+  lab::Lab lab = lab::melting_lab(dx, {.t_solid = 340.0, .solid = SolidKind::elastic});
   lab.scene.materials[0].stiffness = 1e-12;
   lab.scene.materials.push_back(lab.scene.materials[0]);
   lab.scene.materials[1].name = "rigid wax";
-  lab.scene.materials[1].solid = "rigid";
+  lab.scene.materials[1].solid = SolidKind::rigid;
   lab.scene.time_step = 2e-4;
   lab.add({.name = "rigid",
            .material = 1,
@@ -124,7 +124,7 @@ TEST(Freezing, OfElasticMatterBesideATurnedRigidBodyMakesNothingJump) {
 
 /// A bar of 8 x 3 x 3 that swings along itself, and melts or freezes as heat events say.
 lab::Lab swinging_bar(double latent_heat = 2e4) {
-  lab::Lab lab = lab::melting_lab(dx, {.latent_heat = latent_heat, .solid = "elastic"});
+  lab::Lab lab = lab::melting_lab(dx, {.latent_heat = latent_heat, .solid = SolidKind::elastic});
   lab.scene.materials[0].stiffness = 1e-12;
   lab.scene.time_step = 5e-4;
   lab.add({.name = "bar", .count = {8, 3, 3}, .phase = Phase::elastic, .temperature = constant(cold)});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "effects/heat/fields.hpp"
 #include "effects/phase_lab.hpp"
 #include "scene/shared_terms.hpp"
 #include "solids/fusion.hpp"

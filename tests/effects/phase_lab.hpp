@@ -12,7 +12,7 @@ namespace tripoint::lab {
 
 struct Meltable {
   double t_melt = 350.0, t_solid = 350.0, latent_heat = 0.0;  ///< [K], [K], [J/kg]
-  std::string solid = "rigid";
+  SolidKind solid = SolidKind::rigid;
   double conductivity = 1e-12;  ///< as good as none: every particle for itself [W/m/K]
 };
 
@@ -25,7 +25,7 @@ inline Lab melting_lab(double spacing, const Meltable& m = {}) {
   material.t_solid = m.t_solid;
   material.latent_heat = m.latent_heat;
   material.solid = m.solid;
-  if (m.solid == "elastic") {
+  if (m.solid == SolidKind::elastic) {
     material.young_modulus = 1e5;
     material.poisson_ratio = 0.3;
   }

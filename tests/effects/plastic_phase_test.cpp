@@ -28,7 +28,7 @@ Event heat(double time, double temperature, double beyond) {
 
 /// A bar of 8 x 3 x 3 that swings along itself beyond its elastic limit.
 lab::Lab yielding_bar() {
-  lab::Lab lab = lab::melting_lab(dx, {.latent_heat = 2e4, .solid = "elastic"});
+  lab::Lab lab = lab::melting_lab(dx, {.latent_heat = 2e4, .solid = SolidKind::elastic});
   lab.scene.materials[0].stiffness = 1e-12;
   lab.scene.materials[0].elastic_limit = 0.01;
   lab.scene.time_step = 5e-4;
@@ -90,7 +90,7 @@ TEST(PlasticFlow, LooksWhereverMatterFlowsAndNotBelowTheLimit) {
 }
 
 TEST(PlasticFreezing, CallsForPlasticFlowAndFractureWhereWhatFreezesCanYieldAndBreak) {
-  lab::Lab lab = lab::melting_lab(dx, {.solid = "elastic"});
+  lab::Lab lab = lab::melting_lab(dx, {.solid = SolidKind::elastic});
   lab.add({.name = "pool", .count = {3, 3, 3}, .phase = Phase::liquid, .temperature = [](const Vec3&) { return 300.0; }});
   lab.scene.bodies[0].temperature->value = 300.0;
   const auto calls = [&](std::string_view name) {

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid_lab.hpp"
 
 namespace tripoint {
@@ -110,7 +111,7 @@ double drag_at_solid(double temperature, double contact_viscosity) {
   Material& solid = lab.scene.materials[1];
   solid.viscosity = 6.0;
   solid.stiffness = k;
-  solid.solid = "elastic";
+  solid.solid = SolidKind::elastic;
   solid.young_modulus = 1.0;
   solid.poisson_ratio = 0.3;
   solid.t_solid = 320.0;

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "effects/elastic/elastic.hpp"
+#include "effects/elastic/fields.hpp"
 #include "effects/fluid_lab.hpp"
 #include "solids/solid_particles.hpp"
 
@@ -20,7 +21,7 @@ inline Lab elastic_lab(double spacing, double poisson = 0.3, Mode mode = Mode::c
   m.heat_capacity.reset();
   m.young_modulus = 1.0;
   m.poisson_ratio = poisson;
-  m.solid = "elastic";
+  m.solid = SolidKind::elastic;
   return lab;
 }
 

@@ -5,13 +5,14 @@
 #include <array>
 #include <random>
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid_lab.hpp"
 
 namespace tripoint {
 namespace {
 
 /// A jittered column that is pressed on a jittered floor.
-lab::Lab pressed_column(const char* form = "laplacian", double scene_jitter = 0.0) {
+lab::Lab pressed_column(ViscosityForm form = ViscosityForm::laplacian, double scene_jitter = 0.0) {
   lab::Lab lab = lab::column(4, 6, 1.0, 1000.0, 10.0);
   lab.scene.jitter = scene_jitter;
   lab.scene.viscosity_form = form;
@@ -48,12 +49,14 @@ void expect_gradient(const lab::Lab& lab) {
 }
 
 TEST(Walls, PressByTheGradientOfTheEnergyThatTheLedgerHolds) { expect_gradient(pressed_column()); }
-TEST(Walls, PressByThatGradientWhereTheyAreFeltFromTheirLattice) { expect_gradient(pressed_column("laplacian", 0.1)); }
+TEST(Walls, PressByThatGradientWhereTheyAreFeltFromTheirLattice) {
+  expect_gradient(pressed_column(ViscosityForm::laplacian, 0.1));
+}
 
 /// No step forms what none reads: the force on what is fixed, and densities behind faces.
 TEST(Walls, AreShownTheForceAndDensityThatEveryStepWouldForm) {
   for (const double jitter : {0.0, 0.1}) {
-    const lab::Lab lab = pressed_column("laplacian", jitter);
+    const lab::Lab lab = pressed_column(ViscosityForm::laplacian, jitter);
     Simulation some(lab.scene, lab.initial), all(lab.scene, lab.initial, {.sums_all = true});
     some.advance_to(1.0, [&] { return some.world().neighbours->rebuilds() < 5 && some.steps() < 3000; });
     all.advance_to(1.0, [&] { return all.steps() < some.steps(); });
@@ -158,7 +161,7 @@ TEST(Walls, OfAJitteredSceneAreFeltFromTheirLattice) {
 }
 
 /// Of viscous forces on liquid at random velocities beside a wall at rest.
-double viscous_power(const char* form, unsigned seed) {
+double viscous_power(ViscosityForm form, unsigned seed) {
   lab::Lab lab = pressed_column(form);
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -173,8 +176,9 @@ double viscous_power(const char* form, unsigned seed) {
 }
 
 TEST(Walls, TakeEnergyByViscosityInBothForms) {
-  for (const char* form : {"laplacian", "central"})
-    for (unsigned seed = 1; seed <= 20; ++seed) EXPECT_LT(viscous_power(form, seed), 0.0) << form << ", seed " << seed;
+  for (const ViscosityForm form : {ViscosityForm::laplacian, ViscosityForm::central})
+    for (unsigned seed = 1; seed <= 20; ++seed)
+      EXPECT_LT(viscous_power(form, seed), 0.0) << static_cast<int>(form) << ", seed " << seed;
 }
 
 TEST(Walls, DoNoWorkWhereTheyAreFixedAndTheStepsLittle) {

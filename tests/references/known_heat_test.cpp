@@ -152,7 +152,7 @@ TEST(KnownHeat, AnEventThatOnlyReachesAThresholdChangesNothing) {
     EXPECT_EQ(loop->at(time).phase[3], phase) << time;
     EXPECT_EQ(loop->at(time).liquid_fraction[3], phase == 0 ? 1.0 : 0.0) << time;
   }
-  s.job.scene.materials[0].solid = "rigid";
+  s.job.scene.materials[0].solid = SolidKind::rigid;
   EXPECT_EQ(made(s, "hysteresis")->at(4.5).phase[0], 2);
   s.job.scene.materials[0].t_solid.reset();
   EXPECT_EQ(made(s, "hysteresis")->at(3.5).phase[0], 2);

@@ -26,7 +26,7 @@ inline Prepared stefan_bar(const Heating& h) {
   m.t_melt = 300.0;
   m.t_solid = 290.0;
   m.latent_heat = 1e5;
-  m.solid = "rigid";
+  m.solid = SolidKind::rigid;
   const double temperature[] = {h.bar, h.wall};
   for (std::size_t b = 0; b < 2; ++b) {
     TemperatureField field;
@@ -47,7 +47,7 @@ inline Prepared heated_block() {
   auto& m = s.job.scene.materials[0];
   m.t_melt = 300.0;
   m.t_solid = 290.0;
-  m.solid = "elastic";
+  m.solid = SolidKind::elastic;
   const double temperature[] = {310.0, 295.0, 280.0, 295.0};
   for (int n = 0; n < 4; ++n) {
     Event e;

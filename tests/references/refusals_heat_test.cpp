@@ -279,7 +279,7 @@ TEST(Refusals, OfBarsAndBeams) {
         {"", word("sides", "free")},
         {"", word("sides", "plane_strain")},
         {"", word("sides", "confined")},
-        {"`form` must be", word("form", "half")},
+        {"must be \"paper\" or \"corrected\"", word("form", "half")},
         {"", word("form", "corrected")},
         {"above 0 and at most 1", [](Prepared&, Settings& a) { a["gauge"] = 0.0; }},
         {"above 0 and at most 1", [](Prepared&, Settings& a) { a["gauge"] = 1.001; }},

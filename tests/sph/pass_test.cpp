@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sph/pass.hpp"
+#include "effects/heat/fields.hpp"
 
 #include <gtest/gtest.h>
 

@@ -63,8 +63,8 @@ TEST(Halo, ABarThatIsSharedTearsAsPrinted) {
 }
 
 TEST(Halo, WhatMeltsAndFreezesMakesTheSameBodiesWhereItIsShared) {
-  for (const char* solid : {"rigid", "elastic"}) {
-    SCOPED_TRACE(solid);
+  for (const SolidKind solid : {SolidKind::rigid, SolidKind::elastic}) {
+    SCOPED_TRACE(to_string(solid));
     const test::Prepared p = merging_and_splitting(solid);
     const Seen whole = seen_whole(p);
     EXPECT_EQ(std::ranges::count(whole.alive, 1), 3) << "two became one, and one two";
@@ -93,7 +93,7 @@ TEST(Halo, EventsAndInflowDoTheSameWhereTheSceneIsShared) {
 
 /// A run that is cut over two slabs goes on in one process, over two slabs and over four.
 TEST(Halo, ACheckpointOfASharedSceneIsOneOfTheWhole) {
-  for (const test::Prepared& p : {brittle_bar(true, Mode::corrected), merging_and_splitting("elastic"), eventful()}) {
+  for (const test::Prepared& p : {brittle_bar(true, Mode::corrected), merging_and_splitting(SolidKind::elastic), eventful()}) {
     const Seen whole = seen_whole(p);
     const double border = p.job.scene.inflows.empty() ? 0.0036 : 0.22;
     const Seen cut = seen_shared(p, {-far, border, far});

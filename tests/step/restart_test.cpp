@@ -135,7 +135,7 @@ Journey bodies_only() {
 }
 
 /// Liquid between walls in a periodic channel with a light free body in it, and gravity.
-Journey liquid_with_body(const std::string& form = "central", bool with_body = true) {
+Journey liquid_with_body(ViscosityForm form = ViscosityForm::central, bool with_body = true) {
   lab::Lab lab(0.05);
   lab.scene.gravity = {0.2, 0.0, -2.0};
   lab.scene.viscosity_form = form;
@@ -155,12 +155,12 @@ Journey liquid_with_body(const std::string& form = "central", bool with_body = t
 
 /// Two liquids on a floor, and a soft cube in the upper one, pressed at its faces.
 Journey two_liquids_with_a_soft_cube() {
-  Journey j = liquid_with_body("central", false);
+  Journey j = liquid_with_body(ViscosityForm::central, false);
   lab::Lab& lab = j.lab;
   lab.scene.values["face_pressure"] = lab.scene.values["interface_weight"] = 1.0;
   lab.scene.materials[1].young_modulus = 1e4;
   lab.scene.materials[1].poisson_ratio = 0.3;
-  lab.scene.materials[1].solid = "elastic";
+  lab.scene.materials[1].solid = SolidKind::elastic;
   lab.add({.name = "oil", .material = 1, .corner = {0.0, 0.0, 0.4}, .count = {6, 6, 3}, .phase = Phase::liquid});
   lab.add({.name = "cube",
            .material = 1,
@@ -239,7 +239,7 @@ TEST(Restart, OfLiquidsOfTwoDensitiesAndASoftCubeInThemIsTheUnbrokenRun) {
 }
 
 TEST(Restart, OfALiquidThatTheTransportVelocityMovesIsTheUnbrokenRun) {
-  Journey j = liquid_with_body("central", false);
+  Journey j = liquid_with_body(ViscosityForm::central, false);
   j.lab.scene.modes[term::clamp] = Mode::paper;
   j.lab.scene.transport_velocity = true;
   j.lab.scene.values["mean_pressure"] = 1.0;
@@ -254,7 +254,9 @@ TEST(Restart, OfMeltingWithUnlikePhasesIsTheUnbrokenRun) {
   expect_same_bits(j, 7);
 }
 
-TEST(Restart, OfALiquidBetweenExtrapolatedWallsIsTheUnbrokenRun) { expect_same_bits(liquid_with_body("laplacian", false), 4); }
+TEST(Restart, OfALiquidBetweenExtrapolatedWallsIsTheUnbrokenRun) {
+  expect_same_bits(liquid_with_body(ViscosityForm::laplacian, false), 4);
+}
 
 TEST(Restart, OfARestartIsTheUnbrokenRun) {
   for (const Journey& j : {bodies_only(), flight_with_events(Mode::corrected), liquid_with_body()}) {

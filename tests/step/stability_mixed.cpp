@@ -41,16 +41,17 @@ Point heat(Mode mode, const char* parameter, double ratio, double jitter) {
 }
 
 /// Viscosities 1 : ratio, jittered, with next to no pressure.
-Point viscosity(const char* form, double ratio) {
+Point viscosity(ViscosityForm form, double ratio) {
   Lab lab = lab::liquid_lab(1.0, 1.0, 1.0, 1e-16);
   lab.scene.modes[term::clamp] = Mode::paper;
   lab.scene.viscosity_form = form;
+  const bool central = form == ViscosityForm::central;
   lab::add_material_like(lab, 1.0, ratio);
   add_two(lab, {.phase = Phase::liquid});
   lab::jitter_all(lab, 0.1);
   const double limit = 0.5 * friction_limit(lab);  // lambda dt < 1, as velocities are predicted to the full step
   disturb(lab, 1e-5);
-  return {std::string("viscosity ") + form,
+  return {central ? "viscosity central" : "viscosity laplacian",
           "corrected",
           "viscosity ratio",
           ratio,
@@ -94,7 +95,7 @@ Point joined(double ratio) {
 
 /// A jittered liquid that is cooled and freezes at once: bonds are what they were found as, and the bound is local.
 Point frozen(double jitter) {
-  Lab lab = lab::melting_lab(1.0, {.t_solid = 340.0, .solid = "elastic"});
+  Lab lab = lab::melting_lab(1.0, {.t_solid = 340.0, .solid = SolidKind::elastic});
   Material& m = lab.scene.materials[0];
   m.density = 1.0;
   m.young_modulus = 1.0;
@@ -128,8 +129,8 @@ Point frozen(double jitter) {
 void add_mixed_points(std::vector<Point>& list) {
   for (const double ratio : {1.0, 10.0, 1000.0}) list.push_back(heat(Mode::corrected, "conductivity ratio", ratio, 0.2));
   for (const double ratio : {1.0, 10.0, 1000.0}) list.push_back(heat(Mode::paper, "conductivity ratio", ratio, 0.0));
-  for (const double ratio : {1.0, 100.0}) list.push_back(viscosity("laplacian", ratio));
-  for (const double ratio : {1.0, 100.0}) list.push_back(viscosity("central", ratio));
+  for (const double ratio : {1.0, 100.0}) list.push_back(viscosity(ViscosityForm::laplacian, ratio));
+  for (const double ratio : {1.0, 100.0}) list.push_back(viscosity(ViscosityForm::central, ratio));
   for (const double a : {0.0, 1.0, 4.0}) list.push_back(hourglass(a));
   for (const double ratio : {100.0, 1e4}) list.push_back(joined(ratio));
   for (const double jitter : {0.0, 0.1, 0.2}) list.push_back(frozen(jitter));

@@ -127,15 +127,15 @@ Point sound(Mode mode, const char* parameter, double value, double q, double sti
   return {"sound", std::string(to_string(mode)), parameter, value, wave.limit, own_step(lab), stays(lab, kinetic, 1e3 * first)};
 }
 
-Point viscosity(const char* form, double q) {
+Point viscosity(ViscosityForm form, double q) {
   Lab lab = sea(Mode::corrected, q, 1e-8, 1.0);
   lab.scene.viscosity_form = form;
   disturb(lab, 1e-7);
-  const bool central = std::string(form) == "central";
+  const bool central = form == ViscosityForm::central;
   const double weight = (central ? 10.0 : 2.0) / wendland_moments(q).gradient;
   // The velocity that viscous pairs see is predicted to the full step by the last forces: then lambda dt < 1 is what is stable,
   // not 2.
-  return {std::string("viscosity ") + form,
+  return {central ? "viscosity central" : "viscosity laplacian",
           "corrected",
           "h/dx",
           q,
@@ -199,8 +199,8 @@ std::vector<Point> all_points() {
   for (const double q : {2.2, 2.6, 3.0}) list.push_back(sound(Mode::corrected, "h/dx", q, q, 1.0));
   for (const double q : {2.12, 2.6}) list.push_back(sound(Mode::paper, "h/dx", q, q, 1.0));
   for (const double ratio : {10.0, 1000.0}) list.push_back(sound(Mode::corrected, "density ratio", ratio, 2.6, 1.0, ratio));
-  for (const double q : {2.2, 2.6, 3.0}) list.push_back(viscosity("laplacian", q));
-  for (const double q : {2.2, 2.6, 3.0}) list.push_back(viscosity("central", q));
+  for (const double q : {2.2, 2.6, 3.0}) list.push_back(viscosity(ViscosityForm::laplacian, q));
+  for (const double q : {2.2, 2.6, 3.0}) list.push_back(viscosity(ViscosityForm::central, q));
   for (const double q : {2.2, 2.6, 3.0}) list.push_back(heat("h/dx", q, q, -1.0));
   for (const double L : {0.0, 1.0, 100.0}) list.push_back(heat("latent heat", L, 2.6, L));
   for (const double E : {1.0, 1e4}) list.push_back(elastic("stiffness", E, E, 0.3));

@@ -276,16 +276,9 @@ class IdleKeys {
       return warn(given("material." + m.name + ".name"),
                   fmt::format("no body and no inflow is of material \"{}\": name it in one, or remove it", m.name));
     const std::string path = "material." + m.name + ".";
-    const auto limit = [&](std::string_view key, const std::string& effect) {
-      if (const auto place = given(path + std::string(key)); !place.file.empty() && !calls(effect))
-        warn(place, fmt::format("{} of material \"{}\" never acts: {}", key, m.name, why_idle(effect)));
-    };
-    limit("elastic_limit", "plastic");
-    limit("fracture_stretch", "fracture");
-    limit("fracture_distance", "fracture");
     for (const EffectRule& rule : effect_rules())
       for (const EffectKey& key : rule.keys)
-        if (key.row.table == "material" && value_of(m.values, key.row.name) != 0.0) effect_limit(m, rule, key);
+        if (key.row.table == "material" && (key.limit || value_of(m.values, key.row.name) != 0.0)) material_key(m, rule, key);
     if (!calls("fracture")) return;
     const bool printed = any_mode([](const Scene& s) { return s.mode_of(term::elastic) == Mode::paper; });
     if (m.fracture_distance && !m.fracture_stretch && !printed)
@@ -300,7 +293,7 @@ class IdleKeys {
                         m.name));
   }
 
-  void effect_limit(const Material& m, const EffectRule& rule, const EffectKey& key) {
+  void material_key(const Material& m, const EffectRule& rule, const EffectKey& key) {
     const auto place = given(fmt::format("material.{}.{}", m.name, key.row.name));
     if (place.file.empty()) return;
     const bool on = calls(std::string(rule.name));
@@ -337,10 +330,8 @@ class IdleKeys {
       using Member = std::decay_t<decltype(member)>;
       if constexpr (std::is_same_v<Member, std::monostate>)
         return kept_number(s.values, key.row) != 0.0 || kept_number({}, key.row) != 0.0;
-      else if constexpr (std::is_same_v<Member, std::string Scene::*>)
-        return "\"" + s.*member + "\"" != key.row.fallback;
       else if constexpr (requires { s.*member; })
-        return s.*member != std::decay_t<decltype(s.*member)>{};
+        return s.*member != Scene{}.*member;
       else
         return false;
     };

@@ -35,7 +35,7 @@ double fastest_sound(const Scene& scene) {
   double fastest = 0.0;
   for (const auto& body : scene.bodies) {
     const Material& m = scene.material(body.material);
-    const bool is_elastic = body.phase == Phase::elastic || m.solid == "elastic";
+    const bool is_elastic = body.phase == Phase::elastic || m.solid == SolidKind::elastic;
     if (flows && m.stiffness) fastest = std::max(fastest, std::sqrt(*m.stiffness));
     if (bends && is_elastic && m.young_modulus) fastest = std::max(fastest, std::sqrt(*m.young_modulus / m.density));
   }

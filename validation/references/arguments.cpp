@@ -58,6 +58,14 @@ std::optional<std::size_t> Arguments::axis(const std::string& name) const {
   throw InputError("argument `" + name + "` of reference function " + function_ + " must be \"x\", \"y\" or \"z\"");
 }
 
+Mode Arguments::form(Mode fallback) const {
+  const auto given = word("form");
+  if (!given) return fallback;
+  if (*given == "paper") return Mode::paper;
+  if (*given == "corrected") return Mode::corrected;
+  throw InputError("argument `form` of reference function " + function_ + " must be \"paper\" or \"corrected\"");
+}
+
 std::optional<Vec3> Arguments::vector(const std::string& name) const {
   const auto list = get<std::vector<double>>(name, "three numbers");
   if (!list) return {};

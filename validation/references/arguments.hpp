@@ -23,6 +23,9 @@ class Arguments {
   [[nodiscard]] std::optional<bool> flag(const std::string& name) const;
   /// 0, 1, 2 of "x", "y", "z". @throws InputError for any other word
   [[nodiscard]] std::optional<std::size_t> axis(const std::string& name) const;
+  /// Which form of an equation the argument `form` names; the fallback where it is not given. @throws InputError for any word but
+  /// "paper" and "corrected"
+  [[nodiscard]] Mode form(Mode fallback) const;
 
  private:
   void check(const ReferenceArgument&) const;

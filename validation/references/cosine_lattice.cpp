@@ -40,10 +40,9 @@ std::unique_ptr<Reference> make_lattice(const ReferenceInput& in) {
   const double dx = in.job.resolution.spacing > 0.0 ? in.job.resolution.spacing : in.job.scene.spacing;
   const double ratio = in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
   const double support = in.args.number("support_ratio").value_or(ratio) * dx;
-  const auto form = in.args.word("form").value_or(in.job.scene.mode_of(term::heat) == Mode::paper ? "paper" : "corrected");
-  if (form != "paper" && form != "corrected") throw InputError("argument `form` must be \"paper\" or \"corrected\"");
-  const double damping = form == "paper" ? paper_lattice_damping(wave.wave_vector, dx, support)
-                                         : corrected_lattice_damping(wave.wave_vector, dx, support);
+  const double damping = in.args.form(in.job.scene.mode_of(term::heat)) == Mode::paper
+                             ? paper_lattice_damping(wave.wave_vector, dx, support)
+                             : corrected_lattice_damping(wave.wave_vector, dx, support);
   return std::make_unique<DecayingCosine>(in, wave, common_diffusivity(in.job) * damping);
 }
 

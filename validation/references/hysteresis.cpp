@@ -46,7 +46,7 @@ class Hysteresis : public Reference {
       if (!(e.time < time) || !heats(e, i)) continue;
       if (*e.temperature > *m.t_melt) phase = static_cast<int>(Phase::liquid);
       if (*e.temperature < m.t_solid.value_or(*m.t_melt))
-        phase = static_cast<int>(m.solid == "rigid" ? Phase::rigid : Phase::elastic);
+        phase = static_cast<int>(m.solid == SolidKind::rigid ? Phase::rigid : Phase::elastic);
     }
     return phase;
   }

@@ -34,7 +34,7 @@ std::unique_ptr<Reference> make_ball(const ReferenceInput& in) {
   const auto& body = in.job.scene.bodies.at(liquid);
   if (body.shape.kind != Shape::Kind::sphere) throw InputError("liquid_ball holds for a sphere of liquid");
   if (norm(body.angular_velocity) == 0.0) throw InputError("liquid_ball: the liquid does not turn");
-  const bool printed = in.args.word("form").value_or("corrected") == "paper";
+  const bool printed = in.args.form(Mode::corrected) == Mode::paper;
   const double rate = printed ? 5.0 * kinematic_viscosity(in.job, liquid) / (body.shape.radius * body.shape.radius) : 0.0;
   return std::make_unique<LiquidBall>(in, body.shape.centre, body.angular_velocity, rate);
 }

@@ -77,9 +77,7 @@ BarLaw bar_law(const ReferenceInput& in, std::size_t bar, std::size_t axis) {
   law.sides = bar_sides(in, axis);
   law.elastic_limit = material.elastic_limit.value_or(law.elastic_limit);
   law.plastic_limit = material.plastic_limit.value_or(law.plastic_limit);
-  const auto form = in.args.word("form").value_or(in.job.scene.mode_of(term::elastic) == Mode::paper ? "paper" : "corrected");
-  if (form != "paper" && form != "corrected") throw InputError("argument `form` must be \"paper\" or \"corrected\"");
-  if (form == "corrected") return law;
+  if (in.args.form(in.job.scene.mode_of(term::elastic)) == Mode::corrected) return law;
   const double given = in.job.resolution.support_ratio > 0.0 ? in.job.resolution.support_ratio : in.job.scene.support_ratio;
   const auto lattice = elastic_lattice_factors(in.args.number("support_ratio").value_or(given));
   law.strain_factor = 1.0;

@@ -22,7 +22,7 @@ class Stefan : public Reference {
  public:
   Stefan(const ReferenceInput& in, const NeumannFront& front, const Course& course)
       : initial_(in.initial), dx_(in.job.scene.spacing), front_(front), course_(course), lambda_(front.lambda()) {
-    solid_ = in.job.scene.material(in.job.bodies[course.bar].material).solid == "rigid" ? Phase::rigid : Phase::elastic;
+    solid_ = in.job.scene.material(in.job.bodies[course.bar].material).solid == SolidKind::rigid ? Phase::rigid : Phase::elastic;
   }
   [[nodiscard]] Snapshot at(double time) const override {
     Snapshot out;

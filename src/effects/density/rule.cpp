@@ -13,6 +13,6 @@ std::string needed_for(const Scene& s, const Called& called) {
 
 }  // namespace
 
-EffectRule rule() { return {"density", nullptr, nullptr, needed_for}; }
+EffectRule rule() { return {.name = "density", .needed_for = needed_for, .over_processes = true}; }
 
 }  // namespace tripoint::density

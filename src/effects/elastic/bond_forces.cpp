@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "effects/elastic/fields.hpp"
 #include "world/failure.hpp"
 
 namespace tripoint::elastic {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "effects/elastic/bond_forces.hpp"
+#include "effects/elastic/fields.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/shared_terms.hpp"

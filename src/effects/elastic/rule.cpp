@@ -61,7 +61,14 @@ void settle_material(TableReader& in, Material& m) {
 }  // namespace
 
 EffectRule rule() {
-  return {"elastic", called_for, left_out, nullptr, {term::elastic, term::hourglass}, {}, keys(), settle_material};
+  return {.name = "elastic",
+          .called_for = called_for,
+          .left_out = left_out,
+          .terms = {term::elastic, term::hourglass},
+          .keys = keys(),
+          .settle_material = settle_material,
+          .ledger_entries = {"elastic", "hourglass"},
+          .over_processes = true};
 }
 
 }  // namespace tripoint::elastic

@@ -5,15 +5,13 @@
 #include <array>
 #include <cmath>
 
-#include "effects/fluid/rule.hpp"
+#include "effects/fluid/fields.hpp"
 #include "scene/effect_rule.hpp"
 #include "world/ordered_sum.hpp"
 
 namespace tripoint::fluid {
 
-double bulk_viscosity(const Scene& scene) {
-  return no_bulk_viscosity(scene).empty() ? kept_number(scene.values, key_row("scene", "bulk_viscosity")) : 0.0;
-}
+double bulk_viscosity(const Scene& scene) { return acting_number(scene, "bulk_viscosity"); }
 
 void set_bulk_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
@@ -25,7 +23,7 @@ void set_bulk_pressure(World& world, const SceneNumbers& n) {
              group = p[field::group];
   std::vector<std::array<double, 1>> blocks;
   const auto taken = ordered_sums(world, blocks, [&](std::size_t i, std::array<double, 1>& sum) {
-    const double squeezed = flows && group[i] == -1.0 ? delta[i] / before[i] - 1.0 : 0.0;
+    const double squeezed = flows && group[i] == liquid_group ? delta[i] / before[i] - 1.0 : 0.0;
     const double next = pressure[i] > 0.0 && V[i] * rest[i] < m[i]
                             ? std::max(viscosity * std::min(rest[i], n.damped_density) * squeezed, -pressure[i])
                             : 0.0;

@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid/fluid_terms.hpp"
-#include "effects/fluid/rule.hpp"
 #include "scene/effect_rule.hpp"
 #include "solids/solid_particles.hpp"
 
@@ -18,14 +18,6 @@ namespace {
 
 constexpr std::array<const Field<double>*, 1> densities{&field::number_density};
 constexpr std::array<const Field<double>*, 3> forces{&field::force_x, &field::force_y, &field::force_z};
-
-/// By Cramer's rule. A solid that is turned inside out ends the run after the step (Effect::check).
-Matrix3 inverse(const Matrix3& a) {
-  const double per_det = 1.0 / determinant(a);
-  return per_det * Matrix3{a.yy * a.zz - a.yz * a.zy, a.xz * a.zy - a.xy * a.zz, a.xy * a.yz - a.xz * a.yy,
-                           a.yz * a.zx - a.yx * a.zz, a.xx * a.zz - a.xz * a.zx, a.xz * a.yx - a.xx * a.yz,
-                           a.yx * a.zy - a.yy * a.zx, a.xy * a.zx - a.xx * a.zy, a.xx * a.yy - a.xy * a.yx};
-}
 
 /// Copies take from their owners what these have by id.
 template <class Numbers>
@@ -38,8 +30,7 @@ void hand_to_copies(const World& world, std::vector<Numbers>& by_id) {
 
 }  // namespace
 
-FacePressure::FacePressure(const Scene& scene)
-    : share_(no_face_pressure(scene).empty() ? kept_number(scene.values, key_row("scene", "face_pressure")) : 0.0) {}
+FacePressure::FacePressure(const Scene& scene) : share_(acting_number(scene, "face_pressure")) {}
 
 void FacePressure::find(const World& world) {
   if (known_ == world.neighbours->rebuilds()) return;

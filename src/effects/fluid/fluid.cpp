@@ -7,6 +7,7 @@
 #include "core/machine.hpp"
 #include "effects/fluid/bulk_viscosity.hpp"
 #include "effects/fluid/face_pressure.hpp"
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid/fluid_ledger.hpp"
 #include "effects/fluid/fluid_state.hpp"
 #include "effects/fluid/interface_weight.hpp"
@@ -26,18 +27,17 @@
 namespace tripoint::fluid {
 namespace {
 
-/// -1 for liquids, -2 for deformable solids, 0 for all walls, 1 + body for free rigid bodies: members of one group of 0 and above
-/// exert nothing on each other.
+/// The group of each row (field::group).
 class Groups {
  public:
   explicit Groups(const World& world) : body_(world.particles[field::body]) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
       const bool free = world.bodies[field::body_motion][b] == static_cast<int>(Motion::free);
-      of_.push_back(!is_rigid(world, b) ? -2.0 : free ? 1.0 + static_cast<double>(b) : 0.0);
+      of_.push_back(!is_rigid(world, b) ? deformable_group : free ? 1.0 + static_cast<double>(b) : wall_group);
     }
   }
   [[nodiscard]] double operator()(std::size_t row) const {
-    return body_[row] < 0 ? -1.0 : of_[static_cast<std::size_t>(body_[row])];
+    return body_[row] < 0 ? liquid_group : of_[static_cast<std::size_t>(body_[row])];
   }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/fluid/fluid_ledger.hpp"
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid/fluid_terms.hpp"
 #include "scene/shared_terms.hpp"
 #include "world/ordered_sum.hpp"

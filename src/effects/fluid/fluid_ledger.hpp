@@ -6,7 +6,7 @@
 
 namespace tripoint::fluid {
 
-/// Momentum and energies of liquids, and the energy of compression, core and interfaces of all that exerts pressure (model 8.11).
+/// Adds the energy of compression, core and interfaces of all that exerts pressure [J] (model 8.11).
 void add_fluid(const World&, const SceneNumbers&, const PairKernels&, const InterfaceWeight&, Ledger&);
 
 }  // namespace tripoint::fluid

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/machine.hpp"
+#include "effects/fluid/fields.hpp"
 #include "scene/shared_terms.hpp"
 #include "world/body_table.hpp"
 #include "world/failure.hpp"
@@ -17,7 +18,7 @@ void refuse_overlap(const World& world, const SceneNumbers& n) {
   const Particles& p = world.particles;
   if (!p.has(field::number_density) || is_off(world.scene, "overlap")) return;
   const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
-  const auto pressed = [&](std::size_t i) { return group[i] == 0.0 ? 0.0 : rho[i] / rest[i]; };
+  const auto pressed = [&](std::size_t i) { return group[i] == wall_group ? 0.0 : rho[i] / rest[i]; };
   double most = 0.0;
 #pragma omp parallel for schedule(static) num_threads(world.threads) reduction(max : most) if (p.moving() > worth_threads)
   for (std::size_t i = 0; i < p.moving(); ++i) most = std::max(most, pressed(i));
@@ -63,7 +64,7 @@ void set_pressure_shares(World& world, const SceneNumbers& n) {
   const auto q = p.has(field::bulk_pressure) ? p[field::bulk_pressure] : std::span<double>{};
   // At a free surface a particle has few neighbours, and is not thinned: it presses on its rest volume.
   const auto pressed = [&](std::size_t i) {
-    return n.surface_head > 0.0 && group[i] == -1.0 ? std::min(V[i], m[i] / rest[i]) : V[i];
+    return n.surface_head > 0.0 && group[i] == liquid_group ? std::min(V[i], m[i] / rest[i]) : V[i];
   };
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (p.awake() > worth_threads)
   for (std::size_t i = 0; i < p.awake(); ++i) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <type_traits>
 
+#include "effects/fluid/fields.hpp"
 #include "sph/pass.hpp"
 
 /// Pair terms of liquids, and of everything that touches: density, pressure and viscosity, printed and corrected.
@@ -19,11 +20,10 @@ struct NumberDensity {
   }
 };
 
-/// Where a pair acts: not where both are members of one rigid body, or both are wall. Liquids have group -1, deformable solids
-/// -2.
+/// Where a pair acts: not where both are members of one rigid body, or both are wall.
 template <class V>
 [[nodiscard]] inline MaskOf<V> acts(V group_i, V group_j) noexcept {
-  return (group_j < 0.0) | (group_i != group_j);
+  return (group_j < wall_group) | (group_i != group_j);
 }
 
 /// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "effects/fluid/rule.hpp"
+#include "effects/fluid/fields.hpp"
+#include "effects/fluid/pressing_gravity.hpp"
 #include "scene/effect_rule.hpp"
 
 namespace tripoint::fluid {
@@ -13,15 +14,14 @@ namespace {
 
 constexpr std::array<const Field<double>*, 3> forces{&field::force_x, &field::force_y, &field::force_z};
 
-/// Liquids have the group -1.
 bool are_unlike(double group_i, double rest_i, double group_j, double rest_j) {
-  return group_i == -1.0 && group_j == -1.0 && rest_i != rest_j;
+  return group_i == liquid_group && group_j == liquid_group && rest_i != rest_j;
 }
 
 }  // namespace
 
 InterfaceWeight::InterfaceWeight(const Scene& scene) : gravity_(pressing_gravity(scene)) {
-  const double share = no_interface_weight(scene).empty() ? kept_number(scene.values, key_row("scene", "interface_weight")) : 0.0;
+  const double share = acting_number(scene, "interface_weight");
   if (share == 0.0) return;
   const double dx = scene.spacing, V0 = dx * dx * dx;
   factor_ = 0.5 * share * V0 * V0 / wendland_moments(scene.support_ratio).gradient;
@@ -38,7 +38,7 @@ void InterfaceWeight::find(const World& world) {
   start_.assign(1, 0);
   pairs_.clear();
   for (std::uint32_t i = 0; i < p.moving(); ++i) {
-    if (group[i] != -1.0) continue;
+    if (group[i] != liquid_group) continue;
     for (const Entry e : world.neighbours->of(i)) {
       const auto j = static_cast<std::uint32_t>(e.row());
       if (are_unlike(group[i], rest[i], group[j], rest[j])) pairs_.push_back({j, e.image()});
@@ -81,7 +81,7 @@ double InterfaceWeight::energy(const World& world, const PairKernels& kernels, s
   const auto group = p[field::group], rest = p[field::rest_density];
   const auto x = positions(p);
   double sum = 0.0;
-  if (group[i] != -1.0) return sum;
+  if (group[i] != liquid_group) return sum;
   for (const Entry e : world.neighbours->of(i)) {
     const std::size_t j = e.row();
     if (!are_unlike(group[i], rest[i], group[j], rest[j])) continue;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "effects/fluid/laid_walls.hpp"
 
+#include "effects/fluid/fields.hpp"
+
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -12,7 +14,7 @@ namespace {
 constexpr std::array<const Field<double>*, 1> densities{&field::number_density};
 constexpr std::array<const Field<double>*, 3> forces{&field::force_x, &field::force_y, &field::force_z};
 
-bool is_liquid(double group) { return group == -1.0; }
+bool is_liquid(double group) { return group == liquid_group; }
 
 }  // namespace
 
@@ -26,7 +28,7 @@ void LaidWalls::find_moves(World& world) {
   const auto x = positions(p);
   const double dx = world.scene.spacing;
   const auto fixed = [&](std::size_t row) {
-    return group[row] == 0.0 &&
+    return group[row] == wall_group &&
            world.bodies[field::body_motion][static_cast<std::size_t>(body[row])] == static_cast<int>(Motion::fixed);
   };
   const auto first_of = [&](std::size_t row) { return 6 * static_cast<std::size_t>(source[row]); };

@@ -6,7 +6,7 @@
 
 #include "core/errors.hpp"
 #include "effects/fluid/bulk_viscosity.hpp"
-#include "effects/fluid/rule.hpp"
+#include "effects/fluid/pressing_gravity.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 #include "sph/lattice.hpp"
@@ -34,15 +34,9 @@ double least_density(const Scene& scene) {
   return least;
 }
 
-/// What of its own weight the topmost layer of a liquid bears as pressure: scene.surface_weight, 0 where liquids of this scene
-/// can bear none.
-double surface_weight(const Scene& scene) {
-  return no_surface_weight(scene).empty() ? kept_number(scene.values, key_row("scene", "surface_weight")) : 0.0;
-}
-
 /// Weight of pairs in `central` viscosity: scene.isotropic_shear of it is that with which the lattice resists all shears alike.
 ShearWeight shear_weight(const Scene& scene) {
-  const double share = no_isotropic_shear(scene).empty() ? kept_number(scene.values, key_row("scene", "isotropic_shear")) : 0.0;
+  const double share = acting_number(scene, "isotropic_shear");
   if (share == 0.0) return {};
   const ShearWeight isotropic = isotropic_shear(scene.support_ratio);
   return {1.0 + share * (isotropic.constant - 1.0), share * isotropic.square / (scene.spacing * scene.spacing)};
@@ -61,23 +55,21 @@ SceneNumbers numbers_of(const Scene& scene) {
   const double lightest = least_density(scene);
   n.damped_density = 4.0 * lightest;
   n.bulk_viscosity = bulk_viscosity(scene);
-  if (no_transport(scene).empty()) {
-    n.mean_pressure = kept_number(scene.values, key_row("scene", "mean_pressure"));
-    n.sound_damping = kept_number(scene.values, key_row("scene", "sound_damping"));
-  }
+  n.mean_pressure = acting_number(scene, "mean_pressure");
+  n.sound_damping = acting_number(scene, "sound_damping");
   n.rest_volume = scene.spacing * scene.spacing * scene.spacing;
   const bool paper = scene.mode_of(term::state) == Mode::paper;
-  n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, -1.0, lightest, false));
+  n.sound_speed = paper ? std::sqrt(n.stiffness) : sound_speed(state_of(n, liquid_group, lightest, false));
   const LatticeMoments moments = wendland_moments(scene.support_ratio);
   n.lattice_density = moments.density;
   n.overlap_density = 1.0 + moments.layer / moments.density;
   n.gradient_moment = moments.gradient;
   n.half_full = 0.5 * (1.0 + moments.layer / moments.density);
-  n.surface_head = surface_weight(scene) * norm(pressing_gravity(scene)) * scene.spacing;
+  n.surface_head = acting_number(scene, "surface_weight") * norm(pressing_gravity(scene)) * scene.spacing;
   n.least_exposure = 0.25 * (1.0 - moments.layer / moments.density);  // half of what a plane face has
   if (scene.mode_of(term::pressure) == Mode::corrected) n.pressure_work = n.lattice_density / n.gradient_moment;
   n.core_stiffness = 0.03 * n.stiffness * n.reference_density * scene.spacing;
-  n.core_reach = kept_number(scene.values, key_row("scene", "core_reach")) * scene.spacing;
+  n.core_reach = acting_number(scene, "core_reach") * scene.spacing;
   const bool corrected = std::ranges::all_of(std::array{term::walls, term::density, term::pressure},
                                              [&](const Term& t) { return scene.mode_of(t) == Mode::corrected; });
   const bool freezes = calls_for(scene, "phase");
@@ -85,8 +77,8 @@ SceneNumbers numbers_of(const Scene& scene) {
                      !any_body(scene, [](const Body& b) { return b.phase != Phase::liquid && b.motion == Motion::free; });
   // Half of what a wall particle sees is wall, which does not move: it reads half of the strain of the liquid.
   if (n.averages_walls) n.wall_stiffness = 2.0;
-  if (no_contact_stiffness(scene).empty())
-    n.wall_stiffness = n.solid_stiffness = 1.0 + kept_number(scene.values, key_row("scene", "contact_stiffness"));
+  if (const double stiffer = acting_number(scene, "contact_stiffness"); stiffer > 0.0)
+    n.wall_stiffness = n.solid_stiffness = 1.0 + stiffer;
   n.contact_speed = std::sqrt(n.solid_stiffness) * n.sound_speed;
   return n;
 }

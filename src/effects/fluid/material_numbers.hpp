@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include "effects/fluid/equation_of_state.hpp"
+#include "particles/catalogue.hpp"
 #include "scene/scene.hpp"
 #include "sph/kernels.hpp"
 
@@ -38,11 +39,11 @@ struct SceneNumbers {
 /// The kernels of the scene with its core and its lattice moment.
 [[nodiscard]] PairKernels pair_kernels(const Scene&);
 
-/// @param group of the particle, `field::group`: 0 is wall, -1 liquid
+/// @param group of the particle, field::group
 [[nodiscard]] inline EquationOfState state_of(const SceneNumbers& n, double group, double rest_density, bool clamp) {
-  const double share = group == -1.0 ? 1.0 : group == 0.0 ? n.wall_stiffness : n.solid_stiffness;
+  const double share = group == liquid_group ? 1.0 : group == wall_group ? n.wall_stiffness : n.solid_stiffness;
   const double stiffness = share * n.stiffness;
-  const double surface = group == -1.0 && clamp ? n.surface_head * rest_density : 0.0;
+  const double surface = group == liquid_group && clamp ? n.surface_head * rest_density : 0.0;
   return {stiffness, rest_density, n.reference_density, clamp, n.pressure_work, surface, n.half_full};
 }
 

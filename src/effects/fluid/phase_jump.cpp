@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid/fluid_terms.hpp"
 #include "scene/shared_terms.hpp"
 

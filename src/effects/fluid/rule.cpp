@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/fluid/rule.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "effects/fluid/pressing_gravity.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 #include "scene/table_reader.hpp"
@@ -58,6 +57,71 @@ std::string solid_viscosity_idle(const Scene& scene) {
   return scene.mode_of(term::viscosity) == Mode::paper
              ? ""
              : "viscosity is corrected: a liquid takes its own beside a solid, and solids scene.contact_viscosity";
+}
+
+/// Why liquids can have no numerical bulk viscosity: nothing is liquid; it freezes, which changes densities at once; density,
+/// pressure or state are printed; or the scene does not clamp, so that no free surface or contact can be.
+std::string no_bulk_viscosity(const Scene& scene) {
+  if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
+  if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
+  for (const Term& one : {term::density, term::pressure, term::state})
+    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
+  return scene.clamps() ? "" : "the scene does not clamp";
+}
+
+/// Why the topmost layer of a liquid can bear no part of its own weight: as for the numerical bulk viscosity, nothing weighs, or
+/// a free body at the surface weighs what it likes.
+std::string no_surface_weight(const Scene& scene) {
+  if (any_body(scene,
+               [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }))
+    return "a free body that floats would be lifted by it";
+  if (pressing_gravity(scene) == Vec3{})
+    return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
+  return no_bulk_viscosity(scene);
+}
+
+std::string no_interface_weight(const Scene& scene) {
+  if (pressing_gravity(scene) == Vec3{}) return "gravity presses nothing down";
+  std::vector<double> densities;
+  for (const Body& b : scene.bodies)
+    if (b.phase == Phase::liquid) densities.push_back(scene.material(b.material).density);
+  for (const Inflow& f : scene.inflows) densities.push_back(scene.material(f.material).density);
+  if (std::ranges::all_of(densities, [&](double rho) { return rho == densities.front(); })) return "all liquids are as heavy";
+  return no_bulk_viscosity(scene);
+}
+
+std::string no_isotropic_shear(const Scene& s) {
+  if (s.mode_of(term::viscosity) == Mode::paper) return "viscosity is as printed";
+  if (s.viscosity_form != ViscosityForm::central) return "the viscosity is not central";
+  if (s.contact_viscosity > 0.0) return "";
+  return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
+}
+
+std::string no_transport(const Scene& scene) {
+  for (const Term& one : {term::density, term::pressure, term::state})
+    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
+  return scene.transport_velocity ? "" : "particles move with their own velocity: transport_velocity is false";
+}
+
+std::string no_core(const Scene& scene) {
+  return scene.mode_of(term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
+}
+
+std::string no_contact_stiffness(const Scene& s) {
+  if (s.mode_of(term::state) == Mode::paper) return "the equation of state is as printed";
+  if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
+  const auto free_solid = [](const Scene&, const Body& b, const Material&) {
+    return b.phase != Phase::liquid && b.motion == Motion::free;
+  };
+  return any_body(s, free_solid) ? "" : "no solid is free to touch another";
+}
+
+std::string no_face_pressure(const Scene& s) {
+  for (const Term term : {term::density, term::pressure, term::state, term::elastic})
+    if (s.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", term.name);
+  if (!calls_for(s, "elastic")) return "nothing elastic moves";
+  if (calls_for(s, "phase")) return "where matter melts or freezes, its shape of reference changes at once";
+  return calls_for(s, "fracture") ? "where bonds break, the shape of reference changes at once" : "";
 }
 
 /// Keys of the case file.
@@ -165,83 +229,17 @@ void settle_material(TableReader& in, Material& m) {
 
 }  // namespace
 
-std::string no_bulk_viscosity(const Scene& scene) {
-  if (scene.inflows.empty() && !any_body(scene, is_liquid)) return "nothing is liquid";
-  if (calls_for(scene, "phase")) return "where matter melts or freezes, densities change at once";
-  for (const Term& one : {term::density, term::pressure, term::state})
-    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
-  return scene.clamps() ? "" : "the scene does not clamp";
-}
-
-Vec3 pressing_gravity(const Scene& scene) {
-  Vec3 g = scene.gravity;
-  for (std::size_t a = 0; a < 3; ++a)
-    if (scene.periodic[a]) g[a] = 0.0;
-  return g;
-}
-
-std::string no_surface_weight(const Scene& scene) {
-  if (any_body(scene,
-               [](const Scene&, const Body& b, const Material&) { return b.phase != Phase::liquid && b.motion == Motion::free; }))
-    return "a free body that floats would be lifted by it";
-  if (pressing_gravity(scene) == Vec3{})
-    return "gravity presses nothing down: there is none, or it acts along periodic directions alone";
-  return no_bulk_viscosity(scene);
-}
-
-std::string no_interface_weight(const Scene& scene) {
-  if (pressing_gravity(scene) == Vec3{}) return "gravity presses nothing down";
-  std::vector<double> densities;
-  for (const Body& b : scene.bodies)
-    if (b.phase == Phase::liquid) densities.push_back(scene.material(b.material).density);
-  for (const Inflow& f : scene.inflows) densities.push_back(scene.material(f.material).density);
-  if (std::ranges::all_of(densities, [&](double rho) { return rho == densities.front(); })) return "all liquids are as heavy";
-  return no_bulk_viscosity(scene);
-}
-
-std::string no_isotropic_shear(const Scene& s) {
-  if (s.mode_of(term::viscosity) == Mode::paper) return "viscosity is as printed";
-  if (s.viscosity_form != "central") return "the viscosity is not central";
-  if (s.contact_viscosity > 0.0) return "";
-  return any_material(s, [](const Material& m) { return m.viscosity > 0.0; }) ? "" : "nothing is viscous";
-}
-
-std::string no_transport(const Scene& scene) {
-  for (const Term& one : {term::density, term::pressure, term::state})
-    if (scene.mode_of(one) != Mode::corrected) return fmt::format("{} is as printed", one.name);
-  return scene.transport_velocity ? "" : "particles move with their own velocity: transport_velocity is false";
-}
-
-std::string no_core(const Scene& scene) {
-  return scene.mode_of(term::pressure) == Mode::paper ? "the pressure is as printed, and has no core" : "";
-}
-
-std::string no_contact_stiffness(const Scene& s) {
-  if (s.mode_of(term::state) == Mode::paper) return "the equation of state is as printed";
-  if (calls_for(s, "phase")) return "where matter melts or freezes, its stiffness would change at once";
-  const auto free_solid = [](const Scene&, const Body& b, const Material&) {
-    return b.phase != Phase::liquid && b.motion == Motion::free;
-  };
-  return any_body(s, free_solid) ? "" : "no solid is free to touch another";
-}
-
-std::string no_face_pressure(const Scene& s) {
-  for (const Term term : {term::density, term::pressure, term::state, term::elastic})
-    if (s.mode_of(term) != Mode::corrected) return fmt::format("{} is as printed", term.name);
-  if (!calls_for(s, "elastic")) return "nothing elastic moves";
-  if (calls_for(s, "phase")) return "where matter melts or freezes, its shape of reference changes at once";
-  return calls_for(s, "fracture") ? "where bonds break, the shape of reference changes at once" : "";
-}
-
 EffectRule rule() {
-  return {"fluid",
-          called_for,
-          left_out,
-          nullptr,
-          {term::pressure, term::density, term::state, {term::clamp, TermKind::law, false}, term::viscosity, term::walls},
-          {term::kernel},
-          keys(),
-          settle_material};
+  return {
+      .name = "fluid",
+      .called_for = called_for,
+      .left_out = left_out,
+      .terms = {term::pressure, term::density, term::state, {term::clamp, TermKind::law, false}, term::viscosity, term::walls},
+      .terms_shared = {term::kernel},
+      .keys = keys(),
+      .settle_material = settle_material,
+      .ledger_entries = {"compression", "pressure_work", "phase_work", "viscous", "bulk_viscous", "transport"},
+      .over_processes = true};
 }
 
 }  // namespace tripoint::fluid

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid/transport_terms.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
@@ -23,7 +24,7 @@ void set_mean_pressure(World& world, const SceneNumbers& n) {
   const double viscosity = n.sound_damping * n.sound_speed * world.support() / n.gradient_moment;  // [m2/s]
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (group[i] != -1.0) continue;  // walls keep theirs
+    if (group[i] != liquid_group) continue;  // walls keep theirs
     pressure[i] += weight * around[i];
     q[i] = viscosity * std::min(rest[i], n.damped_density) * (V[i] * nearing[i]);
   }

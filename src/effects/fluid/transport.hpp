@@ -13,10 +13,10 @@ namespace tripoint::fluid {
 /// Whether scene.mean_pressure or scene.sound_damping acts.
 [[nodiscard]] inline bool has_transport_means(const SceneNumbers& n) { return n.mean_pressure > 0.0 || n.sound_damping > 0.0; }
 
-/// Background and stress forces from the present places and the last shift. Where has_transport_means(), also the pressure of
-/// liquids as the share scene.mean_pressure of its mean over liquid neighbours, p_i + s V0/S0 sum W (p_j - p_i) [Pa], and beside
-/// it the numerical bulk viscosity q = -zeta rho0 c h div v [Pa], zeta = scene.sound_damping (model 8.3). The pressure has to be
-/// that of each particle's own density before.
+/// Sets the background force and the stress force from the present places and the last shift [N]. Where has_transport_means(),
+/// it also sets two pressures of liquids (model 8.3). With s = scene.mean_pressure, the pressure becomes
+/// p_i + s V0/S0 sum W (p_j - p_i) [Pa], summed over liquid neighbours. With zeta = scene.sound_damping, the numerical bulk
+/// viscosity is q = -zeta rho0 c h div v [Pa]. @pre the pressure is that of each particle's own density
 void set_transport_forces(World&, const SceneNumbers&, const PairKernels&);
 /// w = dt/2 (background force)/m of liquids, for the step that begins [m/s].
 void set_shift(World&, double dt);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "effects/fluid/fields.hpp"
 #include "sph/pass.hpp"
 
 namespace tripoint {
@@ -41,7 +42,7 @@ struct TransportMeans {
     const V p_i = i[0], group_i = i[1], vx_i = i[2], vy_i = i[3], vz_i = i[4];
     const V p_j = j[0], group_j = j[1], vx_j = j[2], vy_j = j[3], vz_j = j[4];
     const V W = g.kernels.wendland.value_inside(g.r);
-    sum[0] += where((group_i == -1.0) & (group_j == -1.0), W * (p_j - p_i));
+    sum[0] += where((group_i == liquid_group) & (group_j == liquid_group), W * (p_j - p_i));
     sum[1] += g.gradient * ((vx_j - vx_i) * g.dx + (vy_j - vy_i) * g.dy + (vz_j - vz_i) * g.dz);
   }
 };

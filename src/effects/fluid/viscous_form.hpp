@@ -18,7 +18,7 @@ inline constexpr ViscousForm viscous_form{pair_term<Viscosity>, pair_term<Viscou
 /// The viscosity of a scene.
 [[nodiscard]] inline ViscousForm viscous_form_of(const Scene& scene, const PairKernels& kernels) {
   if (scene.mode_of(term::viscosity) == Mode::paper) return viscous_form<ViscosityPaper>;
-  if (scene.viscosity_form == "laplacian") return viscous_form<ViscosityLaplacian>;
+  if (scene.viscosity_form == ViscosityForm::laplacian) return viscous_form<ViscosityLaplacian>;
   return kernels.shear.even() ? viscous_form<ViscosityCentral> : viscous_form<ViscosityCentralWeighted>;
 }
 

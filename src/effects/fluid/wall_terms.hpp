@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid/fluid_terms.hpp"
 
 /// Pair terms of walls (model 8.4). d = r_j - r_i.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <compare>
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid/laid_walls.hpp"
 #include "effects/fluid/wall_terms.hpp"
 #include "passes/pair_passes.hpp"
@@ -16,7 +17,6 @@
 namespace tripoint::fluid {
 namespace {
 
-constexpr double wall_group = 0.0, liquid_group = -1.0;
 constexpr int fixed_frame = -1;
 constexpr std::array<const Field<double>*, 3> seen_velocity{&field::viscous_velocity_x, &field::viscous_velocity_y,
                                                             &field::viscous_velocity_z};
@@ -43,7 +43,8 @@ struct Share {
 
 }  // namespace
 
-/// What is fixed and was wet before is seen at rest again.
+/// Finds the walls with liquid in reach, anew after each rebuild of the lists. The viscous velocities of fixed walls, which only
+/// wet ones are given, become 0 again.
 void Walls::find(World& world) {
   if (known_ == world.neighbours->rebuilds()) return;
   known_ = world.neighbours->rebuilds();
@@ -66,7 +67,7 @@ void Walls::find(World& world) {
   wet_ = clusters_of(c, wet_walls_);
 }
 
-/// Of numbers by id, copies take those of their owners: only there all that is near is seen.
+/// Copies take the owner's number, since the owner alone sees all neighbours. @param by_id a number for each particle
 template <class T>
 void hand_to_copies(const World& world, std::vector<T>& by_id) {
   if (!world.halo) return;

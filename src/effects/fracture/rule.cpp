@@ -15,17 +15,26 @@ std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"material", "fracture_stretch", number, "", above_one, "", "never breaks", "",
-        "corrected: stretch |r|/|x| that breaks a bond"},
-       &Material::fracture_stretch},
-      {{"material", "fracture_distance", number, "", positive, "", "never breaks", "",
-        "paper: distance that breaks a bond, in spacings"},
-       &Material::fracture_distance},
+      {.row = {"material", "fracture_stretch", number, "", above_one, "", "never breaks", "",
+               "corrected: stretch |r|/|x| that breaks a bond"},
+       .kept_in = &Material::fracture_stretch,
+       .limit = true},
+      {.row = {"material", "fracture_distance", number, "", positive, "", "never breaks", "",
+               "paper: distance that breaks a bond, in spacings"},
+       .kept_in = &Material::fracture_distance,
+       .limit = true},
   };
 }
 
 }  // namespace
 
-EffectRule rule() { return {"fracture", called_for, left_out, nullptr, {}, {}, keys()}; }
+EffectRule rule() {
+  return {.name = "fracture",
+          .called_for = called_for,
+          .left_out = left_out,
+          .keys = keys(),
+          .ledger_entries = {"fracture"},
+          .over_processes = true};
+}
 
 }  // namespace tripoint::fracture

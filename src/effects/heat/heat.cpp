@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "effects/heat/fields.hpp"
 #include "effects/heat/heat_corrected.hpp"
 #include "effects/heat/heat_equal.hpp"
 #include "effects/heat/heat_paper.hpp"

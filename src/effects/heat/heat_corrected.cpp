@@ -6,6 +6,7 @@
 
 #include "core/machine.hpp"
 #include "effects/heat/enthalpy.hpp"
+#include "effects/heat/fields.hpp"
 #include "effects/heat/heat_terms.hpp"
 #include "effects/heat/thermal_particles.hpp"
 #include "solids/fusion.hpp"

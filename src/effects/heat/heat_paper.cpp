@@ -5,6 +5,7 @@
 
 #include "core/machine.hpp"
 #include "effects/heat/enthalpy.hpp"
+#include "effects/heat/fields.hpp"
 #include "effects/heat/heat_terms.hpp"
 #include "effects/heat/thermal_particles.hpp"
 #include "scene/effect_rule.hpp"

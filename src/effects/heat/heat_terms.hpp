@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "effects/heat/fields.hpp"
 #include "sph/pass.hpp"
 
 namespace tripoint {

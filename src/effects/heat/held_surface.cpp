@@ -8,6 +8,7 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "effects/heat/fields.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/geometry.hpp"
 #include "scene/shared_terms.hpp"
@@ -24,10 +25,7 @@ constexpr double least_distance = 0.25;
 /// apart.
 constexpr double same_place = 0.75;
 
-bool acts(const Scene& scene) {
-  const auto given = scene.values.find("surface_exchange");
-  return given == scene.values.end() || given->second != 0.0;
-}
+bool acts(const Scene& scene) { return kept_number(scene.values, key_row("scene", "surface_exchange")) != 0.0; }
 
 /// Particles as they were laid, by cells of one spacing.
 class Laid {

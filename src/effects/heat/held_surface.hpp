@@ -31,7 +31,7 @@ class HeldSurfaces {
   /// Sums of a pass start with the share of what lies beyond, not with 0: of the pass of densities M_i, of others the flow of
   /// heat [W] and the conductance [W/K].
   void start_sums(World&, PassName) const;
-  /// What holds the surfaces has given the heat of a stage: account `walls`, and what each body was given. Before the stage.
+  /// Books the heat that a stage takes from held surfaces, on the account `walls` and by body. Call it before the stage.
   /// @param dt length of the step [s]
   void book(World&, Stage, double dt);
 

@@ -98,10 +98,15 @@ void settle_material(TableReader& in, Material& m) {
 
 /// As printed it divides by sums of density.
 EffectRule rule() {
-  return {"heat",       called_for,
-          left_out,     nullptr,
-          {term::heat}, {term::kernel, term::pressure, term::density, term::state, term::clamp, term::viscosity, term::walls},
-          keys(),       settle_material};
+  return {.name = "heat",
+          .called_for = called_for,
+          .left_out = left_out,
+          .terms = {term::heat},
+          .terms_shared = {term::kernel, term::pressure, term::density, term::state, term::clamp, term::viscosity, term::walls},
+          .keys = keys(),
+          .settle_material = settle_material,
+          .ledger_entries = {"thermal", "latent"},
+          .over_processes = true};
 }
 
 }  // namespace tripoint::heat

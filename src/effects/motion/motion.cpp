@@ -20,7 +20,7 @@ class FreeMotion : public Effect {
   void add_to(const World&, Ledger&) const override;
 
  private:
-  enum Work : std::size_t { by_gravity = most_forces, works_on_free, works = works_on_free + most_forces };
+  enum Work : std::size_t { by_gravity = most_forces, works_on_driven, works = works_on_driven + most_forces };
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
 };
 
@@ -38,7 +38,7 @@ void FreeMotion::kick(World& world, double dt) {
   const auto sums = ordered_sums(world, blocks_, [&](std::size_t i, std::array<double, works>& work) {
     if (is_member(i)) return;
     if (guided && driven[i] != 0) {  // whoever moves it takes the work
-      for (std::size_t k = 0; k < forces.size(); ++k) work[works_on_free + k] += dt * dot(forces[k].at(i), v.at(i));
+      for (std::size_t k = 0; k < forces.size(); ++k) work[works_on_driven + k] += dt * dot(forces[k].at(i), v.at(i));
       return;
     }
     const Vec3 before = v.at(i), after = before + (dt / m[i]) * total_force(forces, i) + dt * g;
@@ -49,7 +49,7 @@ void FreeMotion::kick(World& world, double dt) {
   });
   for (std::size_t k = 0; k < forces.size(); ++k) {
     world.booked[world.forces[k].work] += sums[k];
-    world.booked[work_on_driven(world.forces[k])] += sums[works_on_free + k];
+    world.booked[work_on_driven(world.forces[k])] += sums[works_on_driven + k];
   }
   world.booked[account::gravity_work] += sums[by_gravity];
 }
@@ -84,7 +84,7 @@ TimeStepBound FreeMotion::max_dt(const World& world) const {
     a2 = std::max(a2, dot(a, a));
   }
   TimeStepBound bound;
-  if (a2 > 0.0) tighten(bound, 0.25 * std::sqrt(world.support() / std::sqrt(a2)), "acceleration");
+  if (a2 > 0.0) tighten(bound, acceleration_step(world.support(), std::sqrt(a2)), "acceleration");
   return bound;
 }
 

@@ -13,6 +13,8 @@ std::string needed_for(const Scene& s, const Called& called) {
 
 }  // namespace
 
-EffectRule rule() { return {"motion", nullptr, nullptr, needed_for}; }
+EffectRule rule() {
+  return {.name = "motion", .needed_for = needed_for, .ledger_entries = {"kinetic", "potential"}, .over_processes = true};
+}
 
 }  // namespace tripoint::motion

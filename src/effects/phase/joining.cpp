@@ -13,14 +13,6 @@
 namespace tripoint::phase {
 namespace {
 
-/// By cofactors. @param a det a > 0
-Matrix3 inverse(const Matrix3& a) {
-  const double per_det = 1.0 / determinant(a);
-  return per_det * Matrix3{a.yy * a.zz - a.yz * a.zy, a.xz * a.zy - a.xy * a.zz, a.xy * a.yz - a.xz * a.yy,
-                           a.yz * a.zx - a.yx * a.zz, a.xx * a.zz - a.xz * a.zx, a.xz * a.yx - a.xx * a.yz,
-                           a.yx * a.zy - a.yy * a.zx, a.xy * a.zx - a.xx * a.zy, a.xx * a.yy - a.xy * a.yx};
-}
-
 void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
   if (!p.has(field::plastic_strain_xx.name)) return;
   const Symmetric e = symmetric_part(R * full(solid::plastic_strain_of(p, row)) * transposed(R));

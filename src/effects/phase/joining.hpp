@@ -20,8 +20,8 @@ struct Joint {
 /// the present frame, and takes the new vector in its reference, F_j^-1 r_ji: nothing of j jumps.
 void bond(World&, const std::vector<Joint>&);
 
-/// Of a list without strain energy, as that of a member of a rigid body without a deformable partner: the vectors to its mates,
-/// which are as they were but for the body's turn, become the present ones.
+/// For a list without strain energy, as a member of a rigid body has that is bonded to no deformable partner: the present vectors
+/// to its bonded neighbours become its reference vectors. They differ by the body's rotation alone.
 void take_present_vectors(World&, const ElasticityKernel&, std::uint32_t id);
 
 /// What froze and is deformable meets the near members of its body through their bonds alone from now on.

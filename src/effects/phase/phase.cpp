@@ -37,9 +37,9 @@ class PhaseChange : public Effect {
   std::optional<Account> account_;  ///< of the step that is being taken
 };
 
-/// What a particle's bonds store half a drift back; nothing where no body can deform. Of the kicks around a drift the first has
-/// the forces of before the change and the second those of after it: what the change itself lets go is, to second order in the
-/// step, the difference half way.
+/// Strain energy of a particle's bonds half a drift ago [J]; 0 where no body can deform. The kick before a drift has the forces
+/// of before the change, the kick after it the new ones. So the change lets go the difference of energies half way, to second
+/// order in the step.
 Account::Energy energy_of(const World& world, double back) {
   if (!world.particles.has(field::shape_rank.name)) return [](std::uint32_t) { return 0.0; };
   return [&world, back, forms = solid::ElasticForms(world.scene)](std::uint32_t id) {

@@ -67,6 +67,15 @@ void settle_material(TableReader& in, Material& m) {
 
 }  // namespace
 
-EffectRule rule() { return {"phase", called_for, left_out, nullptr, {term::phase}, {}, keys(), settle_material}; }
+EffectRule rule() {
+  return {.name = "phase",
+          .called_for = called_for,
+          .left_out = left_out,
+          .terms = {term::phase},
+          .keys = keys(),
+          .settle_material = settle_material,
+          .ledger_entries = {"phase_work"},
+          .over_processes = true};
+}
 
 }  // namespace tripoint::phase

@@ -47,7 +47,7 @@ bool volumes_follow_lists(const World& world) { return world.scene.mode_of(term:
 
 /// What a solid particle is at this liquid fraction, of a material that may turn.
 Phase solid_phase(const Scene& scene, const Material& m, double f) {
-  if (m.solid != "rigid") return Phase::elastic;
+  if (m.solid != SolidKind::rigid) return Phase::elastic;
   return turns_elastic(scene, m) && f > 0.0 ? Phase::elastic : Phase::rigid;
 }
 

@@ -16,10 +16,13 @@ std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
   return {
-      {{"material", "elastic_limit", number, "", positive, "", "never yields", "", "deviatoric strain where plastic flow begins"},
-       &Material::elastic_limit},
-      {{"material", "plastic_limit", number, "", positive, "", "flows without end", "", "largest plastic strain"},
-       &Material::plastic_limit},
+      {.row = {"material", "elastic_limit", number, "", positive, "", "never yields", "",
+               "deviatoric strain where plastic flow begins"},
+       .kept_in = &Material::elastic_limit,
+       .limit = true},
+      {.row = {"material", "plastic_limit", number, "", positive, "", "flows without end", "", "largest plastic strain"},
+       .kept_in = &Material::plastic_limit,
+       .limit = true},
   };
 }
 
@@ -30,6 +33,14 @@ void settle_material(TableReader& in, Material& m) {
 
 }  // namespace
 
-EffectRule rule() { return {"plastic", called_for, left_out, nullptr, {}, {}, keys(), settle_material}; }
+EffectRule rule() {
+  return {.name = "plastic",
+          .called_for = called_for,
+          .left_out = left_out,
+          .keys = keys(),
+          .settle_material = settle_material,
+          .ledger_entries = {"plastic"},
+          .over_processes = true};
+}
 
 }  // namespace tripoint::plastic

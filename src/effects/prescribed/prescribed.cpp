@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "effects/prescribed/fields.hpp"
 #include "effects/prescribed/inflow.hpp"
 #include "scene/geometry.hpp"
 #include "scene/shared_terms.hpp"

@@ -22,6 +22,8 @@ std::string needed_for(const Scene& s, const Called& called) {
 
 }  // namespace
 
-EffectRule rule() { return {"prescribed", nullptr, nullptr, needed_for}; }
+EffectRule rule() {
+  return {.name = "prescribed", .needed_for = needed_for, .ledger_entries = {"inflow"}, .over_processes = true};
+}
 
 }  // namespace tripoint::prescribed

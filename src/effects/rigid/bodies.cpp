@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/errors.hpp"
+#include "effects/rigid/fields.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "scene/sample.hpp"
 #include "world/rows_loop.hpp"

@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "effects/rigid/adopt.hpp"
 #include "effects/rigid/bodies.hpp"
+#include "effects/rigid/fields.hpp"
 #include "effects/rigid/merge_split.hpp"
 #include "effects/rigid/rotation.hpp"
 #include "effects/rigid/terms.hpp"
@@ -300,7 +301,7 @@ TimeStepBound RigidBodies::max_dt(const World& world) const {
     if (!is_free(world, b)) continue;
     const double spin = norm(world.bodies[field::body_angular_velocity][b]);
     if (spin > 0.0) tighten(bound, 0.5 / spin, "rotation");
-    if (g > 0.0) tighten(bound, 0.25 * std::sqrt(world.support() / g), "acceleration");
+    if (g > 0.0) tighten(bound, acceleration_step(world.support(), g), "acceleration");
   }
   return bound;
 }

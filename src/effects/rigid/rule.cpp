@@ -21,13 +21,21 @@ std::string needed_for(const Scene& s, const Called& called) {
     return b.phase == Phase::rigid || (b.phase == Phase::elastic && b.motion != Motion::free);
   };
   if (any_body(s, driven)) return "fixed and prescribed bodies move as rigid ones";
-  if (called("phase") && any_material(s, [](const Material& m) { return m.t_melt && m.solid == "rigid"; }))
+  if (called("phase") && any_material(s, [](const Material& m) { return m.t_melt && m.solid == SolidKind::rigid; }))
     return "what freezes becomes rigid";
   return "";
 }
 
 }  // namespace
 
-EffectRule rule() { return {"rigid", called_for, left_out, needed_for, {{term::rotation, TermKind::time}}}; }
+EffectRule rule() {
+  return {.name = "rigid",
+          .called_for = called_for,
+          .left_out = left_out,
+          .needed_for = needed_for,
+          .terms = {{term::rotation, TermKind::time}},
+          .ledger_entries = {"kinetic", "potential"},
+          .over_processes = true};
+}
 
 }  // namespace tripoint::rigid

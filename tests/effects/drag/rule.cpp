@@ -23,6 +23,13 @@ std::vector<EffectKey> keys() {
 
 }  // namespace
 
-EffectRule rule() { return {"drag", called_for, left_out, nullptr, {term::drag}, {}, keys()}; }
+EffectRule rule() {
+  return {.name = "drag",
+          .called_for = called_for,
+          .left_out = left_out,
+          .terms = {term::drag},
+          .keys = keys(),
+          .ledger_entries = {"drag"}};
+}
 
 }  // namespace tripoint::drag

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include "core/field.hpp"
+
+/// Fields of heat (21) that no other effect knows.
+namespace tripoint::field {
+
+inline constexpr Field<double> temperature_rate{"temperature_rate", "K/s"};
+inline constexpr Field<double> heat_rate{"heat_rate", "W"}, heat_rate_before{"heat_rate.before", "W"};
+inline constexpr Field<double> conductivity{"conductivity", "W/m/K"}, diffusivity{"diffusivity", "m2/s"};
+inline constexpr Field<double> rest_volume{"rest_volume", "m3"};
+/// sum_j G_ij, the conductance of i to its neighbours: bounds the time step.
+inline constexpr Field<double> conductance{"conductance", "W/K"};
+/// sum_j of the coefficients of T_j - T_i in (21) as printed: bounds the time step.
+inline constexpr Field<double> exchange{"exchange", "1/s"};
+/// Pseudo-inverse of M_i of model 8.6: symmetric, six components. Between the density pass and the state, M_i itself.
+inline constexpr Field<double> moment_inverse_xx{"moment_inverse.xx", "1"}, moment_inverse_yy{"moment_inverse.yy", "1"},
+    moment_inverse_zz{"moment_inverse.zz", "1"};
+inline constexpr Field<double> moment_inverse_yz{"moment_inverse.yz", "1"}, moment_inverse_xz{"moment_inverse.xz", "1"},
+    moment_inverse_xy{"moment_inverse.xy", "1"};
+
+}  // namespace tripoint::field
