@@ -5,7 +5,7 @@
 #   tools/checks.sh scorecard    the checks of OpenSSF Scorecard that a checkout can answer
 #   tools/checks.sh tidy         clang-tidy on what reads files of strangers: src/io, job; a finding of clang-analyzer or bugprone fails
 #   tools/checks.sh clang        clang-16 compiles the libraries and runs the tests of the rooms
-#   tools/checks.sh asan-ubsan   the same rooms under the address and undefined-behaviour sanitizers
+#   tools/checks.sh asan-ubsan   the same rooms, and the corpus of the fuzz targets, under the address and undefined-behaviour sanitizers
 #   tools/checks.sh tsan         everything that shares memory between threads under the thread sanitizer
 # TARGETS="test-core ..." in the environment takes fewer of them, JOBS=N more compilers at a time (2).
 set -euo pipefail
@@ -13,6 +13,7 @@ cd "$(dirname "$0")/.."
 
 jobs=${JOBS:-2}
 rooms=(test-core test-particles test-sph test-scene test-io test-effects test-step test-metrics test-references test-harness test-queue)
+replays=(replay-{baseline,case,checkpoint,csv,job,mesh,reply,results,text,trajectory,verdict})
 threads=(test-particles test-effects test-step test-queue state-hashes)
 cases=(cases/{fluid/dam-break-small,coupling/gum-ball,solid/plastic-sheet,phase/melt-rigid,phase/split-by-melting,heat/inflow}.toml)
 launcher=()
@@ -21,14 +22,17 @@ command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
 # build FOLDER TARGET...
 build() { cmake --build "$1" --parallel "$jobs" --target "${@:2}" >&2; }
 
-# run_all FOLDER TARGET...: each test program once, and no other test
+# run_all FOLDER TARGET...: each test program once, each replay over its corpus, and no other test
 run_all() {
   local folder=$1 target
   shift
   for target in "$@"; do
-    [[ $target == test-* ]] || continue
+    [[ $target == test-* || $target == replay-* ]] || continue
     echo "checks: $target"
-    "$folder/tests/$target" --gtest_brief=1
+    case $target in
+      test-*) "$folder/tests/$target" --gtest_brief=1 ;;
+      replay-*) "$folder/tests/$target" "tests/fuzz/corpus/${target#replay-}" ;;
+    esac
   done
 }
 
@@ -47,7 +51,7 @@ case ${1:-} in
     run_all build-clang "${targets[@]}"
     ;;
   asan-ubsan)
-    read -ra targets <<<"${TARGETS:-${rooms[*]}}"
+    read -ra targets <<<"${TARGETS:-${rooms[*]} ${replays[*]}}"
     cmake --preset asan-ubsan "${launcher[@]}" >/dev/null
     build build-asan-ubsan "${targets[@]}"
     ASAN_OPTIONS=detect_leaks=0 run_all build-asan-ubsan "${targets[@]}"
