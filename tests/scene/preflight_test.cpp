@@ -105,6 +105,9 @@ TEST(Preflight, FindsATimeStepAboveTheBoundOfHeat) {
   };
   EXPECT_EQ(found(longer(1.01 * bound), "is above the bound of heat"), "error");
   EXPECT_EQ(found(longer(0.99 * bound), "is above the bound of heat"), "");
+  std::string held = longer(1.01 * bound);
+  held.replace(held.find("temperature=300"), 15, "temperature=300\ntemperature_held=true");
+  EXPECT_EQ(found(held, "is above the bound of heat"), "");
 }
 
 TEST(Preflight, FindsATimeStepAboveTheBoundOfRotation) {

@@ -171,13 +171,13 @@ class Preflight {
   }
 
   /// Stability bound of explicit conduction on the lattice [s]: 0.075 h^2/a corrected, 0.130 h^2/a paper (largest eigenvalue
-  /// measured on the lattice at h/dx = 2.6 and 2.12), a = k/(rho c).
+  /// measured on the lattice at h/dx = 2.6 and 2.12), a = k/(rho c). What is held at a temperature bounds no step.
   [[nodiscard]] double heat_bound(std::string& which) const {
     double least = INFINITY;
     const double h = scene_.support_ratio * scene_.spacing, c = scene_.mode_of(term::heat) == Mode::paper ? 0.130 : 0.075;
     for (const auto& b : scene_.bodies) {
       const Material& m = scene_.material(b.material);
-      if (!b.temperature || !m.conductivity || !m.heat_capacity) continue;
+      if (!b.temperature || b.temperature_held || !m.conductivity || !m.heat_capacity) continue;
       const double capacity = std::min(heat_capacity_of(m, Phase::rigid), heat_capacity_of(m, Phase::liquid)),
                    conductivity = std::max(conductivity_of(m, Phase::rigid), conductivity_of(m, Phase::liquid));
       const double bound = c * h * h * m.density * capacity / conductivity;
