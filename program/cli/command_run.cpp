@@ -116,9 +116,11 @@ std::string limits_of(const Case& value, const EnginePlan& plan, const RunPlan& 
     const bool ours =
         (g.engine.empty() || g.engine == plan.name) && fits(g.mode, run.mode) && (g.preset.empty() || g.preset == plan.preset);
     if (g.metric != metric || !ours || !of_level) continue;
-    if (g.limit && *g.limit > 0.0)
-      text += fmt::format("  limit {:.4g} ({:.3g} % of it)", *g.limit,
-                          100.0 * (std::abs(m.value) + 2.0 * m.uncertainty.combined()) / *g.limit);
+    const double size = std::abs(m.value) + 2.0 * m.uncertainty.combined();
+    if (g.limit && *g.limit > 0.0 && size > *g.limit)
+      text += fmt::format("  ABOVE the limit {:.4g}: {:.3g} times as much", *g.limit, size / *g.limit);
+    else if (g.limit && *g.limit > 0.0)
+      text += fmt::format("  limit {:.4g} ({:.3g} % of it)", *g.limit, 100.0 * size / *g.limit);
     else if (g.limit)
       text += fmt::format("  limit {:.4g}", *g.limit);  // a share of nothing is no number
     if (g.at_least) text += fmt::format("  at least {:.4g}", *g.at_least);
@@ -148,7 +150,7 @@ void print_text(const RunOptions& o, const Case& value, const EnginePlan& plan, 
   if (r.steps > 0)
     print_line(fmt::format("  t = {:g} s in {} steps; last step {:g} s{}", r.time_reached, r.steps, r.readback.time_step,
                            r.time_step_bound.empty() ? "" : ", bound by " + r.time_step_bound));
-  print(fmt::format("  {:.3g} CPU s, {:.3g} s, {:.3g} MB\n", outcome.cost.cpu_s, outcome.cost.wall_s,
+  print(fmt::format("  {:.3g} CPU s, {:.3g} s wall, {:.3g} MB memory\n", outcome.cost.cpu_s, outcome.cost.wall_s,
                     outcome.cost.peak_bytes / 1e6));
   print_metrics(value, plan, metrics);
   print_line(fmt::format("  in {}", o.out));

@@ -148,6 +148,10 @@ int make(MakeOptions o) {
   std::map<std::string, double> costs;
   if (!o.costs.empty()) costs = measured_costs(read_results(results_file(o.costs)));
   make_folder(o.dir);
+  if (fs::exists(fs::path(o.dir) / "suite.json")) {
+    const Queue before = read_queue(o.dir);
+    say(fmt::format("{}: was a suite of {} jobs of {} cases, and is made anew", o.dir, before.jobs.size(), before.cases.size()));
+  }
   const auto made = make_queue(o.dir, std::move(queue), cases, engines, costs);
   const auto& jobs = made.queue.jobs;
   print_line(fmt::format("{}: {} jobs of {} cases, {:.0f} CPU s predicted ({} by what they cost before); {} have a result", o.dir,

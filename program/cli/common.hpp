@@ -58,7 +58,7 @@ struct EngineWords {
 /// report.
 [[nodiscard]] std::string own_folder(const std::string& command, const std::string& case_id);
 
-/// A results.json, or that of the folder of a report.
+/// A results.json, or that of the folder of a report. @throws InputError where neither is there
 [[nodiscard]] std::string results_file(const std::string& path);
 
 /// The switch --sandbox. Where it is wanted, sandbox_strangers() is called before the first engine is asked.

@@ -72,20 +72,22 @@ void expect_seal(const std::string& path) {
     throw InputError(path + ": is torn or altered: its checksum does not match; take an earlier checkpoint");
 }
 
-void write_bytes(hid_t group, const std::string& name, hid_t type, std::size_t count, const void* data) {
+void write_bytes(hid_t group, const std::string& path, const std::string& name, hid_t type, std::size_t count, const void* data) {
+  const std::string what = path + ": " + name;
   const hsize_t n = count;
-  const h5::Handle space(count > 0 ? H5Screate_simple(1, &n, nullptr) : H5Screate(H5S_NULL), H5Sclose, name);
-  const h5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+  const h5::Handle space(count > 0 ? H5Screate_simple(1, &n, nullptr) : H5Screate(H5S_NULL), H5Sclose, what);
+  const h5::Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
   if (count > 0) {
     const hsize_t chunk = std::min<hsize_t>(n, 1 << 20);
-    h5::check(H5Pset_chunk(properties.get(), 1, &chunk), name);
-    h5::check(H5Pset_fletcher32(properties.get()), name);
+    h5::check(H5Pset_chunk(properties.get(), 1, &chunk), what);
+    h5::check(H5Pset_fletcher32(properties.get()), what);
   }
-  const h5::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, name);
-  h5::check(H5Pset_create_intermediate_group(links.get(), 1), name);
-  const h5::Handle dataset(H5Dcreate2(group, name.c_str(), type, space.get(), links.get(), properties.get(), H5P_DEFAULT),
-                           H5Dclose, name);
-  if (count > 0) h5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), name);
+  const h5::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose, what);
+  h5::check(H5Pset_create_intermediate_group(links.get(), 1), what);
+  h5::Handle dataset(H5Dcreate2(group, name.c_str(), type, space.get(), links.get(), properties.get(), H5P_DEFAULT), H5Dclose,
+                     what);
+  if (count > 0) h5::check(H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data), what);
+  dataset.close(what);
 }
 
 template <class T>
@@ -115,16 +117,17 @@ std::vector<std::string> split_at_zeros(const std::vector<char>& bytes) {
 }
 
 void write_all(const std::string& path, const Checkpoint& kept) {
-  const h5::Handle file = h5::create_latest(path, first_block);
+  h5::Handle file = h5::create_latest(path, first_block);
   for (const auto& [name, values] : kept.real)
-    write_bytes(file.get(), "real/" + name, H5T_NATIVE_DOUBLE, values.size(), values.data());
+    write_bytes(file.get(), path, "real/" + name, H5T_NATIVE_DOUBLE, values.size(), values.data());
   for (const auto& [name, values] : kept.whole)
-    write_bytes(file.get(), "whole/" + name, H5T_NATIVE_INT64, values.size(), values.data());
+    write_bytes(file.get(), path, "whole/" + name, H5T_NATIVE_INT64, values.size(), values.data());
   for (const auto& [name, lines] : kept.text) {
     const std::vector<char> bytes = joined(lines);
-    write_bytes(file.get(), "text/" + name, H5T_NATIVE_CHAR, bytes.size(), bytes.data());
+    write_bytes(file.get(), path, "text/" + name, H5T_NATIVE_CHAR, bytes.size(), bytes.data());
   }
   h5::check(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path);
+  file.close(path);
 }
 
 /// Calls visit(name below the group) for every dataset, e.g. "particles/mass" of /real.

@@ -141,6 +141,10 @@ void Handle::reset() noexcept {
   id_ = -1;
 }
 
+void Handle::close(const std::string& what) {
+  if (id_ >= 0) check(closer_(std::exchange(id_, -1)), what);
+}
+
 void check(herr_t status, const std::string& what) {
   if (status >= 0) return;
   const int why = errno_of_last_error();

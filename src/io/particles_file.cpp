@@ -29,6 +29,7 @@ void write_particles(const std::string& path, const InitialState& s) {
   const h5::Handle group = h5::make_group(file.get(), "particles/all/source");
   h5::Column column(group.get(), "value", h5::Type::int32, n, 0, "");
   column.append(0, n, s.source.data());
+  h5::check(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path);
 }
 
 InitialState read_particles(const std::string& path) {

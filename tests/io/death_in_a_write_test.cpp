@@ -31,8 +31,15 @@ std::vector<Change> changes;
 
 /// Whether a call is to fail; errno then says why.
 bool fails(off_t at) {
-  if (tripoint::test::write_error == 0 || (tripoint::test::only_first_bytes && at != 0)) return false;
-  errno = tripoint::test::write_error;
+  using namespace tripoint::test;
+  if (write_error == 0 || (only_first_bytes && at != 0)) return false;
+  const int why = write_error;
+  if (calls_until_failure > 0) {
+    --calls_until_failure;
+    return false;
+  }
+  if (calls_until_failure == 0) write_error = 0;
+  errno = why;
   return true;
 }
 

@@ -31,7 +31,10 @@ struct FailedWrite : ::testing::Test {
   static void let_writes_fail(int why, bool only_first_bytes = false) {
     test::write_error = why;
     test::only_first_bytes = only_first_bytes;
+    test::calls_until_failure = -1;
   }
+  /// Lets each write of a deed fail alone, one after the other. @return how many there are
+  static int expect_reason_of_each_write(int why, const std::function<void()>& deed);
   [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
   std::filesystem::path folder;
 };
@@ -49,6 +52,19 @@ std::string words_of(const std::function<void()>& deed) {
 void expect_reason(const std::string& words, int why) {
   EXPECT_NE(words.find(std::strerror(why)), std::string::npos) << words;
   EXPECT_TRUE(why == ENOSPC || words.find("space") == std::string::npos) << words;
+}
+
+int FailedWrite::expect_reason_of_each_write(int why, const std::function<void()>& deed) {
+  for (int n = 0;; ++n) {
+    let_writes_fail(why);
+    test::calls_until_failure = n;
+    const std::string words = words_of(deed);
+    const bool has_failed = test::write_error == 0;
+    let_writes_fail(0);
+    if (!has_failed) return n;
+    SCOPED_TRACE("write " + std::to_string(n));
+    expect_reason(words, why);
+  }
 }
 
 Snapshot one_particle(double time) {
@@ -93,6 +109,15 @@ TEST_F(FailedWrite, OfTheSealOfACheckpointSaysTheReasonOfTheSystem) {
     expect_reason(words, why);
     EXPECT_NE(words.find("c.h5.part"), std::string::npos) << words;
   }
+}
+
+TEST_F(FailedWrite, WhicheverItIsSaysTheReasonOfTheSystem) {
+  EXPECT_GT(expect_reason_of_each_write(EIO, [&] { write_checkpoint(path("c.h5"), of_many_rows()); }), 5);
+  InitialState s;
+  s.position = s.velocity = {{}};
+  s.mass = {1.0};
+  s.phase = s.body = s.material = s.source = {0};
+  EXPECT_GT(expect_reason_of_each_write(EIO, [&] { write_particles(path("particles.h5"), s); }), 5);
 }
 
 TEST_F(FailedWrite, OfAFileThatCannotBeMadeSaysTheReasonOfTheSystem) {

@@ -6,5 +6,6 @@ namespace tripoint::test {
 
 inline int write_error = 0;            ///< errno with which they fail; 0 = they do not
 inline bool only_first_bytes = false;  ///< only those that write the beginning of a file
+inline int calls_until_failure = -1;   ///< that many pass before one fails, and all that follow it pass; negative: each fails
 
 }  // namespace tripoint::test
