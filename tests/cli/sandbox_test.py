@@ -167,6 +167,13 @@ if sys.argv[1] == "--run":
             self.assertTrue(0 < told[4] < 100000, told)
             self.assertEqual(told[5:], [1 << 30, 1 << 30])
 
+    def test_it_starts_where_the_caller_has_lower_limits(self):
+        words = ["sh", "-c", 'ulimit -f 2000000 && ulimit -v 8000000 && exec "$@"', "sh", TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine",
+                 "--out", self.folder / "out", "--no-report", "--no-history", "--sandbox"]
+        done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, check=False)
+        self.errors(json.loads((self.folder / "out/results.json").read_text()))
+        self.assertIn("verdict", done.stdout)
+
     def test_what_it_costs_is_counted_inside_too(self):
         self.insert("""
 import time

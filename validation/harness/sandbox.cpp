@@ -2,6 +2,7 @@
 #include "validation/harness/sandbox.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char* bubblewrap = "/usr/bin/bwrap";
 constexpr const char* limiter = "/usr/bin/prlimit";
 constexpr auto in_memory = "1073741824";  ///< bytes of a folder that lives in memory
-constexpr int most_processes = 512;       ///< of one engine; nobody counts those of root
+constexpr rlim_t most_processes = 512;    ///< of one engine; nobody counts those of root
 std::atomic<bool> wanted{false};
 fs::path report;  ///< that no engine sees
 
@@ -90,17 +91,23 @@ std::vector<std::string> bind_engine(const fs::path& folder) {
   return words;
 }
 
+/// This much, or less where we may have no more ourselves: nobody can raise a limit inside.
+rlim_t at_most(__rlimit_resource what, rlim_t much) {
+  rlimit ours{};
+  return ::getrlimit(what, &ours) == 0 ? std::min(much, ours.rlim_max) : much;
+}
+
 /// What the engine may use. Set before it begins, inside: nobody can be faster.
 std::vector<std::string> limits(double wall_limit) {
-  const auto memory = static_cast<unsigned long>(sysconf(_SC_PHYS_PAGES)) * static_cast<unsigned long>(sysconf(_SC_PAGESIZE));
-  const double cpu = wall_limit * std::max(1u, std::thread::hardware_concurrency()) + 10.0;
+  const auto memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+  const double cpu = std::min(wall_limit * std::max(1u, std::thread::hardware_concurrency()) + 10.0, 1e9);
   return {limiter,
           "--core=0",
-          fmt::format("--data={}", memory),
-          fmt::format("--as={}", 4 * memory),  // some reserve much more than they use
-          fmt::format("--fsize={}", 16ul << 30),
-          fmt::format("--nproc={}", most_processes),
-          fmt::format("--cpu={}", static_cast<long>(std::ceil(std::min(cpu, 1e9)))),
+          fmt::format("--data={}", at_most(RLIMIT_DATA, memory)),
+          fmt::format("--as={}", at_most(RLIMIT_AS, 4 * memory)),  // some reserve much more than they use
+          fmt::format("--fsize={}", at_most(RLIMIT_FSIZE, rlim_t{16} << 30)),
+          fmt::format("--nproc={}", at_most(RLIMIT_NPROC, most_processes)),
+          fmt::format("--cpu={}", at_most(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(cpu)))),
           "--"};
 }
 
