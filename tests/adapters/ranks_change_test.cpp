@@ -173,7 +173,9 @@ TEST(Ranks, LeaveACheckpointWhereTheirTerminalCloses) {
   const test::Folder folder;
   write_particles(folder.at("particles.h5"), p.initial);
   write_job(folder.at("job.json"), p.job);
+  const auto before = ::signal(SIGHUP, SIG_DFL);  // nohup has it ignored, and that is handed down
   EXPECT_EQ(run_stopped(folder, {SIGHUP, SIGHUP}), 130);
+  ::signal(SIGHUP, before);
   const Result result = read_result(folder.at("result.json"));
   EXPECT_TRUE(result.message.starts_with("interrupted at t = ")) << result.message;
   const std::string checkpoint = result.message.substr(result.message.rfind(' ') + 1);

@@ -114,6 +114,8 @@ def call(*words, **more):
 
 class Restart(unittest.TestCase):
     def setUp(self):
+        before = signal.signal(signal.SIGHUP, signal.SIG_DFL)  # nohup has it ignored, and that is handed down
+        self.addCleanup(signal.signal, signal.SIGHUP, before)
         self.folder = tempfile.TemporaryDirectory(prefix="tripoint restart ü ")
         self.path = Path(self.folder.name)
         self.case = self.path / "cases" / "test" / "flight.toml"
