@@ -25,11 +25,14 @@ void write_particles(const std::string& path, const InitialState& s) {
   writer.append(frame);
   writer.close();
 
-  const h5::Handle file = h5::open_for_change(path);
-  const h5::Handle group = h5::make_group(file.get(), "particles/all/source");
-  h5::Column column(group.get(), "value", h5::Type::int32, n, 0, "");
-  column.append(0, n, s.source.data());
-  h5::check(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path);
+  h5::Handle file = h5::open_for_change(path);
+  {  // a file closes after what is in it
+    const h5::Handle group = h5::make_group(file.get(), "particles/all/source");
+    h5::Column column(group.get(), "value", h5::Type::int32, n, 0, "");
+    column.append(0, n, s.source.data());
+    h5::check(H5Fflush(file.get(), H5F_SCOPE_LOCAL), path);
+  }
+  file.close(path);
 }
 
 InitialState read_particles(const std::string& path) {

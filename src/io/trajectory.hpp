@@ -68,6 +68,7 @@ class TrajectoryWriter {
   /// @throws EngineError when the disk is full or the file cannot be written
   void append(const Snapshot&);
   [[nodiscard]] long frames() const;
+  /// @throws EngineError when what the library still holds cannot be written
   void close();
 
  private:

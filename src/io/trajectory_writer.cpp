@@ -180,7 +180,7 @@ void TrajectoryWriter::close() {
   impl_->columns.clear();
   impl_->step.reset();
   impl_->time.reset();
-  impl_->file.reset();
+  impl_->file.close(impl_->path);
 }
 
 }  // namespace tripoint
