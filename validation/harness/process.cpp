@@ -284,7 +284,7 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
     }
     end.peak_bytes = std::max(end.peak_bytes, peak_of(pid));
     if (spec.in_sandbox && inside == 0)
-      for (const pid_t child : children_of(pid)) inside = child;
+      for (const pid_t first : children_of(pid)) inside = first;
     ::poll(wait.data(), wait.size(), static_cast<int>(until_next_look(seconds_since(start), left)));
     if (wait[0].revents && !drain(out, take_output)) wait[0].fd = -1;
     if (wait[1].revents && !drain(err, take_log)) wait[1].fd = -1;
