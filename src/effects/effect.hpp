@@ -28,9 +28,11 @@ struct EffectSpec {
   std::vector<Account> numerical{};             ///< that its numerical terms book on: what they take on purpose
   std::vector<Guarded> guards{};                ///< of its columns those that are looked at after every step
   std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
-  std::vector<FieldInfo> reads_if_there{};      ///< of others, where the scene has them
-  bool sums_forces = false;                     ///< it reads World::forces of all effects
-  bool changes = false;                         ///< change() may be called of it: wants_change() is asked
+  /// Of its columns of bodies, those that are sums over particles. Where several processes share a scene, each sums its own part.
+  std::vector<Field<double>> body_sums{};
+  std::vector<FieldInfo> reads_if_there{};  ///< of others, where the scene has them
+  bool sums_forces = false;                 ///< it reads World::forces of all effects
+  bool changes = false;                     ///< change() may be called of it: wants_change() is asked
   bool skips_sleeping = false;  ///< it ignores sleeping particles, and needs the forces on fixed ones only in form_fixed()
 };
 
@@ -43,10 +45,14 @@ inline void tighten(TimeStepBound& bound, double dt, std::string_view name) {
   if (dt < bound.dt) bound = {dt, std::string(name)};
 }
 
-/// Stable step under an acceleration (model 8.10) [s]. @param support radius h of the support [m] @param acceleration its
+/// Of sqrt(h/a), what a step under an acceleration a takes [1]: a choice that guards accuracy, not stability. The energy that
+/// four times such a step loses is measured by AccelerationBound (tests/step/bounds_test.cpp).
+inline constexpr double courant_of_acceleration = 0.25;
+
+/// Greatest step under an acceleration (model 8.10) [s]. @param support radius h of the support [m] @param acceleration its
 /// greatest size, above 0 [m/s2]
 [[nodiscard]] inline double acceleration_step(double support, double acceleration) noexcept {
-  return 0.25 * std::sqrt(support / acceleration);
+  return courant_of_acceleration * std::sqrt(support / acceleration);
 }
 
 /// What an effect asks of the fused passes in a scene: of the terms that its pair_slots.hpp has compiled, those that it needs.

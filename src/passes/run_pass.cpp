@@ -10,24 +10,20 @@ PassTask task_of(const Particles& particles, Neighbours& neighbours, const PairK
   const auto x = positions(particles);
   Clusters& c = neighbours.clusters();
   const double support = neighbours.support();
-  return {x.x.data(),
-          x.y.data(),
-          x.z.data(),
-          nullptr,
-          c.first.data(),
-          c.start.data(),
-          c.entries.data(),
-          c.near.data(),
-          c.own.empty() ? nullptr : c.own.data(),
-          c.within.empty() ? nullptr : c.within.data(),
-          nullptr,
-          neighbours.shifts().data(),
-          nullptr,
-          nullptr,
-          c.size(),
-          support * support,
-          &kernels,
-          threads};
+  return {.x = x.x.data(),
+          .y = x.y.data(),
+          .z = x.z.data(),
+          .first = c.first.data(),
+          .start = c.start.data(),
+          .entries = c.entries.data(),
+          .near = c.near.data(),
+          .own = c.own.empty() ? nullptr : c.own.data(),
+          .within = c.within.empty() ? nullptr : c.within.data(),
+          .shift = neighbours.shifts().data(),
+          .count = c.size(),
+          .support2 = support * support,
+          .kernels = &kernels,
+          .threads = threads};
 }
 
 std::vector<double*> columns_of(const PassFunction& function, Particles& particles) {

@@ -59,9 +59,12 @@ Candidates candidates_of(const World& world, const Joins& joined) {
   return found;
 }
 
-/// Bonds are told apart by the nearest image, so one must be shorter than half the box, also when stretched by 15 %.
+/// Length of a bond over its first one up to which a narrow box is checked [1]: a choice.
+constexpr double most_stretch = 1.15;
+
+/// Bonds are told apart by the nearest image, so one must be shorter than half the box, also when stretched.
 void refuse_narrow_box(const World& world) {
-  const double least = 2.0 * 1.15 * bond_reach(world.scene) * world.scene.spacing;
+  const double least = 2.0 * most_stretch * bond_reach(world.scene) * world.scene.spacing;
   for (std::size_t a = 0; a < 3; ++a) {
     if (!world.box.periodic[a] || world.box.width[a] >= least) continue;
     throw InputError(std::string("the periodic direction ") + "xyz"[a] + " is " + std::to_string(world.box.width[a]) +

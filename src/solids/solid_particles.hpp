@@ -12,10 +12,11 @@
 /// deformed. Particles are named by id.
 namespace tripoint::solid {
 
-/// A bond with this reference vector x_ij and its kernel (17); who it is with is set by connect().
+/// A bond with this reference vector x_ij = r_i - r_j [m] and its kernel (17); who it is with is set by connect().
 [[nodiscard]] Bond bond_of(const ElasticityKernel&, const Vec3& x_ij);
+/// The kernel (17), with the support scene.bond_reach dx [m].
 [[nodiscard]] ElasticityKernel bond_kernel(const Scene&);
-/// W of the density kernel: the weight of an own pair at this distance [1/m3].
+/// W of the density kernel: the weight of an own pair [1/m3] (model 8.2). @param distance of its reference places [m]
 [[nodiscard]] double own_weight(const Scene&, double distance);
 /// A difference of places [m] as the nearest images have it.
 [[nodiscard]] inline Vec3 nearest_image(const PeriodicBox& box, Vec3 d) {
@@ -59,17 +60,18 @@ class EnergyOwners {
   std::span<const double> stiffness_;
 };
 
-/// Volume, stiffness, A_i and rank of these particles by their present lists and bodies, zero where they own no strain energy;
-/// with their partners, which of them are regular and, where the scene can freeze, the frequency of each particle.
+/// Sets the columns that follow from the lists and bodies of these particles (model 8.7): volume [m3] and, zero where they own no
+/// strain energy, stiffness [1], A_i [1] and rank. Of them and their partners also which are regular and, where the scene can
+/// freeze, the square of the frequency of each [1/s2].
 /// @param first lists are those of the start: no frequency is needed
 void refresh_shapes(World&, std::span<const std::uint32_t> ids, bool first = false);
 
-/// How a particle of a deformable body is deformed, by its list and the places of now.
+/// How a particle of a deformable body is deformed, by its list and the places of now (model 8.7).
 struct Deformation {
-  Matrix3 F = identity3;
-  Symmetric P;       ///< projector on the range of M_i
-  Symmetric strain;  ///< total, within P
-  int rank = 0;
+  Matrix3 F = identity3;  ///< (14) [1]
+  Symmetric P;            ///< projector on the range of M_i [1]
+  Symmetric strain;       ///< total, within P [1]
+  int rank = 0;           ///< of P: 3 solid, 2 sheet, 1 chain, 0 without neighbours
 };
 
 /// Whether the stiffness of this material falls as it melts: marked so, or, printed (Fig. 5), between t_solid and t_melt.
@@ -80,11 +82,11 @@ class ElasticForms {
  public:
   explicit ElasticForms(const Scene&);
   [[nodiscard]] bool paper() const noexcept { return paper_; }
-  /// Coefficient a of the hourglass energy, 0 = none.
+  /// Coefficient a of the hourglass energy [1], 0 = none.
   [[nodiscard]] double hourglass() const noexcept { return hourglass_; }
-  /// Share of the correction for bending that gradients at surfaces have, 0 = none.
+  /// Share of the correction for bending that gradients at surfaces have [1], 0 = none.
   [[nodiscard]] double bending() const noexcept { return bending_; }
-  /// Constants of particles by rows, softened where their material softens; zero where they own no strain energy.
+  /// Constants of particles by rows [Pa], softened where their material softens; zero where they own no strain energy.
   class Constants {
    public:
     [[nodiscard]] ElasticConstants operator()(std::size_t row) const;
@@ -101,12 +103,13 @@ class ElasticForms {
   };
   [[nodiscard]] Constants constants(const World& world) const { return {*this, world}; }
   [[nodiscard]] ElasticConstants constants(const World& world, std::size_t row) const { return constants(world)(row); }
+  /// P of the scene's form [1]. @param shape_inverse A_i [1]   @param rank of it
   [[nodiscard]] Symmetric projector(const Symmetric& shape_inverse, int rank) const;
-  /// Strain within P of a particle with this F.
+  /// Strain within P [1] of a particle with this F, green_strain() or strain_paper().
   [[nodiscard]] Symmetric strain(const Matrix3& F, const Symmetric& P, int rank) const;
-  /// S of the elastic strain P (eps - eps_p) P.
+  /// S [Pa] of the elastic strain P (eps - eps_p) P [1].
   [[nodiscard]] Symmetric stress(const Symmetric& elastic_strain, const Symmetric& P, int rank, const ElasticConstants&) const;
-  /// What multiplies v F S d_ij in (12): 1, printed 2.
+  /// What multiplies v F S d_ij in (12) [1]: 1, printed 2.
   [[nodiscard]] double force_factor() const noexcept { return factor_; }
 
  private:
@@ -139,41 +142,48 @@ struct SymmetricColumns {
     xy[row] = e.xy;
   }
 };
+// The six columns of particles, to be written to where these are not const.
+/// A_i [1]
 template <class P>
 [[nodiscard]] auto shape_inverses(P& p) {
   return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
       p[field::shape_inverse_xx], p[field::shape_inverse_yy], p[field::shape_inverse_zz],
       p[field::shape_inverse_yz], p[field::shape_inverse_xz], p[field::shape_inverse_xy]};
 }
+/// Total strain [1]
 template <class P>
 [[nodiscard]] auto strains(P& p) {
   return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{p[field::strain_xx], p[field::strain_yy],
                                                                                         p[field::strain_zz], p[field::strain_yz],
                                                                                         p[field::strain_xz], p[field::strain_xy]};
 }
+/// eps_p [1]. @pre the scene has plastic flow
 template <class P>
 [[nodiscard]] auto plastic_strains(P& p) {
   return SymmetricColumns<std::conditional_t<std::is_const_v<P>, const double, double>>{
       p[field::plastic_strain_xx], p[field::plastic_strain_yy], p[field::plastic_strain_zz],
       p[field::plastic_strain_yz], p[field::plastic_strain_xz], p[field::plastic_strain_xy]};
 }
+/// A_i [1]
 [[nodiscard]] Symmetric shape_inverse_of(const Particles&, std::size_t row);
-/// eps_p, zero where nothing flows.
+/// eps_p [1], zero where nothing flows.
 [[nodiscard]] Symmetric plastic_strain_of(const Particles&, std::size_t row);
 /// To be called where the scene has plastic flow only.
 void set_plastic_strain(Particles&, std::size_t row, const Symmetric&);
-/// Total strain as the elastic effect last found it.
+/// Total strain as the elastic effect last found it [1].
 [[nodiscard]] Symmetric strain_of(const Particles&, std::size_t row);
 
-/// @param back as separation() has it [s]
+/// F, P and strain of one particle by (14). @param back as separation() has it [s]
 [[nodiscard]] Deformation deformation_of(const World&, const ElasticForms&, std::uint32_t id, double back = 0.0);
 [[nodiscard]] Deformation deformation_of(const World&, std::uint32_t id);
 
+/// What one particle stores by its deformation.
 struct DeformationEnergy {
   double elastic = 0.0, hourglass = 0.0;  ///< [J]
   [[nodiscard]] double total() const noexcept { return elastic + hourglass; }
 };
-/// U_i (10) and the hourglass energy of a particle; zero unless it owns some.
+/// U_i (10) and the hourglass energy of a particle [J] (model 8.7); zero unless it owns some. @param back as separation() has it
+/// [s]
 [[nodiscard]] DeformationEnergy deformation_energy(const World&, const ElasticForms&, std::uint32_t id, double back = 0.0);
 [[nodiscard]] DeformationEnergy deformation_energy(const World&, std::uint32_t id);
 

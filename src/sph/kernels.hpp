@@ -4,18 +4,19 @@
 #include <cmath>
 #include <numbers>
 
-/// Smoothing kernels in three dimensions. h is the support radius: W = 0 for r >= h. Each integrates to 1 over space:
-/// tests/sph/kernels_test.cpp. Constants are formed once, so that a pair pass only multiplies. `..._inside` is for r <= h alone,
-/// where it need not be asked whether r is within the support: a pass leaves out the pairs beyond it in one place.
+/// Smoothing kernels in three dimensions. h is the support radius, h > 0 [m]: W = 0 for r >= h. r is a distance, r >= 0 [m]. Each
+/// integrates to 1 over space: tests/sph/kernels_test.cpp. Constants are formed once, so that a pair pass only multiplies.
+/// `..._inside` is for r <= h alone, where it need not be asked whether r is within the support: a pass leaves out the pairs
+/// beyond it in one place, and such a function has the unit of the one without `_inside`.
 namespace tripoint {
 
-/// poly6 [Mueller, Charypar, Gross 2003, (20)], the paper's density kernel (4).
+/// poly6 [Mueller, Charypar, Gross 2003, (20)], the paper's density kernel (4): W(r) = 315/(64 pi h^9) (h^2 - r^2)^3.
 class Poly6 {
  public:
   explicit Poly6(double h) noexcept : h_(h), c_(315.0 / (64.0 * std::numbers::pi * std::pow(h, 9))) { assert(h > 0.0); }
   /// W(r) [1/m3]
   [[nodiscard]] double value(double r) const noexcept { return value_of_square(r * r); }
-  /// Of r^2, which needs no root.
+  /// W of r^2 [m2], which needs no root [1/m3]
   [[nodiscard]] double value_of_square(double r2) const noexcept { return r2 < h_ * h_ ? value_of_square_inside(r2) : 0.0; }
   template <class V>
   [[nodiscard]] V value_of_square_inside(V r2) const noexcept {
@@ -27,7 +28,7 @@ class Poly6 {
   double h_, c_;
 };
 
-/// spiky [Mueller, Charypar, Gross 2003, (21)], the paper's pressure kernel (7).
+/// spiky [Mueller, Charypar, Gross 2003, (21)], the paper's pressure kernel (7): W(r) = 15/(pi h^6) (h - r)^3.
 class Spiky {
  public:
   explicit Spiky(double h) noexcept : h_(h), c_(15.0 / (std::numbers::pi * std::pow(h, 6))) { assert(h > 0.0); }
@@ -55,7 +56,8 @@ class Spiky {
   double h_, c_;
 };
 
-/// Viscosity kernel [Mueller, Charypar, Gross 2003, (22)], the paper's kernel of viscosity (8) and heat (21).
+/// Viscosity kernel [Mueller, Charypar, Gross 2003, (22)], the paper's kernel of viscosity (8) and heat (21):
+/// W(r) = 15/(2 pi h^3) (-q^3/2 + q^2 + 1/(2q) - 1), q = r/h.
 class ViscosityKernel {
  public:
   explicit ViscosityKernel(double h) noexcept : h_(h), c_(45.0 / (std::numbers::pi * std::pow(h, 6))) { assert(h > 0.0); }
@@ -145,14 +147,15 @@ class WendlandC2 {
 /// not close up where the clamped pressure leaves no repulsion.
 struct Core {
   double stiffness = 0.0;  ///< kappa [N/m]
-  double reach = 0.0;      ///< 0.9 dx [m]
-  /// Repulsion over r [N/m]; 0 at r = 0, where it has no direction. @param per_r2 1/r^2 [1/m2]
+  double reach = 0.0;      ///< scene.core_reach times dx [m]
+  /// Repulsion over r, kappa (reach/r - 1) [N/m]; 0 at r = 0, where it has no direction. @param r [m]   @param per_r2 1/r^2
+  /// [1/m2]
   template <class V>
   [[nodiscard]] V force_over_r(V r, V per_r2) const noexcept {
     const V repulsion = r < reach ? stiffness * (reach * (r * per_r2) - 1.0) : 0.0;
     return r > 0.0 ? repulsion : 0.0;
   }
-  /// [J]
+  /// Of one pair [J]. @param r [m]
   [[nodiscard]] double energy(double r) const noexcept { return r < reach ? 0.5 * stiffness * (reach - r) * (reach - r) : 0.0; }
 };
 
@@ -160,7 +163,7 @@ struct Core {
 struct ShearWeight {
   double constant = 1.0, square = 0.0;  ///< [1], [1/m2]
   [[nodiscard]] bool even() const noexcept { return square == 0.0; }
-  /// @param r2 square of the distance [m2]
+  /// The coefficient times the weight, in the unit of the coefficient. @param r2 square of the distance [m2]
   template <class V>
   [[nodiscard]] V weighted(V coefficient, V r2) const noexcept {
     return coefficient * (constant + square * r2);
@@ -169,13 +172,14 @@ struct ShearWeight {
 
 /// The kernels at one support radius, and the scene's numbers that pair terms share, handed to every pair.
 struct PairKernels {
+  /// @param support radius h [m]
   explicit PairKernels(double support) noexcept : poly6(support), spiky(support), viscosity(support), wendland(support) {}
   Poly6 poly6;
   Spiky spiky;
   ViscosityKernel viscosity;
   WendlandC2 wendland;
   Core core;                         ///< none unless a scene sets it
-  double per_gradient_moment = 1.0;  ///< 1 over the lattice moment of -2 W'/r at the scene's h/dx
+  double per_gradient_moment = 1.0;  ///< 1 over the lattice moment of -2 W'/r at the scene's h/dx [1]
   ShearWeight shear;                 ///< 1 unless a scene sets it
 };
 

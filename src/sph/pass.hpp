@@ -54,22 +54,22 @@ template <class V>
 /// Clusters of particles and what they are to be summed over, as plain memory: what is compiled for one vector unit shares no
 /// code with the rest.
 struct PassTask {
-  const double *x, *y, *z;       ///< [m]
-  double* const* columns;        ///< those that the terms read and add to, in the order of PassFunction::fields
-  const std::uint32_t* first;    ///< first row of each cluster, and one past the last row
-  const std::size_t* start;      ///< first entry of each cluster's list, and one past the last
-  const std::uint32_t* entries;  ///< row and image of j, as in Entry
-  const std::uint8_t* near;      ///< of each entry, bit l where it is near to member l
-  const std::uint8_t* own;       ///< of each entry, bit l where it is an own pair of member l; null where there is none
-  std::uint64_t* within;         ///< as Clusters::within; null: all entries are looked at
-  const std::uint64_t* only;     ///< of each entry a bit, as in Clusters::within: whether it is looked at; null: all are
-  const Vec3* shift;             ///< of each image [m]
-  const std::uint32_t* chosen;   ///< clusters to work on; null for all
-  const std::uint8_t* members;   ///< of each chosen one, bit l where member l is to be summed; null for all
-  std::size_t count;             ///< clusters to work on
-  double support2;               ///< square of the support radius [m2]
-  const PairKernels* kernels;
-  int threads;
+  const double *x = nullptr, *y = nullptr, *z = nullptr;  ///< [m]
+  double* const* columns = nullptr;        ///< those that the terms read and add to, in the order of PassFunction::fields
+  const std::uint32_t* first = nullptr;    ///< first row of each cluster, and one past the last row
+  const std::size_t* start = nullptr;      ///< first entry of each cluster's list, and one past the last
+  const std::uint32_t* entries = nullptr;  ///< row and image of j, as in Entry
+  const std::uint8_t* near = nullptr;      ///< of each entry, bit l where it is near to member l
+  const std::uint8_t* own = nullptr;       ///< of each entry, bit l where it is an own pair of member l; null where there is none
+  std::uint64_t* within = nullptr;         ///< as Clusters::within; null: all entries are looked at
+  const std::uint64_t* only = nullptr;    ///< of each entry a bit, as in Clusters::within: whether it is looked at; null: all are
+  const Vec3* shift = nullptr;            ///< of each image [m]
+  const std::uint32_t* chosen = nullptr;  ///< clusters to work on; null for all
+  const std::uint8_t* members = nullptr;  ///< of each chosen one, bit l where member l is to be summed; null for all
+  std::size_t count = 0;                  ///< clusters to work on
+  double support2 = 0.0;                  ///< square of the support radius [m2]
+  const PairKernels* kernels = nullptr;
+  int threads = 1;
 };
 
 /// One combination of terms. Adds each term's sum to its columns.

@@ -43,6 +43,7 @@ Matrix3 polar_rotation(const Matrix3& F) {
 Matrix3 with_normal(const Matrix3& F, const Symmetric& P) {
   const Symmetric across = symmetric_part(identity3 - full(P));
   const Vec3 n = line_of(across);
+  // Two axes across n, made with the one of x and y that n is not along: where |n.x| >= 0.6, |n.y| <= 0.8.
   const Vec3 a = std::abs(n.x) < 0.6 ? cross(n, {1.0, 0.0, 0.0}) : cross(n, {0.0, 1.0, 0.0}), b = cross(n, a);
   const Vec3 turned = cross(F * a, F * b);
   return F * P + outer(turned / norm(turned), n);

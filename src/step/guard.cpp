@@ -12,6 +12,14 @@
 namespace tripoint {
 namespace {
 
+/// Of the energy that the mass would have at one spacing a step, what is not told apart from round-off [1]: a choice, far above
+/// that of sums over particles.
+constexpr double round_off_share = 1e-10;
+/// Of the energy that was turned over, what the scheme may make or lose [1]: more is no error of integration any more.
+constexpr double most_made = 0.5;
+/// Of the first step, what one may shrink to [1]: a choice. Such a run would go on for ever.
+constexpr double least_step_share = 1e-5;
+
 /// Whether test(from, to) holds for all rows, shared among threads where there are enough: a team costs more than a short column.
 template <class Test>
 bool holds_for_all(std::size_t rows, int threads, Test test) {
@@ -170,8 +178,8 @@ void check_energy(const World& world, const Ledger& ledger, double start_potenti
   if (ledger.energy.count("time_integration") == 0 || is_off(world.scene, "ledger")) return;
   const Made made = made_by_scheme(ledger, world.guarded_entries, memory.still);
   memory.turned_over = std::max(memory.turned_over, turnover(ledger, world.guarded_entries, start_potential));
-  const double grid_speed = world.scene.spacing / dt, least = 1e-10 * ledger.mass * grid_speed * grid_speed;
-  if (std::abs(made.energy) <= 0.5 * std::max(memory.turned_over, least)) return;
+  const double grid_speed = world.scene.spacing / dt, least = round_off_share * ledger.mass * grid_speed * grid_speed;
+  if (std::abs(made.energy) <= most_made * std::max(memory.turned_over, least)) return;
   const std::size_t i = fastest(world);
   fail(world, "ledger", i, "energy", "kick",
        fmt::format(
@@ -184,7 +192,7 @@ void check_energy(const World& world, const Ledger& ledger, double start_potenti
 
 void check_step(const World& world, const TimeStepBound& bound, GuardMemory& memory) {
   if (memory.first_step == 0.0 && std::isfinite(bound.dt)) memory.first_step = bound.dt;
-  if (bound.dt >= 1e-5 * memory.first_step || (is_off(world.scene, "time_step") && bound.dt > 0.0)) return;
+  if (bound.dt >= least_step_share * memory.first_step || (is_off(world.scene, "time_step") && bound.dt > 0.0)) return;
   const std::size_t i = fastest(world);
   fail(
       world, "time_step", i, "time_step", "bound",

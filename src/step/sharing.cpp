@@ -14,9 +14,24 @@ bool splits(const Halo& halo) {
   return std::ranges::find(split, true) != split.end();
 }
 
-/// Heat that was given to each body [J]; empty where nobody counts it.
-std::span<double> body_heat(World& world) {
-  return world.bodies.has(field::body_heat) ? world.bodies[field::body_heat] : std::span<double>{};
+/// What this process has summed of its own particles, body by body.
+std::vector<std::vector<double>> body_sums(const World& world) {
+  std::vector<std::vector<double>> sums;
+  for (const Field<double>& f : world.body_sums) {
+    const auto column = world.bodies[f];
+    sums.emplace_back(column.begin(), column.end());
+  }
+  return sums;
+}
+
+/// Puts them back; bodies that came to be since have 0. @param sums as body_sums() gave them; none: all are 0
+void set_body_sums(World& world, std::vector<std::vector<double>> sums) {
+  sums.resize(world.body_sums.size());
+  for (std::size_t n = 0; n < sums.size(); ++n) {
+    const auto column = world.bodies[world.body_sums[n]];
+    sums[n].resize(column.size());
+    std::ranges::copy(sums[n], column.begin());
+  }
 }
 
 /// Where particles were as the lists that there are were made, by number, for each process that holds a part of them; of fewer
@@ -103,8 +118,7 @@ bool Sharing::outdated(const World& world) const {
 
 void Sharing::gather(World& world, const std::vector<Active>& effects) {
   if (!is_part(world)) return;
-  const auto heat = body_heat(world);
-  booked_ = {world.booked, {heat.begin(), heat.end()}};
+  booked_ = {world.booked, body_sums(world)};
   hold_whole(world);
   for (const Active& a : effects) a.effect->renumber(world);
 }
@@ -131,7 +145,7 @@ World Sharing::whole(const World& part) const {
   World world = part;
   hold_whole(world);
   halo_->add(world.booked.values());
-  halo_->add(body_heat(world));
+  for (const Field<double>& f : world.body_sums) halo_->add(world.bodies[f]);
   std::string unused;
   halo_->take_least(world.lagged.viscous_step, unused);
   return world;
@@ -140,9 +154,7 @@ World Sharing::whole(const World& part) const {
 void Sharing::share_out(World& world) {
   world.halo = halo_;
   if (!halo_->is_first()) {
-    std::vector<double> heat = booked_ ? booked_->body_heat : std::vector<double>{};
-    heat.resize(body_heat(world).size());
-    std::ranges::copy(heat, body_heat(world).begin());
+    set_body_sums(world, booked_ ? booked_->body_sums : std::vector<std::vector<double>>{});
     if (booked_)
       world.booked = booked_->accounts;
     else

@@ -31,7 +31,7 @@ class Sharing {
   /// What each process has summed of its own part, of a scene that is held by all for now.
   struct Booked {
     Bookings accounts;
-    std::vector<double> body_heat;  ///< of each body [J]
+    std::vector<std::vector<double>> body_sums;  ///< of each of World::body_sums, by body
   };
   [[nodiscard]] bool outdated(const World&) const;
   void share_out(World&);

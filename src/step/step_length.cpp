@@ -11,6 +11,13 @@
 #include "step/guard.hpp"
 
 namespace tripoint {
+namespace {
+
+/// Of a step, what counts as round-off [1]: a choice, far above the 1e-16 of a division and far below what a step changes.
+constexpr double rounding = 1e-9;
+
+}  // namespace
+
 TimeStepBound least_bound(const World& world, const std::vector<Active>& effects) {
   TimeStepBound least;
   for_each_effect(world, effects, [&](const Effect& effect) {
@@ -25,11 +32,11 @@ long steps_to(const World& world, double time, const TimeStepBound& bound, doubl
   const auto& given = world.scene.time_step;
   const double length = time - world.time, most = share * given.value_or(bound.dt);
   if (length > most_steps * most) refuse_small_step(world, most, length, given ? "scene" : bound.name);
-  return std::max(1L, static_cast<long>(std::ceil(length / most - 1e-9)));
+  return std::max(1L, static_cast<long>(std::ceil(length / most - rounding)));
 }
 
 void refuse_above_bound(const World& world, double step, const TimeStepBound& bound, bool begun) {
-  if (step <= bound.dt * (1.0 + 1e-9)) return;
+  if (step <= bound.dt * (1.0 + rounding)) return;
   if (begun) refuse_step(world, step, bound.dt, bound.name);
   throw InputError(
       fmt::format("time_step {:.4g} s is above the bound of {}, {:.4g} s: make it smaller, or run all the same with "

@@ -19,7 +19,8 @@
 
 namespace tripoint {
 
-/// Numbers that the next step needs of those before it, beside the columns. A checkpoint stores them.
+/// Numbers that the next step needs of those before it, beside the columns. Of the effects fluid alone uses them; they stand
+/// here because a checkpoint stores them.
 struct Lagged {
   double half_step = 0.0;                                         ///< length of the last kick of liquids [s]
   double viscous_step = std::numeric_limits<double>::infinity();  ///< greatest stable step of viscosity, as last formed [s]
@@ -61,6 +62,7 @@ struct World {
   std::vector<Account> numerical;  ///< what numerical terms take on purpose: no error of finite steps
   std::vector<Guarded> guarded;    ///< columns that are looked at after every step, in the order in which it writes them
   std::vector<GuardedEntry> guarded_entries;  ///< entries of the ledger that the guard of energy takes by a rule of their own
+  std::vector<Field<double>> body_sums;       ///< columns of bodies that are sums over this process's own particles
   Lagged lagged;
   double time = 0.0;       ///< [s]
   double next_time = 0.0;  ///< end of the step that is being taken, exactly as the loop will set it [s]

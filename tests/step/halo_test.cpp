@@ -97,6 +97,35 @@ TEST(Halo, AColumnThatIsNotHandedOnIsSeen) {
   }
 }
 
+/// A jittered bar with a wave of temperature along x, one third of it held at what it starts with.
+test::Prepared held_bar() {
+  TemperatureField wave;
+  wave.kind = TemperatureField::Kind::cosine;
+  wave.mean = 300.0;
+  wave.amplitude = 40.0;
+  wave.wave_vector = {20.0, 0, 0};
+  Scene s = test::bar(24, 0.3, wave, false, 60.0, 1).job.scene;
+  s.jitter = 0.1;
+  Body held = s.bodies[0];
+  held.name = "held";
+  held.temperature_held = true;
+  held.shape = test::box({0.2, 0, 0}, s.bodies[0].shape.max);
+  s.bodies[0].shape.max.x = 0.2;
+  s.bodies.push_back(held);
+  return test::prepare(s, 60.0, 1);
+}
+
+/// Both slabs hold particles that are held: each sums its own.
+TEST(Halo, TheHeatThatABodyWasGivenIsTheSumOverAllSlabs) {
+  const test::Prepared p = held_bar();
+  const std::vector<double> whole = seen_whole(p).kept.real.at("bodies/body.heat");
+  const std::vector<double> shared = seen_shared(p, {-far, 0.25, far}).kept.real.at("bodies/body.heat");
+  ASSERT_EQ(whole.size(), 2u);
+  ASSERT_EQ(shared.size(), 2u);
+  EXPECT_GT(std::abs(whole[1]), 1.0) << "J: the flow through the end of the held part, some watts";
+  EXPECT_NEAR(shared[1] / whole[1], 1.0, 1e-11) << "round-off of sums in another order";
+}
+
 /// A soft bar that is thrown along x and swings, of elastic or of ductile matter, and a block of the same that it meets, if there
 /// is to be one.
 test::Prepared thrown_bar(bool flows, bool meets, double spin, double bending) {

@@ -24,7 +24,8 @@ inline constexpr Account taken_by_bulk_viscosity{"bulk_viscous"};
 /// trapezoidal rule. To be called once for all new places, after the pressure is known.
 void set_bulk_pressure(World&, const SceneNumbers&);
 
-/// Greatest step over h/c (model 8.10); above that of sound, 0.45, up to zeta = 0.2. @param zeta [1]
+/// Greatest step over h/c [1] (model 8.10): 0.81 (sqrt(z^2 + 0.885^2) - z), z = 2.12 zeta. Above that of sound, 0.45, up to
+/// zeta = 0.2. @param zeta scene.bulk_viscosity or scene.sound_damping [1]
 [[nodiscard]] double bulk_viscous_step(double zeta);
 
 }  // namespace tripoint::fluid

@@ -33,8 +33,7 @@ void hand_to_copies(const World& world, std::vector<Numbers>& by_id) {
 FacePressure::FacePressure(const Scene& scene) : share_(acting_number(scene, "face_pressure")) {}
 
 void FacePressure::find(const World& world) {
-  if (known_ == world.neighbours->rebuilds()) return;
-  known_ = world.neighbours->rebuilds();
+  if (!pairs_.renew(world.neighbours->rebuilds())) return;
   const Particles& p = world.particles;
   const auto group = p[field::group];
   const auto rank = p[field::shape_rank], id = p[field::id];
@@ -45,19 +44,15 @@ void FacePressure::find(const World& world) {
   const auto each_pair = [&](std::size_t i, auto give) {
     for (const Entry e : world.neighbours->of(i)) {
       const auto j = static_cast<std::uint32_t>(e.row());
-      if ((elastic_[i] || elastic_[j]) && !e.own() && tripoint::acts(group[i], group[j])) give(Pair{j, e.image()});
+      if ((elastic_[i] || elastic_[j]) && !e.own() && tripoint::acts(group[i], group[j])) give(ListedPair{j, e.image()});
     }
   };
   for (std::size_t i = 0; i < p.awake(); ++i)
-    if (elastic_[i]) each_pair(i, [&](const Pair& pair) { pressed[i] = pressed[pair.row] = 1; });
-  rows_.clear();
-  start_.assign(1, 0);
-  pairs_.clear();
+    if (elastic_[i]) each_pair(i, [&](const ListedPair& pair) { pressed[i] = pressed[pair.row] = 1; });
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     if (!pressed[i]) continue;
-    each_pair(i, [&](const Pair& pair) { pairs_.push_back(pair); });
-    rows_.push_back(i);
-    start_.push_back(pairs_.size());
+    each_pair(i, [&](const ListedPair& pair) { pairs_.add(pair); });
+    pairs_.end_row(i);
   }
   bonded_.clear();
   // What presses on a copy may be known to its owner alone.
@@ -77,10 +72,9 @@ void FacePressure::deform(World& world) {
   const auto shape = solid::shape_inverses(p);
   inverse_.resize(p.size());
   measure_.assign(p.size(), {});
-#pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t n = 0; n < rows_.size(); ++n) {
-    const std::size_t i = rows_[n];
-    if (!elastic_[i] || !world.owns(i)) continue;
+  pairs_.each_row(world.threads, [&](std::size_t n) {
+    const std::size_t i = pairs_.row(n);
+    if (!elastic_[i] || !world.owns(i)) return;
     Matrix3 sum;
     for (const Bond& b : world.bonds.of(static_cast<std::size_t>(id[i]))) {
       const std::size_t j = p.row(b.other);
@@ -90,7 +84,7 @@ void FacePressure::deform(World& world) {
     inverse_[i] = inverse(solid::deformation_gradient(sum, shape.at(i)));
     measure_[static_cast<std::size_t>(id[i])] =
         (0.5 * share_) * symmetric_part(transposed(inverse_[i]) * inverse_[i] - identity3);
-  }
+  });
   hand_to_copies(world, measure_);
 }
 
@@ -102,25 +96,25 @@ void FacePressure::add_densities(World& world, const PairKernels& kernels) {
   const auto id = p[field::id];
   const auto delta = world.particles[field::number_density];
   const double support2 = world.support() * world.support();
-  near_.resize(pairs_.size());
-  acting_.resize(rows_.size());
-#pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t n = 0; n < rows_.size(); ++n) {
-    const std::size_t i = rows_[n];
-    Near* const first = near_.data() + start_[n];
+  near_.resize(pairs_.pairs());
+  acting_.resize(pairs_.rows());
+  pairs_.each_row(world.threads, [&](std::size_t n) {
+    const std::size_t i = pairs_.row(n);
+    Near* const first = near_.data() + pairs_.first(n);
     Near* last = first;
-    for (std::size_t e = start_[n]; e < start_[n + 1]; ++e) {
-      const std::uint32_t j = pairs_[e].row;
-      const Vec3 d = (x.at(j) - x.at(i)) + world.neighbours->shift(pairs_[e].image);
-      const double here2 = dot(d, d),
-                   at_face2 = dot(d, seen_at_face(static_cast<std::size_t>(id[i]), static_cast<std::size_t>(id[j]), d));
+    for (const ListedPair& pair : pairs_.of(n)) {
+      const std::uint32_t j = pair.row;
+      const Vec3 d = way_to(*world.neighbours, x, i, pair);
+      const double here2 = dot(d, d);
+      const double at_face2 = dot(d, seen_at_face(static_cast<std::size_t>(id[i]), static_cast<std::size_t>(id[j]), d));
       if (!(std::min(here2, at_face2) < support2)) continue;
-      const double here = std::sqrt(here2), at_face = std::sqrt(at_face2);
+      const double here = std::sqrt(here2);
+      const double at_face = std::sqrt(at_face2);
       delta[i] += kernels.wendland.value(at_face) - kernels.wendland.value(here);
       *last++ = {j, d, kernels.wendland.derivative_over_r(at_face), kernels.wendland.derivative_over_r(here)};
     }
     acting_[n] = static_cast<std::size_t>(last - first);
-  }
+  });
   world.refresh(densities);
 }
 
@@ -133,13 +127,12 @@ void FacePressure::add_forces(World& world) {
   const auto shape = solid::shape_inverses(std::as_const(p));
   const Rows formed = world.formed();
   load_.assign(p.size(), {});
-#pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t n = 0; n < rows_.size(); ++n) {
-    const std::size_t i = rows_[n];
+  pairs_.each_row(world.threads, [&](std::size_t n) {
+    const std::size_t i = pairs_.row(n);
     const auto own = static_cast<std::size_t>(id[i]);
     Vec3 f;
     Symmetric pressed;  // sum_j (share_i + share_j) W'(r*)/r* d d^T
-    for (const Near& pair : std::span(near_).subspan(start_[n], acting_[n])) {
+    for (const Near& pair : std::span(near_).subspan(pairs_.first(n), acting_[n])) {
       const double pressure = share[i] + share[pair.row];
       const Vec3 at_face = seen_at_face(own, static_cast<std::size_t>(id[pair.row]), pair.d);
       f += pressure * (pair.at_face * at_face - pair.here * pair.d);
@@ -149,7 +142,7 @@ void FacePressure::add_forces(World& world) {
     if (elastic_[i] && world.owns(i))
       load_[own] =
           (-0.5 * share_) * (transposed(inverse_[i]) * (inverse_[i] * full(pressed) * transposed(inverse_[i]))) * shape.at(i);
-  }
+  });
   hand_to_copies(world, load_);
   load_bonds(world);
   world.refresh(forces);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/matrix3.hpp"
+#include "effects/fluid/listed_pairs.hpp"
 #include "sph/kernels.hpp"
 #include "world/world.hpp"
 
@@ -23,13 +24,9 @@ class FacePressure {
   /// After the pass of rates: the same to the pressure force, and dU/dF of each elastic particle to its bonds.
   void add_forces(World&);
   /// Rows, groups or bodies have changed: look again which particles are elastic.
-  void clear() { known_ = -1; }
+  void clear() { pairs_.clear(); }
 
  private:
-  /// A neighbour, as in Entry.
-  struct Pair {
-    std::uint32_t row, image;
-  };
   /// One that acts, at the present places.
   struct Near {
     std::uint32_t row;
@@ -44,18 +41,15 @@ class FacePressure {
     return d + (measure_[i] + measure_[j]) * d;
   }
 
-  double share_;                     ///< s
-  std::vector<char> elastic_;        ///< of each row, 1 where it is a solid of rank 3 that moves by its own particles
-  std::vector<std::uint32_t> rows_;  ///< with pairs of which one is elastic
-  std::vector<std::size_t> start_;   ///< first pair of each row, and one past the last
-  std::vector<Pair> pairs_;
-  std::vector<Near> near_;             ///< of each row from start_ on
-  std::vector<std::size_t> acting_;    ///< how many of each row
+  double share_;                       ///< s
+  std::vector<char> elastic_;          ///< of each row, 1 where it is a solid of rank 3 that moves by its own particles
+  ListedPairs<> pairs_;                ///< of which one is elastic
+  std::vector<Near> near_;             ///< those of a listed row n from pairs_.first(n) on
+  std::vector<std::size_t> acting_;    ///< how many of each listed row
   std::vector<std::uint32_t> bonded_;  ///< rows with bonds to such elastic ones, or such themselves
   std::vector<Matrix3> inverse_;       ///< by row, F^-1 of the elastic ones
   std::vector<Symmetric> measure_;     ///< by id, D
   std::vector<Matrix3> load_;          ///< by id, dU/dF A_i [J]
-  long known_ = -1;                    ///< the rebuild that the rows are of
 };
 
 }  // namespace tripoint::fluid

@@ -28,8 +28,8 @@ template <class V>
 
 /// Pressure force (7) corrected (model 8.3) [N]: F_i = -sum_j (V_i^2 p_i + V_j^2 p_j) grad_i W, the gradient of
 /// compression_energy(); `pressure_share` is V^2 p over the kernel's lattice moment, so that p is the force on an area also on
-/// the lattice (decision 6). With it the core energy 1/2 kappa (0.9 dx - r)^2 that keeps pairs apart where the clamp leaves no
-/// repulsion.
+/// the lattice (decision 6). With it the core energy 1/2 kappa (b - r)^2, b = scene.core_reach dx, that keeps pairs apart
+/// where the clamp leaves no repulsion.
 struct PressureCorrected {
   using reads = Keys<field::pressure_share, field::group>;
   using adds = Keys<field::force_x, field::force_y, field::force_z>;
@@ -166,7 +166,8 @@ using ViscosityCentral = ViscosityCentralOf<false>;
 using ViscosityCentralWeighted = ViscosityCentralOf<true>;
 
 /// sum_j G_ij of a viscosity [kg/s], and for `central` sum_j G_ij e e^T (xx, yy, zz, yz, xz, xy), for the bound of the step. It
-/// is summed to the columns of forces, between their last use and the pass that fills them anew.
+/// has no columns of its own: between their last use and the pass that fills them anew, the six columns of forces hold these
+/// sums, not newtons, in the order of `adds` (update_viscous_bound() reads them, and nobody else).
 template <class Viscosity>
 struct ViscousSpread {
   static constexpr bool central =

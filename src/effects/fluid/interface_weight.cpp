@@ -30,22 +30,16 @@ InterfaceWeight::InterfaceWeight(const Scene& scene) : gravity_(pressing_gravity
 }
 
 void InterfaceWeight::find(const World& world) {
-  if (known_ == world.neighbours->rebuilds()) return;
-  known_ = world.neighbours->rebuilds();
+  if (!pairs_.renew(world.neighbours->rebuilds())) return;
   const Particles& p = world.particles;
   const auto group = p[field::group], rest = p[field::rest_density];
-  rows_.clear();
-  start_.assign(1, 0);
-  pairs_.clear();
   for (std::uint32_t i = 0; i < p.moving(); ++i) {
     if (group[i] != liquid_group) continue;
     for (const Entry e : world.neighbours->of(i)) {
       const auto j = static_cast<std::uint32_t>(e.row());
-      if (are_unlike(group[i], rest[i], group[j], rest[j])) pairs_.push_back({j, e.image()});
+      if (are_unlike(group[i], rest[i], group[j], rest[j])) pairs_.add({j, e.image()});
     }
-    if (pairs_.size() == start_.back()) continue;
-    rows_.push_back(i);
-    start_.push_back(pairs_.size());
+    if (pairs_.has_open_row()) pairs_.end_row(i);
   }
 }
 
@@ -58,13 +52,11 @@ void InterfaceWeight::add_forces(World& world, const PairKernels& kernels) {
   const auto rest = std::as_const(p)[field::rest_density];
   const auto F = triple(p, field::force_x, field::force_y, field::force_z);
   const double support = world.support();
-#pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t n = 0; n < rows_.size(); ++n) {
-    const std::size_t i = rows_[n];
+  pairs_.each_row(world.threads, [&](std::size_t n) {
+    const std::size_t i = pairs_.row(n);
     Vec3 f;
-    for (std::size_t e = start_[n]; e < start_[n + 1]; ++e) {
-      const Pair& pair = pairs_[e];
-      const Vec3 d = (x.at(pair.row) - x.at(i)) + world.neighbours->shift(pair.image);
+    for (const ListedPair& pair : pairs_.of(n)) {
+      const Vec3 d = way_to(*world.neighbours, x, i, pair);
       const double r = norm(d);
       if (!(r < support)) continue;
       const double a = factor_ * (rest[i] - rest[pair.row]);
@@ -72,7 +64,7 @@ void InterfaceWeight::add_forces(World& world, const PairKernels& kernels) {
            (a * dot(gravity_, d) * kernel_.derivative_over_r(kernels.wendland, r)) * d;
     }
     F.set(i, F.at(i) + f);
-  }
+  });
   world.refresh(forces);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <cstdint>
-#include <vector>
+#include <cstddef>
 
+#include "effects/fluid/listed_pairs.hpp"
 #include "sph/kernels.hpp"
 #include "sph/lattice.hpp"
 #include "world/world.hpp"
@@ -23,22 +23,15 @@ class InterfaceWeight {
   /// Half of the energies of the pairs of a row [J].
   [[nodiscard]] double energy(const World&, const PairKernels&, std::size_t row) const;
   /// Rows or groups have changed: look again which liquids meet.
-  void clear() { known_ = -1; }
+  void clear() { pairs_.clear(); }
 
  private:
-  /// A neighbour, as in Entry.
-  struct Pair {
-    std::uint32_t row, image;
-  };
   void find(const World&);
 
   double factor_ = 0.0;  ///< s/2 V0^2/M [m6]
   Vec3 gravity_;         ///< across directions that are not periodic [m/s2]
   InterfaceKernel kernel_;
-  std::vector<std::uint32_t> rows_;  ///< of liquids with another liquid near
-  std::vector<std::size_t> start_;   ///< first pair of each row, and one past the last
-  std::vector<Pair> pairs_;
-  long known_ = -1;  ///< the rebuild that the rows are of
+  ListedPairs<> pairs_;  ///< of liquids with another liquid near
 };
 
 }  // namespace tripoint::fluid

@@ -50,50 +50,42 @@ void LaidWalls::find_moves(World& world) {
 }
 
 void LaidWalls::find(World& world) {
-  if (known_ == world.neighbours->rebuilds()) return;
-  known_ = world.neighbours->rebuilds();
+  if (!pairs_.renew(world.neighbours->rebuilds())) return;
   if (moves_.empty()) find_moves(world);
   const Particles& p = world.particles;
   const auto group = p[field::group];
   const auto id = p[field::id];
   const auto move = [&](std::size_t row) { return moves_[static_cast<std::size_t>(id[row])]; };
-  rows_.clear();
-  start_.assign(1, 0);
-  pairs_.clear();
   for (std::uint32_t i = 0; i < p.awake(); ++i) {
     const bool liquid = is_liquid(group[i]);
     if (!liquid && move(i) == Vec3{}) continue;
     for (const Entry e : world.neighbours->of(i)) {
       const auto j = static_cast<std::uint32_t>(e.row());
       if (liquid == is_liquid(group[j])) continue;
-      if (const Vec3 added = move(j) - move(i); added != Vec3{}) pairs_.push_back({j, e.image(), added});
+      if (const Vec3 added = move(j) - move(i); added != Vec3{}) pairs_.add({j, e.image(), added});
     }
-    if (pairs_.size() == start_.back()) continue;
-    rows_.push_back(i);
-    start_.push_back(pairs_.size());
+    if (pairs_.has_open_row()) pairs_.end_row(i);
   }
 }
 
 /// Calls give(i, j, d, d + what the lattice adds) for the pairs of each row within the support, in the order of its list.
 template <class Give>
-void LaidWalls::each_row(const World& world, Give give) const {
+void LaidWalls::each_pair(const World& world, Give give) const {
   const auto x = positions(world.particles);
   const double support = world.support();
-#pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t n = 0; n < rows_.size(); ++n) {
-    const std::size_t i = rows_[n];
-    for (std::size_t e = start_[n]; e < start_[n + 1]; ++e) {
-      const Pair& pair = pairs_[e];
-      const Vec3 d = (x.at(pair.row) - x.at(i)) + world.neighbours->shift(pair.image);
+  pairs_.each_row(world.threads, [&](std::size_t n) {
+    const std::size_t i = pairs_.row(n);
+    for (const Pair& pair : pairs_.of(n)) {
+      const Vec3 d = way_to(*world.neighbours, x, i, pair);
       if (norm(d) < support) give(i, pair.row, d, d + pair.added);
     }
-  }
+  });
 }
 
 void LaidWalls::lay_densities(World& world, const PairKernels& kernels) {
   find(world);
   const auto delta = world.particles[field::number_density];
-  each_row(world, [&](std::size_t i, std::size_t, const Vec3& d, const Vec3& from_lattice) {
+  each_pair(world, [&](std::size_t i, std::size_t, const Vec3& d, const Vec3& from_lattice) {
     delta[i] += kernels.wendland.value(norm(from_lattice)) - kernels.wendland.value(norm(d));
   });
   world.refresh(densities);
@@ -104,7 +96,7 @@ void LaidWalls::lay_forces(World& world, const PairKernels& kernels) {
   const auto share = std::as_const(p)[field::pressure_share];
   const auto F = triple(p, field::force_x, field::force_y, field::force_z);
   const Rows formed = world.formed();
-  each_row(world, [&](std::size_t i, std::size_t j, const Vec3& d, const Vec3& from_lattice) {
+  each_pair(world, [&](std::size_t i, std::size_t j, const Vec3& d, const Vec3& from_lattice) {
     if (i < formed.from || i >= formed.to) return;
     const double pressure = share[i] + share[j];
     F.set(i, F.at(i) + pressure * (kernels.wendland.derivative_over_r(norm(from_lattice)) * from_lattice -

@@ -5,14 +5,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "effects/fluid/listed_pairs.hpp"
 #include "effects/fluid/material_numbers.hpp"
 #include "world/world.hpp"
 
 namespace tripoint::fluid {
 
+/// Jitter below which the difference of two jittered places rounds to that of their places of the lattice [spacings]: each place
+/// is off by less than a quarter, and both together by less than a half.
+inline constexpr double laid_jitter_limit = 0.25;
+
 /// Whether the jitter of a scene leaves two particles of one lattice nearer to their own places of it than to others. Fixed walls
 /// then press from their lattice.
-[[nodiscard]] inline bool has_laid_walls(const Scene& scene) { return scene.jitter > 0.0 && scene.jitter < 0.25; }
+[[nodiscard]] inline bool has_laid_walls(const Scene& scene) { return scene.jitter > 0.0 && scene.jitter < laid_jitter_limit; }
 
 /// Difference of two places of one lattice, from that of two that are jittered. @param away, and the result [spacings]
 [[nodiscard]] inline Vec3 laid(const Vec3& away) { return {std::round(away.x), std::round(away.y), std::round(away.z)}; }
@@ -33,7 +38,7 @@ class LaidWalls {
   void lay_forces(World&, const PairKernels&);
   /// Groups have changed: look again which particles are walls.
   void clear() {
-    known_ = -1;
+    pairs_.clear();
     moves_.clear();
   }
 
@@ -46,14 +51,11 @@ class LaidWalls {
   void find(World&);
   void find_moves(World&);
   template <class Give>
-  void each_row(const World&, Give give) const;
+  void each_pair(const World&, Give give) const;
 
   std::vector<Vec3>
       moves_;  ///< by id, from where jitter put a particle of a fixed wall to its place on the lattice [m]; 0 of all others
-  std::vector<std::uint32_t> rows_;  ///< of liquid near fixed walls, and of these near liquid
-  std::vector<std::size_t> start_;   ///< first pair of each row, and one past the last
-  std::vector<Pair> pairs_;
-  long known_ = -1;  ///< the rebuild that the rows are of
+  ListedPairs<Pair> pairs_;  ///< of liquid near fixed walls, and of these near liquid
 };
 
 }  // namespace tripoint::fluid

@@ -124,8 +124,8 @@ std::string no_face_pressure(const Scene& s) {
   return calls_for(s, "fracture") ? "where bonds break, the shape of reference changes at once" : "";
 }
 
-/// Keys of the case file.
-std::vector<EffectKey> keys() {
+/// How liquids resist shear (model 8.5).
+std::vector<EffectKey> viscosity_keys() {
   using enum ValueType;
   using enum Range;
   return {
@@ -140,6 +140,14 @@ std::vector<EffectKey> keys() {
        {},
        no_isotropic_shear,
        true},
+  };
+}
+
+/// Motion by the transport velocity, and what goes with it (model 8.3).
+std::vector<EffectKey> transport_keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
       {{"scene", "transport_velocity", flag, "", any, "false", "a choice for vortical flow without free surface", "",
         "move particles by the transport velocity"},
        &Scene::transport_velocity,
@@ -156,24 +164,38 @@ std::vector<EffectKey> keys() {
        {},
        no_transport,
        true},
+  };
+}
+
+/// What solids do to each other and to liquids where they touch (model 8.3).
+std::vector<EffectKey> contact_keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
       {{"scene", "contact_viscosity", number, "Pa s", not_negative, "0", "contact of solids without friction", "",
         "viscosity between solids that touch"},
        &Scene::contact_viscosity},
       {{"scene", "contact_stiffness", number, "", not_negative, "0",
         "solids are as stiff where they touch as the scene's liquids", "",
         "by how much stiffer solids are than the scene's stiffness where they touch, over it (model 8.3): overlap and step fall "
-        "with "
-        "the root of 1 + it. Only where the state is corrected, nothing freezes, and a solid is free"},
+        "with the root of 1 + it. Only where the state is corrected, nothing freezes, and a solid is free"},
        {},
        no_contact_stiffness,
        true},
       {{"scene", "face_pressure", number, "", fraction, "0", "bodies of many particles across need it little", "",
         "share of 0 to 1 with which pressure on an elastic solid acts at its face, and not at the middles of its outer particles "
-        "(model "
-        "8.3). Only where density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
+        "(model 8.3). Only where density, pressure, state and elasticity are corrected, nothing freezes and no solid can break"},
        {},
        no_face_pressure,
        true},
+  };
+}
+
+/// What stands beside the equation of state of liquids (model 8.3, 8.4).
+std::vector<EffectKey> pressure_keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
       {{"scene", "bulk_viscosity", number, "", not_negative, "0.2", "ends the sound that the start of a liquid lets go", "",
         "numerical bulk viscosity of liquids over rho0 c h, h the support (model 8.4); 0: none. Only where the scene clamps, "
         "density, pressure and state are corrected, and nothing freezes"},
@@ -183,8 +205,7 @@ std::vector<EffectKey> keys() {
       {{"scene", "core_reach", number, "", fraction, "0.9",
         "pairs of a still liquid would close up where the clamp leaves no pressure", "",
         "distance in spacings below which pairs that exert pressure on each other repel (model 8.3); 0: none. Only where the "
-        "pressure is "
-        "corrected"},
+        "pressure is corrected"},
        {},
        no_core,
        true},
@@ -196,13 +217,19 @@ std::vector<EffectKey> keys() {
        true},
       {{"scene", "interface_weight", number, "", fraction, "0", "it is for layers that lie on each other, heavy below light", "",
         "share of 0 to 1 of the energy of pairs of unlike liquids that makes the pressure right on both sides of a level "
-        "interface "
-        "(model 8.3). Only where density, pressure and state are corrected, the scene clamps, nothing freezes, and liquids of "
-        "two "
-        "densities have a weight"},
+        "interface (model 8.3). Only where density, pressure and state are corrected, the scene clamps, nothing freezes, and "
+        "liquids of two densities have a weight"},
        {},
        no_interface_weight,
        true},
+  };
+}
+
+/// What a material is.
+std::vector<EffectKey> material_keys() {
+  using enum ValueType;
+  using enum Range;
+  return {
       {{"material", "stiffness", number, "m2/s2", positive, "",
         "taken from the speeds of the scene, or from elastic moduli, where something flows or solids can meet", "",
         "k of p = k (rho - rho0), the square of the sound speed"},
@@ -217,6 +244,14 @@ std::vector<EffectKey> keys() {
       {{"material", "viscosity", number, "Pa s", not_negative, "0", "inviscid", "", "dynamic viscosity of the liquid"},
        &Material::viscosity},
   };
+}
+
+/// Keys of the case file, in the order of its reference page.
+std::vector<EffectKey> keys() {
+  std::vector<EffectKey> all;
+  for (const auto& group : {viscosity_keys(), transport_keys(), contact_keys(), pressure_keys(), material_keys()})
+    all.insert(all.end(), group.begin(), group.end());
+  return all;
 }
 
 void settle_material(TableReader& in, Material& m) {

@@ -9,9 +9,11 @@
 
 namespace tripoint::fluid {
 
-/// Of a patch at the face of a wall, and how far a wall particle is from those whose density tells on its share of the pressure
-/// [spacings].
-inline constexpr double patch_radius = 1.75, reach_of_patches = 4.0 * patch_radius;
+/// Radius of a patch at the face of a wall [spacings] (model 8.4). It takes in the neighbours on the lattice that are 1, sqrt(2)
+/// and sqrt(3) away, and not the next, which are 2 away. Wider patches reach the back of thin walls (decision 13).
+inline constexpr double patch_radius = 1.75;
+/// How far a wall particle is from those whose density tells on its share of the pressure [spacings]: two means, and two back.
+inline constexpr double reach_of_patches = 4.0 * patch_radius;
 
 /// What fixed and driven walls do to liquids (model 8.4). Their pressure is the gradient of an energy, as that of all particles
 /// is, so that walls do no net work. In a scene where liquid alone touches them it follows from the mean number density of a

@@ -73,7 +73,10 @@ EffectSpec spec(const Scene& scene) {
     s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});
   else
     s.guards.push_back({field::heat_rate, "heat_rate", Written::rates});
-  if (books_bodies(scene)) s.owns.emplace_back(field::body_heat);
+  if (books_bodies(scene)) {
+    s.owns.emplace_back(field::body_heat);
+    s.body_sums = {field::body_heat};
+  }
   s.reads_if_there = fields::joined({fields::image(), {field::liquid_fraction}});
   return s;
 }

@@ -25,6 +25,10 @@ constexpr double least_distance = 0.25;
 /// apart.
 constexpr double same_place = 0.75;
 
+/// Least share of the way to a place beyond the surface that lies within the body [1]: jitter may have put the particle outside
+/// the shape, where the share would be 0. A choice, small beside least_distance.
+constexpr double least_way = 1e-3;
+
 bool acts(const Scene& scene) { return kept_number(scene.values, key_row("scene", "surface_exchange")) != 0.0; }
 
 /// Particles as they were laid, by cells of one spacing.
@@ -124,7 +128,7 @@ std::vector<Beyond> places_beyond(const Scene& scene, const Inside& inside, cons
   for (const Vec3& step : steps) {
     const Vec3 away = dx * step, place = at + away;
     if (inside(place) || cut_off(scene, place) || laid.taken(place)) continue;
-    found.push_back({away, std::max(way_within(inside, at, away), 1e-3)});  // jitter may have put the particle outside the shape
+    found.push_back({away, std::max(way_within(inside, at, away), least_way)});
     nearest = std::min(nearest, found.back().within * norm(away));
   }
   for (Beyond& b : found) b.within *= least_distance * dx / nearest;

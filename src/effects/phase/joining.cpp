@@ -13,6 +13,10 @@
 namespace tripoint::phase {
 namespace {
 
+/// Determinant of F below which a particle's F gets no inverse [1]: a choice. What is crushed or turned inside out has none worth
+/// having.
+constexpr double least_determinant = 0.1;
+
 void turn_plastic_strain(Particles& p, std::size_t row, const Matrix3& R) {
   if (!p.has(field::plastic_strain_xx.name)) return;
   const Symmetric e = symmetric_part(R * full(solid::plastic_strain_of(p, row)) * transposed(R));
@@ -40,7 +44,7 @@ Matrix3 turn_into_present_frame(World& world, std::uint32_t id) {
   turn_plastic_strain(world.particles, world.particles.row(id), R);
   solid::refresh_shapes(world, std::array{id}, true);
   const Matrix3 F = solid::deformation_of(world, id).F;
-  return determinant(F) > 0.1 ? inverse(F) : identity3;  // what is crushed or turned inside out has no inverse worth having
+  return determinant(F) > least_determinant ? inverse(F) : identity3;
 }
 
 bool has_deformable(const World& world) { return world.particles.has(field::shape_rank.name); }

@@ -31,16 +31,16 @@ class PhaseChange : public Effect {
 
  private:
   bool softens_;
-  double drifted_ = 0.0;            ///< since the last forces, within a step [s]
-  double back_ = 0.0;               ///< half of that, when events were last looked for [s]
-  std::optional<Events> found_;     ///< by wants_change(), where ids are still the same
-  std::optional<Account> account_;  ///< of the step that is being taken
+  double drifted_ = 0.0;                    ///< since the last forces, within a step [s]
+  double back_ = 0.0;                       ///< half of that, when events were last looked for [s]
+  std::optional<Events> found_;             ///< by wants_change(), where ids are still the same
+  std::optional<ReleasedEnergy> released_;  ///< of the step that is being taken
 };
 
 /// Strain energy of a particle's bonds half a drift ago [J]; 0 where no body can deform. The kick before a drift has the forces
 /// of before the change, the kick after it the new ones. So the change lets go the difference of energies half way, to second
 /// order in the step.
-Account::Energy energy_of(const World& world, double back) {
+ReleasedEnergy::Energy energy_of(const World& world, double back) {
   if (!world.particles.has(field::shape_rank.name)) return [](std::uint32_t) { return 0.0; };
   return [&world, back, forms = solid::ElasticForms(world.scene)](std::uint32_t id) {
     return solid::deformation_energy(world, forms, id, back).total();
@@ -48,7 +48,7 @@ Account::Energy energy_of(const World& world, double back) {
 }
 
 bool PhaseChange::wants_change(World& world) {
-  account_.reset();
+  released_.reset();
   back_ = 0.5 * std::exchange(drifted_, 0.0);
   if (world.neighbours->rebuilds() == 0) {  // the run begins
     world.neighbours->update(world.particles, world.time);
@@ -65,12 +65,12 @@ void PhaseChange::change(World& world) {
   if (events.empty()) return;
   world.neighbours->update(world.particles, world.time);
   if (!world.neighbours->marked()) world.neighbours->mark_own(world.particles, world.own);  // as they are before the change
-  account_.emplace(energy_of(world, back_));
-  carry_out(world, events, *account_);
+  released_.emplace(energy_of(world, back_));
+  carry_out(world, events, *released_);
 }
 
 void PhaseChange::settle(World& world) {
-  if (account_) account_->settle(world);
+  if (released_) released_->settle(world);
 }
 
 /// Bodies that an event has united hold together by bonds where they touch.

@@ -53,7 +53,7 @@ Phase solid_phase(const Scene& scene, const Material& m, double f) {
 
 class Transition {
  public:
-  Transition(World& world, Account& account) : world_(world), account_(account) {
+  Transition(World& world, ReleasedEnergy& released) : world_(world), released_(released) {
     const auto body = world.particles[field::body];
     for (std::size_t id = 0; id < body.size(); ++id) body_before_.push_back(body[world.particles.row(id)]);
   }
@@ -68,17 +68,17 @@ class Transition {
   void end_pairs_of_rigid(const std::vector<std::uint32_t>& ids);
 
   World& world_;
-  Account& account_;
+  ReleasedEnergy& released_;
   ChangedBodies changed_;
   std::vector<int> body_before_;  ///< by id
 };
 
 void Transition::touch_with_partners(std::uint32_t id, std::uint32_t event) {
-  account_.touch(id, event);
+  released_.touch(id, event);
   for (const Bond& bond : std::as_const(world_.bonds).of(id)) {
-    account_.touch(bond.other, event);
+    released_.touch(bond.other, event);
     if (!volumes_follow_lists(world_)) continue;
-    for (const Bond& next : std::as_const(world_.bonds).of(bond.other)) account_.touch(next.other, event);
+    for (const Bond& next : std::as_const(world_.bonds).of(bond.other)) released_.touch(next.other, event);
   }
 }
 
@@ -161,12 +161,12 @@ void Transition::freeze(const std::vector<std::uint32_t>& ids) {
   }
   std::vector<Joint> joints;
   for (const std::uint32_t id : ids) {
-    account_.touch(id, id);
+    released_.touch(id, id);
     for (const Partner& partner : partners_of(world_, id)) {
       const bool both_freeze = std::ranges::binary_search(ids, partner.id);
       if (both_freeze && partner.id < id) continue;
       joints.push_back({id, partner.id, partner.r, both_freeze});
-      volumes_follow_lists(world_) ? touch_with_partners(partner.id, id) : account_.touch(partner.id, id);
+      volumes_follow_lists(world_) ? touch_with_partners(partner.id, id) : released_.touch(partner.id, id);
       world_.change.relisted.push_back(partner.id);
       if (const int body = p[field::body][p.row(partner.id)]; body >= 0)
         changed_.bodies.push_back(static_cast<std::size_t>(body));
@@ -177,7 +177,7 @@ void Transition::freeze(const std::vector<std::uint32_t>& ids) {
 
 void Transition::regroup_bodies(const std::vector<std::uint32_t>& frozen) {  // and turned
   changed_.frozen = frozen;
-  regroup(world_, changed_, [&](std::uint32_t id) { account_.touch(id); });
+  regroup(world_, changed_, [&](std::uint32_t id) { released_.touch(id); });
   make_own_pairs(world_, frozen);
 }
 
@@ -247,8 +247,8 @@ bool may_join(const World& world, std::size_t row) {
   return source < world.scene.bodies.size() && world.scene.bodies[source].joins;
 }
 
-void carry_out(World& world, const Events& events, Account& account) {
-  Transition transition(world, account);
+void carry_out(World& world, const Events& events, ReleasedEnergy& released) {
+  Transition transition(world, released);
   for (const std::uint32_t id : events.melted) transition.melt(id);
   transition.turn(events.turned);
   transition.freeze(events.frozen);

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "effects/phase/account.hpp"
+#include "effects/phase/released_energy.hpp"
 
 /// The melts and freezes of one step, taken together (model 8.9).
 namespace tripoint::phase {
@@ -27,6 +27,6 @@ void connect_rigid_bodies(World&);
 
 /// Ends bonds and own pairs of what melts, keeps those of what turns, bonds what freezes to what it touches, makes bodies of what
 /// hangs together, and tells it all in World::change. Neighbour lists must be of the present places.
-void carry_out(World&, const Events&, Account&);
+void carry_out(World&, const Events&, ReleasedEnergy&);
 
 }  // namespace tripoint::phase

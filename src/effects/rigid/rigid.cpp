@@ -35,6 +35,10 @@ class RigidBodies : public Effect {
   bool turns_as_printed_;
 };
 
+/// Greatest angle of a step [rad]: a choice that guards accuracy, since the splitting stays bounded at any angle. At it a
+/// tumbling body keeps its energy to a thousandth (RotationBound, tests/step/bounds_test.cpp).
+constexpr double most_turn = 0.5;
+
 /// L of a body that turns about one axis only must lie along it. @throws InputError naming the body
 void refuse_blocked_spin(const World& world, std::size_t b) {
   const Vec3 turns = world.bodies[field::body_turns][b], w = world.bodies[field::body_angular_velocity][b];
@@ -293,14 +297,14 @@ void RigidBodies::happen(World& world, const Happening& now) {
   give_velocities(world);
 }
 
-/// |omega| dt <= 0.5, and 0.25 sqrt(h/|g|) for what falls (model 8.10).
+/// |omega| dt <= most_turn, and acceleration_step() for what falls (model 8.10).
 TimeStepBound RigidBodies::max_dt(const World& world) const {
   TimeStepBound bound;
   const double g = norm(world.scene.gravity);
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (!is_free(world, b)) continue;
     const double spin = norm(world.bodies[field::body_angular_velocity][b]);
-    if (spin > 0.0) tighten(bound, 0.5 / spin, "rotation");
+    if (spin > 0.0) tighten(bound, most_turn / spin, "rotation");
     if (g > 0.0) tighten(bound, acceleration_step(world.support(), g), "acceleration");
   }
   return bound;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "effects/phase/account.hpp"
+#include "effects/phase/released_energy.hpp"
 
 #include <algorithm>
 #include <set>
@@ -35,23 +35,23 @@ std::vector<std::uint32_t> events_of_body(const World& world, std::size_t body) 
 
 }  // namespace
 
-void Account::touch(std::uint32_t id) {
+void ReleasedEnergy::touch(std::uint32_t id) {
   if (entries_.contains(id)) return;
   entries_[id].before = energy_(id);
 }
 
-void Account::touch(std::uint32_t id, std::uint32_t event) {
+void ReleasedEnergy::touch(std::uint32_t id, std::uint32_t event) {
   touch(id);
   std::vector<std::uint32_t>& events = entries_.at(id).events;
   if (std::ranges::find(events, event) == events.end()) events.push_back(event);
 }
 
-void Account::settle(World& world) const {
+void ReleasedEnergy::settle(World& world) const {
   settle_deformation(world);
   settle_joining(world);
 }
 
-void Account::settle_deformation(World& world) const {
+void ReleasedEnergy::settle_deformation(World& world) const {
   std::map<std::uint32_t, double> difference;
   for (const auto& [id, entry] : entries_) difference[id] = entry.before - energy_(id);
   for (const auto& [id, entry] : entries_) {
@@ -63,7 +63,7 @@ void Account::settle_deformation(World& world) const {
   }
 }
 
-void Account::settle_joining(World& world) const {
+void ReleasedEnergy::settle_joining(World& world) const {
   for (const auto& [body, lost] : world.change.kinetic_lost)
     if (lost != 0.0) share(world, events_of_body(world, body), lost);
 }

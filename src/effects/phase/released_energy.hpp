@@ -9,14 +9,14 @@
 
 namespace tripoint::phase {
 
-/// Whose energy the events of one step change, and to whom it goes (model 8.9): what a particle's bonds store, before less after,
-/// is divided equally among the events that touched it; what a rigid body's joining cost equally among the events of that body.
-/// So the result does not depend on any order.
-class Account {
+/// Energy that the events of one step set free, and who is given it as heat (model 8.9). What a particle's bonds store, before
+/// less after, is divided equally among the events that touched the particle. What the joining of a rigid body cost is divided
+/// equally among the events of that body. So the result does not depend on any order.
+class ReleasedEnergy {
  public:
   using Energy = std::function<double(std::uint32_t id)>;  ///< of deformation, as the lists are [J]
 
-  explicit Account(Energy energy) : energy_(std::move(energy)) {}
+  explicit ReleasedEnergy(Energy energy) : energy_(std::move(energy)) {}
   /// To be called ahead of a change to the lists of a particle: remembers its energy the first time.
   void touch(std::uint32_t id);
   /// The same, by the melting or freezing of `event`.
