@@ -3,9 +3,12 @@
 // here; derived state (neighbour lists) is built again from what it was built from, never from the present.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/errors.hpp"
+#include "step/checkpoint_bounds.hpp"
 #include "step/simulation.hpp"
 
 namespace tripoint {
@@ -67,7 +70,10 @@ void restore_columns(Columns& columns, const std::string& group, const Checkpoin
     const std::string name = group + std::string(field.name);
     if constexpr (std::is_same_v<T, int>) {
       const auto& from = take(kept.whole, name, values.size());
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<int>(from[i]);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!std::in_range<int>(from[i])) throw InputError("the checkpoint's " + name + " has a number beyond all bounds");
+        values[i] = static_cast<int>(from[i]);
+      }
     } else {
       const auto& from = take(kept.real, name, values.size_bytes() / sizeof(double));
       if (!values.empty()) std::memcpy(static_cast<void*>(values.data()), from.data(), values.size_bytes());
@@ -95,9 +101,10 @@ void restore_pairs(PairLists<Pair>& lists, const std::string& name, const Checkp
   const auto counts = kept.whole.find(name + "/count");
   lists = {};
   if (counts == kept.whole.end()) return;
+  constexpr std::int64_t longest = 1 << 20;  // of a list: beyond it the sum could overflow
   std::int64_t pairs = 0;
   for (const std::int64_t n : counts->second) {
-    if (n < 0) throw InputError("the checkpoint's " + name + " has a list of negative length");
+    if (n < 0 || n > longest) throw InputError("the checkpoint's " + name + " has a list of length " + std::to_string(n));
     pairs += n;
   }
   const std::vector<double>& flat =
@@ -173,6 +180,7 @@ void restore_all_pairs(World& world, const Checkpoint& kept) {
   const std::vector<std::int64_t>& pairs = take(kept.whole, "step/pairs", 2);
   if (pairs[0] != static_cast<std::int64_t>(world.bonds.pairs()) || pairs[1] != static_cast<std::int64_t>(world.own.pairs()))
     throw InputError("the checkpoint lacks some of its bonds or own pairs");
+  refuse_strange_pairs(world);
 }
 
 }  // namespace
@@ -238,6 +246,7 @@ Checkpoint Simulation::state_of(const World& world) const {
 void Simulation::restore(const Checkpoint& kept) {
   refuse_another_layout(kept, layout());
   const std::vector<double>& t = take(kept.real, "step/time", 7);
+  if (!std::ranges::all_of(t, [](double x) { return !std::isnan(x); })) throw InputError("the checkpoint's times are no numbers");
   world_.time = t[0];
   world_.next_time = t[1];
   dt_ = t[2];
@@ -261,6 +270,7 @@ void Simulation::restore(const Checkpoint& kept) {
   }
   restore_columns(world_.particles, "particles/", kept);
   restore_bodies(world_, kept);
+  refuse_strange_columns(world_);
   const std::vector<double>& lagged = take(kept.real, "step/lagged", 3);
   const std::vector<double>& guards = take(kept.real, "step/guards", 2);
   guards_.turned_over = guards[0];

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -305,6 +308,50 @@ TEST(Restart, TakesNoCheckpointOfAnotherLayoutOrScene) {
   Checkpoint shorter = kept;
   shorter.real.at("particles/mass").pop_back();
   EXPECT_THROW(continued(warm, 1, shorter), InputError);
+}
+
+/// As a file could say whose seal holds. Each is one number of a state from which the run went on before.
+TEST(Restart, RefusesRowsThatAreNotThereAndAmountsThatNoFormulaBears) {
+  const Journey j = two_liquids_with_a_soft_cube();
+  const Checkpoint kept = unbroken(j, 1, {5}).cuts.at(5);
+  EXPECT_NO_THROW(continued(j, 1, kept));
+  const std::vector<std::pair<std::string, std::int64_t>> rows{
+      {"particles/body", 1000},      {"particles/body", -2},           {"particles/phase", 3},
+      {"particles/material", 99},    {"particles/source", 1 << 20},    {"particles/source", -1},
+      {"particles/shape_rank", 4},   {"particles/solid_material", 99}, {"particles/material", 1LL << 32},
+      {"bodies/body.motion", 3},     {"bodies/body.phase", -1},        {"bodies/body.source", 99},
+      {"bodies/body.alive", 2},      {"bonds/count", 1LL << 61},       {"bonds/count", -1},
+      {"own_pairs/count", 1LL << 61}};
+  for (const auto& [name, value] : rows) {
+    ASSERT_TRUE(kept.whole.count(name)) << name;
+    Checkpoint wrong = kept;
+    wrong.whole.at(name).back() = value;
+    EXPECT_THROW(continued(j, 1, wrong), InputError) << name << " = " << value;
+  }
+  for (const double mass : {0.0, -1.0, not_a_number, std::numeric_limits<double>::infinity(), 5e-324}) {
+    Checkpoint wrong = kept;
+    wrong.real.at("particles/mass")[0] = mass;
+    EXPECT_THROW(continued(j, 1, wrong), InputError) << mass;
+  }
+  Checkpoint no_time = kept;
+  no_time.real.at("step/time")[0] = not_a_number;
+  EXPECT_THROW(continued(j, 1, no_time), InputError);
+}
+
+TEST(Restart, RefusesABondWhosePartnerIsNoParticleOrDoesNotKnowIt) {
+  const Journey j = two_liquids_with_a_soft_cube();
+  const Checkpoint kept = unbroken(j, 1, {5}).cuts.at(5);
+  const std::vector<double>& bonds = kept.real.at("bonds/list");
+  for (const std::uint64_t partner :
+       {0xffffffffULL, 1ULL << 20, 1ULL << 32}) {  // its lower half is the partner, its upper the place there
+    Checkpoint wrong = kept;
+    wrong.real.at("bonds/list")[0] = std::bit_cast<double>(partner);
+    ASSERT_NE(std::bit_cast<std::uint64_t>(bonds[0]), partner);
+    EXPECT_THROW(continued(j, 1, wrong), InputError) << partner;
+  }
+  Checkpoint wrong = kept;
+  wrong.real.at("own_pairs/list")[0] = std::bit_cast<double>(std::uint64_t{1} << 20);
+  EXPECT_THROW(continued(j, 1, wrong), InputError);
 }
 
 TEST(Restart, StopsWhereItIsToldToAndGoesOnFromThere) {
