@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "adapters/tripoint/solver_job.hpp"
@@ -235,11 +236,15 @@ bool RanksEngine::stops(bool asked) {
 }
 
 /// How far this rank is: what is told of it where it ends without a word.
+/// By a rename, so that the words of a rank that is killed here are those of before, not half a line.
 void RanksEngine::write_words() const {
   words_at_ = wall_seconds();
-  std::ofstream(words_path_) << fmt::format("{} process\nt = {:.6g} s, step {}, {} particles of its own and {} copies\n",
-                                            ::getpid(), simulation_->world().time, simulation_->steps(), halo_->owned(),
-                                            simulation_->world().particles.size() - halo_->owned());
+  const std::string next = words_path_ + ".part";
+  std::ofstream(next) << fmt::format("{} process\nt = {:.6g} s, step {}, {} particles of its own and {} copies\n", ::getpid(),
+                                     simulation_->world().time, simulation_->steps(), halo_->owned(),
+                                     simulation_->world().particles.size() - halo_->owned());
+  std::error_code ignored;  // words are a help; a full disk is told where frames are written
+  std::filesystem::rename(next, words_path_, ignored);
 }
 
 Snapshot RanksEngine::observe() const {
