@@ -128,7 +128,7 @@ def write_pdf(results, out):
                 drawing = module.draw(case, found if module in OF_TRAJECTORIES else [], [])
                 if drawing is None:
                     continue
-                figure = drawing.figure
+                figure = drawing.figure.matplotlib() if hasattr(drawing.figure, "matplotlib") else drawing.figure
                 shrink(figure, (84 if figure.get_figwidth() <= style.HALF else 170) / 25.4)
                 made.append(out / "figures" / f"{case.slug}-{drawing.name}.pdf")
                 with whole(made[-1], "wb") as file:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import style
+from . import plot, style
 from .curve import Drawing
 
 MOST_BODIES = 4
@@ -27,7 +27,7 @@ def draw(case, trajectories, notes):
     order = who_leads(wanted[0][0], left[0]) if wanted[0][0].endswith("of the centre [m]") else ""
     columns = min(len(wanted), 2)
     ordered = [panel for n in range(0, len(wanted), columns) for panel in (wanted[n:n + columns] + [None] * (columns - len(wanted[n:n + columns])) + (left[n:n + columns] + [None] * (columns - len(left[n:n + columns])) if any(left[n:n + columns]) else []))]
-    figure, axes = style.panels(len(ordered), len(shown), height=2.3, columns=columns)
+    figure, axes = plot.panels(len(ordered), len(shown), height=2.3, columns=columns)
     for axis, panel in zip(axes, ordered):
         if panel is None:
             axis.set_visible(False)
@@ -41,7 +41,6 @@ def draw(case, trajectories, notes):
                       marker=look["marker"] if nth == 0 and width < 2 else None, markersize=3.2, markevery=(offset(curve, shown), max(1, len(time) // 8)))
         axis.set_xlabel("time [s]")
         axis.set_ylabel(title)
-    style.legend(figure, axes)
     title, what = ("Bodies in time", "Position, rotation and energy of the bodies") if len(wanted) > 1 or wanted[0][0] != ENERGY else ("Energy in time", "Energy")
     return Drawing("bodies", title, f"{what} against time for " + ", ".join(c.label for c, _ in shown) + ".", figure, caption(wanted, any(left)) + order)
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from model import is_number
 
-from . import style
+from . import plot, style
 from .curve import Drawing, judged, label_metric
 
 UNITS = {"spacing": "particle spacing [m]", "time_step": "time step [s]", "support_ratio": "1 / support ratio", "walkers": "1 / walkers", "iterations": "1 / iterations"}
@@ -24,10 +24,9 @@ def draw(case, trajectories, notes):
     if len(wanted) > MOST_PANELS:
         notes.append(f"convergence is drawn for the first {MOST_PANELS} studies; in the table of orders alone: " + ", ".join(f"{m} by {a}" for m, a in wanted[MOST_PANELS:]))
         wanted = wanted[:MOST_PANELS]
-    figure, axes = style.panels(len(wanted), len(judged(case)))
+    figure, axes = plot.panels(len(wanted), len(judged(case)))
     for axis, (metric, knob) in zip(axes, wanted):
         panel(case, axis, metric, knob)
-    style.legend(figure, axes)
     return Drawing("convergence", "Convergence", f"Log-log plot of {', '.join(m for m, _ in wanted)} against {', '.join(UNITS.get(k, k) for _, k in wanted)} for each engine and mode.", figure,
                    "Finer is to the left. Points: error with two standard uncertainties. Line: fitted order, shaded over its 95 % interval, which is written beside it. Dots: formal slope.")
 
@@ -67,8 +66,8 @@ def panel(case, axis, metric, knob):
     for slope, found in sorted(formal.items()):
         guide(axis, slope, found)
     axis.margins(x=0.1, y=0.12)
-    style.logarithmic(axis)
-    style.labels(axis, labels, (4, -14))
+    axis.logarithmic()
+    axis.labels(labels, (4, -14))
     axis.set_xlabel(UNITS.get(knob, knob.replace("+", ", with it ").replace("_", " ")))
     label_metric(axis, case, metric)
 

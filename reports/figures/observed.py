@@ -13,7 +13,7 @@ import numpy as np
 
 from model import is_number, number, table, text
 
-from . import style
+from . import plot, style
 from .curve import Drawing, curves
 
 MOST_BYTES = 1_000_000
@@ -34,7 +34,7 @@ def draw(case, trajectories, notes):
     parts = [(curve, metric, column, points) for curve, run in shown for metric, column in found[:1] for points in [differences(run, metric)] if points is not None]
     if not parts:
         return None
-    figure, axes = style.panels(2, len(parts) + 1)
+    figure, axes = plot.panels(2, len(parts) + 1)
     scale = number(found[0][0].get("scale")) or 1.0
     unit = text(found[0][0].get("unit")) or "m"
     time, value, u = truth[found[0][1]]
@@ -49,7 +49,6 @@ def draw(case, trajectories, notes):
         axis.set_xlabel("time [s]")
     axes[0].set_ylabel(f"{found[0][1]} ({unit})", fontsize=8.5)
     axes[1].set_ylabel("engine minus measured", fontsize=8.5)
-    style.legend(figure, axes)
     return Drawing("observed", f"Measured {found[0][1]}, and the engines", f"Measured {found[0][1]} against time with {', '.join(c.label for c, *_ in parts)} over it, and the differences.", figure,
                    f"Circles: {text(case.reference.get('source'))}; bars: two standard uncertainties. Right: what is left between engine and measurement.")
 

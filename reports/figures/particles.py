@@ -10,7 +10,12 @@ from __future__ import annotations
 import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import PathCollection
 from matplotlib.figure import Figure
+from matplotlib.image import BboxImage
+from matplotlib.lines import Line2D
+from matplotlib.markers import MarkerStyle
+from matplotlib.transforms import Affine2D, Bbox, IdentityTransform, TransformedBbox
 
 from . import style
 from .curve import Drawing
@@ -25,6 +30,7 @@ MANY = 200   # particles from which on the picture need not hold all
 SEEN = 60    # squares of the outline of what is solid: with fewer, cutting open shows nothing
 HIDDEN = 0.4 # share of the solids' outline that is seen: below it the scene is cut open
 STRAY = 2    # in a hundred that may lie outside on each side
+DISC = (MarkerStyle("o").get_path().transformed(MarkerStyle("o").get_transform()),)
 TURN, TILT = np.radians(-55.0), np.radians(24.0)
 KINDS = (("liquid", style.BLUE), ("liquid of another material", style.SKY), ("elastic", "#2bb58c"), ("rigid", "#e8803a"), ("at rest", style.GREY))
 
@@ -169,7 +175,7 @@ def beyond(points, low, high):
 
 
 class Sheet:
-    """Panels of one scale on one axis in inches: an axis each would cost ten times the drawing."""
+    """Panels of one scale on one figure in inches, without axes: an axis each would cost ten times the drawing, and one for all half of it."""
 
     def __init__(self, lines, columns, low, high, below):
         self.low, self.high, self.columns, gap = low, high, columns, 0.1
@@ -180,11 +186,8 @@ class Sheet:
         self.base, total = below, below + lines * self.step[1] + 0.25
         self.figure = Figure(figsize=(style.WIDTH, total))
         FigureCanvasAgg(self.figure)
-        self.axis = self.figure.add_axes((0, 0, 1, 1))
-        self.axis.set_axis_off()
-        self.axis.set_xlim(0, style.WIDTH)
-        self.axis.set_ylim(0, total)
-        self.total, self.lines = total, lines
+        self.inches = Affine2D().scale(1 / style.WIDTH, 1 / total) + self.figure.transFigure
+        self.lines = lines
 
     def origin(self, place):
         """The lower left corner of a panel."""
@@ -192,25 +195,35 @@ class Sheet:
 
     def draw(self, place, seen, area, pale, colours):
         at = self.origin(place) + (seen[:, :2] - self.low) * self.scale
-        self.axis.scatter(at[:, 0], at[:, 1], s=area, linewidths=0, rasterized=True, alpha=pale, **colours)
+        discs = PathCollection(DISC, [area], offsets=at, offset_transform=self.inches, facecolors=colours, edgecolors="none", linewidths=0, alpha=pale, rasterized=True)
+        discs.set_transform(IdentityTransform())
+        self.figure.add_artist(discs)
         corner, (wide, tall) = self.origin(place), self.size
-        self.axis.plot(corner[0] + np.array([0, wide, wide, 0, 0]), corner[1] + np.array([0, 0, tall, tall, 0]), color=style.GRID, linewidth=0.8, zorder=0)
+        self.line(corner[0] + np.array([0, wide, wide, 0, 0]), corner[1] + np.array([0, 0, tall, tall, 0]), color=style.GRID, linewidth=0.8, zorder=0)
+
+    def line(self, x, y, **look):
+        self.figure.add_artist(Line2D(x, y, transform=self.inches, **look))
+
+    def words(self, x, y, words, hue=style.INK, **look):
+        """@param x, y: inches"""
+        self.figure.text(x, y, words, transform=self.inches, color=hue, zorder=3, **look)
 
     def write(self, place, x, y, words, offset, align, hue, weight="normal"):
-        self.axis.annotate(words, self.origin(place) + np.array([x, y]) * self.size, xytext=offset, textcoords="offset points", va=align, fontsize=8.5, color=hue, fontweight=weight,
-                           bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.75, "pad": 1.0} if align == "top" else None)
+        """@param x, y: shares of a panel   @param offset: points"""
+        self.words(*(self.origin(place) + np.array([x, y]) * self.size + np.array(offset) / 72), words, hue, va=align, fontsize=8.5, fontweight=weight,
+                   bbox={"facecolor": style.PAPER, "edgecolor": "none", "alpha": 0.75, "pad": 1.0} if align == "top" else None)
 
     def legend(self, warm, kinds):
         """A bar of a round length, and what the colours are. @return the same in words"""
         length = round_below(0.4 * self.size[0] / self.scale)
-        self.axis.plot([0.1, 0.1 + length * self.scale], [0.24, 0.24], color=style.INK, linewidth=2.2, solid_capstyle="butt")
-        self.axis.annotate(f"{1000 * length:.4g} mm" if length < 0.1 else f"{length:.4g} m", (0.1, 0.08), fontsize=8)
+        self.line([0.1, 0.1 + length * self.scale], [0.24, 0.24], color=style.INK, linewidth=2.2, solid_capstyle="butt")
+        self.words(0.1, 0.08, f"{1000 * length:.4g} mm" if length < 0.1 else f"{length:.4g} m", fontsize=8)
         if warm is not None:
-            self.axis.imshow(np.linspace(0, 1, 128)[None, :], extent=(3.2, 6.0, 0.3, 0.4), cmap=style.TEMPERATURE, aspect="auto")
-            self.axis.set_xlim(0, style.WIDTH)
-            self.axis.set_ylim(0, self.total)
+            bar = BboxImage(TransformedBbox(Bbox.from_extents(3.2, 0.3, 6.0, 0.4), self.inches), cmap=style.TEMPERATURE)
+            bar.set_data(np.linspace(0, 1, 128)[None, :])
+            self.figure.add_artist(bar)
             for share in (0.0, 0.5, 1.0):
-                self.axis.annotate(f"{warm[0] + share * (warm[1] - warm[0]):.4g}{' K' if share == 1 else ''}", (3.2 + 2.8 * share, 0.13), ha="center", fontsize=8)
+                self.words(3.2 + 2.8 * share, 0.13, f"{warm[0] + share * (warm[1] - warm[0]):.4g}{' K' if share == 1 else ''}", ha="center", fontsize=8)
             if not kinds:
                 return "coloured by temperature on one scale"
         names = [KINDS[k] for k in sorted(kinds)]
@@ -218,8 +231,8 @@ class Sheet:
         widths = [0.35 + 0.062 * len(name) if len(names) > 3 else 1.9 for name, _ in names]
         at = min(3.2, style.WIDTH - 0.1 - sum(widths))
         for (name, hue), wide in zip(names, widths):
-            self.axis.plot([at], [height], "o", color=hue, markersize=5)
-            self.axis.annotate(name, (at + 0.1, height), va="center", fontsize=8)
+            self.line([at], [height], marker="o", linestyle="none", color=hue, markersize=5)
+            self.words(at + 0.1, height, name, va="center", fontsize=8)
             at += wide
         if warm is not None:
             return "coloured by temperature on one scale, and below it by phase"
@@ -303,16 +316,16 @@ def kinds_of(trajectory, frame, rest):
 
 
 def hues(trajectory, frame, rest, chosen, depth, warm, by_phase):
-    """(colours for scatter, indices of KINDS that are shown): by temperature, by phase, or by body where all are solids of one phase."""
+    """(colours, indices of KINDS that are shown): by temperature, by phase, or by body where all are solids of one phase."""
     if warm is not None and frame.temperature is not None and not by_phase:
-        return {"c": frame.temperature[chosen], "cmap": style.TEMPERATURE, "vmin": warm[0], "vmax": warm[1]}, set()
+        return style.TEMPERATURE((frame.temperature[chosen] - warm[0]) / (warm[1] - warm[0])), set()
     span = np.ptp(depth) if len(depth) else 0.0
     shade = 0.7 + 0.3 * (depth.max() - depth) / span if span > 0 else np.ones(len(depth))
     kind = kinds_of(trajectory, frame, rest)
     if kind is not None and (by_phase or (kind < 3).any()):
         table = np.array([matplotlib.colors.to_rgb(hue) for _, hue in KINDS])
-        return {"c": table[kind[chosen]] * shade[:, None]}, set(kind[chosen].tolist())
+        return table[kind[chosen]] * shade[:, None], set(kind[chosen].tolist())
     bodies = trajectory.body[chosen].astype(int) if trajectory.body is not None else np.zeros(len(chosen), int)
     colours = np.array([matplotlib.colors.to_rgb(style.BODIES[b % len(style.BODIES)] if b >= 0 else style.GREY) for b in range(-1, max(bodies.max(initial=0), 0) + 1)])[bodies + 1]
     colours[rest[chosen]] = matplotlib.colors.to_rgb(style.GREY)
-    return {"c": colours * shade[:, None]}, set()
+    return colours * shade[:, None], set()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import style
+from . import plot, style
 from .curve import Drawing
 from .particles import warmth
 
@@ -20,7 +20,7 @@ def draw(case, trajectories, notes):
     if flat(shown, along):
         return None
     exact = next(((curve, t) for curve, t in shown if curve.engine.name == "exact"), None)
-    figure, axes = style.panels(2 if exact and len(shown) > 1 else 1, len(shown))
+    figure, axes = plot.panels(2 if exact and len(shown) > 1 else 1, len(shown))
     truth, scattered = binned(exact[1], along) if exact else None, False
     for curve, trajectory in shown:
         x, value, error = binned(trajectory, along)
@@ -41,7 +41,6 @@ def draw(case, trajectories, notes):
     if len(axes) > 1:
         axes[1].axhline(0.0, color=style.INK, linewidth=1.2, alpha=0.75)
         axes[1].set_ylabel("engine minus exact [K]")
-    style.legend(figure, axes)
     return Drawing("profile", "Temperature profile", f"Temperature along {'xyz'[along]} for {', '.join(c.label for c, _ in shown)}" + (", and difference from the exact profile." if exact else "."), figure,
                    "Mean over the particles at each place along the axis at the final time, at the case's own resolution. Bars: two standard errors where the engine states them." + (" Points without a line: temperature is no function of this place alone." if scattered else ""))
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from model import table
 
-from . import style
+from . import plot, style
 from .curve import Drawing, curves, label_metric
 
 MOST_PANELS = 4
@@ -21,10 +21,9 @@ def draw(case, trajectories, notes):
     if len(drawn) > MOST_PANELS:
         notes.append("error in time is not drawn for " + ", ".join(drawn[MOST_PANELS:]))
         drawn = drawn[:MOST_PANELS]
-    figure, axes = style.panels(len(drawn), len(shown_runs), height=2.5)
+    figure, axes = plot.panels(len(drawn), len(shown_runs), height=2.5)
     for axis, name in zip(axes, drawn):
         panel(case, axis, name, shown_runs)
-    style.legend(figure, axes)
     return Drawing("error-in-time", "Metrics in time", f"{', '.join(drawn)} against time for each engine and mode.", figure, "Each engine at the case's own resolution; shaded: two standard uncertainties where the run states them.")
 
 
@@ -60,6 +59,6 @@ def panel(case, axis, name, shown_runs):
             axis.fill_between(time, value - 2 * u, value + 2 * u, color=look["color"], alpha=0.15, linewidth=0)
     if log:
         axis.set_ylim(bottom=max(everything.min() * 0.7, everything.max() * 1e-14), top=everything.max() * 1.6)
-        style.logarithmic(axis, "y")
+        axis.logarithmic("y")
     axis.set_xlabel("time [s]")
     label_metric(axis, case, name)

@@ -67,13 +67,18 @@ def look(curve):
     return {"color": hue, "marker": MARKERS[(presets.index(curve.engine.preset) + 3 * rounds + rounds // 2) % len(MARKERS)], "linestyle": "--" if curve.mode == "paper" else "-"}
 
 
-def panels(count, labels, height=2.9, columns=None):
-    """A figure with `count` axes in a grid under a legend of `labels` entries, drawn without pyplot (no global state)."""
+def grid(count, labels, height=2.9, columns=None):
+    """@return (width, height [inches], columns, lines, room above for a legend of `labels` entries) of `count` panels"""
     columns = min(columns, count) if columns else 3 if count == 3 else min(2, count)
     lines = -(-count // columns)
     width = WIDTH if columns > 1 else HALF
     above = 0.3 + 0.19 * -(-labels // (5 if columns > 1 else 2))
-    total = height * lines + above - 0.25
+    return width, height * lines + above - 0.25, columns, lines, above
+
+
+def panels(count, labels, height=2.9, columns=None):
+    """A figure with `count` axes in a grid under a legend of `labels` entries, drawn without pyplot (no global state)."""
+    width, total, columns, lines, above = grid(count, labels, height, columns)
     figure = Figure(figsize=(width, total))
     FigureCanvasAgg(figure)
     axes = [figure.add_subplot(lines, columns, k + 1) for k in range(count)]
@@ -137,6 +142,12 @@ def labels(axis, wanted, aside=(6, 6)):
         axis.annotate(words, axis.transAxes.inverted().transform((x, y)), xycoords="axes fraction", fontsize=7.5, color=hue)
 
 
+def cross(axis, x, height, words, hue):
+    """A cross at a share of the height, with words beside it."""
+    axis.plot([x], [height], "x", transform=axis.get_xaxis_transform(), color=hue, markersize=7, markeredgewidth=2, clip_on=False)
+    axis.annotate(words, (x, height), xycoords=("data", "axes fraction"), xytext=(7, -3), textcoords="offset points", fontsize=7.5, color=SOFT)
+
+
 def power(value, _=None):
     """0.02, 1e-5: short for a tick."""
     if 1e-3 <= value < 1e4:
@@ -148,11 +159,16 @@ def power(value, _=None):
 def files(figure, stem):
     """Writes stem.svg, @returns its text for the page."""
     stem.parent.mkdir(parents=True, exist_ok=True)
-    buffer = io.StringIO()
-    figure.savefig(buffer, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
-    svg = buffer.getvalue()
+    svg = figure.svg() if hasattr(figure, "svg") else drawn(figure)
     stem.with_suffix(".svg").write_text(svg, encoding="utf-8")
     return svg
+
+
+def drawn(figure):
+    """The SVG of a figure of matplotlib."""
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
+    return buffer.getvalue()
 
 
 def inline(svg, prefix):

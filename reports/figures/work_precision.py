@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from model import is_number
 
-from . import style
+from . import plot, style
 from .curve import Drawing, judged, label_metric, metrics
 
 KNOBS = (("walkers", "N"), ("spacing", "dx"), ("time_step", "dt"), ("iterations", "it"), ("support_ratio", "h/dx"))
@@ -15,9 +15,8 @@ def draw(case, trajectories, notes):
     several = len({curve.engine.label for curve in judged(case) if curve.runs}) > 1 or any(engine.orders for engine in case.engines)
     if not names or not several or sum(len(curve.runs) for curve in judged(case)) < 2:
         return None  # the two forms of one engine at one resolution are no trade of work for precision
-    figure, axes = style.panels(len(names), len(judged(case)) + 1, height=3.1)
+    figure, axes = plot.panels(len(names), len(judged(case)) + 1, height=3.1)
     drawn = [panel(case, axis, metric) for axis, metric in zip(axes, names)]
-    style.legend(figure, axes)
     meant = list(dict.fromkeys(words.rpartition(" ")[0] for written, _ in drawn for words in written))
     what = f" Labels: {', '.join(f'{word} = {SHORT[word]}' for word in meant)}." if meant else ""
     lineless = " Points without a line: several runs of one level, or seconds that do not follow what was refined." if any(loose for _, loose in drawn) else ""
@@ -49,10 +48,10 @@ def panel(case, axis, metric):
     front(axis, good)
     axis.margins(x=0.12, y=0.1)
     if good:  # else there is nothing to scale by
-        style.logarithmic(axis)
+        axis.logarithmic()
         low, high = axis.get_xlim()
         axis.set_xlim(low, high * (high / low) ** 0.13)  # room for the last label
-    style.labels(axis, labels)
+    axis.labels(labels)
     failed(axis, bad, good)
     axis.set_xlabel("CPU seconds, all threads")
     label_metric(axis, case, metric)
@@ -99,8 +98,6 @@ def failed(axis, bad, good):
     for k, (cost, why, hue) in enumerate(bad[:6]):
         known = is_number(cost) and cost > 0
         height = 1.03 - 0.07 * k if why != "0" else 0.03
-        axis.plot([cost if known else middle], [height], "x", transform=axis.get_xaxis_transform(), color=hue, markersize=7, markeredgewidth=2, clip_on=False)
-        axis.annotate(("error exactly 0" if why == "0" else why) + ("" if known else " (cost unknown)"), (cost if known else middle, height), xycoords=("data", "axes fraction"), xytext=(7, -3),
-                      textcoords="offset points", fontsize=7.5, color=style.SOFT)
+        axis.cross(cost if known else middle, height, ("error exactly 0" if why == "0" else why) + ("" if known else " (cost unknown)"), hue)
     if len(bad) > 6:
         axis.set_title(f"and {len(bad) - 6} more failed runs: see the table", fontsize=8, color=style.RED)
