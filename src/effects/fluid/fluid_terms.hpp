@@ -87,7 +87,7 @@ using ViscousForce = Keys<field::viscous_force_x, field::viscous_force_y, field:
 
 /// Adds G_ij (v_j - v_i) [N]. @param G [kg/s]
 template <class V>
-inline void drag(V G, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) noexcept {
+inline void add_viscous_force(V G, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) noexcept {
   const V vx_i = i[5], vy_i = i[6], vz_i = i[7];
   const V vx_j = j[5], vy_j = j[6], vz_j = j[7];
   sum[0] += G * (vx_j - vx_i);
@@ -110,7 +110,7 @@ struct ViscosityPaper {
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
-    drag(coefficient<V>(g, i, j), i, j, sum);
+    add_viscous_force(coefficient<V>(g, i, j), i, j, sum);
   }
 };
 
@@ -130,7 +130,7 @@ struct ViscosityLaplacian {
   }
   template <class V>
   static void pair(const PairGeometry<V>& g, std::span<const V, 8> i, std::span<const V, 8> j, std::span<V, 3> sum) {
-    drag(coefficient<V>(g, i, j), i, j, sum);
+    add_viscous_force(coefficient<V>(g, i, j), i, j, sum);
   }
 };
 
