@@ -15,6 +15,8 @@ import signal
 import sys
 from pathlib import Path
 
+import no_plugins  # noqa: F401  before h5py
+
 OF_RUNS = {"vtp": "vtk_files.write", "pvd": "vtk_files.write", "xdmf": "xdmf.write", "h5md": "h5md.write", "lammps": "lammps_dump.write", "xyz": "extended_xyz.write", "ply": "point_files.write_ply", "obj": "point_files.write_obj",
            "csv": "tables.write", "paraview": "paraview.write"}
 OF_RESULTS = {"csv": "write_csv", "latex": "write_latex", "pdf": "write_pdf"}

@@ -14,6 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import no_plugins  # noqa: F401  before h5py
 import animation
 import load
 import page

@@ -18,6 +18,7 @@ import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import no_plugins  # noqa: F401  before h5py
 import digit_cost
 import headlines
 import load

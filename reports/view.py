@@ -18,6 +18,8 @@ import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import no_plugins  # noqa: F401  before h5py
+
 REPORTS = Path(__file__).resolve().parent
 DONE, BAD_INPUT, MISSING, INTERRUPTED = 0, 2, 4, 130
 MOST_RUNS = 6           # side by side in one window

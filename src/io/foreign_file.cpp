@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "core/errors.hpp"
 
@@ -33,10 +33,11 @@ bool is_no_own_file(const std::string& path) {
 std::string text_of_regular_file(const std::string& path, std::uintmax_t most) {
   expect_regular_file(path, most);
   std::ifstream in(path, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw InputError(path + ": cannot be read");
-  return std::move(text).str();
+  std::string text;
+  std::array<char, 1 << 16> part;
+  while (in.read(part.data(), part.size()) || in.gcount() > 0) text.append(part.data(), static_cast<std::size_t>(in.gcount()));
+  if (!in.is_open() || in.bad()) throw InputError(path + ": cannot be read");
+  return text;
 }
 
 }  // namespace tripoint

@@ -42,7 +42,7 @@ Handle open_own_dataset(hid_t file, const std::string& path, const std::string& 
   if (id < 0) throw InputError(name_of_file + ": " + path + " is no dataset");
   Handle dataset(id, H5Dclose, path);
   const Handle properties(H5Dget_create_plist(dataset.get()), H5Pclose, path);
-  if (H5Pget_external_count(properties.get()) > 0)
+  if (H5Pget_external_count(properties.get()) > 0 || H5Pget_layout(properties.get()) == H5D_VIRTUAL)
     throw InputError(name_of_file + ": " + path + " keeps its data in another file; refused");
   return dataset;
 }
@@ -281,11 +281,23 @@ std::vector<std::string> members(hid_t file, const std::string& path) {
     static_cast<std::vector<std::string>*>(list)->emplace_back(name);
     return 0;
   };
-  H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &names);
+  // In the file's own order: where a read fails, the library frees the table of one that it was to sort before it has filled it.
+  check(H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names), path);
+  std::ranges::sort(names);
   return names;
 }
 
 namespace {
+
+/// A file names the filters of its data by number. For a number that it does not know the library would load a shared object from
+/// HDF5_PLUGIN_PATH or its own folder, and run it. Done at each opening, since another user of the library may ask for more.
+void load_no_plugins() { check(H5PLset_loading_state(0), "HDF5: its plugins cannot be switched off"); }
+
+/// On the way to a dataset the library would open whatever file a link names.
+void follow_no_links_into_other_files() {
+  static const herr_t no_such_links = H5Lunregister(H5L_TYPE_EXTERNAL);
+  static_cast<void>(no_such_links);
+}
 
 /// Without HDF5's lock on the file: a process just started holds a copy of every open file, and the lock with it, until
 /// it runs its own program, so that a file closed here would for a moment be refused to the next who opens it.
@@ -294,6 +306,8 @@ Handle unlocked_access(const std::string& path) {
       H5dont_atexit();  // it ends by a signal where a file could not be written; handles close their files
   static_cast<void>(no_clean_up_at_exit);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  load_no_plugins();
+  follow_no_links_into_other_files();
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
   H5Pset_file_locking(access.get(), false, true);
   return access;

@@ -18,26 +18,31 @@ namespace tripoint {
 /// One solid body at one time; a dead or unborn body is all NaN.
 struct BodyState {
   Vec3 position, velocity, angular_velocity;  ///< [m], [m/s], [rad/s] world frame
-  Quaternion orientation;
-  double mass = 0.0;   ///< [kg]
-  Vec3 force, torque;  ///< from all others [N], [N m]
+  Quaternion orientation;                     ///< unit quaternion [1], from the pose at the start, or at birth, to now
+  double mass = 0.0;                          ///< [kg]
+  Vec3 force, torque;                         ///< from all others [N], [N m]
 };
 
-/// What an engine shows at one time: SI, world frame, row = particle id. Optional columns are empty where they do not exist.
+/// What an engine shows at one time: SI, world frame. Each column of particles has one value a particle, row = particle id, or is
+/// empty where the engine has no such values.
 struct Snapshot {
-  double time = 0.0;
-  long step = 0;
-  std::vector<Vec3> position, velocity;
-  std::vector<double> temperature, temperature_error, density, pressure, liquid_fraction;
+  double time = 0.0;                           ///< [s]
+  long step = 0;                               ///< steps that the engine has taken
+  std::vector<Vec3> position, velocity;        ///< [m], [m/s]
+  std::vector<double> temperature;             ///< [K]
+  std::vector<double> temperature_error;       ///< one standard error of it, of random walkers [K]
+  std::vector<double> density;                 ///< [kg/m3]
+  std::vector<double> pressure;                ///< [Pa]
+  std::vector<double> liquid_fraction;         ///< [1], 0 solid to 1 liquid
   std::vector<int> id, phase, body, material;  ///< id -1 = not alive (and NaN values)
-  std::vector<double> mass;
-  std::vector<BodyState> bodies;  ///< one row for each solid body that ever existed so far
-  double total_mass = 0.0;
-  Vec3 momentum, angular_momentum;           ///< about the origin
-  std::map<std::string, double> energy;      ///< TERM of the ledger -> [J]
-  std::map<std::string, double> counts;      ///< [1]: recoveries so far; objects that bonds hold together
-  std::map<std::string, double> heat_given;  ///< name of a body -> heat given to it so far by what holds its temperature [J]
-  std::map<std::string, double> gauges;      ///< name of a gauge of the job -> what the engine itself reads there [SI]
+  std::vector<double> mass;                    ///< [kg]
+  std::vector<BodyState> bodies;               ///< one row for each solid body that ever existed so far
+  double total_mass = 0.0;                     ///< [kg]
+  Vec3 momentum, angular_momentum;             ///< [kg m/s]; [kg m2/s], about the origin
+  std::map<std::string, double> energy;        ///< TERM of the ledger -> [J]
+  std::map<std::string, double> counts;        ///< [1]: recoveries so far; objects that bonds hold together
+  std::map<std::string, double> heat_given;    ///< name of a body -> heat given to it so far by what holds its temperature [J]
+  std::map<std::string, double> gauges;        ///< name of a gauge of the job -> what the engine itself reads there [SI]
   /// Whether the engine shows no particles at all: a solver of fields that answers by its gauges.
   [[nodiscard]] bool gauges_only() const { return position.empty() && temperature.empty() && !gauges.empty(); }
 };
@@ -98,7 +103,7 @@ void write_particles(const std::string& path, const InitialState&);
 [[nodiscard]] InitialState read_particles(const std::string& path);
 
 /// trajectory.xdmf beside trajectory.h5, for ParaView.
-/// @param last the last frame: its columns and row count are those of the file
+/// @param times of the frames [s]   @param last the last frame: its columns and row count are those of the file
 void write_xdmf(const std::string& folder, const std::vector<double>& times, const Snapshot& last);
 
 /// FNV-1a over the bits of positions, velocities, temperatures and bodies, as 16 hex digits.

@@ -137,6 +137,11 @@ std::vector<Start> starts(const InitialState& initial, std::size_t bodies) {
   return all;
 }
 
+/// A read that fails would look like the end of the file.
+void expect_read_whole(const std::ifstream& file, const std::string& path) {
+  if (file.bad()) throw InputError(path + ": cannot be read to its end");
+}
+
 /// The frame of a time, made where there is none. @throws InputError where there are too many
 template <class Make>
 Snapshot& frame_at(double time, std::map<double, Snapshot>& frames, std::size_t most, const Table& row, const Make& make) {
@@ -166,6 +171,7 @@ Trajectory read_trajectory_csv(const std::string& path, const InitialState& init
     Snapshot& frame = frame_at(time, frames, most_frames, row, [&] { return empty_frame(time, initial, bodies); });
     row.has("body") ? put_body(row, initial, start, frame) : put_particle(row, initial, frame);
   }
+  expect_read_whole(file, path);
   Trajectory trajectory;
   for (auto& [time, frame] : frames) {
     for (std::size_t i = 0; i < initial.size(); ++i) {
@@ -203,6 +209,7 @@ void read_gauges_csv(const std::string& path, const std::vector<std::string>& na
       throw InputError({path, number, 0}, "the standard error of the gauge `" + name + "` is no number from 0 on");
     frame.gauges[gauge_error_key(name)] = row["standard_error"];
   }
+  expect_read_whole(file, path);
   trajectory.frames.clear();
   for (auto& [time, frame] : frames) trajectory.frames.push_back(std::move(frame));
 }

@@ -48,6 +48,21 @@ class Export(unittest.TestCase):
         self.assertNotIn("Traceback", done.stderr)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
+    def test_no_code_is_loaded_that_a_file_names(self):
+        plugins = TRIPOINT.parent.parent / "tests" / "foreign-filter"
+        folder = self.path / "filtered"
+        shutil.copytree(self.path / "split", folder)
+        within = os.environ | {"HDF5_PLUGIN_PATH": str(plugins)}
+        again = ("import sys, h5py; f = h5py.File(sys.argv[1], 'r+'); g = f['particles/all/position']; x = g['value'][()]; del g['value']; "
+                 "g.create_dataset('value', data=x, chunks=x.shape, compression=300, allow_unknown_filter=True)")
+        subprocess.run([sys.executable, "-c", again, folder / "trajectory.h5"], env=within, check=True)
+        read = subprocess.run([sys.executable, "-c", "import sys, h5py; h5py.File(sys.argv[1])['particles/all/position/value'][()]", folder / "trajectory.h5"], env=within, capture_output=True, text=True, check=False)
+        self.assertEqual(read.returncode, 0, "the filter is there: " + read.stderr)
+        done = call("export", folder, "--to", "vtp", env=within)
+        self.assertNotEqual(done.returncode, 0, done.stdout)
+        self.assertIn("filter plugins disabled", done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+
     def test_foreign_readers_see_the_same_numbers(self):
         if not READERS.exists():
             self.skipTest("no foreign readers: tools/setup.sh readers installs them into .venv-readers")
