@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Installs the build into an empty folder, moves it, and builds a project on it: install_test.py BUILD SOURCE"""
 import os
+import platform
 import re
 import shutil
 import subprocess
@@ -10,6 +11,8 @@ import unittest
 from pathlib import Path
 
 BUILD, SOURCE = (Path(argument).resolve() for argument in sys.argv[1:3])
+ENDBR64 = bytes.fromhex("f30f1efa")  # where a jump may land
+PROBE = bytes.fromhex("48830c2400")  # how g++ touches a page of a great frame
 CONSUMER = """cmake_minimum_required(VERSION 3.25)
 project(consumer LANGUAGES CXX)
 set(CMAKE_CXX_STANDARD 20)
@@ -66,6 +69,17 @@ class Install(unittest.TestCase):
                 wanted[r"__\w+_chk@GLIBC"] = "no call of the C library is held to the size of its buffer"
             for words, fault in wanted.items():
                 self.assertTrue(re.search(words, told.stdout), f"{path.name}: {fault}")
+
+    @unittest.skipUnless(platform.machine() == "x86_64", "marks and probes are looked for in the code of x86-64")
+    def test_every_program_marks_where_a_jump_may_land_and_leaps_over_no_page(self):
+        # readelf -n shows the property of a program that is checked; Debian 12's start-up code has none, so that the code itself is looked at.
+        for path, held in self.files.items():
+            if held.startswith(b"\x7fELF"):
+                self.assertGreater(held.count(ENDBR64), 20, f"{path.name}: its functions have no marks (-fcf-protection)")
+        compiler = next((BUILD / "CMakeFiles").glob("*/CMakeCXXCompiler.cmake")).read_text()
+        if 'COMPILER_ID "GNU"' in compiler:
+            engine = self.prefix / "libexec" / "tripoint" / "engine-tripoint"  # what reads checkpoints has a frame of 64 KiB
+            self.assertIn(PROBE, self.files[engine], "no great frame is probed (-fstack-clash-protection)")
 
     def test_every_engine_of_the_build_is_there(self):
         built = {path.name for path in (BUILD / "libexec" / "tripoint").glob("engine-*") if path.is_file()}
