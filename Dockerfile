@@ -20,7 +20,8 @@ ARG SNAPSHOT=
 COPY tools/debian_snapshot.sh /tmp/debian_snapshot.sh
 RUN if [ -n "$SNAPSHOT" ]; then /tmp/debian_snapshot.sh; fi; rm /tmp/debian_snapshot.sh
 COPY --from=build /opt/tripoint /opt/tripoint
-RUN apt-get update && xargs apt-get install --yes --no-install-recommends < /opt/tripoint/packages && rm -rf /var/lib/apt/lists/*
+# bubblewrap is for --sandbox; whether it may make namespaces is up to who starts the container (docs/ci.md).
+RUN apt-get update && xargs apt-get install --yes --no-install-recommends bubblewrap < /opt/tripoint/packages && rm -rf /var/lib/apt/lists/*
 ENV PATH=/opt/tripoint/bin:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin
 RUN tripoint engines
 CMD ["tripoint", "--help"]

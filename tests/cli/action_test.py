@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The composite action's own steps, run in a shell as a runner would, on the example of another project: action_test.py TRIPOINT SOURCE."""
+import os
 import re
 import shutil
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -12,6 +14,7 @@ import yaml
 from action_runner import Runner
 
 TRIPOINT, SOURCE = sys.argv[1], Path(sys.argv[2])
+BWRAP = "/usr/bin/bwrap"
 ACTION = SOURCE / ".github" / "actions" / "gate"
 
 
@@ -50,6 +53,29 @@ class Action(unittest.TestCase):
         run = self.gate(cases="no-such-folder")
         self.assertTrue(run.failed)
         self.assertEqual(run.outputs["validate"]["exit-code"], "2")
+
+    def test_an_engine_in_the_sandbox_is_judged_as_outside_and_reaches_no_result(self):
+        words = [BWRAP, "--unshare-all", "--unshare-user", "--ro-bind", "/", "/", "/bin/true"]
+        if not os.path.exists(BWRAP) or subprocess.run(words, capture_output=True, check=False).returncode != 0:
+            self.skipTest("no bubblewrap here, or it may make no namespaces")
+        engine, reached = self.project / "engine-verlet", self.project / "output-of-a-step"
+        deed = f"    try:\n        open({str(reached)!r}, 'w').write('exit-code=0')\n    except OSError:\n        pass\n"
+        main = 'def main(verb, path=""):\n'
+        text = engine.read_text()
+        self.assertIn(main, text)
+        engine.write_text(text.replace(main, main + deed))
+        for sandbox in ("false", "true"):
+            run = self.gate(sandbox=sandbox)
+            self.assertFalse(run.failed, run.log + run.messages)
+            self.assertEqual(run.outputs["gate"]["exit-code"], "0")
+            self.assertEqual(reached.exists(), sandbox == "false")
+            reached.unlink(missing_ok=True)
+
+    def test_a_word_that_is_no_answer_to_sandbox_runs_nothing(self):
+        run = self.gate(sandbox="yes")
+        self.assertTrue(run.failed)
+        self.assertIn("::error::sandbox is true or false", run.log)
+        self.assertFalse((self.project / "report").exists())
 
     def test_the_workflow_of_the_example_gives_what_the_action_asks_for(self):
         workflow = yaml.safe_load((self.project / ".github" / "workflows" / "accuracy.yml").read_text())
