@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/durable_file.hpp"
+#include "core/whole_number.hpp"
 #include "io/foreign_file.hpp"
 #include "io/trajectory.hpp"
 
@@ -107,7 +108,7 @@ std::optional<Outcome> finished_run(const RunRequest& request, const std::string
     if (record.at("run") != hash || record.at("files") != hash_of_files(request)) return {};
     ProcessEnd end;
     end.how = ProcessEnd::How::exited;
-    end.code = record.at("code");
+    end.code = whole_number<int>(record.at("code").get<double>());
     end.cpu_s = record.at("cpu_s");
     end.wall_s = record.at("wall_s");
     end.peak_bytes = record.at("peak_bytes");
