@@ -188,6 +188,8 @@ TEST(KnownSeries, OfASpeedHaveTheUncertaintyOfTheirSwings) {
   EXPECT_NEAR(t.value, 0.125, 1e-12);
   EXPECT_NEAR(t.uncertainty.numerical, 0.25 / std::sqrt(12.0), 1e-12);
   EXPECT_TRUE(std::isnan(value(f, metric("touch_time", "final", "right"), {{"touch_time", 0.5}}, along(0)).value));
+  f.run.frames[2].bodies[1].velocity.y = 3.0;  // a frame at the very middle of the change
+  EXPECT_NEAR(value(f, metric("touch_time", "final", "right"), {{"touch_time", 0.5}}, along(1)).value, 0.0, 1e-12);
 }
 
 TEST(KnownSeries, TakeTheUncertaintyOfTheirDataWhereTheyTakeTheirValue) {

@@ -98,6 +98,16 @@ TEST(Order, DoesNotCallAnotherOrderAsymptotic) {
             FitClass::preasymptotic);
 }
 
+TEST(Order, LooksAtTheLastTwoSlopesForWhetherItHasSettled) {
+  const auto of_slopes = [](const List& slopes) {
+    List e{1e-2};
+    for (const double slope : slopes) e.push_back(e.back() * std::pow(0.5, slope));
+    return fit_order(levels(0.1, static_cast<int>(e.size())), e, {}, 2.0).fit_class;
+  };
+  EXPECT_EQ(of_slopes({1.6, 2.0, 2.0}), FitClass::asymptotic);  // the coarsest level was too coarse
+  EXPECT_EQ(of_slopes({2.0, 2.0, 1.6}), FitClass::preasymptotic);
+}
+
 TEST(GridConvergence, BoundsTheErrorOfASecondOrderSeries) {
   const auto h = levels(0.1, 4);
   const auto value = errors(h, [](double x) { return 5.0 + 2.0 * x * x; });
