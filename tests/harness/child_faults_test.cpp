@@ -4,9 +4,12 @@
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/types.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -26,17 +29,22 @@
 
 namespace {
 
-/// Lets the n-th call of its kind fail, counted from 1, and all others through.
+/// Lets the n-th call of its kind fail, counted from 1, or all from it on, and all others through.
 struct FailingCall {
   std::atomic<int> calls{0}, failing{0}, error{0};
-  bool fails() { return ++calls == failing; }
-  void plan(int which, int why) {
+  std::atomic<bool> for_ever{false};
+  bool fails() {
+    const int call = ++calls;
+    return failing > 0 && (call == failing || (for_ever && call > failing));
+  }
+  void plan(int which, int why, bool later_ones_too = false) {
     calls = 0;
     failing = which;
     error = why;
+    for_ever = later_ones_too;
   }
 };
-FailingCall spawns, forks, pipes;
+FailingCall spawns, forks, pipes, waits, polls;
 std::atomic<bool> copies_hang{false};  ///< of this process, from their first moment on
 
 template <class F>
@@ -69,6 +77,23 @@ int pipe2(int* ends, int flags) noexcept {
   }
   return next<int(int*, int)>("pipe2")(ends, flags);
 }
+pid_t wait4(pid_t pid, int* status, int options, rusage* use) noexcept {
+  if (waits.fails()) {
+    errno = waits.error;
+    return -1;
+  }
+  return next<pid_t(pid_t, int*, int, rusage*)>("wait4")(pid, status, options, use);
+}
+int poll(pollfd* all, nfds_t count, int limit) {
+  if (polls.fails()) {
+    errno = polls.error;
+    return -1;
+  }
+  return next<int(pollfd*, nfds_t, int)>("poll")(all, count, limit);
+}
+int __poll_chk(pollfd* all, nfds_t count, int limit, size_t) {
+  return poll(all, count, limit);
+}  // of a build with _FORTIFY_SOURCE
 }
 
 namespace tripoint {
@@ -213,6 +238,41 @@ TEST(Starts, ACaseFileWhoseCopyHangsIsRefusedAtTheLimit) {
   }
   copies_hang = false;
   EXPECT_NE(told.find("case.toml: could not be read within 0.2 s"), std::string::npos) << told;
+}
+
+TEST(Waits, AnEndThatNobodyTellsIsADeathAndIsKnownAtOnce) {
+  const TestFolder folder;
+  waits.plan(1, ECHILD, true);
+  const auto c = fly(folder, "nothing", required);
+  waits.plan(0, 0);
+  EXPECT_EQ(c.exit_code, exit_missing);
+  EXPECT_EQ(c.engines.at(0).status, Status::missing);
+  EXPECT_NE(c.engines.at(0).reason.find("was killed by signal 9"), std::string::npos) << c.engines.at(0).reason;  // not a timeout
+}
+
+TEST(Waits, ASignalThatComesMeanwhileChangesNothing) {
+  for (int which = 1; which <= 8; ++which) {
+    ProcessSpec spec;
+    spec.argv = {"/bin/sh", "-c", "sleep 0.02; exit 3"};
+    spec.wall_limit = 5.0;
+    waits.plan(which, EINTR);
+    polls.plan(which, EINTR);
+    const auto end = run_process(spec);
+    waits.plan(0, 0);
+    polls.plan(0, 0);
+    EXPECT_EQ(describe(end), "exited with code 3") << which;
+  }
+}
+
+TEST(Waits, WhatAChildSaysComesWholeWhereNothingCanBeWaitedFor) {
+  ProcessSpec spec;
+  spec.argv = {"/bin/sh", "-c", "head -c 300000 /dev/zero | tr '\\0' x; head -c 300000 /dev/zero >&2"};
+  spec.wall_limit = 20.0;
+  polls.plan(1, ENOMEM, true);
+  const auto end = run_process(spec);
+  polls.plan(0, 0);
+  EXPECT_EQ(describe(end), "exited with code 0");
+  EXPECT_EQ(end.output.size(), 300000u);
 }
 
 /// A shell that starts us with `trap '' CHLD` hands that down: the system then throws the ends of children away.

@@ -24,6 +24,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include "core/children.hpp"
 #include "core/stop_signals.hpp"
@@ -223,10 +224,26 @@ bool drain(int fd, Take take) {
       take(buffer, static_cast<std::size_t>(n));
     else if (n == 0)
       return false;
-    else
-      return errno == EAGAIN || errno == EINTR;
+    else if (errno != EINTR)
+      return errno == EAGAIN;
   }
   return true;
+}
+
+/// Waits as wait4 does; a signal of ours that comes meanwhile does not end it.
+pid_t wait_for(pid_t which, int options, int& status, rusage& use) {
+  pid_t ended = -1;
+  do {
+    ended = ::wait4(which, &status, options, &use);
+  } while (ended < 0 && errno == EINTR);
+  return ended;
+}
+
+/// Waits until one of them has something to say. Where that cannot be waited for, all are asked after a moment.
+void wait_for_words(std::array<pollfd, 3>& wait, double most_ms) {
+  if (::poll(wait.data(), wait.size(), static_cast<int>(most_ms)) >= 0) return;
+  if (errno != EINTR) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  for (pollfd& one : wait) one.revents = POLLIN;
 }
 
 /// The leader has ended or must end: nothing of its group stays, and every member that is ours to reap is paid for.
@@ -235,8 +252,8 @@ void end_group(pid_t leader, ProcessEnd& end, bool leader_reaped) {
   if (!leader_reaped) ::kill(leader, SIGKILL);  // it may have left its group, and we wait for it
   int status = 0;
   rusage use{};
-  if (!leader_reaped && ::wait4(leader, &status, 0, &use) == leader) add_cost(end, use);
-  while (::wait4(-leader, &status, 0, &use) > 0) add_cost(end, use);
+  if (!leader_reaped && wait_for(leader, 0, status, use) == leader) add_cost(end, use);
+  while (wait_for(-leader, 0, status, use) > 0) add_cost(end, use);
 }
 
 /// What the first process inside a sandbox has used, and all that it waited for. Bubblewrap ends without waiting for it, and it
@@ -285,12 +302,17 @@ void follow(const ProcessSpec& spec, pid_t pid, int out, int err, BoundedLog& lo
     end.peak_bytes = std::max(end.peak_bytes, peak_of(pid));
     if (spec.in_sandbox && inside == 0)
       for (const pid_t first : children_of(pid)) inside = first;
-    ::poll(wait.data(), wait.size(), static_cast<int>(until_next_look(seconds_since(start), left)));
+    wait_for_words(wait, until_next_look(seconds_since(start), left));
     if (wait[0].revents && !drain(out, take_output)) wait[0].fd = -1;
     if (wait[1].revents && !drain(err, take_log)) wait[1].fd = -1;
     int status = 0;
     rusage use{};
-    if (::wait4(pid, &status, WNOHANG, &use) == pid) {
+    const pid_t ended = wait_for(pid, WNOHANG, status, use);
+    if (ended < 0) {  // an end that nobody tells counts as a death, never as a good one
+      reaped = true;
+      end.how = ProcessEnd::How::signalled;
+      end.code = SIGKILL;
+    } else if (ended == pid) {
       reaped = true;
       add_cost(end, use);
       end.how = WIFEXITED(status) ? ProcessEnd::How::exited : ProcessEnd::How::signalled;
