@@ -80,7 +80,11 @@ const std::map<std::string, Entry>& entries() {
 
 }  // namespace
 
-std::vector<std::string> preset_names() { return {"default", "impact", "resting"}; }
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, preset] : presets()) names.push_back(name);
+  return names;
+}
 
 std::map<std::string, std::string> setting_help() {
   std::map<std::string, std::string> help;

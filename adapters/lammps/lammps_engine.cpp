@@ -100,7 +100,7 @@ const Way& way_for(const Job& job) {
 EngineInfo LammpsEngine::info() const {
   EngineInfo info;
   info.name = name_;
-  info.presets = {"default", "walkers", "conduction"};
+  info.presets = preset_names();
   info.settings = setting_help();
   if (!missing_.empty()) {
     info.version = info.build = "missing";

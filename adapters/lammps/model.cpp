@@ -2,7 +2,10 @@
 #include "adapters/lammps/model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 
 namespace tripoint::lammps {
@@ -75,7 +78,19 @@ const std::map<std::string, Entry>& entries() {
   return table;
 }
 
+/// A preset and how it conducts heat; nothing = as the library's default does.
+struct Preset {
+  std::string_view name, conduction;
+};
+constexpr std::array<Preset, 3> presets{{{"default", ""}, {"walkers", ""}, {"conduction", "sph"}}};
+
 }  // namespace
+
+std::vector<std::string> preset_names() {
+  std::vector<std::string> names;
+  for (const Preset& preset : presets) names.emplace_back(preset.name);
+  return names;
+}
 
 std::map<std::string, std::string> setting_help() {
   std::map<std::string, std::string> help;
@@ -85,10 +100,10 @@ std::map<std::string, std::string> setting_help() {
 
 Choice choice_for(const Job& job) {
   Choice choice;
-  if (job.preset == "conduction")
-    choice.conduction = "sph";
-  else if (job.preset != "default" && job.preset != "walkers")
-    throw InputError(fmt::format("lammps: no preset '{}'; there are default, walkers, conduction", job.preset));
+  const auto preset = std::ranges::find(presets, job.preset, &Preset::name);
+  if (preset == presets.end())
+    throw InputError(fmt::format("lammps: no preset '{}'; there are {}", job.preset, fmt::join(preset_names(), ", ")));
+  choice.conduction = preset->conduction;
   for (const auto& [key, value] : job.settings) {
     const auto entry = entries().find(key);
     if (entry == entries().end()) throw InputError(fmt::format("lammps: no setting '{}'; --info lists them", key));

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "adapters/engine/engine.hpp"
 #include "adapters/lammps/library.hpp"
@@ -31,6 +32,7 @@ struct Choice {
   std::string freezing;  ///< t_melt | t_solid: which of them RHEO takes for both; empty = it takes none that differ
   std::string commands;  ///< LAMMPS commands after the set-up
 };
+[[nodiscard]] std::vector<std::string> preset_names();
 [[nodiscard]] std::map<std::string, std::string> setting_help();
 /// @throws InputError naming an unknown preset, key or word
 [[nodiscard]] Choice choice_for(const Job&);

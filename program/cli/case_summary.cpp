@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <set>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/foreign_text.hpp"
 
 namespace tripoint {
@@ -74,8 +75,8 @@ std::string judged_by(const Case& c) {
 
 std::string engines_of(const Case& c) {
   std::vector<std::string> names;
-  const bool listed = std::any_of(c.engines.begin(), c.engines.end(), [](const auto& e) { return e.name == "tripoint"; });
-  if (!listed) names.emplace_back("tripoint (required)");
+  const bool listed = std::any_of(c.engines.begin(), c.engines.end(), [](const auto& e) { return is_own_solver(e.name); });
+  if (!listed) names.push_back(std::string(engine_name::solver) + " (required)");
   for (const auto& e : c.engines) names.push_back(e.name + (e.required ? " (required)" : ""));
   return fmt::format("{}", fmt::join(names, ", "));
 }

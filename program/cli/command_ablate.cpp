@@ -14,6 +14,7 @@
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
 #include "validation/case/ablation.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
@@ -62,7 +63,7 @@ Json json_of(const CaseResult& result) {
 std::map<std::string, Json> round(const std::vector<Case>& chosen, const std::string& name, const Options& o) {
   if (chosen.empty()) return {};
   SuiteOptions options;
-  options.selection.engines = {"tripoint"};
+  options.selection.engines = {engine_name::solver};
   options.out = (fs::path(o.out) / "ablation" / name).string();
   options.jobs = o.jobs;
   options.say = [](const std::string& line) { say(line); };

@@ -12,6 +12,7 @@
 #include "validation/case/idle_keys.hpp"
 #include "validation/case/preflight.hpp"
 #include "validation/case/read_case.hpp"
+#include "validation/case/unjudged.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/suite.hpp"
 #include "validation/harness/trial.hpp"
@@ -23,7 +24,7 @@ namespace {
 constexpr const char* description =
     "Checks a case before anything runs: every key, unit and name; then the particles: bodies that overlap or stand too near,\n"
     "that are too coarse or of wrong mass, a time step above a bound; events and keys that can change nothing; then metrics,\n"
-    "references and engines: what would be refused.\n"
+    "references and engines: what would be refused; and whether any gate judges it.\n"
     "Ends 2 where it finds an error, 0 where it finds none or warnings.\n"
     "  tripoint check my.toml\n"
     "  tripoint check my.toml --set scene.spacing=0.01";
@@ -37,6 +38,7 @@ int check(const std::string& file, const std::vector<std::string>& set) {
   auto findings = preflight(reading.value, scene, state);
   for (auto& f : idle_keys(reading, scene, state)) findings.push_back(std::move(f));
   for (auto& f : trial(reading.value)) findings.push_back(std::move(f));
+  for (auto& f : unjudged(reading.value)) findings.push_back(std::move(f));
   long errors = 0;
   for (const auto& f : library_values(reading)) say("note: " + with_place(f));
   for (const auto& f : start_notes(scene, state)) say("note: " + with_place(f));

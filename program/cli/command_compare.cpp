@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/report_files.hpp"
 #include "validation/harness/sandbox.hpp"
@@ -38,7 +39,7 @@ struct CompareOptions {
 };
 
 struct ConvergeOptions {
-  std::string what, axis = "spacing", engine = "tripoint", out;
+  std::string what, axis = "spacing", engine = engine_name::solver, out;
   std::vector<double> levels;
   int jobs = 1;
   bool sandbox = false;

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <CLI/CLI.hpp>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 
-#include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/library.hpp"
-#include "validation/harness/report_files.hpp"
+#include "program/cli/hand_over.hpp"
 
 namespace tripoint {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* description =
     "Writes a run for other programs, or the numbers of a report for a paper. docs/trajectory.md says which program reads which "
@@ -36,20 +26,12 @@ struct ExportOptions {
   bool json = false;
 };
 
-/// Becomes the program of the reports, which also takes Ctrl-C then. @throws EngineError where there is no such program
-int hand_over(const ExportOptions& o) {
-  const fs::path program = fs::path(share_folder()) / "reports" / "export.py";
-  if (!fs::exists(program)) throw EngineError("the export program " + program.string() + " is missing");
-  std::vector<std::string> words{python_program(), "-B", program.string(), "--frames=" + o.frames};
-  for (const auto& format : o.to) words.push_back("--to=" + format);
-  if (!o.out.empty()) words.push_back("--out=" + o.out);
-  if (o.json) words.emplace_back("--json");
-  words.insert(words.end(), {"--", o.what});
-  std::vector<char*> pointers;
-  for (auto& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  ::execv(words.front().c_str(), pointers.data());
-  throw EngineError(fmt::format("{} cannot be started: {}", words.front(), std::strerror(errno)));
+[[noreturn]] void write_files(const ExportOptions& o) {
+  std::vector<std::string> options{"--frames=" + o.frames};
+  for (const auto& format : o.to) options.push_back("--to=" + format);
+  if (!o.out.empty()) options.push_back("--out=" + o.out);
+  if (o.json) options.emplace_back("--json");
+  hand_over("export.py", options, {o.what});
 }
 
 }  // namespace
@@ -68,7 +50,7 @@ void add_export(CLI::App& app, int& exit_code) {
   command->add_option("--out", o->out, "folder of the files (default: `export` in the folder of the run or report)");
   command->add_option("--frames", o->frames, "all, last, a number, or FROM:TO:STEP")->capture_default_str();
   command->add_flag("--json", o->json, "print one JSON document with the names of the files");
-  command->callback([o, &exit_code] { exit_code = guarded([&] { return hand_over(*o); }); });
+  command->callback([o, &exit_code] { exit_code = guarded([&]() -> int { write_files(*o); }); });
 }
 
 }  // namespace tripoint

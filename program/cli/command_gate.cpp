@@ -13,7 +13,6 @@
 #include "program/cli/gate_judge.hpp"
 #include "validation/harness/baseline.hpp"
 #include "validation/harness/history.hpp"
-#include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/recheck.hpp"
 #include "validation/harness/seeds.hpp"
@@ -74,12 +73,6 @@ struct GateOptions {
   bool removed = false;  ///< the ids are of cases that are no more
 };
 
-Results judged(const std::string& path) {
-  auto results = read_results(path);
-  judge(results);
-  return results;
-}
-
 int accept_file(const GateOptions& o) {
   std::string path = "report/results.json";
   std::vector<std::string> ids;
@@ -88,7 +81,8 @@ int accept_file(const GateOptions& o) {
     print(accept_removal(ids, {{}, {}, o.reason}));
     return exit_pass;
   }
-  const auto results = judged(path);
+  const auto results = judged_results(path);
+  say_if_called_elsewhere(results, path);
   if (const auto wrong = recheck_remarks(results); !wrong.empty())
     throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
   const Acceptance acceptance{results.date.substr(0, 10), results.tool.commit, o.reason};
@@ -150,7 +144,8 @@ void add_gate(CLI::App& app, int& exit_code) {
       if (self->parsed()) return selftest(o->selftest, o->profile, o->seeds, o->json);
       if (accepts->parsed()) return accept_file(*o);
       if (proposes->parsed()) return propose_baselines(o->propose);
-      if (o->judge.results.empty()) throw InputError("gate: name a results.json, or accept, propose or selftest");
+      if (o->judge.results.empty())
+        throw InputError("gate: name a results.json, for example report/results.json, or accept, propose or selftest");
       return judge_results(o->judge);
     });
   });

@@ -13,6 +13,7 @@
 #include "program/cli/common.hpp"
 #include "program/cli/gate_adopt.hpp"
 #include "validation/case/case_document.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/harness/adopt.hpp"
 #include "validation/harness/apply_gate.hpp"
@@ -109,8 +110,8 @@ std::vector<std::string> write_cases(const GateAdoptOptions& o, const std::vecto
     print(fmt::format("wrote {}\n", file.string()));
     for (const auto& row : c.rows)
       for (const auto& g : row.gates)
-        print(fmt::format("  {:28} {:34} {}\n", g.metric + (row.preset == "default" ? "" : " (" + row.preset + ")"), describe(g),
-                          g.reason));
+        print(fmt::format("  {:28} {:34} {}\n", g.metric + (is_default_preset(row.preset) ? "" : " (" + row.preset + ")"),
+                          describe(g), g.reason));
   }
   return files;
 }

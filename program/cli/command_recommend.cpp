@@ -9,6 +9,7 @@
 #include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/front.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
@@ -97,7 +98,7 @@ CaseResult measure(const Options& o, const Case& value, const std::function<bool
   options.jobs = o.jobs;
   options.threads = o.threads;
   options.say = [](const std::string& line) { say(line); };
-  options.wanted = [&](const EnginePlan& engine, const RunPlan& run) { return engine.name != "exact" && wanted(run); };
+  options.wanted = [&](const EnginePlan& engine, const RunPlan& run) { return !is_exact(engine.name) && wanted(run); };
   const auto engines = discover_engines(words.paths);
   for (const auto& name : options.selection.engines)
     if (!find_engine(engines, name)) throw EngineError(no_such_engine(name, engines));

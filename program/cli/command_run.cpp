@@ -17,6 +17,7 @@
 #include "program/cli/start_notes.hpp"
 #include "scene/sample.hpp"
 #include "scene/units.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/case/idle_keys.hpp"
 #include "validation/harness/case_names.hpp"
 #include "validation/harness/finished_run.hpp"
@@ -49,7 +50,7 @@ constexpr const char* description =
     "Exit: 0 done, 2 bad input, 4 the engine is missing, refuses, fails or does not answer, 7 diverged, 130 Ctrl-C.";
 
 struct RunOptions {
-  std::string what, engine = "tripoint", out, until, resume, checkpoint_interval;
+  std::string what, engine = engine_name::solver, out, until, resume, checkpoint_interval;
   std::vector<std::string> set;
   int threads = 1;
   double wall_limit = 1e9;
@@ -92,7 +93,7 @@ std::string way_on(const RunOptions& o) {
   const auto found = checkpoints_in(o.out);
   if (found.empty()) return "";
   std::string command = "tripoint run " + quoted(o.what);
-  if (o.engine != "tripoint") command += " --engine " + quoted(o.engine);
+  if (!is_own_solver(o.engine)) command += " --engine " + quoted(o.engine);
   for (const auto& set : o.set) command += " --set " + quoted(set);
   if (o.threads != 1) command += fmt::format(" --threads {}", o.threads);
   if (!o.checkpoint_interval.empty()) command += " --checkpoint-interval " + quoted(o.checkpoint_interval);

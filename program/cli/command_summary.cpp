@@ -13,7 +13,6 @@
 #include "program/cli/common.hpp"
 #include "program/cli/gate_judge.hpp"
 #include "validation/harness/comment.hpp"
-#include "validation/harness/judge.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -32,12 +31,6 @@ struct SummaryOptions {
   bool markdown = false;
   CommentOptions comment;
 };
-
-Results judged(const std::string& path) {
-  auto results = read_results(results_file(path));
-  judge(results);
-  return results;
-}
 
 /// Where the case files are not here, as in a job that reads the results of another, the stored values and limits are judged, and
 /// that is said.
@@ -66,12 +59,12 @@ void write_file(const std::string& file, const std::string& text) {
 }
 
 int summarise(SummaryOptions o) {
-  const auto results = judged(o.results);
+  const auto results = judged_results(o.results);
   auto verdict = verdict_of(results, o);
   std::optional<Comparison> comparison;
   if (!o.against.empty()) {
-    const auto base = judged(o.against);
-    const auto again = o.again.empty() ? std::optional<Results>() : judged(o.again);
+    const auto base = judged_results(o.against);
+    const auto again = o.again.empty() ? std::optional<Results>() : judged_results(o.again);
     comparison = compare_results(base, results, o.comment.base.empty() ? o.against : o.comment.base, again ? &*again : nullptr);
     add_remarks(verdict, results, change_remarks(*comparison, false));
   }

@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <CLI/CLI.hpp>
-#include <cstring>
-#include <filesystem>
 #include <memory>
 
-#include "core/errors.hpp"
 #include "program/cli/commands.hpp"
 #include "program/cli/common.hpp"
-#include "scene/library.hpp"
-#include "validation/harness/report_files.hpp"
+#include "program/cli/hand_over.hpp"
 
 namespace tripoint {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr const char* description =
     "Writes one page that shows the particles of a run in three dimensions, in any browser and without a network.\n"
@@ -39,19 +31,10 @@ struct ViewOptions {
   double limit = 10.0;  // [MB]
 };
 
-/// Becomes the program of the reports, which also takes Ctrl-C then. @throws EngineError where there is no such program
-int hand_over(const ViewOptions& o) {
-  const fs::path program = fs::path(share_folder()) / "reports" / "view.py";
-  if (!fs::exists(program)) throw EngineError("the program of the page, " + program.string() + ", is missing");
-  std::vector<std::string> words{python_program(), "-B", program.string(), fmt::format("--limit={}", o.limit)};
-  if (!o.out.empty()) words.push_back("--out=" + o.out);
-  words.emplace_back("--");
-  words.insert(words.end(), o.runs.begin(), o.runs.end());
-  std::vector<char*> pointers;
-  for (auto& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  ::execv(words.front().c_str(), pointers.data());
-  throw EngineError(fmt::format("{} cannot be started: {}", words.front(), std::strerror(errno)));
+[[noreturn]] void write_page(const ViewOptions& o) {
+  std::vector<std::string> options{fmt::format("--limit={}", o.limit)};
+  if (!o.out.empty()) options.push_back("--out=" + o.out);
+  hand_over("view.py", options, o.runs);
 }
 
 }  // namespace
@@ -67,7 +50,7 @@ void add_view(CLI::App& app, int& exit_code) {
       ->capture_default_str()
       ->type_name("MB")
       ->check(CLI::Range(1.0, 500.0));
-  command->callback([o, &exit_code] { exit_code = guarded([&] { return hand_over(*o); }); });
+  command->callback([o, &exit_code] { exit_code = guarded([&]() -> int { write_page(*o); }); });
 }
 
 }  // namespace tripoint

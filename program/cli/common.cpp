@@ -153,7 +153,9 @@ std::string own_folder(const std::string& command, const std::string& case_id) {
 
 std::string results_file(const std::string& path) {
   if (!std::filesystem::exists(path))
-    throw InputError(path + ": there is no such file or folder: name a results.json, or the folder of a report");
+    throw InputError(path + ": there is no such file or folder" +
+                     (std::filesystem::path(path).is_absolute() ? "" : " in " + std::filesystem::current_path().string()) +
+                     ": name a results.json, or the folder of a report");
   return std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "results.json").string() : path;
 }
 

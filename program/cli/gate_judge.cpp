@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 
 #include "core/durable_file.hpp"
@@ -20,6 +22,7 @@
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
+namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* propose_description =
@@ -34,10 +37,13 @@ bool on_github() {
   return set && std::string(set) == "true";
 }
 
-Results judged(const std::string& path) {
-  auto results = read_results(results_file(path));
-  judge(results);
-  return results;
+/// The nearest folder above the results from which the path of the case is right; empty = none.
+fs::path folder_above(const std::string& results, const std::string& case_file) {
+  std::error_code none;
+  for (auto folder = fs::absolute(results).lexically_normal().parent_path(); folder.has_relative_path();
+       folder = folder.parent_path())
+    if (fs::is_regular_file(folder / case_file, none)) return folder;
+  return {};
 }
 
 /// Nothing is blocked, so nothing is called an error.
@@ -55,15 +61,37 @@ std::string last_words(const GateVerdict& verdict, bool informational) {
 
 }  // namespace
 
+Results judged_results(const std::string& path) {
+  auto results = read_results(results_file(path));
+  judge(results);
+  return results;
+}
+
+void say_if_called_elsewhere(const Results& results, const std::string& path) {
+  std::error_code none;
+  const auto is_elsewhere = [&](const CaseResult& c) {
+    return !c.file.empty() && fs::path(c.file).is_relative() && !fs::exists(c.file, none);
+  };
+  if (results.cases.empty() || !std::all_of(results.cases.begin(), results.cases.end(), is_elsewhere)) return;
+  const auto& file = results.cases.front().file;
+  const auto folder = folder_above(path, file);
+  say(
+      fmt::format("tripoint: {} names cases by their paths from the folder in which validate was called, and {} is not in {}: "
+                  "call this command in {}",
+                  printable(path, 200), printable(file, 200), fs::current_path(none).string(),
+                  folder.empty() ? "that folder, if the case is still there" : folder.string()));
+}
+
 int judge_results(const JudgeOptions& o) {
   if (o.against.empty() && (o.no_worse || !o.again.empty()))
     throw InputError("gate: --no-worse and --again compare with a base: name it with --against BASE.json");
-  const auto results = judged(o.results);
+  const auto results = judged_results(o.results);
+  say_if_called_elsewhere(results, o.results);
   auto verdict = gate_verdict(results, o.baselines, o.require_baselines);
   std::optional<Comparison> comparison;
   if (!o.against.empty()) {
-    const auto base = judged(o.against);
-    const auto again = o.again.empty() ? std::optional<Results>() : judged(o.again);
+    const auto base = judged_results(o.against);
+    const auto again = o.again.empty() ? std::optional<Results>() : judged_results(o.again);
     comparison = compare_results(base, results, o.against, again ? &*again : nullptr);
     add_remarks(verdict, results, change_remarks(*comparison, o.no_worse));
   }
@@ -84,7 +112,8 @@ int propose_baselines(const ProposeOptions& o) {
   std::string path = "report/results.json";
   std::vector<std::string> ids;
   for (const auto& w : o.words) (w.ends_with(".json") ? path = w : ids.emplace_back(w));
-  const auto results = judged(path);
+  const auto results = judged_results(path);
+  say_if_called_elsewhere(results, path);
   if (const auto wrong = recheck_remarks(results); !wrong.empty())
     throw InputError(path + ": " + wrong.front().title + ": " + wrong.front().text);
   const auto list =

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "validation/harness/results.hpp"
+
 namespace CLI {
 class App;
 }
@@ -16,6 +18,13 @@ struct JudgeOptions {
   std::string against, again;  ///< results of a base, and of the base once more (A/A); empty = none
   bool annotations = false, require_baselines = false, no_worse = false, informational = false;
 };
+
+/// The results of a results.json, or of the folder of a report, judged anew. @throws InputError where there are none
+[[nodiscard]] Results judged_results(const std::string& path);
+
+/// Results name a case by its path from the folder in which `validate` was called. From another folder no case can be read again,
+/// and the verdict alone would not tell why: this says on stderr in which folder to call.
+void say_if_called_elsewhere(const Results&, const std::string& path);
 
 void add_judge_options(CLI::App& gate, JudgeOptions&);
 /// Prints the verdict, what is said of the results and, with a base, every metric beside it. @return the exit code

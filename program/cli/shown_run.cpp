@@ -12,6 +12,7 @@
 
 #include "core/errors.hpp"
 #include "job/job.hpp"
+#include "validation/case/engine_names.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -38,7 +39,7 @@ fs::path folder_of(const std::string& run) {
   const fs::path path(run);
   if (fs::is_regular_file(path)) return path.parent_path().empty() ? fs::path(".") : path.parent_path();
   if (fs::exists(path / "trajectory.h5")) return path;
-  if (const auto by_case = fs::path("runs") / path / "tripoint"; fs::exists(by_case / "trajectory.h5")) return by_case;
+  if (const auto by_case = fs::path("runs") / path / engine_name::solver; fs::exists(by_case / "trajectory.h5")) return by_case;
   if (!fs::is_directory(path))
     throw InputError(
         fmt::format("{}: no such folder, and no run of a case of this name in runs/. `tripoint run CASE` makes one", run));

@@ -30,6 +30,8 @@ def metric(quantity, norm="max", more=""):
 
 
 CUBE = body("cube", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4], "velocity = [1.0, 0.0, 0.0]")
+FLIGHT = scene("end_time = 1.0") + STONE + CUBE + '[reference]\nfunction = "ballistic"\n' + metric("velocity")
+GATE = '[[gate]]\nmetric = "m"\nlimit = 1e-3\nreason = "for this test"\n'
 STILL = body("cube", "stone", [0.0, 0.0, 0.0], [0.4, 0.4, 0.4], 'motion = "fixed"\ntemperature = 300.0')
 BAR = (ICE + body("bar", "frost", [0.0, 0.0, 0.0], [0.8, 0.4, 0.4], 'phase = "rigid"\nmotion = "fixed"\ntemperature = 272.0')
        + body("plate", "frost", [-0.4, 0.0, 0.0], [0.0, 0.4, 0.4], 'phase = "rigid"\nmotion = "fixed"\ntemperature = 300.0\ntemperature_held = true'))
@@ -75,8 +77,19 @@ class Check(unittest.TestCase):
 
     def test_it_finds_nothing_in_what_is_right(self):
         with tempfile.TemporaryDirectory() as folder:
-            done = call("check", scene("end_time = 1.0") + STONE + CUBE + '[reference]\nfunction = "ballistic"\n' + metric("velocity"), folder)
+            done = call("check", FLIGHT + GATE, folder)
             self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+
+    def test_it_says_that_nothing_judges_a_case(self):
+        of_nothing = scene("end_time = 1.0") + STONE + CUBE
+        # what is said where nothing judges it; a case that is judged without a gate of its own is told nothing
+        for name, text, words in (("a metric", FLIGHT, 'a [[gate]] with metric = "m"'), ("nothing", of_nothing, "a [[metric]], and a [[gate]]"),
+                                  ("it diverges", FLIGHT + '[case]\nexpect = "diverges"\n', None), ("a gate", FLIGHT + GATE, None)):
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                done = call("check", text, folder)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(done.stderr.count("no gate judges this case"), 0 if words is None else 1, done.stderr)
+                self.assertIn(words or "", done.stderr)
 
     def test_it_says_that_still_liquid_on_a_lattice_will_stir(self):
         tank = body("floor", "stone", [0.0, 0.0, -0.3], [0.6, 0.6, 0.0], 'motion = "fixed"')

@@ -102,6 +102,31 @@ class Newcomer(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue((self.path / "report" / "index.html").exists())
 
+    def test_gate_from_another_folder_says_in_which_one_to_call_it(self):
+        self.assertEqual(self.call("new", "my-case").returncode, 0)
+        self.assertEqual(self.call("validate", "my-case", "--no-report").returncode, 0)
+        elsewhere = self.path / "elsewhere"
+        elsewhere.mkdir()
+        done = self.call("gate", "../report", cwd=elsewhere)
+        self.assertEqual(done.returncode, 4, done.stdout + done.stderr)
+        self.assertIn(f"my-case.toml is not in {elsewhere.resolve()}: call this command in {self.path.resolve()}", done.stderr)
+        missing = self.call("gate", "report", cwd=elsewhere)
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn(f"report: there is no such file or folder in {elsewhere.resolve()}", missing.stderr)
+        self.assertNotIn("call this command", self.call("gate", "report").stderr)
+
+    def test_validate_tells_of_limits_that_gate_does_not_pass(self):
+        self.assertEqual(self.call("new", "my-case").returncode, 0)
+        case = self.path / "my-case.toml"
+        self.assertNotIn("loose: ", self.call("validate", "my-case", "--no-report").stdout)
+        case.write_text(case.read_text().replace("limit = 1e-10", "limit = 1e-3"))  # round-off is measured
+        done = self.call("validate", "my-case", "--no-report")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        said = done.stdout.splitlines()
+        self.assertEqual(said[-2], "loose: 1 limit is more than 10 times what was measured: tripoint gate report names it, and does not pass")
+        self.assertTrue(said[-1].startswith("verdict PASS exit 0"), said[-1])
+        self.assertEqual(self.call("gate", "report").returncode, 1)
+
     def test_a_mistyped_tag_gets_the_nearest(self):
         self.assertIn("`heat`", self.call("validate", "heat", "--tag", "haet").stderr)
 

@@ -137,6 +137,17 @@ TEST(NeverFailsGate, Way26ACaseThatIsDeletedOrTakenOffItsProfileIsGone) {
   EXPECT_TRUE(lost_case_remarks(other).empty());
 }
 
+TEST(NeverFailsGate, ACaseBesideTheFolderOfCasesSharesItsBaselinesAndLosesNone) {
+  Accepted suite;
+  auto beside = suite.r;
+  beside.cases[0].file = suite.folder / "own.toml";
+  beside.cases[0].id = "own";
+  write_text(beside.cases[0].file, flight_case());
+  EXPECT_TRUE(lost_case_remarks(beside).empty()) << "the baselines are of the cases in `cases`";
+  std::filesystem::remove(suite.file());
+  EXPECT_TRUE(says(lost_case_remarks(beside), "its case", "GONE")) << "it is nowhere";
+}
+
 TEST(NeverFailsGate, OnlyAWholeRunOfAProfileOwesAllItsCases) {
   Accepted suite;
   auto whole = suite.r;

@@ -7,6 +7,7 @@
 #include "scene/expression.hpp"
 #include "scene/nearest.hpp"
 #include "scene/readers.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/case/judge_readers.hpp"
 
 /// How a case is judged: engines, reference, metrics, studies, gates, defects.
@@ -18,7 +19,7 @@ EngineChoice read_engine(const TomlNode& node, const std::string& name, Reading&
   EngineChoice e;
   e.name = name;
   const bool says = in.has("required");
-  e.required = in.flag("required") || (name == "tripoint" && !says);  // ours is required where a case says nothing else
+  e.required = in.flag("required") || (is_own_solver(name) && !says);  // ours is required where a case says nothing else
   e.presets = in.texts("preset");
   e.settings = in.settings("settings");
   if (const auto refuses = in.maybe_text("refuses")) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/releases.hpp"
 #include "validation/harness/seeds.hpp"
@@ -102,7 +103,7 @@ AdoptedRow row_of(const std::vector<CaseResult>& runs, const EngineRow& first, c
       row.gates.push_back(adopted_order_gate(order));
   for (auto& gate : row.gates) {
     gate.engine = engine.name;
-    gate.preset = row.preset == "default" ? "" : row.preset;
+    gate.preset = preset_unless_default(row.preset);
     gate.date = o.date;
   }
   return row;
@@ -156,9 +157,9 @@ Case case_to_adopt(Case value, const EngineEntry& engine) {
       choice.settings = e.settings;
     }
   EngineChoice ours;
-  ours.name = "tripoint";
+  ours.name = engine_name::solver;
   value.engines = {choice};
-  if (engine.name != "tripoint") value.engines.push_back(ours);
+  if (!is_own_solver(engine.name)) value.engines.push_back(ours);
   value.modes = {Mode::corrected};
   value.gates.clear();
   value.defects.clear();

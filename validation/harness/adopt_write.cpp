@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/errors.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/adopt.hpp"
 
 namespace tripoint {
@@ -93,10 +94,10 @@ std::string study_text(const Block& b) {
 std::string engine_text(const AdoptedCase& c, const EngineEntry& engine) {
   std::vector<std::string> presets;
   for (const auto& row : c.rows)
-    if (!row.gates.empty() && row.preset != "default") presets.push_back(quoted(row.preset));
+    if (!row.gates.empty() && !is_default_preset(row.preset)) presets.push_back(quoted(row.preset));
   std::string text = fmt::format("[engines.{}]\nrequired = true\n", quoted(engine.name));
   if (!presets.empty()) text += fmt::format("preset = [{}]\n", fmt::join(presets, ", "));
-  return engine.name == "tripoint"
+  return is_own_solver(engine.name)
              ? text
              : text + "\n[engines.tripoint]\nrequired = false # it may run beside, and no gate here judges it\n";
 }

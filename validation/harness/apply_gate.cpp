@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/known_defect.hpp"
 
@@ -140,7 +141,7 @@ bool declined(const EngineRow& engine) {
 /// Whether a study of the case makes this engine run at the gate's level (any level, if it names none).
 bool level_is_due(const CaseResult& result, const Gate& gate, const EngineRow& engine) {
   return std::any_of(result.studies.begin(), result.studies.end(), [&](const Study& s) {
-    if (engine.name == "exact" || (!s.engine.empty() && s.engine != engine.name)) return false;
+    if (is_exact(engine.name) || (!s.engine.empty() && s.engine != engine.name)) return false;
     if (s.mode != JudgedMode::none && !fits_mode(gate, s.mode)) return false;
     return !gate.level || std::any_of(s.levels.begin(), s.levels.end(), [&](double l) { return same_level(l, *gate.level); });
   });
@@ -252,7 +253,7 @@ Applied apply_expected_class(const CaseResult& result, const Study& study, Engin
     applied = Applied::judged;
   }
   if (applied == Applied::judged || engine.runs.empty() || !(study.engine.empty() || study.engine == engine.name)) return applied;
-  if (engine.name == "exact" || !has_mode(engine, gate) || (declined(engine) && !engine.required)) return Applied::absent;
+  if (is_exact(engine.name) || !has_mode(engine, gate) || (declined(engine) && !engine.required)) return Applied::absent;
   auto row = missing_row(gate, "no order could be fitted: a level is missing or not finite");
   row.expect = study.expect;
   engine.gates.push_back(row);

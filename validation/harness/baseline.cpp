@@ -11,6 +11,7 @@
 #include "core/whole_number.hpp"
 #include "job/job.hpp"
 #include "scene/toml_node.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 
 namespace tripoint {
@@ -227,7 +228,7 @@ std::string row_of(const AcceptedGate& g) {
   Row row;
   row.say("metric", g.metric);
   row.say("engine", g.engine);
-  if (g.preset != "default") row.say("preset", g.preset);
+  row.say("preset", preset_unless_default(g.preset));
   row.say("mode", std::string(to_string(g.mode)));
   row.say("level", g.level);
   row.say("limit", g.limit);

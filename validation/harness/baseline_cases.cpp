@@ -38,6 +38,15 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   return files;
 }
 
+/// The case of a baseline: in the folder of the cases, or, as both may share one folder `baselines`, beside the folder `cases`
+/// or below it.
+fs::path case_of(const fs::path& baseline, const Suite& suite) {
+  const auto below = fs::relative(baseline, suite.baselines);
+  const fs::path folder(suite.cases);
+  const auto other = folder.filename() == "cases" ? folder.parent_path() : folder / "cases";
+  return fs::exists(folder / below) || !fs::exists(other / below) ? folder / below : other / below;
+}
+
 Remark lost(const Baseline& b, const fs::path& file, const std::string& what) {
   return {true,     exit_missing, {file.string(), 1, 0}, b.id, what + ": tripoint gate accept --reason says who decided and why",
           infinity, "GONE"};
@@ -57,7 +66,7 @@ std::vector<Remark> lost_case_remarks(const Results& results, const std::string&
   for (const auto& suite : suites_of(results, root))
     for (const auto& file : files_below(suite.baselines)) {
       const auto b = read_baseline(file.string());
-      const auto of = fs::path(suite.cases) / fs::relative(file, suite.baselines);
+      const auto of = case_of(file, suite);
       if (!fs::exists(of)) {
         list.push_back(
             lost(b, file, fmt::format("has a baseline of {} gates, and its case {} is no more", b.gates.size(), of.string())));

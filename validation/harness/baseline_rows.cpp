@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "job/job.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 
 namespace tripoint {
@@ -30,7 +31,7 @@ AcceptedGate gate_of(const EngineRow& e, const GateRow& row, const std::optional
   AcceptedGate g;
   g.metric = row.expect ? fmt::format("{} is {}", row.metric, *row.expect) : row.metric;
   g.engine = e.name;
-  g.preset = e.preset == "default" ? "" : e.preset;
+  g.preset = preset_unless_default(e.preset);
   g.mode = row.mode;
   g.level = row.level;
   g.allows = row.expect ? fmt::format("class {}", *row.expect) : describe(row.gate);
@@ -92,9 +93,8 @@ const AcceptedGate* counterpart(const std::vector<AcceptedGate>& own, std::size_
 }
 
 bool is_absent(const CaseResult& c, const AcceptedGate& g, bool engines_were_chosen) {
-  const auto row = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) {
-    return e.name == g.engine && (e.preset == "default" ? "" : e.preset) == g.preset;
-  });
+  const auto row = std::find_if(c.engines.begin(), c.engines.end(),
+                                [&](const auto& e) { return e.name == g.engine && preset_unless_default(e.preset) == g.preset; });
   if (row != c.engines.end()) return row->status == Status::missing;
   const auto of_name = std::find_if(c.engines.begin(), c.engines.end(), [&](const auto& e) { return e.name == g.engine; });
   if (of_name != c.engines.end())

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "scene/sample.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/judge.hpp"
@@ -166,7 +167,7 @@ void add_runs(CaseRuns& all, const SuiteOptions& options) {
       run.job = make_job(value, engine, plan, scene, *initial);
       run.job.threads = options.threads;
       if (options.change) run.changed = changed_run(value, engine, run, *options.change, all.runs.size());
-      run.folder = (folder / engine.name / (engine.preset == "default" ? plan.label : engine.preset + "-" + plan.label)).string();
+      run.folder = (folder / engine.name / run_folder_name(engine.preset, plan.label)).string();
       all.runs.push_back(std::move(run));
     }
   }
@@ -277,7 +278,7 @@ CaseResult finish_case(const CaseRuns& all, const SuiteOptions& options) {
   }
   result.equivalence = compare_engines(all);
   for (const auto& run : all.runs)
-    if (run.trajectory && run.plan.base && all.engines[run.engine].name == "tripoint" && result.ledger.empty())
+    if (run.trajectory && run.plan.base && is_own_solver(all.engines[run.engine].name) && result.ledger.empty())
       result.ledger = ledger_of(*run.trajectory);
   judge(result, !options.selection.engines.empty());
   return result;

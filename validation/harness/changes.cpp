@@ -9,6 +9,7 @@
 #include <map>
 #include <tuple>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/baseline.hpp"
 #include "validation/harness/judge.hpp"
@@ -99,7 +100,7 @@ std::vector<Row> rows_of(const Results& r) {
   std::vector<Row> rows;
   for (const auto& c : r.cases)
     for (const auto& e : c.engines) {
-      if (e.name == "exact") continue;  // its error is that of the reference to itself
+      if (is_exact(e.name)) continue;  // its error is that of the reference to itself
       for (const auto& g : e.gates) rows.push_back(row_of(c, e, g));
       add_unjudged(c, e, rows);
     }
@@ -194,7 +195,8 @@ std::vector<std::string> remarks_on(const Results& base, const Results& head) {
   const auto differ = [&](const char* what, const std::string& b, const std::string& h) {
     if (b != h) list.push_back(fmt::format("{} of the base: {}; here: {}", what, b.empty() ? "none" : b, h.empty() ? "none" : h));
   };
-  differ("profile", base.profile, head.profile);
+  const auto profile = [](const Results& r) { return r.profile.empty() ? std::string("any") : r.profile; };
+  differ("profile", profile(base), profile(head));
   differ("seed", fmt::format("{}", base.seed), fmt::format("{}", head.seed));
   differ("version of tripoint", base.tool.version, head.tool.version);
   if (base.interrupted) list.push_back("the base was interrupted and does not hold every case");

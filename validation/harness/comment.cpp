@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -137,7 +138,7 @@ std::string engines_of(const Results& results) {
   std::map<std::string, std::string> versions;
   for (const auto& c : results.cases)
     for (const auto& e : c.engines)
-      if (e.name != "exact" && e.status == Status::ok) versions[e.name] = e.version;
+      if (!is_exact(e.name) && e.status == Status::ok) versions[e.name] = e.version;
   std::string text;
   for (const auto& [name, version] : versions) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version);
   return text;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/case_run.hpp"
 
 namespace tripoint {
@@ -63,7 +64,7 @@ std::vector<EquivalenceRow> compare_engines(const CaseRuns& all) {
   std::vector<const CaseRun*> bases;  // one for each engine and preset; of tripoint the first mode
   for (const auto& run : all.runs) {
     const bool first = std::none_of(bases.begin(), bases.end(), [&](const auto* b) { return b->engine == run.engine; });
-    if (run.plan.base && run.trajectory && run.row.comparable && first && all.engines[run.engine].name != "exact")
+    if (run.plan.base && run.trajectory && run.row.comparable && first && !is_exact(all.engines[run.engine].name))
       bases.push_back(&run);
   }
   std::vector<EquivalenceRow> rows;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/defect.hpp"
+#include "validation/case/engine_names.hpp"
 
 namespace tripoint {
 
@@ -12,7 +13,7 @@ namespace tripoint {
 struct EngineEntry {
   std::string name, version, build;
   std::string library_path, library_hash;
-  std::vector<std::string> capabilities, presets{"default"};
+  std::vector<std::string> capabilities, presets{default_preset};
   std::map<std::string, std::string> settings;
   std::vector<DefectEntry> defects;  ///< of the test build only
   bool deterministic = true;

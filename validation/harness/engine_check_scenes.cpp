@@ -2,9 +2,10 @@
 #include "validation/harness/engine_check.hpp"
 
 namespace tripoint {
+namespace {
 
-const std::vector<CheckScene>& check_scenes() {
-  static const std::vector<CheckScene> scenes{{"flight", R"(format = 1
+/// Of every engine: gravity, and the units of velocity, time and length.
+constexpr const char* flight_case = R"(format = 1
 [case]
 title = "A cube thrown with a spin"
 [scene]
@@ -35,9 +36,10 @@ norm = "max"
 metric = "position"
 limit = 0.1
 reason = "units: a tenth of a second's flight"
-)",
-                                               ""},
-                                              {"conduction", R"(format = 1
+)";
+
+/// Of engines that conduct heat: temperatures of a body that stands still.
+constexpr const char* conduction_case = R"(format = 1
 [case]
 title = "Half a cosine of temperature in a bar"
 [scene]
@@ -73,9 +75,10 @@ scale = 10.0
 metric = "temperature"
 limit = 0.2
 reason = "units: a fifth of the step"
-)",
-                                               "heat"},
-                                              {"elasticity", R"(format = 1
+)";
+
+/// Of engines of elastic bodies: a modulus, and a body that is clamped.
+constexpr const char* elasticity_case = R"(format = 1
 [case]
 title = "A bar clamped at one end, let go under gravity along it"
 [scene]
@@ -115,9 +118,10 @@ scale = 0.0015696
 metric = "tip"
 limit = 0.2
 reason = "units: a fifth of the way"
-)",
-                                               "elastic"},
-                                              {"liquid", R"(format = 1
+)";
+
+/// Of engines of liquids: the fall of a block that nothing touches.
+constexpr const char* liquid_case = R"(format = 1
 [case]
 title = "A block of liquid falls freely"
 [scene]
@@ -149,8 +153,15 @@ scale = 0.04905
 metric = "height"
 limit = 0.2
 reason = "units: a fifth of the fall"
-)",
-                                               "liquid"}};
+)";
+
+}  // namespace
+
+const std::vector<CheckScene>& check_scenes() {
+  static const std::vector<CheckScene> scenes{{"flight", flight_case, ""},
+                                              {"conduction", conduction_case, "heat"},
+                                              {"elasticity", elasticity_case, "elastic"},
+                                              {"liquid", liquid_case, "liquid"}};
   return scenes;
 }
 

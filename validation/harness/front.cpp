@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/judge.hpp"
 
 namespace tripoint {
@@ -82,7 +83,7 @@ bool divides(double level, double length) {
 std::vector<Ladder> ladders_of(const CaseResult& result, const std::string& metric) {
   std::vector<Ladder> ladders;
   for (const auto& engine : result.engines) {
-    if (engine.name == "exact") continue;
+    if (is_exact(engine.name)) continue;
     std::map<std::pair<JudgedMode, StudyAxes>, std::map<double, std::vector<const RunRow*>>>
         groups;  // (mode, axis) -> step -> runs
     for (const auto& run : engine.runs)

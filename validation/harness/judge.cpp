@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/known_defect.hpp"
@@ -54,7 +55,7 @@ bool same_preset(const Gate& gate, const EngineRow& engine) { return gate.preset
 
 bool names(const Gate& gate, const EngineRow& engine) {
   if (!same_preset(gate, engine)) return false;
-  return gate.engine.empty() ? engine.name != "exact" : gate.engine == engine.name;
+  return gate.engine.empty() ? !is_exact(engine.name) : gate.engine == engine.name;
 }
 
 /// The gate by which the case declares that an engine does not hold an acceptance limit; nullptr where it declares none.
@@ -107,7 +108,7 @@ void apply_to_all(CaseResult& result, const Gate& gate, bool engines_were_chosen
 /// Every engine that was chosen refuses the case, and none is required: it is no case of theirs. Who ran no case at all is told
 /// by the whole (unanswered).
 bool is_refused(const CaseResult& result, bool engines_were_chosen) {
-  const auto is_judge = [](const EngineRow& e) { return e.name == "exact"; };  // the truth is no engine that could take the case
+  const auto is_judge = [](const EngineRow& e) { return is_exact(e.name); };  // the truth is no engine that could take the case
   if (!engines_were_chosen || std::all_of(result.engines.begin(), result.engines.end(), is_judge)) return false;
   return std::all_of(result.engines.begin(), result.engines.end(),
                      [&](const EngineRow& e) { return is_judge(e) || (e.status == Status::refused && !e.required); });
@@ -143,7 +144,7 @@ void check_divergence(const CaseResult& result, Findings& findings) {
     const auto due = [&](const RunRow& run) {
       return may_diverge(result, run.knobs.mode) && (run.status == Status::ok || run.status == Status::diverged);
     };
-    if ((some_required ? !engine.required : engine.name == "exact") || std::none_of(engine.runs.begin(), engine.runs.end(), due))
+    if ((some_required ? !engine.required : is_exact(engine.name)) || std::none_of(engine.runs.begin(), engine.runs.end(), due))
       continue;
     ++asked;
     if (std::none_of(engine.runs.begin(), engine.runs.end(),

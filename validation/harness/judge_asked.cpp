@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/judge.hpp"
 
 namespace tripoint {
@@ -48,7 +49,7 @@ bool crashed(const RunRow& run) {
 }
 
 bool is_unjudged(const EngineRow& engine) {
-  return engine.name != "exact" && engine.status == Status::ok && engine.gates.empty();
+  return !is_exact(engine.name) && engine.status == Status::ok && engine.gates.empty();
 }
 
 std::vector<std::string> unanswered(const Results& results) {
@@ -62,7 +63,7 @@ std::vector<std::string> unanswered(const Results& results) {
       list.push_back(fmt::format("{} was asked for and is {}", name, a.crashed));
     else if (!a.partly.empty())
       list.push_back(fmt::format("{} was asked for, and ran a part of {} and refused the rest", name, a.partly));
-    else if (part || name == "exact")
+    else if (part || is_exact(name))
       continue;
     else if (a.ran == 0 && a.refused == a.rows)
       list.push_back(

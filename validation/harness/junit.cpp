@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/judge.hpp"
@@ -18,7 +19,7 @@ struct TestCase {
 };
 
 std::string name_of(const GateRow& g, const EngineRow& e) {
-  std::string name = e.preset == "default" ? e.name : e.name + "(" + e.preset + ")";
+  std::string name = is_default_preset(e.preset) ? e.name : e.name + "(" + e.preset + ")";
   name += after_blank(g.mode) + " " + g.metric;
   if (g.expect) name += fmt::format(" is {}", *g.expect);
   if (g.level) name += fmt::format(" at {:g}", *g.level);

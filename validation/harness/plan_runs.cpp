@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/judge.hpp"
 
 namespace tripoint {
@@ -46,10 +47,10 @@ std::vector<EngineChoice> engines_of(const Case& value, const std::vector<Engine
     choice.required = choice.required || required;
     list.push_back(choice);
   };
-  add("tripoint", listed("tripoint") == value.engines.end());
+  add(engine_name::solver, listed(engine_name::solver) == value.engines.end());
   for (const auto& e : value.engines)
     if (e.name != every_engine) add(e.name, false);
-  if (has_states(value.reference)) add("exact", false);
+  if (has_states(value.reference)) add(engine_name::exact, false);
   for (const auto& name : selection.extra) add(name, false);
   for (const auto& name : selection.engines) add(name, false);
   for (const auto& e : found)
@@ -193,7 +194,7 @@ void add_inputs(const Case& value, const RunPlan& base, RunList& runs) {
 }
 
 std::vector<JudgedMode> modes_of(const Case& value, const EngineChoice& engine) {
-  if (engine.name != "tripoint") return {JudgedMode::none};
+  if (!is_own_solver(engine.name)) return {JudgedMode::none};
   std::vector<JudgedMode> modes;
   for (const auto mode : value.modes) modes.push_back(from_word<JudgedMode>(to_string(mode)));
   return modes;
@@ -201,7 +202,7 @@ std::vector<JudgedMode> modes_of(const Case& value, const EngineChoice& engine) 
 
 std::vector<std::string> presets_of(const EngineChoice& engine, const EngineEntry* entry) {
   if (!engine.presets.empty()) return engine.presets;
-  return {entry && !contains(entry->presets, "default") ? entry->presets.front() : "default"};
+  return {entry && !contains(entry->presets, default_preset) ? entry->presets.front() : default_preset};
 }
 
 /// Counts what a case asks for before any of it is planned.
@@ -249,7 +250,7 @@ std::vector<RunPlan> runs_of(const Case& value, const EngineChoice& engine, cons
         base.levels[study.axes] = *level;
     runs.append(base);
     base.levels.clear();
-    if (engine.name != "exact") add_inputs(value, base, runs);
+    if (!is_exact(engine.name)) add_inputs(value, base, runs);
     for (const auto& study : value.studies)
       if (applies(study, engine.name, mode)) add_study(study, base, seed, runs);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "job/job.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/harness/discover.hpp"
 
@@ -25,7 +26,7 @@ struct RunPlan {
 
 /// One engine and preset of a case with all its runs.
 struct EnginePlan {
-  std::string name, preset = "default";
+  std::string name, preset = default_preset;
   bool required = false;
   Settings settings;
   const EngineEntry* entry = nullptr;  ///< nullptr: not found

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/judge.hpp"
 
 namespace tripoint {
@@ -57,7 +58,7 @@ std::vector<std::string> metrics_to_fit(const CaseResult& result, const Study& s
 bool same_level(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
 bool applies(const Study& study, const std::string& engine, JudgedMode mode) {
-  if (engine == "exact") return false;  // truth does not converge
+  if (is_exact(engine)) return false;  // truth does not converge
   return (study.engine.empty() || study.engine == engine) && fits(study.mode, mode);
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/case/read_case.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/case_hash.hpp"
@@ -130,7 +131,7 @@ class Recheck {
 
   void runs(const EnginePlan& plan, const EngineRow& row) {
     for (const auto& run : plan.runs) {
-      const auto folder = (row.preset == "default" ? "" : row.preset + "-") + run.label;
+      const auto folder = run_folder_name(row.preset, run.label);
       if (std::none_of(row.runs.begin(), row.runs.end(), [&](const auto& r) { return fs::path(r.folder).filename() == folder; }))
         say({}, fmt::format("the run {} of {} is not in them", run.label, label_of(row.name, row.preset)));
     }

@@ -7,6 +7,7 @@
 
 #include "job/status.hpp"
 #include "validation/case/case.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/case_hash.hpp"
 #include "validation/harness/verdict.hpp"
 #include "validation/metrics/metric.hpp"
@@ -14,11 +15,6 @@
 
 /// What results.json holds (contracts: results.json, format 1), as plain data. Verdicts in it are always recomputed: judge.hpp.
 namespace tripoint {
-
-/// An engine and, where it is not the default, its preset, for people: "bullet (tuned)".
-[[nodiscard]] inline std::string label_of(const std::string& engine, const std::string& preset) {
-  return preset == "default" ? engine : engine + " (" + preset + ")";
-}
 
 struct Cost {
   double cpu_s = 0.0, wall_s = 0.0, setup_cpu_s = 0.0;  ///< [s]
@@ -86,7 +82,7 @@ struct GateRow {
 
 /// One row of the matrix: an engine with a preset.
 struct EngineRow {
-  std::string name, version, preset = "default";
+  std::string name, version, preset = default_preset;
   std::string library_path, library_hash;  ///< of the engine's own library, as it told; empty = it told none
   bool required = false;
   std::string refuses;  ///< words of the refusal that the case declares; empty = it declares none

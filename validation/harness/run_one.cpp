@@ -10,6 +10,7 @@
 
 #include "io/foreign_file.hpp"
 #include "io/trajectory.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/finished_run.hpp"
 #include "validation/harness/instructions.hpp"
 #include "validation/harness/replies.hpp"
@@ -105,7 +106,7 @@ void take_cost(Outcome& outcome, const ProcessEnd& end) {
 
 /// A second run in a folder of its own, of which nothing but the count is kept.
 void count_instructions(const RunRequest& request, ProcessSpec spec, Outcome& outcome) {
-  if (request.engine->name == "exact" || outcome.status != Status::ok || outcome.cost.instructions > 0.0 ||
+  if (is_exact(request.engine->name) || outcome.status != Status::ok || outcome.cost.instructions > 0.0 ||
       !(outcome.cost.cpu_s < request.count_below))
     return;
   const fs::path folder = fs::path(request.folder) / "callgrind";

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/judge.hpp"
@@ -58,7 +59,7 @@ void place(const CaseResult& c, const Gate* gate, const EngineRow& engine, Score
   row.rank = 1;
   for (const auto& e : c.engines) {
     const double other = std::abs(error_of(e, gate));
-    if (e.name == "exact" || !std::isfinite(other)) continue;
+    if (is_exact(e.name) || !std::isfinite(other)) continue;
     ++row.of;
     if (&e != &engine && other < own && !same_place(other, own)) ++row.rank;
   }
@@ -154,7 +155,7 @@ ScoreRow row_of(const CaseResult& c, const EngineRow& e) {
     row.cpu_s = run->cost.cpu_s;
     for (const auto& ours : c.engines)
       if (const auto* base = own_run(ours);
-          ours.name == "tripoint" && base && base->status == Status::ok && base->cost.cpu_s > 0.0)
+          is_own_solver(ours.name) && base && base->status == Status::ok && base->cost.cpu_s > 0.0)
         row.cost = row.cpu_s / base->cost.cpu_s;
   }
   settle(e, row);
@@ -187,7 +188,7 @@ std::optional<Disagreement> disagreement_of(const CaseResult& c, const Case* val
   if (!gate || !(edge(*gate) > 0.0)) return {};
   std::vector<const EngineRow*> ran;
   for (const auto& e : c.engines)
-    if (e.name != "exact" && std::isfinite(error_of(e, gate))) ran.push_back(&e);
+    if (!is_exact(e.name) && std::isfinite(error_of(e, gate))) ran.push_back(&e);
   const auto* metric = metric_of(c, gate->metric);
   Disagreement d{c.id, gate->metric, metric ? metric->unit : "", describe(*gate), {}, {}, 0.0, {}};
   for (std::size_t i = 0; i < ran.size(); ++i)
@@ -247,7 +248,7 @@ Scorecard scorecard_of(const Results& results, const std::vector<Case>& cases, c
     const auto at = std::find_if(cases.begin(), cases.end(), [&](const auto& value) { return value.id == c.id; });
     const Case* value = at == cases.end() ? nullptr : &*at;
     for (const auto& e : c.engines)
-      if (e.name != "exact") score_of(card, e).rows.push_back(row_of(c, e));
+      if (!is_exact(e.name)) score_of(card, e).rows.push_back(row_of(c, e));
     if (auto d = disagreement_of(c, value, engines)) card.disagreements.push_back(std::move(*d));
   }
   std::erase_if(card.engines, [&](const auto& s) { return is_absent(s, results.asked); });

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/errors.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/json_number.hpp"
@@ -65,7 +66,7 @@ std::string room_of(const SeedOutcome& g) {
 }  // namespace
 
 bool depends_on_seed(const Case& value, const EnginePlan& engine, const RunPlan& run) {
-  if (engine.name == "exact") return false;
+  if (is_exact(engine.name)) return false;
   return run.walkers.has_value() || (engine.entry && !engine.entry->deterministic) || scene_of(value, run).jitter > 0.0;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/selftest.hpp"
 #include "validation/harness/suite.hpp"
@@ -91,7 +92,7 @@ HarmlessOutcome judge_harmless(const HarmlessChange& change, const CaseResult& w
 std::vector<HarmlessOutcome> try_harmless(const Case& value, const EngineEntry& engine, const SelftestOptions& o) {
   const auto run = [&](const HarmlessChange* change) {
     SuiteOptions suite;
-    suite.selection.engines = {"tripoint"};
+    suite.selection.engines = {engine_name::solver};
     suite.environment["OMP_WAIT_POLICY"] = "passive";  // two threads on a busy core would spin for each other
     suite.jobs = o.jobs;
     suite.say = o.say;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/errors.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/suite.hpp"
@@ -39,7 +40,8 @@ std::string engine_of_defect(const Case& value, const Defect& defect) {
              g.engine == engine;
     });
   };
-  return !judged_by("tripoint") && !judged_by("") && judged_by("tripoint-mpi") ? "tripoint-mpi" : "tripoint";
+  using namespace engine_name;
+  return !judged_by(solver) && !judged_by("") && judged_by(solver_on_ranks) ? solver_on_ranks : solver;
 }
 
 CaseResult run_with_defect(const Case& value, const EngineEntry& engine, const std::vector<std::string>& metrics,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/apply_gate.hpp"
 #include "validation/harness/verdict.hpp"
 
@@ -42,7 +43,7 @@ std::string key_of(const CaseResult& c, const Gate& g) {
 /// A limit that every engine must hold may be used by one that is not here: how slack it is then cannot be told.
 bool some_engine_is_absent(const CaseResult& c, const Gate& g) {
   return g.engine.empty() && std::any_of(c.engines.begin(), c.engines.end(),
-                                         [](const auto& e) { return e.name != "exact" && e.status != Status::ok; });
+                                         [](const auto& e) { return !is_exact(e.name) && e.status != Status::ok; });
 }
 
 Remark remark_on(const CaseResult& c, const GateRow& row, double slack, bool engines_were_chosen) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/case_run.hpp"
 #include "validation/harness/process.hpp"
 
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 RunRow* row_of(CaseResult& result, const EnginePlan& engine, const RunPlan& plan) {
-  const std::string label = engine.preset == "default" ? plan.label : engine.preset + "-" + plan.label;
+  const std::string label = run_folder_name(engine.preset, plan.label);
   for (auto& e : result.engines)
     if (e.name == engine.name && e.preset == engine.preset)
       for (auto& r : e.runs)
@@ -95,7 +96,7 @@ void time_case(const Case& value, const std::vector<EngineEntry>& found, int rou
   alone.resume = false;
   alone.count_below = 0.0;
   alone.wanted = [&](const EnginePlan& engine, const RunPlan& plan) {
-    const auto* row = engine.name == "exact" || !plan.input.empty() ? nullptr : row_of(result, engine, plan);
+    const auto* row = is_exact(engine.name) || !plan.input.empty() ? nullptr : row_of(result, engine, plan);
     return row && row->status == Status::ok;
   };
   auto all = prepare_case(value, found, alone);

@@ -15,6 +15,7 @@
 #include "scene/effect_rule.hpp"
 #include "scene/nearest.hpp"
 #include "scene/sample.hpp"
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/run_one.hpp"
 
@@ -184,7 +185,7 @@ void ask_about(const Case& value, const EnginePlan& engine, const RunPlan& run, 
         {true, fmt::format("engine {} {}", label_of(engine.name, engine.preset), broken), {value.file, 0, 0}});
   if (answer.status == Status::ok || refuses_as_expected(row)) return;
   const std::string what =
-      fmt::format("engine {}{}{}: {}: {}", engine.name, engine.preset == "default" ? "" : " " + engine.preset,
+      fmt::format("engine {}{}{}: {}: {}", engine.name, is_default_preset(engine.preset) ? "" : " " + engine.preset,
                   run.base ? "" : ", run " + run.label, answer.status, answer.reason);
   if (std::none_of(findings.begin(), findings.end(), [&](const Finding& f) { return f.what == what; }))
     findings.push_back({engine.required, what, {value.file, 0, 0}});
@@ -224,7 +225,7 @@ std::vector<Finding> trial(const Case& value) {
   if (!findings.empty()) return findings;
   check_ledger_terms(value, findings);
   std::vector<std::string> names = names_of(value.engines);
-  names.emplace_back("tripoint");
+  names.emplace_back(engine_name::solver);
   const auto engines = discover_engines_named(names);
   const Scratch scratch;
   Samples samples(scratch.path());
@@ -240,7 +241,7 @@ std::vector<Finding> trial(const Case& value) {
       continue;
     }
     for (const RunPlan& run : plan.runs) {
-      if (!run.base && plan.name != "tripoint") continue;
+      if (!run.base && !is_own_solver(plan.name)) continue;
       if (run.label != run.group) continue;  // another seed: the engine is asked about the run that it repeats
       const Scene scene = scene_of(value, run);
       const auto& from = samples.of(scene);

@@ -6,6 +6,7 @@
 
 #include "scene/effect_rule.hpp"
 #include "scene/phase_values.hpp"
+#include "validation/case/engine_names.hpp"
 
 namespace tripoint {
 namespace {
@@ -16,9 +17,9 @@ struct Rates {
 };
 
 Rates rates_of(const std::string& engine) {
-  if (engine == "tripoint") return {0.7e-6, 1e-6, 0.03};
-  if (engine.starts_with("lammps")) return {1e-6, 1e-6, 0.1};
-  if (engine == "exact") return {0.0, 2e-6, 0.01};
+  if (is_own_solver(engine)) return {0.7e-6, 1e-6, 0.03};
+  if (is_lammps(engine)) return {1e-6, 1e-6, 0.1};
+  if (is_exact(engine)) return {0.0, 2e-6, 0.01};
   return {0.0, 2e-6, 0.1};  // engines of rigid bodies: their steps are nearly free beside the frames
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/errors.hpp"
+#include "validation/case/engine_names.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -49,8 +50,7 @@ std::string place(const std::string& dir, const char* state_name, const std::str
 }
 
 std::string run_folder(const QueuedJob& job) {
-  return (fs::path("runs") / job.case_id / job.engine / (job.preset == "default" ? job.label : job.preset + "-" + job.label))
-      .string();
+  return (fs::path("runs") / job.case_id / job.engine / run_folder_name(job.preset, job.label)).string();
 }
 
 std::string queue_text(const Queue& q) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "validation/case/engine_names.hpp"
 #include "validation/harness/suite.hpp"
 
 /// A suite as a folder of jobs that any number of workers share. A job is one run of one engine, as `tripoint validate` makes it.
@@ -24,7 +25,7 @@ namespace tripoint {
 
 struct QueuedJob {
   std::string id;  ///< hash of all that makes the run (case_run.hpp: run_id)
-  std::string case_id, engine, preset = "default";
+  std::string case_id, engine, preset = default_preset;
   std::string label;  ///< of the run in its plan: "corrected", "spacing=0.01-seed2"
   double cost = 0.0;  ///< predicted [CPU s]
 };

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "scene/geometry.hpp"
+#include "validation/case/preflight.hpp"
+
+/// The parts of idle_keys(), one a subject, and what they share.
+namespace tripoint {
+
+/// A case that is searched for what changes nothing, and what was found of it so far.
+struct IdleSearch {
+  IdleSearch(const CaseReading&, const Scene&, const InitialState&);
+
+  void error(const SourcePlace& place, std::string what) { findings.push_back({true, std::move(what), place}); }
+  void warn(const SourcePlace& place, std::string what) { findings.push_back({false, std::move(what), place}); }
+
+  /// Where the file says this key; a place without file where it does not.
+  [[nodiscard]] SourcePlace given(const std::string& key) const;
+  [[nodiscard]] bool any_mode(const auto& test) const { return std::ranges::any_of(scenes, test); }
+  [[nodiscard]] bool calls(const std::string& effect) const;
+  [[nodiscard]] std::string why_idle(const std::string& effect) const;
+  /// Whether the box lies wholly beyond a side of the domain that is not periodic.
+  [[nodiscard]] bool outside(const Bounds& box) const;
+  /// Keyframes that come after the end of the run.
+  void keyframes(const std::vector<Keyframe>& frames, const std::string& whose, const SourcePlace& place);
+
+  const CaseReading& reading;
+  const Case& value;
+  const Scene& scene;
+  const InitialState& state;
+  std::vector<Scene> scenes;  ///< one a mode of the case
+  std::vector<Finding> findings;
+};
+
+/// Events whose region holds nothing, releases of what is free, holds of what is fixed.
+void find_idle_events(IdleSearch&);
+/// Bodies and inflows out of the domain, joints of what cannot be joined, what a body says of effects that are off.
+void find_idle_bodies(IdleSearch&);
+/// Keys of materials and of the scene that no effect reads.
+void find_idle_effect_keys(IdleSearch&);
+/// References, windows and seeds that no metric reads, and gates that cannot fail or cannot pass.
+void find_idle_judgement(IdleSearch&);
+
+}  // namespace tripoint
