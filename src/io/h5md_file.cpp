@@ -282,7 +282,8 @@ std::vector<std::string> members(hid_t file, const std::string& path) {
     return 0;
   };
   // In the file's own order: where a read fails, the library frees the table of one that it was to sort before it has filled it.
-  check(H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names), path);
+  if (H5Literate(group.get(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names) < 0)
+    throw InputError("the group " + path + " of an HDF5 file cannot be read");
   std::ranges::sort(names);
   return names;
 }

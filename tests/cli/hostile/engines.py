@@ -75,7 +75,7 @@ HOSTILE = (
     Hostile("leaves links to /dev/zero and /etc/passwd", "after",
             'for name, to in (("trajectory.csv", "/dev/zero"), ("result.json", "/etc/passwd")): os.remove(name); os.symlink(to, name)'),
     Hostile("leaves a trajectory of 10 GB", "after", 'os.truncate("trajectory.csv", 10 << 30)'),
-    Hostile("leaves a trajectory.h5 that kills the HDF5 library", "after", 'os.remove("trajectory.csv"); Path("trajectory.h5").write_bytes((HERE / "kills-hdf5.h5").read_bytes())'),
+    Hostile("leaves a trajectory.h5 that is broken within", "after", 'os.remove("trajectory.csv"); Path("trajectory.h5").write_bytes((HERE / "kills-hdf5.h5").read_bytes())'),
     Hostile("says ok, with places that are not numbers", "run", 'answer("not a number")\nsys.exit(0)'),
     Hostile("puts a link to a file of ours in place of its log, then stands still", "check",
             '(Path(sys.argv[2]).parent / "log.txt").symlink_to(OUTSIDE / "victim")', wrong="frozen"),

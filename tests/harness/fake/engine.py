@@ -141,7 +141,7 @@ def leave(folder):
         trajectory.symlink_to("/dev/zero")
     if WRONG == "leaves a trajectory of 10 GB":
         os.truncate(trajectory, 10 << 30)
-    if WRONG == "leaves a trajectory that kills its reader":
+    if WRONG == "leaves a trajectory that is broken within":
         trajectory.unlink()
         shutil.copy(Path(__file__).with_name("kills-hdf5.h5"), folder / "trajectory.h5")
     if WRONG == "leaves a deep result":
