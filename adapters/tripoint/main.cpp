@@ -14,7 +14,7 @@ namespace {
 /// with them.
 void begin_with_short_waits(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
-  setenv("GOMP_SPINCOUNT", "1000", 1);
+  if (setenv("GOMP_SPINCOUNT", "1000", 1) != 0) return;  // without memory for it the program would begin again for ever
   std::error_code none;
   const std::string program = std::filesystem::read_symlink("/proc/self/exe", none);
   execv(program.c_str(), argv);  // where this fails, threads wait as they do by default
