@@ -28,6 +28,9 @@ inline void make_durable(const std::string& path) {
 /// @throws EngineError naming the file and the system's reason
 inline void write_durably(const std::string& path, std::string_view text) {
   const std::string temporary = path + ".part";
+  const auto slash = path.find_last_of('/');
+  const std::string folder_name = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  // Nothing below the rename asks for memory: where there was none, the file would be whole and the call would have failed.
   const auto fail = [&] { throw EngineError(path + ": cannot be written: " + std::strerror(errno)); };
   ::unlink(temporary.c_str());
   const int file = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, 0644);
@@ -45,9 +48,7 @@ inline void write_durably(const std::string& path, std::string_view text) {
   if (::fsync(file) != 0) fail();
   ::close(file);
   if (std::rename(temporary.c_str(), path.c_str()) != 0) fail();
-  const auto slash = path.find_last_of('/');
-  const int folder =
-      ::open(slash == std::string::npos ? "." : path.substr(0, slash + 1).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const int folder = ::open(folder_name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder >= 0) {
     ::fsync(folder);
     ::close(folder);
