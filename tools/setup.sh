@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 core=(make g++ cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev libtomlplusplus-dev libcli11-dev libfmt-dev
-  nlohmann-json3-dev libboost-dev libtinyobjloader-dev libopenvdb-dev libpng-dev libbullet-dev liblammps-dev)  # build and run
+  nlohmann-json3-dev libboost-dev libtinyobjloader-dev libopenvdb-dev libpng-dev libseccomp-dev libbullet-dev liblammps-dev)  # build and run
 report=(python3-matplotlib python3-h5py python3-jinja2)                                            # for /usr/bin/python3
 wheel=(python3-venv ca-certificates)                                                               # makes .venv
 tests=(libgtest-dev libgmock-dev clang-format-14 git bubblewrap python3-yaml weasyprint valgrind)  # `make test` only

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <unordered_map>
 
 #include "core/errors.hpp"
+#include "foreign/confined_copy.hpp"
 #include "scene/mesh_files.hpp"
 
 namespace tripoint {
@@ -100,13 +102,58 @@ double volume(const Mesh& mesh) {
   return six / 6.0;
 }
 
+namespace {
+
+constexpr double parse_limit = 30.0;  // [s]
+
+template <class T>
+void append(std::string& bytes, const std::vector<T>& from) {
+  bytes.append(reinterpret_cast<const char*>(from.data()), from.size() * sizeof(T));
+}
+
+/// What the copy handed back: the number of points, the points, the triangles. Their numbers are checked by who takes them.
+Mesh unpacked(const std::string& bytes) {
+  Mesh mesh;
+  std::uint64_t points = 0;
+  const std::size_t left = bytes.size() - std::min(bytes.size(), sizeof points);
+  if (left > 0) std::memcpy(&points, bytes.data(), sizeof points);
+  if (points > left / sizeof(Vec3)) return {};
+  const char* at = bytes.data() + sizeof points;
+  mesh.points.resize(points);
+  if (points > 0) std::memcpy(mesh.points.data(), at, points * sizeof(Vec3));
+  at += points * sizeof(Vec3);
+  mesh.triangles.resize((left - points * sizeof(Vec3)) / sizeof mesh.triangles[0]);
+  if (!mesh.triangles.empty()) std::memcpy(mesh.triangles.data(), at, mesh.triangles.size() * sizeof mesh.triangles[0]);
+  return mesh;
+}
+
+/// Points and triangles as the file has them, read by a confined copy of us. @throws InputError
+Mesh parse(const std::string& bytes, const std::string& ending, const std::string& file) {
+  CopyBounds bounds{file, parse_limit};
+  const CopyEnd end = read_in_confined_copy(
+      [&] {
+        const Mesh mesh = ending == ".obj" ? parse_obj(bytes, file) : parse_stl(bytes, file);
+        const std::uint64_t points = mesh.points.size();
+        std::string packed(reinterpret_cast<const char*>(&points), sizeof points);
+        append(packed, mesh.points);
+        append(packed, mesh.triangles);
+        return packed;
+      },
+      bounds);
+  rethrow(end);
+  if (const auto failure = failure_of(end, bounds); !failure.empty()) throw InputError(failure + ": simplify the mesh");
+  return unpacked(end.bytes);
+}
+
+}  // namespace
+
 Mesh read_mesh(const std::string& file, double scale) {
   auto ending = std::filesystem::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending != ".obj" && ending != ".stl") throw InputError({file, 0, 0}, "a mesh is a .obj or .stl file");
   const auto bytes = read_bytes(file);
-  Mesh mesh = ending == ".obj" ? parse_obj(bytes, file) : parse_stl(bytes, file);
+  Mesh mesh = parse(bytes, ending, file);
   check_numbers(mesh, file);
   mesh = joined(mesh, scale);
   check_closed(mesh, file);

@@ -17,7 +17,7 @@ struct Mesh {
 };
 
 /// Reads .obj or .stl (ASCII or binary), joins equal corners, and checks that the surface is closed: every edge is used by
-/// exactly two triangles in opposite directions.
+/// exactly two triangles in opposite directions. A confined copy of this process reads the file.
 /// @throws InputError naming the file, and for an open mesh the number of open edges and the first of them
 [[nodiscard]] Mesh read_mesh(const std::string& file, double scale);
 

@@ -7,11 +7,9 @@ namespace tripoint {
 #define TOML_HEADER_ONLY 1
 #define TOML_EXCEPTIONS 1
 #define TOML_ASSERT(expr) ((expr) ? static_cast<void>(0) : ::tripoint::toml_assertion_failed())
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <toml++/toml.h>
 #include <unistd.h>
 
@@ -24,7 +22,7 @@ namespace tripoint {
 #include <system_error>
 #include <vector>
 
-#include "core/children.hpp"
+#include "foreign/confined_copy.hpp"
 #include "scene/nearest.hpp"
 #include "scene/toml_node.hpp"
 
@@ -99,47 +97,26 @@ rlim_t address_space() {
   return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
 }
 
-[[noreturn, maybe_unused]] void be_the_copy(const std::string& text, const std::string& file) {
-  const rlim_t most = address_space() + (rlim_t{2} << 30);
-  const rlimit no_core{0, 0}, seconds{5, 5}, memory{most, most};
-  setrlimit(RLIMIT_CORE, &no_core);
-  setrlimit(RLIMIT_CPU, &seconds);
-#if !defined(__SANITIZE_ADDRESS__)
-  setrlimit(RLIMIT_AS, &memory);
-#else
-  static_cast<void>(memory);
-#endif
-  const int nothing = open("/dev/null", O_WRONLY);
-  dup2(nothing, 2);
-  try {
-    static_cast<void>(document_of(text, file));
-  } catch (const std::bad_alloc&) {
-    _exit(1);
-  } catch (...) {  // a refusal: the parent words it
-  }
-  _exit(0);
-}
-
 /// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function of the text: what
 /// the child survives, the parent survives. (Upstream has an open report of unreachable points that are reached.)
 /// @throws std::system_error where there is no process to spare: no fault of the text, which is not read then
 /// @throws InputError where the child takes longer than the limit
-bool child_survives([[maybe_unused]] const std::string& text, [[maybe_unused]] const std::string& file,
-                    [[maybe_unused]] double limit) {
-#if defined(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
-  return true;  // a process for each input would leave a fuzzer no inputs
-#else
-  keep_ends_of_children();
-  const pid_t child = fork();
-  const int error = errno;
-  if (child < 0)
-    throw std::system_error(error, std::generic_category(), file + " was not read: there is no process to spare to try it in");
-  if (child == 0) be_the_copy(text, file);
-  const auto [in_time, status] = end_of_child(child, limit);
-  if (!in_time)
-    throw InputError({file, 0, 0}, fmt::format("could not be read within {:g} s: simplify its brackets and keys", limit));
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-#endif
+bool child_survives(const std::string& text, const std::string& file, double limit) {
+  constexpr rlim_t room = rlim_t{2} << 30;
+  CopyBounds bounds{file, limit, address_space() + room};
+  const auto read = [&] {
+    static_cast<void>(document_of(text, file));
+    return std::string();
+  };
+  switch (read_in_confined_copy(read, bounds).how) {
+    case CopyEnd::How::late:
+      throw InputError({file, 0, 0}, fmt::format("could not be read within {:g} s: simplify its brackets and keys", limit));
+    case CopyEnd::How::read:
+    case CopyEnd::How::refused:  // it is worded where it counts
+      return true;
+    default:
+      return false;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <sys/resource.h>
+
+#include <functional>
+#include <string>
+
+#include "core/errors.hpp"
+
+/// What strangers wrote is read by a copy of this process that can do nothing but read files and hand bytes back. Nobody promises
+/// that a library bears every file: one that it does not bear costs a copy, and code that a file brings along finds no network,
+/// no program to start and no file to write.
+namespace tripoint {
+
+/// What a copy may use.
+struct CopyBounds {
+  std::string what;                  ///< is read, for the words of errors: "trajectory.h5"
+  double wall_limit = 0.0;           ///< wall clock [s]; then it is killed
+  rlim_t memory = machine_memory();  ///< address space [bytes]
+  bool must_be_confined = false;     ///< where the system cannot confine it, nothing is read
+  [[nodiscard]] static rlim_t machine_memory();
+};
+
+/// How a copy ended.
+struct CopyEnd {
+  enum class How {
+    read,          ///< it handed back what it read
+    refused,       ///< the reader threw: rethrow()
+    killed,        ///< by a signal, which `code` is
+    late,          ///< it was killed at the limit
+    no_memory,     ///< it needs more than it may have
+    not_confined,  ///< this system has no seccomp, and it had to be confined
+  } how = How::read;
+  int code = 0;
+  std::string bytes;  ///< what it handed back; of a refusal, its words
+  SourcePlace place;  ///< of a refusal
+};
+
+/// Reads in a copy of this process and gives back what it returned there. The copy may read files, ask for memory and hand its
+/// bytes back; the system refuses it all else (seccomp), and it has no open file of ours.
+/// @pre no other thread is within a library that `read` uses, such as HDF5: its lock would stay closed in the copy for ever
+/// @throws std::system_error where no process, or no file for what it hands back, is to spare
+[[nodiscard]] CopyEnd read_in_confined_copy(const std::function<std::string()>& read, const CopyBounds&);
+
+/// Why nothing was read: "trajectory.h5 kills the library that reads it (signal 11, Segmentation fault)". Empty where it was, and
+/// where the reader refused it.
+[[nodiscard]] std::string failure_of(const CopyEnd&, const CopyBounds&);
+
+/// Throws here what the reader threw in the copy, where it did. @throws InputError
+void rethrow(const CopyEnd&);
+
+}  // namespace tripoint
