@@ -98,6 +98,11 @@ inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max(
 void read_gauges_csv(const std::string& path, const std::vector<std::string>& names, Trajectory&,
                      std::size_t most_frames = any_number);
 
+/// The same bytes for the same trajectory, within one build of the program: one process reads in place of another.
+[[nodiscard]] std::string packed(const Trajectory&);
+/// @throws InputError where the bytes are no whole trajectory: none of its sizes is taken on trust
+[[nodiscard]] Trajectory unpacked(const std::string& bytes, std::size_t most_frames = any_number);
+
 /// particles.h5: one frame, time 0, of what the harness sampled.
 void write_particles(const std::string& path, const InitialState&);
 [[nodiscard]] InitialState read_particles(const std::string& path);

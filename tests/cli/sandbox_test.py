@@ -120,6 +120,36 @@ if sys.argv[1] == "--run":
                                   cwd=project, capture_output=True, text=True, check=False)
             self.assertEqual({file.read_text() for file in out.rglob("seen.txt")}, {seen}, done.stderr)
 
+    def test_who_draws_the_page_changes_no_result_and_sees_no_other_file(self):
+        """A program in place of Python's does what code in a stranger's trajectory would; then it draws the page."""
+        python = self.folder / "python/bin/python3"
+        python.parent.mkdir(parents=True)
+        out = self.folder / "out"
+        python.write_text(f"""#!/bin/sh
+try() {{ echo "$1" >>"{out}/deeds.txt"; }}
+cat "{self.folder}/secret" >/dev/null 2>&1 && try "read outside"
+echo x 2>/dev/null >"{self.folder}/written"
+cat /etc/passwd >/dev/null 2>&1 && try "password file"
+[ -n "$SOME_TOKEN" ] && try token
+echo '{{}}' 2>/dev/null >"{out}/results.json" && try "wrote results"
+rm -f "{out}/summary.md" 2>/dev/null && try "removed the summary"
+mv "{out}/runs" "{out}/others" 2>/dev/null && mv "{out}/others" "{out}/runs" && try "moved runs"
+exec /usr/bin/python3 "$@"
+""")
+        python.chmod(0o755)
+        words = [TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine,exact", "--out", out, "--no-history"]
+        for more, deeds in (([], 6), (["--sandbox"], 0)):
+            subprocess.run(["rm", "-rf", out, self.folder / "written"], check=True)
+            done = subprocess.run([*words, *more], cwd=self.folder, capture_output=True, text=True, check=False,
+                                  env={**os.environ, "SOME_TOKEN": "secret", "TRIPOINT_PYTHON": str(python)})
+            told = (out / "deeds.txt").read_text().splitlines() if (out / "deeds.txt").exists() else []
+            self.assertEqual(len(told), deeds, told)
+            self.assertEqual((self.folder / "written").exists(), not more)
+            if more:
+                self.assertTrue((out / "index.html").exists(), done.stdout + done.stderr + (out / "report.log").read_text())
+                self.assertTrue((out / "case/rigid+ballistic.html").exists() or list((out / "case").glob("*.html")))
+                self.assertTrue(json.loads((out / "results.json").read_text())["cases"])
+
     def test_a_home_is_no_folder_of_an_engine(self):
         done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--sandbox", "--out", self.folder / "out", "--no-report"],
                               cwd=self.folder, capture_output=True, text=True, check=False, env={**os.environ, "HOME": str(self.engine.parent)})

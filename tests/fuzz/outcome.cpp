@@ -27,6 +27,8 @@ class EndedRun {
   EndedRun() {
     ::mkdir((folder_ / "engine").c_str(), 0777);
     ::mkdir((folder_ / "engine/run").c_str(), 0777);
+    engine_.executable = "/usr/bin/false";  // of others: what it left is read as a stranger's
+    request.engine = &engine_;
     request.folder = folder_ / "engine/run";
     request.particles = folder_ / "particles.h5";
     Result left;
@@ -52,6 +54,7 @@ class EndedRun {
  private:
   static constexpr const char* record = "outcome-engine-run.json";
   fuzz::Folder folder_;
+  EngineEntry engine_;
 };
 
 }  // namespace

@@ -24,7 +24,7 @@
 #include "harness/fakes.hpp"
 #include "scene/toml_node.hpp"
 #include "validation/harness/process.hpp"
-#include "validation/harness/try_in_child.hpp"
+#include "validation/harness/stranger_reader.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace {
@@ -210,7 +210,7 @@ TEST(Starts, AChildWithoutAPipeIsNotStarted) {
 TEST(Starts, AForeignFileIsNotReadWhereNoCopyCanTryIt) {
   int done = 0;
   forks.plan(1, EAGAIN);
-  EXPECT_THROW(try_in_child([&] { ++done; }, "a file", 5.0), EngineError);
+  EXPECT_THROW(try_of_stranger([&] { ++done; }, "a file", 5.0), EngineError);
   forks.plan(0, 0);
   EXPECT_EQ(done, 0);
 }
@@ -294,7 +294,7 @@ TEST_F(EndsThrownAway, AreKeptByWhoStartsAnEngine) {
 }
 
 TEST_F(EndsThrownAway, AreKeptByWhoTriesAFile) {
-  EXPECT_THROW(try_in_child([] { ::raise(SIGSEGV); }, "a file", 5.0), EngineError);
+  EXPECT_THROW(try_of_stranger([] { ::raise(SIGSEGV); }, "a file", 5.0), EngineError);
 }
 
 TEST(ForkStorm, EndsWithItsRun) {

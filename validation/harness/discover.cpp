@@ -16,6 +16,7 @@
 #include "validation/harness/process.hpp"
 #include "validation/harness/replies.hpp"
 #include "validation/harness/sandbox.hpp"
+#include "validation/harness/stranger_reader.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
@@ -122,7 +123,13 @@ EngineEntry ask_engine(const std::string& executable) {
   spec.wall_limit = info_limit;
   const auto end = run_process(sandboxed(spec));
   if (end.how != ProcessEnd::How::exited || end.code != 0) return unavailable(entry, "--info " + describe(end));
-  return with_info(entry, end.output);
+  try {
+    if (!belongs_to_us(executable))
+      try_of_stranger([&] { static_cast<void>(with_info(entry, end.output)); }, "what --info printed", info_limit);
+    return with_info(entry, end.output);
+  } catch (const EngineError& e) {
+    return unavailable(entry, e.what());
+  }
 }
 
 std::vector<EngineEntry> discover_engines(const std::vector<std::string>& extra) { return ask_all(candidates(extra)); }

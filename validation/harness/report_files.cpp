@@ -13,6 +13,7 @@
 #include "validation/harness/foreign_text.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
+#include "validation/harness/sandbox.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -39,7 +40,7 @@ std::string make_page(const fs::path& results, bool pdf) {
   spec.wall_limit = report_limit;
   spec.outlives_interrupt = true;
   spec.log = (results.parent_path() / "report.log").string();
-  const auto end = run_process(spec);
+  const auto end = run_process(sandboxed_report(spec, results.parent_path().string()));
   if (end.how == ProcessEnd::How::exited && end.code == 0 && fs::exists(results.parent_path() / "index.html")) return {};
   return fmt::format("the report program {}: {}", describe(end), end.log_tail);
 }

@@ -15,13 +15,14 @@
 #include "validation/harness/instructions.hpp"
 #include "validation/harness/replies.hpp"
 #include "validation/harness/sandbox.hpp"
-#include "validation/harness/try_in_child.hpp"
+#include "validation/harness/stranger_reader.hpp"
 
 namespace tripoint {
 namespace fs = std::filesystem;
 namespace {
 
 constexpr double read_limit = 300.0;                                 // [s], for a foreign trajectory
+constexpr double reply_limit = 10.0;                                 // [s], for what else an engine says
 constexpr double check_limit = 60.0, check_limit_a_particle = 1e-4;  // [s]: --check runs nothing, but may set up the scene
 
 Outcome failed(Outcome outcome, Status status, const std::string& reason) {
@@ -78,11 +79,19 @@ void prepare_folder(const RunRequest& request) {
   write_job((folder / "job.json").string(), job_in_folder(request));
 }
 
+/// What an engine says of its run. What others wrote is read by a copy of us first. @throws InputError, EngineError
+Result result_of(const RunRequest& request) {
+  const std::string file = (fs::path(request.folder) / "result.json").string();
+  if (!belongs_to_us(request.engine->executable))
+    try_of_stranger([&] { static_cast<void>(read_result(file)); }, "result.json", reply_limit);
+  return read_result(file);
+}
+
 /// What an engine that was stopped by Ctrl-C says last.
-std::string words_of_the_interrupted(const fs::path& result) {
-  if (is_no_own_file(result.string())) return " without a result";
+std::string words_of_the_interrupted(const RunRequest& request) {
+  if (is_no_own_file((fs::path(request.folder) / "result.json").string())) return " without a result";
   try {
-    return "; " + read_result(result.string()).message;
+    return "; " + result_of(request).message;
   } catch (const std::exception&) {
     return " without a result";
   }
@@ -169,7 +178,7 @@ Trajectory read_files(const RunRequest& request) {
   return trajectory;
 }
 
-/// Nobody promises that a library bears every file. What an engine of others has written is tried by a copy of us first.
+/// Nobody promises that a library bears every file: what an engine of others has written is read by a confined copy of us.
 std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request) {
   const std::lock_guard lock(no_spawn_mutex());  // Debian's HDF5 is not thread-safe either
   const fs::path folder(request.folder);
@@ -179,9 +188,9 @@ std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request)
     expect_regular_file((folder / name).string(), greatest_trajectory(request));
     if (there.empty()) there = name;
   }
-  if (!there.empty() && !belongs_to_us(request.engine->executable))
-    try_in_child([&] { static_cast<void>(read_files(request)); }, there, read_limit);
-  return std::make_shared<Trajectory>(read_files(request));
+  if (there.empty() || belongs_to_us(request.engine->executable)) return std::make_shared<Trajectory>(read_files(request));
+  const auto bytes = read_of_stranger([&] { return packed(read_files(request)); }, there, read_limit);
+  return std::make_shared<Trajectory>(unpacked(bytes, most_frames(request)));
 }
 
 double alive_at_the_end(const Trajectory& trajectory) {
@@ -220,12 +229,12 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
   if (end.how == How::not_started) return failed(outcome, Status::error, describe(end));
   if (end.how == How::timed_out) return failed(outcome, Status::timeout, describe(end) + last_words(end.log_tail));
   const fs::path file = fs::path(request.folder) / "result.json";
-  if (end.how == How::interrupted) return failed(outcome, Status::killed, describe(end) + words_of_the_interrupted(file));
+  if (end.how == How::interrupted) return failed(outcome, Status::killed, describe(end) + words_of_the_interrupted(request));
   if (std::error_code none; !fs::exists(fs::symlink_status(file, none)))
     return failed(outcome, Status::killed, describe(end) + " without a result" + last_words(end.log_tail));
   try {
     expect_own_files(request.folder);
-    outcome.result = read_result(file.string());
+    outcome.result = result_of(request);
     take_cost(outcome, end);
     const auto& r = outcome.result;
     if (r.status == Status::refused)
@@ -258,7 +267,13 @@ Outcome ask(const RunRequest& request) {
   if (check.how == ProcessEnd::How::timed_out) return failed({}, Status::timeout, "--check " + describe(check));
   if (check.how != ProcessEnd::How::exited || check.code != 0)
     return failed({}, Status::error, "--check " + describe(check) + last_words(check.log_tail));
-  if (const auto reason = refusal_in(check.output); !reason.empty()) return failed({}, Status::refused, reason);
+  try {
+    if (!belongs_to_us(request.engine->executable))
+      try_of_stranger([&] { static_cast<void>(refusal_in(check.output)); }, "what --check printed", reply_limit);
+    if (const auto reason = refusal_in(check.output); !reason.empty()) return failed({}, Status::refused, reason);
+  } catch (const EngineError& e) {
+    return failed({}, Status::error, e.what());
+  }
   return {};
 }
 

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/errors.hpp"
+#include "scene/library.hpp"
 #include "validation/harness/discover.hpp"
 
 namespace tripoint {
@@ -139,27 +140,70 @@ void sandbox_strangers(const std::string& out) {
   wanted = true;
 }
 
-ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable) {
-  if (!wanted || belongs_to_us(spec.argv.front())) return spec;
-  std::vector<std::string> words = bare();
-  const auto add = [&](const std::vector<std::string>& more) { words.insert(words.end(), more.begin(), more.end()); };
-  const auto bind = [&](const char* how, const std::string& path) {
-    const std::string place = fs::absolute(path).lexically_normal().string();
-    add({how, place, place});
-  };
-  add(bind_engine(fs::absolute(fs::path(spec.argv.front()).parent_path()).lexically_normal()));
-  for (const std::string& path : readable) bind("--ro-bind", path);
-  if (!spec.folder.empty()) bind("--bind", spec.folder);
-  words.insert(words.end(), {"--chdir", spec.folder.empty() ? "/tmp" : fs::absolute(spec.folder).lexically_normal().string()});
-  words.insert(words.end(),
-               {"--setenv", "PATH", "/usr/local/bin:/usr/bin:/bin", "--setenv", "HOME", "/tmp", "--setenv", "LANG", "C.UTF-8"});
-  for (const auto& [name, value] : spec.environment) words.insert(words.end(), {"--setenv", name, value});
-  add({"--"});
-  add(limits(spec.wall_limit));
-  add(spec.argv);
+bool strangers_are_sandboxed() noexcept { return wanted; }
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+void add(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
+
+void show(Words& words, const char* how, const std::string& path) {
+  const std::string place = fs::absolute(path).lexically_normal().string();
+  add(words, {how, place, place});
+}
+
+/// The child in bubblewrap, where it sees what is bound and no more.
+ProcessSpec behind_walls(ProcessSpec spec, const Words& bound) {
+  Words words = bare();
+  add(words, bound);
+  add(words, {"--chdir", spec.folder.empty() ? "/tmp" : fs::absolute(spec.folder).lexically_normal().string()});
+  add(words, {"--setenv", "PATH", "/usr/local/bin:/usr/bin:/bin", "--setenv", "HOME", "/tmp", "--setenv", "LANG", "C.UTF-8"});
+  for (const auto& [name, value] : spec.environment) add(words, {"--setenv", name, value});
+  words.emplace_back("--");
+  add(words, limits(spec.wall_limit));
+  add(words, spec.argv);
   spec.argv = std::move(words);
   spec.in_sandbox = true;
   return spec;
+}
+
+/// Where the checkout or the installation keeps what it is made of: also what links in the folder of shared data lead to.
+void bind_shared(Words& words) {
+  show(words, "--ro-bind", share_folder());
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(share_folder(), none))
+    if (entry.is_symlink(none)) show(words, "--ro-bind", fs::weakly_canonical(entry.path()).string());
+}
+
+/// An environment of Python, or one that is not the system's.
+void bind_python(Words& words, const fs::path& python) {
+  for (const fs::path& place : {fs::absolute(python).lexically_normal(), fs::path(place_of(python.string()))})
+    if (const fs::path prefix = place.parent_path().parent_path(); !is_within(place, "/usr") && prefix != prefix.root_path())
+      show(words, "--ro-bind", prefix.string());
+}
+
+}  // namespace
+
+ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable) {
+  if (!wanted || belongs_to_us(spec.argv.front())) return spec;
+  Words bound = bind_engine(fs::absolute(fs::path(spec.argv.front()).parent_path()).lexically_normal());
+  for (const std::string& path : readable) show(bound, "--ro-bind", path);
+  if (!spec.folder.empty()) show(bound, "--bind", spec.folder);
+  return behind_walls(std::move(spec), bound);
+}
+
+ProcessSpec sandboxed_report(ProcessSpec spec, const std::string& out) {
+  if (!wanted) return spec;
+  Words bound;
+  bind_shared(bound);
+  bind_python(bound, spec.argv.front());
+  for (const char* fonts : {"/etc/fonts", "/etc/matplotlibrc"}) add(bound, {"--ro-bind-try", fonts, fonts});
+  show(bound, "--bind", out);
+  for (const char* judged : {"results.json", "junit.xml", "summary.md", "runs"})
+    if (const fs::path path = fs::path(out) / judged; fs::exists(path)) show(bound, "--ro-bind", path.string());
+  spec.folder = out;
+  return behind_walls(std::move(spec), bound);
 }
 
 }  // namespace tripoint

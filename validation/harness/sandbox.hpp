@@ -19,10 +19,18 @@ namespace tripoint {
 /// then
 void sandbox_strangers(const std::string& out);
 
+/// Whether it was called.
+[[nodiscard]] bool strangers_are_sandboxed() noexcept;
+
 /// The child as it is to be started: unchanged where no sandbox is wanted, and where the engine belongs to this program.
 /// @param readable files or folders that it may read besides
 /// @throws EngineError where the engine's folder holds the user's home
 /// @pre spec.folder, where it has one, is all that it may write
 [[nodiscard]] ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable = {});
+
+/// The program that draws the pages: it opens what strangers wrote. Where a sandbox is wanted, it sees no more than itself and
+/// the report's folder, and may change neither the results nor the runs.
+/// @param out folder of the report
+[[nodiscard]] ProcessSpec sandboxed_report(ProcessSpec spec, const std::string& out);
 
 }  // namespace tripoint

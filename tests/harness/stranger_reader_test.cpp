@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/errors.hpp"
-#include "validation/harness/try_in_child.hpp"
+#include "validation/harness/stranger_reader.hpp"
 
 namespace tripoint {
 namespace {
@@ -16,25 +16,25 @@ namespace {
 /// What is thrown here where this is tried; empty = nothing.
 std::string words_of(const std::function<void()>& deed, double limit = 20.0) {
   try {
-    try_in_child(deed, "a file", limit);
+    try_of_stranger(deed, "a file", limit);
     return {};
   } catch (const EngineError& e) {
     return e.what();
   }
 }
 
-TEST(TryInChild, WhatEndsWellOrWithAnExceptionIsLeftToUs) {
+TEST(StrangerReader, WhatEndsWellOrWithAnExceptionIsLeftToUs) {
   int done = 0;
   EXPECT_EQ(words_of([&] { ++done; }), "");
   EXPECT_EQ(words_of([] { throw std::runtime_error("refused"); }), "");
   EXPECT_EQ(done, 0);  // it was a copy that did it
 }
 
-TEST(TryInChild, WhatKillsTheCopyIsAnErrorOfTheFile) {
+TEST(StrangerReader, WhatKillsTheCopyIsAnErrorOfTheFile) {
   EXPECT_NE(words_of([] { ::raise(SIGSEGV); }).find("a file kills the library that reads it (signal 11"), std::string::npos);
 }
 
-TEST(TryInChild, WhatHangsIsStoppedAtTheLimit) {
+TEST(StrangerReader, WhatHangsIsStoppedAtTheLimit) {
   EXPECT_EQ(words_of(
                 [] {
                   for (;;) ::pause();
@@ -43,7 +43,7 @@ TEST(TryInChild, WhatHangsIsStoppedAtTheLimit) {
             "a file could not be read within 0.2 s");
 }
 
-TEST(TryInChild, WhatHangsIsStoppedWithoutADescriptorToSpareToo) {
+TEST(StrangerReader, NothingIsReadWithoutADescriptorToSpare) {
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
   const int next = ::dup(0);
@@ -51,16 +51,12 @@ TEST(TryInChild, WhatHangsIsStoppedWithoutADescriptorToSpareToo) {
   ::close(next);
   const rlimit none_to_spare{static_cast<rlim_t>(next), before.rlim_max};
   ::setrlimit(RLIMIT_NOFILE, &none_to_spare);
-  const auto told = words_of(
-      [] {
-        for (;;) ::pause();
-      },
-      0.2);
+  const auto told = words_of([] {});
   ::setrlimit(RLIMIT_NOFILE, &before);
-  EXPECT_EQ(told, "a file could not be read within 0.2 s");
+  EXPECT_EQ(told, "a file was not read: no file is to spare for what a copy of us reads: Too many open files");
 }
 
-TEST(TryInChild, WhatTakesMoreThanTheMachineHasIsRefused) {
+TEST(StrangerReader, WhatTakesMoreThanTheMachineHasIsRefused) {
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "address space is not bounded under the sanitizer";
 #endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+#include <functional>
+#include <string>
+
+namespace tripoint {
+
+/// Reads what an engine of others left or said, in a confined copy of this process. Under --sandbox nothing is read where the
+/// system cannot confine it.
+/// @param read gives back what it read, as bytes
+/// @param what for the words of the error: "trajectory.h5"
+/// @param limit wall clock [s]; then the copy is killed
+/// @returns what `read` returned in the copy
+/// @throws InputError what `read` threw there
+/// @throws EngineError where the copy is killed, by itself or at the limit, needs more memory than the machine has, or could not
+/// be made
+[[nodiscard]] std::string read_of_stranger(const std::function<std::string()>& read, const std::string& what, double limit);
+
+/// Does this in such a copy first, so that what kills the copy does not kill us. What the copy throws is not told: it ends in the
+/// same way here. @throws EngineError as read_of_stranger
+void try_of_stranger(const std::function<void()>& deed, const std::string& what, double limit);
+
+}  // namespace tripoint
