@@ -46,8 +46,10 @@ int check(const std::string& file, const std::vector<std::string>& set) {
     errors += f.error ? 1 : 0;
     say((f.error ? "error: " : "warning: ") + with_place(f));
   }
-  print_line(fmt::format("{}: {} particles in {} {}, {} errors, {} warnings", file, state.size(), scene.bodies.size(),
-                         scene.bodies.size() == 1 ? "body" : "bodies", errors, static_cast<long>(findings.size()) - errors));
+  const auto counted = [](long n, const char* one, const char* more) { return fmt::format("{} {}", n, n == 1 ? one : more); };
+  print_line(fmt::format("{}: {} particles in {}, {}, {}", file, state.size(),
+                         counted(static_cast<long>(scene.bodies.size()), "body", "bodies"), counted(errors, "error", "errors"),
+                         counted(static_cast<long>(findings.size()) - errors, "warning", "warnings")));
   return errors > 0 ? 2 : 0;
 }
 

@@ -68,7 +68,7 @@ struct GateOptions {
   int seeds = 0;
   bool json = false;
   SelftestOptions selftest;
-  std::vector<std::string> accepted;  ///< a results.json and ids, in any order
+  std::vector<std::string> accepted;  ///< a results.json or its folder, and ids, in any order
   std::string reason;
   bool removed = false;  ///< the ids are of cases that are no more
 };
@@ -76,7 +76,14 @@ struct GateOptions {
 int accept_file(const GateOptions& o) {
   std::string path = "report/results.json";
   std::vector<std::string> ids;
-  for (const auto& word : o.accepted) (word.ends_with(".json") ? path = word : ids.emplace_back(word));
+  for (const auto& word : o.accepted) {
+    const auto within = std::filesystem::path(word) / "results.json";  // also the folder of a report is named
+    std::error_code none;
+    if (std::filesystem::is_regular_file(within, none))
+      path = within.string();
+    else
+      (word.ends_with(".json") ? path = word : ids.emplace_back(word));
+  }
   if (o.removed) {
     print(accept_removal(ids, {{}, {}, o.reason}));
     return exit_pass;
@@ -126,7 +133,7 @@ void add_gate(CLI::App& app, int& exit_code) {
   accepts->add_option("--reason", o->reason, "who decided what, and why")->required();
   accepts->add_flag("--removed", o->removed, "the ids (or paths) are of cases that are no more: their baselines are removed");
   accepts->add_option("RESULTS|ID", o->accepted,
-                      "a results.json (default report/results.json), and the ids of the cases; none = all");
+                      "a results.json or its folder (default report/results.json), and the ids of the cases; none = all");
   auto* self = command->add_subcommand("selftest", selftest_description);
   self->add_option("CASE", o->selftest.what, "case files, folders or ids; none = every case")->type_name("CASE|DIR");
   self->add_option("--out", o->selftest.out, "folder of the runs")->capture_default_str();

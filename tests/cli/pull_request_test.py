@@ -100,7 +100,7 @@ class PullRequests(unittest.TestCase):
         done = subprocess.run([TRIPOINT, "gate", "report"], cwd=repository.folder, capture_output=True, text=True)
         self.assertEqual(done.returncode, 4, done.stdout)
         self.assertIn("was proposed, and nobody has accepted it", done.stdout)
-        subprocess.run([TRIPOINT, "gate", "accept", "--reason", "smaller steps", "report/results.json"], cwd=repository.folder, check=True, capture_output=True)
+        subprocess.run([TRIPOINT, "gate", "accept", "--reason", "smaller steps", "report"], cwd=repository.folder, check=True, capture_output=True)
         self.assertEqual(subprocess.run([TRIPOINT, "gate", "report"], cwd=repository.folder, capture_output=True).returncode, 0)
 
     def assert_nothing_is_forged(self, text):

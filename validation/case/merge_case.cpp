@@ -171,6 +171,7 @@ void remove_keys(TomlNode& document, const TomlNode& remove) {
     if (rest.empty()) continue;
     if (at->kind != Kind::table || !at->find(rest)) not_there(path, path.text);
     erase(*at, rest);
+    if (at == &document && rest == "metric") erase(document, "gate");  // each gate is on one of them
   }
 }
 
