@@ -10,6 +10,7 @@
 #include "validation/harness/history.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/report_files.hpp"
+#include "validation/harness/sandbox.hpp"
 #include "validation/harness/verdict.hpp"
 
 namespace tripoint {
@@ -36,7 +37,8 @@ std::string finish(const Results& results, const std::string& out, bool pdf = fa
   return missing;
 }
 
-int merge(const std::vector<std::string>& folders, const std::string& out) {
+int merge(const std::vector<std::string>& folders, const std::string& out, bool sandbox) {
+  if (sandbox) sandbox_strangers(out);
   auto results = merge_shards(folders);
   const auto lock = hold_folder(out);
   copy_runs_of_shards(folders, out);
@@ -47,11 +49,12 @@ int merge(const std::vector<std::string>& folders, const std::string& out) {
   return results.exit_code;
 }
 
-int report(const std::string& path_or_folder, bool pdf) {
+int report(const std::string& path_or_folder, bool pdf, bool sandbox) {
   const auto path = results_file(path_or_folder);
   auto results = read_results(path);
   judge(results);
   const auto folder = std::filesystem::path(path).parent_path();
+  if (sandbox) sandbox_strangers(folder.string());
   return finish(results, folder.empty() ? "." : folder.string(), pdf).empty() ? exit_pass : exit_missing;
 }
 
@@ -63,7 +66,9 @@ void add_merge(CLI::App& app, int& exit_code) {
   auto out = std::make_shared<std::string>();
   command->add_option("DIR", *folders, "folders of the shards")->required();
   command->add_option("--out", *out, "folder of the joined report")->required();
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return merge(*folders, *out); }); });
+  auto sandbox = std::make_shared<bool>(false);
+  add_sandbox_flag(*command, *sandbox);
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return merge(*folders, *out, *sandbox); }); });
 }
 
 void add_report(CLI::App& app, int& exit_code) {
@@ -72,7 +77,9 @@ void add_report(CLI::App& app, int& exit_code) {
   command->add_option("RESULTS", *path, "a results.json, or the folder of one")->required();
   auto pdf = std::make_shared<bool>(false);
   command->add_flag("--pdf", *pdf, "also write report.pdf");
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return report(*path, *pdf); }); });
+  auto sandbox = std::make_shared<bool>(false);
+  add_sandbox_flag(*command, *sandbox);
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return report(*path, *pdf, *sandbox); }); });
 }
 
 }  // namespace tripoint

@@ -186,10 +186,11 @@ int status(const std::string& dir, bool json) {
   return exit_pass;
 }
 
-int merge(const std::string& typed, const std::string& out, bool page, bool json) {
+int merge(const std::string& typed, const std::string& out, bool page, bool json, bool sandbox) {
   const auto opened = open(typed);
   const auto folder = out.empty() ? opened.dir : fs::absolute(out).lexically_normal().string();
   const auto lock = hold_folder(folder);
+  if (sandbox) sandbox_strangers(folder);
   set_aside_report(folder);
   std::function<void(const CaseResult&)> on_case;
   if (!json) on_case = [](const CaseResult& c) { print(case_line(c) + "\n"); };
@@ -315,7 +316,9 @@ void add_join(CLI::App& suite, int& exit_code) {
   command->add_flag_callback(
       "--no-report", [page] { *page = false; }, "draw no page: results.json, junit.xml and summary.md are written all the same");
   command->add_flag("--json", *json, "print results.json, and nothing else, on stdout");
-  command->callback([=, &exit_code] { exit_code = guarded([&] { return merge(*dir, *out, *page, *json); }); });
+  auto sandbox = std::make_shared<bool>(false);
+  add_sandbox_flag(*command, *sandbox);
+  command->callback([=, &exit_code] { exit_code = guarded([&] { return merge(*dir, *out, *page, *json, *sandbox); }); });
 }
 
 void add_retry(CLI::App& suite, int& exit_code) {

@@ -156,9 +156,17 @@ void describe_call(Results& results, const ValidateOptions& o) {
   results.filter_known = !o.last_failed && o.filter.substring.empty();  // else it is a part, and nobody can say of what
 }
 
+/// Where the history cannot be written, the numbers are kept all the same, and the call does not pass.
 void keep_history(Results& results, const ValidateOptions& o) {
   const auto file = o.history.empty() ? (std::filesystem::path(o.suite.out) / "history.jsonl").string() : o.history;
-  append_history(file, history_lines(results));
+  try {
+    append_history(file, history_lines(results));
+  } catch (const EngineError& e) {
+    results.problems.emplace_back(e.what());
+    if (results.exit_code == exit_pass) results.exit_code = exit_missing;
+    results.verdict = verdict_of(results.exit_code);
+    return;
+  }
   results.history = std::filesystem::relative(std::filesystem::absolute(file), std::filesystem::absolute(o.suite.out)).string();
 }
 

@@ -3,16 +3,23 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/landlock.h>
 #include <seccomp.h>
+#include <signal.h>
+#include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <initializer_list>
 #include <new>
 #include <system_error>
@@ -22,9 +29,23 @@
 namespace tripoint {
 namespace {
 
-enum Code { done = 0, refusal = 1, memory_is_short = 3, cannot_confine = 5 };
+/// How a copy ends by itself. What else ends with a code, as a sanitizer does that has found something, counts as a death.
+enum Code { done = 81, refusal = 82, memory_is_short = 83, cannot_confine = 84 };
 
-constexpr int to_us = 3;  ///< the copy's descriptor of what it hands back; it has no other above 2
+constexpr int to_us = 3;                    ///< the copy's descriptor of what it hands back; it has no other above 2
+constexpr std::size_t most_letters = 4096;  ///< of each part of a refusal
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool is_sanitized = true;  // its shadow alone takes terabytes of address space, and it has something to say
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool is_sanitized = true;
+#else
+constexpr bool is_sanitized = false;
+#endif
+#else
+constexpr bool is_sanitized = false;
+#endif
 
 /// An open file that is closed at the end.
 class Descriptor {
@@ -42,38 +63,111 @@ class Descriptor {
 };
 
 /// What a reader needs. All else fails with EPERM, as if the user might not do it.
-constexpr std::array free_calls{
-    SCMP_SYS(read),         SCMP_SYS(pread64),        SCMP_SYS(readv),        SCMP_SYS(lseek),       SCMP_SYS(close),
-    SCMP_SYS(stat),         SCMP_SYS(fstat),          SCMP_SYS(lstat),        SCMP_SYS(newfstatat),  SCMP_SYS(statx),
-    SCMP_SYS(access),       SCMP_SYS(faccessat),      SCMP_SYS(faccessat2),   SCMP_SYS(readlink),    SCMP_SYS(readlinkat),
-    SCMP_SYS(getcwd),       SCMP_SYS(getdents64),     SCMP_SYS(fcntl),        SCMP_SYS(flock),       SCMP_SYS(brk),
-    SCMP_SYS(mremap),       SCMP_SYS(munmap),         SCMP_SYS(madvise),      SCMP_SYS(futex),       SCMP_SYS(sched_yield),
-    SCMP_SYS(rt_sigaction), SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigreturn), SCMP_SYS(sigaltstack), SCMP_SYS(getrandom),
-    SCMP_SYS(getpid),       SCMP_SYS(gettid),         SCMP_SYS(getrusage),    SCMP_SYS(sysinfo),     SCMP_SYS(uname),
-    SCMP_SYS(gettimeofday), SCMP_SYS(clock_gettime),  SCMP_SYS(pause),        SCMP_SYS(ppoll),       SCMP_SYS(clock_nanosleep),
-    SCMP_SYS(exit),         SCMP_SYS(exit_group),     SCMP_SYS(getuid),       SCMP_SYS(geteuid),     SCMP_SYS(sched_getaffinity)};
+constexpr std::array free_calls{SCMP_SYS(read),
+                                SCMP_SYS(pread64),
+                                SCMP_SYS(readv),
+                                SCMP_SYS(lseek),
+                                SCMP_SYS(close),
+                                SCMP_SYS(stat),
+                                SCMP_SYS(fstat),
+                                SCMP_SYS(lstat),
+                                SCMP_SYS(newfstatat),
+                                SCMP_SYS(statx),
+                                SCMP_SYS(access),
+                                SCMP_SYS(faccessat),
+                                SCMP_SYS(faccessat2),
+                                SCMP_SYS(readlink),
+                                SCMP_SYS(readlinkat),
+                                SCMP_SYS(getcwd),
+                                SCMP_SYS(getdents64),
+                                SCMP_SYS(brk),
+                                SCMP_SYS(mremap),
+                                SCMP_SYS(munmap),
+                                SCMP_SYS(madvise),
+                                SCMP_SYS(futex),
+                                SCMP_SYS(sched_yield),
+                                SCMP_SYS(rt_sigaction),
+                                SCMP_SYS(rt_sigprocmask),
+                                SCMP_SYS(rt_sigreturn),
+                                SCMP_SYS(sigaltstack),
+                                SCMP_SYS(getrandom),
+                                SCMP_SYS(getpid),
+                                SCMP_SYS(gettid),
+                                SCMP_SYS(getrusage),
+                                SCMP_SYS(sysinfo),
+                                SCMP_SYS(uname),
+                                SCMP_SYS(gettimeofday),
+                                SCMP_SYS(clock_gettime),
+                                SCMP_SYS(pause),
+                                SCMP_SYS(clock_nanosleep),
+                                SCMP_SYS(exit),
+                                SCMP_SYS(exit_group),
+                                SCMP_SYS(getuid),
+                                SCMP_SYS(geteuid),
+                                SCMP_SYS(sched_getaffinity)};
 
-/// From here on this process reads, computes, and writes to `to_us` alone. @returns false where the system has no seccomp
-bool confine() {
-  scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(EPERM));
-  if (!filter) return false;
-  bool good = true;
-  const auto allow = [&](int call, std::initializer_list<scmp_arg_cmp> where = {}) {
-    const int error = seccomp_rule_add_array(filter, SCMP_ACT_ALLOW, call, static_cast<unsigned>(where.size()), where.begin());
-    good = good && (error == 0 || error == -EDOM);  // -EDOM: a call that this processor's system does not have
-  };
-  for (const int call : free_calls) allow(call);
-  constexpr scmp_datum_t changes = O_ACCMODE | O_CREAT | O_TRUNC | (O_TMPFILE & ~O_DIRECTORY);
-  allow(SCMP_SYS(openat), {SCMP_A2(SCMP_CMP_MASKED_EQ, changes, O_RDONLY)});
-  allow(SCMP_SYS(open), {SCMP_A1(SCMP_CMP_MASKED_EQ, changes, O_RDONLY)});
-  allow(SCMP_SYS(write), {SCMP_A0(SCMP_CMP_LE, to_us)});
-  allow(SCMP_SYS(mmap), {SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
-  allow(SCMP_SYS(mprotect), {SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
-  allow(SCMP_SYS(prlimit64), {SCMP_A2(SCMP_CMP_EQ, 0)});                                   // asked, not set
-  allow(SCMP_SYS(tgkill), {SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()))});  // abort()
-  good = good && seccomp_load(filter) == 0;
-  seccomp_release(filter);
-  return good;
+/// A filter of calls that is made rule by rule.
+class Filter {
+ public:
+  Filter() : filter_(seccomp_init(SCMP_ACT_ERRNO(EPERM))), good_(filter_ != nullptr) {}
+  ~Filter() {
+    if (filter_) seccomp_release(filter_);
+  }
+  Filter(const Filter&) = delete;
+  Filter& operator=(const Filter&) = delete;
+  void allow(int call, std::initializer_list<scmp_arg_cmp> where = {}) {
+    const int error =
+        good_ ? seccomp_rule_add_array(filter_, SCMP_ACT_ALLOW, call, static_cast<unsigned>(where.size()), where.begin()) : 0;
+    good_ = good_ && (error == 0 || error == -EDOM);  // -EDOM: a call that this processor's system does not have
+  }
+  [[nodiscard]] bool load() { return good_ && seccomp_load(filter_) == 0; }
+
+ private:
+  scmp_filter_ctx filter_;
+  bool good_;
+};
+
+/// From here on this process computes, and writes to `to_us` alone. @returns false where the system has no seccomp
+bool filter_calls(bool may_open) {
+  Filter filter;
+  for (const int call : free_calls) filter.allow(call);
+  if (may_open) {
+    constexpr scmp_datum_t changes = O_ACCMODE | O_CREAT | O_TRUNC | (O_TMPFILE & ~O_DIRECTORY);
+    filter.allow(SCMP_SYS(openat), {SCMP_A2(SCMP_CMP_MASKED_EQ, changes, O_RDONLY)});
+    filter.allow(SCMP_SYS(open), {SCMP_A1(SCMP_CMP_MASKED_EQ, changes, O_RDONLY)});
+    for (const scmp_datum_t lock : {LOCK_SH, LOCK_SH | LOCK_NB, LOCK_UN})
+      filter.allow(SCMP_SYS(flock), {SCMP_A1(SCMP_CMP_EQ, lock)});
+  }
+  for (const scmp_datum_t what : {F_GETFD, F_SETFD, F_GETFL})  // no other: fcntl can ask for signals to any process
+    filter.allow(SCMP_SYS(fcntl), {SCMP_A1(SCMP_CMP_EQ, what)});
+  filter.allow(SCMP_SYS(write), {SCMP_A0(SCMP_CMP_LE, to_us)});
+  filter.allow(SCMP_SYS(mmap), {SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
+  filter.allow(SCMP_SYS(mprotect), {SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
+  filter.allow(SCMP_SYS(prlimit64), {SCMP_A2(SCMP_CMP_EQ, 0)});                                   // asked, not set
+  filter.allow(SCMP_SYS(tgkill), {SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()))});  // abort()
+  return filter.load();
+}
+
+/// From here on the files below a folder are all that this process may open. @returns false where the system has no Landlock
+bool see_one_folder(const std::string& folder) {
+  landlock_ruleset_attr rules{};
+  rules.handled_access_fs =
+      LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR | LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_EXECUTE;
+  const Descriptor set(static_cast<int>(::syscall(SYS_landlock_create_ruleset, &rules, sizeof rules, 0)));
+  const Descriptor place(::open(folder.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+  if (set.get() < 0 || place.get() < 0 || ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
+  landlock_path_beneath_attr below{};
+  below.allowed_access = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
+  below.parent_fd = place.get();
+  return ::syscall(SYS_landlock_add_rule, set.get(), LANDLOCK_RULE_PATH_BENEATH, &below, 0) == 0 &&
+         ::syscall(SYS_landlock_restrict_self, set.get(), 0) == 0;
+}
+
+/// @returns false where the system cannot
+bool confine(const CopyBounds& bounds) {
+  const bool may_open = !bounds.folder.empty();
+  const bool sees_one = !may_open || see_one_folder(bounds.folder);
+  return filter_calls(may_open) && sees_one;
 }
 
 /// No file of ours but what it hands back; its words go nowhere.
@@ -81,17 +175,39 @@ void let_go_of_our_files(int file) {
   if (file != to_us) ::dup2(file, to_us);
   ::close_range(to_us + 1, ~0U, 0);
   const int nothing = ::open("/dev/null", O_RDWR);
-  for (const int stream : {0, 1, 2}) ::dup2(nothing, stream);
+  for (const int stream : {0, 1, 2}) {
+    if (is_sanitized && stream == 2) continue;
+    if (nothing >= 0)
+      ::dup2(nothing, stream);
+    else
+      ::close(stream);
+  }
+  if (nothing > 2) ::close(nothing);
 }
 
-void bound(rlim_t memory) {
-  const rlimit no_core{0, 0}, space{memory, memory};
+/// Address space that this process has [bytes]; 0 where the system does not tell.
+rlim_t address_space() {
+  rlim_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// @param space that it may have, ours among it [bytes]
+void bound(const CopyBounds& bounds, rlim_t space) {
+  const auto seconds = static_cast<rlim_t>(std::ceil(bounds.wall_limit)) + 1;
+  const rlimit no_core{0, 0}, memory{space, space}, handed{bounds.most_bytes + 3 * most_letters, RLIM_INFINITY},
+      cpu{seconds, seconds};
   ::setrlimit(RLIMIT_CORE, &no_core);
-#if !defined(__SANITIZE_ADDRESS__)  // the sanitizer's shadow alone takes terabytes of address space
-  ::setrlimit(RLIMIT_AS, &space);
-#else
-  static_cast<void>(space);
-#endif
+  ::setrlimit(RLIMIT_FSIZE, &handed);
+  ::setrlimit(RLIMIT_CPU, &cpu);
+  if (!is_sanitized) ::setrlimit(RLIMIT_AS, &memory);
+  ::signal(SIGXFSZ, SIG_IGN);  // a write fails then, and says so
+}
+
+/// A copy of somebody who is no more reads for nobody.
+void end_with(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(cannot_confine);
 }
 
 bool hand_over_bytes(const std::string& bytes) {
@@ -113,7 +229,6 @@ std::string bare_words(const InputError& e) {
 
 /// "line column letters\n", the file, which has so many letters, and the words.
 std::string refusal_text(const SourcePlace& place, const std::string& words) {
-  constexpr std::size_t most_letters = 4096;
   const std::string file = place.file.substr(0, most_letters);
   return fmt::format("{} {} {}\n{}{}", place.line, place.column, file.size(), file, words.substr(0, most_letters));
 }
@@ -131,10 +246,18 @@ int read_and_hand_over(const std::function<std::string()>& read) {
   }
 }
 
-[[noreturn, maybe_unused]] void be_the_copy(const std::function<std::string()>& read, const CopyBounds& bounds, int file) {
+/// What is set before the fork, where it can still be asked for.
+struct Start {
+  pid_t parent = ::getpid();
+  rlim_t space = address_space();
+};
+
+[[noreturn, maybe_unused]] void be_the_copy(const std::function<std::string()>& read, const CopyBounds& bounds,
+                                            const Start& start, int file) {
+  end_with(start.parent);
   let_go_of_our_files(file);
-  bound(bounds.memory);
-  if (!confine() && bounds.must_be_confined) ::_exit(cannot_confine);
+  bound(bounds, start.space + bounds.memory);
+  if (!confine(bounds) && bounds.must_be_confined) ::_exit(cannot_confine);
   int code = memory_is_short;
   try {
     code = read_and_hand_over(read);
@@ -155,10 +278,12 @@ CopyEnd read_here(const std::function<std::string()>& read) {
 }
 #endif
 
-/// All bytes of a file in memory that nobody writes any more.
-std::string bytes_of(int file) {
+/// All bytes of a file in memory that nobody writes any more. @throws std::system_error EFBIG where there are too many
+std::string bytes_of(int file, rlim_t most) {
   struct stat info {};
   if (::fstat(file, &info) != 0) throw std::system_error(errno, std::generic_category(), "what a copy handed back");
+  if (static_cast<rlim_t>(info.st_size) > most)
+    throw std::system_error(EFBIG, std::generic_category(), "what a copy handed back");
   std::string bytes(static_cast<std::size_t>(info.st_size), '\0');
   std::size_t at = 0;
   while (at < bytes.size()) {
@@ -173,7 +298,7 @@ std::string bytes_of(int file) {
 /// What refusal_text() made; anything else, which a copy that somebody else steers could hand back, is words.
 void take_refusal(CopyEnd& end) {
   end.how = CopyEnd::How::refused;
-  const std::string bytes = end.bytes.substr(0, 10'000);
+  const std::string bytes = end.bytes.substr(0, 3 * most_letters);
   std::size_t letters = 0;
   const auto start = bytes.find('\n') + 1;  // 0 where there is none
   if (std::sscanf(bytes.c_str(), "%d %d %zu", &end.place.line, &end.place.column, &letters) == 3 && start > 0 &&
@@ -183,30 +308,41 @@ void take_refusal(CopyEnd& end) {
   }
 }
 
-CopyEnd end_of(const ChildEnd& child, int file) {
+CopyEnd end_of(const ChildEnd& child, const CopyBounds& bounds, int file) {
   using How = CopyEnd::How;
   CopyEnd end;
   if (!child.in_time) {
     end.how = How::late;
-  } else if (!WIFEXITED(child.status)) {
-    end.how = How::killed;
+    return end;
+  }
+  if (!WIFEXITED(child.status)) {
     end.code = WTERMSIG(child.status);
-  } else if (WEXITSTATUS(child.status) == cannot_confine) {
-    end.how = How::not_confined;
-  } else if (WEXITSTATUS(child.status) == memory_is_short) {
-    end.how = How::no_memory;
-  } else {
-    end.bytes = bytes_of(file);
-    if (WEXITSTATUS(child.status) != done) take_refusal(end);
+    end.how = end.code == SIGXCPU ? How::late : How::killed;
+    return end;
+  }
+  switch (WEXITSTATUS(child.status)) {
+    case done:
+      end.bytes = bytes_of(file, bounds.most_bytes);
+      break;
+    case refusal:
+      end.bytes = bytes_of(file, 3 * most_letters + bounds.most_bytes);
+      take_refusal(end);
+      break;
+    case memory_is_short:
+      end.how = How::no_memory;
+      break;
+    case cannot_confine:
+      end.how = How::not_confined;
+      break;
+    default:
+      end.how = How::killed;
   }
   return end;
 }
 
 }  // namespace
 
-rlim_t CopyBounds::machine_memory() {
-  return static_cast<rlim_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
-}
+rlim_t machine_memory() { return static_cast<rlim_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)); }
 
 CopyEnd read_in_confined_copy(const std::function<std::string()>& read, const CopyBounds& bounds) {
 #if defined(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
@@ -217,13 +353,14 @@ CopyEnd read_in_confined_copy(const std::function<std::string()>& read, const Co
     throw std::system_error(errno, std::generic_category(),
                             bounds.what + " was not read: no file is to spare for what a copy of us reads");
   keep_ends_of_children();
+  const Start start;
   const pid_t child = ::fork();
   const int error = errno;
   if (child < 0)
     throw std::system_error(error, std::generic_category(),
                             bounds.what + " was not read: there is no process to spare to read it in");
-  if (child == 0) be_the_copy(read, bounds, handed.get());
-  return end_of(end_of_child(child, bounds.wall_limit), handed.get());
+  if (child == 0) be_the_copy(read, bounds, start, handed.get());
+  return end_of(end_of_child(child, bounds.wall_limit), bounds, handed.get());
 #endif
 }
 
@@ -239,13 +376,15 @@ std::string failure_of(const CopyEnd& end, const CopyBounds& bounds) {
     case How::refused:
       return {};
     case How::killed:
-      return fmt::format("{} kills the library that reads it (signal {}, {})", what, end.code, ::strsignal(end.code));
+      return end.code == 0
+                 ? what + " ends the program that reads it"
+                 : fmt::format("{} kills the library that reads it (signal {}, {})", what, end.code, ::strsignal(end.code));
     case How::late:
       return fmt::format("{} could not be read within {:g} s", what, bounds.wall_limit);
     case How::no_memory:
       return what + " takes more memory than this machine has";
     case How::not_confined:
-      return what + " was not read: this system has no seccomp, by which the reader of a stranger's file is confined";
+      return what + " was not read: this system cannot confine its reader (seccomp; for trajectories Landlock too)";
   }
   return {};
 }

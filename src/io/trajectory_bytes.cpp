@@ -19,9 +19,11 @@ void each_part(Snapshot_& s, Visit&& visit) {
   all(material, mass, bodies, total_mass, momentum, angular_momentum, energy, counts, heat_given, gauges);
 }
 
+/// Puts the parts of a snapshot one after the other. @tparam Sink takes bytes: void(const void*, std::size_t)
+template <class Sink>
 class Packer {
  public:
-  explicit Packer(std::string& bytes) : bytes_(bytes) {}
+  explicit Packer(Sink& sink) : sink_(sink) {}
   template <class T>
   void operator()(const T& value) {
     add(&value, sizeof value);
@@ -41,9 +43,16 @@ class Packer {
   }
 
  private:
-  void add(const void* from, std::size_t size) { bytes_.append(static_cast<const char*>(from), size); }
-  std::string& bytes_;
+  void add(const void* from, std::size_t size) { sink_(from, size); }
+  Sink& sink_;
 };
+
+template <class Sink>
+void pack(const Trajectory& trajectory, Sink sink) {
+  Packer<Sink> packer(sink);
+  packer(trajectory.frames.size());
+  for (const Snapshot& s : trajectory.frames) each_part(s, packer);
+}
 
 /// Takes no size on trust: what says that it is longer than what is left is refused before memory is asked for.
 class Unpacker {
@@ -101,10 +110,11 @@ void expect_equal_columns(const Snapshot& s) {
 }  // namespace
 
 std::string packed(const Trajectory& trajectory) {
+  std::size_t total = 0;
+  pack(trajectory, [&](const void*, std::size_t size) { total += size; });
   std::string bytes;
-  Packer pack(bytes);
-  pack(trajectory.frames.size());
-  for (const Snapshot& s : trajectory.frames) each_part(s, pack);
+  bytes.reserve(total);  // a string that grows is in memory twice
+  pack(trajectory, [&](const void* from, std::size_t size) { bytes.append(static_cast<const char*>(from), size); });
   return bytes;
 }
 

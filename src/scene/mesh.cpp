@@ -129,7 +129,7 @@ Mesh unpacked(const std::string& bytes) {
 
 /// Points and triangles as the file has them, read by a confined copy of us. @throws InputError
 Mesh parse(const std::string& bytes, const std::string& ending, const std::string& file) {
-  CopyBounds bounds{file, parse_limit};
+  const CopyBounds bounds{file, parse_limit};
   const CopyEnd end = read_in_confined_copy(
       [&] {
         const Mesh mesh = ending == ".obj" ? parse_obj(bytes, file) : parse_stl(bytes, file);

@@ -90,20 +90,13 @@ TomlNode document_of(const std::string& text, const std::string& file) {
   return root;
 }
 
-/// Address space that this process has [bytes]; 0 where the system does not tell.
-rlim_t address_space() {
-  rlim_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
-}
-
 /// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function of the text: what
 /// the child survives, the parent survives. (Upstream has an open report of unreachable points that are reached.)
 /// @throws std::system_error where there is no process to spare: no fault of the text, which is not read then
 /// @throws InputError where the child takes longer than the limit
 bool child_survives(const std::string& text, const std::string& file, double limit) {
   constexpr rlim_t room = rlim_t{2} << 30;
-  CopyBounds bounds{file, limit, address_space() + room};
+  const CopyBounds bounds{file, limit, room};
   const auto read = [&] {
     static_cast<void>(document_of(text, file));
     return std::string();

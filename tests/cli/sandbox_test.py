@@ -134,12 +134,15 @@ cat /etc/passwd >/dev/null 2>&1 && try "password file"
 echo '{{}}' 2>/dev/null >"{out}/results.json" && try "wrote results"
 rm -f "{out}/summary.md" 2>/dev/null && try "removed the summary"
 mv "{out}/runs" "{out}/others" 2>/dev/null && mv "{out}/others" "{out}/runs" && try "moved runs"
+echo x 2>/dev/null >>"{out}/kept.txt" && try "wrote into another file of the folder"
 exec /usr/bin/python3 "$@"
 """)
         python.chmod(0o755)
         words = [TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine,exact", "--out", out, "--no-history"]
-        for more, deeds in (([], 6), (["--sandbox"], 0)):
+        for more, deeds in (([], 7), (["--sandbox"], 0)):
             subprocess.run(["rm", "-rf", out, self.folder / "written"], check=True)
+            out.mkdir()
+            (out / "kept.txt").write_text("mine")
             done = subprocess.run([*words, *more], cwd=self.folder, capture_output=True, text=True, check=False,
                                   env={**os.environ, "SOME_TOKEN": "secret", "TRIPOINT_PYTHON": str(python)})
             told = (out / "deeds.txt").read_text().splitlines() if (out / "deeds.txt").exists() else []
@@ -149,6 +152,34 @@ exec /usr/bin/python3 "$@"
                 self.assertTrue((out / "index.html").exists(), done.stdout + done.stderr + (out / "report.log").read_text())
                 self.assertTrue((out / "case/rigid+ballistic.html").exists() or list((out / "case").glob("*.html")))
                 self.assertTrue(json.loads((out / "results.json").read_text())["cases"])
+
+    def test_no_link_that_somebody_left_in_the_report_is_followed(self):
+        out, mine = self.folder / "out", self.folder / "mine-too"
+        for planted in ("case", "history.jsonl"):
+            subprocess.run(["rm", "-rf", out, mine], check=True)
+            mine.mkdir()
+            (mine / "page.html").write_text("mine")
+            out.mkdir()
+            (out / planted).symlink_to(mine if planted == "case" else mine / "made")
+            done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engines", "exact", "--out", out, "--no-report"], cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertEqual(sorted(file.name for file in mine.iterdir()), ["page.html"], planted)
+            results = json.loads((out / "results.json").read_text())
+            if planted == "history.jsonl":  # the numbers are kept, and nobody believes that all went well
+                self.assertEqual(done.returncode, 4, done.stdout)
+                self.assertIn("the history could not be written", results["problems"][0])
+
+    def test_a_python_that_links_lead_to_draws_the_page(self):
+        versions = self.folder / "versions"
+        (versions / "3.11.2/bin").mkdir(parents=True)
+        (versions / "3.11.2/bin/python3.11").symlink_to("/usr/bin/python3")
+        (versions / "3.11").symlink_to("3.11.2")
+        environment = self.folder / "environment/bin"
+        environment.mkdir(parents=True)
+        (environment / "python").symlink_to(versions / "3.11/bin/python3.11")
+        for python in (environment / "python", Path("environment/bin/python")):
+            done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--engines", "mine", "--out", "out", "--sandbox"], cwd=self.folder, capture_output=True, text=True,
+                                  check=False, env={**os.environ, "TRIPOINT_PYTHON": str(python)})
+            self.assertTrue((self.folder / "out/index.html").exists(), done.stdout + done.stderr)
 
     def test_a_home_is_no_folder_of_an_engine(self):
         done = subprocess.run([TRIPOINT, "validate", "rigid/ballistic", "--engine", self.engine, "--sandbox", "--out", self.folder / "out", "--no-report"],

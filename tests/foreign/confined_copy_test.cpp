@@ -2,8 +2,13 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -21,8 +26,16 @@ namespace {
 
 using How = CopyEnd::How;
 
-CopyEnd in_copy(const std::function<std::string()>& read, double limit = 20.0) {
-  return read_in_confined_copy(read, {"a file", limit});
+constexpr const char* folder = "/tmp";
+
+CopyBounds bounds_of(const char* sees) {
+  CopyBounds bounds{"a file", 20.0};
+  bounds.folder = sees;
+  return bounds;
+}
+
+CopyEnd in_copy(const std::function<std::string()>& read, const char* sees = folder) {
+  return read_in_confined_copy(read, bounds_of(sees));
 }
 
 /// A file with some words, that goes at the end.
@@ -83,7 +96,7 @@ TEST(ConfinedCopy, ARefusalKeepsItsPlaceAndWords) {
 }
 
 TEST(ConfinedCopy, ADeathIsTold) {
-  const CopyBounds bounds{"a file", 20.0};
+  const CopyBounds bounds = bounds_of("");
   const auto end = read_in_confined_copy([]() -> std::string { ::abort(); }, bounds);
   EXPECT_EQ(end.how, How::killed);
   EXPECT_EQ(failure_of(end, bounds), "a file kills the library that reads it (signal 6, Aborted)");
@@ -104,6 +117,9 @@ std::vector<Deed> deeds(const char* file, pid_t parent) {
           {"starts a process", [] { return ::fork() >= 0; }},
           {"starts a program", [] { return ::execl("/bin/true", "true", nullptr) == 0; }},
           {"signals its parent", [=] { return ::kill(parent, 0) == 0; }},
+          {"has the system signal its parent", [=] { return ::fcntl(::open(folder, O_RDONLY), F_SETOWN, parent) == 0; }},
+          {"chooses a signal", [] { return ::fcntl(::open(folder, O_RDONLY), F_SETSIG, SIGKILL) == 0; }},
+          {"locks others out", [=] { return ::flock(::open(file, O_RDONLY), LOCK_EX | LOCK_NB) == 0; }},
           {"runs what it wrote",
            [] {
              return ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0) != MAP_FAILED;
@@ -121,6 +137,58 @@ TEST(ConfinedCopy, CanDoNothingButRead) {
     EXPECT_EQ(end.how, How::read) << name;
     EXPECT_EQ(end.bytes, "refused") << name;
   }
+}
+
+std::string opened(const std::string& path) {
+  return ::open(path.c_str(), O_RDONLY) >= 0 ? "opened" : errno == EPERM || errno == EACCES ? "refused" : "failed otherwise";
+}
+
+TEST(ConfinedCopy, SeesOneFolderAtMost) {
+  const WrittenFile file;
+  const std::string memory = "/proc/" + std::to_string(::getpid()) + "/mem";
+  for (const std::string& path : {std::string("/etc/passwd"), memory}) {
+    EXPECT_EQ(in_copy([&] { return opened(path); }).bytes, "refused") << path;
+    EXPECT_EQ(in_copy([&] { return opened(path); }, "").bytes, "refused") << path;
+  }
+  EXPECT_EQ(in_copy([&] { return opened(file.path()); }).bytes, "opened");
+  EXPECT_EQ(in_copy([&] { return opened(file.path()); }, "").bytes, "refused");
+}
+
+TEST(ConfinedCopy, HandsBackNoMoreThanItMay) {
+  CopyBounds bounds = bounds_of("");
+  bounds.most_bytes = 1000;
+  EXPECT_EQ(read_in_confined_copy([] { return std::string(1000, 'x'); }, bounds).bytes.size(), 1000u);
+  EXPECT_EQ(read_in_confined_copy([] { return std::string(1'000'000, 'x'); }, bounds).how, How::no_memory);
+  const auto far = [] {  // a file with a hole, which costs nothing
+    if (::lseek(3, off_t{1} << 40, SEEK_SET) < 0 || ::write(3, "x", 1) != 1) ::lseek(3, 0, SEEK_SET);
+    return std::string("x");
+  };
+  EXPECT_EQ(read_in_confined_copy(far, bounds).bytes, "x");
+}
+
+TEST(ConfinedCopy, AnEndThatIsNotItsOwnIsADeath) {
+  const CopyBounds bounds = bounds_of("");
+  const auto end = read_in_confined_copy([]() -> std::string { ::_exit(1); }, bounds);
+  EXPECT_EQ(end.how, How::killed);
+  EXPECT_EQ(failure_of(end, bounds), "a file ends the program that reads it");
+}
+
+TEST(ConfinedCopy, EndsWithItsParent) {
+  ::prctl(PR_SET_CHILD_SUBREAPER, 1);  // who loses a parent becomes a child of ours
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    static_cast<void>(in_copy([]() -> std::string {
+      for (;;) ::pause();
+    }));
+    ::_exit(0);
+  }
+  ::usleep(300'000);
+  ::kill(parent, SIGKILL);
+  int status = 0;
+  ASSERT_EQ(::waitpid(parent, &status, 0), parent);
+  ASSERT_GT(::waitpid(-1, &status, 0), 0) << "there was no copy";
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) << status;
+  ::prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
 TEST(ConfinedCopy, HasNoOpenFileOfOurs) {

@@ -153,6 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Files, ChildFaults,
                                            ChildFault{"a time is not a number", Status::error, "the time is not finite"},
                                            ChildFault{"names a body that is not there", Status::error, "is not one of"},
                                            ChildFault{"names a body below the first", Status::error, "is not one of"},
+                                           ChildFault{"shows no frame", Status::error, "has no frame"},
                                            ChildFault{"names half a body", Status::error, "is not one of"},
                                            ChildFault{"numbers its particles past the last", Status::error, "is not one of"}));
 
@@ -210,7 +211,7 @@ TEST(Starts, AChildWithoutAPipeIsNotStarted) {
 TEST(Starts, AForeignFileIsNotReadWhereNoCopyCanTryIt) {
   int done = 0;
   forks.plan(1, EAGAIN);
-  EXPECT_THROW(try_of_stranger([&] { ++done; }, "a file", 5.0), EngineError);
+  EXPECT_THROW(try_of_stranger([&] { ++done; }, {"a file"}, 5.0), EngineError);
   forks.plan(0, 0);
   EXPECT_EQ(done, 0);
 }
@@ -294,7 +295,7 @@ TEST_F(EndsThrownAway, AreKeptByWhoStartsAnEngine) {
 }
 
 TEST_F(EndsThrownAway, AreKeptByWhoTriesAFile) {
-  EXPECT_THROW(try_of_stranger([] { ::raise(SIGSEGV); }, "a file", 5.0), EngineError);
+  EXPECT_THROW(try_of_stranger([] { ::raise(SIGSEGV); }, {"a file"}, 5.0), EngineError);
 }
 
 TEST(ForkStorm, EndsWithItsRun) {

@@ -16,7 +16,7 @@ namespace {
 /// What is thrown here where this is tried; empty = nothing.
 std::string words_of(const std::function<void()>& deed, double limit = 20.0) {
   try {
-    try_of_stranger(deed, "a file", limit);
+    try_of_stranger(deed, {"a file"}, limit);
     return {};
   } catch (const EngineError& e) {
     return e.what();

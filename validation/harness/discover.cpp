@@ -125,9 +125,9 @@ EngineEntry ask_engine(const std::string& executable) {
   if (end.how != ProcessEnd::How::exited || end.code != 0) return unavailable(entry, "--info " + describe(end));
   try {
     if (!belongs_to_us(executable))
-      try_of_stranger([&] { static_cast<void>(with_info(entry, end.output)); }, "what --info printed", info_limit);
+      try_of_stranger([&] { static_cast<void>(with_info(entry, end.output)); }, {"what --info printed"}, info_limit);
     return with_info(entry, end.output);
-  } catch (const EngineError& e) {
+  } catch (const std::exception& e) {
     return unavailable(entry, e.what());
   }
 }

@@ -11,6 +11,7 @@
 #include "core/durable_file.hpp"
 #include "scene/library.hpp"
 #include "validation/harness/foreign_text.hpp"
+#include "validation/harness/history.hpp"
 #include "validation/harness/judge.hpp"
 #include "validation/harness/process.hpp"
 #include "validation/harness/sandbox.hpp"
@@ -31,7 +32,7 @@ std::string python_program() {
 
 namespace {
 
-std::string make_page(const fs::path& results, bool pdf) {
+std::string make_page(const fs::path& results, const std::string& history, bool pdf) {
   const fs::path program = fs::path(share_folder()) / "reports" / "report.py";
   if (!fs::exists(program)) return "the report program " + program.string() + " is missing";
   ProcessSpec spec;
@@ -40,7 +41,7 @@ std::string make_page(const fs::path& results, bool pdf) {
   spec.wall_limit = report_limit;
   spec.outlives_interrupt = true;
   spec.log = (results.parent_path() / "report.log").string();
-  const auto end = run_process(sandboxed_report(spec, results.parent_path().string()));
+  const auto end = run_process(sandboxed_report(spec, results.parent_path().string(), history));
   if (end.how == ProcessEnd::How::exited && end.code == 0 && fs::exists(results.parent_path() / "index.html")) return {};
   return fmt::format("the report program {}: {}", describe(end), end.log_tail);
 }
@@ -48,9 +49,10 @@ std::string make_page(const fs::path& results, bool pdf) {
 /// No old page stands for new results.
 void remove_pages(const fs::path& out) {
   std::error_code none;
-  for (const char* page : {"index.html", "signable.html", "report.pdf"}) fs::remove(out / page);
+  for (const char* page : {"index.html", "signable.html", "report.pdf"}) fs::remove(out / page, none);
+  if (fs::is_symlink(out / "case", none)) return;  // what it leads to is not ours
   for (const auto& page : fs::directory_iterator(out / "case", none))
-    if (page.path().extension() == ".html") fs::remove(page.path());
+    if (page.path().extension() == ".html") fs::remove(page.path(), none);
 }
 
 }  // namespace
@@ -66,7 +68,8 @@ void write_results(const Results& results, const std::string& folder) {
 
 std::string write_report(const Results& results, const std::string& folder, bool pdf) {
   write_results(results, folder);
-  return make_page(fs::absolute(folder) / "results.json", pdf);
+  const fs::path file = fs::absolute(folder) / "results.json";
+  return make_page(file, history_file(results, file.string()), pdf);
 }
 
 void set_aside_report(const std::string& folder) {

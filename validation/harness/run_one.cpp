@@ -83,7 +83,7 @@ void prepare_folder(const RunRequest& request) {
 Result result_of(const RunRequest& request) {
   const std::string file = (fs::path(request.folder) / "result.json").string();
   if (!belongs_to_us(request.engine->executable))
-    try_of_stranger([&] { static_cast<void>(read_result(file)); }, "result.json", reply_limit);
+    try_of_stranger([&] { static_cast<void>(read_result(file)); }, {"result.json", request.folder}, reply_limit);
   return read_result(file);
 }
 
@@ -189,7 +189,7 @@ std::shared_ptr<const Trajectory> read_any_trajectory(const RunRequest& request)
     if (there.empty()) there = name;
   }
   if (there.empty() || belongs_to_us(request.engine->executable)) return std::make_shared<Trajectory>(read_files(request));
-  const auto bytes = read_of_stranger([&] { return packed(read_files(request)); }, there, read_limit);
+  const auto bytes = read_of_stranger([&] { return packed(read_files(request)); }, {there, request.folder}, read_limit);
   return std::make_shared<Trajectory>(unpacked(bytes, most_frames(request)));
 }
 
@@ -210,6 +210,7 @@ Outcome read_trajectory_of(const RunRequest& request, Outcome outcome) {
   if (!(std::abs(outcome.result.time_reached - end) <= 1e-9 * end))
     return failed(outcome, Status::error, fmt::format("time not reached: {:g} s of {:g} s", outcome.result.time_reached, end));
   outcome.trajectory = read_any_trajectory(request);
+  if (outcome.trajectory->frames.empty()) return failed(outcome, Status::error, "the trajectory has no frame");
   outcome.cost.particles = alive_at_the_end(*outcome.trajectory);
   if (const auto wrong = audit(job, *request.initial, *outcome.trajectory); !wrong.empty())
     return failed(outcome, Status::error, wrong);
@@ -269,9 +270,9 @@ Outcome ask(const RunRequest& request) {
     return failed({}, Status::error, "--check " + describe(check) + last_words(check.log_tail));
   try {
     if (!belongs_to_us(request.engine->executable))
-      try_of_stranger([&] { static_cast<void>(refusal_in(check.output)); }, "what --check printed", reply_limit);
+      try_of_stranger([&] { static_cast<void>(refusal_in(check.output)); }, {"what --check printed"}, reply_limit);
     if (const auto reason = refusal_in(check.output); !reason.empty()) return failed({}, Status::refused, reason);
-  } catch (const EngineError& e) {
+  } catch (const std::exception& e) {
     return failed({}, Status::error, e.what());
   }
   return {};

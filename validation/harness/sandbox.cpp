@@ -169,18 +169,47 @@ ProcessSpec behind_walls(ProcessSpec spec, const Words& bound) {
 }
 
 /// Where the checkout or the installation keeps what it is made of: also what links in the folder of shared data lead to.
-void bind_shared(Words& words) {
+void show_shared(Words& words) {
   show(words, "--ro-bind", share_folder());
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(share_folder(), none))
     if (entry.is_symlink(none)) show(words, "--ro-bind", fs::weakly_canonical(entry.path()).string());
 }
 
-/// An environment of Python, or one that is not the system's.
-void bind_python(Words& words, const fs::path& python) {
-  for (const fs::path& place : {fs::absolute(python).lexically_normal(), fs::path(place_of(python.string()))})
-    if (const fs::path prefix = place.parent_path().parent_path(); !is_within(place, "/usr") && prefix != prefix.root_path())
-      show(words, "--ro-bind", prefix.string());
+/// The folder above bin, or the program alone where that folder holds the user's home.
+void show_prefix(Words& words, const fs::path& program) {
+  const fs::path prefix = program.parent_path().parent_path();
+  if (is_within(program, "/usr") || prefix == prefix.root_path()) return;
+  const char* home = std::getenv("HOME");
+  const bool holds_home = home && *home == '/' && is_within(place_of(home), place_of(prefix.string()));
+  show(words, "--ro-bind", holds_home ? program.string() : prefix.string());
+}
+
+/// An environment of Python, or one that is not the system's, with all that its links lead to.
+void show_python(Words& words, fs::path python) {
+  constexpr int most_links = 8;
+  std::error_code none;
+  show_prefix(words, place_of(python.string()));
+  for (int n = 0; n < most_links; ++n) {
+    show_prefix(words, python);
+    if (!fs::is_symlink(python, none)) return;
+    python = (python.parent_path() / fs::read_symlink(python, none)).lexically_normal();
+  }
+}
+
+/// What the program that draws the pages makes: pages, and what they show.
+bool is_drawn(const fs::path& entry) {
+  const fs::path name = entry.filename();
+  return name.extension() == ".html" || name == "case" || name == "figures" || name == "report.pdf" || name == "report.log";
+}
+
+/// The report's folder, in which nothing but pages and figures may change.
+void show_report(Words& words, const fs::path& out) {
+  show(words, "--bind", out.string());
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(out, none))
+    if (!is_drawn(entry.path()))
+      show(words, "--ro-bind-try", entry.is_symlink(none) ? fs::weakly_canonical(entry.path()).string() : entry.path().string());
 }
 
 }  // namespace
@@ -193,15 +222,15 @@ ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable
   return behind_walls(std::move(spec), bound);
 }
 
-ProcessSpec sandboxed_report(ProcessSpec spec, const std::string& out) {
+ProcessSpec sandboxed_report(ProcessSpec spec, const std::string& out, const std::string& history) {
   if (!wanted) return spec;
+  spec.argv.front() = fs::absolute(spec.argv.front()).lexically_normal().string();
   Words bound;
-  bind_shared(bound);
-  bind_python(bound, spec.argv.front());
+  show_shared(bound);
+  show_python(bound, spec.argv.front());
   for (const char* fonts : {"/etc/fonts", "/etc/matplotlibrc"}) add(bound, {"--ro-bind-try", fonts, fonts});
-  show(bound, "--bind", out);
-  for (const char* judged : {"results.json", "junit.xml", "summary.md", "runs"})
-    if (const fs::path path = fs::path(out) / judged; fs::exists(path)) show(bound, "--ro-bind", path.string());
+  show_report(bound, out);
+  if (!history.empty()) show(bound, "--ro-bind-try", history);
   spec.folder = out;
   return behind_walls(std::move(spec), bound);
 }

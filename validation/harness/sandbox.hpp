@@ -29,8 +29,8 @@ void sandbox_strangers(const std::string& out);
 [[nodiscard]] ProcessSpec sandboxed(ProcessSpec spec, const std::vector<std::string>& readable = {});
 
 /// The program that draws the pages: it opens what strangers wrote. Where a sandbox is wanted, it sees no more than itself and
-/// the report's folder, and may change neither the results nor the runs.
-/// @param out folder of the report
-[[nodiscard]] ProcessSpec sandboxed_report(ProcessSpec spec, const std::string& out);
+/// the report's folder, in which it may change nothing but pages and figures.
+/// @param out folder of the report   @param history file that it shows, "" = none
+[[nodiscard]] ProcessSpec sandboxed_report(ProcessSpec spec, const std::string& out, const std::string& history);
 
 }  // namespace tripoint

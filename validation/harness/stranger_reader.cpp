@@ -8,8 +8,10 @@
 
 namespace tripoint {
 
-std::string read_of_stranger(const std::function<std::string()>& read, const std::string& what, double limit) {
-  CopyBounds bounds{what, limit};
+namespace {
+
+/// @throws EngineError, InputError as read_of_stranger
+std::string read_within(const std::function<std::string()>& read, CopyBounds bounds) {
   bounds.must_be_confined = strangers_are_sandboxed();
   CopyEnd end;
   try {
@@ -22,13 +24,24 @@ std::string read_of_stranger(const std::function<std::string()>& read, const std
   return std::move(end.bytes);
 }
 
-void try_of_stranger(const std::function<void()>& deed, const std::string& what, double limit) {
+}  // namespace
+
+std::string read_of_stranger(const std::function<std::string()>& read, const StrangersFile& file, double limit) {
+  CopyBounds bounds{file.what, limit};
+  bounds.folder = file.folder;
+  return read_within(read, bounds);
+}
+
+void try_of_stranger(const std::function<void()>& deed, const StrangersFile& file, double limit) {
   const auto read = [&] {
     deed();
     return std::string();
   };
   try {
-    static_cast<void>(read_of_stranger(read, what, limit));
+    CopyBounds bounds{file.what, limit};
+    bounds.folder = file.folder;
+    bounds.most_bytes = 0;
+    static_cast<void>(read_within(read, bounds));
   } catch (const InputError&) {  // a refusal: it is worded where it counts
   }
 }

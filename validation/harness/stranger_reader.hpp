@@ -5,19 +5,24 @@
 
 namespace tripoint {
 
+/// What an engine of others left or said.
+struct StrangersFile {
+  std::string what;         ///< for the words of errors: "trajectory.h5"
+  std::string folder = {};  ///< where it lies: nothing else may be opened. "" = it is a text that we have already
+};
+
 /// Reads what an engine of others left or said, in a confined copy of this process. Under --sandbox nothing is read where the
 /// system cannot confine it.
 /// @param read gives back what it read, as bytes
-/// @param what for the words of the error: "trajectory.h5"
 /// @param limit wall clock [s]; then the copy is killed
 /// @returns what `read` returned in the copy
 /// @throws InputError what `read` threw there
 /// @throws EngineError where the copy is killed, by itself or at the limit, needs more memory than the machine has, or could not
 /// be made
-[[nodiscard]] std::string read_of_stranger(const std::function<std::string()>& read, const std::string& what, double limit);
+[[nodiscard]] std::string read_of_stranger(const std::function<std::string()>& read, const StrangersFile& file, double limit);
 
 /// Does this in such a copy first, so that what kills the copy does not kill us. What the copy throws is not told: it ends in the
 /// same way here. @throws EngineError as read_of_stranger
-void try_of_stranger(const std::function<void()>& deed, const std::string& what, double limit);
+void try_of_stranger(const std::function<void()>& deed, const StrangersFile& file, double limit);
 
 }  // namespace tripoint

@@ -102,6 +102,8 @@ def spoil(rows, times):
     """The trajectory with the wrong thing in it."""
     if WRONG == "stops early":
         return rows[: len(rows) // 2]
+    if WRONG == "shows no frame":
+        return []
     if WRONG == "frozen":
         return [[t] + rows[0][1:] for t in times]
     if WRONG == "not a number":
