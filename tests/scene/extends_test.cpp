@@ -154,6 +154,7 @@ TEST_F(Extends, RemovesWhatDoesNotHold) {
   EXPECT_EQ(variant("remove = [\"body.block.velocity\"]\n").value.scene.bodies[0].velocity.value.x, 0.0);
   EXPECT_EQ(variant("remove = [\"gate.place\"]\n").value.gates.size(), 1U);
   EXPECT_TRUE(variant("remove = [\"study\", \"metric\"]\n").value.gates.empty());
+  EXPECT_TRUE(variant("remove = [\"study\", \"metric\", \"gate\"]\n").value.gates.empty());
   for (const char* wrong :
        {"scene.jittr", "engines.lammps", "metric.speed", "study.1", "inflow", "scene.jitter.x", "format.x", ".", "x."})
     EXPECT_NE(refusal_of(std::string("remove = [\n\"") + wrong + "\"]\n").find("case.toml:3: "), std::string::npos) << wrong;

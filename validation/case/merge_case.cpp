@@ -171,8 +171,10 @@ void remove_keys(TomlNode& document, const TomlNode& remove) {
     if (rest.empty()) continue;
     if (at->kind != Kind::table || !at->find(rest)) not_there(path, path.text);
     erase(*at, rest);
-    if (at == &document && rest == "metric") erase(document, "gate");  // each gate is on one of them
   }
+  const auto& all = remove.items;
+  const bool no_metric = std::any_of(all.begin(), all.end(), [](const auto& path) { return path.text == "metric"; });
+  if (no_metric && document.find("gate")) erase(document, "gate");  // each gate is on one of them
 }
 
 }  // namespace tripoint
