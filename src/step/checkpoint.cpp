@@ -81,7 +81,8 @@ void restore_columns(Columns& columns, const std::string& group, const Checkpoin
   });
 }
 
-/// Lists of partners in order of id, as plain numbers; nothing where all are empty.
+/// Lists of partners in order of id up to the last that has any, as plain numbers; nothing where all are empty. How many empty
+/// ones follow tells of the run's past, of which bonds had been where all are gone, and not of its state.
 template <class Pair>
 void save(const PairLists<Pair>& lists, const std::string& name, Checkpoint& kept) {
   static_assert(std::is_trivially_copyable_v<Pair> && sizeof(Pair) % sizeof(double) == 0);
@@ -93,6 +94,7 @@ void save(const PairLists<Pair>& lists, const std::string& name, Checkpoint& kep
     flat.insert(flat.end(), list.begin(), list.end());
     counts.push_back(static_cast<std::int64_t>(lists.of(id).size()));
   }
+  while (counts.back() == 0) counts.pop_back();
 }
 
 /// @throws InputError when counts and numbers do not fit each other

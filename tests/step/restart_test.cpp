@@ -338,6 +338,21 @@ TEST(Restart, RefusesRowsThatAreNotThereAndAmountsThatNoFormulaBears) {
   EXPECT_THROW(continued(j, 1, no_time), InputError);
 }
 
+/// How many empty lists follow the last bond tells what had been, not what is: a run whose bonds have all gone keeps them, and
+/// one that goes on from there has none.
+TEST(Restart, KeepsNoListsOfBondsThatAreNoMore) {
+  Journey j = two_liquids_with_a_soft_cube();
+  j.lab.add({.name = "drop", .material = 1, .corner = {0.06, 0.06, 1.0}, .count = {2, 2, 2}, .phase = Phase::liquid});
+  const Checkpoint kept = unbroken(j, 1, {5}).cuts.at(5);
+  for (const char* lists : {"bonds/count", "own_pairs/count"}) {
+    EXPECT_GT(kept.whole.at(lists).back(), 0) << lists;
+    Checkpoint padded = kept;
+    padded.whole.at(lists).resize(padded.whole.at(lists).size() + 7, 0);
+    Simulation s(j.lab.scene, j.lab.initial, {}, padded);
+    EXPECT_EQ(s.checkpoint().whole.at(lists), kept.whole.at(lists)) << lists;
+  }
+}
+
 TEST(Restart, RefusesABondWhosePartnerIsNoParticleOrDoesNotKnowIt) {
   const Journey j = two_liquids_with_a_soft_cube();
   const Checkpoint kept = unbroken(j, 1, {5}).cuts.at(5);
