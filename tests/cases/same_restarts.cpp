@@ -63,7 +63,7 @@ struct Turns {
 };
 
 struct Counts {
-  long states = 0, cuts = 0, turns = 0, restarts = 0, every_step = 0, whole = 0;
+  long states = 0, unequal = 0, cuts = 0, turns = 0, restarts = 0, every_step = 0, whole = 0;
   std::set<std::string> whole_cases;
   std::array<long, kinds.size()> of{};
 };
@@ -175,6 +175,7 @@ bool agrees(const std::string& name, const State& state, long most, Counts& coun
       if (what.empty()) continue;
       fmt::print("{}: cut after step {} and gone on with on {} threads{}, {} differs at step {}\n", name, cut, threads,
                  halfway ? ", cut again," : "", what, goal);
+      ++counts.unequal;
       return false;
     }
   }
@@ -247,7 +248,7 @@ int main(int argc, char** argv) {
   for (std::size_t k = 0; k < kinds.size() && counts.every_step > 0; ++k) fmt::print("{} cuts: {}\n", kinds[k], counts.of[k]);
   if (counts.every_step > 0)
     fmt::print("{} states of {} cases cut after each of their steps to the end\n", counts.whole, counts.whole_cases.size());
-  fmt::print("{} states, {} cuts, {} of them at a change, {} restarts\n", counts.states, counts.cuts, counts.turns,
-             counts.restarts);
+  fmt::print("{} states, {} cuts, {} of them at a change, {} restarts; {} more states with other bits\n", counts.states,
+             counts.cuts, counts.turns, counts.restarts, counts.unequal);
   return all && counts.states > 0 ? 0 : 1;
 }

@@ -91,6 +91,8 @@ TEST(CosineSum, SolvesTheHeatEquationInAllDirectionsByItsOwnDifferences) {
   const double laplacian = (T[1] + T[2] + T[3] + T[4] + T[5] + T[6] - 6 * T[0]) / (h * h);
   const double rate = (sum->at(t + tau).temperature[0] - sum->at(t - tau).temperature[0]) / (2 * tau);
   EXPECT_NEAR(rate / (D * laplacian), 1.0, 1e-3);  // (k h)^2/12 and round-off of 300 K over h^2 k^2
+  EXPECT_NEAR(*sum->number("diffusivity"), D, 1e-12 * D);
+  EXPECT_FALSE(sum->number("mean"));
   args["amplitude_2"] = 5.0;
   EXPECT_THROW((void)make_reference(test::function("cosine_sum", args), box.job, box.initial), InputError)
       << "the scene starts with other waves";

@@ -156,6 +156,10 @@ TEST(Archimedes, IsTheBalanceOfPressureAndWeight) {
   const auto afloat = make_reference(test::function("archimedes"), s.job, s.initial);
   const double lift = 1000.0 * 9.81 * *afloat->number("draught") * 0.16;  // pressure on the keel times its area
   EXPECT_NEAR(lift, s.job.bodies[1].properties.mass * 9.81, 1e-9 * lift);
+  auto aside = s;
+  for (auto* end : {&aside.job.scene.min, &aside.job.scene.max}) (*end)->x += 0.3;
+  const auto beside = make_reference(test::function("archimedes"), aside.job, aside.initial);
+  EXPECT_NEAR(*beside->number("pool_area"), *afloat->number("pool_area"), 1e-12) << "an area is between two bounds";
   const auto heavy = test::pool(1200.0);
   EXPECT_THROW((void)make_reference(test::function("archimedes"), heavy.job, heavy.initial), InputError);
 }
