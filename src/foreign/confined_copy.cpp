@@ -109,6 +109,16 @@ constexpr std::array free_calls{SCMP_SYS(read),
                                 SCMP_SYS(geteuid),
                                 SCMP_SYS(sched_getaffinity)};
 
+/// What the n-th word of a call must be. @param a value, or a mask   @param b value of what the mask leaves
+scmp_arg_cmp word(unsigned n, scmp_compare how, scmp_datum_t a, scmp_datum_t b = 0) {
+  scmp_arg_cmp rule{};
+  rule.arg = n;
+  rule.op = how;
+  rule.datum_a = a;
+  rule.datum_b = b;
+  return rule;
+}
+
 /// A filter of calls that is made rule by rule.
 class Filter {
  public:
@@ -143,19 +153,19 @@ bool filter_calls(bool may_open) {
   for (const int call : free_calls) filter.allow(call);
   if (may_open) {
     constexpr scmp_datum_t changes = O_ACCMODE | O_CREAT | O_TRUNC | (O_TMPFILE & ~O_DIRECTORY);
-    filter.allow(SCMP_SYS(openat), {SCMP_A2(SCMP_CMP_MASKED_EQ, changes, O_RDONLY)});
-    filter.allow(SCMP_SYS(open), {SCMP_A1(SCMP_CMP_MASKED_EQ, changes, O_RDONLY)});
+    filter.allow(SCMP_SYS(openat), {word(2, SCMP_CMP_MASKED_EQ, changes, O_RDONLY)});
+    filter.allow(SCMP_SYS(open), {word(1, SCMP_CMP_MASKED_EQ, changes, O_RDONLY)});
     for (const scmp_datum_t lock : {LOCK_SH, LOCK_SH | LOCK_NB, LOCK_UN})
-      filter.allow(SCMP_SYS(flock), {SCMP_A1(SCMP_CMP_EQ, lock)});
+      filter.allow(SCMP_SYS(flock), {word(1, SCMP_CMP_EQ, lock)});
   }
   for (const scmp_datum_t what : {F_GETFD, F_SETFD, F_GETFL})  // no other: fcntl can ask for signals to any process
-    filter.allow(SCMP_SYS(fcntl), {SCMP_A1(SCMP_CMP_EQ, what)});
-  filter.allow(SCMP_SYS(setitimer), {SCMP_A0(SCMP_CMP_EQ, ITIMER_PROF)});
-  filter.allow(SCMP_SYS(write), {SCMP_A0(SCMP_CMP_LE, to_us)});
-  filter.allow(SCMP_SYS(mmap), {SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
-  filter.allow(SCMP_SYS(mprotect), {SCMP_A2(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
-  filter.allow(SCMP_SYS(prlimit64), {SCMP_A2(SCMP_CMP_EQ, 0)});                                   // asked, not set
-  filter.allow(SCMP_SYS(tgkill), {SCMP_A0(SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()))});  // abort()
+    filter.allow(SCMP_SYS(fcntl), {word(1, SCMP_CMP_EQ, what)});
+  filter.allow(SCMP_SYS(setitimer), {word(0, SCMP_CMP_EQ, ITIMER_PROF)});
+  filter.allow(SCMP_SYS(write), {word(0, SCMP_CMP_LE, to_us)});
+  filter.allow(SCMP_SYS(mmap), {word(2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
+  filter.allow(SCMP_SYS(mprotect), {word(2, SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
+  filter.allow(SCMP_SYS(prlimit64), {word(2, SCMP_CMP_EQ, 0)});                                   // asked, not set
+  filter.allow(SCMP_SYS(tgkill), {word(0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(::getpid()))});  // abort()
   return filter.load();
 }
 
