@@ -217,7 +217,7 @@ void let_go_of_our_files(int file) {
 }
 
 /// Address space that this process has [bytes]; 0 where the system does not tell.
-rlim_t address_space() {
+[[maybe_unused]] rlim_t address_space() {
   rlim_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
@@ -339,7 +339,7 @@ void take_refusal(CopyEnd& end) {
   }
 }
 
-CopyEnd end_of(const ChildEnd& child, const CopyBounds& bounds, int file) {
+[[maybe_unused]] CopyEnd end_of(const ChildEnd& child, const CopyBounds& bounds, int file) {
   using How = CopyEnd::How;
   CopyEnd end;
   if (!child.in_time) {
@@ -375,7 +375,7 @@ CopyEnd end_of(const ChildEnd& child, const CopyBounds& bounds, int file) {
 
 rlim_t machine_memory() { return static_cast<rlim_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)); }
 
-CopyEnd read_in_confined_copy(const std::function<std::string()>& read, const CopyBounds& bounds) {
+CopyEnd read_in_confined_copy(const std::function<std::string()>& read, [[maybe_unused]] const CopyBounds& bounds) {
 #if defined(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)
   return read_here(read);  // a process for each input would leave a fuzzer no inputs
 #else
