@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A stranger's engine under --sandbox: it answers as it does outside, and reaches neither the network, nor the user's files, nor a token, nor another run."""
+import ctypes
 import json
 import os
 import subprocess
@@ -42,6 +43,11 @@ if sys.argv[1] == "--run":
 def namespaces_are_allowed():
     words = ["/usr/bin/bwrap", "--unshare-all", "--unshare-user", "--ro-bind", "/usr", "/usr", "--symlink", "usr/lib", "/lib", "--symlink", "usr/lib64", "/lib64", "/usr/bin/true"]
     return os.path.exists(words[0]) and subprocess.run(words, capture_output=True, check=False).returncode == 0
+
+
+def one_folder_can_be_shown():
+    """Landlock, without which nothing of a stranger is read under --sandbox. 444: landlock_create_ruleset, asked for its version."""
+    return ctypes.CDLL(None, use_errno=True).syscall(444, None, ctypes.c_size_t(0), ctypes.c_uint(1)) > 0
 
 
 class Sandbox(unittest.TestCase):
@@ -260,7 +266,7 @@ if sys.argv[1] == "--run":
 
 
 if __name__ == "__main__":
-    if not namespaces_are_allowed():
-        print("skipped: no bubblewrap here, or it may make no namespaces")
+    if not namespaces_are_allowed() or not one_folder_can_be_shown():
+        print("skipped: no bubblewrap here, or it may make no namespaces, or there is no Landlock")
         sys.exit(77)
     unittest.main(argv=sys.argv[:1])

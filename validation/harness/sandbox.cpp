@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/errors.hpp"
+#include "foreign/confined_copy.hpp"
 #include "scene/library.hpp"
 #include "validation/harness/discover.hpp"
 
@@ -137,6 +138,13 @@ void sandbox_strangers(const std::string& out) {
         fmt::format("--sandbox: this machine lets bubblewrap make no namespaces ({}): allow unprivileged user namespaces; "
                     "without --sandbox engines run as you do",
                     end.log_tail));
+  CopyBounds reader{"what engines leave", 10.0};
+  reader.folder = "/";
+  reader.must_be_confined = true;
+  if (read_in_confined_copy([] { return std::string(); }, reader).how != CopyEnd::How::read)
+    throw EngineError(
+        "--sandbox: this system cannot confine the reader of what engines leave: that takes seccomp and Landlock (Linux 5.13); "
+        "without --sandbox engines run as you do");
   wanted = true;
 }
 
