@@ -88,7 +88,10 @@ class Fluid : public Effect {
     set_groups(world);
     clear_walls();
   }
-  void renumber(World&) override { clear_walls(); }
+  void renumber(World&) override {
+    walls_.renumber();
+    clear_pairs();
+  }
   void adopt(World&) override;
   void check(const World& world) const override { refuse_overlap(world, numbers_); }
   [[nodiscard]] TimeStepBound max_dt(const World&) const override;
@@ -104,6 +107,9 @@ class Fluid : public Effect {
   void set_groups(World&);
   void clear_walls() {
     walls_.clear();
+    clear_pairs();
+  }
+  void clear_pairs() {
     laid_.clear();
     faces_.clear();
     interfaces_.clear();

@@ -77,6 +77,37 @@ void hand_to_copies(const World& world, std::vector<T>& by_id) {
   for (std::size_t id = 0; id < by_id.size(); ++id) by_id[id] = static_cast<T>(numbers[id]);
 }
 
+/// Puts what is known of walls that were here before to their ids. @return of each id, 1 where something is known
+std::vector<char> Walls::recall_exposed(const World& world) {
+  std::vector<char> known(world.particles.size(), 0);
+  at_face_.resize(known.size());
+  if (has_laid_walls(world.scene)) excess_.assign(known.size(), 0.0);
+  if (!world.halo || exposures_.empty()) return known;
+  const std::span<const int> number = world.halo->numbers();
+  for (std::size_t id = 0; id < known.size(); ++id) {
+    const auto found = exposures_.find(number[id]);
+    if (found == exposures_.end()) continue;
+    known[id] = 1;
+    at_face_[id] = found->second.at_face;
+    if (!excess_.empty()) excess_[id] = found->second.excess;
+  }
+  return known;
+}
+
+/// Copies take what owners have found, and all is kept for when particles change hands.
+void Walls::share_exposed(const World& world) {
+  if (!world.halo) return;
+  hand_to_copies(world, at_face_);
+  hand_to_copies(world, excess_);
+  const auto id = world.particles[field::id];
+  const auto group = world.particles[field::group];
+  const std::span<const int> number = world.halo->numbers();
+  for (std::size_t i = 0; i < world.particles.size(); ++i) {
+    const auto one = static_cast<std::size_t>(id[i]);
+    if (group[i] == wall_group) exposures_[number[one]] = {at_face_[one], excess_.empty() ? 0.0 : excess_[one]};
+  }
+}
+
 /// Which particles lie at a face: those whose number density can in part be other than wall. And what jitter adds to the part
 /// that is fixed wall. Behind the face, where no velocity is mirrored and nothing jittered, no step reads what a wall has.
 void Walls::find_exposed(World& world, const SceneNumbers& n, const PairKernels& kernels) {
@@ -88,14 +119,13 @@ void Walls::find_exposed(World& world, const SceneNumbers& n, const PairKernels&
   const auto frame_of = [&](std::size_t row) { return frames[static_cast<std::size_t>(body[row])]; };
   const double dx = world.scene.spacing, full = n.lattice_density / std::pow(dx, 3);
   const bool jittered = has_laid_walls(world.scene);
-  at_face_.resize(p.size());
-  if (jittered) excess_.assign(p.size(), 0.0);
+  const std::vector<char> known = recall_exposed(world);
   world.unread.assign(jittered ? 0 : p.size(), 0);
   const auto stick = p[field::stick];
   const bool drags = all_drag(world);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (group[i] != wall_group) continue;
+    if (group[i] != wall_group || known[static_cast<std::size_t>(id[i])] || !world.owns(i)) continue;
     std::vector<Share> shares;
     for (const Entry e : world.neighbours->of(i)) {
       const std::size_t j = e.row();
@@ -114,10 +144,14 @@ void Walls::find_exposed(World& world, const SceneNumbers& n, const PairKernels&
     }
     const bool exposed = wall < (1.0 - n.least_exposure) * full;
     at_face_[static_cast<std::size_t>(id[i])] = exposed ? 1 : 0;
-    if (!jittered) world.unread[static_cast<std::size_t>(id[i])] = !exposed && !drags && stick[i] == 0.0 ? 1 : 0;
     if (jittered && frame_of(i) == fixed_frame)
       excess_[static_cast<std::size_t>(id[i])] = to_a_millionth((wall - from_lattice) / full);
   }
+  share_exposed(world);
+  if (jittered) return;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (const auto one = static_cast<std::size_t>(id[i]); group[i] == wall_group)
+      world.unread[one] = at_face_[one] == 0 && !drags && stick[i] == 0.0 ? 1 : 0;
 }
 
 /// The faces of what is fixed, or of what is driven, with their patches.
@@ -174,11 +208,7 @@ void Walls::find_rows(const World& world) {
 void Walls::find_faces(World& world, const SceneNumbers& n, const PairKernels& kernels) {
   if (known_faces_ == world.neighbours->rebuilds()) return;
   known_faces_ = world.neighbours->rebuilds();
-  if (at_face_.empty()) {
-    find_exposed(world, n, kernels);
-    hand_to_copies(world, at_face_);
-    hand_to_copies(world, excess_);
-  }
+  if (at_face_.empty()) find_exposed(world, n, kernels);
   if (known_whole_ != world.neighbours->whole_lists()) {
     known_whole_ = world.neighbours->whole_lists();
     face_.clear();

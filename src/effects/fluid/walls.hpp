@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "effects/fluid/material_numbers.hpp"
@@ -32,15 +33,27 @@ class Walls {
   void mirror_velocities(World&, const PairKernels&);
   /// Groups have changed: look again which particles are walls.
   void clear() {
+    renumber();
+    exposures_.clear();
+  }
+  /// Rows and ids stand for other particles.
+  void renumber() {
     known_ = known_faces_ = known_whole_ = -1;
     at_face_.clear();
     excess_.clear();
   }
 
  private:
+  /// What a wall particle keeps while groups stay.
+  struct Exposure {
+    char at_face;
+    double excess;
+  };
   void find(World&);
   void find_faces(World&, const SceneNumbers&, const PairKernels&);
   void find_exposed(World&, const SceneNumbers&, const PairKernels&);
+  [[nodiscard]] std::vector<char> recall_exposed(const World&);
+  void share_exposed(const World&);
   void add_faces(const World&, bool fixed);
   void find_rows(const World&);
   void hand_to_copied_faces(const World&, std::vector<double>& of) const;
@@ -60,6 +73,7 @@ class Walls {
   std::vector<char> at_face_;               ///< by id, whether it is a wall's and at its face: what moves as one keeps its faces
   std::vector<double> excess_;  ///< by id, what jitter adds to the density of a wall particle over its rest density; empty where
                                 ///< nothing is jittered
+  std::unordered_map<int, Exposure> exposures_;  ///< of a scene that is shared out, by number: of walls that have been here
   /// Of each place in face_: density over the rest density, its mean and the mean of that; what each member of its patch is given
   /// of its share of the pressure, the same once more, and the sum of that. Those that sleep keep theirs.
   std::vector<double> density_, mean_, mean_of_mean_, part_, part_again_, share_;
