@@ -11,6 +11,8 @@
 namespace tripoint::ranks {
 namespace {
 
+constexpr std::size_t atoms_at_once = 128;  ///< whose columns are written while their numbers are in the cache
+
 /// Calls visit(values, number of the column) for each column of numbers. @throws EngineError for a column of anything else
 template <class P, class Visit>
 void each_column(P& particles, Visit visit) {
@@ -48,7 +50,7 @@ PeriodicBox LammpsHalo::split_of(const PeriodicBox& box) const {
 /// Every rank has all particles, and takes those that LAMMPS has put into its part of the box. Particles that flowed in have no
 /// atoms yet: then all are made anew, which also evens out the parts.
 void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box,
-                           std::span<const Vec3> places) {
+                           std::span<const Vec3> places, std::span<const double> cost) {
   const std::size_t lists = most_list_numbers(bonds, own);
   has_lists_ = lists > 0;
   if (!ranks_) {
@@ -70,18 +72,31 @@ void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, co
   for (std::size_t atom = 0; atom < ranks_->owned() && !are_written; ++atom)
     ranks_->lists(atom) =
         has_lists_ ? lists_as_numbers(bonds, own, static_cast<std::size_t>(ranks_->id(atom))) : std::vector<double>{};
+  balance(cost, true);
   hand_over(particles, bonds, own);
 }
 
-void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box) {
+void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box,
+                         std::span<const double> cost) {
   if (ranks_->size() == 1) {  // its part is the whole; what more ranks would ask each other is counted
     collectives_ += has_lists_ ? 1.0 : 0.0;
-    return share_out(particles, bonds, own, box, {});
+    return share_out(particles, bonds, own, box, {}, {});
   }
   expect_known(bonds, own);
   reach_now_ = reach_of(has_lists_ ? longest_bond(particles, bonds, owned(), box) : 0.0);
   pack(particles, split_of(box), false);
+  balance(cost, false);
   hand_over(particles, bonds, own);
+}
+
+/// @param whole costs are by number
+void LammpsHalo::balance(std::span<const double> cost, bool whole) {
+  constexpr double allowed_at_start = 1.02, allowed = 1.05;  ///< cost of the dearest rank over the mean
+  if (cost.empty() || ranks_->size() == 1) return;
+  for (std::size_t atom = 0; atom < ranks_->owned(); ++atom)
+    ranks_->cost(atom) = cost[whole ? static_cast<std::size_t>(ranks_->id(atom)) : atom];
+  collectives_ += 2.0;
+  ranks_->balance(whole ? allowed_at_start : allowed);
 }
 
 void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
@@ -158,9 +173,17 @@ void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
 
 /// @param whole ids are numbers   @param places that LAMMPS is told, by number; empty: those of now
 void LammpsHalo::pack(Particles& particles, const PeriodicBox& box, bool whole, std::span<const Vec3> places) {
-  for (std::size_t atom = 0; atom < ranks_->owned(); ++atom) {
-    const std::size_t row = particles.row(whole ? static_cast<std::size_t>(ranks_->id(atom)) : atom);
-    each_column(particles, [&](auto values, int column) { ranks_->numbers(atom)[column] = static_cast<double>(values[row]); });
+  std::vector<std::size_t> rows(ranks_->owned());
+  for (std::size_t atom = 0; atom < rows.size(); ++atom)
+    rows[atom] = particles.row(whole ? static_cast<std::size_t>(ranks_->id(atom)) : atom);
+  const std::size_t stride = ranks_->stride();
+  for (std::size_t from = 0; from < rows.size(); from += atoms_at_once)
+    each_column(particles, [&, past = std::min(from + atoms_at_once, rows.size())](auto values, int column) {
+      double* number = ranks_->numbers(from) + column;
+      for (std::size_t atom = from; atom < past; ++atom, number += stride) *number = static_cast<double>(values[rows[atom]]);
+    });
+  for (std::size_t atom = 0; atom < rows.size(); ++atom) {
+    const std::size_t row = rows[atom];
     const Vec3 r = places.empty() ? particles.position(row) : places[static_cast<std::size_t>(ranks_->id(atom))];
     for (std::size_t a = 0; a < 3; ++a)
       ranks_->position(atom)[a] = box.periodic[a] ? r[a] - std::floor((r[a] - box.min[a]) / box.width[a]) * box.width[a] : r[a];
@@ -194,10 +217,13 @@ void LammpsHalo::unpack(Particles& particles) {
   number_atoms();
   const std::vector<FieldInfo> fields = particles.fields();
   particles = Particles(numbers_.size(), fields);
-  each_column(particles, [&](auto values, int column) {
-    using T = typename decltype(values)::value_type;
-    for (std::size_t id = 0; id < numbers_.size(); ++id) values[id] = static_cast<T>(ranks_->numbers(atoms_here_[id])[column]);
-  });
+  const std::size_t stride = ranks_->stride();
+  for (std::size_t from = 0; from < numbers_.size(); from += atoms_at_once)
+    each_column(particles, [&, past = std::min(from + atoms_at_once, numbers_.size())](auto values, int column) {
+      using T = typename decltype(values)::value_type;
+      const double* const first = ranks_->numbers(0) + column;
+      for (std::size_t id = from; id < past; ++id) values[id] = static_cast<T>(first[atoms_here_[id] * stride]);
+    });
   const auto id = particles[field::id];
   for (std::size_t n = 0; n < id.size(); ++n) id[n] = static_cast<int>(n);
 }

@@ -22,11 +22,12 @@ class LammpsHalo : public Halo {
   /// @param reach of a neighbour list [m]: copies reach as far, or as the longest bond does
   LammpsHalo(std::array<bool, 3> splits, double reach, std::size_t atoms, bool is_first, Host host)
       : splits_(splits), reach_(reach), atoms_(atoms), is_first_(is_first), host_(std::move(host)) {}
-  void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places) override;
+  void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
+                 std::span<const double> cost) override;
   /// @throws EngineError where bonds or own pairs are not as the last call left them
   [[nodiscard]] WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) override;
   /// @throws EngineError as gather()
-  void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) override;
+  void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const double> cost) override;
   [[nodiscard]] std::array<bool, 3> splits() const override { return splits_; }
   [[nodiscard]] std::size_t owned() const override { return ranks_->owned(); }
   [[nodiscard]] std::span<const int> numbers() const override { return numbers_; }
@@ -60,6 +61,7 @@ class LammpsHalo : public Halo {
 
  private:
   void hand_over(Particles&, Bonds&, OwnPairs&);
+  void balance(std::span<const double> cost, bool whole);
   void pack(Particles&, const PeriodicBox& split, bool whole, std::span<const Vec3> places = {});
   void unpack(Particles&);
   void number_atoms();

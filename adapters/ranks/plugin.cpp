@@ -5,6 +5,7 @@
 #include <lammps/comm.h>
 #include <lammps/domain.h>
 #include <lammps/fix.h>
+#include <lammps/input.h>
 #include <lammps/lammps.h>
 #include <lammps/memory.h>
 #include <lammps/update.h>
@@ -60,7 +61,13 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   [[nodiscard]] int id(std::size_t one) const override { return static_cast<int>(atom->tag[one]) - 1; }
   [[nodiscard]] double* position(std::size_t one) const override { return atom->x[one]; }
   [[nodiscard]] double* numbers(std::size_t one) const override { return numbers_[one]; }
+  [[nodiscard]] std::size_t stride() const override {
+    return static_cast<std::size_t>(columns_);
+  }  // LAMMPS keeps them in one piece
   [[nodiscard]] std::vector<double>& lists(std::size_t one) const override { return lists_[one]; }
+  [[nodiscard]] double& cost(std::size_t one) const override { return numbers_[one][columns_ - 1]; }
+  void balance(double allowed) override;
+  [[nodiscard]] long cuts_moved() const override { return cuts_moved_; }
   void make_room(std::size_t lists) override;
   void migrate(double reach) override;
   void forward(const Columns&) override;
@@ -73,27 +80,34 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
  private:
   static constexpr int most_forwarded = 24;  ///< columns of one exchange: the density pass has 7, the rates 8, a deformation 24
   [[nodiscard]] std::size_t bytes_of_row() const { return static_cast<std::size_t>(columns_) * sizeof(double); }
+  [[nodiscard]] double imbalance() const;
   int put(int one, double* to) const;
   int take(int one, const double* from);
   [[nodiscard]] std::size_t place_of(int one) const { return forwarded_.rows[one] * forwarded_.stride; }
 
-  int columns_, most_lists_ = -1;  ///< numbers of an atom: those of its columns, and of its lists at most
+  int columns_, most_lists_ = -1;  ///< numbers of an atom: those of its columns and its cost, and of its lists at most
   double** numbers_ = nullptr;
   mutable std::vector<std::vector<double>> lists_;
   bool begun_ = false;
+  long cuts_moved_ = 0;
+  double left_ = 0.0;    ///< imbalance that the last cuts left
   Columns forwarded_{};  ///< what forward() works on
   double bytes_sent_ = 0.0;
 };
 
 FixHalo::FixHalo(LAMMPS* lammps, int count, char** words)
-    : Fix(lammps, count, words), columns_(count == 4 ? std::atoi(words[3]) : 0) {
-  if (columns_ < 1) throw EngineError("the fix tripoint/halo takes the number of columns");
+    : Fix(lammps, count, words), columns_(count == 4 ? std::atoi(words[3]) + 1 : 0) {
+  if (columns_ < 2) throw EngineError("the fix tripoint/halo takes the number of columns");
   comm_forward = most_forwarded;
+  peratom_flag = 1;
+  peratom_freq = 1;
+  size_peratom_cols = columns_;
   maxexchange_dynamic = 1;
   make_room(0);
   FixHalo::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::BORDER);
+  lmp->input->one("variable tripoint_cost atom f_" + std::string(Fix::id) + "[" + std::to_string(columns_) + "]");
   the_fix = this;
 }
 
@@ -106,6 +120,7 @@ FixHalo::~FixHalo() noexcept(false) {
 
 void FixHalo::grow_arrays(int rows) {
   memory->grow(numbers_, rows, columns_, "tripoint/halo:numbers");
+  array_atom = numbers_;
   lists_.resize(static_cast<std::size_t>(rows));
 }
 
@@ -172,6 +187,26 @@ void FixHalo::make_room(std::size_t lists) {
   comm_border = columns_ + 1 + most_lists_;
   maxexchange = comm_border + 1;
   begun_ = false;
+}
+
+/// Cost of the dearest rank over the mean.
+double FixHalo::imbalance() const {
+  double own = 0.0, sum = 0.0, most = 0.0;
+  for (int one = 0; one < atom->nlocal; ++one) own += numbers_[one][columns_ - 1];
+  MPI_Allreduce(&own, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
+  MPI_Allreduce(&own, &most, 1, MPI_DOUBLE, MPI_MAX, world);
+  return most * comm->nprocs / sum;
+}
+
+/// Cuts lie between layers of particles, so that few particles cannot be shared out evenly: what the last cuts left is borne
+/// until it has grown.
+void FixHalo::balance(double allowed) {
+  constexpr double growth = 1.05;
+  if (imbalance() <= std::max(allowed, growth * left_)) return;
+  lmp->input->one("balance 1.02 shift xyz 20 1.02 weight var tripoint_cost");
+  begun_ = true;  // LAMMPS has made itself ready for that
+  left_ = imbalance();
+  ++cuts_moved_;
 }
 
 void FixHalo::migrate(double reach) {

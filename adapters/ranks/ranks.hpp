@@ -27,7 +27,13 @@ class Ranks {
   [[nodiscard]] virtual double* numbers(std::size_t atom) const = 0;   ///< that go with the atom
   /// Bonds and own pairs, as numbers that go with the atom; no more of them than make_room() was told.
   [[nodiscard]] virtual std::vector<double>& lists(std::size_t atom) const = 0;
+  [[nodiscard]] virtual std::size_t stride() const = 0;  ///< from the numbers of an atom to those of the next
   virtual void make_room(std::size_t lists) = 0;
+  /// What the atom costs in a step, in a unit of any kind: goes with it.
+  [[nodiscard]] virtual double& cost(std::size_t atom) const = 0;
+  /// Moves the cuts between ranks so that each has atoms of about equal cost, where the dearest has over `allowed` of the mean.
+  virtual void balance(double allowed) = 0;
+  [[nodiscard]] virtual long cuts_moved() const = 0;  ///< how often that was
   /// Atoms go to the rank that has their place, and are copied to those that it is near to. @param reach of copies [m]
   /// @throws EngineError when LAMMPS has lost one
   virtual void migrate(double reach) = 0;

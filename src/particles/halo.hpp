@@ -33,7 +33,10 @@ class Halo {
   /// Each process holds the whole scene, by number, and all hold the same: of it each keeps its part, as migrate() leaves it.
   /// More particles than before are taken in.
   /// @param places by number, to share out by [m], where lists are to be those of before; empty: the places of now
-  virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places) = 0;
+  /// @param cost of each in a step, by number, in a unit of any kind: parts are then made anew so that each costs as much; empty:
+  /// parts of space stay as they are
+  virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
+                         std::span<const double> cost) = 0;
   /// The whole scene, for each process: what share_out() takes again. Parts stay as they are.
   [[nodiscard]] virtual WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) = 0;
   /// Who has a part of space now is handed what has moved there, and copies of what is within reach of it. Ids are 0..size()-1
@@ -41,7 +44,8 @@ class Halo {
   /// (moving_lists.hpp): what one of its own has a bond with is among the copies, however far it is. Nobody may change lists of a
   /// scene that is shared out. Each particle is here once, at the place that its owner has: who sees it across a periodic
   /// boundary does so as one process does.
-  virtual void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&) = 0;
+  /// @param cost of each of its own, by id, as in share_out()
+  virtual void migrate(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const double> cost) = 0;
   /// Of each id here its number among the particles of all processes.
   /// @pre the scene is shared out
   [[nodiscard]] virtual std::span<const int> numbers() const = 0;

@@ -2,8 +2,10 @@
 #include "passes/busy_clusters.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <iterator>
+#include <numeric>
 
 #include "passes/run_pass.hpp"
 #include "world/body_table.hpp"
@@ -12,18 +14,6 @@ namespace tripoint {
 namespace {
 
 enum Work : std::uint8_t { none = 0, density = 1, rates = 2, density_is_still = 4 };
-
-/// Of each row that lists name whether it never moves: a member of a fixed rigid body.
-std::vector<char> fixed_rows(const World& world) {
-  std::vector<char> of_body;
-  for (std::size_t b = 0; b < world.bodies.size(); ++b)
-    of_body.push_back(is_rigid(world, b) && world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
-  const auto body = world.particles[field::body];
-  std::vector<char> fixed(world.neighbours->rows(), 1);
-  for (std::size_t i = 0; i < world.particles.moving(); ++i)
-    fixed[i] = body[i] >= 0 ? of_body[static_cast<std::size_t>(body[i])] : char{0};
-  return fixed;
-}
 
 /// What is to be done for a cluster. Two act on each other unless they are an own pair, or members of one group of 0 and above.
 /// @param moving rows that are not apart from those of what moves   @param acting of each entry of the cluster a bit, set where
@@ -74,17 +64,51 @@ Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> gro
   return static_cast<Work>(in_density | (any_acts ? rates : none));
 }
 
+bool owns_any(const World& world, std::uint32_t first, std::uint32_t past) {
+  for (std::uint32_t i = first; i < past; ++i)
+    if (world.owns(i)) return true;
+  return false;
+}
+
 }  // namespace
+
+std::vector<char> fixed_rows(const World& world, std::size_t rows) {
+  std::vector<char> of_body;
+  for (std::size_t b = 0; b < world.bodies.size(); ++b)
+    of_body.push_back(is_rigid(world, b) && world.bodies[field::body_motion][b] == static_cast<int>(Motion::fixed));
+  const auto body = world.particles[field::body];
+  std::vector<char> fixed(rows, 1);
+  for (std::size_t i = 0; i < world.particles.moving(); ++i)
+    fixed[i] = body[i] >= 0 ? of_body[static_cast<std::size_t>(body[i])] : char{0};
+  return fixed;
+}
+
+void BusyClusters::find_own(const World& world) {
+  own_is_known_ = true;
+  own_.reset();
+  if (world.copies.empty()) return;
+  own_.emplace();
+  const Clusters& c = world.neighbours->clusters();
+  for (std::uint32_t k = 0; k < c.size(); ++k)
+    if (owns_any(world, c.first[k], c.first[k + 1])) own_->clusters.push_back(k);
+}
+
+void BusyClusters::sum_own(const PassFunction& pass, World& world, const PairKernels& kernels) {
+  if (!own_is_known_) find_own(world);
+  run_pass_in(pass, world.particles, *world.neighbours, kernels, world.threads, own_);
+}
 
 void BusyClusters::find(World& world, bool leaves_own) {
   Clusters& c = world.neighbours->clusters();
   const auto group = world.particles[field::group];
-  const std::vector<char> fixed = fixed_rows(world);
+  const std::vector<char> fixed = fixed_rows(world, world.neighbours->rows());
   std::vector<Work> work(c.size());
   c.acting.assign(c.size() > 0 ? within_start(c.start.back(), c.size()) : 0, 0);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t k = 0; k < c.size(); ++k)
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    if (!owns_any(world, c.first[k], c.first[k + 1])) continue;
     work[k] = work_of(c, k, group, fixed, world.particles.moving(), leaves_own, c.acting.data() + within_start(c.start[k], k));
+  }
   in_density_ = {};
   in_rates_ = {};
   still_.clear();
@@ -122,11 +146,11 @@ void BusyClusters::learn_still(const PassFunction& pass, World& world, const Pai
 }
 
 /// Sums over all lists there are; who has none gets what it has among what is fixed.
-void BusyClusters::sum_listed(const PassFunction& pass, World& world, const PairKernels& kernels) const {
+void BusyClusters::sum_listed(const PassFunction& pass, World& world, const PairKernels& kernels) {
   Neighbours& n = *world.neighbours;
   Particles& p = world.particles;
   const Clusters& c = n.clusters();
-  if (c.unlisted.empty() && c.on_demand.empty()) return run_pass(pass, p, n, kernels, world.threads);
+  if (c.unlisted.empty() && c.on_demand.empty()) return sum_own(pass, world, kernels);
   assert(still_known_ == n.whole_lists());
   n.make_room_within();
   run_pass_over(pass, p, n, kernels, world.threads, {c.listed, {}});
@@ -206,6 +230,32 @@ void BusyClusters::sum_fixed_rates(const PassFunction& pass, World& world, const
     std::fill(c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k], k)),
               c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k + 1], k + 1)), ~std::uint64_t{0});
   run_pass_over(pass, world.particles, *world.neighbours, kernels, world.threads, fixed);
+}
+
+bool BusyClusters::has_entries(const World& world, bool all) const {
+  return world.neighbours->rows() == world.particles.size() && (all || known_);
+}
+
+std::vector<double> BusyClusters::entries_by_row(const World& world, bool all) const {
+  const Clusters& c = world.neighbours->clusters();
+  std::vector<double> looked_at(world.particles.size(), 0.0);
+  const auto add = [&](std::uint32_t k, double entries) {
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) looked_at[i] += entries / (c.first[k + 1] - c.first[k]);
+  };
+  const auto entries_of = [&](std::uint32_t k) { return static_cast<double>(c.start[k + 1] - c.start[k]); };
+  const auto acting_of = [&](std::uint32_t k) {
+    const auto first = c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k], k)),
+               past = c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k + 1], k + 1));
+    return std::accumulate(first, past, 0.0, [](double sum, std::uint64_t word) { return sum + std::popcount(word); });
+  };
+  if (all) {
+    for (std::uint32_t k = 0; k < c.size(); ++k)
+      if (owns_any(world, c.first[k], c.first[k + 1])) add(k, 2.0 * entries_of(k));
+    return looked_at;
+  }
+  for (const std::uint32_t k : in_density_.clusters) add(k, entries_of(k));
+  for (const std::uint32_t k : in_rates_.clusters) add(k, acting_of(k));
+  return looked_at;
 }
 
 void BusyClusters::sum_rates(const PassFunction& pass, World& world, const PairKernels& kernels) const {

@@ -54,6 +54,19 @@ void run_pass_among(const PassFunction& function, Particles& particles, Neighbou
   function.run(task);
 }
 
+void run_pass_in(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
+                 int threads, const std::optional<ChosenClusters>& chosen) {
+  if (!chosen) return run_pass(function, particles, neighbours, kernels, threads);
+  if (!function.run || chosen->clusters.empty()) return;
+  if (function.finds) neighbours.make_room_within();
+  PassTask task = task_of(particles, neighbours, kernels, threads);
+  const std::vector<double*> columns = columns_of(function, particles);
+  task.columns = columns.data();
+  task.chosen = chosen->clusters.data();
+  task.count = chosen->clusters.size();
+  function.run(task);
+}
+
 void run_pass_over(const PassFunction& function, Particles& particles, Neighbours& neighbours, const PairKernels& kernels,
                    int threads, const ChosenClusters& chosen) {
   if (!function.run || chosen.clusters.empty()) return;

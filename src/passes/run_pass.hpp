@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "particles/neighbours.hpp"
@@ -24,6 +25,11 @@ struct ChosenClusters {
 };
 /// Those of these rows, with these rows alone as members. @param rows each once, ascending
 [[nodiscard]] ChosenClusters clusters_of(const Clusters&, const std::vector<std::uint32_t>& rows);
+
+/// Adds each term's sum to the rows of these clusters; to all where none are chosen. As run_pass(), and what is within the
+/// support is found of these alone.
+void run_pass_in(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads,
+                 const std::optional<ChosenClusters>&);
 
 /// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts. What a finding pass
 /// found of the others stays; it looks at all entries, and must not be asked for some members alone.

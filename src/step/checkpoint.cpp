@@ -278,7 +278,7 @@ void Simulation::restore(const Checkpoint& kept) {
   guards_.turned_over = guards[0];
   guards_.first_step = guards[1];
   world_.lagged = {lagged[0], lagged[1], static_cast<int>(lagged[2])};
-  if (options_.halo) sharing_.follow(world_, effects_);
+  if (options_.halo) sharing_.follow(world_, effects_, passes_);
 }
 
 }  // namespace tripoint

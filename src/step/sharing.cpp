@@ -56,6 +56,12 @@ std::vector<Vec3> by_id(const Particles& p, std::span<const Vec3> by_row) {
   return values;
 }
 
+std::vector<double> by_id(const World& world, const std::vector<double>& by_row) {
+  std::vector<double> cost(by_row.size());
+  for (std::size_t id = 0; id < cost.size(); ++id) cost[id] = by_row[world.particles.row(id)];
+  return cost;
+}
+
 /// Places of the last lists, by row of the part that this process has. @param built of the whole, by number
 std::vector<Vec3> built_here(const World& world, const std::vector<Vec3>& built) {
   const std::span<const int> number = world.halo->numbers();
@@ -151,7 +157,7 @@ World Sharing::whole(const World& part) const {
   return world;
 }
 
-void Sharing::share_out(World& world) {
+void Sharing::share_out(World& world, const Passes& passes) {
   world.halo = halo_;
   if (!halo_->is_first()) {
     set_body_sums(world, booked_ ? booked_->body_sums : std::vector<std::vector<double>>{});
@@ -161,15 +167,17 @@ void Sharing::share_out(World& world) {
       world.booked.clear();
   }
   booked_.reset();
-  share_particles(world);
+  share_particles(world, passes);
 }
 
 /// Lists that are not outdated stay those that they were: of a part there are those that one process has of the whole.
-void Sharing::share_particles(World& world) {
+void Sharing::share_particles(World& world, const Passes& passes) {
   const bool keeps = world.neighbours && !world.neighbours->outdated(world.particles);
   const std::vector<Vec3> built = keeps ? by_id(world.particles, world.neighbours->build_positions()) : std::vector<Vec3>{};
+  const bool are_new = count_ != world.particles.size();
   count_ = world.particles.size();
-  halo_->share_out(world.particles, world.bonds, world.own, world.box, built);
+  halo_->share_out(world.particles, world.bonds, world.own, world.box, built,
+                   are_new ? by_id(world, passes.cost_at_start(world)) : std::vector<double>{});
   if (!world.neighbours) return;
   const long rebuilds = world.neighbours->rebuilds();
   world.neighbours = world.neighbours->anew(world.box);
@@ -178,14 +186,14 @@ void Sharing::share_particles(World& world) {
   if (keeps) world.neighbours->rebuild_from(world.particles, here, world.time, rebuilds + 1);
 }
 
-void Sharing::follow(World& world, const std::vector<Active>& effects) {
+void Sharing::follow(World& world, const std::vector<Active>& effects, const Passes& passes) {
   if (!world.halo) {
-    share_out(world);
+    share_out(world, passes);
   } else if (!is_part(world) && world.particles.size() != count_) {
-    share_particles(world);  // one rank holds the whole always: what has flowed in, lists may know already
+    share_particles(world, passes);  // one rank holds the whole always: what has flowed in, lists may know already
   } else {
     if (!any(outdated(world))) return;
-    world.halo->migrate(world.particles, world.bonds, world.own, world.box);
+    world.halo->migrate(world.particles, world.bonds, world.own, world.box, by_id(world, passes.cost(world)));
     if (world.neighbours && is_part(world))
       world.neighbours->forget(whole_of(world, places_now(world.particles), count_));
     else if (world.neighbours)

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "assembly/all_effects.hpp"
+#include "assembly/scene_passes.hpp"
 
 namespace tripoint {
 
@@ -25,7 +26,7 @@ class Sharing {
   [[nodiscard]] World whole(const World&) const;
   /// Shares out what this process holds all of, with the lists that it has where they are not outdated. Else, where the lists of
   /// one process are outdated, particles go to who has their place now, and all make new lists. All call it. @pre there is a halo
-  void follow(World&, const std::vector<Active>&);
+  void follow(World&, const std::vector<Active>&, const Passes&);
 
  private:
   /// What each process has summed of its own part, of a scene that is held by all for now.
@@ -34,8 +35,8 @@ class Sharing {
     std::vector<std::vector<double>> body_sums;  ///< of each of World::body_sums, by body
   };
   [[nodiscard]] bool outdated(const World&) const;
-  void share_out(World&);
-  void share_particles(World&);
+  void share_out(World&, const Passes&);
+  void share_particles(World&, const Passes&);
   void hold_whole(World&) const;
 
   double skin_;

@@ -136,7 +136,7 @@ bool Simulation::wants_change(const Active& a) {
 
 void Simulation::find_neighbours() {
   const StageTimer timer(options_.stage_seconds, Stage::search);
-  if (options_.halo) sharing_.follow(world_, effects_);
+  if (options_.halo) sharing_.follow(world_, effects_, passes_);
   if (!world_.neighbours) return;
   world_.neighbours->update(world_.particles, world_.time, [this] { return resting(); });
   if (world_.halo && !world_.neighbours->marked()) mark_copies(world_);

@@ -76,6 +76,17 @@ TEST(Ranks, FlowBetweenWallsAsOneProcessDoes) {
   expect_equal_on_ranks(dam(0.03, 2));
 }
 
+/// Water stands at one end of its tank and runs to the other. Walls that it does not reach cost little, so that the first rank
+/// has fewer particles than half (812 of 1890), and its part grows as the water spreads.
+TEST(Ranks, ShareOutCostAndFollowIt) {
+  NEEDS_RANKS();
+  const Prepared p = dam(0.12, 1);
+  const Outcome two = run_on(2, p);
+  expect_equal(test::run(one_process, p), two, shared);
+  EXPECT_LT(two.result.extra.at("own_at_start_on_rank_0"), 0.45 * static_cast<double>(p.initial.size()));
+  EXPECT_GE(two.result.extra.at("cuts_moved"), 2.0);
+}
+
 /// A block that floats, turned a little by a lid that is driven along the water.
 TEST(Ranks, CarryFreeAndDrivenBodiesAsOneProcessDoes) {
   NEEDS_RANKS();

@@ -42,7 +42,8 @@ class SlabHalo : public Halo {
       : meeting_(meeting), rank_(rank), planes_(std::move(planes)), reach_(reach), forgets_(std::move(forgets)) {}
 
   /// At first all is the first rank's.
-  void share_out(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox& box, std::span<const Vec3> places) override {
+  void share_out(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox& box, std::span<const Vec3> places,
+                 std::span<const double>) override {
     places_ = places;
     numbers_.clear();
     lists_.clear();
@@ -52,7 +53,7 @@ class SlabHalo : public Halo {
     }
     owned_ = rank_ == 0 ? p.size() : 0;
     longest_list_ = most_list_numbers(bonds, pairs);
-    migrate(p, bonds, pairs, box);
+    migrate(p, bonds, pairs, box, {});
     places_ = {};
   }
   [[nodiscard]] std::span<const int> numbers() const override { return numbers_; }
@@ -70,7 +71,7 @@ class SlabHalo : public Halo {
     ++gatherings;
     return whole;
   }
-  void migrate(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox&) override {
+  void migrate(Particles& p, Bonds& bonds, OwnPairs& pairs, const PeriodicBox&, std::span<const double>) override {
     std::vector<Row> own, near;
     double reach = std::max(reach_, longest_bond(p, bonds, owned_, {}) + (places_.empty() ? 0.0 : reach_));  // amply
     for (const auto& of : meeting_.exchange(rank_, {reach})) reach = std::max(reach, of[0]);
