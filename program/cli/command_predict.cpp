@@ -144,7 +144,12 @@ void measure(PredictRuns& runs, const std::vector<const Prepared*>& prepared, st
     for (std::size_t k = 0; k < lines.size() && !interrupted(); ++k) runs.time(*prepared[k + 1], *lines[k]->measured);
     if (interrupted()) return;
   }
-  const double each = one.best_wall() / static_cast<double>(prepared.front()->initial.size());
+  const auto particles = static_cast<double>(prepared.front()->initial.size());
+  double best = one.best_wall();
+  for (const PredictedLine* line : lines)
+    if (line->prediction.ranks == 1 && line->prediction.particles == particles)
+      best = std::min(best, line->measured->best_wall());
+  const double each = best / particles;
   for (PredictedLine* line : lines)
     line->measured_efficiency = each * line->prediction.particles / (line->prediction.ranks * line->measured->best_wall());
 }
@@ -223,7 +228,7 @@ int predict_case(Options o) {
   for (std::size_t k = 0; k < one.prepared.size(); ++k) {
     const Prepared& p = one.prepared[k];
     const Timed& t = one.timed[k];
-    r.runs.push_back({static_cast<double>(p.initial.size()), whole_of(p.cloud, static_cast<double>(p.initial.size())).pairs,
+    r.runs.push_back({static_cast<double>(p.initial.size()), whole_of(p.cloud, static_cast<double>(p.initial.size())).worked,
                       t.best_cpu(), t.bytes});
     r.labels.push_back(p.label);
   }

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "assembly/plan.hpp"
+#include "assembly/scene_passes.hpp"
 #include "core/errors.hpp"
 #include "program/cli/common.hpp"
 #include "scene/sample.hpp"
@@ -28,6 +29,13 @@ bool all_fixed(const Scene& scene) {
   return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.motion == Motion::fixed; });
 }
 
+/// Of each particle, 1 where it is a member of a body that never moves.
+std::vector<char> fixed_particles(const Scene& scene, const InitialState& initial) {
+  std::vector<char> fixed;
+  for (const int source : initial.source) fixed.push_back(scene.bodies[static_cast<std::size_t>(source)].motion == Motion::fixed);
+  return fixed;
+}
+
 predict::Cloud cloud_of(const Scene& scene, const InitialState& initial) {
   predict::Cloud cloud;
   cloud.position = initial.position;
@@ -36,6 +44,7 @@ predict::Cloud cloud_of(const Scene& scene, const InitialState& initial) {
   cloud.reach = support * (1.0 + skin) * (1.0 + 1e-9);  // as the engine asks LAMMPS for copies
   cloud.pair_reach = all_fixed(scene) ? support : support * (1.0 + skin);
   for (std::size_t a = 0; a < 3; ++a) cloud.periodic[a] = scene.periodic[a];
+  if (!Passes(scene, active_effects(scene), 1).works_on_all()) cloud.idle = fixed_particles(scene, initial);
   if (scene.min && scene.max) {
     cloud.min = *scene.min;
     cloud.max = *scene.max;

@@ -17,15 +17,18 @@ using Row = std::array<double, 3>;
 constexpr double head_of_a_number = sizeof(double);
 constexpr double atom_numbers = 6.0;  ///< place, id, type and mask, which LAMMPS sends with a new copy
 
-/// Solves the normal equations of the chosen terms by Gauss with pivots. @return nothing where they do not tell the terms apart
-std::optional<Row> least_squares(const std::vector<Row>& rows, const std::vector<std::size_t>& terms) {
+/// Solves the normal equations of the chosen terms by Gauss with pivots. @param of_first weight of the first row; others have 1
+/// @return nothing where they do not tell the terms apart
+std::optional<Row> least_squares(const std::vector<Row>& rows, const std::vector<std::size_t>& terms, double of_first) {
   const std::size_t n = terms.size();
   std::array<std::array<double, 4>, 3> m{};
-  for (const Row& row : rows)
+  for (const Row& row : rows) {
+    const double weight = &row == &rows.front() ? of_first : 1.0;
     for (std::size_t a = 0; a < n; ++a) {
-      for (std::size_t b = 0; b < n; ++b) m[a][b] += row[terms[a]] * row[terms[b]];
-      m[a][3] += row[terms[a]];
+      for (std::size_t b = 0; b < n; ++b) m[a][b] += weight * row[terms[a]] * row[terms[b]];
+      m[a][3] += weight * row[terms[a]];
     }
+  }
   for (std::size_t c = 0; c < n; ++c) {
     std::size_t pivot = c;
     for (std::size_t r = c + 1; r < n; ++r)
@@ -45,7 +48,8 @@ std::optional<Row> least_squares(const std::vector<Row>& rows, const std::vector
 
 }  // namespace
 
-/// Terms are scaled by their values in the greatest run, and each run by its time: what is fitted is 1 in each run.
+/// Terms are scaled by their values in the greatest run, and each run by its time: what is fitted is 1 in each run. The first run
+/// is of the case itself and counts most: what is predicted is nearest to it, in what caches do too.
 WorkCost fit_work(const std::vector<OneRank>& runs) {
   if (runs.empty()) throw InputError("no run on one rank to fit the cost of a step to");
   for (const OneRank& r : runs)
@@ -53,6 +57,7 @@ WorkCost fit_work(const std::vector<OneRank>& runs) {
   const OneRank& most =
       *std::max_element(runs.begin(), runs.end(), [](const OneRank& a, const OneRank& b) { return a.pairs < b.pairs; });
   const Row scale{most.seconds, most.seconds / most.particles, most.seconds / most.pairs};
+  constexpr double weight_of_case = 10.0;
   std::vector<Row> rows;
   for (const OneRank& r : runs)
     rows.push_back({scale[0] / r.seconds, scale[1] * r.particles / r.seconds, scale[2] * r.pairs / r.seconds});
@@ -63,12 +68,12 @@ WorkCost fit_work(const std::vector<OneRank>& runs) {
   double least = INFINITY;
   for (const auto& terms : choices) {
     if (terms.size() > rows.size()) continue;
-    const auto found = least_squares(rows, terms);
+    const auto found = least_squares(rows, terms, weight_of_case);
     if (!found || std::any_of(found->begin(), found->end(), [](double c) { return !(c >= 0.0); })) continue;
     double sum = 0.0, worst = 0.0;
     for (const Row& row : rows) {
       const double off = std::inner_product(row.begin(), row.end(), found->begin(), -1.0);
-      sum += off * off;
+      sum += (&row == &rows.front() ? weight_of_case : 1.0) * off * off;
       worst = std::max(worst, std::abs(off));
     }
     if (!(sum < least - better)) continue;
@@ -99,7 +104,7 @@ Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cos
   const auto count = static_cast<double>(p.ranks);
   double sum = 0.0, most_copies = 0.0, most_held = 0.0;
   for (const Share& s : shares.ranks) {
-    const double seconds = cost.seconds(s.own + s.copies, s.pairs) / machine.core_speed;
+    const double seconds = cost.seconds(s.own + s.copies, s.worked) / machine.core_speed;
     p.work = std::max(p.work, seconds);
     sum += seconds;
     p.own += s.own / count;
@@ -116,7 +121,7 @@ Prediction predict(const Shares& shares, const Share& whole, const WorkCost& cos
     p.collectives = traffic.collectives * std::ceil(std::log2(count)) * machine.allreduce;
     p.waiting = machine.waiting * p.work;
   }
-  p.efficiency = cost.seconds(whole.own, whole.pairs) / machine.core_speed / (count * p.seconds());
+  p.efficiency = cost.seconds(whole.own, whole.worked) / machine.core_speed / (count * p.seconds());
   p.scene_bytes = memory.scene * whole.own;
   p.bytes = memory.bytes(whole.own, most_held);
   return p;

@@ -14,10 +14,14 @@ constexpr int most_rounds = 20;   ///< likewise
 constexpr double margin =
     1e-4;  ///< by which LAMMPS keeps a shrunk box around its particles, in widths of the box that it was made with
 
-/// Greatest number of a part over the mean.
+double cost_of(const Cloud& cloud, std::size_t i) { return ParticleCost::at_start(cloud.is_idle(i)); }
+
+/// Greatest cost of a part over the mean.
 double imbalance(const Cloud& cloud, const Cuts& cuts) {
-  std::vector<double> counts(static_cast<std::size_t>(cuts.grid[0]) * cuts.grid[1] * cuts.grid[2]);
-  for (const Vec3& r : cloud.position) {
+  std::vector<double> costs(static_cast<std::size_t>(cuts.grid[0]) * cuts.grid[1] * cuts.grid[2]);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < cloud.position.size(); ++i) {
+    const Vec3& r = cloud.position[i];
     std::size_t place = 0, stride = 1;
     for (std::size_t a = 0; a < 3; ++a) {
       const auto& at = cuts.at[a];
@@ -25,26 +29,43 @@ double imbalance(const Cloud& cloud, const Cuts& cuts) {
       place += stride * static_cast<std::size_t>(n);
       stride *= static_cast<std::size_t>(cuts.grid[a]);
     }
-    counts[place] += 1.0;
+    costs[place] += cost_of(cloud, i);
+    sum += cost_of(cloud, i);
   }
-  return *std::max_element(counts.begin(), counts.end()) * static_cast<double>(counts.size()) /
-         static_cast<double>(cloud.position.size());
+  return *std::max_element(costs.begin(), costs.end()) * static_cast<double>(costs.size()) / sum;
 }
 
-/// Planes of one direction, each bisected between the nearest places known to have too few and too many below, until all numbers
+/// Places of one direction, ascending, and the cost of all before each; one number more, of all.
+struct CostAlong {
+  std::vector<double> place, before;
+};
+
+CostAlong cost_along(const Cloud& cloud, std::size_t a) {
+  std::vector<std::pair<double, double>> sorted;
+  for (std::size_t i = 0; i < cloud.position.size(); ++i) sorted.emplace_back(cloud.position[i][a], cost_of(cloud, i));
+  std::sort(sorted.begin(), sorted.end());
+  CostAlong along{{}, {0.0}};
+  for (const auto& [place, cost] : sorted) {
+    along.place.push_back(place);
+    along.before.push_back(along.before.back() + cost);
+  }
+  return along;
+}
+
+/// Planes of one direction, each bisected between the nearest places known to have too little and too much below, until all costs
 /// are within `delta`.
-void shift(const std::vector<double>& sorted, std::vector<double>& at, double delta) {
+void shift(const CostAlong& cost, std::vector<double>& at, double delta) {
   const std::size_t n = at.size() - 1;
   const auto below = [&](double place) {
-    return static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), place) - sorted.begin());
+    return cost
+        .before[static_cast<std::size_t>(std::lower_bound(cost.place.begin(), cost.place.end(), place) - cost.place.begin())];
   };
   std::vector<double> low(n + 1, at.front()), high(n + 1, at.back());
   for (int round = 0; round < most_rounds; ++round) {
     bool close = true;
     for (std::size_t i = 1; i < n; ++i) {
       for (std::size_t j = 1; j < n; ++j) {
-        const double target = static_cast<double>(sorted.size()) * static_cast<double>(i) / static_cast<double>(n),
-                     sum = below(at[j]);
+        const double target = cost.before.back() * static_cast<double>(i) / static_cast<double>(n), sum = below(at[j]);
         if (sum <= target) low[i] = std::max(low[i], at[j]);
         if (sum >= target) high[i] = std::min(high[i], at[j]);
         if (i == j && std::abs(sum - target) > delta * target) close = false;
@@ -77,10 +98,7 @@ Cuts cuts_of(const Cloud& cloud, int ranks) {
   const double delta = std::cbrt(allowed) - 1.0;
   for (std::size_t a = 0; a < 3 && imbalance(cloud, cuts) > allowed; ++a) {
     if (!cuts.cut(a)) continue;
-    std::vector<double> sorted;
-    for (const Vec3& r : cloud.position) sorted.push_back(r[a]);
-    std::sort(sorted.begin(), sorted.end());
-    shift(sorted, cuts.at[a], delta);
+    shift(cost_along(cloud, a), cuts.at[a], delta);
   }
   return cuts;
 }

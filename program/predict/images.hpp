@@ -3,12 +3,12 @@
 #include <array>
 #include <vector>
 
-#include "core/vec3.hpp"
+#include "program/predict/shares.hpp"
 
 namespace tripoint::predict {
 
 /// Periodic images of these points within `reach` of the domain, in the directions `seen`.
-[[nodiscard]] std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::array<bool, 3>& seen, const Vec3& min,
-                                              const Vec3& max, double reach);
+[[nodiscard]] std::vector<Point> images_within(const std::vector<Point>& members, const std::array<bool, 3>& seen,
+                                               const Vec3& min, const Vec3& max, double reach);
 
 }  // namespace tripoint::predict

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "program/predict/images.hpp"
 #include "program/predict/shares.hpp"
@@ -47,12 +46,21 @@ SeenBy seen_by_all(const Cloud& cloud, const Cuts& cuts, Vec3 r) {
   return seen;
 }
 
+/// What a rank has: its own particles and copies.
+struct Held {
+  std::vector<Point> points;
+  std::vector<char> own;  ///< of each
+};
+
 /// Adds a particle to the rank that sees it so in each direction: as its own, and as copies.
-void hold(const Seen& x, const Seen& y, const Seen& z, std::vector<Vec3>& held, Share& share) {
+void hold(const Seen& x, const Seen& y, const Seen& z, bool idle, Held& held, Share& share) {
+  const bool own = x.own && y.own && z.own;
+  const std::size_t first = held.points.size();
   for (const double at_z : z.copies)
     for (const double at_y : y.copies)
-      for (const double at_x : x.copies) held.push_back({at_x, at_y, at_z});
-  const bool own = x.own && y.own && z.own;
+      for (const double at_x : x.copies) held.points.push_back({{at_x, at_y, at_z}, idle});
+  held.own.resize(held.points.size(), 0);
+  if (own) held.own[first] = 1;  // its own place comes first
   const double all = static_cast<double>(x.copies.size() * y.copies.size() * z.copies.size());
   share.own += own ? 1.0 : 0.0;
   share.copies += own ? all - 1.0 : all;
@@ -60,9 +68,15 @@ void hold(const Seen& x, const Seen& y, const Seen& z, std::vector<Vec3>& held, 
 
 }  // namespace
 
-std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::array<bool, 3>& seen, const Vec3& min,
-                                const Vec3& max, double reach) {
-  std::vector<Vec3> all = members;
+std::vector<Point> points_of(const Cloud& cloud) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < cloud.position.size(); ++i) points.push_back({cloud.position[i], cloud.is_idle(i)});
+  return points;
+}
+
+std::vector<Point> images_within(const std::vector<Point>& members, const std::array<bool, 3>& seen, const Vec3& min,
+                                 const Vec3& max, double reach) {
+  std::vector<Point> all = members;
   for (std::size_t a = 0; a < 3; ++a) {
     if (!seen[a]) continue;
     const double width = max[a] - min[a];
@@ -71,9 +85,9 @@ std::vector<Vec3> images_within(const std::vector<Vec3>& members, const std::arr
     for (std::size_t i = 0; i < count; ++i)
       for (int image = -most; image <= most; ++image) {
         if (image == 0) continue;
-        Vec3 r = all[i];
-        r[a] += image * width;
-        if (r[a] >= min[a] - reach && r[a] <= max[a] + reach) all.push_back(r);
+        Point p = all[i];
+        p.at[a] += image * width;
+        if (p.at[a] >= min[a] - reach && p.at[a] <= max[a] + reach) all.push_back(p);
       }
   }
   return {all.begin() + static_cast<std::ptrdiff_t>(members.size()), all.end()};
@@ -84,24 +98,28 @@ Shares share_out(const Cloud& cloud, int ranks) {
   Shares shares;
   shares.grid = cuts.grid;
   shares.messages = messages_of(cuts, cloud.reach);
-  std::vector<std::vector<Vec3>> held(static_cast<std::size_t>(ranks));
+  std::vector<Held> held(static_cast<std::size_t>(ranks));
   shares.ranks.resize(held.size());
-  for (const Vec3& r : cloud.position) {
-    const SeenBy seen = seen_by_all(cloud, cuts, r);
+  for (std::size_t i = 0; i < cloud.position.size(); ++i) {
+    const SeenBy seen = seen_by_all(cloud, cuts, cloud.position[i]);
     std::size_t rank = 0;
     for (const Seen& z : seen[2])
       for (const Seen& y : seen[1])
         for (const Seen& x : seen[0]) {
-          hold(x, y, z, held[rank], shares.ranks[rank]);
+          hold(x, y, z, cloud.is_idle(i), held[rank], shares.ranks[rank]);
           ++rank;
         }
   }
   std::array<bool, 3> own_images{};
   for (std::size_t a = 0; a < 3; ++a) own_images[a] = cloud.periodic[a] && !cuts.cut(a);
   for (std::size_t n = 0; n < held.size(); ++n) {
-    const std::vector<double> neighbours =
-        count_neighbours(held[n], images_within(held[n], own_images, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
-    shares.ranks[n].pairs = std::accumulate(neighbours.begin(), neighbours.end(), 0.0);
+    const std::vector<Point>& points = held[n].points;
+    const std::vector<NeighbourCount> neighbours =
+        count_neighbours(points, images_within(points, own_images, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      shares.ranks[n].pairs += neighbours[i].all;
+      if (held[n].own[i]) shares.ranks[n].worked += neighbours[i].worked;
+    }
   }
   return shares;
 }

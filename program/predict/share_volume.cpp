@@ -51,8 +51,9 @@ Shares share_volume(const Cloud& cloud, int ranks, double particles) {
   shares.grid = cuts.grid;
   shares.messages = messages_of(cuts, reach);
   shares.ranks.resize(static_cast<std::size_t>(ranks));
-  const std::vector<double> neighbours = count_neighbours(
-      cloud.position, images_within(cloud.position, cloud.periodic, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
+  const std::vector<Point> points = points_of(cloud);
+  const std::vector<NeighbourCount> neighbours =
+      count_neighbours(points, images_within(points, cloud.periodic, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
   std::array<std::vector<Part>, 3> parts;
   for (std::size_t i = 0; i < cloud.position.size(); ++i) {
     for (std::size_t a = 0; a < 3; ++a) {
@@ -71,7 +72,8 @@ Shares share_volume(const Cloud& cloud, int ranks, double particles) {
           const double own = x.own * y.own * z.own, all = (x.own + x.beyond) * (y.own + y.beyond) * (z.own + z.beyond);
           s.own += each * own;
           s.copies += each * (all - own);
-          s.pairs += each * neighbours[i] * (x.own + seen_of_a_copy * x.beyond) * (y.own + seen_of_a_copy * y.beyond) *
+          s.worked += each * neighbours[i].worked * own;
+          s.pairs += each * neighbours[i].all * (x.own + seen_of_a_copy * x.beyond) * (y.own + seen_of_a_copy * y.beyond) *
                      (z.own + seen_of_a_copy * z.beyond);
         }
   }

@@ -16,12 +16,15 @@ struct Cloud {
   double reach = 0.0;          ///< of copies beyond a rank's part of the box [m]
   double pair_reach = 0.0;     ///< of a neighbour list [m]
   std::array<bool, 3> periodic{};
-  Vec3 min, max;  ///< the domain, used in periodic directions only [m]
+  Vec3 min, max;           ///< the domain, used in periodic directions only [m]
+  std::vector<char> idle;  ///< of each, 1 where it is fixed and pairs of what is fixed have no work; empty: all have
+  [[nodiscard]] bool is_idle(std::size_t i) const { return !idle.empty() && idle[i] != 0; }
 };
 
 struct Share {
   double own = 0.0, copies = 0.0;
-  double pairs = 0.0;  ///< directed, within pair_reach, of own particles and copies: a rank works on all of them
+  double pairs = 0.0;   ///< directed, within pair_reach, of own particles and copies: a rank has all of them in its lists
+  double worked = 0.0;  ///< those of its own particles of which not both are idle: a rank sums over them
 };
 
 struct Shares {
@@ -30,13 +33,13 @@ struct Shares {
   std::vector<Share> ranks;          ///< of each, z slowest
 };
 
-/// Counts particles one by one: the cuts of LAMMPS's `balance 1.02 shift xyz 20 1.02`, own particles between them, copies in the
-/// box around by `reach`, pairs among both.
+/// Counts particles one by one: the cuts of LAMMPS's `balance 1.02 shift xyz 20 1.02`, each particle weighed by what it costs at
+/// the start (ParticleCost), own particles between them, copies in the box around by `reach`, pairs among both.
 /// @param ranks > 0   @throws InputError for an empty cloud
 [[nodiscard]] Shares share_out(const Cloud&, int ranks);
 
 /// The same scene of another number of particles, by volume: each particle of the cloud stands for a cube of matter, and reaches
-/// shrink with the spacing. Pairs of a copy are fewer, as those beyond its own reach are not there: of a slab of copies the mean
+/// shrink with the spacing. A copy has fewer pairs, as those beyond its own reach are not there: of a slab of copies the mean
 /// is 13/16 of the whole, for each direction that it lies beyond.
 /// @param particles of the scene that is meant, > 0
 [[nodiscard]] Shares share_volume(const Cloud&, int ranks, double particles);
@@ -47,15 +50,22 @@ struct Cuts {
   std::array<std::vector<double>, 3> at;  ///< grid[a] + 1 places [m]
   [[nodiscard]] bool cut(std::size_t a) const { return grid[a] > 1; }
 };
-/// As LAMMPS makes them: equal parts, and where one has over 1.02 of the mean number, planes that are bisected towards equal
-/// numbers.
+/// As LAMMPS makes them: equal parts, and where one costs over 1.02 of the mean, planes that are bisected towards equal costs.
 [[nodiscard]] Cuts cuts_of(const Cloud&, int ranks);
 
 /// Messages of a rank in the middle: two a cut direction, more where a reach goes beyond the next rank.
 [[nodiscard]] double messages_of(const Cuts&, double reach);
 
+struct Point {
+  Vec3 at;  ///< [m]
+  bool idle = false;
+};
+struct NeighbourCount {
+  double all = 0.0, worked = 0.0;  ///< of all, and those of which not both are idle
+};
 /// Of each member, how many members and images are within `reach`, itself left out.
-[[nodiscard]] std::vector<double> count_neighbours(const std::vector<Vec3>& members, const std::vector<Vec3>& images,
-                                                   double reach);
+[[nodiscard]] std::vector<NeighbourCount> count_neighbours(const std::vector<Point>& members, const std::vector<Point>& images,
+                                                           double reach);
+[[nodiscard]] std::vector<Point> points_of(const Cloud&);
 
 }  // namespace tripoint::predict

@@ -47,6 +47,13 @@ TEST(Cost, NoTermIsNegative) {
   EXPECT_LT(w.worst_misfit, 0.2);
 }
 
+/// What is predicted is nearest to the case itself: where the three cannot all be met, it is met best.
+TEST(Cost, TheRunOfTheCaseCountsMost) {
+  const WorkCost w = fit_work({run(8000, 400000, 8e-3), run(1000, 50000, 0.9e-3), run(8000, 800000, 17e-3)});
+  EXPECT_NEAR(w.seconds(8000, 400000) / 8e-3, 1.0, 0.02);
+  EXPECT_GT(w.worst_misfit, 0.03);
+}
+
 TEST(Cost, RunsWithoutTimeAreRefused) {
   EXPECT_THROW(static_cast<void>(fit_work({})), InputError);
   EXPECT_THROW(static_cast<void>(fit_work({run(1000, 50000, 0.0)})), InputError);
@@ -63,21 +70,21 @@ TEST(Cost, MemoryOfOneRankIsWhatItTook) {
 
 TEST(Cost, OneRankHasEfficiencyOneAndSendsNothing) {
   Shares s;
-  s.ranks = {{1000, 0, 50000}};
+  s.ranks = {{1000, 0, 50001, 50000}};
   const Prediction p = predict(s, s.ranks[0], {1e-5, 2e-7, 3e-9, 0}, {}, {6, 10, 8, 0.1, 30}, machine());
   EXPECT_EQ(p.efficiency, 1.0);
   EXPECT_NEAR(p.seconds(), 1e-5 + 2e-4 + 1.5e-4, 1e-15);
   EXPECT_EQ(p.messages + p.transport + p.collectives + p.waiting, 0.0);
 }
 
-/// Two ranks of 500 with 100 copies each, one with more pairs: worked out by hand.
+/// Two ranks of 500 with 100 copies each, one with more pairs that it sums over: worked out by hand.
 TEST(Cost, ALineIsTheSumOfItsParts) {
   Shares s;
-  s.ranks = {{500, 100, 30000}, {500, 100, 28000}};
+  s.ranks = {{500, 100, 40000, 30000}, {500, 100, 40000, 28000}};
   s.messages = 2.0;
   const Traffic t{6, 10, 8, 0.5, 34};
   const WorkCost cost{0.0, 1e-7, 1e-9, 0.0};
-  const Prediction p = predict(s, {1000, 0, 50000}, cost, {1e6, 100, 200}, t, machine());
+  const Prediction p = predict(s, {1000, 0, 50000, 50000}, cost, {1e6, 100, 200}, t, machine());
   EXPECT_NEAR(p.work, 600e-7 + 30000e-9, 1e-15);
   EXPECT_NEAR(p.messages, (6 + 0.5) * 2 * 2e-6, 1e-15);
   EXPECT_NEAR(p.transport, 100 * 8 * (10 + 0.5 * (34 + 6)) * (1e-9 + 2.0 / 4e9), 1e-15);
@@ -91,12 +98,12 @@ TEST(Cost, ALineIsTheSumOfItsParts) {
 /// Ten hops for a thousand ranks; a core twice as fast halves the work and nothing else.
 TEST(Cost, RanksAndCoresChangeTheirOwnPart) {
   Shares s;
-  s.ranks.assign(1000, {500, 100, 30000});
+  s.ranks.assign(1000, {500, 100, 40000, 30000});
   s.messages = 6.0;
   Machine fast = machine();
   fast.core_speed = 2.0;
   fast.waiting = 0.0;
-  const Prediction p = predict(s, {500000, 0, 25e6}, {0.0, 1e-7, 1e-9, 0.0}, {}, {6, 10, 8, 0, 34}, fast);
+  const Prediction p = predict(s, {500000, 0, 25e6, 25e6}, {0.0, 1e-7, 1e-9, 0.0}, {}, {6, 10, 8, 0, 34}, fast);
   EXPECT_NEAR(p.collectives, 8 * 10 * 3e-6, 1e-15);
   EXPECT_NEAR(p.work, 45e-6, 1e-15);
   EXPECT_EQ(p.waiting, 0.0);

@@ -54,6 +54,7 @@ TEST(Shares, ASlabHasTheLayersWithinReachOnBothSides) {
     EXPECT_EQ(r.copies, 2 * 2 * 16.0);
     // 14 layers of 16: 4 neighbours in the layer, periodic; 13 pairs of layers
     EXPECT_EQ(r.pairs, 14 * 16 * 4 + 2 * 13 * 16.0);
+    EXPECT_EQ(r.worked, 10 * 16 * 6.0);  // copies' sums are their owners'
   }
   EXPECT_EQ(s.messages, 2.0);
 }
@@ -107,6 +108,7 @@ TEST(Shares, PairsByVolumeAreThoseThatAreCounted) {
   c.pair_reach = 3.0;
   const Shares counted = share_out(c, 8), scaled = share_volume(c, 8, 24.0 * 24.0 * 24.0);
   EXPECT_NEAR(scaled.ranks[0].pairs / counted.ranks[0].pairs, 1.0, 0.03);  // layers against the mean of a ball, 13/16
+  EXPECT_NEAR(scaled.ranks[0].worked / counted.ranks[0].worked, 1.0, 1e-6);
   EXPECT_NEAR(share_volume(c, 1, 1e9).ranks[0].pairs / share_out(c, 1).ranks[0].pairs, 1e9 / (24.0 * 24.0 * 24.0), 1e-3);
 }
 
@@ -118,6 +120,18 @@ TEST(Shares, CutsMoveToWhereTheParticlesAre) {
   const double mean = total(s, &Share::own) / 4.0;
   EXPECT_EQ(total(s, &Share::own), static_cast<double>(c.position.size()));
   for (const Share& r : s.ranks) EXPECT_NEAR(r.own / mean, 1.0, 0.2);  // two layers of 64 of 268 cannot be cut finer
+}
+
+/// Two layers of fixed particles under ten that move: pairs among the fixed ones have no work, and a rank has more of these.
+TEST(Shares, WhatIsIdleCostsLittle) {
+  Cloud c = lattice(4, 4, 12, false);
+  for (const Vec3& r : c.position) c.idle.push_back(r.z < 2.0);
+  const Share whole = share_out(c, 1).ranks[0];
+  EXPECT_EQ(whole.pairs - whole.worked, 2.0 * (2 * 24 + 16));  // edges within the two layers, and between them
+  EXPECT_EQ(share_volume(c, 1, 192.0).ranks[0].worked, whole.worked);
+  const Shares two = share_out(c, 2);
+  EXPECT_EQ(two.grid, (std::array<int, 3>{1, 1, 2}));
+  EXPECT_EQ(two.ranks[0].own, 7 * 16.0);  // five layers that move and the two that do not
 }
 
 TEST(Shares, AReachBeyondTheNextRankTakesMoreMessages) {
