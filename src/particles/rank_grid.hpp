@@ -11,7 +11,7 @@ namespace tripoint {
 [[nodiscard]] std::array<int, 3> rank_grid(int ranks, const Vec3& length, const std::array<bool, 3>& periodic);
 
 /// What a particle costs in a step, as far as shares of a scene depend on it, in entries of lists that are looked at. A row and a
-/// bond are measured beside an entry (docs/scale.md); as many entries are taken for all before there are lists: those of a liquid
+/// bond are estimates (decision 037); as many entries are taken for all before there are lists: those of a liquid
 /// at rest, two passes over 160 for 8 particles.
 struct ParticleCost {
   static constexpr double of_row = 4.0, of_bond = 0.5, guess_of_entries = 40.0;
