@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "assembly/scene_passes.hpp"
 #include "core/errors.hpp"
 #include "particles/rank_grid.hpp"
 
@@ -159,8 +160,9 @@ void Lammps::command(const std::string& line) {
 std::array<bool, 3> Lammps::create(const Scene& scene, const InitialState& initial, double reach) {
   const auto [low, high] = corners_of(initial.position);
   margin_ = scene.spacing;
-  const Vec3 around{scene.spacing, scene.spacing, scene.spacing};
-  const std::array<int, 3> grid = rank_grid(size(), high - low + around, scene.periodic);
+  const std::vector<char> idle = initial.source.size() == initial.size() ? idle_particles(scene, initial) : std::vector<char>{};
+  const std::array<int, 3> grid = rank_grid(size(), {initial.position, idle, scene.spacing, reach, scene.periodic,
+                                                     scene.min.value_or(Vec3{}), scene.max.value_or(Vec3{})});
   std::string boundary = "boundary", region = "region box block";
   for (std::size_t a = 0; a < 3; ++a) {
     const bool periodic = scene.periodic[a] && grid[a] > 1;

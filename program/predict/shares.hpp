@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/vec3.hpp"
+#include "particles/rank_grid.hpp"
 
 /// What each rank would hold of a scene, were it shared out as the engine tripoint-mpi does it (decision 021), without a rank
 /// that runs.
@@ -23,8 +24,8 @@ struct Cloud {
 
 struct Share {
   double own = 0.0, copies = 0.0;
-  double pairs = 0.0;   ///< directed, within pair_reach, of own particles and copies: a rank has all of them in its lists
-  double worked = 0.0;  ///< those of its own particles of which not both are idle: a rank sums over them
+  double pairs = 0.0;   ///< directed, within pair_reach, of its own particles: a rank has them in its lists
+  double worked = 0.0;  ///< those of which not both are idle: a rank sums over them
 };
 
 struct Shares {
@@ -39,18 +40,11 @@ struct Shares {
 [[nodiscard]] Shares share_out(const Cloud&, int ranks);
 
 /// The same scene of another number of particles, by volume: each particle of the cloud stands for a cube of matter, and reaches
-/// shrink with the spacing. A copy has fewer pairs, as those beyond its own reach are not there: of a slab of copies the mean
-/// is 13/16 of the whole, for each direction that it lies beyond.
+/// shrink with the spacing.
 /// @param particles of the scene that is meant, > 0
 [[nodiscard]] Shares share_volume(const Cloud&, int ranks, double particles);
 
-/// Places of the cuts along each direction, ends included, and whether a direction is cut.
-struct Cuts {
-  std::array<int, 3> grid{1, 1, 1};
-  std::array<std::vector<double>, 3> at;  ///< grid[a] + 1 places [m]
-  [[nodiscard]] bool cut(std::size_t a) const { return grid[a] > 1; }
-};
-/// As LAMMPS makes them: equal parts, and where one costs over 1.02 of the mean, planes that are bisected towards equal costs.
+/// As LAMMPS makes them, in the grid that rank_grid() chooses. @throws InputError for an empty cloud
 [[nodiscard]] Cuts cuts_of(const Cloud&, int ranks);
 
 /// Messages of a rank in the middle: two a cut direction, more where a reach goes beyond the next rank.

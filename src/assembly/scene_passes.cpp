@@ -86,6 +86,13 @@ void Passes::forget_clusters() { impl_->busy.forget(); }
 
 bool Passes::works_on_all() const { return impl_->meets_all; }
 
+std::vector<char> idle_particles(const Scene& scene, const InitialState& initial) {
+  if (Passes(scene, active_effects(scene), 1).works_on_all()) return {};
+  std::vector<char> idle;
+  for (const int source : initial.source) idle.push_back(scene.bodies[static_cast<std::size_t>(source)].motion == Motion::fixed);
+  return idle;
+}
+
 std::vector<double> Passes::cost_at_start(const World& world) const {
   const std::vector<char> fixed = fixed_rows(world, world.particles.size());
   std::vector<double> cost;

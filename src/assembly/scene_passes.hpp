@@ -36,4 +36,7 @@ class Passes {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Of each particle, 1 where its body never moves and pairs among such have no work (ParticleCost); empty: all pairs have work.
+[[nodiscard]] std::vector<char> idle_particles(const Scene&, const InitialState&);
+
 }  // namespace tripoint
