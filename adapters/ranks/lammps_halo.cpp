@@ -2,16 +2,20 @@
 #include "adapters/ranks/lammps_halo.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <type_traits>
 
 #include "core/errors.hpp"
+#include "particles/rank_grid.hpp"
 
 namespace tripoint::ranks {
 namespace {
 
-constexpr std::size_t atoms_at_once = 128;  ///< whose columns are written while their numbers are in the cache
+constexpr double allowed_later = 1.05;     ///< cost of the dearest rank over the mean, as lists are made anew
+constexpr std::size_t atoms_at_once = 32;  ///< whose columns are written while their numbers are in the cache
 
 /// Calls visit(values, number of the column) for each column of numbers. @throws EngineError for a column of anything else
 template <class P, class Visit>
@@ -67,12 +71,18 @@ void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, co
   const double bond =
       has_lists_ ? longest_bond(particles, bonds, particles.size(), box) + 2.0 * farthest(particles, places) : 0.0;
   reach_now_ = std::max(reach_, bond * (1.0 + 1e-9));
-  pack(particles, split_of(box), true, places);
+  std::vector<std::size_t> rows(ranks_->owned());
+  for (std::size_t atom = 0; atom < rows.size(); ++atom) rows[atom] = particles.row(static_cast<std::size_t>(ranks_->id(atom)));
+  pack(particles, split_of(box), rows, places);
   const bool are_written = ranks_->size() == 1 && migrations_ > 0 && known_changes_ == std::array{bonds.changes(), own.changes()};
   for (std::size_t atom = 0; atom < ranks_->owned() && !are_written; ++atom)
     ranks_->lists(atom) =
         has_lists_ ? lists_as_numbers(bonds, own, static_cast<std::size_t>(ranks_->id(atom))) : std::vector<double>{};
-  balance(cost, true);
+  if (!cost.empty() && ranks_->size() > 1) {
+    for (std::size_t atom = 0; atom < ranks_->owned(); ++atom)
+      ranks_->cost(atom) = cost[static_cast<std::size_t>(ranks_->id(atom))];
+    balance(allowed_at_start);
+  }
   hand_over(particles, bonds, own);
 }
 
@@ -84,19 +94,33 @@ void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, cons
   }
   expect_known(bonds, own);
   reach_now_ = reach_of(has_lists_ ? longest_bond(particles, bonds, owned(), box) : 0.0);
-  pack(particles, split_of(box), false);
-  balance(cost, false);
+  const std::vector<std::uint32_t> ids = follow_rows(particles);
+  std::vector<std::size_t> rows(owned());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  pack(particles, split_of(box), rows);
+  for (std::size_t atom = 0; atom < ids.size() && !cost.empty(); ++atom) ranks_->cost(atom) = cost[ids[atom]];
+  if (!cost.empty()) balance(allowed_later);
   hand_over(particles, bonds, own);
 }
 
-/// @param whole costs are by number
-void LammpsHalo::balance(std::span<const double> cost, bool whole) {
-  constexpr double allowed_at_start = 1.02, allowed = 1.05;  ///< cost of the dearest rank over the mean
-  if (cost.empty() || ranks_->size() == 1) return;
-  for (std::size_t atom = 0; atom < ranks_->owned(); ++atom)
-    ranks_->cost(atom) = cost[whole ? static_cast<std::size_t>(ranks_->id(atom)) : atom];
+/// Each atom carries from now on the particle of its row: what lies side by side in memory goes together, and columns are written
+/// and read one after the other. Rows of this rank's own come first. @return of each atom the id
+std::vector<std::uint32_t> LammpsHalo::follow_rows(const Particles& particles) {
+  const auto id = particles[field::id];
+  std::vector<std::uint32_t> ids(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(owned()));
+  std::vector<std::vector<double>> lists;
+  for (std::size_t id_of_list = 0; has_lists_ && id_of_list < owned(); ++id_of_list)
+    lists.push_back(std::move(ranks_->lists(id_of_list)));  // atoms of its own have the order of ids
+  for (std::size_t atom = 0; atom < owned(); ++atom) {
+    ranks_->set_id(atom, numbers_[ids[atom]]);
+    if (has_lists_) ranks_->lists(atom) = std::move(lists[ids[atom]]);
+  }
+  return ids;
+}
+
+void LammpsHalo::balance(double allowed) {
   collectives_ += 2.0;
-  ranks_->balance(whole ? allowed_at_start : allowed);
+  ranks_->balance(allowed);
 }
 
 void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
@@ -171,20 +195,18 @@ void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
   known_changes_ = {bonds.changes(), own.changes()};
 }
 
-/// @param whole ids are numbers   @param places that LAMMPS is told, by number; empty: those of now
-void LammpsHalo::pack(Particles& particles, const PeriodicBox& box, bool whole, std::span<const Vec3> places) {
-  std::vector<std::size_t> rows(ranks_->owned());
-  for (std::size_t atom = 0; atom < rows.size(); ++atom)
-    rows[atom] = particles.row(whole ? static_cast<std::size_t>(ranks_->id(atom)) : atom);
+/// @param rows of the atoms   @param places that LAMMPS is told, by number; empty: those of now
+void LammpsHalo::pack(const Particles& particles, const PeriodicBox& box, const std::vector<std::size_t>& rows,
+                      std::span<const Vec3> places) {
   const std::size_t stride = ranks_->stride();
   for (std::size_t from = 0; from < rows.size(); from += atoms_at_once)
     each_column(particles, [&, past = std::min(from + atoms_at_once, rows.size())](auto values, int column) {
       double* number = ranks_->numbers(from) + column;
       for (std::size_t atom = from; atom < past; ++atom, number += stride) *number = static_cast<double>(values[rows[atom]]);
     });
+  const auto x = positions(particles);
   for (std::size_t atom = 0; atom < rows.size(); ++atom) {
-    const std::size_t row = rows[atom];
-    const Vec3 r = places.empty() ? particles.position(row) : places[static_cast<std::size_t>(ranks_->id(atom))];
+    const Vec3 r = places.empty() ? x.at(rows[atom]) : places[static_cast<std::size_t>(ranks_->id(atom))];
     for (std::size_t a = 0; a < 3; ++a)
       ranks_->position(atom)[a] = box.periodic[a] ? r[a] - std::floor((r[a] - box.min[a]) / box.width[a]) * box.width[a] : r[a];
   }
@@ -193,18 +215,33 @@ void LammpsHalo::pack(Particles& particles, const PeriodicBox& box, bool whole, 
 /// Copies of one particle at several images are one here, and so are copies of what is this rank's own: across a periodic
 /// boundary lists find it by themselves.
 void LammpsHalo::number_atoms() {
-  std::vector<std::pair<int, std::uint32_t>> tags;  // number and atom, its own before copies
-  for (std::uint32_t atom = 0; atom < ranks_->all(); ++atom) tags.emplace_back(ranks_->id(atom), atom);
-  std::ranges::sort(tags);
-  std::vector<std::uint32_t> first(tags.size());  // of each atom the first with its number
-  for (std::size_t k = 0; k < tags.size(); ++k)
-    first[tags[k].second] = k > 0 && tags[k].first == tags[k - 1].first ? first[tags[k - 1].second] : tags[k].second;
+  const auto owned = static_cast<std::uint32_t>(ranks_->owned()), all = static_cast<std::uint32_t>(ranks_->all());
   numbers_.clear();
   atoms_here_.clear();
-  id_of_atom_.resize(tags.size());
-  for (std::uint32_t atom = 0; atom < tags.size(); ++atom) {
-    if (first[atom] != atom) {
-      id_of_atom_[atom] = id_of_atom_[first[atom]];
+  id_of_atom_.resize(all);
+  std::vector<std::pair<int, std::uint32_t>> copies;  // number and atom
+  for (std::uint32_t atom = owned; atom < all; ++atom) copies.emplace_back(ranks_->id(atom), atom);
+  std::ranges::sort(copies);
+  std::vector<char> may_be_copied(std::bit_ceil(16 * copies.size() + 1), 0);  // by the last bits of a number: few share them
+  const auto last_bits = [&](int number) { return static_cast<std::size_t>(number) & (may_be_copied.size() - 1); };
+  for (const auto& [number, atom] : copies) may_be_copied[last_bits(number)] = 1;
+
+  std::vector<std::uint32_t> first(all - owned);  // of each copy the first atom with its number
+  for (std::size_t k = 0; k < copies.size(); ++k)
+    first[copies[k].second - owned] =
+        k > 0 && copies[k].first == copies[k - 1].first ? first[copies[k - 1].second - owned] : copies[k].second;
+  for (std::uint32_t atom = 0; atom < owned; ++atom) {
+    const int number = ranks_->id(atom);
+    id_of_atom_[atom] = atom;
+    numbers_.push_back(number);
+    atoms_here_.push_back(atom);
+    if (!may_be_copied[last_bits(number)]) continue;
+    for (const auto& one : std::ranges::equal_range(copies, number, {}, &std::pair<int, std::uint32_t>::first))
+      first[one.second - owned] = atom;
+  }
+  for (std::uint32_t atom = owned; atom < all; ++atom) {
+    if (first[atom - owned] != atom) {
+      id_of_atom_[atom] = id_of_atom_[first[atom - owned]];
       continue;
     }
     id_of_atom_[atom] = static_cast<std::uint32_t>(numbers_.size());
@@ -215,8 +252,7 @@ void LammpsHalo::number_atoms() {
 
 void LammpsHalo::unpack(Particles& particles) {
   number_atoms();
-  const std::vector<FieldInfo> fields = particles.fields();
-  particles = Particles(numbers_.size(), fields);
+  particles.make(numbers_.size());
   const std::size_t stride = ranks_->stride();
   for (std::size_t from = 0; from < numbers_.size(); from += atoms_at_once)
     each_column(particles, [&, past = std::min(from + atoms_at_once, numbers_.size())](auto values, int column) {
@@ -225,18 +261,15 @@ void LammpsHalo::unpack(Particles& particles) {
       for (std::size_t id = from; id < past; ++id) values[id] = static_cast<T>(first[atoms_here_[id] * stride]);
     });
   const auto id = particles[field::id];
-  for (std::size_t n = 0; n < id.size(); ++n) id[n] = static_cast<int>(n);
+  std::iota(id.begin(), id.end(), 0);  // the column held numbers
 }
 
 void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* const> columns) {
-  rows_.resize(id_of_atom_.size());
-  for (std::size_t atom = 0; atom < rows_.size(); ++atom)
-    rows_[atom] = static_cast<std::uint32_t>(particles.row(id_of_atom_[atom]));
   columns_.clear();
   for (const Field<double>* f : columns) columns_.push_back(particles[*f].data());
   exchanges_ += 1.0;
   numbers_a_copy_ += static_cast<double>(columns_.size());
-  ranks_->forward({columns_.data(), static_cast<int>(columns_.size()), rows_.data(), 1});
+  ranks_->forward({columns_.data(), static_cast<int>(columns_.size()), id_of_atom_.data(), particles.rows().data(), 1});
 }
 
 void LammpsHalo::refresh(std::span<double> by_id, std::size_t each) {
@@ -244,7 +277,7 @@ void LammpsHalo::refresh(std::span<double> by_id, std::size_t each) {
   for (std::size_t k = 0; k < each; ++k) columns_.push_back(by_id.data() + k);
   exchanges_ += 1.0;
   numbers_a_copy_ += static_cast<double>(each);
-  ranks_->forward({columns_.data(), static_cast<int>(each), id_of_atom_.data(), each});
+  ranks_->forward({columns_.data(), static_cast<int>(each), id_of_atom_.data(), nullptr, each});
 }
 
 std::vector<double> LammpsHalo::all_of(const std::vector<double>& own) {

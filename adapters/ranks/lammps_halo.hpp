@@ -61,8 +61,9 @@ class LammpsHalo : public Halo {
 
  private:
   void hand_over(Particles&, Bonds&, OwnPairs&);
-  void balance(std::span<const double> cost, bool whole);
-  void pack(Particles&, const PeriodicBox& split, bool whole, std::span<const Vec3> places = {});
+  [[nodiscard]] std::vector<std::uint32_t> follow_rows(const Particles&);
+  void balance(double allowed);
+  void pack(const Particles&, const PeriodicBox& split, const std::vector<std::size_t>& rows, std::span<const Vec3> places = {});
   void unpack(Particles&);
   void number_atoms();
   void unpack_lists(Bonds&, OwnPairs&);
@@ -85,7 +86,6 @@ class LammpsHalo : public Halo {
   std::vector<int> numbers_;                      ///< of each id of this part, among the particles of all ranks
   std::vector<std::uint32_t> id_of_atom_;         ///< of each of LAMMPS's atoms, copies too
   std::vector<std::uint32_t> atoms_here_;         ///< of each id the atom that it was made of
-  std::vector<std::uint32_t> rows_;               ///< memory that is used again: of each id
   std::vector<double*> columns_;                  ///< likewise
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-only
 // The engine's three calls as any engine's; --run starts the ranks, which are this program again, called with --rank.
+#include <malloc.h>
 #include <sys/prctl.h>
 
 #include <csignal>
@@ -18,6 +19,13 @@ namespace {
 Lammps* this_rank = nullptr;
 
 std::unique_ptr<Engine> make() { return std::make_unique<RanksEngine>(this_rank); }
+
+/// What one new share gives back the next one needs: the system would have to hand out empty pages each time.
+void keep_memory() {
+  constexpr int most = 1 << 30;  // [bytes]
+  ::mallopt(M_MMAP_THRESHOLD, most);
+  ::mallopt(M_TRIM_THRESHOLD, most);
+}
 
 /// All ranks have ended after the same step, and the first has left a checkpoint.
 struct Stopped {};
@@ -76,6 +84,7 @@ int follow_or_give_up(const Job& job, int rank) {
 
 int be_a_rank(char* program, char* job_path) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  keep_memory();
   catch_stops();
   const Job job = read_job(job_path);
   try {

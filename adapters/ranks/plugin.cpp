@@ -59,6 +59,7 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   [[nodiscard]] std::size_t owned() const override { return static_cast<std::size_t>(atom->nlocal); }
   [[nodiscard]] std::size_t all() const override { return static_cast<std::size_t>(atom->nlocal + atom->nghost); }
   [[nodiscard]] int id(std::size_t one) const override { return static_cast<int>(atom->tag[one]) - 1; }
+  void set_id(std::size_t one, int id) override { atom->tag[one] = id + 1; }
   [[nodiscard]] double* position(std::size_t one) const override { return atom->x[one]; }
   [[nodiscard]] double* numbers(std::size_t one) const override { return numbers_[one]; }
   [[nodiscard]] std::size_t stride() const override {
@@ -83,7 +84,10 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   [[nodiscard]] double imbalance() const;
   int put(int one, double* to) const;
   int take(int one, const double* from);
-  [[nodiscard]] std::size_t place_of(int one) const { return forwarded_.rows[one] * forwarded_.stride; }
+  [[nodiscard]] std::size_t place_of(int one) const {
+    const std::uint32_t id = forwarded_.ids[one];
+    return (forwarded_.rows ? forwarded_.rows[id] : id) * forwarded_.stride;
+  }
 
   int columns_, most_lists_ = -1;  ///< numbers of an atom: those of its columns and its cost, and of its lists at most
   double** numbers_ = nullptr;
@@ -161,16 +165,20 @@ int FixHalo::unpack_border(int count, int first, double* from) {
 
 int FixHalo::pack_forward_comm(int count, int* atoms, double* to, int, int*) {
   int used = 0;
-  for (int k = 0; k < count; ++k)
-    for (int c = 0; c < forwarded_.count; ++c) to[used++] = forwarded_.first[c][place_of(atoms[k])];
+  for (int k = 0; k < count; ++k) {
+    const std::size_t place = place_of(atoms[k]);
+    for (int c = 0; c < forwarded_.count; ++c) to[used++] = forwarded_.first[c][place];
+  }
   bytes_sent_ += static_cast<double>(used) * sizeof(double);
   return used;
 }
 
 void FixHalo::unpack_forward_comm(int count, int first, double* from) {
   int used = 0;
-  for (int k = 0; k < count; ++k)
-    for (int c = 0; c < forwarded_.count; ++c) forwarded_.first[c][place_of(first + k)] = from[used++];
+  for (int k = 0; k < count; ++k) {
+    const std::size_t place = place_of(first + k);
+    for (int c = 0; c < forwarded_.count; ++c) forwarded_.first[c][place] = from[used++];
+  }
 }
 
 void FixHalo::forward(const Columns& columns) {

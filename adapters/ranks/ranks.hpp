@@ -20,9 +20,11 @@ class Ranks {
  public:
   [[nodiscard]] virtual int rank() const = 0;
   [[nodiscard]] virtual int size() const = 0;
-  [[nodiscard]] virtual std::size_t owned() const = 0;                 ///< atoms of its own; copies follow them
-  [[nodiscard]] virtual std::size_t all() const = 0;                   ///< with copies
-  [[nodiscard]] virtual int id(std::size_t atom) const = 0;            ///< of all ranks, from 0
+  [[nodiscard]] virtual std::size_t owned() const = 0;       ///< atoms of its own; copies follow them
+  [[nodiscard]] virtual std::size_t all() const = 0;         ///< with copies
+  [[nodiscard]] virtual int id(std::size_t atom) const = 0;  ///< of all ranks, from 0
+  /// From now on the atom carries that particle: its place, numbers and lists are to be written.
+  virtual void set_id(std::size_t atom, int id) = 0;
   [[nodiscard]] virtual double* position(std::size_t atom) const = 0;  ///< x, y, z [m]
   [[nodiscard]] virtual double* numbers(std::size_t atom) const = 0;   ///< that go with the atom
   /// Bonds and own pairs, as numbers that go with the atom; no more of them than make_room() was told.
@@ -41,7 +43,8 @@ class Ranks {
   struct Columns {
     double* const* first;  ///< number of row 0 in each column
     int count;
-    const std::uint32_t* rows;  ///< of each atom
+    const std::uint32_t* ids;   ///< of each atom
+    const std::uint32_t* rows;  ///< of each id; null: an id is its row
     std::size_t stride;         ///< from the number of a row to that of the next
   };
   virtual void forward(const Columns&) = 0;

@@ -117,8 +117,9 @@ Shares share_out(const Cloud& cloud, int ranks) {
     const std::vector<NeighbourCount> neighbours =
         count_neighbours(points, images_within(points, own_images, cloud.min, cloud.max, cloud.pair_reach), cloud.pair_reach);
     for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!held[n].own[i]) continue;
       shares.ranks[n].pairs += neighbours[i].all;
-      if (held[n].own[i]) shares.ranks[n].worked += neighbours[i].worked;
+      shares.ranks[n].worked += neighbours[i].worked;
     }
   }
   return shares;

@@ -8,10 +8,6 @@
 namespace tripoint::predict {
 namespace {
 
-/// Of a directed list, the mean share of a ball of one reach that is within a half space, of balls whose centres lie evenly up to
-/// one reach from its border inside: mean over s in 0..1 of 1/2 + 3 s / 4 - s^3 / 4 = 1/2 + 3/8 - 1/16.
-constexpr double seen_of_a_copy = 13.0 / 16.0;
-
 /// How much of a cube one rank of a direction has, and sees beyond its part.
 struct Part {
   std::size_t rank = 0;
@@ -73,8 +69,7 @@ Shares share_volume(const Cloud& cloud, int ranks, double particles) {
           s.own += each * own;
           s.copies += each * (all - own);
           s.worked += each * neighbours[i].worked * own;
-          s.pairs += each * neighbours[i].all * (x.own + seen_of_a_copy * x.beyond) * (y.own + seen_of_a_copy * y.beyond) *
-                     (z.own + seen_of_a_copy * z.beyond);
+          s.pairs += each * neighbours[i].all * own;
         }
   }
   return shares;

@@ -75,6 +75,22 @@ void Columns::rearrange(std::span<const std::uint32_t> from, std::span<const std
   }
 }
 
+void Columns::make_rows(std::size_t rows) {
+  rows_ = rows;
+  const std::size_t needed = rows + padding;
+  for (Column& c : columns_) {
+    std::visit(
+        [&](auto& values) {
+          if (values.capacity() < needed) {
+            values.clear();  // so that growing copies nothing
+            values.reserve(needed + needed / 32);
+          }
+          values.resize(needed);
+        },
+        c.values);
+  }
+}
+
 void Columns::append_row() {
   ++rows_;
   for (Column& c : columns_) {

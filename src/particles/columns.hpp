@@ -78,6 +78,8 @@ class Columns {
   /// Row to[k] becomes what was row from[k], in every column, for each k; other rows stay. @param from,to the same rows, each
   /// once
   void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, int threads = 1);
+  /// As many rows from now on, in the memory that there is where it is enough. What is in them is not said: all is to be written.
+  void make_rows(std::size_t rows);
   /// Adds a row of zeros to every column; spans taken before are no longer valid.
   void append_row();
 

@@ -182,6 +182,7 @@ void Neighbours::sort_all(Particles& particles, Grid& grid) {
     const auto row = static_cast<std::uint32_t>(particles.row(whole_ ? whole_->ids[k] : k));
     order[next[cell_of[row]]++] = row;
   }
+  bring_own_first(particles, order);
   // Before columns are held twice.
   std::vector<std::uint32_t>().swap(cell_of);
   std::vector<std::uint32_t>().swap(next);
@@ -197,6 +198,22 @@ void Neighbours::sort_all(Particles& particles, Grid& grid) {
   grid_.reset();
 }
 
+/// Of a scene that is shared out, rows of this process's own come before those of copies, each in the order of (cell, number): a
+/// cluster has then members of one kind, and copies need no lists, since their sums are their owners'.
+/// @param order of each place the row that it was, and then of each row
+void Neighbours::bring_own_first(const Particles& particles, std::vector<std::uint32_t>& order) {
+  own_first_.clear();
+  if (!whole_ || whole_->own == order.size()) return;
+  const auto id = particles[field::id];
+  auto own = std::uint32_t{0}, copy = static_cast<std::uint32_t>(whole_->own);
+  std::vector<std::uint32_t> rows(order.size());
+  for (const std::uint32_t was : order) {
+    own_first_.push_back(static_cast<std::size_t>(id[was]) < whole_->own ? own++ : copy++);
+    rows[own_first_.back()] = was;
+  }
+  order.swap(rows);
+}
+
 /// Clusters of what moves, then of what is fixed. The first are those that have lists.
 void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   Clusters& c = clusters_;
@@ -205,7 +222,9 @@ void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   c.listed.clear();
   c.unlisted.clear();
   c.on_demand.clear();
-  add_clusters(grid, 0, particles.moving());
+  const std::size_t own = own_first_.empty() ? particles.moving() : whole_->own;
+  add_clusters(grid, 0, own);
+  add_clusters(grid, own, particles.moving());
   add_clusters(grid, particles.moving(), particles.awake());
   add_clusters(grid, particles.awake(), rows);
   c.first.push_back(static_cast<std::uint32_t>(rows));
@@ -213,7 +232,7 @@ void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   c.own.clear();
   c.within.clear();
   c.acting.clear();
-  for (std::uint32_t k = 0; k < c.size() && c.first[k] < particles.moving(); ++k) c.listed.push_back(k);
+  for (std::uint32_t k = 0; k < c.size() && c.first[k] < own; ++k) c.listed.push_back(k);
 }
 
 /// Of these rows. Clusters end with a row of cells, so that what is near to their members has the same order for each of them,
@@ -227,7 +246,7 @@ void Neighbours::add_clusters(const Grid& grid, std::size_t from, std::size_t to
     const std::uint32_t end = grid.first[cell + along];
     bool any = false;
     for (std::uint32_t place = grid.first[cell]; place < end; ++place) {
-      const std::uint32_t row = order_.empty() ? place : order_[place];
+      const std::uint32_t row = rows_of_places().empty() ? place : rows_of_places()[place];
       if (row < from || row >= to) continue;
       const bool begins =
           !any || row - c.first.back() == static_cast<std::uint32_t>(c.lanes) || can_meet(row) != can_meet(row - 1);
@@ -273,6 +292,22 @@ std::size_t Neighbours::list(const Places& places, const Grid& grid, std::span<c
   return *pairs;
 }
 
+namespace {
+
+/// Ranges of places become ranges of rows, where each has rows one after the other. @return else false, and nothing changes
+bool become_rows(const std::vector<std::uint32_t>& row_of, std::vector<CandidateRange>& ranges) {
+  for (const CandidateRange& r : ranges)
+    if (r.to > r.from && row_of[r.to - 1] - row_of[r.from] != r.to - 1 - r.from) return false;
+  for (CandidateRange& r : ranges) {
+    if (r.to == r.from) continue;
+    const std::uint32_t first = row_of[r.from];
+    r = {first, first + (r.to - r.from), r.image};
+  }
+  return true;
+}
+
+}  // namespace
+
 /// @param rooms first entry of each thread's room, and one past the last   @return directed pairs; none where a thread has more
 /// entries than room: they are counted all the same
 std::optional<std::size_t> Neighbours::list_into(const Places& places, const Grid& grid, std::span<const std::uint32_t> clusters,
@@ -306,9 +341,13 @@ std::optional<std::size_t> Neighbours::list_into(const Places& places, const Gri
         entries.resize(candidates);
         near.resize(candidates);
       }
+      const bool by_rows = !own_first_.empty() && become_rows(own_first_, ranges);
       const unsigned members = (1u << (c.first[k + 1] - c.first[k])) - 1u;
-      const Scan task{places.x,      places.y,      places.z,      c.first[k],    members,
-                      ranges.data(), ranges.size(), shift_.data(), reach * reach, order_.empty() ? nullptr : order_.data(),
+      const Scan task{places.x,      places.y,
+                      places.z,      c.first[k],
+                      members,       ranges.data(),
+                      ranges.size(), shift_.data(),
+                      reach * reach, by_rows || rows_of_places().empty() ? nullptr : rows_of_places().data(),
                       moving_};
       const Scanned found = scan_(task, entries.data(), near.data());
       if (rooms[part] + size + found.entries <= rooms[part + 1]) {

@@ -109,6 +109,7 @@ struct Whole {
   Vec3 low, high;                  ///< corners of all places that are listed [m]
   std::size_t particles = 0;       ///< of the whole
   std::vector<std::uint32_t> ids;  ///< of the part, copies too, in order of their numbers in the whole
+  std::size_t own = 0;             ///< ids below it are no copies
 };
 
 /// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild, so that
@@ -209,6 +210,9 @@ class Neighbours {
   void form_clusters(const Particles&, const Grid&);
   void list_fixed(const Particles&, const Places&, const Grid&);
   void add_clusters(const Grid&, std::size_t from, std::size_t to);
+  void bring_own_first(const Particles&, std::vector<std::uint32_t>& order);
+  /// The row of each place in order of (cell, id); empty: rows are in that order.
+  [[nodiscard]] const std::vector<std::uint32_t>& rows_of_places() const { return order_.empty() ? own_first_ : order_; }
   std::size_t list(const Places&, const Grid&, std::span<const std::uint32_t> clusters, std::vector<std::size_t>& listed_by);
   std::optional<std::size_t> list_into(const Places&, const Grid&, std::span<const std::uint32_t> clusters,
                                        std::span<const std::size_t> rooms, std::vector<std::size_t>& listed_by);
@@ -241,6 +245,7 @@ class Neighbours {
   } still_;
   /// Rows that lists name, in order of (cell, id); empty: all rows are in that order.
   std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> own_first_;     ///< the row of each place, where there are copies; else empty
   std::vector<char> meets_;                  ///< of each of these rows, whether something that moves can reach it; empty as above
   std::shared_ptr<const Grid> grid_;         ///< of the last lists, by places in order_; null where that is empty
   std::vector<std::uint32_t> moving_first_;  ///< first moving row of each cell, and one past the last; empty as above

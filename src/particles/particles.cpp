@@ -5,8 +5,14 @@
 
 namespace tripoint {
 
-Particles::Particles(std::size_t count, std::span<const FieldInfo> fields)
-    : Columns(count, Per::particle, fields), row_of_id_(count), moving_(count), awake_(count) {
+Particles::Particles(std::size_t count, std::span<const FieldInfo> fields) : Columns(count, Per::particle, fields) {
+  make(count);
+}
+
+void Particles::make(std::size_t count) {
+  make_rows(count);
+  row_of_id_.resize(count);
+  moving_ = awake_ = count;
   std::iota(row_of_id_.begin(), row_of_id_.end(), 0u);
   const auto id = (*this)[field::id];
   std::iota(id.begin(), id.end(), 0);

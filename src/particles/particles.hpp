@@ -19,8 +19,13 @@ class Particles : public Columns {
   /// Particles 0..count-1, in rows of the same number. @param fields every field that the scene's effects own
   Particles(std::size_t count, std::span<const FieldInfo> fields);
 
+  /// Other particles 0..count-1 in the same columns, in rows of the same number. What they have is not said: all but the ids is
+  /// to be written.
+  void make(std::size_t count);
+
   /// Row of the particle with this id, which is in 0..size()-1.
   [[nodiscard]] std::size_t row(std::size_t id) const noexcept { return row_of_id_[id]; }
+  [[nodiscard]] std::span<const std::uint32_t> rows() const noexcept { return row_of_id_; }  ///< of each id
   /// Rows 0..moving()-1 are of what is not known to be fixed: forces, velocities and places are theirs.
   [[nodiscard]] std::size_t moving() const noexcept { return moving_; }
   /// Rows 0..awake()-1 take part in a step.

@@ -40,13 +40,29 @@ template <std::size_t n, class Add>
 
 namespace detail {
 
-/// add() works on every row, copies too, and of these its sums are left out: they are their owners'.
+/// add() works on every row, copies too, and of these its sums are left out: they are their owners'. Rows go by runs of one kind,
+/// so that the loop over each asks nothing of a row.
 template <std::size_t n, class Add>
 [[nodiscard]] std::array<double, n> ordered_sums_of_own(const World& world, std::vector<std::array<double, n>>& blocks, Add add) {
-  return ordered_sums(world.particles.size(), world.threads, blocks, [&](std::size_t i, std::array<double, n>& sum) {
-    std::array<double, n> unused{};
-    add(i, world.owns(i) ? sum : unused);
-  });
+  constexpr std::size_t block = 1024;
+  const std::size_t count = world.particles.size();
+  blocks.assign((count + block - 1) / block, {});
+#pragma omp parallel for schedule(static) num_threads(world.threads) if (blocks.size() > 1)
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const std::size_t end = std::min(count, (b + 1) * block);
+    std::array<double, n> own{}, of_copies{};
+    for (std::size_t i = b * block; i < end;) {
+      const bool owns = world.owns(i);
+      std::size_t past = i + 1;
+      while (past < end && world.owns(past) == owns) ++past;
+      if (owns)
+        for (; i < past; ++i) add(i, own);
+      else
+        for (; i < past; ++i) add(i, of_copies);
+    }
+    blocks[b] = own;
+  }
+  return total_of(blocks);
 }
 
 }  // namespace detail

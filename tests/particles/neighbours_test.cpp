@@ -315,32 +315,37 @@ TEST(Neighbours, OfAPartHaveTheOrderOfTheWhole) {
   Particles whole = cloud(600, {1.0, 0.7, 0.4}, false);
   Neighbours all(support, skin, {}, 1, 4);
   all.update(whole, 0.0);
-  Whole known{whole.position(0), whole.position(0), whole.size(), {}};
-  std::vector<std::size_t> number;  // of each id of the part, descending
+  Whole known{whole.position(0), whole.position(0), whole.size(), {}, 0};
+  std::vector<std::size_t> number, copies;  // of each id of the part, descending; its own come first
   for (std::size_t id = whole.size(); id-- > 0;) {
     const Vec3 r = whole.position(whole.row(id));
     for (std::size_t a = 0; a < 3; ++a) {
       known.low[a] = std::min(known.low[a], r[a]);
       known.high[a] = std::max(known.high[a], r[a]);
     }
-    if (r.x > border - support - skin) number.push_back(id);
+    if (r.x > border - support - skin) (r.x > border ? number : copies).push_back(id);
   }
+  known.own = number.size();
+  number.insert(number.end(), copies.begin(), copies.end());
   Particles part(number.size(), common_fields(false));
   for (std::size_t id = 0; id < number.size(); ++id) positions(part).set(id, whole.position(whole.row(number[id])));
-  for (std::size_t id = number.size(); id-- > 0;) known.ids.push_back(static_cast<std::uint32_t>(id));
+  for (std::size_t id = 0; id < number.size(); ++id) known.ids.push_back(static_cast<std::uint32_t>(id));
+  std::ranges::sort(known.ids, {}, [&](std::uint32_t id) { return number[id]; });
   Neighbours some(support, skin, {}, 1, 4);
   some.forget(known);
   some.update(part, 0.0);
-  std::size_t own = 0;
+  std::size_t pairs = 0;
   for (std::size_t id = 0; id < number.size(); ++id) {
-    if (!(part.position(part.row(id)).x > border)) continue;
     std::vector<std::size_t> here, there;
     for (const Entry e : some.of(part.row(id))) here.push_back(number[static_cast<std::size_t>(part[field::id][e.row()])]);
-    for (const Entry e : all.of(whole.row(number[id]))) there.push_back(static_cast<std::size_t>(whole[field::id][e.row()]));
-    EXPECT_EQ(here, there) << "of particle " << number[id];
-    ++own;
+    if (id < known.own)
+      for (const Entry e : all.of(whole.row(number[id]))) there.push_back(static_cast<std::size_t>(whole[field::id][e.row()]));
+    EXPECT_EQ(here, there) << "of particle " << number[id];  // a copy has no list
+    EXPECT_EQ(part.row(id) < known.own, id < known.own);
+    pairs += here.size();
   }
-  EXPECT_GT(own, 300u);
+  EXPECT_EQ(some.entries(), pairs);
+  EXPECT_GT(known.own, 300u);
   EXPECT_LT(part.size(), whole.size());
 }
 

@@ -228,12 +228,12 @@ void Walls::find_faces(World& world, const SceneNumbers& n, const PairKernels& k
 }
 
 /// The same for one number a face.
-void Walls::hand_to_copied_faces(const World& world, std::vector<double>& of) const {
+void Walls::hand_to_copied_faces(const World& world, std::vector<double>& of) {
   if (!world.halo) return;
-  std::vector<double> numbers(world.particles.size());
-  for (std::size_t k = 0; k < face_.size(); ++k) numbers[face_[k]] = of[k];
-  world.halo->refresh(numbers, 1);
-  for (std::size_t k = 0; k < face_.size(); ++k) of[k] = numbers[face_[k]];
+  handed_.resize(world.particles.size());  // what is no face's is handed on too, and nobody reads it
+  for (std::size_t k = 0; k < face_.size(); ++k) handed_[face_[k]] = of[k];
+  world.halo->refresh(handed_, 1);
+  for (std::size_t k = 0; k < face_.size(); ++k) of[k] = handed_[face_[k]];
 }
 
 /// Calls give(k, sum over the patch of k of what was put to its members), for the faces that are awake.

@@ -56,7 +56,7 @@ class Walls {
   void share_exposed(const World&);
   void add_faces(const World&, bool fixed);
   void find_rows(const World&);
-  void hand_to_copied_faces(const World&, std::vector<double>& of) const;
+  void hand_to_copied_faces(const World&, std::vector<double>& of);
   template <class Give>
   void sum_patches(const std::vector<double>& of, int threads, Give give) const;
   [[nodiscard]] double members(std::size_t k) const { return static_cast<double>(start_[k + 1] - start_[k]); }
@@ -77,6 +77,7 @@ class Walls {
   /// Of each place in face_: density over the rest density, its mean and the mean of that; what each member of its patch is given
   /// of its share of the pressure, the same once more, and the sum of that. Those that sleep keep theirs.
   std::vector<double> density_, mean_, mean_of_mean_, part_, part_again_, share_;
+  std::vector<double> handed_;          ///< memory that is used again: by id
   long known_ = -1, known_faces_ = -1;  ///< the rebuild that the rows are of
   long known_whole_ = -1;               ///< the whole lists that fixed faces are of
 };
