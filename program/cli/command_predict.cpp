@@ -94,7 +94,7 @@ OneRankRuns time_one_rank(PredictRuns& runs, int repeats, std::vector<std::strin
   for (const auto& [label, set] : others) {
     try {
       Prepared p = runs.prepare(label, {set});
-      runs.choose_end(p);
+      runs.choose_end(p, all.prepared.front().end);
       all.prepared.push_back(std::move(p));
     } catch (const std::exception& e) {
       notes.push_back(fmt::format("no run with {}: {}", set, e.what()));
@@ -198,7 +198,7 @@ void add_lines(PredictionReport& r, PredictRuns& runs, const Options& o, const P
     measured.push_back({r.lines.size() - 1, &weak.back()});
   }
   if (o.measure.empty()) return;
-  for (Prepared& p : weak) runs.choose_end(p);
+  for (Prepared& p : weak) runs.choose_end(p, base.end);
   std::vector<const Prepared*> prepared{&base};
   std::vector<PredictedLine*> lines;
   for (const ToMeasure& m : measured) {

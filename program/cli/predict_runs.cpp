@@ -29,13 +29,6 @@ bool all_fixed(const Scene& scene) {
   return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.motion == Motion::fixed; });
 }
 
-/// Of each particle, 1 where it is a member of a body that never moves.
-std::vector<char> fixed_particles(const Scene& scene, const InitialState& initial) {
-  std::vector<char> fixed;
-  for (const int source : initial.source) fixed.push_back(scene.bodies[static_cast<std::size_t>(source)].motion == Motion::fixed);
-  return fixed;
-}
-
 predict::Cloud cloud_of(const Scene& scene, const InitialState& initial) {
   predict::Cloud cloud;
   cloud.position = initial.position;
@@ -44,7 +37,7 @@ predict::Cloud cloud_of(const Scene& scene, const InitialState& initial) {
   cloud.reach = support * (1.0 + skin) * (1.0 + 1e-9);  // as the engine asks LAMMPS for copies
   cloud.pair_reach = all_fixed(scene) ? support : support * (1.0 + skin);
   for (std::size_t a = 0; a < 3; ++a) cloud.periodic[a] = scene.periodic[a];
-  if (!Passes(scene, active_effects(scene), 1).works_on_all()) cloud.idle = fixed_particles(scene, initial);
+  cloud.idle = idle_particles(scene, initial);
   if (scene.min && scene.max) {
     cloud.min = *scene.min;
     cloud.max = *scene.max;
@@ -119,7 +112,7 @@ Outcome PredictRuns::run(const Prepared& p, int ranks, double end) {
   return outcome;
 }
 
-void PredictRuns::choose_end(Prepared& p) {
+void PredictRuns::choose_end(Prepared& p, double most) {
   const double whole = p.scene.end_time;
   const Outcome pilot = run(p, 1, std::min(whole, p.scene.time_step.value_or(1e-9 * whole)));
   const double bound = of(pilot.result.extra, "time_step_bound");
@@ -128,7 +121,7 @@ void PredictRuns::choose_end(Prepared& p) {
     p.cloud.reach = reach;  // bonds may be longer than a list's reach
   const double took = std::max(1e-7, pilot.result.stepping_cpu / static_cast<double>(pilot.result.steps));
   const auto steps = std::clamp(static_cast<long>(seconds_ / took), least_timed, most_timed);
-  p.end = std::min(whole, step * static_cast<double>(steps));
+  p.end = std::min({whole, step * static_cast<double>(steps), std::max(most, step * static_cast<double>(least_timed))});
   if (!quiet_)
     say(fmt::format("predict: {}: {} particles, {} steps on one rank", p.label, p.initial.size(),
                     std::max(1L, std::lround(p.end / step))));

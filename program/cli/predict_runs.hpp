@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -45,8 +46,9 @@ class PredictRuns {
   /// @param more overrides beside those of the command line   @throws InputError, EngineError for a case that the engine cannot
   /// run, with its reason
   [[nodiscard]] Prepared prepare(const std::string& label, const std::vector<std::string>& more);
-  /// Finds how long the timed runs are, by a run of one step on one rank.
-  void choose_end(Prepared&);
+  /// Finds how long the timed runs are, by a run of one step on one rank. @param most time that they cover, but for ten steps
+  /// [s]: runs that are compared cover the same, in which as many lists a step are made
+  void choose_end(Prepared&, double most = std::numeric_limits<double>::infinity());
   /// One more repeat. @throws EngineError with the reason of a run that did not end well
   void time(const Prepared&, Timed&);
   /// `--probe` of the engine, two ranks. @throws EngineError

@@ -37,6 +37,14 @@ TEST(Cost, OneRunIsAllPairs) {
   EXPECT_NEAR(w.pair, 2e-8, 1e-18);
 }
 
+/// Twice the ranks have half the particles each: what cannot be told apart from these must not be held for fixed.
+TEST(Cost, RunsOfOneNumberOfParticlesHaveNothingFixed) {
+  const WorkCost w = fit_work({run(8000, 400000, 8e-3), run(8000, 800000, 12e-3)});
+  EXPECT_EQ(w.fixed, 0.0);
+  EXPECT_NEAR(w.particle, 5e-7, 1e-12);
+  EXPECT_NEAR(w.pair, 1e-8, 1e-14);
+}
+
 /// Noise that would make a term negative leaves it out and is told as misfit.
 TEST(Cost, NoTermIsNegative) {
   const WorkCost w = fit_work({run(1000, 50000, 0.9e-3), run(8000, 400000, 8e-3), run(8000, 800000, 17e-3)});
