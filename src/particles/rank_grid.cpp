@@ -2,27 +2,63 @@
 #include "particles/rank_grid.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace tripoint {
 namespace {
 
 constexpr std::size_t most_looked_at = 200'000;  ///< particles; of more, so many are looked at, evenly spread over the list
 
-/// What the greatest number of copies of a part along one direction is, by the particles near its two planes.
+/// Particles of a rank below which they say nothing of how evenly space is shared out: cuts lie between their layers.
+constexpr std::size_t least_of_a_rank = 64;
+constexpr std::size_t most_tried = 16;  ///< grids, those with the least area of cuts
+
+/// Area of all cuts through a box [m2].
+double area_of(const std::array<int, 3>& grid, const Vec3& length, const std::array<bool, 3>& periodic) {
+  double area = 0.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int cuts = periodic[a] && grid[a] > 1 ? grid[a] : grid[a] - 1;
+    area += cuts * length[(a + 1) % 3] * length[(a + 2) % 3];
+  }
+  return area;
+}
+
+/// All ways to lay so many ranks, the least area of cuts first.
+std::vector<std::array<int, 3>> grids_by_area(int ranks, const ToShareOut& what) {
+  Vec3 low = what.places.front(), high = low;
+  for (const Vec3& r : what.places)
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], r[a]);
+      high[a] = std::max(high[a], r[a]);
+    }
+  const Vec3 length = high - low + Vec3{what.spacing, what.spacing, what.spacing};
+  std::vector<std::array<int, 3>> grids;
+  for (int x = 1; x <= ranks; ++x) {
+    if (ranks % x != 0) continue;
+    for (int y = 1; x * y <= ranks; ++y)
+      if (ranks % (x * y) == 0) grids.push_back({x, y, ranks / (x * y)});
+  }
+  std::ranges::stable_sort(grids, {}, [&](const auto& grid) { return area_of(grid, length, what.periodic); });
+  return grids;
+}
+
+/// The greatest number of copies of a part along one direction.
 double most_copies(const ToShareOut& what, const Cuts& cuts, std::size_t a) {
   if (!cuts.cut(a)) return 0.0;
-  std::vector<double> copies(static_cast<std::size_t>(cuts.grid[a]), 0.0);
   const std::vector<double>& at = cuts.at[a];
-  const auto last = static_cast<std::ptrdiff_t>(copies.size()) - 1;
-  const auto add = [&](std::ptrdiff_t part) {
-    if (part >= 0 && part <= last) copies[static_cast<std::size_t>(part)] += 1.0;
-    if (what.periodic[a] && (part < 0 || part > last)) copies[static_cast<std::size_t>(part < 0 ? last : 0)] += 1.0;
+  const int parts = cuts.grid[a];
+  std::vector<double> copies(static_cast<std::size_t>(parts), 0.0);
+  const double width = at.back() - at.front();
+  const auto bound = [&](int n) {  // of part n from below, and beyond the ends of a periodic direction
+    const int turn = n >= 0 ? n / parts : -((parts - 1 - n) / parts);
+    return at[static_cast<std::size_t>(n - turn * parts)] + turn * width;
+  };
+  const auto add = [&](int n) {
+    if (what.periodic[a] || (n >= 0 && n < parts)) copies[static_cast<std::size_t>((n % parts + parts) % parts)] += 1.0;
   };
   for (const Vec3& r : what.places) {
-    const std::ptrdiff_t part = std::upper_bound(at.begin() + 1, at.end() - 1, r[a]) - at.begin() - 1;
-    if (r[a] - at[static_cast<std::size_t>(part)] < what.reach) add(part - 1);
-    if (at[static_cast<std::size_t>(part) + 1] - r[a] < what.reach) add(part + 1);
+    const auto part = static_cast<int>(std::upper_bound(at.begin() + 1, at.end() - 1, r[a]) - at.begin()) - 1;
+    for (int n = part - 1; n > part - parts && r[a] - bound(n + 1) < what.reach; --n) add(n);
+    for (int n = part + 1; n < part + parts && bound(n) - r[a] < what.reach; ++n) add(n);
   }
   return std::ranges::max(copies);
 }
@@ -44,8 +80,10 @@ double predicted_step(const ToShareOut& what, const Cuts& cuts) {
 }  // namespace
 
 std::array<int, 3> rank_grid(int ranks, const ToShareOut& what) {
-  std::array<int, 3> best{ranks, 1, 1};
-  if (ranks == 1 || what.places.empty()) return best;
+  if (ranks == 1 || what.places.empty()) return {ranks, 1, 1};
+  std::vector<std::array<int, 3>> grids = grids_by_area(ranks, what);
+  if (what.places.size() < least_of_a_rank * static_cast<std::size_t>(ranks)) return grids.front();
+  grids.resize(std::min(grids.size(), most_tried));
   ToShareOut some = what;
   std::vector<Vec3> places;
   std::vector<char> idle;
@@ -58,20 +96,7 @@ std::array<int, 3> rank_grid(int ranks, const ToShareOut& what) {
     some.places = places;
     some.idle = idle;
   }
-  double least = std::numeric_limits<double>::infinity();
-  for (int x = 1; x <= ranks; ++x) {
-    if (ranks % x != 0) continue;
-    for (int y = 1; x * y <= ranks; ++y) {
-      if (ranks % (x * y) != 0) continue;
-      const std::array<int, 3> grid{x, y, ranks / (x * y)};
-      const double step = predicted_step(some, cuts_of(some, grid));
-      if (step < least) {
-        least = step;
-        best = grid;
-      }
-    }
-  }
-  return best;
+  return *std::ranges::min_element(grids, {}, [&](const auto& grid) { return predicted_step(some, cuts_of(some, grid)); });
 }
 
 }  // namespace tripoint
