@@ -12,6 +12,7 @@
 
 #include "adapters/tripoint/solver_job.hpp"
 #include "adapters/tripoint/tripoint_engine.hpp"
+#include "core/machine.hpp"
 #include "world/body_table.hpp"
 
 namespace tripoint::ranks {
@@ -160,7 +161,8 @@ EngineInfo RanksEngine::info() const {
       {"force_time_step", "true runs with the scene's time_step though it is above a bound; default false"},
       {"skin", "skin of the neighbour lists in support radii; default 0.1"},
       {"lanes",
-       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit; default what is fastest"},
+       "particles that pair passes work on at once: 1, 4 (AVX2) or 8 (AVX-512); they change no bit of a particle, and the ledger "
+       "by rounding; default what the machine's widest vectors hold"},
       {"checkpoint_interval", "seconds of simulated time between checkpoints; they change no bit; default none"}};
   info.deterministic = true;
   return info;
@@ -189,6 +191,7 @@ void RanksEngine::start(const Job& job, const InitialState& initial, const Check
   SimulationOptions options = options_of(in_one_process(job));
   options.threads = 1;
   options.gives_way = false;
+  if (options.lanes == 0) options.lanes = widest_lanes();  // a measured choice would move cuts, and the ledger's last bits
   const double reach = scene.support_ratio * scene.spacing * (1.0 + options.skin) * (1.0 + 1e-9);
   const InitialState placed = kept ? places_in(*kept, initial) : initial;
   halo_.emplace(lammps_->create(scene, placed, reach), reach, placed.position.size(), lammps_->rank() == 0,
