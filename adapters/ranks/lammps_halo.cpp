@@ -14,8 +14,8 @@
 namespace tripoint::ranks {
 namespace {
 
-constexpr double allowed_later = 1.05;     ///< cost of the dearest rank over the mean, as lists are made anew
-constexpr std::size_t atoms_at_once = 32;  ///< whose columns are written while their numbers are in the cache
+constexpr double allowed_later = 1.05;    ///< cost of the dearest rank over the mean, as lists are made anew
+constexpr std::size_t rows_at_once = 32;  ///< whose columns are written while their numbers are in the cache
 
 /// Calls visit(values, number of the column) for each column of numbers. @throws EngineError for a column of anything else
 template <class P, class Visit>
@@ -109,9 +109,9 @@ std::vector<std::uint32_t> LammpsHalo::follow_rows(const Particles& particles) {
   const auto id = particles[field::id];
   std::vector<std::uint32_t> ids(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(owned()));
   std::vector<std::vector<double>> lists;
-  for (std::size_t id_of_list = 0; has_lists_ && id_of_list < owned(); ++id_of_list)
+  for (std::size_t id_of_list = 0; has_lists_ && id_of_list < ids.size(); ++id_of_list)
     lists.push_back(std::move(ranks_->lists(id_of_list)));  // atoms of its own have the order of ids
-  for (std::size_t atom = 0; atom < owned(); ++atom) {
+  for (std::size_t atom = 0; atom < ids.size(); ++atom) {
     ranks_->set_id(atom, numbers_[ids[atom]]);
     if (has_lists_) ranks_->lists(atom) = std::move(lists[ids[atom]]);
   }
@@ -195,15 +195,16 @@ void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
   known_changes_ = {bonds.changes(), own.changes()};
 }
 
+/// Only what other ranks are to have is written for LAMMPS; of the rest the row alone is noted.
 /// @param rows of the atoms   @param places that LAMMPS is told, by number; empty: those of now
 void LammpsHalo::pack(const Particles& particles, const PeriodicBox& box, const std::vector<std::size_t>& rows,
                       std::span<const Vec3> places) {
-  const std::size_t stride = ranks_->stride();
-  for (std::size_t from = 0; from < rows.size(); from += atoms_at_once)
-    each_column(particles, [&, past = std::min(from + atoms_at_once, rows.size())](auto values, int column) {
-      double* number = ranks_->numbers(from) + column;
-      for (std::size_t atom = from; atom < past; ++atom, number += stride) *number = static_cast<double>(values[rows[atom]]);
-    });
+  ranks_->set_rows(rows, [&particles](std::span<const std::size_t> wanted, std::span<double* const> to) {
+    for (std::size_t from = 0; from < wanted.size(); from += rows_at_once)
+      each_column(particles, [&, past = std::min(from + rows_at_once, wanted.size())](auto values, int column) {
+        for (std::size_t k = from; k < past; ++k) to[k][column] = static_cast<double>(values[wanted[k]]);
+      });
+  });
   const auto x = positions(particles);
   for (std::size_t atom = 0; atom < rows.size(); ++atom) {
     const Vec3 r = places.empty() ? x.at(rows[atom]) : places[static_cast<std::size_t>(ranks_->id(atom))];
@@ -252,16 +253,20 @@ void LammpsHalo::number_atoms() {
 
 void LammpsHalo::unpack(Particles& particles) {
   number_atoms();
-  particles.make(numbers_.size());
-  const std::size_t stride = ranks_->stride();
-  for (std::size_t from = 0; from < numbers_.size(); from += atoms_at_once)
-    each_column(particles, [&, past = std::min(from + atoms_at_once, numbers_.size())](auto values, int column) {
+  std::vector<std::uint32_t> rows;
+  std::vector<std::size_t> came;  // ids of those that have arrived
+  for (std::size_t id = 0; id < numbers_.size(); ++id) {
+    const std::size_t row = ranks_->row(atoms_here_[id]);
+    if (row == Ranks::no_row) came.push_back(id);
+    rows.push_back(row == Ranks::no_row ? Particles::none : static_cast<std::uint32_t>(row));
+  }
+  particles.make_of(rows);
+  for (std::size_t from = 0; from < came.size(); from += rows_at_once)
+    each_column(particles, [&, past = std::min(from + rows_at_once, came.size())](auto values, int column) {
       using T = typename decltype(values)::value_type;
-      const double* const first = ranks_->numbers(0) + column;
-      for (std::size_t id = from; id < past; ++id) values[id] = static_cast<T>(first[atoms_here_[id] * stride]);
+      for (std::size_t k = from; k < past; ++k) values[came[k]] = static_cast<T>(ranks_->arrived(atoms_here_[came[k]])[column]);
     });
-  const auto id = particles[field::id];
-  std::iota(id.begin(), id.end(), 0);  // the column held numbers
+  particles.number();
 }
 
 void LammpsHalo::refresh(Particles& particles, std::span<const Field<double>* const> columns) {

@@ -14,6 +14,9 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "adapters/ranks/ranks.hpp"
 #include "core/errors.hpp"
@@ -46,13 +49,13 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   int setmask() override { return 0; }
   void grow_arrays(int rows) override;
   void copy_arrays(int from, int to, int) override;
-  int pack_exchange(int one, double* to) override { return put(one, to); }
+  int pack_exchange(int one, double* to) override { return put({&one, 1}, to); }
   int unpack_exchange(int one, double* from) override { return take(one, from); }
   int pack_border(int count, int* atoms, double* to) override;
   int unpack_border(int count, int first, double* from) override;
   int pack_forward_comm(int count, int* atoms, double* to, int, int*) override;
   void unpack_forward_comm(int count, int first, double* from) override;
-  double memory_usage() override { return static_cast<double>(atom->nmax) * static_cast<double>(bytes_of_row()); }
+  double memory_usage() override { return static_cast<double>(atom->nmax) * numbers_kept * static_cast<double>(sizeof(double)); }
 
   [[nodiscard]] int rank() const override { return comm->me; }
   [[nodiscard]] int size() const override { return comm->nprocs; }
@@ -61,12 +64,16 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   [[nodiscard]] int id(std::size_t one) const override { return static_cast<int>(atom->tag[one]) - 1; }
   void set_id(std::size_t one, int id) override { atom->tag[one] = id + 1; }
   [[nodiscard]] double* position(std::size_t one) const override { return atom->x[one]; }
-  [[nodiscard]] double* numbers(std::size_t one) const override { return numbers_[one]; }
-  [[nodiscard]] std::size_t stride() const override {
-    return static_cast<std::size_t>(columns_);
-  }  // LAMMPS keeps them in one piece
+  void set_rows(std::span<const std::size_t> rows, Write) override;
+  [[nodiscard]] std::size_t row(std::size_t one) const override {
+    const double place = numbers_[one][place_kept];
+    return place < 0.0 ? no_row : static_cast<std::size_t>(place);
+  }
+  [[nodiscard]] const double* arrived(std::size_t one) const override {
+    return arrived_.data() + static_cast<std::size_t>(-1.0 - numbers_[one][place_kept]) * static_cast<std::size_t>(columns_);
+  }
   [[nodiscard]] std::vector<double>& lists(std::size_t one) const override { return lists_[one]; }
-  [[nodiscard]] double& cost(std::size_t one) const override { return numbers_[one][columns_ - 1]; }
+  [[nodiscard]] double& cost(std::size_t one) const override { return numbers_[one][cost_kept]; }
   void balance(double allowed) override;
   [[nodiscard]] long cuts_moved() const override { return cuts_moved_; }
   void make_room(std::size_t lists) override;
@@ -80,17 +87,21 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
 
  private:
   static constexpr int most_forwarded = 24;  ///< columns of one exchange: the density pass has 7, the rates 8, a deformation 24
-  [[nodiscard]] std::size_t bytes_of_row() const { return static_cast<std::size_t>(columns_) * sizeof(double); }
+  /// What LAMMPS keeps of an atom: the row that it stands for, or where its numbers are among those that have arrived, -1 for the
+  /// first; and its cost.
+  static constexpr int place_kept = 0, cost_kept = 1, numbers_kept = 2;
   [[nodiscard]] double imbalance() const;
-  int put(int one, double* to) const;
+  int put(std::span<const int> atoms, double* to) const;
   int take(int one, const double* from);
   [[nodiscard]] std::size_t place_of(int one) const {
     const std::uint32_t id = forwarded_.ids[one];
     return (forwarded_.rows ? forwarded_.rows[id] : id) * forwarded_.stride;
   }
 
-  int columns_, most_lists_ = -1;  ///< numbers of an atom: those of its columns and its cost, and of its lists at most
-  double** numbers_ = nullptr;
+  int columns_, most_lists_ = -1;  ///< numbers that go with an atom: of its columns, and of its lists at most
+  double** numbers_ = nullptr;     ///< numbers_kept of each atom
+  Write write_;
+  std::vector<double> arrived_;  ///< columns_ of each atom that has come, or was copied here
   mutable std::vector<std::vector<double>> lists_;
   bool begun_ = false;
   long cuts_moved_ = 0;
@@ -100,18 +111,18 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
 };
 
 FixHalo::FixHalo(LAMMPS* lammps, int count, char** words)
-    : Fix(lammps, count, words), columns_(count == 4 ? std::atoi(words[3]) + 1 : 0) {
-  if (columns_ < 2) throw EngineError("the fix tripoint/halo takes the number of columns");
+    : Fix(lammps, count, words), columns_(count == 4 ? std::atoi(words[3]) : 0) {
+  if (columns_ < 1) throw EngineError("the fix tripoint/halo takes the number of columns");
   comm_forward = most_forwarded;
   peratom_flag = 1;
   peratom_freq = 1;
-  size_peratom_cols = columns_;
+  size_peratom_cols = numbers_kept;
   maxexchange_dynamic = 1;
   make_room(0);
   FixHalo::grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::BORDER);
-  lmp->input->one("variable tripoint_cost atom f_" + std::string(Fix::id) + "[" + std::to_string(columns_) + "]");
+  lmp->input->one("variable tripoint_cost atom f_" + std::string(Fix::id) + "[" + std::to_string(cost_kept + 1) + "]");
   the_fix = this;
 }
 
@@ -123,36 +134,56 @@ FixHalo::~FixHalo() noexcept(false) {
 }
 
 void FixHalo::grow_arrays(int rows) {
-  memory->grow(numbers_, rows, columns_, "tripoint/halo:numbers");
+  memory->grow(numbers_, rows, numbers_kept, "tripoint/halo:numbers");
   array_atom = numbers_;
   lists_.resize(static_cast<std::size_t>(rows));
 }
 
 void FixHalo::copy_arrays(int from, int to, int) {
-  std::memcpy(numbers_[to], numbers_[from], bytes_of_row());
+  std::copy_n(numbers_[from], numbers_kept, numbers_[to]);
   lists_[static_cast<std::size_t>(to)] = lists_[static_cast<std::size_t>(from)];
 }
 
-/// The columns, how many numbers the lists have, and these.
-int FixHalo::put(int one, double* to) const {
-  std::memcpy(to, numbers_[one], bytes_of_row());
-  const std::vector<double>& lists = lists_[static_cast<std::size_t>(one)];
-  to[columns_] = static_cast<double>(lists.size());
-  std::copy(lists.begin(), lists.end(), to + columns_ + 1);
-  return columns_ + 1 + static_cast<int>(lists.size());
+void FixHalo::set_rows(std::span<const std::size_t> rows, Write write) {
+  for (std::size_t one = 0; one < rows.size(); ++one) numbers_[one][place_kept] = static_cast<double>(rows[one]);
+  write_ = std::move(write);
+  arrived_.clear();
+}
+
+/// Of each atom the columns, the cost, how many numbers the lists have, and these.
+int FixHalo::put(std::span<const int> atoms, double* to) const {
+  std::vector<std::size_t> rows;
+  std::vector<double*> places;  // of what these rows have
+  double* next = to;
+  for (const int each : atoms) {
+    const auto one = static_cast<std::size_t>(each);
+    if (row(one) == no_row) {
+      std::copy_n(arrived(one), columns_, next);
+    } else {
+      rows.push_back(row(one));
+      places.push_back(next);
+    }
+    next += columns_;
+    *next++ = numbers_[one][cost_kept];
+    *next++ = static_cast<double>(lists_[one].size());
+    next = std::copy(lists_[one].begin(), lists_[one].end(), next);
+  }
+  write_(rows, places);
+  return static_cast<int>(next - to);
 }
 
 int FixHalo::take(int one, const double* from) {
-  std::memcpy(numbers_[one], from, bytes_of_row());
-  const double* const lists = from + columns_ + 1;
-  const int count = static_cast<int>(from[columns_]);
-  lists_[static_cast<std::size_t>(one)].assign(lists, lists + count);
-  return columns_ + 1 + count;
+  const double* next = from + columns_;
+  numbers_[one][place_kept] = -1.0 - static_cast<double>(arrived_.size()) / columns_;
+  arrived_.insert(arrived_.end(), from, next);
+  numbers_[one][cost_kept] = *next++;
+  const auto count = static_cast<std::ptrdiff_t>(*next++);
+  lists_[static_cast<std::size_t>(one)].assign(next, next + count);
+  return static_cast<int>(next + count - from);
 }
 
 int FixHalo::pack_border(int count, int* atoms, double* to) {
-  int used = 0;
-  for (int k = 0; k < count; ++k) used += put(atoms[k], to + used);
+  const int used = put({atoms, static_cast<std::size_t>(count)}, to);
   bytes_sent_ += static_cast<double>(used) * sizeof(double);
   return used;
 }
@@ -192,7 +223,7 @@ void FixHalo::make_room(std::size_t lists) {
   const int needed = static_cast<int>(lists);
   if (needed <= most_lists_) return;
   most_lists_ = needed + needed / 4;
-  comm_border = columns_ + 1 + most_lists_;
+  comm_border = columns_ + 2 + most_lists_;
   maxexchange = comm_border + 1;
   begun_ = false;
 }
@@ -200,7 +231,7 @@ void FixHalo::make_room(std::size_t lists) {
 /// Cost of the dearest rank over the mean.
 double FixHalo::imbalance() const {
   double own = 0.0, sum = 0.0, most = 0.0;
-  for (int one = 0; one < atom->nlocal; ++one) own += numbers_[one][columns_ - 1];
+  for (int one = 0; one < atom->nlocal; ++one) own += numbers_[one][cost_kept];
   MPI_Allreduce(&own, &sum, 1, MPI_DOUBLE, MPI_SUM, world);
   MPI_Allreduce(&own, &most, 1, MPI_DOUBLE, MPI_MAX, world);
   return most * comm->nprocs / sum;

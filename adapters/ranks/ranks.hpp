@@ -2,6 +2,8 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,13 +25,18 @@ class Ranks {
   [[nodiscard]] virtual std::size_t owned() const = 0;       ///< atoms of its own; copies follow them
   [[nodiscard]] virtual std::size_t all() const = 0;         ///< with copies
   [[nodiscard]] virtual int id(std::size_t atom) const = 0;  ///< of all ranks, from 0
-  /// From now on the atom carries that particle: its place, numbers and lists are to be written.
+  /// From now on the atom carries that particle: its place, row and lists are to be written.
   virtual void set_id(std::size_t atom, int id) = 0;
   [[nodiscard]] virtual double* position(std::size_t atom) const = 0;  ///< x, y, z [m]
-  [[nodiscard]] virtual double* numbers(std::size_t atom) const = 0;   ///< that go with the atom
+  /// Writes the numbers of rows of the solver's, each to its own place: asked for those that other ranks are to have.
+  using Write = std::function<void(std::span<const std::size_t> rows, std::span<double* const> to)>;
+  /// Each atom of its own stands for a row, until balance() and migrate(). What had arrived is forgotten.
+  virtual void set_rows(std::span<const std::size_t> rows, Write) = 0;
+  static constexpr std::size_t no_row = ~std::size_t{0};
+  [[nodiscard]] virtual std::size_t row(std::size_t atom) const = 0;        ///< that it stood for; no_row: it has arrived
+  [[nodiscard]] virtual const double* arrived(std::size_t atom) const = 0;  ///< its numbers. @pre it has no row
   /// Bonds and own pairs, as numbers that go with the atom; no more of them than make_room() was told.
   [[nodiscard]] virtual std::vector<double>& lists(std::size_t atom) const = 0;
-  [[nodiscard]] virtual std::size_t stride() const = 0;  ///< from the numbers of an atom to those of the next
   virtual void make_room(std::size_t lists) = 0;
   /// What the atom costs in a step, in a unit of any kind: goes with it.
   [[nodiscard]] virtual double& cost(std::size_t atom) const = 0;

@@ -75,17 +75,21 @@ void Columns::rearrange(std::span<const std::uint32_t> from, std::span<const std
   }
 }
 
-void Columns::make_rows(std::size_t rows) {
-  rows_ = rows;
-  const std::size_t needed = rows + padding;
+void Columns::gather(std::span<const std::uint32_t> from) {
+  rows_ = from.size();
+  const std::size_t needed = rows_ + padding;
   for (Column& c : columns_) {
     std::visit(
-        [&](auto& values) {
-          if (values.capacity() < needed) {
-            values.clear();  // so that growing copies nothing
-            values.reserve(needed + needed / 32);
+        [&]<class T>(AlignedVector<T>& values) {
+          auto& moved = std::get<AlignedVector<T>>(moved_);
+          if (moved.capacity() < needed) {
+            moved.clear();  // so that growing copies nothing
+            moved.reserve(needed + needed / 32);
           }
-          values.resize(needed);
+          moved.resize(needed);
+          for (std::size_t n = 0; n < rows_; ++n)
+            if (from[n] != none) moved[n] = values[from[n]];
+          values.swap(moved);
         },
         c.values);
   }

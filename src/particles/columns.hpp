@@ -78,8 +78,10 @@ class Columns {
   /// Row to[k] becomes what was row from[k], in every column, for each k; other rows stay. @param from,to the same rows, each
   /// once
   void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, int threads = 1);
-  /// As many rows from now on, in the memory that there is where it is enough. What is in them is not said: all is to be written.
-  void make_rows(std::size_t rows);
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  /// As many rows from now on as `from` has: row n becomes what was row from[n], in every column. What is in it where from[n] is
+  /// `none` is not said, and to be written.
+  void gather(std::span<const std::uint32_t> from);
   /// Adds a row of zeros to every column; spans taken before are no longer valid.
   void append_row();
 

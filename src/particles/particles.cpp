@@ -5,14 +5,11 @@
 
 namespace tripoint {
 
-Particles::Particles(std::size_t count, std::span<const FieldInfo> fields) : Columns(count, Per::particle, fields) {
-  make(count);
-}
+Particles::Particles(std::size_t count, std::span<const FieldInfo> fields) : Columns(count, Per::particle, fields) { number(); }
 
-void Particles::make(std::size_t count) {
-  make_rows(count);
-  row_of_id_.resize(count);
-  moving_ = awake_ = count;
+void Particles::number() {
+  row_of_id_.resize(size());
+  moving_ = awake_ = size();
   std::iota(row_of_id_.begin(), row_of_id_.end(), 0u);
   const auto id = (*this)[field::id];
   std::iota(id.begin(), id.end(), 0);

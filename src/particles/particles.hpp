@@ -19,9 +19,11 @@ class Particles : public Columns {
   /// Particles 0..count-1, in rows of the same number. @param fields every field that the scene's effects own
   Particles(std::size_t count, std::span<const FieldInfo> fields);
 
-  /// Other particles 0..count-1 in the same columns, in rows of the same number. What they have is not said: all but the ids is
-  /// to be written.
-  void make(std::size_t count);
+  /// Other particles in the same columns: particle n has what was in row rows[n], or what is to be written where that is `none`.
+  /// number() is to be called then.
+  void make_of(std::span<const std::uint32_t> rows) { gather(rows); }
+  /// Row n is of particle n from now on.
+  void number();
 
   /// Row of the particle with this id, which is in 0..size()-1.
   [[nodiscard]] std::size_t row(std::size_t id) const noexcept { return row_of_id_[id]; }
