@@ -224,6 +224,9 @@ void Walls::find_faces(World& world, const SceneNumbers& n, const PairKernels& k
   }
   add_faces(world, false);
   for (auto* column : {&density_, &mean_, &mean_of_mean_, &part_, &part_again_, &share_}) column->resize(face_.size());
+  members_.clear();
+  for (std::size_t k = 0; k < face_.size(); ++k) members_.push_back(static_cast<double>(start_[k + 1] - start_[k]));
+  hand_to_copied_faces(world, members_);
   find_rows(world);
 }
 
@@ -258,9 +261,9 @@ void Walls::average_density(World& world, const SceneNumbers& n, const PairKerne
   }
   for (std::size_t a = 0; a < awake_.size(); ++a)
     density_[awake_[a]] = rho[row_[a]] / rest[row_[a]] - (excess_.empty() ? 0.0 : excess_[face_[awake_[a]]]);
-  sum_patches(density_, world.threads, [&](std::size_t k, double sum) { mean_[k] = sum / members(k); });
+  sum_patches(density_, world.threads, [&](std::size_t k, double sum) { mean_[k] = sum / members_[k]; });
   hand_to_copied_faces(world, mean_);
-  sum_patches(mean_, world.threads, [&](std::size_t k, double sum) { mean_of_mean_[k] = sum / members(k); });
+  sum_patches(mean_, world.threads, [&](std::size_t k, double sum) { mean_of_mean_[k] = sum / members_[k]; });
   hand_to_copied_faces(world, mean_of_mean_);
   for (std::size_t a = 0; a < awake_.size(); ++a) {
     const std::size_t i = row_[a];
@@ -274,10 +277,9 @@ void Walls::hand_down_shares(World& world) {
   const auto share = world.particles[field::pressure_share];
   for (std::size_t a = 0; a < awake_.size(); ++a) {
     const std::size_t k = awake_[a];
-    part_[k] = share[row_[a]] / members(k);
+    part_[k] = share[row_[a]] / members_[k];
   }
-  hand_to_copied_faces(world, part_);
-  sum_patches(part_, world.threads, [&](std::size_t k, double sum) { part_again_[k] = sum / members(k); });
+  sum_patches(part_, world.threads, [&](std::size_t k, double sum) { part_again_[k] = sum / members_[k]; });
   hand_to_copied_faces(world, part_again_);
   sum_patches(part_again_, world.threads, [&](std::size_t k, double sum) { share_[k] = sum; });
   hand_to_copied_faces(world, share_);

@@ -59,7 +59,6 @@ class Walls {
   void hand_to_copied_faces(const World&, std::vector<double>& of);
   template <class Give>
   void sum_patches(const std::vector<double>& of, int threads, Give give) const;
-  [[nodiscard]] double members(std::size_t k) const { return static_cast<double>(start_[k + 1] - start_[k]); }
 
   std::vector<std::uint32_t> wet_walls_;  ///< rows of walls with liquid in their lists that it sticks to
   ChosenClusters wet_;                    ///< their clusters
@@ -67,6 +66,7 @@ class Walls {
   std::vector<std::uint32_t> face_;       ///< ids of those that are: fixed ones, whose patches stay, then driven ones
   std::vector<std::size_t> start_;        ///< first entry of each patch, and one past the last
   std::vector<std::uint32_t> patch_;      ///< places in face_, the particle itself first
+  std::vector<double> members_;           ///< of each patch; a copy's are told by its owner
   std::size_t fixed_faces_ = 0;
   std::vector<std::uint32_t> awake_, row_;  ///< places in face_ of those that are awake, and their rows
   std::vector<std::uint32_t> place_;        ///< by id, the place in face_
