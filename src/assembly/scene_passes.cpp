@@ -100,13 +100,13 @@ std::vector<double> Passes::cost_at_start(const World& world) const {
   return cost;
 }
 
-std::vector<double> Passes::cost(const World& world) const {
+std::vector<double> Passes::cost(const World& world, double steps) const {
   if (world.neighbours && !impl_->busy.has_entries(world, impl_->meets_all)) return cost_at_start(world);
   const Particles& p = world.particles;
   std::vector<double> cost(p.size(), 0.0);
-  if (world.neighbours) cost = impl_->busy.entries_by_row(world, impl_->meets_all);
+  if (world.neighbours) cost = impl_->busy.cost_by_row(world, steps, impl_->meets_all);
   for (std::size_t i = 0; i < p.size(); ++i)
-    cost[i] += ParticleCost::of_row +
+    cost[i] += ParticleCost::of_row(steps) +
                ParticleCost::of_bond * static_cast<double>(world.bonds.of(static_cast<std::size_t>(p[field::id][i])).size());
   return cost;
 }

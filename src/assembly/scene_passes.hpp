@@ -26,7 +26,8 @@ class Passes {
   [[nodiscard]] std::optional<double> sleeps_beyond() const;
   [[nodiscard]] bool works_on_all() const;  ///< pairs of what is fixed have work too, as where they conduct heat
   /// What each particle costs in a step, by row, as lists and bonds are now; and before there are any, a guess (ParticleCost).
-  [[nodiscard]] std::vector<double> cost(const World&) const;
+  /// @param steps from new lists to new lists
+  [[nodiscard]] std::vector<double> cost(const World&, double steps) const;
   [[nodiscard]] std::vector<double> cost_at_start(const World&) const;
   /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work is found anew.
   void forget_clusters();

@@ -70,11 +70,11 @@ double predicted_step(const ToShareOut& what, const Cuts& cuts) {
   for (std::size_t i = 0; i < what.places.size(); ++i) {
     const std::size_t rank = cuts.rank_of(what.places[i]);
     rows[rank] += 1.0;
-    entries[rank] += what.is_idle(i) ? 0.0 : ParticleCost::guess_of_entries;
+    entries[rank] += what.is_idle(i) ? 0.0 : ParticleCost::busy_at_start - ParticleCost::idle_at_start;
   }
   double copies = 0.0;
   for (std::size_t a = 0; a < 3; ++a) copies += most_copies(what, cuts, a) * cuts.grid[a] / ranks;
-  return ParticleCost::of_row * (std::ranges::max(rows) + copies) + std::ranges::max(entries);
+  return ParticleCost::at_start(true) * std::ranges::max(rows) + ParticleCost::of_row() * copies + std::ranges::max(entries);
 }
 
 }  // namespace

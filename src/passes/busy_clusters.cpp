@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "particles/rank_grid.hpp"
 #include "passes/run_pass.hpp"
 #include "world/body_table.hpp"
 
@@ -236,26 +237,29 @@ bool BusyClusters::has_entries(const World& world, bool all) const {
   return world.neighbours->rows() == world.particles.size() && (all || known_);
 }
 
-std::vector<double> BusyClusters::entries_by_row(const World& world, bool all) const {
+std::vector<double> BusyClusters::cost_by_row(const World& world, double steps, bool all) const {
   const Clusters& c = world.neighbours->clusters();
-  std::vector<double> looked_at(world.particles.size(), 0.0);
-  const auto add = [&](std::uint32_t k, double entries) {
-    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) looked_at[i] += entries / (c.first[k + 1] - c.first[k]);
+  std::vector<double> cost(world.particles.size(), 0.0);
+  const auto add = [&](std::uint32_t k, double of_cluster) {
+    for (std::uint32_t i = c.first[k]; i < c.first[k + 1]; ++i) cost[i] += of_cluster / (c.first[k + 1] - c.first[k]);
   };
   const auto entries_of = [&](std::uint32_t k) { return static_cast<double>(c.start[k + 1] - c.start[k]); };
   const auto acting_of = [&](std::uint32_t k) {
     const auto first = c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k], k)),
                past = c.acting.begin() + static_cast<std::ptrdiff_t>(within_start(c.start[k + 1], k + 1));
-    return std::accumulate(first, past, 0.0, [](double sum, std::uint64_t word) { return sum + std::popcount(word); });
+    const double bits =
+        std::accumulate(first, past, 0.0, [](double sum, std::uint64_t word) { return sum + std::popcount(word); });
+    return std::min(bits, entries_of(k));  // where all act, the bits past the last entry are set too
   };
-  if (all) {
-    for (std::uint32_t k = 0; k < c.size(); ++k)
-      if (owns_any(world, c.first[k], c.first[k + 1])) add(k, 2.0 * entries_of(k));
-    return looked_at;
+  using Cost = ParticleCost;
+  for (const std::uint32_t k : c.listed) {
+    add(k, entries_of(k) * (Cost::of_listing / steps + Cost::of_density * (all ? 1.0 : 1.0 / steps)));
+    if (all) add(k, entries_of(k) * Cost::of_rates);
   }
-  for (const std::uint32_t k : in_density_.clusters) add(k, entries_of(k));
-  for (const std::uint32_t k : in_rates_.clusters) add(k, acting_of(k));
-  return looked_at;
+  if (all) return cost;
+  for (const std::uint32_t k : in_density_.clusters) add(k, entries_of(k) * Cost::of_density * (1.0 - 1.0 / steps));
+  for (const std::uint32_t k : in_rates_.clusters) add(k, acting_of(k) * Cost::of_rates);
+  return cost;
 }
 
 void BusyClusters::sum_rates(const PassFunction& pass, World& world, const PairKernels& kernels) const {

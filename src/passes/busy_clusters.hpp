@@ -35,9 +35,10 @@ class BusyClusters {
   /// What no step reads of fixed particles (World::forms_fixed): the density of those that sleep, and the forces on all of them.
   void sum_fixed_density(const PassFunction&, World&, const PairKernels&) const;
   void sum_fixed_rates(const PassFunction&, World&, const PairKernels&) const;
-  /// How many entries of lists a density and a rate pass look at for each row, shared among the members of a cluster; of copies
-  /// alone none. @param all no pair is left out   @pre has_entries()
-  [[nodiscard]] std::vector<double> entries_by_row(const World&, bool all) const;
+  /// What lists, a density and a rates pass cost for each row in a step, shared among the members of a cluster, as ParticleCost
+  /// weighs them; of copies nothing. @param steps from new lists to new lists   @param all no pair is left out
+  /// @pre has_entries()
+  [[nodiscard]] std::vector<double> cost_by_row(const World&, double steps, bool all) const;
   /// Whether there are lists of these particles, and it is known where they have work.
   [[nodiscard]] bool has_entries(const World&, bool all) const;
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace tripoint {
 namespace {
@@ -194,8 +195,10 @@ void Sharing::follow(World& world, const std::vector<Active>& effects, const Pas
   } else if (!is_part(world) && world.particles.size() != count_) {
     share_particles(world, passes);  // one rank holds the whole always: what has flowed in, lists may know already
   } else {
+    ++steps_;
     if (!any(outdated(world))) return;
-    world.halo->migrate(world.particles, world.bonds, world.own, world.box, by_id(world, passes.cost(world)));
+    steps_a_list_ = 0.5 * (steps_a_list_ + static_cast<double>(std::exchange(steps_, 0)));
+    world.halo->migrate(world.particles, world.bonds, world.own, world.box, by_id(world, passes.cost(world, steps_a_list_)));
     if (world.neighbours && is_part(world))
       world.neighbours->forget(whole_of(world, places_now(world.particles), count_));
     else if (world.neighbours)

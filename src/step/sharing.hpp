@@ -5,6 +5,7 @@
 
 #include "assembly/all_effects.hpp"
 #include "assembly/scene_passes.hpp"
+#include "particles/rank_grid.hpp"
 
 namespace tripoint {
 
@@ -41,9 +42,11 @@ class Sharing {
 
   double skin_;
   Halo* halo_;
-  std::size_t count_ = 0;         ///< particles of the scene, as last shared out
-  std::optional<Booked> booked_;  ///< none: nothing yet
-  std::vector<Vec3> shared_at_;   ///< by row: where particles were when last shared out [m]; of scenes without neighbour lists
+  std::size_t count_ = 0;                               ///< particles of the scene, as last shared out
+  std::optional<Booked> booked_;                        ///< none: nothing yet
+  long steps_ = 0;                                      ///< since particles changed hands
+  double steps_a_list_ = ParticleCost::guess_of_steps;  ///< how often they do, of late
+  std::vector<Vec3> shared_at_;  ///< by row: where particles were when last shared out [m]; of scenes without neighbour lists
 };
 
 /// Tells of each row whether it is a copy of another process's particle.
