@@ -167,7 +167,7 @@ void Neighbours::sort_and_list(Particles& particles, const Resting& resting) {
   if (!order_.empty()) grid_ = std::make_shared<const Grid>(std::move(grid));
 }
 
-/// Counting sort by cell of the particles in order of id, or of their numbers in the whole: rows come out ordered by (cell, id).
+/// Counting sort by cell, and by id within each, or by the number in the whole.
 void Neighbours::sort_all(Particles& particles, Grid& grid) {
   const std::size_t n = particles.size();
   const auto x = positions(particles);
@@ -178,9 +178,13 @@ void Neighbours::sort_all(Particles& particles, Grid& grid) {
   for (std::size_t i = 0; i < n; ++i) ++grid.first[cell_of[i] + 1];
   for (std::size_t c = 0; c < grid.cells(); ++c) grid.first[c + 1] += grid.first[c];
   std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto row = static_cast<std::uint32_t>(particles.row(whole_ ? whole_->ids[k] : k));
-    order[next[cell_of[row]]++] = row;
+  const auto id = particles[field::id];
+  const auto number = [&](std::uint32_t row) { return whole_ ? whole_->numbers[static_cast<std::size_t>(id[row])] : id[row]; };
+  for (std::uint32_t row = 0; row < n; ++row) {
+    const std::uint32_t c = cell_of[row];
+    std::uint32_t at = next[c]++;
+    for (const int own = number(row); at > grid.first[c] && number(order[at - 1]) > own; --at) order[at] = order[at - 1];
+    order[at] = row;  // a cell holds few, and most come in order
   }
   bring_own_first(particles, order);
   // Before columns are held twice.

@@ -106,10 +106,10 @@ struct Resting {
 
 /// What the lists of a part of a scene know of the whole, so that each list has the order that it has there.
 struct Whole {
-  Vec3 low, high;                  ///< corners of all places that are listed [m]
-  std::size_t particles = 0;       ///< of the whole
-  std::vector<std::uint32_t> ids;  ///< of the part, copies too, in order of their numbers in the whole
-  std::size_t own = 0;             ///< ids below it are no copies
+  Vec3 low, high;             ///< corners of all places that are listed [m]
+  std::size_t particles = 0;  ///< of the whole
+  std::vector<int> numbers;   ///< in the whole, of each id of the part, copies too
+  std::size_t own = 0;        ///< ids below it are no copies
 };
 
 /// Full directed lists: every i has all its j within support + skin, ordered by (cell, id) at the last rebuild, so that

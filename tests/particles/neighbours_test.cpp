@@ -329,8 +329,7 @@ TEST(Neighbours, OfAPartHaveTheOrderOfTheWhole) {
   number.insert(number.end(), copies.begin(), copies.end());
   Particles part(number.size(), common_fields(false));
   for (std::size_t id = 0; id < number.size(); ++id) positions(part).set(id, whole.position(whole.row(number[id])));
-  for (std::size_t id = 0; id < number.size(); ++id) known.ids.push_back(static_cast<std::uint32_t>(id));
-  std::ranges::sort(known.ids, {}, [&](std::uint32_t id) { return number[id]; });
+  known.numbers.assign(number.begin(), number.end());
   Neighbours some(support, skin, {}, 1, 4);
   some.forget(known);
   some.update(part, 0.0);
