@@ -254,17 +254,17 @@ void LammpsHalo::number_atoms() {
 void LammpsHalo::unpack(Particles& particles) {
   number_atoms();
   std::vector<std::uint32_t> rows;
-  std::vector<std::size_t> came;  // ids of those that have arrived
+  std::vector<std::pair<std::size_t, const double*>> came;  // id and numbers of each that has arrived
   for (std::size_t id = 0; id < numbers_.size(); ++id) {
     const std::size_t row = ranks_->row(atoms_here_[id]);
-    if (row == Ranks::no_row) came.push_back(id);
+    if (row == Ranks::no_row) came.emplace_back(id, ranks_->arrived(atoms_here_[id]));
     rows.push_back(row == Ranks::no_row ? Particles::none : static_cast<std::uint32_t>(row));
   }
   particles.make_of(rows);
   for (std::size_t from = 0; from < came.size(); from += rows_at_once)
     each_column(particles, [&, past = std::min(from + rows_at_once, came.size())](auto values, int column) {
       using T = typename decltype(values)::value_type;
-      for (std::size_t k = from; k < past; ++k) values[came[k]] = static_cast<T>(ranks_->arrived(atoms_here_[came[k]])[column]);
+      for (std::size_t k = from; k < past; ++k) values[came[k].first] = static_cast<T>(came[k].second[column]);
     });
   particles.number();
 }
