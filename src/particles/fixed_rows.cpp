@@ -123,14 +123,13 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
   return marks;
 }
 
-/// Rows of what moves first, ordered by (cell, id); then of the fixed particles that a step reads, in that order; then of those
-/// that are in reach and act by their place alone; then what sleeps, most of it where it was.
-void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& resting) {
+/// Which rows are awake, and why: all that moves, and of the fixed particles those within reach of it.
+Neighbours::Awake Neighbours::awake_rows(const Particles& particles, const Grid& grid, const Resting& resting) const {
   const std::size_t n = particles.size();
   const auto x = positions(particles);
-  const auto body = particles[field::body], id = particles[field::id];
-  still_.place.resize(n, ~std::uint32_t{0});  // what has flowed in moves
-  std::vector<std::uint32_t> rows;
+  const auto body = particles[field::body];
+  Awake found;
+  auto& [rows, part, can_meet] = found;
   std::vector<char> moving(still_.first.size() - 1, 0);
   const auto wake = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
@@ -145,9 +144,8 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
   if (particles.moving() < n) wake(built_.size(), n);
   const std::vector<char> meets = within(moving, support_ + skin_), near = within(meets, support_ + skin_),
                           awake = resting.around > support_ + skin_ ? within(meets, resting.around) : near;
-  enum Part : char { moves, read, asleep };
-  std::vector<Part> part(rows.size(), moves);
-  std::vector<char> can_meet(rows.size(), 1);
+  part.assign(rows.size(), moves);
+  can_meet.assign(rows.size(), 1);
   for (std::size_t s = 0; s < awake.size(); ++s) {
     if (!awake[s]) continue;
     for (std::size_t k = still_.first[s]; k < still_.first[s + 1]; ++k) {
@@ -159,7 +157,17 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
       can_meet.push_back(meets[s]);
     }
   }
+  return found;
+}
 
+/// Rows of what moves first, ordered by (cell, id); then of the fixed particles that a step reads, in that order; then of those
+/// that are in reach and act by their place alone; then what sleeps, most of it where it was.
+void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& resting) {
+  const std::size_t n = particles.size();
+  const auto x = positions(particles);
+  const auto id = particles[field::id];
+  still_.place.resize(n, ~std::uint32_t{0});  // what has flowed in moves
+  const auto [rows, part, can_meet] = awake_rows(particles, grid, resting);
   const std::vector<std::uint32_t> place = sort_by_cell(rows, x, id, grid, threads_);
   if (!grid_ || grid_->count != grid.count) {  // their order stays where there are more cells or fewer
     still_.in_cell.assign(grid.cells() + 1, 0);

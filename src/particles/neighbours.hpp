@@ -202,6 +202,14 @@ class Neighbours {
   void rebuild(Particles&, double time, const Resting&);
   void sort_and_list(Particles&, const Resting&);
   void sort_all(Particles&, Grid&);
+  enum Part : char { moves, read, asleep };  ///< asleep: acts by its place alone
+  /// Rows that are awake.
+  struct Awake {
+    std::vector<std::uint32_t> rows;
+    std::vector<Part> part;      ///< of each
+    std::vector<char> can_meet;  ///< of each, 1 where something that moves can reach it
+  };
+  [[nodiscard]] Awake awake_rows(const Particles&, const Grid&, const Resting&) const;
   void sort_awake(Particles&, Grid&, const Resting&);
   void learn_still(const Particles&, const Grid&, const Resting&);
   void find_blocks(const Particles&, const Grid&);
