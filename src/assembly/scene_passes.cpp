@@ -31,14 +31,26 @@ struct AllWork {
   }
 };
 
-/// @throws InputError where an effect asks for a term that no pass has
+/// @throws InputError where a pair term of an effect reads or adds to a field that the effect has not declared
+void refuse_undeclared(const Active& a, const PassFunction& pass) {
+  for (const Field<double>* f : pass.fields) {
+    if (!std::ranges::binary_search(a.declared.keys, f->key))
+      throw InputError("a pair term of the effect " + a.name + " reads or adds to the field " + std::string(f->name) +
+                       ", which the effect does not declare");
+  }
+}
+
+/// @throws InputError where an effect asks for a term that no pass has, or for one that uses a field without declaring it
 AllWork work_of(const Scene& scene, const std::vector<Active>& effects) {
   const PairPasses passes = pair_passes(1);
   AllWork all;
   for (const Active& a : effects) {
     const PairWork work = a.effect->pair_work(scene);
-    if (passes.density(work.terms).terms + passes.rates(work.terms).terms != work.terms.size())
+    const PassFunction density = passes.density(work.terms), rates = passes.rates(work.terms);
+    if (density.terms + rates.terms != work.terms.size())
       throw InputError("the effect " + a.name + " asks for pair terms that its pair_slots.hpp does not bring");
+    refuse_undeclared(a, density);
+    refuse_undeclared(a, rates);
     all.add(work);
   }
   all.meets_all = all.meets_all || !all.any_acts;

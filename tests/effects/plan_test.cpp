@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "assembly/scene_passes.hpp"
+#include "core/errors.hpp"
 #include "effects/lab.hpp"
 
 namespace tripoint {
@@ -64,6 +66,22 @@ TEST(Plan, ListsExactlyTheColumnsThatTheRunHas) {
     std::size_t columns = s.world().particles.fields().size() + s.world().bodies.fields().size();
     EXPECT_EQ(columns, p.fields.size());
     for (const auto& f : s.world().particles.fields()) EXPECT_TRUE(lists(p, f.name)) << f.name;
+  }
+}
+
+TEST(Passes, RefuseAPairTermThatReadsAFieldWhichItsEffectDoesNotDeclare) {
+  const lab::Lab lab = warm(Mode::corrected);
+  std::vector<Active> effects = active_effects(lab.scene);
+  EXPECT_NO_THROW(Passes(lab.scene, effects, 1));
+  const auto heat = std::ranges::find(effects, "heat", &Active::name);
+  ASSERT_NE(heat, effects.end());
+  std::erase(heat->declared.keys, field::temperature.key);
+  try {
+    const Passes passes(lab.scene, effects, 1);
+    ADD_FAILURE() << "it was accepted";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(),
+                 "a pair term of the effect heat reads or adds to the field temperature, which the effect does not declare");
   }
 }
 
