@@ -55,6 +55,7 @@ inline constexpr Field<double> plastic_strain_xx{"plastic_strain.xx", "1"}, plas
     plastic_strain_zz{"plastic_strain.zz", "1"};
 inline constexpr Field<double> plastic_strain_yz{"plastic_strain.yz", "1"}, plastic_strain_xz{"plastic_strain.xz", "1"},
     plastic_strain_xy{"plastic_strain.xy", "1"};
+inline constexpr Field<int> may_flow{"may_flow", "1"};  ///< 1 where the strain of now is beyond the bound of plastic flow, else 0
 
 // phase change, Fig. 5
 inline constexpr Field<double> liquid_fraction{"liquid_fraction", "1"};

@@ -36,8 +36,15 @@ struct Star {
     deformed.resize(partners + 1);
     for (Place& p : places) p = {vector(), 1.0 + any()};
     for (Deformed& d : deformed) {
-      d.measure = {{any(), any(), any(), any()}, {any(), any(), any(), any()}, {any(), any(), any(), any()}};
-      d.T = {{any(), any(), any(), any()}, {any(), any(), any(), any()}, {any(), any(), any(), any()}};
+      d.measure_x = {any(), any(), any()};
+      d.hourglass_energy = any();
+      d.measure_y = {any(), any(), any(), any()};
+      d.measure_z = {any(), any(), any(), any()};
+      d.T_x = {any(), any(), any()};
+      d.solid_hourglass = any();
+      d.T_y = {any(), any(), any()};
+      d.flat_hourglass = any();
+      d.T_z = {any(), any(), any(), any()};
     }
   }
   [[nodiscard]] std::vector<Vec3> results(const BondSums& sum) const {

@@ -54,7 +54,7 @@ class Stresses {
            const Symmetric& P, int rank) {
     const Symmetric S = forms_.stress(elastic, P, rank, constants_(row));
     const Matrix3 T = ((forms_.force_factor() * all_.places[id].volume) * ((identity3 + now.G) * S) + now.H) * A;
-    elastic::set(all_.deformed[id].T, T);
+    all_.deformed[id].set_T(T);
     force_.set(row, T * all_.reference[id].gradient + all_.hourglass_force[id]);
   }
 
@@ -66,14 +66,36 @@ class Stresses {
 };
 
 /// det F of a solid.
-double volume_ratio(const Deformed& i) { return determinant(identity3 + matrix(i.measure)); }
+double volume_ratio(const Deformed& i) { return determinant(identity3 + i.measure()); }
 
-bool flows(const World& world) { return world.particles.has(field::plastic_strain_xx.name); }
+bool flows(const World& world) { return world.particles.has(field::may_flow.name); }
 
 /// Strain less what has flowed, within the range of P.
 inline Symmetric elastic_strain(const Symmetric& strain, const Symmetric& plastic, const Symmetric& P, int rank) {
   const Symmetric e = strain - plastic;
   return rank == 3 ? e : between(P, e);
+}
+
+/// How a particle is deformed: its strain, the projector on the range of its shape, F and F - I.
+struct Shape {
+  Symmetric strain, P;
+  Matrix3 F, G;
+};
+
+/// Sets the moduli of the hourglass energy of a particle and, of a solid, the force of its own energy on it. @return H [N m]
+Matrix3 resist_hourglass(const World& world, Deformations& all, std::uint32_t id, int rank, double stiff, const Shape& s,
+                         const ListSums& sums) {
+  Deformed& i = all.deformed[id];
+  if (rank != 3) {
+    i.flat_hourglass = stiff;
+    return flat_hourglass(world, all, id, stiff, s.strain, s.P, s.F);
+  }
+  const ReferenceSums& reference = all.reference[id];
+  const double volume = all.places[id].volume;
+  i.solid_hourglass = stiff;
+  i.hourglass_energy = volume * stiff;
+  all.hourglass_force[id] = (volume * stiff) * (s.G * reference.hourglass + sums.residual);
+  return (stiff * volume) * (s.G * reference.moment + sums.swept);
 }
 
 /// @param changed whether bonds or volumes have since `reference` was summed
@@ -88,6 +110,7 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
   const bool hourglass = forms.hourglass() != 0.0;
   std::optional<solid::SymmetricColumns<const double>> plastic_of;
   if (flows(world)) plastic_of = solid::plastic_strains(std::as_const(p));
+  const auto may_flow = flows(world) ? p[field::may_flow] : std::span<int>{};
   const BondSums sum = bond_sums({world.box.any(), hourglass, forms.bending() != 0.0});
   Stresses stresses(world, forms, all);
   double least = 1.0;
@@ -101,12 +124,10 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
       if (list.count > 0) all.deformed[id] = {};
       continue;
     }
-    ReferenceSums& reference = all.reference[id];
-    if (changed) sum.reference(list, all.lists.shapes(), all.places.data(), reference);
+    if (changed) sum.reference(list, all.lists.shapes(), all.places.data(), all.reference[id]);
     ListSums sums;
     sum.list(list, all.lists.shapes(), all.places.data(), all.places[id], box, sums);
     const int rank = rank_of[row];
-    const double volume = all.places[id].volume;
     const Symmetric A = shape.at(row), P = forms.projector(A, rank);
     const Matrix3 F = solid::deformation_gradient(sums.displacement, A);
     BeforeFlow now{F - identity3, {}, {}};
@@ -114,25 +135,17 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
     strain_of.set(row, strain);
     Deformed& i = all.deformed[id];
     i = {};
-    elastic::set(i.measure, rank == 3 ? now.G : full(strain));
+    i.set_measure(rank == 3 ? now.G : full(strain));
     all.hourglass_force[id] = {};
-    const double stiff = hourglass ? 0.5 * forms.hourglass() * constants(row).young : 0.0;
-    if (hourglass && rank == 3) {
-      i.T.x.hourglass = stiff;
-      i.measure.x.hourglass_energy = volume * stiff;
-      now.H = (stiff * volume) * (now.G * reference.moment + sums.swept);
-      all.hourglass_force[id] = (volume * stiff) * (now.G * reference.hourglass + sums.residual);
-    } else if (hourglass) {
-      i.T.y.hourglass = stiff;
-      now.H = flat_hourglass(world, all, id, stiff, strain, P, F);
-    }
+    if (hourglass)
+      now.H = resist_hourglass(world, all, id, rank, 0.5 * forms.hourglass() * constants(row).young, {strain, P, F, now.G}, sums);
     if (rank == 3) least = std::min(least, volume_ratio(i));
     Symmetric elastic = strain;
     if (plastic_of) {
       now.plastic = plastic_of->at(row);
       elastic = elastic_strain(strain, now.plastic, P, rank);
       if (constants.may_flow(row, rank, elastic)) {
-        world.may_flow[id] = 1;
+        may_flow[row] = 1;
         all.before_flow[id] = now;
       }
     }
@@ -144,13 +157,13 @@ void deform_all(World& world, const ElasticForms& forms, Deformations& all, bool
 /// Stresses anew of what has flowed since they were formed.
 void follow_flow(World& world, const ElasticForms& forms, Deformations& all) {
   const Particles& p = world.particles;
-  const auto rank_of = p[field::shape_rank];
+  const auto id_of = p[field::id], rank_of = p[field::shape_rank], may_flow = p[field::may_flow];
   const auto shape = solid::shape_inverses(p), strain_of = solid::strains(p), plastic_of = solid::plastic_strains(p);
   Stresses stresses(world, forms, all);
 #pragma omp parallel for schedule(static) num_threads(world.threads)
-  for (std::size_t id = 0; id < p.size(); ++id) {
-    if (!world.may_flow[id]) continue;
-    const std::size_t row = p.row(id);
+  for (std::size_t row = 0; row < p.size(); ++row) {
+    if (may_flow[row] == 0) continue;
+    const auto id = static_cast<std::size_t>(id_of[row]);
     const Symmetric plastic = plastic_of.at(row);
     if (plastic == all.before_flow[id].plastic) continue;
     const int rank = rank_of[row];
@@ -163,13 +176,12 @@ void follow_flow(World& world, const ElasticForms& forms, Deformations& all) {
 Vec3 force_of(const Deformations& all, std::uint32_t k, std::uint32_t l, const Bond& of_k, const Vec3& r_lk) {
   const Deformed& d = all.deformed[k];
   const double volume = all.places[l].volume;
-  Vec3 f = -volume * (matrix(d.T) * of_k.gradient);
+  Vec3 f = -volume * (d.T() * of_k.gradient);
   const double w = all.places[k].volume * volume * of_k.weight / dot(of_k.x, of_k.x);
-  const double solid_hourglass = d.T.x.hourglass, flat_hourglass = d.T.y.hourglass;
-  const Matrix3 measure = matrix(d.measure);
-  if (solid_hourglass != 0.0) f += (solid_hourglass * w) * solid::hourglass_residual(identity3 + measure, -of_k.x, r_lk);
-  if (flat_hourglass != 0.0)
-    f -= (flat_hourglass * w * solid::hourglass_residual_flat(symmetric_part(measure), -of_k.x, r_lk)) * r_lk;
+  const Matrix3 measure = d.measure();
+  if (d.solid_hourglass != 0.0) f += (d.solid_hourglass * w) * solid::hourglass_residual(identity3 + measure, -of_k.x, r_lk);
+  if (d.flat_hourglass != 0.0)
+    f -= (d.flat_hourglass * w * solid::hourglass_residual_flat(symmetric_part(measure), -of_k.x, r_lk)) * r_lk;
   return f;
 }
 
@@ -216,22 +228,22 @@ void hand_deformed_to_copies(const World& world, Deformations& all) {
   if (!world.halo) return;
   constexpr std::size_t each = sizeof(Deformed) / sizeof(double);
   static_assert(std::is_standard_layout_v<Deformed> && std::is_trivially_copyable_v<Deformed>);
-  double* const first = all.deformed.empty() ? nullptr : &all.deformed.front().measure.x.x;
+  double* const first = all.deformed.empty() ? nullptr : &all.deformed.front().measure_x.x;
   world.halo->refresh({first, all.deformed.size() * each}, each);
 }
 
 /// @return whether a volume has changed, or who owns strain energy
 bool set_places(World& world, Deformations& all) {
-  const Particles& p = world.particles;
-  const auto x = positions(p);
-  const auto id_of = p[field::id];
-  const auto volume = p[field::solid_volume];
+  Particles& p = world.particles;
+  const auto x = positions(std::as_const(p));
+  const auto id_of = std::as_const(p)[field::id];
+  const auto volume = std::as_const(p)[field::solid_volume];
   all.places.resize(p.size());
   all.deformed.resize(p.size());
   all.hourglass_force.resize(p.size());
   if (flows(world)) {
     all.before_flow.resize(p.size());
-    world.may_flow.assign(p.size(), 0);
+    std::ranges::fill(p[field::may_flow], 0);
   }
   all.reference.resize(p.size());
   all.owns.resize(p.size());

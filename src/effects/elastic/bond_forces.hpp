@@ -7,7 +7,7 @@
 /// id.
 namespace tripoint::elastic {
 
-/// What a stress is made of. It is kept where matter may flow (World::may_flow): flow comes after the strain, and changes the
+/// What a stress is made of. It is kept where matter may flow (field::may_flow): flow comes after the strain, and changes the
 /// stress of few.
 struct BeforeFlow {
   Matrix3 G;            ///< F - I [1]

@@ -6,8 +6,9 @@
 #include "core/matrix3.hpp"
 #include "effects/elastic/bond_lists.hpp"
 
-/// The two loops over the bonds of one particle: three components side by side in a vector of four lanes. What the fourth lane
-/// holds means nothing. They are compiled for each vector unit; the bits are the same.
+/// The loops over the bonds of one particle: three components side by side in a vector of four lanes. The fourth lane reads what
+/// lies behind the components in memory, and its result is not used. The loops are compiled for each vector unit; the bits are
+/// the same.
 namespace tripoint::elastic {
 
 #ifdef __AVX2__
@@ -30,10 +31,13 @@ struct alignas(sizeof(Quad)) Column {
   double x = 0.0, y = 0.0, z = 0.0, unused = 0.0;
   operator Vec3() const noexcept { return {x, y, z}; }
 };
+[[nodiscard]] inline Matrix3 by_columns(const Vec3& x, const Vec3& y, const Vec3& z) noexcept {
+  return {x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
+}
 /// A matrix by columns.
 struct Columned {
   Column x, y, z;
-  operator Matrix3() const noexcept { return {x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z}; }
+  operator Matrix3() const noexcept { return by_columns(x, y, z); }
 };
 
 /// Where a particle is [m], and its v_i [m3].
@@ -42,50 +46,33 @@ struct alignas(sizeof(Quad)) Place {
   double volume = 0.0;
 };
 
-/// What the partners of a particle see of it: two matrices by columns, and the moduli of its hourglass energy, in three lines of
-/// the cache. Each line is read as two vectors of four.
+/// What the partners of a particle see of it, in three lines of the cache: two matrices by columns, each column at the start of a
+/// vector of four, and the moduli of its hourglass energy in the places between.
 struct alignas(vector_bytes) Deformed {
-  struct alignas(sizeof(Quad)) ColumnAndEnergy {
-    double x = 0.0, y = 0.0, z = 0.0;
-    double hourglass_energy = 0.0;  ///< v_i a E/2 where the hourglass energy is that of a solid, else 0 [J]
-  };
-  struct alignas(sizeof(Quad)) ColumnAndSolid {
-    double x = 0.0, y = 0.0, z = 0.0;
-    double hourglass = 0.0;  ///< a E/2 where the hourglass energy is that of a solid, else 0 [Pa]
-  };
-  struct alignas(sizeof(Quad)) ColumnAndFlat {
-    double x = 0.0, y = 0.0, z = 0.0;
-    double hourglass = 0.0;  ///< a E/2 where it is that of a sheet or chain, else 0 [Pa]
-  };
-  /// What the hourglass energy measures bonds by: F - I of a solid, the strain of a sheet or chain.
-  struct Measure {
-    ColumnAndEnergy x;
-    Column y, z;
-  } measure;
-  /// (v F S + H) A: the force of i on j is -v_j T gradW(x_ij), and that of the residual [N m].
-  struct Traction {
-    ColumnAndSolid x;
-    ColumnAndFlat y;
-    Column z;
-  } T;
+  /// Columns of what the hourglass energy measures bonds by: F - I of a solid, the strain of a sheet or chain.
+  Vec3 measure_x;
+  double hourglass_energy = 0.0;  ///< v_i a E/2 where the hourglass energy is that of a solid, else 0 [J]
+  Column measure_y, measure_z;
+  /// Columns of T = (v F S + H) A: the force of i on j is -v_j T gradW(x_ij), and that of the residual [N m].
+  Vec3 T_x;
+  double solid_hourglass = 0.0;  ///< a E/2 where the hourglass energy is that of a solid, else 0 [Pa]
+  Vec3 T_y;
+  double flat_hourglass = 0.0;  ///< a E/2 where it is that of a sheet or chain, else 0 [Pa]
+  Column T_z;
+
+  [[nodiscard]] Matrix3 measure() const noexcept { return by_columns(measure_x, measure_y, measure_z); }
+  [[nodiscard]] Matrix3 T() const noexcept { return by_columns(T_x, T_y, T_z); }
+  void set_measure(const Matrix3& a) noexcept {
+    measure_x = {a.xx, a.yx, a.zx};
+    measure_y = {a.xy, a.yy, a.zy};
+    measure_z = {a.xz, a.yz, a.zz};
+  }
+  void set_T(const Matrix3& a) noexcept {
+    T_x = {a.xx, a.yx, a.zx};
+    T_y = {a.xy, a.yy, a.zy};
+    T_z = {a.xz, a.yz, a.zz};
+  }
 };
-/// Measure or Traction as a matrix.
-template <class Columns>
-[[nodiscard]] inline Matrix3 matrix(const Columns& a) noexcept {
-  return {a.x.x, a.y.x, a.z.x, a.x.y, a.y.y, a.z.y, a.x.z, a.y.z, a.z.z};
-}
-template <class Columns>
-inline void set(Columns& to, const Matrix3& a) noexcept {
-  to.x.x = a.xx;
-  to.x.y = a.yx;
-  to.x.z = a.zx;
-  to.y.x = a.xy;
-  to.y.y = a.yy;
-  to.y.z = a.zy;
-  to.z.x = a.xz;
-  to.z.y = a.yz;
-  to.z.z = a.zz;
-}
 static_assert(sizeof(Deformed) == 3 * vector_bytes);
 
 /// Half of the box and the box where a direction is periodic, infinity and 0 where it is not [m].
@@ -256,9 +243,9 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
     const Deformed& j = deformed[list.other[n]];
     const Vec3& x = bond.x;
     Quads T;
-    load(T.x, &j.T.x);
-    load(T.y, &j.T.y);
-    load(T.z, &j.T.z);
+    load(T.x, &j.T_x);
+    load(T.y, &j.T_y);
+    load(T.z, &j.T_z);
     if constexpr (bends)
       stress -= bond.gradient.x * T.x + bond.gradient.y * T.y + bond.gradient.z * T.z;
     else
@@ -266,15 +253,15 @@ void sum_partners(const BondLists::List& list, const BondShape* shapes, const Pl
     if constexpr (hourglass) {
       Quads G;
       Quad u, r;
-      load(G.x, &j.measure.x);
-      load(G.y, &j.measure.y);
-      load(G.z, &j.measure.z);
+      load(G.x, &j.measure_x);
+      load(G.y, &j.measure_y);
+      load(G.z, &j.measure_z);
       load(u, &bond);
       load(r, &places[list.other[n]]);
       r = i - r;
       nearest<periodic>(r, box);
       u += r;
-      of_hourglass -= (j.measure.x.hourglass_energy * bond.hourglass) * (x.x * G.x + x.y * G.y + x.z * G.z + u);
+      of_hourglass -= (j.hourglass_energy * bond.hourglass) * (x.x * G.x + x.y * G.y + x.z * G.z + u);
     }
   }
   store(&out.stress, stress);

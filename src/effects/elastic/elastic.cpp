@@ -93,7 +93,7 @@ EffectSpec spec(const Scene& scene) {
                 field::solid_stiffness,  field::regular_bonds,    field::strain_xx,        field::strain_yy,
                 field::strain_zz,        field::strain_yz,        field::strain_xz,        field::strain_xy},
                fields::joined({fields::position(), {field::id, field::mass, field::body, field::material}})};
-  s.reads_if_there = fields::deformation_if_there();
+  s.reads_if_there = fields::joined({fields::deformation_if_there(), {field::may_flow}});
   if (can_freeze(scene)) s.owns.emplace_back(field::bond_frequency);
   Force bonds{
       field::elastic_force_x, field::elastic_force_y, field::elastic_force_z, {"elastic_work"}, Account{"wall_elastic_work"}};

@@ -61,13 +61,12 @@ double PlasticFlow::flow(World& world, std::size_t row) const {
 
 /// After the strain of the present time is known, before its stress.
 void PlasticFlow::state(World& world) {
-  if (std::ranges::find(world.may_flow, 1) == world.may_flow.end()) return;
+  const auto may_flow = std::as_const(world.particles)[field::may_flow];
+  if (std::ranges::find(may_flow, 1) == may_flow.end()) return;
   const solid::ElasticParticles is_elastic(world);
-  const auto id_of = std::as_const(world.particles)[field::id];
   const auto lost =
       ordered_sums(world.particles.size(), world.threads, blocks_, [&](std::size_t row, std::array<double, 1>& sum) {
-        const bool may = world.may_flow[static_cast<std::size_t>(id_of[row])] != 0;
-        if (may && is_elastic(row) && world.owns(row)) sum[0] += flow(world, row);
+        if (may_flow[row] != 0 && is_elastic(row) && world.owns(row)) sum[0] += flow(world, row);
       });
   world.booked[dissipation] += lost[0];
   world.booked[account::deformation_released] += lost[0];
@@ -84,7 +83,7 @@ void PlasticFlow::adopt(World& world) {
 EffectSpec spec(const Scene& scene) {
   EffectSpec s{"plastic",
                scene.mode_of(term::elastic),
-               fields::plastic_strain(),
+               fields::joined({fields::plastic_strain(), {field::may_flow}}),
                fields::joined({fields::strain(), fields::deformation(), {field::id, field::body, field::material}}),
                {},
                {dissipation}};
