@@ -202,6 +202,7 @@ void declare(World& world, const std::vector<Active>& effects) {
     world.numerical.insert(world.numerical.end(), a.spec.numerical.begin(), a.spec.numerical.end());
     world.guarded.insert(world.guarded.end(), a.spec.guards.begin(), a.spec.guards.end());
     world.guarded_entries.insert(world.guarded_entries.end(), a.spec.guarded_entries.begin(), a.spec.guarded_entries.end());
+    for (const StepNumber& one : a.spec.step_numbers) world.step_numbers.declare(one);
     world.body_sums.insert(world.body_sums.end(), a.spec.body_sums.begin(), a.spec.body_sums.end());
   }
   std::ranges::stable_sort(world.guarded, {}, &Guarded::written);

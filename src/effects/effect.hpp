@@ -30,6 +30,7 @@ struct EffectSpec {
   std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
   /// Of its columns of bodies, those that are sums over particles. Where several processes share a scene, each sums its own part.
   std::vector<Field<double>> body_sums{};
+  std::vector<StepNumber> step_numbers{};   ///< that it keeps from step to step beside its columns
   std::vector<FieldInfo> reads_if_there{};  ///< of others, where the scene has them
   bool sums_forces = false;                 ///< it reads World::forces of all effects
   bool changes = false;                     ///< change() may be called of it: wants_change() is asked
@@ -74,8 +75,8 @@ struct Happening {
   bool begins;
 };
 
-/// An effect keeps nothing from step to step in members of its own: what the next step needs is in the World, where a checkpoint
-/// finds it.
+/// An effect keeps nothing from step to step in members of its own: what the next step needs is a column or a step number, where
+/// a checkpoint finds it.
 class Effect {
  public:
   virtual ~Effect() = default;

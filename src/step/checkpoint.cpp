@@ -14,8 +14,6 @@
 namespace tripoint {
 namespace {
 
-static_assert(sizeof(Lagged) == 24, "a new member of Lagged must be kept and taken back below");
-
 template <class T>
 std::vector<double> plain(std::span<const T> values) {
   std::vector<double> out(values.size_bytes() / sizeof(double));
@@ -199,6 +197,7 @@ std::vector<std::string> Simulation::layout() const {
   add(world_.bodies);
   for (const Active& a : effects_) lines.push_back("effect " + a.name + " " + std::string(to_string(a.spec.mode)));
   for (const std::string_view name : world_.booked.names()) lines.push_back("account " + std::string(name));
+  for (const StepNumber& one : world_.step_numbers.declared()) lines.push_back("step number " + std::string(one.name));
   return lines;
 }
 
@@ -233,8 +232,7 @@ Checkpoint Simulation::state_of(const World& world) const {
   kept.text["step/bound"] = {bound_.name};
   kept.whole["step/count"] = {steps_, static_cast<std::int64_t>(schedule_.moments_past()), stretch.count, stretch.done,
                               world.moved ? 1 : 0};
-  const Lagged& lagged = world.lagged;
-  kept.real["step/lagged"] = {lagged.half_step, lagged.viscous_step, static_cast<double>(lagged.viscous_age)};
+  kept.real["step/numbers"].assign(world.step_numbers.values().begin(), world.step_numbers.values().end());
   kept.real["step/guards"] = {guards_.turned_over, guards_.first_step};
   if (world.neighbours) {
     const std::span<const Vec3> built = world.neighbours->build_positions();
@@ -273,11 +271,11 @@ void Simulation::restore(const Checkpoint& kept) {
   restore_columns(world_.particles, "particles/", kept);
   restore_bodies(world_, kept);
   refuse_strange_columns(world_);
-  const std::vector<double>& lagged = take(kept.real, "step/lagged", 3);
   const std::vector<double>& guards = take(kept.real, "step/guards", 2);
   guards_.turned_over = guards[0];
   guards_.first_step = guards[1];
-  world_.lagged = {lagged[0], lagged[1], static_cast<int>(lagged[2])};
+  const std::span<double> numbers = world_.step_numbers.values();
+  std::ranges::copy(take(kept.real, "step/numbers", numbers.size()), numbers.begin());
   if (options_.halo) sharing_.follow(world_, effects_, passes_);
 }
 

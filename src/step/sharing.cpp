@@ -152,7 +152,8 @@ World Sharing::whole(const World& part) const {
   halo_->add(world.booked.values());
   for (const Field<double>& f : world.body_sums) halo_->add(world.bodies[f]);
   std::string unused;
-  halo_->take_least(world.lagged.viscous_step, unused);
+  for (const StepNumber& one : world.step_numbers.declared())
+    if (one.least_of_processes) halo_->take_least(world.step_numbers[one], unused);
   return world;
 }
 

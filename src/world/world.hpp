@@ -2,7 +2,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,16 +15,9 @@
 #include "world/force.hpp"
 #include "world/guarded.hpp"
 #include "world/ledger.hpp"
+#include "world/step_numbers.hpp"
 
 namespace tripoint {
-
-/// Numbers that the next step needs of those before it, beside the columns. Of the effects fluid alone uses them; they stand
-/// here because a checkpoint stores them.
-struct Lagged {
-  double half_step = 0.0;                                         ///< length of the last kick of liquids [s]
-  double viscous_step = std::numeric_limits<double>::infinity();  ///< greatest stable step of viscosity, as last formed [s]
-  int viscous_age = 0;                                            ///< rates since it was formed
-};
 
 /// What changed its phase, its body or its lists in this step: written by phase change and fracture, followed by all. Ids, each
 /// once, ascending; of a scene that is shared out among processes those of the whole.
@@ -63,9 +55,9 @@ struct World {
   std::vector<Guarded> guarded;    ///< columns that are looked at after every step, in the order in which it writes them
   std::vector<GuardedEntry> guarded_entries;  ///< entries of the ledger that the guard of energy takes by a rule of their own
   std::vector<Field<double>> body_sums;       ///< columns of bodies that are sums over this process's own particles
-  Lagged lagged;
-  double time = 0.0;       ///< [s]
-  double next_time = 0.0;  ///< end of the step that is being taken, exactly as the loop will set it [s]
+  StepNumbers step_numbers;                   ///< that effects keep from step to step
+  double time = 0.0;                          ///< [s]
+  double next_time = 0.0;                     ///< end of the step that is being taken, exactly as the loop will set it [s]
   int threads = 1;
   std::optional<std::array<std::size_t, 3>> axis_order;  ///< rotation by NO_SQUISH in this order, to compare with
   bool placed = false;  ///< members of all rigid bodies have been put to their places by the poses of these
@@ -73,9 +65,6 @@ struct World {
 
   /// Of each id, 1 where no step reads of a fixed particle but its place, as behind the face of a wall; empty: all is read.
   std::vector<char> unread;
-  /// Of each id, 1 where its matter may flow by the strain of now, 0 where it does not: elasticity tells, plastic flow looks
-  /// there.
-  std::vector<char> may_flow;
   bool fixed_formed = true;  ///< what no step reads of fixed particles is of the present time too: forces on them, densities
   bool forms_fixed = false;  ///< it is being formed, since somebody asks for it
 

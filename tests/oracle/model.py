@@ -310,7 +310,7 @@ def density(s):
 
 def bulk_pressure(s, before):
     """q of 8.4."""
-    dt = 2 * s.raw["half_step"]
+    dt = 2 * s.raw["step_numbers"]["half_step"]
     reference, lightest = s.rest_densities()
     c = np.sqrt(s.stiffness * reference / lightest)
     rho0 = np.minimum(s.material("density"), 4 * lightest)

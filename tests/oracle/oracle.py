@@ -123,7 +123,7 @@ def half_step_velocity(s, before):
     if before is None:
         return s.vector("velocity")
     forces = [before.vector(n) for n in ("force", "viscous_force", "transport_force")]
-    return before.vector("velocity") + s.raw["half_step"] * (sum(forces) / s.m[:, None] + np.array(s.scene["gravity"]))
+    return before.vector("velocity") + s.raw["step_numbers"]["half_step"] * (sum(forces) / s.m[:, None] + np.array(s.scene["gravity"]))
 
 
 def compare_viscosity(out, s, before):
@@ -143,7 +143,7 @@ def compare_viscosity(out, s, before):
         out.compare("predicted velocity 9", seen[~of_bodies], start[~of_bodies], 1.0)
     else:
         names = [n for n in ("force", "viscous_force", "elastic_force", "transport_force") if s.has(n + ".x")]
-        gain = [s.raw["half_step"] * before.vector(n) / s.m[:, None] for n in names] + [np.broadcast_to(s.raw["half_step"] * np.array(s.scene["gravity"]), s.r.shape)]
+        gain = [s.raw["step_numbers"]["half_step"] * before.vector(n) / s.m[:, None] for n in names] + [np.broadcast_to(s.raw["step_numbers"]["half_step"] * np.array(s.scene["gravity"]), s.r.shape)]
         v = before.vector("velocity")
         predicted = v + 2 * sum(gain)
         scale = np.linalg.norm(v, axis=1) + sum(2 * np.linalg.norm(g, axis=1) for g in gain)
@@ -153,7 +153,7 @@ def compare_viscosity(out, s, before):
     out.compare(f"viscous force {form}", s.vector("viscous_force"), *model.viscous_force(s))
     if before is None:
         bound = model.viscous_bound(s)
-        out.compare(f"viscous bound {form.replace('8.5', '8.10')}", [s.raw["viscous_step"]], [bound], bound)
+        out.compare(f"viscous bound {form.replace('8.5', '8.10')}", [s.raw["step_numbers"]["viscous_step"]], [bound], bound)
 
 
 def compare_transport(out, s, before):
@@ -161,7 +161,7 @@ def compare_transport(out, s, before):
     out.compare("background force 8.3", s.vector("background"), *background)
     out.compare("stress of the shift 8.3", s.vector("transport_force"), *stress)
     if before is not None:
-        shift = s.raw["half_step"] / s.m[:, None] * before.vector("background")
+        shift = s.raw["step_numbers"]["half_step"] / s.m[:, None] * before.vector("background")
         out.compare("shift 8.3", s.vector("shift"), shift, np.linalg.norm(shift, axis=1))
 
 

@@ -64,11 +64,16 @@ Json columns_of(const Columns& bodies) {
   return columns;
 }
 
+Json step_numbers_of(const World& world) {
+  Json numbers = Json::object();
+  for (const StepNumber& one : world.step_numbers.declared()) numbers[std::string(one.name)] = world.step_numbers[one];
+  return numbers;
+}
+
 Json state_of(const Simulation& s) {
   const World& world = s.world();
   return {{"steps", s.steps()},
-          {"half_step", world.lagged.half_step},
-          {"viscous_step", world.lagged.viscous_step},
+          {"step_numbers", step_numbers_of(world)},
           {"particles", columns_of(world.particles)},
           {"bodies", columns_of(world.bodies)},
           {"bonds", lists_of_bonds(world)},

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <limits>
+
 #include "core/field.hpp"
+#include "world/step_numbers.hpp"
 
 /// Fields of liquids and contact (4), (7) to (9) that no other effect knows.
 namespace tripoint::field {
@@ -30,3 +33,13 @@ inline constexpr Field<double> transport_force_x{"transport_force.x", "N"}, tran
 inline constexpr Field<double> pressure_around{"pressure_around", "Pa/m3"}, nearing{"nearing", "1/(s m3)"};
 
 }  // namespace tripoint::field
+
+/// What the next step needs of those before it.
+namespace tripoint::fluid {
+
+inline constexpr StepNumber half_step{"half_step", 0.0};  ///< length of the last kick of liquids [s]
+/// Greatest stable step of viscosity, as last formed [s].
+inline constexpr StepNumber viscous_step{"viscous_step", std::numeric_limits<double>::infinity(), true};
+inline constexpr StepNumber viscous_age{"viscous_age", 0.0};  ///< rates since it was formed [1]
+
+}  // namespace tripoint::fluid

@@ -162,7 +162,7 @@ void Fluid::follow_temperature(World& world) const {
     mu[i] = now;
   }
   if (world.halo) world.halo->add({&changed, 1});
-  if (changed > 0.0) world.lagged.viscous_age = 0;
+  if (changed > 0.0) world.step_numbers[viscous_age] = 0.0;
 }
 
 /// What the own pairs of a particle add to its number density, once and for all (model 8.2).
@@ -189,12 +189,12 @@ void Fluid::set_groups(World& world) {
   const Groups group_of(world);
 #pragma omp parallel for schedule(static) num_threads(world.threads) if (group.size() > worth_threads)
   for (std::size_t i = 0; i < group.size(); ++i) group[i] = group_of(i);
-  world.lagged.viscous_age = 0;
+  world.step_numbers[viscous_age] = 0.0;
 }
 
 void Fluid::kick(World& world, double dt) {
   drifted_ = 0.0;
-  world.lagged.half_step = dt;
+  world.step_numbers[half_step] = dt;
 }
 
 void Fluid::drift(World& world, double dt) {
@@ -276,7 +276,7 @@ TimeStepBound Fluid::max_dt(const World& world) const {
             courant / courant_corrected * bulk_viscous_step(numbers_.sound_damping) * world.support() /
                 (numbers_.sound_speed + std::sqrt(v2)),
             "bulk viscosity");
-  tighten(bound, world.lagged.viscous_step, "viscosity");
+  tighten(bound, world.step_numbers[viscous_step], "viscosity");
   return bound;
 }
 
@@ -340,6 +340,7 @@ EffectSpec spec(const Scene& scene) {
     own({field::pressure_around, field::nearing, field::bulk_pressure});
   s.forces = forces_of(scene);
   s.accounts = {compression_released};
+  s.step_numbers = {half_step, viscous_step, viscous_age};
   s.guards = {{field::density, "density", Written::density}};
   s.guarded_entries = {{"viscous", EntryRole::only_takes, "viscous forces, which may only take energy"}};
   if (!stores_compression(scene))

@@ -75,7 +75,7 @@ void set_pressure_shares(World& world, const SceneNumbers& n) {
 
 void predict_velocities(World& world) {
   Particles& p = world.particles;
-  const double ahead = world.lagged.half_step;
+  const double ahead = world.step_numbers[half_step];
   const Vec3 g = world.scene.gravity;
   const std::vector<Triple<const double>> forces = force_columns(world);
   const auto seen = triple(p, field::viscous_velocity_x, field::viscous_velocity_y, field::viscous_velocity_z);

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
+#include "effects/fluid/fields.hpp"
 #include "effects/fluid/viscous_form.hpp"
 #include "passes/pair_passes.hpp"
 #include "passes/run_pass.hpp"
@@ -15,7 +17,7 @@ namespace tripoint::fluid {
 namespace {
 
 /// Rates from one bound to the next: positions change little in so few steps, and the sum costs a pass of its own.
-constexpr int rates_between = 32;
+constexpr double rates_between = 32.0;  // [1]
 
 // Velocities are predicted to the full step by the forces of the last one (predict_velocities), so that a mode of rate lambda is
 // stable while lambda dt < 1, not 2: half of what an explicit step of the same rates bears (model 8.10). No lambda is above twice
@@ -26,7 +28,10 @@ constexpr double share_of_rate = 0.5, share_of_rate_central = 0.3;  // [1]
 }  // namespace
 
 void update_viscous_bound(World& world, const PairKernels& kernels) {
-  if (world.lagged.viscous_age++ % rates_between != 0) return;
+  double& age = world.step_numbers[viscous_age];
+  const bool is_due = std::fmod(age, rates_between) == 0.0;
+  age += 1.0;
+  if (!is_due) return;
   Particles& p = world.particles;
   const ViscousForm form = viscous_form_of(world.scene, kernels);
   const PassFunction spread = pair_passes(world.neighbours->clusters().lanes).alone(form.spread);
@@ -49,7 +54,7 @@ void update_viscous_bound(World& world, const PairKernels& kernels) {
     greatest = std::max(greatest, rate / m[i]);
   }
   const double share = form.central ? share_of_rate_central : share_of_rate;
-  world.lagged.viscous_step = greatest > 0.0 ? share / greatest : std::numeric_limits<double>::infinity();
+  world.step_numbers[viscous_step] = greatest > 0.0 ? share / greatest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace tripoint::fluid
