@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "effects/fluid_lab.hpp"
+#include "scene/guard_name.hpp"
 
 namespace tripoint {
 namespace {
@@ -16,7 +17,7 @@ double kinetic_energy(const Simulation& s) { return s.ledger().energy.at("kineti
 double spin_error(double angle) {
   lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
   lab.scene.time_step = angle / std::sqrt(14.0);
-  lab.scene.unguarded = {"time_step", "ledger"};
+  lab.scene.unguarded = {GuardName::time_step, GuardName::ledger};
   Simulation s(lab.scene, lab.initial, {.force_time_step = true});
   const double first = kinetic_energy(s);
   double most = 0.0;
@@ -53,7 +54,7 @@ lab::Lab plate_over_floor() {
   lab.add({.name = "plate", .corner = {0.0, 0.0, 1.5}, .count = {4, 4, 1}});
   lab.add({.name = "floor", .corner = {0.0, 0.0, -3.0}, .count = {4, 4, 4}, .motion = Motion::fixed});
   lab.make_periodic({true, true, false}, {0.0, 0.0, 0.0}, {4, 4, 16});
-  lab.scene.unguarded = {"overlap", "time_step", "ledger"};
+  lab.scene.unguarded = {GuardName::overlap, GuardName::time_step, GuardName::ledger};
   return lab;
 }
 

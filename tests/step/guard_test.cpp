@@ -87,7 +87,7 @@ TEST(Guard, NamesASolidThatIsTurnedInsideOut) {
   EXPECT_EQ(e.body, 0);
   EXPECT_EQ(e.time, 1.0);
   EXPECT_NE(std::string(e.what()).find("det F = -0.5"), std::string::npos) << e.what();
-  lab.scene.unguarded = {"inversion"};
+  lab.scene.unguarded = {GuardName::inversion};
   Simulation unguarded = forced(lab);
   EXPECT_NO_THROW(unguarded.advance_to(1.0));
 }
