@@ -268,7 +268,7 @@ void Simulation::restore(const Checkpoint& kept) {
   if (world_.neighbours) {
     restore_lists(world_, kept, order);
     world_.neighbours->mark_own(world_.particles, world_.own);
-    passes_.forget_clusters();
+    passes_.drop_clusters();
   }
   restore_columns(world_.particles, "particles/", kept);
   restore_bodies(world_, kept);

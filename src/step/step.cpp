@@ -142,7 +142,7 @@ void Simulation::find_neighbours() {
   if (world_.halo && !world_.neighbours->marked()) mark_copies(world_);
   if (world_.neighbours->marked() && world_.change.empty()) return;
   world_.neighbours->mark_own(world_.particles, world_.own);
-  passes_.forget_clusters();
+  passes_.drop_clusters();
 }
 
 /// The second stage of two-stage schemes, and where one asks for it the rates of heat at the predicted state.
@@ -180,7 +180,7 @@ void Simulation::happen_until_now() {
   }
   if (!any) return;
   world_.moved = true;
-  passes_.forget_clusters();
+  passes_.drop_clusters();
   form_rates();
   check_finite(world_);
 }
