@@ -202,13 +202,13 @@ std::vector<std::string> Simulation::layout() const {
   return lines;
 }
 
-Checkpoint Simulation::checkpoint() const {
+Checkpoint Simulation::checkpoint() {
   Checkpoint kept = state();
   if (world_.scene.recovers) recovery_.save(kept);
   return kept;
 }
 
-Checkpoint Simulation::state() const {
+Checkpoint Simulation::state() {
   if (sharing_.is_part(world_)) return state_of(sharing_.whole(world_));
   form_fixed();
   return state_of(world_);

@@ -38,7 +38,7 @@ void Simulation::form_rates() {
 
 /// What no step reads of fixed particles, at the present time: the forces on them, and densities behind the faces of walls. It is
 /// formed where somebody asks (decision 028).
-void Simulation::form_fixed() const {
+void Simulation::form_fixed() {
   if (world_.fixed_formed) return;
   world_.fixed_formed = world_.forms_fixed = true;
   world_.neighbours->list_sleeping();

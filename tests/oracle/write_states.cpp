@@ -68,7 +68,7 @@ Json columns_of(const Columns& bodies) {
   return columns;
 }
 
-Json state_of(const Simulation& s) {
+Json state_of(Simulation& s) {
   const World& world = s.world();
   return {{"steps", s.steps()},
           {"half_step", world.lagged.half_step},

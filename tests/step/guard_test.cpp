@@ -134,7 +134,7 @@ TEST(Guard, NamesEnergyThatTheSchemeMakes) {
   lab.add({.count = {4, 4, 4}, .phase = Phase::elastic, .temperature = [](const Vec3&) { return 300.0; }});
   for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i].x = i % 2 ? 1e-3 : -1e-3;
   lab.initial.velocity[21].y = 0.01;
-  const Simulation s(lab.scene, lab.initial);
+  Simulation s(lab.scene, lab.initial);
   Ledger ledger = s.ledger();
   const double kinetic = ledger.energy.at("kinetic"), dt = s.bound().dt;
   GuardMemory memory;
