@@ -78,7 +78,12 @@ class Simulation {
   void find_neighbours();
   void correct();
   void check();
-  [[gnu::always_inline]] inline void run(Stage, double dt = 0.0);
+  template <class Visit>
+  void each_effect(Stage, Visit);
+  void kick(double dt);
+  void drift(double dt);
+  void form_states();
+  void sum_bonds();
   void pass(PassName);
   void sum(PassName);
   [[nodiscard]] bool leaves_out_first_kick() const;
