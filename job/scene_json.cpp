@@ -34,6 +34,12 @@ Owner from_kind_json(const JsonObject&);
 
 // --- one value --------------------------------------------------------------------------------------------------------
 
+/// Whether it is a list of words of one enumeration.
+template <class T>
+inline constexpr bool is_word_list = false;
+template <class E>
+inline constexpr bool is_word_list<std::vector<E>> = std::is_enum_v<E>;
+
 /// How a value of a member's type is written. `key` and `yes` are those of its row.
 template <class T>
 json put(const Key& key, std::string_view yes, const T& value) {
@@ -43,6 +49,10 @@ json put(const Key& key, std::string_view yes, const T& value) {
     return *std::ranges::find_if(words, [&](const std::string& word) { return (word == yes) == value; });
   } else if constexpr (std::is_enum_v<T>) {
     return split_words(key.words).at(static_cast<std::size_t>(value));
+  } else if constexpr (is_word_list<T>) {
+    json list = json::array();
+    for (const auto one : value) list.push_back(split_words(key.words).at(static_cast<std::size_t>(one)));
+    return list;
   } else if constexpr (std::is_same_v<T, Vec3> || std::is_same_v<T, Quaternion>) {
     return to_json(value);
   } else if constexpr (std::is_same_v<T, Shape> || std::is_same_v<T, TemperatureField> || std::is_same_v<T, VelocityField>) {
@@ -66,8 +76,8 @@ json put(const Key& key, std::string_view yes, const T& value) {
 }
 
 /// The number of a word in a list; @throws InputError where it is none of them
-std::size_t place_of(const JsonObject& o, const std::string& name, const std::vector<std::string>& words) {
-  const std::string word = o.text(name);
+std::size_t place_of(const JsonObject& o, const std::string& name, const std::string& word,
+                     const std::vector<std::string>& words) {
   const auto at = std::ranges::find(words, word);
   if (at == words.end()) throw InputError(o.path() + "." + name + ": \"" + word + "\" is unknown");
   return static_cast<std::size_t>(at - words.begin());
@@ -83,13 +93,13 @@ void take(const JsonObject& o, const std::string& name, const Key& key, std::str
     if (yes.empty())
       value = o.flag_or(name, value);
     else if (o.has(name))
-      value = split_words(key.words)[place_of(o, name, split_words(key.words))] == yes;
+      value = split_words(key.words)[place_of(o, name, o.text(name), split_words(key.words))] == yes;
   } else if constexpr (std::is_same_v<T, std::string>) {
     value = later || !key.required() ? o.text_or(name, value) : o.text(name);
   } else if constexpr (std::is_same_v<T, std::uint64_t>) {
     value = static_cast<std::uint64_t>(o.integer(name));
   } else if constexpr (std::is_enum_v<T>) {
-    if (!later || o.has(name)) value = static_cast<T>(place_of(o, name, split_words(key.words)));
+    if (!later || o.has(name)) value = static_cast<T>(place_of(o, name, o.text(name), split_words(key.words)));
   } else if constexpr (std::is_same_v<T, Vec3>) {
     value = o.vector(name);
   } else if constexpr (std::is_same_v<T, Quaternion>) {
@@ -100,6 +110,10 @@ void take(const JsonObject& o, const std::string& name, const Key& key, std::str
     if (o.has(name)) value = from_kind_json<T>(o.object(name));
   } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
     value = o.texts(name);
+  } else if constexpr (is_word_list<T>) {
+    value.clear();
+    for (const std::string& word : o.texts(name))
+      value.push_back(static_cast<typename T::value_type>(place_of(o, name, word, split_words(key.words))));
   } else if constexpr (std::is_same_v<T, std::array<std::string, 3>>) {
     const std::vector<std::string> parts = o.texts(name);
     if (parts.size() != 3) throw InputError(o.path() + "." + name + ": expected 3 expressions");
@@ -172,7 +186,7 @@ json kind_json(const auto& owner) {
 template <class Owner>
 Owner from_kind_json(const JsonObject& o) {
   Owner owner;
-  owner.kind = static_cast<typename Owner::Kind>(place_of(o, "kind", kind_words<Owner>()));
+  owner.kind = static_cast<typename Owner::Kind>(place_of(o, "kind", o.text("kind"), kind_words<Owner>()));
   take_record(o, owner);
   if constexpr (std::is_same_v<Owner, Shape>) {
     if (owner.kind == Shape::Kind::unite || owner.kind == Shape::Kind::difference)

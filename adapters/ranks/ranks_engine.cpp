@@ -178,7 +178,7 @@ void RanksEngine::load(const Job& job, const InitialState& initial) {
   words_path_ = words_file(job.output, lammps_->rank());
   checkpoints_.emplace(job, std::vector<std::string>{});
   if (job.resume.empty()) return start(job, initial, nullptr);
-  simulation_.emplace(scene_of(job), initial, options_of(in_one_process(job)));
+  simulation_ = std::make_unique<Simulation>(scene_of(job), initial, options_of(in_one_process(job)));
 }
 
 void RanksEngine::resume(const Job& job, const InitialState& initial, const Checkpoint& kept) {
@@ -199,9 +199,9 @@ void RanksEngine::start(const Job& job, const InitialState& initial, const Check
                                  [this](const std::vector<Vec3>& places) { lammps_->renew(places); }});
   options.halo = &*halo_;
   if (kept)
-    simulation_.emplace(scene, initial, options, *kept);
+    simulation_ = std::make_unique<Simulation>(scene, initial, options, *kept);
   else
-    simulation_.emplace(scene, initial, options);
+    simulation_ = std::make_unique<Simulation>(scene, initial, options);
   if (!halo_->ranks()) throw InputError("no particle of this scene meets another: there is nothing to share among ranks");
   write_words();
 }

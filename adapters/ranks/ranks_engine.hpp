@@ -40,7 +40,7 @@ class RanksEngine : public Engine, public Restartable {
 
   Lammps* lammps_;
   std::optional<LammpsHalo> halo_;
-  std::optional<Simulation> simulation_;
+  std::unique_ptr<Simulation> simulation_;  ///< not const where the engine is: observe() and save() ask it, and asking computes
   std::optional<Checkpoints> checkpoints_;
   bool is_due_ = false;            ///< a checkpoint, after the last step
   std::string words_path_;         ///< where this rank says how far it is

@@ -60,7 +60,7 @@ BodyState body_state(const World& world, std::size_t b) {
 
 }  // namespace
 
-Snapshot snapshot_of(const Simulation& simulation) {
+Snapshot snapshot_of(Simulation& simulation) {
   const World& world = simulation.world();
   const Particles& p = world.particles;
   Snapshot s;

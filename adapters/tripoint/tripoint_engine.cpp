@@ -92,13 +92,13 @@ std::string TripointEngine::trial(const Job& job) const {
 }
 
 void TripointEngine::load(const Job& job, const InitialState& initial) {
-  simulation_.emplace(scene_of(job), initial, options_of(job));
+  simulation_ = std::make_unique<Simulation>(scene_of(job), initial, options_of(job));
 }
 
 void TripointEngine::advance_to(double time) { simulation_->advance_to(time); }
 
 void TripointEngine::resume(const Job& job, const InitialState& initial, const Checkpoint& kept) {
-  simulation_.emplace(scene_of(job), initial, options_of(job), kept);
+  simulation_ = std::make_unique<Simulation>(scene_of(job), initial, options_of(job), kept);
 }
 
 bool TripointEngine::advance_to(double time, const std::function<bool(double, long)>& go_on) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-#include <optional>
+#include <memory>
 
 #include "adapters/engine/engine.hpp"
 #include "io/point_cloud.hpp"
@@ -25,7 +25,7 @@ class TripointEngine : public Engine, public Restartable {
   void save(Checkpoint&) const override;
 
  private:
-  std::optional<Simulation> simulation_;
+  std::unique_ptr<Simulation> simulation_;  ///< not const where the engine is: observe() and save() ask it, and asking computes
 };
 
 /// The culprit of a failure with all that is within two support radii of it (of no single particle: everything), every column of
@@ -33,6 +33,6 @@ class TripointEngine : public Engine, public Restartable {
 [[nodiscard]] PointCloud culprits_of(const World&, const Diverged&);
 
 /// What the world shows: rows by id, places not put back into a periodic box.
-[[nodiscard]] Snapshot snapshot_of(const Simulation&);
+[[nodiscard]] Snapshot snapshot_of(Simulation&);
 
 }  // namespace tripoint

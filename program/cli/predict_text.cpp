@@ -97,7 +97,7 @@ std::string head(const json& d) {
       100.0 * m.at("waiting").get<double>());
 }
 
-std::string predicted(const json& rows) {
+std::string predicted_table(const json& rows) {
   std::string text =
       fmt::format("{:10} {:>7} {:>10} {:>11} {:>10} {:>11} {:>10} {:>12} {:>9}  {}\n", "prediction", "ranks", "particles",
                   "a rank", "copies/own", "ms a step", "efficiency", "part.-st./s", "GB a rank", "shares");
@@ -110,7 +110,7 @@ std::string predicted(const json& rows) {
   return text;
 }
 
-std::string beside(const json& rows) {
+std::string measured_table(const json& rows) {
   std::string text;
   for (const json& r : rows) {
     if (!r.contains("measured")) continue;
@@ -191,7 +191,7 @@ std::string prediction_text(const json& d) {
         on.at("cpu").get<std::string>(), on.at("cores").get<int>(), 1e6 * c.at("fixed_s").get<double>(),
         1e9 * c.at("particle_s").get<double>(), 1e9 * c.at("pair_s").get<double>(), d.at("one_rank").size(),
         100.0 * c.at("worst_misfit").get<double>());
-    text += predicted(rows) + beside(rows) + "\nassumptions of the prediction\n";
+    text += predicted_table(rows) + measured_table(rows) + "\nassumptions of the prediction\n";
     for (const json& line : d.at("assumptions")) text += "  " + line.get<std::string>() + "\n";
     text += "outside what was measured\n";
     for (const json& line : d.at("outside_measured")) text += "  " + line.get<std::string>() + "\n";

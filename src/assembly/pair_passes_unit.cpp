@@ -31,7 +31,7 @@ template <>
 PairPasses pair_passes_for<Unit>() {
   constexpr int lanes = TRIPOINT_UNIT_LANES;
   return {&AllPasses::Density::choose_among<lanes, Unit>, &AllPasses::Rates::choose_among<lanes, Unit>,
-          &AllPasses::alone<lanes, Unit>, AllPasses::timed<lanes, Unit>()};
+          &AllPasses::alone<lanes, Unit>, AllPasses::timed<lanes, Unit>(), AllPasses::terms};
 }
 
 }  // namespace tripoint

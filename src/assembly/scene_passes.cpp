@@ -94,7 +94,7 @@ bool Passes::needed() const { return impl_->density.run != nullptr || impl_->rat
 
 std::optional<double> Passes::sleeps_beyond() const { return impl_->sleeps_beyond; }
 
-void Passes::forget_clusters() { impl_->busy.forget(); }
+void Passes::drop_clusters() { impl_->busy.drop_clusters(); }
 
 bool Passes::works_on_all() const { return impl_->meets_all; }
 

@@ -30,7 +30,7 @@ class Passes {
   [[nodiscard]] std::vector<double> cost(const World&, double steps) const;
   [[nodiscard]] std::vector<double> cost_at_start(const World&) const;
   /// To be called when lists, own pairs, groups or the motion of bodies have changed: where a pass has work is found anew.
-  void forget_clusters();
+  void drop_clusters();
 
  private:
   struct Impl;

@@ -52,7 +52,7 @@ class Diverged : public std::runtime_error {
   long particle;  ///< id, -1 if it is no single particle
   long body;      ///< row of the body, -1 for none
   std::string field, stage;
-  std::string guard;  ///< finite temperature inversion overlap escape ledger time_step
+  std::string guard;  ///< a word of GuardName (scene/guard_name.hpp)
   double time;        ///< [s]
 };
 

@@ -142,7 +142,7 @@ class Neighbours {
   [[nodiscard]] bool outdated(const Particles&) const;
   /// Rows stand for other particles: update() then makes lists whatever has moved.
   /// @param whole what these particles are a part of; none: all that there are
-  void forget(std::optional<Whole> whole) {
+  void drop_lists(std::optional<Whole> whole) {
     built_.clear();
     still_ = {};
     are_made_ = false;

@@ -22,7 +22,7 @@ namespace tripoint {
 class BusyClusters {
  public:
   /// The lists, the groups, the own pairs or the motion of bodies have changed: all is found anew.
-  void forget() {
+  void drop_clusters() {
     known_ = false;
     own_is_known_ = false;
   }

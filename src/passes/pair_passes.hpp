@@ -13,6 +13,7 @@ struct PairPasses {
   PassFunction (*rates)(std::span<const PairTerm> wanted);
   PassFunction (*alone)(const PairTerm&);  ///< of one term; null where no effect has brought it
   PassFunction timed;                      ///< rates that show which width is fastest
+  std::span<const PairTerm> terms;         ///< all that are compiled, each as often as a form of a slot has it
 };
 
 /// As compiled for a vector unit, for clusters as wide as it.

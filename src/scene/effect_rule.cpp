@@ -7,6 +7,7 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "scene/ledger_entry.hpp"
 #include "scene/phase_values.hpp"
 #include "scene/shared_terms.hpp"
 #include "scene/temperatures.hpp"
@@ -109,7 +110,7 @@ std::vector<CalledEffect> idle_effects(const Scene& s) {
 }
 
 std::vector<std::string> ledger_entries() {
-  std::vector<std::string> entries{"merging", "walls", "time_integration"};
+  std::vector<std::string> entries{"merging", "walls", ledger_entry::time_integration};
   for (const EffectRule& rule : effect_rules())
     for (const std::string_view entry : rule.ledger_entries)
       if (std::ranges::find(entries, entry) == entries.end()) entries.emplace_back(entry);

@@ -21,6 +21,7 @@ enum class Phase : int { liquid = 0, elastic = 1, rigid = 2 };
 enum class Motion { free, fixed, prescribed };
 enum class SolidKind { elastic, rigid };          ///< what a material is when solid
 enum class ViscosityForm { laplacian, central };  ///< of corrected viscosity (model 8.5)
+enum class GuardName;                             ///< scene/guard_name.hpp
 
 [[nodiscard]] std::string_view to_string(Phase);
 [[nodiscard]] std::string_view to_string(Motion);
@@ -166,10 +167,10 @@ struct Scene {
   double merge_distance = lattice_reach;  ///< [spacings]
   bool merge_distance_given = false;
   double contact_viscosity = 0.0;
-  bool contact = true;                 ///< false: solids pass through each other (contact = "none")
-  bool recovers = false;               ///< a guard that trips sends the run back to a good state, with half the step
-  std::vector<std::string> unguarded;  ///< guards that are off
-  EffectValues values;                 ///< of keys that effects bring (scene/effect_rule.hpp)
+  bool contact = true;               ///< false: solids pass through each other (contact = "none")
+  bool recovers = false;             ///< a guard that trips sends the run back to a good state, with half the step
+  std::vector<GuardName> unguarded;  ///< guards that are off
+  EffectValues values;               ///< of keys that effects bring (scene/effect_rule.hpp)
   std::vector<Material> materials;
   std::vector<Body> bodies;
   std::vector<Event> events;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include "scene/guard_name.hpp"
 #include "scene/record.hpp"
 #include "scene/scene.hpp"
 
@@ -58,7 +59,7 @@ inline constexpr auto of_scene = std::make_tuple(
           "counted in the results"},
          {.yes = "recover"}),
     kept(&Scene::unguarded,
-         {"scene", "unguarded", words, "", any, "[]", "every guard is on", "inversion overlap escape ledger time_step",
+         {"scene", "unguarded", words, "", any, "[]", "every guard is on", words_of_optional_guards,
           "guards that are off: det F <= 0; a solid or liquid pressed to more than two coinciding layers; a particle leaving "
           "min..max; energy made or lost by the scheme; a time step that collapses"}));
 

@@ -120,4 +120,12 @@ std::optional<std::size_t> ValueReader::word_number(const Key& key) {
   return static_cast<std::size_t>(std::find(words.begin(), words.end(), *word) - words.begin());
 }
 
+std::vector<std::size_t> ValueReader::word_numbers(const Key& key) {
+  const auto words = split_words(key.words);
+  std::vector<std::size_t> numbers;
+  for (const auto& word : in_.texts(key.name))
+    numbers.push_back(static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin()));
+  return numbers;
+}
+
 }  // namespace tripoint

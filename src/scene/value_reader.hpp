@@ -47,9 +47,18 @@ class ValueReader {
     if (place) value = static_cast<E>(*place);
     return !place;
   }
+  /// Some of the row's words, in the order of the enumeration.
+  template <class E>
+  requires std::is_enum_v<E>
+  bool operator()(const Key& key, std::vector<E>& value) {
+    value.clear();
+    for (const std::size_t place : word_numbers(key)) value.push_back(static_cast<E>(place));
+    return false;
+  }
 
  private:
   [[nodiscard]] std::optional<std::size_t> word_number(const Key&);
+  [[nodiscard]] std::vector<std::size_t> word_numbers(const Key&);
   [[nodiscard]] std::string path_of(const Key& key) const { return in_.path() + "." + std::string(key.name); }
 
   TableReader& in_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <array>
 #include <type_traits>
 
 #include "sph/pass.hpp"
@@ -107,6 +108,28 @@ constexpr auto joined_all(All all, First first, More... more) {
 template <bool finds, class... Slots>
 AnyPass<finds, Slots...> pass_of(SlotList<Slots...>);
 
+/// The terms of a form, of a slot and of a pass.
+template <class Term>
+constexpr auto terms_of(std::type_identity<Term>) {
+  return Together<Term>{};
+}
+template <class... Terms>
+constexpr auto terms_of(std::type_identity<Together<Terms...>>) {
+  return Together<Terms...>{};
+}
+template <class... Forms>
+constexpr auto terms_of(std::type_identity<Slot<Forms...>>) {
+  return joined_all(Together<>{}, terms_of(std::type_identity<Forms>{})...);
+}
+template <bool finds, class... Slots>
+constexpr auto terms_of(std::type_identity<AnyPass<finds, Slots...>>) {
+  return joined_all(Together<>{}, terms_of(std::type_identity<Slots>{})...);
+}
+template <class... Terms>
+constexpr std::array<PairTerm, sizeof...(Terms)> list_of(Together<Terms...>) {
+  return {pair_term<Terms>...};
+}
+
 /// The pass of one term, by its key.
 template <int L, class ForUnit, class... Terms>
 PassFunction alone(Together<Terms...>, const PairTerm& wanted) {
@@ -125,6 +148,9 @@ struct PassesOf {
   using Rates = decltype(detail::pass_of<false>(detail::joined_all(SlotList<>{}, detail::rates_of<Effects>()...)));
   using Alone = decltype(detail::joined_all(Together<>{}, detail::alone_of<Effects>()...));
   using Timed = decltype(detail::joined_all(Together<>{}, detail::timed_of<Effects>()...));
+  /// All that are compiled, each as often as a form has it.
+  static constexpr auto terms = detail::list_of(detail::joined_all(detail::terms_of(std::type_identity<Density>{}),
+                                                                   detail::terms_of(std::type_identity<Rates>{}), Alone{}));
 
   /// Null where there is no such term.
   template <int L, class ForUnit>

@@ -201,13 +201,13 @@ std::vector<std::string> Simulation::layout() const {
   return lines;
 }
 
-Checkpoint Simulation::checkpoint() const {
+Checkpoint Simulation::checkpoint() {
   Checkpoint kept = state();
   if (world_.scene.recovers) recovery_.save(kept);
   return kept;
 }
 
-Checkpoint Simulation::state() const {
+Checkpoint Simulation::state() {
   if (sharing_.is_part(world_)) return state_of(sharing_.whole(world_));
   form_fixed();
   return state_of(world_);
@@ -266,7 +266,7 @@ void Simulation::restore(const Checkpoint& kept) {
   if (world_.neighbours) {
     restore_lists(world_, kept, order);
     world_.neighbours->mark_own(world_.particles, world_.own);
-    passes_.forget_clusters();
+    passes_.drop_clusters();
   }
   restore_columns(world_.particles, "particles/", kept);
   restore_bodies(world_, kept);

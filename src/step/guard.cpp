@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/machine.hpp"
+#include "scene/ledger_entry.hpp"
 #include "scene/meeting.hpp"
 
 namespace tripoint {
@@ -54,7 +55,8 @@ void refuse_not_positive(const World& world, const Guarded& g) {
   if (positive) return;
   for (std::size_t id = 0; id < p.size(); ++id)
     if (const std::size_t i = p.row(id); i < values.size() && !(values[i] > 0.0))
-      fail(world, g.name, i, g.name, to_string(g.written), fmt::format("is at {:.4g} {}", values[i], g.not_positive));
+      fail(world, GuardName::temperature, i, g.name, to_string(g.written),
+           fmt::format("is at {:.4g} {}", values[i], g.not_positive));
 }
 
 /// Whether forces move a particle: not a wall, not held, gripped or flowing in.
@@ -102,7 +104,7 @@ struct Made {
   bool by_steps = true;  ///< finite steps, which a smaller one cures
 };
 Made made_by_scheme(const Ledger& ledger, const std::vector<GuardedEntry>& entries, bool still) {
-  Made most{entry_of(ledger, "time_integration"), "finite steps"};
+  Made most{entry_of(ledger, ledger_entry::time_integration), "finite steps"};
   const auto look = [&](double energy, std::string_view by) {
     if (energy > std::abs(most.energy)) most = {energy, by, false};
   };
@@ -120,10 +122,10 @@ Made made_by_scheme(const Ledger& ledger, const std::vector<GuardedEntry>& entri
 double turnover(const Ledger& ledger, const std::vector<GuardedEntry>& entries, double start_potential) {
   double sum = 0.0;
   for (const auto& [entry, energy] : ledger.energy) {
-    if (entry == "time_integration") continue;
+    if (entry == ledger_entry::time_integration) continue;
     const auto role = std::ranges::find(entries, entry, &GuardedEntry::entry);
     if (role != entries.end() && (role->role == EntryRole::apart || energy < 0.0)) continue;
-    sum += std::abs(entry == "potential" ? energy - start_potential : energy);
+    sum += std::abs(entry == ledger_entry::potential ? energy - start_potential : energy);
   }
   return sum;
 }
@@ -137,7 +139,7 @@ void check_finite(const World& world) {
     if (all_finite(values, world.threads)) continue;
     for (std::size_t id = 0; id < p.size(); ++id)
       if (const std::size_t i = p.row(id); i < values.size() && !std::isfinite(values[i]))
-        fail(world, "finite", i, g.name, to_string(g.written), fmt::format("has no finite {}", g.name));
+        fail(world, GuardName::finite, i, g.name, to_string(g.written), fmt::format("has no finite {}", g.name));
   }
   for (const Guarded& g : world.guarded)
     if (!g.not_positive.empty()) refuse_not_positive(world, g);
@@ -154,7 +156,7 @@ Enclosure enclosure_of(const Scene& s, const InitialState& initial) {
 
 void check_escape(const World& world, const Enclosure& domain) {
   const Scene& s = world.scene;
-  if (is_off(s, "escape") || (!domain.given && world.time > s.end_time)) return;
+  if (is_off(s, GuardName::escape) || (!domain.given && world.time > s.end_time)) return;
   const auto x = positions(world.particles);
   const std::array<std::span<const double>, 3> r{x.x, x.y, x.z};
   const Movable movable(world);
@@ -168,20 +170,20 @@ void check_escape(const World& world, const Enclosure& domain) {
                                                    "{:.6g} m .. {:.6g} m, which was made from the scene: give scene.min and "
                                                    "scene.max where it may, or unguarded = [\"escape\"]",
                                                    low, high);
-      fail(world, "escape", i, "position", "drift",
+      fail(world, GuardName::escape, i, "position", "drift",
            fmt::format("has left the domain: {} = {:.6g} m is outside {}", "xyz"[a], r[a][i], where));
     }
   }
 }
 
 void check_energy(const World& world, const Ledger& ledger, double start_potential, double dt, GuardMemory& memory) {
-  if (ledger.energy.count("time_integration") == 0 || is_off(world.scene, "ledger")) return;
+  if (ledger.energy.count(ledger_entry::time_integration) == 0 || is_off(world.scene, GuardName::ledger)) return;
   const Made made = made_by_scheme(ledger, world.guarded_entries, memory.still);
   memory.turned_over = std::max(memory.turned_over, turnover(ledger, world.guarded_entries, start_potential));
   const double grid_speed = world.scene.spacing / dt, least = round_off_share * ledger.mass * grid_speed * grid_speed;
   if (std::abs(made.energy) <= most_made * std::max(memory.turned_over, least)) return;
   const std::size_t i = fastest(world);
-  fail(world, "ledger", i, "energy", "kick",
+  fail(world, GuardName::ledger, i, "energy", "kick",
        fmt::format(
            "moves fastest ({:.4g} m/s) where the scheme itself has {} {:.4g} J by {}, {:.2g} of all the energy that the "
            "scene has turned over: {}",
@@ -192,17 +194,17 @@ void check_energy(const World& world, const Ledger& ledger, double start_potenti
 
 void check_step(const World& world, const TimeStepBound& bound, GuardMemory& memory) {
   if (memory.first_step == 0.0 && std::isfinite(bound.dt)) memory.first_step = bound.dt;
-  if (bound.dt >= least_step_share * memory.first_step || (is_off(world.scene, "time_step") && bound.dt > 0.0)) return;
+  if (bound.dt >= least_step_share * memory.first_step || (is_off(world.scene, GuardName::time_step) && bound.dt > 0.0)) return;
   const std::size_t i = fastest(world);
   fail(
-      world, "time_step", i, "time_step", "bound",
+      world, GuardName::time_step, i, "time_step", "bound",
       fmt::format("moves fastest ({:.4g} m/s) where the bound of {} has shrunk the time step to {:.3g} s, from {:.3g} s at first",
                   norm(world.particles.velocity(i)), bound.name, bound.dt, memory.first_step));
 }
 
 void refuse_small_step(const World& world, double dt, double length, const std::string& name) {
   const std::size_t i = fastest(world);
-  fail(world, "time_step", i, "time_step", "bound",
+  fail(world, GuardName::time_step, i, "time_step", "bound",
        fmt::format(
            "moves fastest ({:.4g} m/s) where a time step of {:.3g} s, set by {}, would need {:.3g} steps to the next output",
            norm(world.particles.velocity(i)), dt, name, length / dt));
@@ -210,7 +212,7 @@ void refuse_small_step(const World& world, double dt, double length, const std::
 
 void refuse_step(const World& world, double dt, double bound, const std::string& name) {
   const std::size_t i = fastest(world);
-  fail(world, "time_step", i, "time_step", "bound",
+  fail(world, GuardName::time_step, i, "time_step", "bound",
        fmt::format(
            "moves fastest ({:.4g} m/s) where the scene's time_step, {:.4g} s, has come to lie above the bound of {}, {:.4g} s: "
            "make it smaller, or run all the same with [engines.tripoint] settings = {{ force_time_step = true }}",

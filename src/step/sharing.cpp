@@ -182,7 +182,7 @@ void Sharing::share_particles(World& world, const Passes& passes) {
   const long rebuilds = world.neighbours->rebuilds();
   world.neighbours = world.neighbours->anew(world.box);
   const std::vector<Vec3> here = keeps ? built_here(world, built) : places_now(world.particles);
-  if (is_part(world)) world.neighbours->forget(whole_of(world, here, count_));
+  if (is_part(world)) world.neighbours->drop_lists(whole_of(world, here, count_));
   if (keeps) world.neighbours->rebuild_from(world.particles, here, world.time, rebuilds + 1);
 }
 
@@ -197,9 +197,9 @@ void Sharing::follow(World& world, const std::vector<Active>& effects, const Pas
     steps_a_list_ = 0.5 * (steps_a_list_ + static_cast<double>(std::exchange(steps_, 0)));
     world.halo->migrate(world.particles, world.bonds, world.own, world.box, by_id(world, passes.cost(world, steps_a_list_)));
     if (world.neighbours && is_part(world))
-      world.neighbours->forget(whole_of(world, places_now(world.particles), count_));
+      world.neighbours->drop_lists(whole_of(world, places_now(world.particles), count_));
     else if (world.neighbours)
-      world.neighbours->forget({});
+      world.neighbours->drop_lists({});
   }
   for (const Active& a : effects) a.effect->renumber(world);
   mark_copies(world);

@@ -82,7 +82,7 @@ std::string Simulation::time_step_set_by() const {
   return bound_.name == "none" ? "output" : bound_.name;
 }
 
-Ledger Simulation::ledger() const {
+Ledger Simulation::ledger() {
   form_fixed();  // the pairs of the core have lists from both sides
   return ledger_of_all(world_, effects_);
 }

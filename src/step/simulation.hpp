@@ -47,15 +47,18 @@ class Simulation {
   /// @return whether `time` was reached
   /// @throws Diverged with particle, field, stage and time
   bool advance_to(double time, const std::function<bool()>& go_on = {});
-  /// All that a continued run needs. Taking it changes nothing.
-  [[nodiscard]] Checkpoint checkpoint() const;
+  /// All that a continued run needs. Asking computes what no step reads (form_fixed), and changes no bit of the steps that
+  /// follow.
+  [[nodiscard]] Checkpoint checkpoint();
   /// How often a guard sent the run back, and why the last time.
   [[nodiscard]] const Recovery& recovery() const noexcept { return recovery_; }
 
   /// Threads of the steps that follow. They change no bit.
   void use_threads(int);
   [[nodiscard]] const World& world() const noexcept { return world_; }
-  [[nodiscard]] Ledger ledger() const;  ///< of all processes that share the scene, which all call it
+  /// Of all processes that share the scene, which all call it. Asking computes: pair passes over what no step reads (form_fixed),
+  /// once a state, then sums over all particles and bonds. It changes no bit of the steps that follow.
+  [[nodiscard]] Ledger ledger();
   [[nodiscard]] long steps() const noexcept { return steps_; }
   [[nodiscard]] double pairs() const noexcept { return pairs_; }  ///< directed pairs visited by rate passes
   [[nodiscard]] double time_step() const noexcept { return dt_; }
@@ -69,13 +72,18 @@ class Simulation {
   void choose_step(double stop);
   void step(double end);
   void form_rates();
-  void form_fixed() const;
+  void form_fixed();
   void change();
   [[nodiscard]] bool wants_change(const Active&);
   void find_neighbours();
   void correct();
   void check();
-  [[gnu::always_inline]] inline void run(Stage, double dt = 0.0);
+  template <class Visit>
+  void each_effect(Stage, Visit);
+  void kick(double dt);
+  void drift(double dt);
+  void form_states();
+  void sum_bonds();
   void pass(PassName);
   void sum(PassName);
   [[nodiscard]] bool leaves_out_first_kick() const;
@@ -88,7 +96,7 @@ class Simulation {
   void go_back(const Diverged&);
   // checkpoint.cpp
   [[nodiscard]] std::vector<std::string> layout() const;
-  [[nodiscard]] Checkpoint state() const;
+  [[nodiscard]] Checkpoint state();
   [[nodiscard]] Checkpoint state_of(const World& whole) const;
   void restore(const Checkpoint&);
   // simulation.cpp
@@ -96,7 +104,7 @@ class Simulation {
   void set_bound();
   [[nodiscard]] Resting resting() const;
 
-  mutable World world_;  ///< mutable for form_fixed() alone: to those outside, what it forms was always there
+  World world_;
   SimulationOptions options_;
   ThreadChoice threads_{options_.threads};
   std::vector<Active> effects_;

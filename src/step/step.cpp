@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The step: kick, drift, kick (docs/model.md, chapter 9). What a stage does is in the effects; here is the order.
-#include <cassert>
-
 #include "scene/shared_terms.hpp"
 #include "step/each_effect.hpp"
 #include "step/guard.hpp"
@@ -14,12 +12,12 @@ namespace tripoint {
 /// Rates and dt_ hold for the time on entry, and again on exit, at `end` [s].
 void Simulation::step(double end) {
   world_.next_time = end;
-  if (!leaves_out_first_kick()) run(Stage::kick, 0.5 * dt_);  // v of particles, v and L of rigid bodies (18)
-  run(Stage::drift, dt_);  // r; rotation (19), (20); prescribed motion; T or H by its rate (21)
+  if (!leaves_out_first_kick()) kick(0.5 * dt_);  // v of particles, v and L of rigid bodies (18)
+  drift(dt_);                                     // r; rotation (19), (20); prescribed motion; T or H by its rate (21)
   world_.time = end;
   form_rates();
-  correct();                    // second stage of heat
-  run(Stage::kick, 0.5 * dt_);  // by the rates of `end`
+  correct();        // second stage of heat
+  kick(0.5 * dt_);  // by the rates of `end`
   ++steps_;
   check();
 }
@@ -29,16 +27,16 @@ void Simulation::form_rates() {
   change();                                   // Fig. 5: melt, solidify, merge, split, fracture, before any rate of the new time
   find_neighbours();                          // lists, where a particle has moved by half the skin
   if (world_.moved) pass(PassName::density);  // (4), moments: of places only
-  run(Stage::state);                          // (9), walls; strain and stress (11), (14), (15), plastic flow
+  form_states();                              // (9), walls; strain and stress (11), (14), (15), plastic flow
   world_.moved = false;
   pass(PassName::rates);  // (7), (8), (21)
-  run(Stage::bonds);      // (12), hourglass
+  sum_bonds();            // (12), hourglass
   world_.fixed_formed = world_.particles.moving() == world_.particles.size();
 }
 
 /// What no step reads of fixed particles, at the present time: the forces on them, and densities behind the faces of walls. It is
 /// formed where somebody asks (decision 028).
-void Simulation::form_fixed() const {
+void Simulation::form_fixed() {
   if (world_.fixed_formed) return;
   world_.fixed_formed = world_.forms_fixed = true;
   world_.neighbours->list_sleeping();
@@ -72,24 +70,27 @@ void Simulation::choose_step(double stop) {
   dt_ = schedule_.plan(world_.time, stop, steps_to(world_, stop, bound_, recovery_.share()));
 }
 
-/// One stage of all effects. Inlined where it is called: a call by a stage that is known only then costs a small scene 2 % of its
-/// step.
-inline void Simulation::run(Stage stage, double dt) {
+/// One call of each effect, timed as that stage.
+template <class Visit>
+void Simulation::each_effect(Stage stage, Visit visit) {
   const StageTimer timer(options_.stage_seconds, stage);
-  for_each_effect(world_, effects_, [&](Effect& effect) {
-    switch (stage) {
-      case Stage::kick:
-        return effect.kick(world_, dt);
-      case Stage::drift:
-        return effect.drift(world_, dt);
-      case Stage::state:
-        return effect.state(world_);
-      case Stage::bonds:
-        return effect.bonds(world_);
-      default:
-        assert(false && "this stage is more than one call of each effect");
-    }
-  });
+  for_each_effect(world_, effects_, visit);
+}
+
+void Simulation::kick(double dt) {
+  each_effect(Stage::kick, [&](Effect& effect) { effect.kick(world_, dt); });
+}
+
+void Simulation::drift(double dt) {
+  each_effect(Stage::drift, [&](Effect& effect) { effect.drift(world_, dt); });
+}
+
+void Simulation::form_states() {
+  each_effect(Stage::state, [&](Effect& effect) { effect.state(world_); });
+}
+
+void Simulation::sum_bonds() {
+  each_effect(Stage::bonds, [&](Effect& effect) { effect.bonds(world_); });
 }
 
 /// One pass over pairs, where the scene has any.
@@ -142,7 +143,7 @@ void Simulation::find_neighbours() {
   if (world_.halo && !world_.neighbours->marked()) mark_copies(world_);
   if (world_.neighbours->marked() && world_.change.empty()) return;
   world_.neighbours->mark_own(world_.particles, world_.own);
-  passes_.forget_clusters();
+  passes_.drop_clusters();
 }
 
 /// The second stage of two-stage schemes, and where one asks for it the rates of heat at the predicted state.
@@ -180,7 +181,7 @@ void Simulation::happen_until_now() {
   }
   if (!any) return;
   world_.moved = true;
-  passes_.forget_clusters();
+  passes_.drop_clusters();
   form_rates();
   check_finite(world_);
 }

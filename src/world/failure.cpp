@@ -7,7 +7,7 @@
 
 namespace tripoint {
 
-Diverged failure_of(const World& world, std::string_view guard, std::size_t row, std::string_view field, std::string_view stage,
+Diverged failure_of(const World& world, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
                     const std::string& what) {
   const Particles& p = world.particles;
   const int body = p[field::body][row], id = p[field::id][row];
@@ -19,16 +19,14 @@ Diverged failure_of(const World& world, std::string_view guard, std::size_t row,
           std::string(stage),
           world.time,
           fmt::format("particle {}{} {}, after {} at t = {:.9g} s", id, whose, what, stage, world.time),
-          std::string(guard)};
+          std::string(to_string(guard))};
 }
 
-void fail(const World& world, std::string_view guard, std::size_t row, std::string_view field, std::string_view stage,
+void fail(const World& world, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
           const std::string& what) {
   throw failure_of(world, guard, row, field, stage, what);
 }
 
-bool is_off(const Scene& scene, std::string_view guard) {
-  return std::ranges::find(scene.unguarded, guard) != scene.unguarded.end();
-}
+bool is_off(const Scene& scene, GuardName guard) { return std::ranges::find(scene.unguarded, guard) != scene.unguarded.end(); }
 
 }  // namespace tripoint

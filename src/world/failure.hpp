@@ -5,20 +5,21 @@
 #include <string_view>
 
 #include "core/errors.hpp"
+#include "scene/guard_name.hpp"
 #include "world/world.hpp"
 
 /// How guards name what went wrong.
 namespace tripoint {
 
 /// "particle 7 of body "beam" is ...": who it is, and at which time.
-[[nodiscard]] Diverged failure_of(const World&, std::string_view guard, std::size_t row, std::string_view field,
-                                  std::string_view stage, const std::string& what);
+[[nodiscard]] Diverged failure_of(const World&, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
+                                  const std::string& what);
 
 /// @throws Diverged, always
-[[noreturn]] void fail(const World&, std::string_view guard, std::size_t row, std::string_view field, std::string_view stage,
+[[noreturn]] void fail(const World&, GuardName guard, std::size_t row, std::string_view field, std::string_view stage,
                        const std::string& what);
 
 /// Whether the scene has switched this guard off.
-[[nodiscard]] bool is_off(const Scene&, std::string_view guard);
+[[nodiscard]] bool is_off(const Scene&, GuardName);
 
 }  // namespace tripoint

@@ -19,7 +19,7 @@ struct Guarded {
   std::string_view name;  ///< in messages
   Written written;
   std::string_view
-      not_positive{};  ///< where values must be above 0 too: unit and what a lesser one would be, "K, below absolute zero"
+      not_positive{};  ///< of a temperature, which must be above 0: unit and what a lesser one would be, "K, below absolute zero"
 };
 
 /// What an entry of the ledger is to the guard of energy (step/guard.hpp). One of which no effect speaks is energy that the scene

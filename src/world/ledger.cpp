@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/ledger.hpp"
 
+#include "scene/ledger_entry.hpp"
 #include "scene/shared_terms.hpp"
 #include "world/world.hpp"
 
@@ -40,7 +41,7 @@ bool stores_compression(const Scene& scene) {
 void book_start(World& world, const Ledger& start) {
   for (const Force& f : world.forces)
     if (f.stored) world.booked[f.stored->at_start] = stored_now(start, *f.stored);
-  if (const auto potential = start.energy.find("potential"); potential != start.energy.end())
+  if (const auto potential = start.energy.find(ledger_entry::potential); potential != start.energy.end())
     world.booked[account::start_potential] = potential->second - world.booked[account::driven_potential];
 }
 
@@ -60,8 +61,10 @@ void close_ledger(const World& world, Ledger& sum) {
         sum.energy[std::string(f.stored->released_to)] += booked[*f.stored->released];
     }
     sum.energy["walls"] += on_driven;
-    const double potential = sum.energy["potential"] - booked[account::start_potential] - booked[account::driven_potential];
-    sum.energy["time_integration"] = made - (potential + booked[account::gravity_work]) - booked[account::rotation_drift];
+    const double potential =
+        sum.energy[ledger_entry::potential] - booked[account::start_potential] - booked[account::driven_potential];
+    sum.energy[ledger_entry::time_integration] =
+        made - (potential + booked[account::gravity_work]) - booked[account::rotation_drift];
   }
   sum.energy["merging"] += booked[account::merging];
   sum.energy["walls"] += booked[account::walls];

@@ -28,7 +28,7 @@ TEST(HeadOn, EqualBlocksBounceWithTheirEnergyToOneInAThousand) {
 
 TEST(Oblique, BlocksKeepMomentumAndAngularMomentumToRoundOff) {
   lab::Lab lab = two_blocks(1000.0, 0.5, 0.17);
-  const Simulation start(lab.scene, lab.initial), end = lab.run(1.0);
+  Simulation start(lab.scene, lab.initial), end = lab.run(1.0);
   const Ledger before = start.ledger(), after = end.ledger();
   EXPECT_GT(norm(end.world().bodies[field::body_angular_velocity][0]), 0.1);
   EXPECT_LT(norm(after.momentum - before.momentum), 1e-13 * 64.0);

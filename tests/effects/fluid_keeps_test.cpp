@@ -146,9 +146,9 @@ lab::Lab mixed_scene() {
 
 TEST(Threads, LeaveTheBitsOfLiquidBodiesAndHeatAlone) {
   const lab::Lab lab = mixed_scene();
-  const Simulation one = lab.run(0.1, 1);
+  Simulation one = lab.run(0.1, 1);
   for (const int threads : {2, 3}) {
-    const Simulation more = lab.run(0.1, threads);
+    Simulation more = lab.run(0.1, threads);
     EXPECT_EQ(one.steps(), more.steps());
     for (const Field<double>* f :
          {&field::position_x, &field::velocity_z, &field::pressure, &field::temperature, &field::viscous_force_x})

@@ -145,7 +145,7 @@ TEST(FluidLedger, BooksThePrintedPressureAsWorkAndLeavesToTheSchemeOnlyWhatFalls
 
 TEST(PressedCube, KeepsMomentumAndAngularMomentumToRoundOff) {
   const lab::Lab lab = pressed_cube();
-  const Simulation start(lab.scene, lab.initial), end = lab.run(0.1);
+  Simulation start(lab.scene, lab.initial), end = lab.run(0.1);
   double motion = 0.0;
   for (std::size_t i = 0; i < lab.initial.position.size(); ++i) motion += lab.initial.mass[i] * norm(lab.initial.velocity[i]);
   EXPECT_GT(norm(end.ledger().momentum - start.ledger().momentum), 0.0);

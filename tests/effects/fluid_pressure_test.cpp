@@ -169,7 +169,7 @@ Squeezed squeezed(double ratio) {
   for (Vec3& r : lab.initial.position) r = ratio * r;
   lab.scene.min = ratio * *lab.scene.min;
   lab.scene.max = ratio * *lab.scene.max;
-  const Simulation s(lab.scene, lab.initial);
+  Simulation s(lab.scene, lab.initial);
   return {ratio * ratio * ratio, s.ledger().energy.at("compression"), lab::by_id(s, field::pressure).front()};
 }
 

@@ -65,7 +65,7 @@ TEST(Fracture, MakesBodiesOfTheParts) {
 TEST(Fracture, KeepsMomentaToRoundOff) {
   lab::Lab lab = bar_pulled_apart();
   for (Vec3& v : lab.initial.velocity) v += {0.0, 0.3, 0.0};
-  const Simulation start(lab.scene, lab.initial), end = lab.run(8.0);
+  Simulation start(lab.scene, lab.initial), end = lab.run(8.0);
   EXPECT_GT(bodies_alive(end), 1u);
   const Ledger before = start.ledger(), after = end.ledger();
   EXPECT_LT(norm(after.momentum - before.momentum), 1e-12 * norm(before.momentum));
@@ -77,7 +77,7 @@ TEST(Fracture, BooksTheEnergyThatItLetsGo) {
   double left[2] = {};
   for (const int halvings : {0, 1}) {
     const lab::Lab lab = bar_pulled_apart(0.1 / (1 << halvings));
-    const Simulation start(lab.scene, lab.initial), end = lab.run(8.0);
+    Simulation start(lab.scene, lab.initial), end = lab.run(8.0);
     const Ledger before = start.ledger(), after = end.ledger();
     EXPECT_GT(after.energy.at("fracture"), 0.05 * before.energy.at("kinetic"));
     EXPECT_NEAR(total_energy(after) / total_energy(before), 1.0, 1e-12);

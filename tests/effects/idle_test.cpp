@@ -75,7 +75,7 @@ TEST(OnlyWhatIsCalledFor, EqualTemperaturesCostNoColumnAndNoPairTermAndChangeNot
     for (Body& b : cold.scene.bodies) b.temperature.reset();
     EXPECT_EQ(plan(equal.scene).bytes_per_particle, plan(cold.scene).bytes_per_particle);
     EXPECT_GT(plan(armed.scene).bytes_per_particle, plan(equal.scene).bytes_per_particle);
-    const Simulation without = equal.run(0.05), with = armed.run(0.05);
+    Simulation without = equal.run(0.05), with = armed.run(0.05);
     EXPECT_FALSE(without.world().particles.has(field::temperature));
     for (const double T : lab::by_id(with, field::temperature))
       EXPECT_NEAR(T, 300.0, 300.0 * 4e-15) << "one rounding of H = m c_p T and back, and of each step";
@@ -87,7 +87,7 @@ TEST(OnlyWhatIsCalledFor, EqualTemperaturesCostNoColumnAndNoPairTermAndChangeNot
 
 TEST(OnlyWhatIsCalledFor, ATemperatureThatAnEventBringsArmsHeatFromTheStart) {
   for (const Mode mode : {Mode::corrected, Mode::paper}) {
-    const Simulation s = with_event(splash(mode), 0.01, 320.0).run(0.05);
+    Simulation s = with_event(splash(mode), 0.01, 320.0).run(0.05);
     const auto T = lab::by_id(s, field::temperature);
     EXPECT_EQ(T.back(), 320.0) << "the floor is held";
     EXPECT_GT(T.front(), 300.0 - 1e-9);

@@ -42,9 +42,9 @@ void expect_kept(const Ledger& a, const Ledger& b) {
 
 TEST(Merge, KeepsMassMomentumAndAngularMomentumAndBooksTheRest) {
   lab::Lab lab = cube_and_bar();
-  const Simulation apart(lab.scene, lab.initial);
+  Simulation apart(lab.scene, lab.initial);
   lab.scene.events = {event(Event::Kind::merge, 0.0, {"cube", "bar"})};
-  const Simulation joined(lab.scene, lab.initial);
+  Simulation joined(lab.scene, lab.initial);
   const Ledger before = apart.ledger(), after = joined.ledger();
   expect_kept(before, after);
   EXPECT_NEAR(after.energy.at("kinetic") / before.energy.at("kinetic"), 0.093563, 1e-6);  // an implementation apart, six digits
@@ -57,7 +57,7 @@ TEST(Merge, KeepsTheOrientationOfTheBodyThatStays) {
   lab::Lab lab = cube_and_bar();
   lab.scene.events = {event(Event::Kind::merge, 0.1, {"cube", "bar"})};
   lab::Lab never = cube_and_bar();
-  const Simulation merged = lab.run(0.1), apart = never.run(0.1);
+  Simulation merged = lab.run(0.1), apart = never.run(0.1);
   EXPECT_EQ(merged.world().bodies[field::body_orientation][0], apart.world().bodies[field::body_orientation][0]);
   const auto x = positions(merged.world().particles), y = positions(apart.world().particles);
   for (std::size_t i = 0; i < lab.initial.size(); ++i) EXPECT_NEAR(norm(x.at(i) - y.at(i)), 0.0, round_off);
@@ -69,7 +69,7 @@ TEST(Merge, WithAFixedBodyKeepsItFixed) {
   lab::Lab lab = cube_and_bar();
   lab.scene.bodies[0].motion = Motion::fixed;
   lab.scene.events = {event(Event::Kind::merge, 0.1, {"cube", "bar"})};
-  const Simulation s = lab.run(0.3);
+  Simulation s = lab.run(0.3);
   EXPECT_EQ(norm(s.world().bodies[field::body_velocity][0]), 0.0);
   EXPECT_GT(s.ledger().energy.at("merging"), 0.0);
   lab.scene.events = {event(Event::Kind::merge, 0.1, {"bar", "cube"})};
@@ -113,9 +113,9 @@ Event cut(double time) {
 
 TEST(Split, KeepsMassMomentumAngularMomentumAndEnergy) {
   lab::Lab lab = spinning_bar();
-  const Simulation whole(lab.scene, lab.initial);
+  Simulation whole(lab.scene, lab.initial);
   lab.scene.events = {cut(0.0)};
-  const Simulation parted(lab.scene, lab.initial);
+  Simulation parted(lab.scene, lab.initial);
   const Ledger before = whole.ledger(), after = parted.ledger();
   expect_kept(before, after);
   EXPECT_NEAR(after.energy.at("kinetic") / before.energy.at("kinetic"), 1.0, round_off);
@@ -136,9 +136,9 @@ TEST(Split, LetsEveryParticleLeaveWithTheVelocityThatItHad) {
 
 TEST(Split, IsUndoneByAMerge) {
   lab::Lab lab = spinning_bar();
-  const Simulation whole(lab.scene, lab.initial);
+  Simulation whole(lab.scene, lab.initial);
   lab.scene.events = {cut(0.0), event(Event::Kind::merge, 0.0, {"whole", "piece"})};
-  const Simulation again(lab.scene, lab.initial);
+  Simulation again(lab.scene, lab.initial);
   expect_kept(whole.ledger(), again.ledger());
   EXPECT_NEAR(again.ledger().energy.at("merging"), 0.0, round_off);
   EXPECT_NEAR(norm(again.world().bodies[field::body_angular_velocity][0] - Vec3{0.5, 1.0, 2.0}), 0.0, round_off);
@@ -150,7 +150,7 @@ TEST(Split, OfATruncatedLineStaysFiniteAndBooksTheSpinThatItCannotHandOn) {
   std::vector<Vec3> points;
   for (int k = 0; k < 6; ++k) points.push_back({0.1 * k, k % 2 ? 1e-3 : 0.0, 0.0});
   lab.add_points({.name = "whole", .angular_velocity = {50.0, 0.0, 1.0}}, points, 0.1);
-  const Simulation whole(lab.scene, lab.initial);
+  Simulation whole(lab.scene, lab.initial);
   Event e = cut(0.0);
   e.region->point = {0.25, 0.0, 0.0};
   lab.scene.events = {e};
@@ -165,7 +165,7 @@ TEST(Split, DownToSingleParticlesKeepsEverything) {
   lab::Lab lab(0.1);
   lab.scene.time_step = 1e-3;
   lab.add({.name = "whole", .count = {3, 1, 1}, .velocity = {1.0, 0.0, 0.0}, .angular_velocity = {0.0, 0.0, 2.0}});
-  const Simulation whole(lab.scene, lab.initial);
+  Simulation whole(lab.scene, lab.initial);
   Event first = cut(0.0), second = cut(0.0);
   first.region->point = {0.05, 0.0, 0.0};
   second.region->point = {0.15, 0.0, 0.0};

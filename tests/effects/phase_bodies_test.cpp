@@ -41,7 +41,7 @@ lab::Lab cut_bar() {
 
 TEST(Splitting, ByMeltingKeepsWhatIsKept) {
   const lab::Lab lab = cut_bar();
-  const Simulation start(lab.scene, lab.initial);
+  Simulation start(lab.scene, lab.initial);
   Simulation s = lab.run(0.01);
   EXPECT_EQ(lab::living_bodies(start), 1u);
   EXPECT_EQ(lab::living_bodies(s), 2u);
@@ -82,7 +82,7 @@ TEST(Splitting, DownToNearlyStraightPiecesAndSingleParticlesKeepsEverything) {
       0.1);
   lab.scene.bodies[0].temperature->value = hot;
   for (const std::size_t melts : {1u, 4u}) lab.initial.temperature[melts] = hot;  // pieces of 1, 2 and 4 particles
-  const Simulation start(lab.scene, lab.initial);
+  Simulation start(lab.scene, lab.initial);
   Simulation s = lab.run(0.01);
   EXPECT_EQ(lab::living_bodies(s), 3u);
   expect_kept(s.ledger(), start.ledger(), 1.0, 1.0);
@@ -134,7 +134,7 @@ lab::Lab two_blocks_and_a_drop() {
 
 TEST(Merging, OfTwoBodiesByOneFreezingParticleKeepsWhatIsKept) {
   const lab::Lab lab = two_blocks_and_a_drop();
-  const Simulation start(lab.scene, lab.initial);
+  Simulation start(lab.scene, lab.initial);
   Simulation s = lab.run(2e-3);
   EXPECT_EQ(lab::living_bodies(s), 1u);
   for (const int b : lab::integers_by_id(s, field::body)) EXPECT_EQ(b, 0);
@@ -164,7 +164,7 @@ TEST(Merging, DoesNotDependOnTheOrderOfParticlesOrOnThreads) {
            .velocity = {0.2, 0.1, 0.0},
            .temperature = constant(cold)});
   lab.initial.temperature[3] = hot;
-  const Simulation s = lab.run(2e-3), threaded = lab.run(2e-3, 2);
+  Simulation s = lab.run(2e-3), threaded = lab.run(2e-3, 2);
   const std::vector<Vec3> x = lab::places(s), y = lab::places(threaded);
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_EQ(x[i], y[i]);
   EXPECT_EQ(lab::by_id(s, field::temperature), lab::by_id(threaded, field::temperature));
@@ -247,7 +247,7 @@ TEST(Merging, WithADrivenBodyTakesItsMotionAndHeatsByTheRelativeSpeed) {
              .velocity = {0.0, 3.0, 0.0},
              .temperature = constant(cold)});
     lab.scene.bodies[0].temperature->value = hot;
-    const Simulation start(lab.scene, lab.initial), s = lab.run(0.01);
+    Simulation start(lab.scene, lab.initial), s = lab.run(0.01);
     EXPECT_EQ(lab::living_bodies(s), 1u);
     const Vec3 v = s.world().bodies[field::body_velocity][0];
     EXPECT_NEAR(norm(v - Vec3{motion == Motion::fixed ? 0.0 : 1.0, 0.0, 0.0}), 0.0, 1e-15);
@@ -266,7 +266,7 @@ TEST(Merging, OfALineBodyHandsOnTheSpinThatItCouldNotTurnWith) {
   lab.add({.name = "block", .corner = {0.1, -0.1, -0.1}, .count = {3, 3, 3}, .temperature = constant(cold)});
   lab.add({.name = "drop", .count = {1, 1, 1}, .phase = Phase::liquid, .temperature = constant(cold)});
   lab.scene.bodies[0].temperature->value = hot;
-  const Simulation start(lab.scene, lab.initial), s = lab.run(2e-3);
+  Simulation start(lab.scene, lab.initial), s = lab.run(2e-3);
   EXPECT_EQ(lab::living_bodies(s), 1u);
   expect_kept(s.ledger(), start.ledger(), 1.0, 1.0);
   EXPECT_EQ(norm(s.world().booked.undelivered_spin), 0.0);

@@ -201,7 +201,7 @@ TEST(Melting, OfAMiddleLayerCutsAnElasticBarAndKeepsItsMomenta) {
     lab.initial.velocity[i] += cross(Vec3{0.0, 0.0, 3.0}, lab.initial.position[i]);
     if (std::abs(lab.initial.position[i].x - 0.3) < 0.01) lab.initial.temperature[i] = hot;
   }
-  const Simulation start(lab.scene, lab.initial);
+  Simulation start(lab.scene, lab.initial);
   Simulation s = lab.run(0.02);
   EXPECT_EQ(lab::living_bodies(s), 2u);
   EXPECT_NEAR(norm(s.ledger().momentum - start.ledger().momentum), 0.0, 1e-12 * 72.0);
@@ -335,7 +335,7 @@ TEST(Phase, OfDeformableSolidsDoesNotDependOnTheOrderOfParticlesOrOnThreads) {
   lab.scene.materials[0].stiffness = 100.0;
   lab.scene.events = {heat(0.01, hot, 0.45), heat(0.012, 250.0, 0.0)};
   for (std::size_t i = 0; i < lab.initial.size(); i += 7) lab.initial.temperature[i] = hot;
-  const Simulation s = lab.run(0.02), threaded = lab.run(0.02, 2);
+  Simulation s = lab.run(0.02), threaded = lab.run(0.02, 2);
   EXPECT_EQ(lab::places(s), lab::places(threaded));
   EXPECT_EQ(s.ledger().energy, threaded.ledger().energy);
   lab::Lab other = lab;

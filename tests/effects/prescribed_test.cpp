@@ -28,7 +28,7 @@ lab::Lab jet() {
 }
 
 TEST(Inflow, BringsALayerASpacingInStepWithItsSpeed) {
-  const Simulation s = jet().run(0.1);
+  Simulation s = jet().run(0.1);
   EXPECT_EQ(s.world().particles.size(), 1u + 16u * 6u);  // layers begin at 0, dx/v, ..., 5 dx/v = 0.1 s
   EXPECT_NEAR(s.ledger().mass, 97.0 * 1e-3, 1e-15);      // rho dx^3 each
 }

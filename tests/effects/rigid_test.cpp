@@ -37,7 +37,7 @@ TEST(RigidBody, StartedAsThePaperDoesLagsByHalfAStepOfGravity) {
 TEST(RigidBody, KeepsItsShapeOverALongSpin) {
   lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
   lab.scene.time_step = 0.01;
-  const Simulation s = lab.run(100.0);
+  Simulation s = lab.run(100.0);
   const auto x = positions(s.world().particles);
   double worst = 0.0;
   for (std::size_t a = 0; a < lab.initial.size(); a += 7) {
@@ -49,7 +49,7 @@ TEST(RigidBody, KeepsItsShapeOverALongSpin) {
   EXPECT_LT(worst, 1e-14 * 10);  // placed from reference positions, not integrated
   const Ledger now = s.ledger();
   EXPECT_GT(angle_between(s.world().bodies[field::body_orientation][0], {}), 0.1);
-  const Simulation before(lab.scene, lab.initial);
+  Simulation before(lab.scene, lab.initial);
   EXPECT_NEAR(norm(now.angular_momentum - before.ledger().angular_momentum), 0.0, 1e-14);
 }
 

@@ -29,6 +29,7 @@ TEST_P(HostileEngine, IsNamedAndNeverPasses) {
 INSTANTIATE_TEST_SUITE_P(All, HostileEngine,
                          ::testing::Values(Hostile{"deep info", "did not print one JSON object"},
                                            Hostile{"gives a number as its reason", "gives no reason"},
+                                           Hostile{"gives an empty reason", "gives no reason"},
                                            Hostile{"leaves a pipe as trajectory", "no regular file"},
                                            Hostile{"leaves a pipe as result", "no regular file"},
                                            Hostile{"leaves an endless trajectory", "no regular file"},

@@ -10,7 +10,7 @@ import oracle
 
 # Defect and size, scene, form, steps, changes, term that must be red.
 BROKEN = [
-    ("neighbours.seam=1", "vortices", "corrected", 2, [], "number density 8.2"),
+    ("neighbours.periodic=1", "vortices", "corrected", 2, [], "number density 8.2"),
     ("neighbours.support=0.01", "vortices", "corrected", 2, [], "number density 8.2"),
     ("fluid.density=1e-6", "vortices", "corrected", 2, [], "number density 8.2"),
     ("fluid.paper.density=1e-6", "basin", "paper", 2, [], "density (4)"),

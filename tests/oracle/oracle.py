@@ -6,6 +6,7 @@
 The solver writes the states of the scenes beside this file: two liquids, walls, free and soft bodies, jittered, periodic. Each term is computed
 again from the columns that it reads, and compared particle by particle. The difference is divided by the sum of the magnitudes of what the term adds
 up there, each over 1 - r/h where a kernel's slope has that factor: so nothing hides in the forces of others, and round-off is all that is forgiven. Prints each term with its greatest difference; fails where one is above LIMIT, or was never compared.
+Each pair term that is compiled must name the rows that compare it (PAIR_TERMS).
 """
 import json
 import pathlib
@@ -33,6 +34,29 @@ bonds 11 | kernel of bonds (17) | body volume (11) | body volume 8.7 | stiffness
 strain of sheets and chains 8.7 | bond force (12) | bond force 8.7 | bond force of sheets and chains 8.7 | elastic energy (10) | elastic energy 8.7 |
 hourglass energy 8.7 | plastic strain 8.8 | plastic strain of sheets and chains 8.8 | broken bonds (12) | broken bonds 8.8"""
 TERMS = [t.strip() for t in TERMS.replace("\n", " ").split("|")]
+
+# Each pair term that the passes have compiled (its pair_slots.hpp brings it), and the rows above that show its sums.
+PAIR_TERMS = {
+    "DensityPaper": ["density (4)"],
+    "NumberDensity": ["number density 8.2"],
+    "PressurePaper": ["pressure force (7)"],
+    "PressureCorrected": ["pressure force 8.3"],
+    "ViscosityPaper": ["viscous force (8)"],
+    "ViscosityCentralOf<false>": ["viscous force central 8.5"],
+    "ViscosityCentralOf<true>": ["viscous force central 8.5"],
+    "ViscosityLaplacian": ["viscous force laplacian 8.5"],
+    "ViscousSpread<ViscosityPaper>": ["viscous bound (8)"],
+    "ViscousSpread<ViscosityCentralOf<false>>": ["viscous bound central 8.10"],
+    "ViscousSpread<ViscosityCentralOf<true>>": ["viscous bound central 8.10"],
+    "ViscousSpread<ViscosityLaplacian>": ["viscous bound laplacian 8.10"],
+    "WallExtrapolationOf<false>": ["wall weight 8.4", "wall velocity 8.4"],
+    "WallExtrapolationOf<true>": ["wall weight 8.4", "wall velocity 8.4"],
+    "TransportForces": ["background force 8.3", "stress of the shift 8.3"],
+    "TransportForcesAndMeans": ["background force 8.3", "stress of the shift 8.3", "damping of sound 8.3", "pressure 8.3"],
+    "HeatMoment": ["moment 8.6"],
+    "HeatFlowPaper": ["heat (21)", "exchange (21)"],
+    "HeatFlowCorrected": ["heat flow 8.6", "conductance 8.6"],
+}
 
 # Scene, form, steps, changes to the scene.
 RUNS = [
@@ -307,11 +331,19 @@ def compare_all(writer, runs=RUNS):
     return out.greatest, broken
 
 
+def wrong_pair_terms(writer):
+    """Pair terms that are compiled and in no row here, entries here whose term is not compiled, and rows that there are none of."""
+    compiled = set(subprocess.run([writer, "--terms"], check=True, stdout=subprocess.PIPE, text=True).stdout.split())
+    wrong = [f"the pair term {name}, which no row compares (PAIR_TERMS)" for name in sorted(compiled - PAIR_TERMS.keys())]
+    wrong += [f"{name} in PAIR_TERMS, which is not compiled" for name in sorted(PAIR_TERMS.keys() - compiled)]
+    return wrong + [f"{name} in PAIR_TERMS names the row {row}, which TERMS has not" for name, rows in PAIR_TERMS.items() for row in rows or [""] if row not in TERMS]
+
+
 def main():
     chosen = sys.argv[2:]
     runs = [r for r in RUNS if not chosen or r[0] in chosen]
     greatest, broken = compare_all(sys.argv[1], runs)
-    wrong = []
+    wrong = wrong_pair_terms(sys.argv[1])
     for term in TERMS:
         worst, where, count = greatest.get(term, (float("nan"), "never compared", 0))
         print(f"{term:44} {worst:9.2e}  {count:7} compared, greatest in {where}")

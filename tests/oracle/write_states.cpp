@@ -2,15 +2,19 @@
 /// States of a scene as the solver has them, for oracle.py to compute again: the particles that it starts with, then all columns,
 /// bonds, own pairs and the ledger before the first step and around a later one, as one JSON document.
 ///   write-states CASE.toml MODE STEPS [KEY=VALUE...]
+///   write-states --terms    the name of every pair term that is compiled, one a line
 #include <nlohmann/json.hpp>
 
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "job/scene_json.hpp"
+#include "passes/pair_passes.hpp"
 #include "scene/sample.hpp"
 #include "step/simulation.hpp"
 #include "validation/case/read_case.hpp"
@@ -70,7 +74,7 @@ Json step_numbers_of(const World& world) {
   return numbers;
 }
 
-Json state_of(const Simulation& s) {
+Json state_of(Simulation& s) {
   const World& world = s.world();
   return {{"steps", s.steps()},
           {"step_numbers", step_numbers_of(world)},
@@ -81,9 +85,26 @@ Json state_of(const Simulation& s) {
           {"ledger", s.ledger().energy}};
 }
 
+/// Each once, without the namespace that all are in.
+void print_terms() {
+  std::set<std::string> names;
+  for (const PairTerm& term : pair_passes(1).terms) {
+    std::string name(term.name);
+    constexpr std::string_view scope = "tripoint::";
+    for (std::size_t at = name.find(scope); at != std::string::npos; at = name.find(scope)) name.erase(at, scope.size());
+    std::erase(name, ' ');  // compilers differ in "> >"
+    names.insert(name);
+  }
+  for (const std::string& name : names) std::cout << name << '\n';
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "--terms") {
+    print_terms();
+    return 0;
+  }
   if (argc < 4) return std::cerr << "write-states CASE.toml MODE STEPS [KEY=VALUE...]\n", 2;
   try {
     RunChoice choice;

@@ -331,7 +331,7 @@ TEST(Neighbours, OfAPartHaveTheOrderOfTheWhole) {
   for (std::size_t id = 0; id < number.size(); ++id) positions(part).set(id, whole.position(whole.row(number[id])));
   known.numbers.assign(number.begin(), number.end());
   Neighbours some(support, skin, {}, 1, 4);
-  some.forget(known);
+  some.drop_lists(known);
   some.update(part, 0.0);
   std::size_t pairs = 0;
   for (std::size_t id = 0; id < number.size(); ++id) {

@@ -36,10 +36,10 @@ Snapshot two_places(double time) {
 
 TEST(ExpressionReference, IsAFieldOfPlaceAndTime) {
   const auto truth = made("expression", {{"temperature", std::string("300 + x + 10*t")}, {"velocity_y", std::string("z*t")}});
-  const auto beside = truth->beside(two_places(2.0));
-  EXPECT_EQ(beside.temperature, (std::vector<double>{321.0, 320.5}));
-  EXPECT_EQ(beside.velocity[0], (Vec3{0.0, 6.0, 0.0}));
-  EXPECT_TRUE(beside.pressure.empty());
+  const auto here = truth->truth_for(two_places(2.0));
+  EXPECT_EQ(here.temperature, (std::vector<double>{321.0, 320.5}));
+  EXPECT_EQ(here.velocity[0], (Vec3{0.0, 6.0, 0.0}));
+  EXPECT_TRUE(here.pressure.empty());
   EXPECT_FALSE(truth->number_at("value", 1.0));
 }
 
@@ -92,10 +92,10 @@ TEST(TableReference, IsAFieldAlongAnAxis) {
   const auto truth = made("table", {{"point", std::vector<double>{0, 0, 0.015}}}, file.path());
   Snapshot s;
   s.position = {{0, 0, 0.005}, {9, 9, 0.02}, {0, 0, 0.03}};
-  const auto beside = truth->beside(s);
-  EXPECT_DOUBLE_EQ(beside.temperature[0], 350.0);
-  EXPECT_DOUBLE_EQ(beside.temperature[1], 350.0);
-  EXPECT_TRUE(std::isnan(beside.temperature[2]));
+  const auto here = truth->truth_for(s);
+  EXPECT_DOUBLE_EQ(here.temperature[0], 350.0);
+  EXPECT_DOUBLE_EQ(here.temperature[1], 350.0);
+  EXPECT_TRUE(std::isnan(here.temperature[2]));
   EXPECT_DOUBLE_EQ(*truth->number_at("temperature_at", 0.0), 375.0);
   EXPECT_DOUBLE_EQ(*truth->uncertainty("temperature", 0.0), 0.5);
   EXPECT_DOUBLE_EQ(*truth->uncertainty("pressure_at", 0.0), 0.0);

@@ -98,7 +98,7 @@ TEST(KnownHeat, AStepIsSharpAtItsStartAndSharedByItsCell) {
   const double early = 0.5 * std::erfc(0.05 / std::sqrt(4.0 * 1e-3 * 0.1));
   EXPECT_NEAR(share_of_low_side(step, 0.3, 0.0, 0.1), early, 1e-9);
   const StepImages ring{{0, 0.0, 1.0, true}, 0.25, 1e-3};
-  EXPECT_NEAR(share_of_low_side(ring, 0.0, 0.0, 0.1), 0.5, 1e-9);  // the second step, at the seam
+  EXPECT_NEAR(share_of_low_side(ring, 0.0, 0.0, 0.1), 0.5, 1e-9);  // the second step, at the periodic boundary
   EXPECT_NEAR(share_of_low_side(ring, 0.95, 0.0, 0.1), early, 1e-9);
   EXPECT_NEAR(share_of_low_side(step, 0.0, 0.0, 0.1), 1.0, 1e-9);
 }
@@ -310,7 +310,7 @@ TEST(KnownTables, AFormulaOfOneComponentLeavesTheOthersAtRest) {
     Snapshot now;
     now.time = 0.5;
     now.position = {{1, 10, 100}, {2, 20, 200}, {not_a_number, 0, 0}};
-    const auto truth = field->beside(now);
+    const auto truth = field->truth_for(now);
     ASSERT_EQ(truth.velocity.size(), 3u);
     for (std::size_t c = 0; c < 3; ++c) {
       EXPECT_EQ(truth.velocity[0][c], c == k ? 32.5 : 0.0) << name;

@@ -165,15 +165,15 @@ TEST(KnownLiquids, LayersBearTheirWeightWhicheverWayIsUp) {
     now.position = s.initial.position;
     const auto at = [&](double z) {
       now.position[0].z = z;
-      return rest->beside(now).pressure[0];
+      return rest->truth_for(now).pressure[0];
     };
     EXPECT_NEAR(at(0.1), up > 0.0 ? 0.4 * light + 0.3 * heavy : 0.1 * heavy, 1e-9);
     EXPECT_NEAR(at(0.7), up > 0.0 ? 0.1 * light : 0.4 * heavy + 0.3 * light, 1e-9);
     EXPECT_EQ(at(up > 0.0 ? 0.9 : -0.1), 0.0);
     EXPECT_NEAR(at(up > 0.0 ? -0.1 : 0.9), 0.4 * (heavy + light) + 0.1 * (up > 0.0 ? heavy : light), 1e-9)
         << "below the floor it goes on";
-    EXPECT_EQ(rest->beside(now).density[0], 1000.0);
-    EXPECT_EQ(rest->beside(now).density[64], 200.0);
+    EXPECT_EQ(rest->truth_for(now).density[0], 1000.0);
+    EXPECT_EQ(rest->truth_for(now).density[64], 200.0);
     EXPECT_FALSE(rest->number("another"));
   }
 }
@@ -201,7 +201,7 @@ TEST(KnownLiquids, ADropIsPressedLeastAtItsSurface) {
     frame.position = s.initial.position;
     const auto at = [&](double x, double y) {
       frame.position[0] = {0.5 + x, 0.5 + y, 0};
-      return drop->beside(frame);
+      return drop->truth_for(frame);
     };
     EXPECT_NEAR(at(0, 0).pressure[0], middle, 1e-3 * middle) << time;  // of a difference over 1e-4 s
     const double p0 = at(0, 0).pressure[0];
@@ -242,8 +242,8 @@ TEST(KnownLiquids, BetweenCylindersTheTorqueIsThatOfTheirRadii) {
   for (const auto& [r, u] : {std::pair{0.2, 0.3}, std::pair{0.4, 0.0}, std::pair{0.25, 0.195}}) {
     now.position[0] = centre + Vec3{r, 0, 0};
     now.position[1] = centre + Vec3{0, r, 0.5};
-    expect_near(flow->beside(now).velocity[0], {0, u, 0}, 1e-12, "along x");
-    expect_near(flow->beside(now).velocity[1], {-u, 0, 0}, 1e-12, "along y");
+    expect_near(flow->truth_for(now).velocity[0], {0, u, 0}, 1e-12, "along x");
+    expect_near(flow->truth_for(now).velocity[1], {-u, 0, 0}, 1e-12, "along y");
   }
 }
 
@@ -255,12 +255,12 @@ TEST(KnownLiquids, SoundIsAQuarterPeriodFromSpeedToPressure) {
   now.position = s.initial.position;
   now.position[0].x = -0.7 / (2.0 * pi);
   now.position[1].x = (0.5 * pi - 0.7) / (2.0 * pi);  // phases 0 and pi/2
-  const auto start = wave->beside(now);
+  const auto start = wave->truth_for(now);
   EXPECT_NEAR(start.velocity[0].x, 0.01, 1e-15);
   EXPECT_NEAR(start.velocity[1].x, 0.0, 1e-15);
   EXPECT_NEAR(start.pressure[1], 0.0, 1e-12);
   now.time = 0.05;
-  const auto quarter = wave->beside(now);
+  const auto quarter = wave->truth_for(now);
   EXPECT_NEAR(quarter.velocity[0].x, 0.0, 1e-15);
   EXPECT_NEAR(quarter.pressure[0], 0.0, 1e-12);
   EXPECT_NEAR(quarter.pressure[1], 1000.0 * 5.0 * 0.01, 1e-10);  // rho c v
@@ -277,9 +277,9 @@ TEST(KnownLiquids, ABallTurnsAsABodyAtItsStart) {
   Snapshot now;
   now.position = s.initial.position;
   now.position[0] = {0.7, 0.1, 0};
-  expect_near(made(s, "liquid_ball")->beside(now).velocity[0], {-0.3, 0.6, 0}, 1e-14, "w x r");
+  expect_near(made(s, "liquid_ball")->truth_for(now).velocity[0], {-0.3, 0.6, 0}, 1e-14, "w x r");
   now.time = 0.1;
-  EXPECT_TRUE(made(s, "liquid_ball")->beside(now).velocity.empty());
+  EXPECT_TRUE(made(s, "liquid_ball")->truth_for(now).velocity.empty());
   EXPECT_EQ(made(s, "liquid_ball")->number("spin_rate"), 0.0);
   EXPECT_NEAR(*made(s, "liquid_ball", {{"form", std::string("paper")}})->number("spin_rate"), 5.0 * 0.002 / 0.25, 1e-15);
 }

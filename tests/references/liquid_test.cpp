@@ -85,7 +85,7 @@ TEST(PlaneShear, JudgesAParticleWhereItIs) {
   now.time = 1e4;
   now.position = s.initial.position;
   now.position[4].z = 0.25;
-  EXPECT_NEAR(flow->beside(now).velocity[4].x, 0.08 / 0.02 * 0.25 * 0.75, 1e-9);
+  EXPECT_NEAR(flow->truth_for(now).velocity[4].x, 0.08 / 0.02 * 0.25 * 0.75, 1e-9);
 }
 
 TEST(Hydrostatic, IsTheIntegralOfTheWeightAbove) {
@@ -114,7 +114,7 @@ TEST(Hydrostatic, OfACompressedLayerHasAllItsWeightAtTheFloorAndTheDensityOfItsP
     Snapshot now;
     now.position = s.initial.position;
     now.position[0].z = height;
-    return truth->beside(now).pressure[0];
+    return truth->truth_for(now).pressure[0];
   };
   EXPECT_NEAR(pressure(0.0), 1000.0 * 9.81 * 0.5, 1e-9);
   for (const double z : {0.05, 0.2, 0.4}) {
@@ -133,7 +133,7 @@ TEST(Hydrostatic, OfCompressedLayersFallsWithEachDensityAndKeepsTheWeightOfEach)
     Snapshot now;
     now.position = s.initial.position;
     now.position[0].z = height;
-    return truth->beside(now).pressure[0];
+    return truth->truth_for(now).pressure[0];
   };
   const double at_interface = *free->number("interface_pressure"), interface = *free->number("interface");
   EXPECT_NEAR(pressure(0.0), *free->number("bottom_pressure"), 1e-9);
@@ -175,7 +175,7 @@ TEST(SoundWave, SolvesTheLinearEquationsByItsOwnDifferences) {
     Snapshot now = here;
     now.time += dt;
     now.position[0].x = 0.13 + dx;
-    const auto truth = wave->beside(now);
+    const auto truth = wave->truth_for(now);
     return std::pair{truth.velocity[0].x, truth.pressure[0]};
   };
   const double du_dt = (at(0, h).first - at(0, -h).first) / (2 * h), dp_dx = (at(h, 0).second - at(-h, 0).second) / (2 * h);
@@ -192,7 +192,7 @@ double taylor_green_residual(const test::Prepared& s, const Settings& args) {
     now.time = t;
     now.position = s.initial.position;
     now.position[0] = {x, y, 0};
-    const auto truth = flow->beside(now);
+    const auto truth = flow->truth_for(now);
     return std::pair{truth.velocity[0].x, std::pair{truth.velocity[0].y, truth.pressure[0]}};
   };
   const double x = 0.17, y = 0.31, t = 0.5, h = 1e-4, nu = 0.01;
@@ -247,7 +247,7 @@ TEST(CouetteCylinders, BalancesTheTorqueBetweenAnyTwoRadiiAndSticksToBothWalls) 
     Snapshot now;
     now.position = s.initial.position;
     now.position[0] = centre + r * Vec3{0.6, 0.8, 0.0};
-    return dot(flow->beside(now).velocity[0], Vec3{-0.8, 0.6, 0.0});
+    return dot(flow->truth_for(now).velocity[0], Vec3{-0.8, 0.6, 0.0});
   };
   EXPECT_NEAR(speed(a), spin * a, 1e-12);
   EXPECT_NEAR(speed(b), 0.0, 1e-12);

@@ -50,7 +50,7 @@ TEST(Preflight, FindsOverlapAcrossAPeriodicSide) {
   auto scene = scene_for(c, {});
   auto state = sample(scene);
   for (std::size_t i = 0; i < state.size(); ++i)
-    state.position[i].x += state.source[i] == 1 ? 0.03 : -0.03;  // 0.04 m apart over the seam
+    state.position[i].x += state.source[i] == 1 ? 0.03 : -0.03;  // 0.04 m apart across the periodic boundary
   const auto all = preflight(c, scene, state);
   EXPECT_TRUE(std::any_of(all.begin(), all.end(),
                           [](const Finding& f) { return f.error && f.what.find("overlap") != std::string::npos; }));

@@ -6,7 +6,7 @@
 namespace tripoint::test {
 
 inline const std::string cosine_case =
-    R"toml(# One cosine of temperature in a periodic block, shifted in phase: a symmetric start would hide a fault at the seam.
+    R"toml(# One cosine of temperature in a periodic block, shifted in phase: a symmetric start would hide a fault at the periodic boundary.
 format = 1
 
 [case]
@@ -182,7 +182,7 @@ size = 0.02
 killed_by = ["rate"]
 
 [[defect]]
-name = "neighbours.seam"
+name = "neighbours.periodic"
 size = 1.0
 killed_by = ["rate"]
 )toml";

@@ -6,17 +6,18 @@
 #include <cmath>
 
 #include "effects/fluid_lab.hpp"
+#include "scene/guard_name.hpp"
 
 namespace tripoint {
 namespace {
 
-double kinetic_energy(const Simulation& s) { return s.ledger().energy.at("kinetic"); }
+double kinetic_energy(Simulation& s) { return s.ledger().energy.at("kinetic"); }
 
 /// Greatest relative error of the energy of a tumbling block over 20 s at `angle` rad a step.
 double spin_error(double angle) {
   lab::Lab lab = lab::asymmetric_block({1.0, 2.0, 3.0});
   lab.scene.time_step = angle / std::sqrt(14.0);
-  lab.scene.unguarded = {"time_step", "ledger"};
+  lab.scene.unguarded = {GuardName::time_step, GuardName::ledger};
   Simulation s(lab.scene, lab.initial, {.force_time_step = true});
   const double first = kinetic_energy(s);
   double most = 0.0;
@@ -53,11 +54,11 @@ lab::Lab plate_over_floor() {
   lab.add({.name = "plate", .corner = {0.0, 0.0, 1.5}, .count = {4, 4, 1}});
   lab.add({.name = "floor", .corner = {0.0, 0.0, -3.0}, .count = {4, 4, 4}, .motion = Motion::fixed});
   lab.make_periodic({true, true, false}, {0.0, 0.0, 0.0}, {4, 4, 16});
-  lab.scene.unguarded = {"overlap", "time_step", "ledger"};
+  lab.scene.unguarded = {GuardName::overlap, GuardName::time_step, GuardName::ledger};
   return lab;
 }
 
-double mechanical(const Simulation& s) {
+double mechanical(Simulation& s) {
   const Ledger now = s.ledger();
   return now.energy.at("kinetic") + now.energy.at("potential") + now.energy.at("compression");
 }

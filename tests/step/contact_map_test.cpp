@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "effects/fluid_lab.hpp"
+#include "scene/guard_name.hpp"
 
 namespace tripoint {
 namespace {
@@ -32,7 +33,7 @@ Hit hit(double speed, double share) {
   lab::Lab lab = lab::liquid_lab(1.0, 1.0, 0.0, 1.0);
   lab.add({.name = "left", .count = {4, 4, 4}, .velocity = {speed, 0.0, 0.0}});
   lab.add({.name = "right", .corner = {3.0 + gap, 0.0, 0.0}, .count = {4, 4, 4}});
-  lab.scene.unguarded = {"overlap", "time_step", "ledger"};
+  lab.scene.unguarded = {GuardName::overlap, GuardName::time_step, GuardName::ledger};
   lab.scene.time_step = share * Simulation(lab.scene, lab.initial).bound().dt;
   Simulation s(lab.scene, lab.initial, {.force_time_step = true});
   const auto x = [&](std::size_t body) { return s.world().bodies[field::body_centre][body].x; };

@@ -87,7 +87,7 @@ TEST(Guard, NamesASolidThatIsTurnedInsideOut) {
   EXPECT_EQ(e.body, 0);
   EXPECT_EQ(e.time, 1.0);
   EXPECT_NE(std::string(e.what()).find("det F = -0.5"), std::string::npos) << e.what();
-  lab.scene.unguarded = {"inversion"};
+  lab.scene.unguarded = {GuardName::inversion};
   Simulation unguarded = forced(lab);
   EXPECT_NO_THROW(unguarded.advance_to(1.0));
 }
@@ -134,7 +134,7 @@ TEST(Guard, NamesEnergyThatTheSchemeMakes) {
   lab.add({.count = {4, 4, 4}, .phase = Phase::elastic, .temperature = [](const Vec3&) { return 300.0; }});
   for (std::size_t i = 0; i < lab.initial.size(); ++i) lab.initial.velocity[i].x = i % 2 ? 1e-3 : -1e-3;
   lab.initial.velocity[21].y = 0.01;
-  const Simulation s(lab.scene, lab.initial);
+  Simulation s(lab.scene, lab.initial);
   Ledger ledger = s.ledger();
   const double kinetic = ledger.energy.at("kinetic"), dt = s.bound().dt;
   GuardMemory memory;

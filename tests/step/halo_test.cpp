@@ -3,6 +3,7 @@
 // holds all.
 #include <gtest/gtest.h>
 
+#include "scene/guard_name.hpp"
 #include "step/slab_halo.hpp"
 
 namespace tripoint {
@@ -147,7 +148,7 @@ test::Prepared thrown_bar(bool flows, bool meets, double spin, double bending) {
   if (meets)
     s.bodies.push_back(block);
   else
-    s.unguarded = {"inversion", "finite"};
+    s.unguarded = {GuardName::inversion};
   return test::prepare(s, meets ? 0.01 : 0.02, 1);
 }
 

@@ -20,7 +20,7 @@ lab::Lab ringing(double steps_of_bound) {
   return lab;
 }
 
-double energy(const Simulation& s) {
+double energy(Simulation& s) {
   const Ledger sum = s.ledger();
   return sum.energy.at("kinetic") + sum.energy.at("elastic") + sum.energy.at("hourglass");
 }

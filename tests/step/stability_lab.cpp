@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/errors.hpp"
+#include "scene/guard_name.hpp"
 #include "scene/shared_terms.hpp"
 
 namespace tripoint::stability {
@@ -86,7 +87,7 @@ double kinetic(const Simulation& s) {
 double own_step(const Lab& lab) { return Simulation(lab.scene, lab.initial).bound().dt; }
 
 std::function<bool(double)> stays(Lab lab, std::function<double(const Simulation&)> measure, double most) {
-  lab.scene.unguarded = {"inversion", "overlap", "ledger", "time_step"};
+  lab.scene.unguarded = {GuardName::inversion, GuardName::overlap, GuardName::ledger, GuardName::time_step};
   return [lab, measure, most](double dt) {
     Lab here = lab;
     here.scene.time_step = dt;

@@ -62,7 +62,7 @@ std::string change_text(const MetricChange& c) {
 
 std::string noise_text(const MetricChange& c) {
   if (c.noise_from.empty()) return "-";
-  if (c.noise_from == "none known" || !(c.noise > 0.0)) return c.noise_from;
+  if (!(c.noise > 0.0)) return c.noise_from;
   return fmt::format("{:.2g}, {}", c.noise, c.noise_from);
 }
 

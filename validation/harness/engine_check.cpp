@@ -163,7 +163,7 @@ bool check_scene(const CheckScene& scene, const EngineEntry& engine, const fs::p
   const auto p = prepare(scene, engine, folder);
   const auto outcome = run(scene, engine, p, folder, scene.name + "-1");
   if (outcome.status == Status::refused) {
-    checks.add(what + "refused, with a reason", !outcome.reason.empty() && outcome.reason != "it gives no reason", "no reason");
+    checks.add(what + "refused, with a reason", outcome.explained, "no reason");
     return false;
   }
   check_result_file(what, folder / (scene.name + "-1") / "result.json", checks);

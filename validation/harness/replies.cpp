@@ -84,13 +84,17 @@ EngineEntry with_info(EngineEntry entry, const std::string& printed) {
   return entry;
 }
 
-std::string refusal_in(const std::string& printed) {
+Refusal refusal_for(const std::string& reason) {
+  return reason.empty() ? Refusal{"it gives no reason", false} : Refusal{reason, true};
+}
+
+std::optional<Refusal> refusal_in(const std::string& printed) {
   const Json answer = parsed(printed);
-  if (!answer.is_object() || !answer.contains("can") || !answer["can"].is_boolean()) return "--check did not print {can, reason}";
+  if (!answer.is_object() || !answer.contains("can") || !answer["can"].is_boolean())
+    return refusal_for("--check did not print {can, reason}");
   if (answer["can"].get<bool>()) return {};
   const auto reason = answer.find("reason");
-  return reason != answer.end() && reason->is_string() && !reason->empty() ? reason->get<std::string>().substr(0, most_letters)
-                                                                           : "it gives no reason";
+  return refusal_for(reason != answer.end() && reason->is_string() ? reason->get<std::string>().substr(0, most_letters) : "");
 }
 
 }  // namespace tripoint

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <optional>
 #include <string>
 
 #include "validation/harness/discover.hpp"
@@ -11,7 +12,14 @@ namespace tripoint {
 /// that it had.
 [[nodiscard]] EngineEntry with_info(EngineEntry, const std::string& printed);
 
-/// Why the engine cannot run the job, by what `--check` printed; empty = it can.
-[[nodiscard]] std::string refusal_in(const std::string& printed);
+/// Why an engine cannot run a job, in its own words or, where it has none, in ours.
+struct Refusal {
+  std::string reason;
+  bool explained = true;  ///< in its own words
+};
+/// @param reason the engine's own words, "" where it gave none
+[[nodiscard]] Refusal refusal_for(const std::string& reason);
+/// Of the job, by what `--check` printed; empty = the engine can run it.
+[[nodiscard]] std::optional<Refusal> refusal_in(const std::string& printed);
 
 }  // namespace tripoint

@@ -32,6 +32,11 @@ Outcome failed(Outcome outcome, Status status, const std::string& reason) {
   return outcome;
 }
 
+Outcome refused(Outcome outcome, const Refusal& refusal) {
+  outcome.explained = refusal.explained;
+  return failed(std::move(outcome), Status::refused, refusal.reason);
+}
+
 /// Whether an engine has written into the shared file, or taken it away; the runs that follow find it as it was.
 bool particles_were_changed(const RunRequest& request) {
   if (!request.particles_hash) return false;
@@ -238,8 +243,7 @@ Outcome read_back(const RunRequest& request, const ProcessEnd& end) {
     outcome.result = result_of(request);
     take_cost(outcome, end);
     const auto& r = outcome.result;
-    if (r.status == Status::refused)
-      return failed(outcome, Status::refused, r.message.empty() ? "it gives no reason" : r.message);
+    if (r.status == Status::refused) return refused(outcome, refusal_for(r.message));
     if (r.status == Status::diverged)
       return failed(outcome, Status::diverged,
                     r.divergence        ? describe(*r.divergence) + (r.message.empty() ? "" : ": " + r.message)
@@ -271,7 +275,7 @@ Outcome ask(const RunRequest& request) {
   try {
     if (!belongs_to_us(request.engine->executable))
       try_of_stranger([&] { static_cast<void>(refusal_in(check.output)); }, {"what --check printed"}, reply_limit);
-    if (const auto reason = refusal_in(check.output); !reason.empty()) return failed({}, Status::refused, reason);
+    if (const auto refusal = refusal_in(check.output)) return refused({}, *refusal);
   } catch (const std::exception& e) {
     return failed({}, Status::error, e.what());
   }

@@ -31,7 +31,8 @@ struct RunRequest {
 
 struct Outcome {
   Status status = Status::ok;
-  std::string reason;  ///< as in results.json
+  std::string reason;     ///< as in results.json
+  bool explained = true;  ///< of a refusal: the reason is the engine's own
   bool comparable = true;
   bool kept = false;                             ///< of an earlier run, not made again
   Result result;                                 ///< of the engine, where there is one

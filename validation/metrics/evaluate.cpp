@@ -197,7 +197,7 @@ MetricValue over_time(Norm norm, const Series& s) {
 MetricValue l2_of_means(const MetricInput& in, const Quantity& quantity, const Frames& all, const Frames& chosen) {
   FrameError sum;
   for (const auto* now : chosen) {
-    const auto error = quantity.error({in, *now, in.reference.beside(*now), *all.front()});
+    const auto error = quantity.error({in, *now, in.reference.truth_for(*now), *all.front()});
     if (!error.problem.empty()) return unformed(error.problem);
     if (sum.error.empty()) {
       sum = error;
@@ -220,7 +220,7 @@ MetricValue of_frames(const MetricInput& in, const Quantity& quantity, const Fra
   Series series;
   for (const auto* now : chosen) {
     const bool no_state = norm == Norm::drift || norm == Norm::frequency || now->gauges_only();
-    const Snapshot truth = no_state ? *all.front() : in.reference.beside(*now);
+    const Snapshot truth = no_state ? *all.front() : in.reference.truth_for(*now);
     const auto error = quantity.error({in, *now, truth, *all.front()});
     if (!error.problem.empty()) return unformed(error.problem);
     if (norm == Norm::frequency && error.error.size() != 1)

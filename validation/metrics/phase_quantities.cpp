@@ -114,7 +114,7 @@ MetricValue toggles(const MetricInput& in, const Frames& frames) {
   std::vector<std::vector<int>> run, true_phases;
   for (const auto* s : frames) {
     run.push_back(s->phase);
-    true_phases.push_back(in.reference.beside(*s).phase);
+    true_phases.push_back(in.reference.truth_for(*s).phase);
   }
   const auto count = changes(in, run), truth = changes(in, true_phases);
   if (count.empty()) return not_formed("the trajectory has no phases");

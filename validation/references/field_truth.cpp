@@ -22,7 +22,7 @@ std::string field_of_probe(std::string_view quantity, const Measuring& measuring
   return std::string("velocity_") + static_cast<char>('x' + *measuring.axis);
 }
 
-Snapshot fields_beside(const Snapshot& now, const FieldOf& field) {
+Snapshot truth_of_fields(const Snapshot& now, const FieldOf& field) {
   Snapshot out;
   out.time = now.time;
   const auto fill = [&](const char* name, std::vector<double>& column) {

@@ -20,6 +20,6 @@ namespace tripoint {
 /// The truth of a frame where its particles are. @param field gives a column's function of place, or nothing where it is not
 /// known
 using FieldOf = std::function<std::function<double(const Vec3&)>(const std::string& column)>;
-[[nodiscard]] Snapshot fields_beside(const Snapshot& now, const FieldOf& field);
+[[nodiscard]] Snapshot truth_of_fields(const Snapshot& now, const FieldOf& field);
 
 }  // namespace tripoint

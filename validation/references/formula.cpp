@@ -20,8 +20,8 @@ class Formula : public Reference {
     out.time = time;
     return out;
   }
-  [[nodiscard]] Snapshot beside(const Snapshot& now) const override {
-    return fields_beside(now, [&](const std::string& field) -> std::function<double(const Vec3&)> {
+  [[nodiscard]] Snapshot truth_for(const Snapshot& now) const override {
+    return truth_of_fields(now, [&](const std::string& field) -> std::function<double(const Vec3&)> {
       const auto found = formulas_.find(field);
       if (found == formulas_.end()) return {};
       return [&formula = found->second, t = now.time](const Vec3& r) { return formula(r, t); };

@@ -20,7 +20,7 @@ class LiquidReference : public Reference {
   /// @throws InputError when the scene has no liquid
   LiquidReference(const Job&, const InitialState&);
   [[nodiscard]] Snapshot at(double time) const final { return fields(initial_.position, time); }
-  [[nodiscard]] Snapshot beside(const Snapshot& now) const final { return fields(now.position, now.time); }
+  [[nodiscard]] Snapshot truth_for(const Snapshot& now) const final { return fields(now.position, now.time); }
 
  protected:
   [[nodiscard]] virtual LiquidState state(const Vec3& place, double time, std::size_t particle) const = 0;

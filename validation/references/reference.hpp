@@ -58,7 +58,7 @@ class Reference {
   [[nodiscard]] virtual Snapshot at(double time) const = 0;
   /// The truth that this frame is compared with. A solution that is a field of place (a liquid's) takes the frame's own places,
   /// so that a particle is judged where it is; others know each particle's place, and this is at(now.time).
-  [[nodiscard]] virtual Snapshot beside(const Snapshot& now) const { return at(now.time); }
+  [[nodiscard]] virtual Snapshot truth_for(const Snapshot& now) const { return at(now.time); }
   /// A number it knows by name: decay_rate [1/s], event_time [s], energy_ratio ...; empty when it does not.
   [[nodiscard]] virtual std::optional<double> number(std::string_view quantity) const {
     (void)quantity;

@@ -54,7 +54,8 @@ ReferenceEntry step_insulated_entry() {
   return {{"step_insulated",
            "analytic",
            "Carslaw & Jaeger, Conduction of Heat in Solids, 1959: method of images with the error function",
-           "a step of temperature in a bar with insulated ends, or in a periodic one (then with the second step at the seam)",
+           "a step of temperature in a bar with insulated ends, or in a periodic one (then with the second step at the periodic "
+           "boundary)",
            {{"place", "m", "of the step along its axis; default the point of the body's step"},
             {"diffusivity", "m2/s", "k/(rho c_p); default of the bodies' material"},
             {"cell_average", "", "means over cells of one spacing instead of values at points; default true for runs by walkers",

@@ -30,10 +30,10 @@ class Table : public Reference {
     out.time = time;
     return out;
   }
-  [[nodiscard]] Snapshot beside(const Snapshot& now) const override {
+  [[nodiscard]] Snapshot truth_for(const Snapshot& now) const override {
     if (in_time()) return at(now.time);
     const auto axis = static_cast<std::size_t>(file_.first[0] - 'x');
-    return fields_beside(now, [&](const std::string& field) -> std::function<double(const Vec3&)> {
+    return truth_of_fields(now, [&](const std::string& field) -> std::function<double(const Vec3&)> {
       const auto found = file_.curves.find(field);
       if (found == file_.curves.end()) return {};
       return [&curve = found->second, axis](const Vec3& r) { return between(curve.time, curve.value, r[axis]); };

@@ -269,7 +269,7 @@ void deform(World& world, const ElasticForms& forms, Deformations& all) {
 
 void refuse_inversion(const World& world, const ElasticForms& forms, const Deformations& all) {
   const Particles& p = world.particles;
-  if (forms.paper() || all.deformed.size() != p.size() || is_off(world.scene, "inversion")) return;
+  if (forms.paper() || all.deformed.size() != p.size() || is_off(world.scene, GuardName::inversion)) return;
   const double least = all.least_volume_ratio;
   if (least > 0.0) return;
   const solid::EnergyOwners owns(world);
@@ -280,7 +280,7 @@ void refuse_inversion(const World& world, const ElasticForms& forms, const Defor
   };
   for (std::size_t row = 0; row < p.size(); ++row) {
     if (is_worst(row))
-      fail(world, "inversion", row, "deformation", "state",
+      fail(world, GuardName::inversion, row, "deformation", "state",
            fmt::format("is turned inside out: det F = {:.3g}; a stiffer or finer solid, a slower load, or unguarded = "
                        "[\"inversion\"] to go on",
                        least));

@@ -16,7 +16,7 @@ namespace tripoint::fluid {
 
 void refuse_overlap(const World& world, const SceneNumbers& n) {
   const Particles& p = world.particles;
-  if (!p.has(field::number_density) || is_off(world.scene, "overlap")) return;
+  if (!p.has(field::number_density) || is_off(world.scene, GuardName::overlap)) return;
   const auto rho = p[field::density], rest = p[field::rest_density], group = p[field::group];
   const auto pressed = [&](std::size_t i) { return group[i] == wall_group ? 0.0 : rho[i] / rest[i]; };
   double most = 0.0;
@@ -25,7 +25,7 @@ void refuse_overlap(const World& world, const SceneNumbers& n) {
   if (most <= n.overlap_density) return;
   std::size_t worst = 0;
   while (pressed(worst) != most) ++worst;
-  fail(world, "overlap", worst, "density", "density",
+  fail(world, GuardName::overlap, worst, "density", "density",
        fmt::format("is pressed to {:.3g} times its rest density, as where two bodies overlap by one spacing ({:.3g}): a stiffer "
                    "contact (speed of sound above 10 times that of the "
                    "impact), walls of 3 layers, or a smaller step",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/ledger_entry.hpp"
 #include "scene/shared_terms.hpp"
 #include "world/body_table.hpp"
 #include "world/force_columns.hpp"
@@ -110,8 +111,8 @@ void FreeMotion::add_to(const World& world, Ledger& ledger) const {
   });
   ledger.momentum += {sums[momentum], sums[momentum + 1], sums[momentum + 2]};
   ledger.angular_momentum += {sums[angular], sums[angular + 1], sums[angular + 2]};
-  ledger.energy["kinetic"] += sums[kinetic];
-  ledger.energy["potential"] += sums[potential];
+  ledger.energy[ledger_entry::kinetic] += sums[kinetic];
+  ledger.energy[ledger_entry::potential] += sums[potential];
 }
 
 }  // namespace

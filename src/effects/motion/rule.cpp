@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/effect_rule.hpp"
+#include "scene/ledger_entry.hpp"
 
 namespace tripoint::motion {
 namespace {
@@ -14,7 +15,10 @@ std::string needed_for(const Scene& s, const Called& called) {
 }  // namespace
 
 EffectRule rule() {
-  return {.name = "motion", .needed_for = needed_for, .ledger_entries = {"kinetic", "potential"}, .over_processes = true};
+  return {.name = "motion",
+          .needed_for = needed_for,
+          .ledger_entries = {ledger_entry::kinetic, ledger_entry::potential},
+          .over_processes = true};
 }
 
 }  // namespace tripoint::motion

@@ -12,6 +12,7 @@
 #include "effects/rigid/rotation.hpp"
 #include "effects/rigid/terms.hpp"
 #include "scene/geometry.hpp"
+#include "scene/ledger_entry.hpp"
 #include "scene/motion.hpp"
 #include "solids/body_forces.hpp"
 #include "solids/grip.hpp"
@@ -314,14 +315,14 @@ void RigidBodies::add_to(const World& world, Ledger& ledger) const {
   for (std::size_t b = 0; b < world.bodies.size(); ++b) {
     if (!is_alive(world, b) || !is_rigid(world, b)) continue;
     if (!world.tells_of_bodies()) {  // the same entries all the same
-      for (const char* entry : {"kinetic", "potential"}) ledger.energy.try_emplace(entry, 0.0);
+      for (const char* entry : {ledger_entry::kinetic, ledger_entry::potential}) ledger.energy.try_emplace(entry, 0.0);
       continue;
     }
     const BodyMotion m = motion_of(world, b);
     ledger.momentum += m.mass * m.velocity;
     ledger.angular_momentum += m.L + m.mass * cross(m.centre, m.velocity);
-    ledger.energy["kinetic"] += kinetic_energy(world, b);
-    ledger.energy["potential"] += potential_energy(world, b);
+    ledger.energy[ledger_entry::kinetic] += kinetic_energy(world, b);
+    ledger.energy[ledger_entry::potential] += potential_energy(world, b);
   }
   if (world.tells_of_bodies()) ledger.angular_momentum += world.booked.undelivered_spin;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "scene/effect_rule.hpp"
+#include "scene/ledger_entry.hpp"
 
 #include "effects/rigid/terms.hpp"
 
@@ -34,7 +35,7 @@ EffectRule rule() {
           .left_out = left_out,
           .needed_for = needed_for,
           .terms = {{term::rotation, TermKind::time}},
-          .ledger_entries = {"kinetic", "potential"},
+          .ledger_entries = {ledger_entry::kinetic, ledger_entry::potential},
           .over_processes = true};
 }
 

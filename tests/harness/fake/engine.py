@@ -42,6 +42,9 @@ def check():
     if WRONG == "gives a number as its reason":
         print('{"can": false, "reason": 5}')
         return
+    if WRONG == "gives an empty reason":
+        print('{"can": false, "reason": ""}')
+        return
     if WRONG == "leads its log elsewhere":
         (Path(sys.argv[2]).parent / "log.txt").symlink_to(os.environ["FAKE_VICTIM"])
     print(json.dumps({"can": not refused, "reason": "it has no conduction" if refused else ""}))

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// Entries of the ledger of energy that more than one room names. Those of a single effect are in its rule.
+namespace tripoint::ledger_entry {
+
+inline constexpr const char* kinetic = "kinetic";
+inline constexpr const char* potential = "potential";
+inline constexpr const char* time_integration = "time_integration";  ///< what finite time steps have made, lost where negative
+
+}  // namespace tripoint::ledger_entry
