@@ -341,6 +341,7 @@ EffectSpec spec(const Scene& scene) {
   s.forces = forces_of(scene);
   s.accounts = {compression_released};
   s.guards = {{field::density, "density", Written::density}};
+  s.positive = {field::density};
   s.guarded_entries = {{"viscous", EntryRole::only_takes, "viscous forces, which may only take energy"}};
   if (!stores_compression(scene))
     s.guarded_entries.push_back({"pressure_work", EntryRole::unbacked, "the printed pressure, which no energy stands behind"});
