@@ -54,6 +54,18 @@ struct EffectKey {
   bool limit = false;    ///< of [[material]]: what is beyond it yields or breaks; `tripoint check` tells where nothing ever can
 };
 
+/// A key of [scene] that stands with those of no effect (scene_records.hpp), and acts where its effect is on.
+struct SceneKey {
+  std::string_view name;
+  bool (*serves)(const Scene&) = nullptr;  ///< whether something that is no effect reads it in this scene
+};
+
+/// A key of a material that says nothing to any run of a case, and what to write instead.
+struct WrongKey {
+  std::string_view key;
+  std::string why;
+};
+
 /// What the two forms of a term are of, in the order in which jobs and pages list terms.
 enum class TermKind { kernel, law, time };
 
@@ -79,8 +91,12 @@ struct EffectRule {
   std::vector<DeclaredTerm> terms{};
   std::vector<Term> terms_shared{};  ///< of others that its forms read too
   std::vector<EffectKey> keys{};     ///< of [scene] and [[material]]
+  std::vector<SceneKey> scene_keys{};
+  std::vector<std::string_view> scene_keys_shared{};  ///< scene_keys of others that it reads too
   /// What keys of a material say of each other, once all are read: refuses what cannot be, and sets what a rule gives.
   void (*settle_material)(TableReader&, Material&) = nullptr;
+  /// Keys of a material that fit no run of a case, asked where the effect is on in one. @param runs the scene in each mode
+  std::vector<WrongKey> (*wrong_keys)(const Material&, std::span<const Scene> runs) = nullptr;
   std::vector<std::string_view> ledger_entries{};  ///< that it tells, or that take the work of its forces
   bool over_processes = false;                     ///< it also runs where several processes share a scene (World::halo)
 };

@@ -272,6 +272,7 @@ EffectRule rule() {
       .terms = {term::pressure, term::density, term::state, {term::clamp, TermKind::law, false}, term::viscosity, term::walls},
       .terms_shared = {term::kernel},
       .keys = keys(),
+      .scene_keys = {{"clamp"}},
       .settle_material = settle_material,
       .ledger_entries = {"compression", "pressure_work", "phase_work", "viscous", "bulk_viscous", "transport"},
       .over_processes = true};
