@@ -98,7 +98,9 @@ struct EffectRule {
   /// Keys of a material that fit no run of a case, asked where the effect is on in one. @param runs the scene in each mode
   std::vector<WrongKey> (*wrong_keys)(const Material&, std::span<const Scene> runs) = nullptr;
   std::vector<std::string_view> ledger_entries{};  ///< that it tells, or that take the work of its forces
-  bool over_processes = false;                     ///< it also runs where several processes share a scene (World::halo)
+  /// Of these those that every scene with forces tells, 0 where the effect is off: reports put scenes side by side.
+  std::vector<std::string_view> (*always_told)(const Scene&) = nullptr;
+  bool over_processes = false;  ///< it also runs where several processes share a scene (World::halo)
 };
 
 /// Of every effect, in the order in which effects run.

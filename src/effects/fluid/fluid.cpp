@@ -14,6 +14,7 @@
 #include "effects/fluid/laid_walls.hpp"
 #include "effects/fluid/phase_jump.hpp"
 #include "effects/fluid/solid_viscosity.hpp"
+#include "effects/fluid/stored_compression.hpp"
 #include "effects/fluid/transport.hpp"
 #include "effects/fluid/viscous_bound.hpp"
 #include "effects/fluid/viscous_form.hpp"
