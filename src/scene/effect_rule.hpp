@@ -101,6 +101,15 @@ struct EffectRule {
   /// Of these those that every scene with forces tells, 0 where the effect is off: reports put scenes side by side.
   std::vector<std::string_view> (*always_told)(const Scene&) = nullptr;
   bool over_processes = false;  ///< it also runs where several processes share a scene (World::halo)
+
+  // What the rest of the program must know of a scene that calls for it; calls_for(scene, &EffectRule::...) asks.
+  bool has_pairs = false;             ///< particles act on each other by it, so that the scene has neighbours
+  bool has_pressure = false;          ///< it needs a stiffness, and presses apart what overlaps
+  bool has_bonds = false;             ///< solids are held together by bonds, or get and lose some by it
+  bool makes_bodies = false;          ///< there can be solid bodies later where there is none at the start
+  bool deforms_bodies = false;        ///< the particles of a solid body can move by themselves
+  bool frees_particles = false;       ///< what is fixed at the start can move later
+  bool changes_temperatures = false;  ///< temperatures change by it even where all are equal
 };
 
 /// Of every effect, in the order in which effects run.
@@ -133,6 +142,8 @@ struct EffectRule {
 
 /// Whether a scene calls for that one effect.
 [[nodiscard]] bool calls_for(const Scene&, std::string_view effect);
+/// Whether it calls for an effect that says this of itself.
+[[nodiscard]] bool calls_for(const Scene&, bool EffectRule::*says);
 /// What a scene calls for, and what that in turn needs.
 [[nodiscard]] std::vector<CalledEffect> needed_effects(const Scene&);
 

@@ -46,10 +46,10 @@ std::vector<Bounded> body_table_bounds() {
 
 bool can_have_bodies(const Scene& scene) {
   const bool solid = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; });
-  return solid || calls_for(scene, "phase");
+  return solid || calls_for(scene, &EffectRule::makes_bodies);
 }
 
-bool can_have_deformable_bodies(const Scene& scene) { return calls_for(scene, "elastic"); }
+bool can_have_deformable_bodies(const Scene& scene) { return calls_for(scene, &EffectRule::deforms_bodies); }
 
 std::vector<std::size_t> members(const World& world, std::size_t body) {
   std::vector<std::size_t> rows;

@@ -16,7 +16,7 @@ double stored_now(const Ledger& ledger, const StoredEnergy& stored) {
   return sum;
 }
 
-/// What scenes with forces tell without the effect that it is of.
+/// Entries that every scene with forces tells, 0 where their effect is off.
 void tell_common_entries(const World& world, Ledger& sum) {
   for (const EffectRule& rule : effect_rules())
     if (rule.always_told)

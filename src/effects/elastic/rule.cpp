@@ -68,7 +68,10 @@ EffectRule rule() {
           .keys = keys(),
           .settle_material = settle_material,
           .ledger_entries = {"elastic", "hourglass"},
-          .over_processes = true};
+          .over_processes = true,
+          .has_pairs = true,
+          .has_bonds = true,
+          .deforms_bodies = true};
 }
 
 }  // namespace tripoint::elastic

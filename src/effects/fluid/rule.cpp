@@ -281,7 +281,9 @@ EffectRule rule() {
       .settle_material = settle_material,
       .ledger_entries = {"compression", "pressure_work", "phase_work", "viscous", "bulk_viscous", "transport"},
       .always_told = always_told,
-      .over_processes = true};
+      .over_processes = true,
+      .has_pairs = true,
+      .has_pressure = true};
 }
 
 }  // namespace tripoint::fluid

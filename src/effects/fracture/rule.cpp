@@ -59,7 +59,8 @@ EffectRule rule() {
           .scene_keys_shared = {"merge_distance"},
           .wrong_keys = wrong_keys,
           .ledger_entries = {"fracture"},
-          .over_processes = true};
+          .over_processes = true,
+          .has_bonds = true};
 }
 
 }  // namespace tripoint::fracture

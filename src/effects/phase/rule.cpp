@@ -85,7 +85,11 @@ EffectRule rule() {
           .scene_keys = {{"merge_distance", joins_bodies}},
           .settle_material = settle_material,
           .ledger_entries = {"phase_work"},
-          .over_processes = true};
+          .over_processes = true,
+          .has_bonds = true,
+          .makes_bodies = true,
+          .frees_particles = true,
+          .changes_temperatures = true};
 }
 
 }  // namespace tripoint::phase
