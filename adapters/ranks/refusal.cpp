@@ -12,8 +12,7 @@ namespace {
 /// What of the scene has no part over ranks; empty where all has.
 std::string refused_part(const Scene& scene) {
   if (scene.recovers) return "recovery, which goes back to a kept state";
-  if (!calls_for(scene, "fluid") && !calls_for(scene, "heat") && !calls_for(scene, "elastic"))
-    return "a scene of which no particle meets another";
+  if (!calls_for(scene, &EffectRule::has_pairs)) return "a scene of which no particle meets another";
   for (const CalledEffect& needed : needed_effects(scene)) {
     const auto rule = std::ranges::find(effect_rules(), needed.name, &EffectRule::name);
     if (!rule->over_processes) return "the effect " + needed.name;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-#include <array>
 #include <utility>
 
 #include "adapters/tripoint/tripoint_engine.hpp"
@@ -12,12 +10,6 @@
 
 namespace tripoint {
 namespace {
-
-/// Whether solids of this scene are held together by bonds, which can come and go.
-bool has_bonds(const Scene& scene) {
-  return std::ranges::any_of(std::array{"elastic", "phase", "fracture"},
-                             [&](const char* effect) { return calls_for(scene, effect); });
-}
 
 std::vector<double> by_id(const Particles& p, const Field<double>& f) {
   if (!p.has(f.name)) return {};
@@ -95,7 +87,7 @@ Snapshot snapshot_of(Simulation& simulation) {
   if (world.bodies.has(field::body_heat.name))
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
       if (world.bodies[field::body_source][b] >= 0) s.heat_given[world.body_names[b]] = world.bodies[field::body_heat][b];
-  if (has_bonds(world.scene)) s.counts["objects"] = static_cast<double>(count_objects(world));
+  if (calls_for(world.scene, &EffectRule::has_bonds)) s.counts["objects"] = static_cast<double>(count_objects(world));
   if (world.scene.recovers) s.counts["recoveries"] = static_cast<double>(simulation.recovery().count());
   return s;
 }

@@ -88,6 +88,18 @@ void check_ownership(const std::vector<Active>& effects, bool periodic) {
   }
 }
 
+/// @throws InputError when an effect bounds a field that it does not own, of which a scene may have no column
+void check_bounds(const std::vector<Active>& effects) {
+  const auto owned_by = [](const Active& a, const FieldInfo& f) {
+    if (std::ranges::find(a.spec.owns, f) == a.spec.owns.end())
+      throw InputError("the effect " + a.name + " bounds the field " + std::string(f.name) + " and does not own it");
+  };
+  for (const Active& a : effects) {
+    for (const Bounded& b : a.spec.bounded) owned_by(a, b.field);
+    for (const Field<double>& f : a.spec.positive) owned_by(a, f);
+  }
+}
+
 /// What each effect may ask for: what it owns and reads, the table of bodies, and the forces of all where it sums them.
 void set_declared(std::vector<Active>& effects) {
   std::vector<FieldInfo> forces;
@@ -105,6 +117,18 @@ void set_declared(std::vector<Active>& effects) {
     if (a.spec.sums_forces) add(forces);
     std::ranges::sort(a.declared.keys);
   }
+}
+
+/// Of the columns that every scene has, and of the table of bodies where there is one.
+std::vector<Bounded> common_bounds(const Scene& scene) {
+  std::vector<Bounded> bounds{{field::body, -1, [](const World& w) { return w.bodies.size(); }},
+                              {field::phase, 0, [](const World&) -> std::size_t { return 3; }},  // phases
+                              {field::material, 0, [](const World& w) { return w.scene.materials.size(); }},
+                              {field::source, 0, [](const World& w) { return w.scene.bodies.size() + w.scene.inflows.size(); }}};
+  if (!can_have_bodies(scene)) return bounds;
+  const std::vector<Bounded> of_bodies = body_table_bounds();
+  bounds.insert(bounds.end(), of_bodies.begin(), of_bodies.end());
+  return bounds;
 }
 
 /// @throws InputError when two effects declare a force's columns or an account, or there are more forces than sums have room for
@@ -156,6 +180,7 @@ std::vector<Active> active_effects(const Scene& scene) {
     if (call != calls.end()) list.push_back({std::string(r.name), call->why, r.spec(scene), r.make(scene), {}});
   }
   check_ownership(list, scene.periodic[0] || scene.periodic[1] || scene.periodic[2]);
+  check_bounds(list);
   check_forces(list);
   set_declared(list);
   return list;
@@ -190,6 +215,8 @@ void declare(World& world, const std::vector<Active>& effects) {
   world.guarded = {{field::position_x, "position", Written::drift}, {field::position_y, "position", Written::drift},
                    {field::position_z, "position", Written::drift}, {field::velocity_x, "velocity", Written::kick},
                    {field::velocity_y, "velocity", Written::kick},  {field::velocity_z, "velocity", Written::kick}};
+  world.bounded = common_bounds(world.scene);
+  world.positive = {field::mass};
   for (const Active& a : effects) {
     for (const Force& f : a.spec.forces) {
       world.forces.push_back(f);
@@ -201,6 +228,8 @@ void declare(World& world, const std::vector<Active>& effects) {
     for (const Account& one : a.spec.numerical) world.booked.open(one);
     world.numerical.insert(world.numerical.end(), a.spec.numerical.begin(), a.spec.numerical.end());
     world.guarded.insert(world.guarded.end(), a.spec.guards.begin(), a.spec.guards.end());
+    world.bounded.insert(world.bounded.end(), a.spec.bounded.begin(), a.spec.bounded.end());
+    world.positive.insert(world.positive.end(), a.spec.positive.begin(), a.spec.positive.end());
     world.guarded_entries.insert(world.guarded_entries.end(), a.spec.guarded_entries.begin(), a.spec.guarded_entries.end());
     for (const StepNumber& one : a.spec.step_numbers) world.step_numbers.declare(one);
     world.body_sums.insert(world.body_sums.end(), a.spec.body_sums.begin(), a.spec.body_sums.end());

@@ -27,6 +27,8 @@ struct EffectSpec {
   std::vector<Account> accounts{};              ///< that it books on beside those of its forces; common ones need no word
   std::vector<Account> numerical{};             ///< that its numerical terms book on: what they take on purpose
   std::vector<Guarded> guards{};                ///< of its columns those that are looked at after every step
+  std::vector<Bounded> bounded{};               ///< of its columns those of whole numbers that stand for something
+  std::vector<Field<double>> positive{};        ///< of its columns those that formulas divide by, and densities
   std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
   /// Of its columns of bodies, those that are sums over particles. Where several processes share a scene, each sums its own part.
   std::vector<Field<double>> body_sums{};

@@ -63,7 +63,7 @@ double stiffness_of_solids(const Scene& s, const std::vector<Meeting>& meetings)
 std::optional<DefaultStiffness> default_stiffness(const Scene& s) {
   if (std::ranges::any_of(s.materials, [](const Material& m) { return m.stiffness.has_value(); })) return {};
   DefaultStiffness k;
-  if (calls_for(s, "fluid")) {
+  if (calls_for(s, &EffectRule::has_pressure)) {
     k = {stiffness_of_liquids(s), "(10 v)^2, v the greatest of initial and prescribed speeds and sqrt(2 g depth of the liquids)"};
   } else if (const auto pairs = s.contact ? meetings(s) : std::vector<Meeting>{}; !pairs.empty()) {
     k = {stiffness_of_solids(s, pairs),

@@ -139,6 +139,11 @@ bool calls_for(const Scene& s, std::string_view effect) {
   return rule != effect_rules().end() && rule->called_for && !rule->called_for(s).empty();
 }
 
+bool calls_for(const Scene& s, bool EffectRule::*says) {
+  return std::ranges::any_of(
+      effect_rules(), [&](const EffectRule& rule) { return rule.*says && rule.called_for && !rule.called_for(s).empty(); });
+}
+
 std::vector<CalledEffect> needed_effects(const Scene& s) {
   std::vector<CalledEffect> list = called_effects(s);
   for (const EffectRule& rule : effect_rules()) {

@@ -54,6 +54,18 @@ struct EffectKey {
   bool limit = false;    ///< of [[material]]: what is beyond it yields or breaks; `tripoint check` tells where nothing ever can
 };
 
+/// A key of [scene] that stands with those of no effect (scene_records.hpp), and acts where its effect is on.
+struct SceneKey {
+  std::string_view name;
+  bool (*serves)(const Scene&) = nullptr;  ///< whether something that is no effect reads it in this scene
+};
+
+/// A key of a material that says nothing to any run of a case, and what to write instead.
+struct WrongKey {
+  std::string_view key;
+  std::string why;
+};
+
 /// What the two forms of a term are of, in the order in which jobs and pages list terms.
 enum class TermKind { kernel, law, time };
 
@@ -79,10 +91,25 @@ struct EffectRule {
   std::vector<DeclaredTerm> terms{};
   std::vector<Term> terms_shared{};  ///< of others that its forms read too
   std::vector<EffectKey> keys{};     ///< of [scene] and [[material]]
+  std::vector<SceneKey> scene_keys{};
+  std::vector<std::string_view> scene_keys_shared{};  ///< scene_keys of others that it reads too
   /// What keys of a material say of each other, once all are read: refuses what cannot be, and sets what a rule gives.
   void (*settle_material)(TableReader&, Material&) = nullptr;
+  /// Keys of a material that fit no run of a case, asked where the effect is on in one. @param runs the scene in each mode
+  std::vector<WrongKey> (*wrong_keys)(const Material&, std::span<const Scene> runs) = nullptr;
   std::vector<std::string_view> ledger_entries{};  ///< that it tells, or that take the work of its forces
-  bool over_processes = false;                     ///< it also runs where several processes share a scene (World::halo)
+  /// Of these those that every scene with forces tells, 0 where the effect is off: reports put scenes side by side.
+  std::vector<std::string_view> (*always_told)(const Scene&) = nullptr;
+  bool over_processes = false;  ///< it also runs where several processes share a scene (World::halo)
+
+  // What the rest of the program must know of a scene that calls for it; calls_for(scene, &EffectRule::...) asks.
+  bool has_pairs = false;             ///< particles act on each other by it, so that the scene has neighbours
+  bool has_pressure = false;          ///< it needs a stiffness, and presses apart what overlaps
+  bool has_bonds = false;             ///< solids are held together by bonds, or get and lose some by it
+  bool makes_bodies = false;          ///< there can be solid bodies later where there is none at the start
+  bool deforms_bodies = false;        ///< the particles of a solid body can move by themselves
+  bool frees_particles = false;       ///< what is fixed at the start can move later
+  bool changes_temperatures = false;  ///< temperatures change by it even where all are equal
 };
 
 /// Of every effect, in the order in which effects run.
@@ -115,6 +142,8 @@ struct EffectRule {
 
 /// Whether a scene calls for that one effect.
 [[nodiscard]] bool calls_for(const Scene&, std::string_view effect);
+/// Whether it calls for an effect that says this of itself.
+[[nodiscard]] bool calls_for(const Scene&, bool EffectRule::*says);
 /// What a scene calls for, and what that in turn needs.
 [[nodiscard]] std::vector<CalledEffect> needed_effects(const Scene&);
 

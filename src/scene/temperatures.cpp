@@ -56,7 +56,7 @@ std::optional<double> equal_temperature(const Scene& s) {
   const bool inflows =
       std::ranges::all_of(s.inflows, [&](const Inflow& f) { return f.temperature && conducts(s.material(f.material)); });
   if (!bodies || !inflows) return {};
-  if (calls_for(s, "phase")) return {};
+  if (calls_for(s, &EffectRule::changes_temperatures)) return {};
   return range.least;
 }
 

@@ -13,21 +13,22 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& what) { throw InputError("no run can go on from this checkpoint: " + what); }
 
-/// Holds whole numbers of a column to [least, end).
-void hold(const Columns& columns, const Field<int>& field, long least, std::size_t end) {
-  if (!columns.has(field.name)) return;
-  const auto values = columns[field];
+const Columns& table_of(const World& world, Per per) { return per == Per::body ? world.bodies : world.particles; }
+
+void hold(const World& world, const Bounded& bounded) {
+  const Field<int>& field = bounded.field;
+  const auto values = table_of(world, field.per)[field];
+  const long end = static_cast<long>(bounded.end(world));
   for (std::size_t row = 0; row < values.size(); ++row) {
     const long value = values[row];
-    if (value >= least && value < static_cast<long>(end)) continue;
-    refuse(fmt::format("{} of row {} is {}, not one of {} to {}", field.name, row, value, least, static_cast<long>(end) - 1));
+    if (value >= bounded.least && value < end) continue;
+    refuse(fmt::format("{} of row {} is {}, not one of {} to {}", field.name, row, value, bounded.least, end - 1));
   }
 }
 
-/// Holds amounts that formulas divide by, and densities, to what is finite and above 0.
-void hold_positive(const Columns& columns, const Field<double>& field) {
-  if (!columns.has(field.name)) return;
-  const auto values = columns[field];
+/// Holds amounts to what is finite and above 0.
+void hold_positive(const World& world, const Field<double>& field) {
+  const auto values = table_of(world, field.per)[field];
   for (std::size_t row = 0; row < values.size(); ++row)
     if (!std::isnormal(values[row]) || values[row] < 0.0)
       refuse(fmt::format("{} of row {} is {} {}", field.name, row, values[row], field.unit));
@@ -62,23 +63,8 @@ void refuse_strange_pairs(const World& world) {
 }
 
 void refuse_strange_columns(const World& world) {
-  constexpr std::size_t phases = 3, motions = 3, ranks = 4, yes_or_no = 2;
-  const Scene& scene = world.scene;
-  const std::size_t bodies = world.bodies.size(), materials = scene.materials.size(), events = scene.events.size();
-  const std::size_t sources = scene.bodies.size() + scene.inflows.size();
-  hold(world.particles, field::body, -1, bodies);
-  hold(world.particles, field::phase, 0, phases);
-  hold(world.particles, field::material, 0, materials);
-  hold(world.particles, field::solid_material, 0, materials);
-  hold(world.particles, field::source, 0, sources);
-  hold(world.particles, field::driven, driven_in, static_cast<std::size_t>(driven_grip) + events);
-  hold(world.particles, field::shape_rank, 0, ranks);
-  hold(world.bodies, field::body_phase, 0, phases);
-  hold(world.bodies, field::body_motion, 0, motions);
-  hold(world.bodies, field::body_alive, 0, yes_or_no);
-  hold(world.bodies, field::body_grip, 0, events + 1);
-  hold(world.bodies, field::body_source, -1, scene.bodies.size());
-  for (const auto& field : {field::mass, field::density, field::heat_capacity}) hold_positive(world.particles, field);
+  for (const Bounded& bounded : world.bounded) hold(world, bounded);
+  for (const Field<double>& field : world.positive) hold_positive(world, field);
 }
 
 }  // namespace tripoint

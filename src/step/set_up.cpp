@@ -28,7 +28,7 @@ bool is_static(const Scene& scene, const InitialState& initial) {
   if (!scene.inflows.empty()) return false;
   if (std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase == Phase::liquid && b.motion != Motion::fixed; }))
     return false;
-  if (calls_for(scene, "phase")) return false;
+  if (calls_for(scene, &EffectRule::frees_particles)) return false;
   const bool all_fixed = std::ranges::all_of(scene.bodies, [](const Body& b) { return b.motion == Motion::fixed; });
   if (all_fixed) return scene.events.empty();
   const bool none_prescribed = std::ranges::none_of(scene.bodies, [](const Body& b) { return b.motion == Motion::prescribed; });

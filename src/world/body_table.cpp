@@ -34,12 +34,22 @@ std::vector<FieldInfo> body_table_fields() {
           field::body_grip_orientation};
 }
 
-bool can_have_bodies(const Scene& scene) {
-  const bool solid = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; });
-  return solid || calls_for(scene, "phase");
+std::vector<Bounded> body_table_bounds() {
+  const auto three = [](const World&) -> std::size_t { return 3; };  // phases; motions
+  const auto yes_or_no = [](const World&) -> std::size_t { return 2; };
+  return {{field::body_phase, 0, three},
+          {field::body_motion, 0, three},
+          {field::body_alive, 0, yes_or_no},
+          {field::body_grip, 0, [](const World& w) { return w.scene.events.size() + 1; }},
+          {field::body_source, -1, [](const World& w) { return w.scene.bodies.size(); }}};
 }
 
-bool can_have_deformable_bodies(const Scene& scene) { return calls_for(scene, "elastic"); }
+bool can_have_bodies(const Scene& scene) {
+  const bool solid = std::ranges::any_of(scene.bodies, [](const Body& b) { return b.phase != Phase::liquid; });
+  return solid || calls_for(scene, &EffectRule::makes_bodies);
+}
+
+bool can_have_deformable_bodies(const Scene& scene) { return calls_for(scene, &EffectRule::deforms_bodies); }
 
 std::vector<std::size_t> members(const World& world, std::size_t body) {
   std::vector<std::size_t> rows;

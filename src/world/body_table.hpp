@@ -11,6 +11,8 @@ namespace tripoint {
 
 /// Columns that every scene with solids has.
 [[nodiscard]] std::vector<FieldInfo> body_table_fields();
+/// Of these those whose whole numbers stand for something.
+[[nodiscard]] std::vector<Bounded> body_table_bounds();
 /// Whether the scene has solid bodies, or can get some by freezing.
 [[nodiscard]] bool can_have_bodies(const Scene&);
 

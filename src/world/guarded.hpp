@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
+#include <cstddef>
 #include <string_view>
 
 #include "core/field.hpp"
 
 namespace tripoint {
+
+struct World;
 
 /// Where a step writes a field, in the order of a step.
 enum class Written { drift, density, rates, kick };
@@ -20,6 +23,14 @@ struct Guarded {
   Written written;
   std::string_view
       not_positive{};  ///< of a temperature, which must be above 0: unit and what a lesser one would be, "K, below absolute zero"
+};
+
+/// A column of whole numbers that stand for rows, or for one of so many kinds: each is `least` or above, and below `end`. A
+/// checkpoint that says another is refused (step/checkpoint_bounds.hpp).
+struct Bounded {
+  Field<int> field;
+  long least;
+  std::size_t (*end)(const World&);
 };
 
 /// What an entry of the ledger is to the guard of energy (step/guard.hpp). One of which no effect speaks is energy that the scene

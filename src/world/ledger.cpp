@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "world/ledger.hpp"
 
+#include "scene/effect_rule.hpp"
 #include "scene/ledger_entry.hpp"
-#include "scene/shared_terms.hpp"
 #include "world/world.hpp"
 
 namespace tripoint {
@@ -17,10 +17,11 @@ double stored_now(const Ledger& ledger, const StoredEnergy& stored) {
   return sum;
 }
 
-/// Every scene with forces tells these, 0 where it has no such force: reports put scenes side by side.
+/// Entries that every scene with forces tells, 0 where their effect is off.
 void tell_common_entries(const World& world, Ledger& sum) {
-  for (const char* entry : {"viscous", stores_compression(world.scene) ? "compression" : "pressure_work"})
-    sum.energy.try_emplace(entry, 0.0);
+  for (const EffectRule& rule : effect_rules())
+    if (rule.always_told)
+      for (const std::string_view entry : rule.always_told(world.scene)) sum.energy.try_emplace(std::string(entry), 0.0);
 }
 
 /// What finite steps left of one force: 0 to round-off where its work is what it took from what it stores.
@@ -32,11 +33,6 @@ double by_finite_steps(const World& world, const Force& f, const Ledger& sum) {
 }
 
 }  // namespace
-
-bool stores_compression(const Scene& scene) {
-  const auto corrected = [&](const Term& one) { return scene.mode_of(one) == Mode::corrected; };
-  return corrected(term::density) && corrected(term::state) && corrected(term::pressure) && !scene.transport_velocity;
-}
 
 void book_start(World& world, const Ledger& start) {
   for (const Force& f : world.forces)

@@ -7,7 +7,6 @@
 
 namespace tripoint {
 
-struct Scene;
 struct World;
 
 /// What a closed system keeps, summed in order of id, and where energy is.
@@ -17,10 +16,6 @@ struct Ledger {
   Vec3 angular_momentum;                 ///< about the origin [kg m2/s]
   std::map<std::string, double> energy;  ///< entry -> [J]: kinetic potential thermal merging walls ...
 };
-
-/// Whether an energy stands behind the pressure: its forces are the gradient of one where one kernel serves density and force and
-/// the particles move with their own velocity (model 8.3). Printed (4), (7) and (9) and the transport velocity have none.
-[[nodiscard]] bool stores_compression(const Scene&);
 
 /// Keeps what is stored at time 0, which later ledgers are compared with.
 void book_start(World&, const Ledger&);

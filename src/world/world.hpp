@@ -50,9 +50,11 @@ struct World {
   Change change;                         ///< of this step
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
   Bookings booked;
-  std::vector<Force> forces;       ///< that the effects make, in the order in which they are summed
-  std::vector<Account> numerical;  ///< what numerical terms take on purpose: no error of finite steps
-  std::vector<Guarded> guarded;    ///< columns that are looked at after every step, in the order in which it writes them
+  std::vector<Force> forces;            ///< that the effects make, in the order in which they are summed
+  std::vector<Account> numerical;       ///< what numerical terms take on purpose: no error of finite steps
+  std::vector<Guarded> guarded;         ///< columns that are looked at after every step, in the order in which it writes them
+  std::vector<Bounded> bounded;         ///< columns whose whole numbers a checkpoint is held to
+  std::vector<Field<double>> positive;  ///< columns whose values a checkpoint must have above 0
   std::vector<GuardedEntry> guarded_entries;  ///< entries of the ledger that the guard of energy takes by a rule of their own
   std::vector<Field<double>> body_sums;       ///< columns of bodies that are sums over this process's own particles
   StepNumbers step_numbers;                   ///< that effects keep from step to step

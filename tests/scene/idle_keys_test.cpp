@@ -199,6 +199,14 @@ TEST(IdleKeys, FindKeysOfTheSceneThatNoEffectReads) {
   EXPECT_EQ(found(scene("hourglass = 5\nmodes.hourglass = 'paper'") + jelly + body("block", "jelly", "elastic", 0.0),
                   "changes nothing"),
             "warning");
+  const std::string near = "merge_distance = 1.2", two = cube() + body("other", "brick", "rigid", 0.5);
+  EXPECT_EQ(found(scene(near) + two + event("kind = 'merge'\ntime = 0.5\nbodies = ['cube', 'other']"), "changes nothing"), "");
+  EXPECT_EQ(found(scene(near) + jelly + "fracture_stretch = 1.5\n" + body("block", "jelly", "elastic", 0.0), "changes nothing"),
+            "");
+  EXPECT_EQ(
+      found(scene(near) + jelly + body("a", "jelly", "elastic", 0.0, "joined_to = ['b']") + body("b", "jelly", "elastic", 0.3),
+            "changes nothing"),
+      "");
   EXPECT_EQ(found(scene() + cube("slip = 'free'"), "slip"), "warning");
   EXPECT_EQ(found(scene() + cube("joins = true"), "joins"), "warning");
 }

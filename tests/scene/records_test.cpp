@@ -74,10 +74,12 @@ TEST(Records, ADefaultOfAMemberIsThatOfItsKey) {
   EXPECT_GT(compare_effect_keys(Scene(), "scene") + compare_effect_keys(Material(), "material"), 8);
 }
 
-TEST(Records, TheRowOfTheSupportRatioSaysItsDefaults) {
+TEST(Records, RowsSayTheDefaultsThatFollowFromTheFormOfATerm) {
   const std::string note(key_row("scene", "support_ratio").note), merge(key_row("scene", "merge_distance").note);
   EXPECT_NE(note.find(show(printed_support) + " where every term is paper, else " + show(corrected_support)), std::string::npos);
   EXPECT_EQ(merge.find(show(lattice_reach) + ","), 0u);
+  EXPECT_NE(merge.find("where phase is paper " + show(bond_reach(Scene())) + ", the reach of its bonds"), std::string::npos);
+  EXPECT_EQ(bond_reach(Scene()), printed_support);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run that is cut and continued must be the run that was never cut. Each cut is compared with ONE unbroken run, in every number
 // of its whole state; a second run that sets up anew on both sides would hide what is wrong with the first.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -336,6 +337,44 @@ TEST(Restart, RefusesRowsThatAreNotThereAndAmountsThatNoFormulaBears) {
   Checkpoint no_time = kept;
   no_time.real.at("step/time")[0] = not_a_number;
   EXPECT_THROW(continued(j, 1, no_time), InputError);
+}
+
+std::string refusal_of(const Journey& j, const Checkpoint& wrong) {
+  try {
+    continued(j, 1, wrong);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "none";
+}
+
+/// Each effect says of its own columns what they hold: nobody else knows them.
+TEST(Restart, RefusesWhatAnEffectSaysThatItsColumnsCannotHold) {
+  Journey j = two_liquids_with_a_soft_cube();
+  Event hold;
+  hold.kind = Event::Kind::hold;
+  hold.time = 1.0;
+  hold.bodies = {"cube"};
+  j.lab.scene.events = {hold};
+  const Checkpoint kept = unbroken(j, 1, {5}).cuts.at(5);
+  const auto said_of = [&](const std::string& name, int value) {
+    Checkpoint wrong = kept;
+    wrong.whole.at(name).back() = value;
+    return refusal_of(j, wrong);
+  };
+  EXPECT_THAT(said_of("particles/driven", 3), testing::EndsWith(" is 3, not one of -1 to 2"));
+  EXPECT_THAT(said_of("particles/driven", -2), testing::HasSubstr(": driven of row "));
+  EXPECT_THAT(said_of("particles/shape_rank", 4), testing::EndsWith(" is 4, not one of 0 to 3"));
+  EXPECT_EQ(said_of("bodies/body.grip", 2), "no run can go on from this checkpoint: body.grip of row 1 is 2, not one of 0 to 1");
+  Checkpoint empty = kept;
+  empty.real.at("particles/density").back() = 0.0;
+  EXPECT_THAT(refusal_of(j, empty), testing::EndsWith(" is 0 kg/m3"));
+  for (const Mode mode : {Mode::corrected, Mode::paper}) {
+    const Journey warm = flight_with_events(mode);
+    Checkpoint cold = unbroken(warm, 1, {5}).cuts.at(5);
+    cold.real.at("particles/heat_capacity").back() = -1.0;
+    EXPECT_THAT(refusal_of(warm, cold), testing::EndsWith(" is -1 J/kg/K"));
+  }
 }
 
 /// How many empty lists follow the last bond tells what had been, not what is: a run whose bonds have all gone keeps them, and

@@ -22,11 +22,11 @@ SourcePlace IdleSearch::given(const std::string& key) const {
   return {};
 }
 
-bool IdleSearch::calls(const std::string& effect) const {
+bool IdleSearch::calls(std::string_view effect) const {
   return any_mode([&](const Scene& s) { return calls_for(s, effect); });
 }
 
-std::string IdleSearch::why_idle(const std::string& effect) const {
+std::string IdleSearch::why_idle(std::string_view effect) const {
   for (const CalledEffect& e : idle_effects(scenes.front()))
     if (e.name == effect) return e.why;
   return "";

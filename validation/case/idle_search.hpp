@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/geometry.hpp"
@@ -20,8 +21,8 @@ struct IdleSearch {
   /// Where the file says this key; a place without file where it does not.
   [[nodiscard]] SourcePlace given(const std::string& key) const;
   [[nodiscard]] bool any_mode(const auto& test) const { return std::ranges::any_of(scenes, test); }
-  [[nodiscard]] bool calls(const std::string& effect) const;
-  [[nodiscard]] std::string why_idle(const std::string& effect) const;
+  [[nodiscard]] bool calls(std::string_view effect) const;
+  [[nodiscard]] std::string why_idle(std::string_view effect) const;
   /// Whether the box lies wholly beyond a side of the domain that is not periodic.
   [[nodiscard]] bool outside(const Bounds& box) const;
   /// Keyframes that come after the end of the run.

@@ -51,7 +51,7 @@ class Preflight {
     }
   }
 
-  [[nodiscard]] bool presses() const { return calls_for(scene_, "fluid"); }
+  [[nodiscard]] bool presses() const { return calls_for(scene_, &EffectRule::has_pressure); }
 
   /// Rows of two bodies nearer than rows of one body are matter that is compressed from the start, and flies apart.
   void gaps() {

@@ -7,6 +7,7 @@
 #include "validation/harness/expected_refusal.hpp"
 #include "validation/harness/plan_runs.hpp"
 #include "validation/metrics/metric.hpp"
+#include "validation/references/measuring.hpp"
 
 namespace tripoint {
 namespace {
@@ -50,8 +51,10 @@ JobBody job_body(const Body& body, int row, const Gathered& particles) {
 JobGauge gauge_of(const Case& value, const MetricChoice& metric) {
   JobGauge gauge{metric.name, metric.quantity, metric.body, {}};
   const auto& args = metric.reference.value_or(value.reference).args;
-  for (const char* key : {"point", "axis", "min", "max", "outside", "phase"})
-    if (const auto at = args.find(key); at != args.end()) gauge.where.insert(*at);
+  for (const ReferenceArgument& stated : measuring_arguments()) {
+    const auto at = args.find(stated.name);
+    if (stated.of_place && at != args.end()) gauge.where.insert(*at);
+  }
   return gauge;
 }
 

@@ -61,8 +61,8 @@ std::optional<std::size_t> Arguments::axis(const std::string& name) const {
 Mode Arguments::form(Mode fallback) const {
   const auto given = word("form");
   if (!given) return fallback;
-  if (*given == "paper") return Mode::paper;
-  if (*given == "corrected") return Mode::corrected;
+  for (const Mode mode : {Mode::paper, Mode::corrected})
+    if (*given == to_string(mode)) return mode;
   throw InputError("argument `form` of reference function " + function_ + " must be \"paper\" or \"corrected\"");
 }
 

@@ -2,10 +2,13 @@
 #pragma once
 #include <limits>
 
+#include "scene/words.hpp"
+
 namespace tripoint {
 
 /// What holds the sides of a stretched bar: nothing, one direction (the other free), or both.
 enum class BarSides { free, plane_strain, confined };
+constexpr WordTable<3> word_table(BarSides) { return {"hold of a bar's sides", {"free", "plane_strain", "confined"}}; }
 
 /// Reference stretch of a homogeneous bar: St Venant-Kirchhoff's S = C : (E - E_p) in Green strain, von Mises flow at |dev(E -
 /// E_p)| = g1, |E_p| <= g2 (model 8.7, 8.8). The printed form is the same law in the strain F^T F - I, with the gradient that the

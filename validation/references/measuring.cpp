@@ -38,16 +38,16 @@ std::optional<MeasuredBox> stated_box(const ReferenceInput& in, const std::strin
 }  // namespace
 
 std::vector<ReferenceArgument> measuring_arguments() {
-  return {{"phase", "", "liquid, elastic, rigid or solid (either of the two); default all particles", ArgumentType::word},
-          {"axis", "", "x, y or z", ArgumentType::axis},
+  return {{"phase", "", "liquid, elastic, rigid or solid (either of the two); default all particles", ArgumentType::word, true},
+          {"axis", "", "x, y or z", ArgumentType::axis, true},
           {"other", "", "name of the second body of a pair", ArgumentType::word},
           {"gauge", "", "middle share of the body's length over which a stretch is measured; default 1"},
-          {"min", "m", "low corner of a box", ArgumentType::vector},
-          {"max", "m", "high corner of a box", ArgumentType::vector},
-          {"outside", "", "true: what is not in the box; default false", ArgumentType::flag},
+          {"min", "m", "low corner of a box", ArgumentType::vector, true},
+          {"max", "m", "high corner of a box", ArgumentType::vector, true},
+          {"outside", "", "true: what is not in the box; default false", ArgumentType::flag, true},
           {"follows", "", "true: the box moves and turns with the metric's body, from where that body began; default false",
            ArgumentType::flag},
-          {"point", "m", "place of a probe; for a displacement the place at the start", ArgumentType::vector},
+          {"point", "m", "place of a probe; for a displacement the place at the start", ArgumentType::vector, true},
           {"frequency", "Hz", "true frequency, for the norm frequency"},
           {"diffusivity", "m2/s", "true diffusivity, for the quantity of that name"}};
 }

@@ -94,6 +94,7 @@ constexpr WordTable<6> word_table(ArgumentType) {
 struct ReferenceArgument {
   std::string name, unit, meaning;  ///< the meaning says the default taken from the scene
   ArgumentType type = ArgumentType::number;
+  bool of_place = false;  ///< says where a quantity is read, and nothing of its value: gauges of a job have it
 };
 struct ReferenceFunction {
   std::string name, kind, source, meaning;

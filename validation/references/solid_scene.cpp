@@ -58,9 +58,7 @@ std::size_t long_axis(const ReferenceInput& in, std::size_t body) {
 
 BarSides bar_sides(const ReferenceInput& in, std::size_t axis) {
   if (const auto word = in.args.word("sides")) {
-    if (*word == "free") return BarSides::free;
-    if (*word == "plane_strain") return BarSides::plane_strain;
-    if (*word == "confined") return BarSides::confined;
+    if (const auto sides = find_word<BarSides>(*word)) return *sides;
     throw InputError("argument `sides` must be \"free\", \"plane_strain\" or \"confined\"");
   }
   int held = 0;

@@ -30,14 +30,10 @@ class DensityEffect : public Effect {
 }  // namespace
 
 EffectSpec spec(const Scene&) {
-  return {"density",
-          Mode::paper,
-          {field::density, field::volume},
-          {field::mass},
-          {},
-          {},
-          {},
-          {{field::density, "density", Written::density}}};
+  EffectSpec s{"density", Mode::paper, {field::density, field::volume}, {field::mass}};
+  s.guards = {{field::density, "density", Written::density}};
+  s.positive = {field::density};
+  return s;
 }
 
 std::unique_ptr<Effect> make(const Scene&) { return std::make_unique<DensityEffect>(); }

@@ -93,6 +93,8 @@ EffectSpec spec(const Scene& scene) {
                 field::solid_stiffness,  field::regular_bonds,    field::strain_xx,        field::strain_yy,
                 field::strain_zz,        field::strain_yz,        field::strain_xz,        field::strain_xy},
                fields::joined({fields::position(), {field::id, field::mass, field::body, field::material}})};
+  s.bounded = {{field::shape_rank, 0, [](const World&) -> std::size_t { return 4; }},  // 0 to 3
+               {field::solid_material, 0, [](const World& w) { return w.scene.materials.size(); }}};
   s.reads_if_there = fields::joined({fields::deformation_if_there(), {field::may_flow}});
   if (can_freeze(scene)) s.owns.emplace_back(field::bond_frequency);
   Force bonds{

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/effect_rule.hpp"
+#include <fmt/format.h>
 
+#include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 #include "scene/table_reader.hpp"
 
@@ -33,12 +34,13 @@ std::string no_hourglass(const Scene& s) {
 std::vector<EffectKey> keys() {
   using enum ValueType;
   using enum Range;
+  static const std::string papers_support = fmt::format("{}", printed_support);
   return {
       {{"scene", "hourglass", number, "", not_negative, "1", "holds 1.5 % at jitter 0.1", "",
         "coefficient of the energy against zero-energy modes"},
        {},
        no_hourglass},
-      {{"scene", "bond_reach", number, "", above_one, "2.12", "the paper's support, about 40 neighbours", "",
+      {{"scene", "bond_reach", number, "", above_one, papers_support, "the paper's support, about 40 neighbours", "",
         "reach of bonds and support of the kernel (17), in spacings, whatever support_ratio is"}},
       {{"scene", "bending", number, "", fraction, "0", "it costs stiffness where particles are disordered", "",
         "share of the correction for bending: at surfaces gradients are then exact for curved displacements too (model 8.7), and "
@@ -68,7 +70,10 @@ EffectRule rule() {
           .keys = keys(),
           .settle_material = settle_material,
           .ledger_entries = {"elastic", "hourglass"},
-          .over_processes = true};
+          .over_processes = true,
+          .has_pairs = true,
+          .has_bonds = true,
+          .deforms_bodies = true};
 }
 
 }  // namespace tripoint::elastic

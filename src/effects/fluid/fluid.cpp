@@ -14,6 +14,7 @@
 #include "effects/fluid/laid_walls.hpp"
 #include "effects/fluid/phase_jump.hpp"
 #include "effects/fluid/solid_viscosity.hpp"
+#include "effects/fluid/stored_compression.hpp"
 #include "effects/fluid/transport.hpp"
 #include "effects/fluid/viscous_bound.hpp"
 #include "effects/fluid/viscous_form.hpp"
@@ -342,6 +343,7 @@ EffectSpec spec(const Scene& scene) {
   s.accounts = {compression_released};
   s.step_numbers = {half_step, viscous_step, viscous_age};
   s.guards = {{field::density, "density", Written::density}};
+  s.positive = {field::density};
   s.guarded_entries = {{"viscous", EntryRole::only_takes, "viscous forces, which may only take energy"}};
   if (!stores_compression(scene))
     s.guarded_entries.push_back({"pressure_work", EntryRole::unbacked, "the printed pressure, which no energy stands behind"});

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "effects/fluid/pressing_gravity.hpp"
+#include "effects/fluid/stored_compression.hpp"
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 #include "scene/table_reader.hpp"
@@ -262,6 +263,10 @@ void settle_material(TableReader& in, Material& m) {
   in.ruled("stiffness", show(*m.stiffness), "the square of sound_speed");
 }
 
+std::vector<std::string_view> always_told(const Scene& scene) {
+  return {"viscous", stores_compression(scene) ? "compression" : "pressure_work"};
+}
+
 }  // namespace
 
 EffectRule rule() {
@@ -272,9 +277,13 @@ EffectRule rule() {
       .terms = {term::pressure, term::density, term::state, {term::clamp, TermKind::law, false}, term::viscosity, term::walls},
       .terms_shared = {term::kernel},
       .keys = keys(),
+      .scene_keys = {{"clamp"}},
       .settle_material = settle_material,
       .ledger_entries = {"compression", "pressure_work", "phase_work", "viscous", "bulk_viscous", "transport"},
-      .over_processes = true};
+      .always_told = always_told,
+      .over_processes = true,
+      .has_pairs = true,
+      .has_pressure = true};
 }
 
 }  // namespace tripoint::fluid

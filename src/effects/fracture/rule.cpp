@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "scene/effect_rule.hpp"
+#include "scene/shared_terms.hpp"
 
 namespace tripoint::fracture {
 namespace {
@@ -26,6 +31,24 @@ std::vector<EffectKey> keys() {
   };
 }
 
+/// The limit of one form alone, where no run has that form.
+std::vector<WrongKey> wrong_keys(const Material& m, std::span<const Scene> runs) {
+  const auto runs_as = [&](Mode mode) {
+    return std::ranges::any_of(runs, [&](const Scene& s) { return s.mode_of(term::elastic) == mode; });
+  };
+  if (m.fracture_distance && !m.fracture_stretch && !runs_as(Mode::paper))
+    return {{"fracture_distance",
+             fmt::format("fracture_distance is the limit of the printed form, and this case runs the corrected one, in which "
+                         "\"{}\" never breaks: give fracture_stretch",
+                         m.name)}};
+  if (m.fracture_stretch && !m.fracture_distance && !runs_as(Mode::corrected))
+    return {{"fracture_stretch",
+             fmt::format("fracture_stretch is the limit of the corrected form, and this case runs the printed one, in which "
+                         "\"{}\" never breaks: give fracture_distance",
+                         m.name)}};
+  return {};
+}
+
 }  // namespace
 
 EffectRule rule() {
@@ -33,8 +56,11 @@ EffectRule rule() {
           .called_for = called_for,
           .left_out = left_out,
           .keys = keys(),
+          .scene_keys_shared = {"merge_distance"},
+          .wrong_keys = wrong_keys,
           .ledger_entries = {"fracture"},
-          .over_processes = true};
+          .over_processes = true,
+          .has_bonds = true};
 }
 
 }  // namespace tripoint::fracture

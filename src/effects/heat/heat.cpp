@@ -69,6 +69,7 @@ EffectSpec spec(const Scene& scene) {
   EffectSpec s = spec_of_form(scene);
   s.guarded_entries = guarded_entries;
   s.guards = {{field::temperature, "temperature", Written::drift, "K, below absolute zero"}};
+  s.positive = {field::heat_capacity};
   if (s.mode == Mode::paper)
     s.guards.push_back({field::temperature_rate, "temperature_rate", Written::rates});
   else

@@ -106,7 +106,8 @@ EffectRule rule() {
           .keys = keys(),
           .settle_material = settle_material,
           .ledger_entries = {"thermal", "latent"},
-          .over_processes = true};
+          .over_processes = true,
+          .has_pairs = true};
 }
 
 }  // namespace tripoint::heat

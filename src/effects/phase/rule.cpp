@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scene/effect_rule.hpp"
 #include "scene/shared_terms.hpp"
 #include "scene/table_reader.hpp"
@@ -44,6 +46,13 @@ std::vector<EffectKey> keys() {
   };
 }
 
+/// Whether bodies are joined or parted without any change of phase.
+bool joins_bodies(const Scene& s) {
+  const auto regroups = [](const Event& e) { return e.kind == Event::Kind::merge || e.kind == Event::Kind::split; };
+  return std::ranges::any_of(s.events, regroups) ||
+         any_body(s, [](const Scene&, const Body& b, const Material&) { return !b.joined_to.empty(); });
+}
+
 void settle_material(TableReader& in, Material& m) {
   for (const auto& [key, given] :
        {std::pair{"t_solid", m.t_solid.has_value()}, std::pair{"latent_heat", m.latent_heat.has_value()}})
@@ -73,9 +82,14 @@ EffectRule rule() {
           .left_out = left_out,
           .terms = {term::phase},
           .keys = keys(),
+          .scene_keys = {{"merge_distance", joins_bodies}},
           .settle_material = settle_material,
           .ledger_entries = {"phase_work"},
-          .over_processes = true};
+          .over_processes = true,
+          .has_bonds = true,
+          .makes_bodies = true,
+          .frees_particles = true,
+          .changes_temperatures = true};
 }
 
 }  // namespace tripoint::phase

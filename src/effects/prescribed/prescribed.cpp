@@ -160,6 +160,8 @@ EffectSpec spec(const Scene& scene) {
                fields::joined({fields::position(),
                                fields::velocity(),
                                {field::id, field::mass, field::body, field::material, field::phase, field::source}})};
+  s.bounded = {
+      {field::driven, driven_in, [](const World& w) { return static_cast<std::size_t>(driven_grip) + w.scene.events.size(); }}};
   s.reads_if_there = fields::image();
   s.changes = !scene.inflows.empty();
   s.skips_sleeping = true;
