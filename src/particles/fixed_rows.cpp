@@ -41,7 +41,8 @@ struct Moves {
   std::vector<std::uint32_t> from, to;
 };
 
-/// The rows `was` come to the front, in that order. What was in these rows goes to those that were left; the rest stays.
+/// The rows `was` come to the front, in that order. Rows displaced from the front take the places that became free; all other
+/// rows stay.
 Moves bring_to_front(const std::vector<std::uint32_t>& was, std::size_t all) {
   std::vector<char> taken(all, 0);
   for (const std::uint32_t one : was) taken[one] = 1;
@@ -123,8 +124,9 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
   return marks;
 }
 
-/// Rows of what moves first, ordered by (cell, id); then of the fixed particles that a step reads, in that order; then of those
-/// that are in reach and act by their place alone; then what sleeps, most of it where it was.
+/// Row order: first moving particles, then fixed particles that a step reads, then fixed particles in reach that act only by
+/// their position, then sleeping particles. The first two groups are sorted by (cell, id). Most sleeping particles keep their
+/// row.
 void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& resting) {
   const std::size_t n = particles.size();
   const auto x = positions(particles);
@@ -259,8 +261,8 @@ void Neighbours::list_sleeping() {
   list({x.data(), y.data(), z.data()}, *grid_, clusters_.on_demand, listed_by_[2]);
 }
 
-/// Pairs of what has no list are counted all the same. Those of moving with fixed particles were counted twice, since the lists
-/// of the fixed ones do not count; those among fixed ones are known.
+/// Pairs without a list are counted too. A pair of a moving and a fixed particle was counted twice, because the lists of fixed
+/// particles do not count. The number of pairs among fixed particles is known.
 void Neighbours::count_still_pairs(const Particles& particles) {
   if (!listed_all_) pairs_ += still_.pairs;
   if (!may_rest_next()) return;

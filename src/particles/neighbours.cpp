@@ -202,8 +202,8 @@ void Neighbours::sort_all(Particles& particles, Grid& grid) {
   grid_.reset();
 }
 
-/// Of a scene that is shared out, rows of this process's own come before those of copies, each in the order of (cell, number): a
-/// cluster has then members of one kind, and copies need no lists, since their sums are their owners'.
+/// In a shared scene the rows of this process's own particles come before the rows of copies, each in order of (cell, number). A
+/// cluster then has members of one kind. Copies need no lists, because their owners form their sums.
 /// @param order of each place the row that it was, and then of each row
 void Neighbours::bring_own_first(const Particles& particles, std::vector<std::uint32_t>& order) {
   own_first_.clear();
@@ -239,8 +239,8 @@ void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   for (std::uint32_t k = 0; k < c.size() && c.first[k] < own; ++k) c.listed.push_back(k);
 }
 
-/// Of these rows. Clusters end with a row of cells, so that what is near to their members has the same order for each of them,
-/// and where rows begin that can meet nothing that moves.
+/// Makes clusters of these rows. A cluster ends with a row of cells, so that its members have their neighbours in the same order.
+/// It also ends where rows begin that can meet no moving particle.
 void Neighbours::add_clusters(const Grid& grid, std::size_t from, std::size_t to) {
   if (from == to) return;
   Clusters& c = clusters_;
@@ -260,9 +260,9 @@ void Neighbours::add_clusters(const Grid& grid, std::size_t from, std::size_t to
   }
 }
 
-/// Lists some clusters, ascending, after the entries that there are. Each thread lists a run of them into a room of its own, as
-/// large as at the last build and a little more; where that is too small, as at the first, the lists are made again. So they are
-/// never held twice.
+/// Lists some clusters, ascending, after the entries that there are. Each thread lists a run of clusters into its own buffer, as
+/// large as at the last build and a little more. Where a buffer is too small, as at the first build, the lists are made again. So
+/// entries are never held twice.
 /// @param clusters those after the first have no list yet   @param listed_by entries of each thread, at the last build and here
 /// @return directed pairs
 std::size_t Neighbours::list(const Places& places, const Grid& grid, std::span<const std::uint32_t> clusters,

@@ -11,8 +11,8 @@
 namespace tripoint {
 
 /// The particles of a scene. Rows are in order of the neighbour grid's cells; ids are for ever. Where members of fixed bodies can
-/// sleep, what moves has the first rows, then come the fixed particles that a step reads, each in that order; then those that
-/// sleep: nothing that moves can reach them, or they act by their place alone (decisions 020 and 028).
+/// sleep, moving particles have the first rows, then come the fixed particles that a step reads. Each of the two has that order.
+/// Sleeping particles come last: nothing that moves can reach them, or they act by their place alone (decisions 020 and 028).
 class Particles : public Columns {
  public:
   Particles() = default;
