@@ -16,7 +16,7 @@ namespace {
 
 enum Work : std::uint8_t { none = 0, density = 1, rates = 2, density_is_still = 4 };
 
-/// What is to be done for a cluster. Two act on each other unless they are an own pair, or members of one group of 0 and above.
+/// The work that a cluster needs. Two act on each other unless they are an own pair, or members of one group of 0 and above.
 /// @param moving rows that are not apart from those of what moves   @param acting of each entry of the cluster a bit, set where
 /// it acts on a member; zero until now
 Work work_of(const Clusters& c, std::size_t cluster, std::span<const double> group, const std::vector<char>& fixed,
@@ -122,7 +122,7 @@ void BusyClusters::find(World& world, bool leaves_own) {
   known_ = true;
 }
 
-/// What the density of fixed particles is where they meet nothing else, for when their lists are no longer made.
+/// Finds the density of fixed particles that meet only fixed ones, for the time when their lists are no longer made.
 void BusyClusters::learn_still(const PassFunction& pass, World& world, const PairKernels& kernels) {
   Neighbours& n = *world.neighbours;
   Particles& p = world.particles;

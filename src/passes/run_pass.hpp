@@ -23,7 +23,7 @@ struct ChosenClusters {
   std::vector<std::uint32_t> clusters;
   std::vector<std::uint8_t> members;  ///< of each, bit l where member l is to be summed; empty: all are
 };
-/// Those of these rows, with these rows alone as members. @param rows each once, ascending
+/// The clusters of these rows, with these rows alone as members. @param rows each once, ascending
 [[nodiscard]] ChosenClusters clusters_of(const Clusters&, const std::vector<std::uint32_t>& rows);
 
 /// Adds each term's sum to the rows of these clusters; to all where none are chosen. As run_pass(), and what is within the
@@ -31,8 +31,8 @@ struct ChosenClusters {
 void run_pass_in(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads,
                  const std::optional<ChosenClusters>&);
 
-/// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts. What a finding pass
-/// found of the others stays; it looks at all entries, and must not be asked for some members alone.
+/// For these clusters only, and for what acts there (Clusters::acting): terms add nothing where nothing acts. Results of a
+/// finding pass for other clusters stay. A finding pass looks at all entries, and must not be asked for some members alone.
 void run_pass_over(const PassFunction&, Particles&, Neighbours&, const PairKernels&, int threads, const ChosenClusters&);
 
 }  // namespace tripoint

@@ -7,10 +7,10 @@
 #include "core/field.hpp"
 #include "world/account.hpp"
 
-/// What an effect says of a force that it makes; motion, rigid bodies and the ledger do the rest.
+/// Description of a force by the effect that makes it. Motion, rigid bodies and the ledger do the rest.
 namespace tripoint {
 
-/// The energy whose gradient a force is. What finite steps leave between it and the work of the force is the entry
+/// The energy whose gradient a force is. The difference that finite steps leave between it and the work of the force is the entry
 /// `time_integration`.
 struct StoredEnergy {
   std::vector<std::string_view> entries;  ///< of the ledger, which the effect tells in add_to()
@@ -19,8 +19,8 @@ struct StoredEnergy {
   std::string_view released_to{};         ///< entry that has what they let go; "" where others tell it
 };
 
-/// Who feels a force. all: rigid bodies too, by the sum over their members; particles: only what moves by the forces on its own
-/// particles.
+/// Particles that feel a force. all: rigid bodies too, by the sum over their members; particles: only what moves by the forces on
+/// its own particles.
 enum class Feels { all, particles };
 
 struct Force {

@@ -13,7 +13,7 @@ enum class Written { drift, density, rates, kick };
   return words[static_cast<int>(w)];
 }
 
-/// A column that is looked at after every step: its values must be finite. What goes wrong first is named.
+/// A column that is looked at after every step: its values must be finite. The first value that fails is named.
 struct Guarded {
   Field<double> field;
   std::string_view name;  ///< in messages
@@ -22,13 +22,13 @@ struct Guarded {
       not_positive{};  ///< where values must be above 0 too: unit and what a lesser one would be, "K, below absolute zero"
 };
 
-/// What an entry of the ledger is to the guard of energy (step/guard.hpp). One of which no effect speaks is energy that the scene
-/// turns over.
+/// Role of a ledger entry for the guard of energy (step/guard.hpp). An entry for which no effect gives a role is energy that the
+/// scene turns over.
 enum class EntryRole {
   apart,       ///< heat, which dwarfs what moves, or what comes from outside: it is left out
   only_takes,  ///< minus the work of a force that may only take energy: below 0 it is energy from nowhere
-  unbacked     ///< minus the work of a force that no energy stands behind: below 0 it is energy from nowhere in a scene that was
-               ///< laid at rest, but for what forces that only take have taken again
+  unbacked     ///< minus the work of a force without stored energy. In a scene laid at rest a value below 0 is energy from
+               ///< nowhere, unless `only_takes` forces have taken as much
 };
 struct GuardedEntry {
   std::string_view entry;

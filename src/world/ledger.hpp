@@ -10,7 +10,7 @@ namespace tripoint {
 struct Scene;
 struct World;
 
-/// What a closed system keeps, summed in order of id, and where energy is.
+/// Quantities that a closed system conserves, summed in order of id, and its energy by entry.
 struct Ledger {
   double mass = 0.0;                     ///< [kg]
   Vec3 momentum;                         ///< [kg m/s]
@@ -18,8 +18,8 @@ struct Ledger {
   std::map<std::string, double> energy;  ///< entry -> [J]: kinetic potential thermal merging walls ...
 };
 
-/// Whether an energy stands behind the pressure: its forces are the gradient of one where one kernel serves density and force and
-/// the particles move with their own velocity (model 8.3). Printed (4), (7) and (9) and the transport velocity have none.
+/// Whether the pressure forces are the gradient of an energy. They are where one kernel serves density and force and the
+/// particles move with their own velocity (model 8.3). Printed (4), (7) and (9) and the transport velocity have none.
 [[nodiscard]] bool stores_compression(const Scene&);
 
 /// Keeps what is stored at time 0, which later ledgers are compared with.

@@ -19,16 +19,16 @@
 
 namespace tripoint {
 
-/// Numbers that the next step needs of those before it, beside the columns. Of the effects fluid alone uses them; they stand
-/// here because a checkpoint stores them.
+/// Numbers that the next step needs of those before it, beside the columns. Only the effect `fluid` uses them; they stand here
+/// because a checkpoint stores them.
 struct Lagged {
   double half_step = 0.0;                                         ///< length of the last kick of liquids [s]
   double viscous_step = std::numeric_limits<double>::infinity();  ///< greatest stable step of viscosity, as last formed [s]
   int viscous_age = 0;                                            ///< rates since it was formed
 };
 
-/// What changed its phase, its body or its lists in this step: written by phase change and fracture, followed by all. Ids, each
-/// once, ascending; of a scene that is shared out among processes those of the whole.
+/// Particles whose phase, body or lists changed in this step. Phase change and fracture write it, and all effects follow it. Ids,
+/// each once, ascending; in a shared scene those of the whole scene.
 struct Change {
   std::vector<std::uint32_t> born;  ///< flowed in: new particles, whose columns are still zero
   std::vector<std::uint32_t> melted, frozen;
@@ -58,9 +58,9 @@ struct World {
   Change change;                         ///< of this step
   std::optional<Neighbours> neighbours;  ///< none where no effect has pairs
   Bookings booked;
-  std::vector<Force> forces;       ///< that the effects make, in the order in which they are summed
-  std::vector<Account> numerical;  ///< what numerical terms take on purpose: no error of finite steps
-  std::vector<Guarded> guarded;    ///< columns that are looked at after every step, in the order in which it writes them
+  std::vector<Force> forces;                  ///< that the effects make, in the order in which they are summed
+  std::vector<Account> numerical;             ///< energy that numerical terms dissipate on purpose: not a time-integration error
+  std::vector<Guarded> guarded;               ///< columns that are checked after every step, in the order in which it writes them
   std::vector<GuardedEntry> guarded_entries;  ///< entries of the ledger that the guard of energy takes by a rule of their own
   std::vector<Field<double>> body_sums;       ///< columns of bodies that are sums over this process's own particles
   Lagged lagged;
@@ -71,13 +71,13 @@ struct World {
   bool placed = false;  ///< members of all rigid bodies have been put to their places by the poses of these
   bool moved = true;    ///< positions differ from those of the last rates
 
-  /// Of each id, 1 where no step reads of a fixed particle but its place, as behind the face of a wall; empty: all is read.
+  /// By id, 1 where a step reads only the place of a fixed particle, as behind the face of a wall; empty: all is read.
   std::vector<char> unread;
-  /// Of each id, 1 where its matter may flow by the strain of now, 0 where it does not: elasticity tells, plastic flow looks
-  /// there.
+  /// By id, 1 where the matter may flow at the present strain, else 0. Elasticity sets it, and plastic flow reads it.
   std::vector<char> may_flow;
-  bool fixed_formed = true;  ///< what no step reads of fixed particles is of the present time too: forces on them, densities
-  bool forms_fixed = false;  ///< it is being formed, since somebody asks for it
+  bool fixed_formed = true;  ///< true when the values of fixed particles that no step needs (forces, densities behind walls) are
+                             ///< up to date
+  bool forms_fixed = false;  ///< these values are being formed now, because somebody asks for them
 
   Halo* halo = nullptr;      ///< those that hold the rest of the scene; null: this process holds all, if only for now
   std::vector<char> copies;  ///< of each row, 1 where it is a copy of another's particle; empty where this process holds all
