@@ -4,8 +4,8 @@
 
 namespace tripoint {
 
-/// A number that others wrote as a whole number, cut towards zero: beyond the range of T it is the nearest end of that, and NaN
-/// is 0.
+/// Converts a number that others wrote as a whole number, cut towards zero. Beyond the range of T it becomes the nearest end of
+/// that range, and NaN becomes 0.
 template <class T>
 [[nodiscard]] constexpr T whole_number(double v) noexcept {
   // One past the greatest, exactly: the division leaves no rest that counts.
