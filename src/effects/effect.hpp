@@ -17,7 +17,7 @@ namespace tripoint {
 
 struct PairKernels;
 
-/// What an effect owns and what it reads of others. It is given no other column (declared_view.hpp).
+/// The columns that an effect owns and those that it reads of others. The effect is given no other column (declared_view.hpp).
 struct EffectSpec {
   std::string_view name;
   Mode mode = Mode::corrected;
@@ -45,8 +45,8 @@ inline void tighten(TimeStepBound& bound, double dt, std::string_view name) {
   if (dt < bound.dt) bound = {dt, std::string(name)};
 }
 
-/// Of sqrt(h/a), what a step under an acceleration a takes [1]: a choice that guards accuracy, not stability. The energy that
-/// four times such a step loses is measured by AccelerationBound (tests/step/bounds_test.cpp).
+/// Share of sqrt(h/a) that a step under an acceleration a takes [1]: a choice that guards accuracy, not stability.
+/// AccelerationBound measures the energy that four times such a step loses (tests/step/bounds_test.cpp).
 inline constexpr double courant_of_acceleration = 0.25;
 
 /// Greatest step under an acceleration (model 8.10) [s]. @param support radius h of the support [m] @param acceleration its
@@ -55,13 +55,14 @@ inline constexpr double courant_of_acceleration = 0.25;
   return courant_of_acceleration * std::sqrt(support / acceleration);
 }
 
-/// What an effect asks of the fused passes in a scene: of the terms that its pair_slots.hpp has compiled, those that it needs.
+/// Work that an effect asks of the fused passes in a scene: the terms that it needs, of those that its pair_slots.hpp has
+/// compiled.
 struct PairWork {
   std::vector<PairTerm> terms{};         ///< that the passes of density and rates sum
   bool where_it_acts = false;            ///< its terms add nothing to pairs that do not act on each other (Clusters::acting)
   bool leaves_own_pairs = false;         ///< its density leaves own pairs out
   bool again = false;                    ///< its rates are computed a second time in each step, without those of others
-  const PairKernels* kernels = nullptr;  ///< that all terms of the scene are given; of one effect at most
+  const PairKernels* kernels = nullptr;  ///< the kernels that all terms of the scene use; at most one effect may set them
   double awake_around = 0.0;             ///< how far around what something can reach its sums read fixed particles [m]
 };
 
@@ -74,8 +75,8 @@ struct Happening {
   bool begins;
 };
 
-/// An effect keeps nothing from step to step in members of its own: what the next step needs is in the World, where a checkpoint
-/// finds it.
+/// An effect keeps nothing from step to step in members of its own. State that the next step needs is in the World, where a
+/// checkpoint finds it.
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -87,7 +88,7 @@ class Effect {
   virtual void drift(World&, double /*dt*/) {}
   /// Sets the columns that the pass adds to.
   virtual void clear(World&, PassName) {}
-  /// What follows from the densities of the present places: pressures, temperatures, strains.
+  /// Sets the quantities that follow from the densities at the present places: pressures, temperatures, strains.
   virtual void state(World&) {}
   /// Forces of bonds, after all states of the present time.
   virtual void bonds(World&) {}

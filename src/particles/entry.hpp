@@ -5,7 +5,7 @@
 
 namespace tripoint {
 
-/// An entry of a neighbour list: the row of j in the low 26 bits and, from bit 27 on, the periodic image in which j is seen.
+/// An entry of a neighbour list. The low 26 bits are the row of j. The bits from 27 on are the periodic image in which j is seen.
 /// Lists keep own pairs in a separate column (Clusters::own). RowEntries sets the bit between the two while a caller walks the
 /// entries of one row.
 struct Entry {

@@ -124,9 +124,8 @@ std::vector<char> Neighbours::within(std::vector<char> marks, double distance) c
   return marks;
 }
 
-/// Row order: first moving particles, then fixed particles that a step reads, then fixed particles in reach that act only by
-/// their position, then sleeping particles. The first two groups are sorted by (cell, id). Most sleeping particles keep their
-/// row.
+/// Row order: 1. moving particles; 2. fixed particles that a step reads; 3. fixed particles in reach that act only by their
+/// position; 4. sleeping particles. The first two groups are sorted by (cell, id). Most sleeping particles keep their row.
 void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& resting) {
   const std::size_t n = particles.size();
   const auto x = positions(particles);

@@ -34,8 +34,8 @@ class Halo {
   /// scene may have more particles than before.
   /// @param places positions by particle number, used to split the scene as it was at the last lists [m]; empty: the present
   /// positions
-  /// @param cost cost of each particle in one step, by number, any unit; if given, the parts are recut so that each has the same
-  /// cost; empty: the parts of space stay
+  /// @param cost cost of each particle in one step, by number, any unit. If given, the parts are recut so that each has the same
+  /// cost. Empty: the parts of space stay
   virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
                          std::span<const double> cost) = 0;
   /// The whole scene, for each process: what share_out() takes again. Parts stay as they are.

@@ -105,7 +105,7 @@ struct Resting {
   std::span<const char> unread{};  ///< of each id, 1 where no step reads of a fixed particle but its place; empty: it reads all
 };
 
-/// Facts about the whole scene that the lists of a part need, so that each list has the order that it has in the whole scene.
+/// Facts about the whole scene that the lists of a part need, so that each has the order that it has in the whole.
 struct Whole {
   Vec3 low, high;             ///< corners of all places that are listed [m]
   std::size_t particles = 0;  ///< of the whole

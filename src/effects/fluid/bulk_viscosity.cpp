@@ -16,11 +16,11 @@ namespace {
 
 /// 2 c/(w h) [1], w the frequency of the fastest wave of the lattice at the default h/dx = 2.6.
 constexpr double fastest_wave = 0.885;
-/// How many times faster a light liquid is damped than alone [1], beside one of four times its density (damped_density): the most
-/// that was measured on layers and on random mixtures.
+/// Damping rate of a light liquid beside one of four times its density (damped_density), over its rate alone [1]. It is the
+/// greatest measured on layers and on random mixtures.
 constexpr double damping_beside_heavy = 2.12;
-/// What a step takes of the longest stable one [1]: a choice, made so that the bound is 0.4514 h/c at the default zeta = 0.2,
-/// just above that of sound, 0.45 h/c.
+/// Share of the longest stable step that a step takes [1]: a choice. At the default zeta = 0.2 the bound is then 0.4514 h/c, just
+/// above that of sound, 0.45 h/c.
 constexpr double share_of_frontier = 0.81;
 
 }  // namespace

@@ -24,9 +24,9 @@ struct EquationOfState {
   return e.clamp ? std::max(p, 0.0) : p;
 }
 
-/// What a particle of less than its rest density bears at a free surface (model 8.3) [Pa]: p_s (1 - |s - b|/(1 - b)), s =
-/// rho/rho0, not below 0. It is p_s in the topmost layer of a lattice, where s = b, and 0 in the liquid, in a film of one layer
-/// and in drops.
+/// Pressure of a particle below its rest density at a free surface (model 8.3) [Pa]: p_s (1 - |s - b|/(1 - b)), s = rho/rho0, not
+/// below 0. In the topmost layer of a lattice s = b, and the pressure is p_s. In the liquid, in a film of one layer and in drops
+/// it is 0.
 [[nodiscard]] inline double surface_pressure(const EquationOfState& e, double density) noexcept {
   assert(e.half_full < 1.0);
   return e.surface * std::max(0.0, 1.0 - std::abs(density / e.rest_density - e.half_full) / (1.0 - e.half_full));
@@ -48,9 +48,9 @@ struct EquationOfState {
   return p < 0.0 ? surface_pressure(e, density) : p;
 }
 
-/// Energy of compression of one particle [J], U with dU/d(delta) = work p V^2, V = 1/delta, delta = rho/m:
-/// U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)); its gradient is the force of model 8.3. At a free surface V is V0,
-/// and U is what the surface pressure has given since the rest density: -work V0 integral from s to 1 of p, with s = rho/rho0.
+/// Energy of compression U of one particle [J], with dU/d(delta) = work p V^2, V = 1/delta, delta = rho/m. Its gradient is the
+/// force of model 8.3. U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)). At a free surface V is V0. U is then the work of
+/// the surface pressure since the rest density: -work V0 integral from s to 1 of p, s = rho/rho0.
 /// @param mass [kg]   @param density rho = m delta [kg/m3]
 [[nodiscard]] inline double compression_energy(const EquationOfState& e, double mass, double density) noexcept {
   assert(mass > 0.0 && density > 0.0);

@@ -3,12 +3,12 @@
 #include "effects/fluid/material_numbers.hpp"
 #include "world/world.hpp"
 
-/// What follows from places and velocities of one time, particle by particle: before the rate pass.
+/// State that follows from places and velocities of one time, particle by particle: before the rate pass.
 namespace tripoint::fluid {
 
-/// @throws Diverged where a particle that is no wall is pressed to the density of two layers in one plane: its body or liquid and
-/// another overlap by one spacing. Printed (4) sums masses, which tells an overlap from a heavy neighbour by nothing: no such
-/// limit.
+/// @throws Diverged where a particle that is no wall has the density of two layers in one plane. Then its body or liquid and
+/// another overlap by one spacing. For printed (4) there is no such limit: it sums masses, so an overlap looks like a heavy
+/// neighbour.
 void refuse_overlap(const World&, const SceneNumbers&);
 /// rho and V from the sums of the density pass: delta = sum W / S0, rho = m delta (model 8.2), or (4) as printed.
 void set_density(World&, const SceneNumbers&);

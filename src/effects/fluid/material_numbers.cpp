@@ -14,8 +14,8 @@
 namespace tripoint::fluid {
 namespace {
 
-/// kappa/(k rho_ref dx) of the core of pairs [1] (model 8.3): a choice. What the core costs at it, and at four times as much, is
-/// measured in decision 7.
+/// kappa/(k rho_ref dx) of the core of pairs [1] (model 8.3): a choice. Decision 7 gives the measured cost of the core at this
+/// value, and at four times as much.
 constexpr double core_stiffness_share = 0.03;
 
 /// Greatest ratio of densities that the numerical bulk viscosity counts [1] (model 8.4). Without a limit a step of sound is

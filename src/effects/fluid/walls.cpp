@@ -21,7 +21,7 @@ constexpr int fixed_frame = -1;
 constexpr std::array<const Field<double>*, 3> seen_velocity{&field::viscous_velocity_x, &field::viscous_velocity_y,
                                                             &field::viscous_velocity_z};
 
-/// What each body moves with: all that is fixed moves as one, each driven body by itself.
+/// Frame that each body moves with: all that is fixed moves as one, each driven body by itself.
 std::vector<int> frames_of(const World& world) {
   std::vector<int> frames(world.bodies.size());
   for (std::size_t b = 0; b < frames.size(); ++b)
@@ -34,7 +34,7 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 /// Whether every wall brakes liquid: (8) as printed does so at walls that slip too.
 bool all_drag(const World& world) { return world.scene.mode_of(term::viscosity) == Mode::paper; }
 
-/// What a neighbour adds to the kernel sum of a wall particle, and what it would from its place on the lattice.
+/// Part of a neighbour in the kernel sum of a wall particle, and the part that it would have from its place on the lattice.
 struct Share {
   int id;
   double as_it_is, from_lattice;

@@ -2,7 +2,7 @@
 #pragma once
 #include "effects/effect.hpp"
 
-/// What both forms of heat share: material values of particles, and temperatures held from outside.
+/// Parts that both forms of heat share: material values of particles, and temperatures held from outside.
 namespace tripoint::heat {
 
 /// Heat capacity, temperature and what is held, from the scene and the sampled state.

@@ -24,8 +24,8 @@ class FreeMotion : public Effect {
   std::vector<std::array<double, works>> blocks_;  ///< memory that is used again
 };
 
-/// v += dt (sum F/m + g). The work of each force is booked by its own formula, dt F.(v- + v+)/2, which sums to the change of
-/// kinetic energy to round-off (model 8.11).
+/// v += dt (sum F/m + g). The work of each force is booked by its own formula, dt F.(v- + v+)/2. The sum of these works is the
+/// change of kinetic energy to round-off (model 8.11).
 void FreeMotion::kick(World& world, double dt) {
   Particles& p = world.particles;
   const auto v = velocities(p);

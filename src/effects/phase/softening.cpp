@@ -10,7 +10,7 @@
 namespace tripoint::phase {
 namespace {
 
-/// What is left of the stiffness of a particle: all of it where its material does not soften.
+/// Remaining share of the stiffness of a particle: all of it where its material does not soften.
 class Shares {
  public:
   explicit Shares(const World& world)

@@ -40,8 +40,8 @@ inline constexpr double on_the_limit = 1.0 + 1e-12;
   return passed > limit * on_the_limit ? 1.0 - limit / passed : 0.0;
 }
 
-/// eps_p after it grew: back to g2, along itself, where it would be larger. What was larger before, as a broken bond can leave
-/// it, may stay so and not grow: flow never gives energy back.
+/// eps_p after it grew: back to g2, along itself, where it would be larger. A strain that was larger before, as a broken bond can
+/// leave it, may stay so and not grow: flow never gives energy back.
 [[nodiscard]] inline Symmetric capped(const Symmetric& grown, const Symmetric& before, int rank, double plastic_limit) noexcept {
   const double most = std::max(plastic_limit, plastic_size(before, rank)), is = plastic_size(grown, rank);
   return is > most ? (most / is) * grown : grown;
@@ -55,7 +55,7 @@ inline constexpr double on_the_limit = 1.0 + 1e-12;
   return share > 0.0 ? capped(plastic + share * e, plastic, 3, limits.plastic) : plastic;
 }
 
-/// The same of a sheet or chain, rank 2 or 1, within the range of P: e' = P (eps - eps_p) P flows where von Mises' equivalent of
+/// The same for a sheet or chain, rank 2 or 1, within the range of P. e' = P (eps - eps_p) P flows where von Mises' equivalent of
 /// its stress passes the yield stress, down to it.
 /// @param elastic e'   @param stress of e' [Pa]   @param yields yield_stress() [Pa]
 [[nodiscard]] inline Symmetric flowed_flat(const Symmetric& elastic, const Symmetric& stress, const Symmetric& plastic, int rank,

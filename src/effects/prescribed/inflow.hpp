@@ -4,8 +4,8 @@
 
 #include "world/world.hpp"
 
-/// Liquid that flows in: layers of one spacing, which travel through the inflow's shape at its speed and are free beyond it, so
-/// that what enters never overlaps.
+/// Liquid that flows in: layers of one spacing, which travel through the inflow's shape at its speed and are free beyond it. So
+/// entering particles never overlap.
 namespace tripoint::prescribed {
 
 /// One [[inflow]] on the lattice.
