@@ -7,15 +7,15 @@
 
 #include "core/errors.hpp"
 
-/// What strangers wrote is read by a copy of this process that can do nothing but read and hand bytes back. Nobody promises that
-/// a library bears every file: one that it does not bear costs a copy, and code that a file brings along finds no network, no
-/// program to start, no process to signal and no file to write.
+/// A copy of this process reads files of strangers; it can do nothing but read and hand bytes back. No library is sure to survive
+/// every file: one that it does not survive costs a copy. Code that a file brings along finds no network, no program to start, no
+/// process to signal and no file to write.
 namespace tripoint {
 
 /// Memory of this machine [bytes].
 [[nodiscard]] rlim_t machine_memory();
 
-/// What a copy may use.
+/// Bounds of a copy.
 struct CopyBounds {
   std::string what;                  ///< is read, for the words of errors: "trajectory.h5"
   double wall_limit = 0.0;           ///< wall clock [s]; then it is killed
@@ -41,8 +41,8 @@ struct CopyEnd {
 };
 
 /// Reads in a copy of this process and gives back what it returned there. The copy may ask for memory, open files of one folder
-/// for reading (Landlock, where the system has it) and hand its bytes back; the system refuses it all else (seccomp). It has no
-/// open file of ours, and ends with us.
+/// for reading (Landlock, where the system has it) and hand its bytes back. The system refuses all else (seccomp). It has no open
+/// file of ours, and ends with us.
 /// @pre no other thread is within a library that `read` uses, such as HDF5: its lock would stay closed in the copy for ever
 /// @throws std::system_error where no process, or no file for what it hands back, is to spare
 [[nodiscard]] CopyEnd read_in_confined_copy(const std::function<std::string()>& read, const CopyBounds&);

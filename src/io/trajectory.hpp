@@ -23,8 +23,8 @@ struct BodyState {
   Vec3 force, torque;                         ///< from all others [N], [N m]
 };
 
-/// What an engine shows at one time: SI, world frame. Each column of particles has one value a particle, row = particle id, or is
-/// empty where the engine has no such values.
+/// Values that an engine shows at one time: SI, world frame. Each column of particles has one value a particle, row = particle
+/// id, or is empty where the engine has no such values.
 struct Snapshot {
   double time = 0.0;                           ///< [s]
   long step = 0;                               ///< steps that the engine has taken
@@ -115,8 +115,8 @@ void write_xdmf(const std::string& folder, const std::vector<double>& times, con
 [[nodiscard]] std::string state_hash(const Snapshot&);
 /// FNV-1a over the bits of all that was sampled.
 [[nodiscard]] std::string state_hash(const InitialState&);
-/// FNV-1a over the bits of all that these frames show, one after the other; rows that do not exist count for nothing, so that
-/// frames read back hash as they did when written.
+/// FNV-1a over the bits of all that these frames show, one after the other. Rows that do not exist count for nothing, so frames
+/// read back have the hash that they had when written.
 class FramesHash {
  public:
   void add(const Snapshot&);

@@ -9,7 +9,7 @@ namespace tripoint {
 /// Light that a surface gives back, red, green, blue, each 0 to 1 and linear (not as screens store it).
 using Colour = Vec3;
 
-/// Of the three bytes that screens store.
+/// Colour from the three bytes that screens store.
 [[nodiscard]] Colour colour_of(std::uint8_t red, std::uint8_t green, std::uint8_t blue) noexcept;
 /// One byte of a screen. @param light linear, 0 to 1; what lies beyond is cut off
 [[nodiscard]] std::uint8_t screen_byte(double light) noexcept;

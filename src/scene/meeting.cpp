@@ -102,7 +102,7 @@ Path own_path(const Scene& s, const Body& b) {
   return p;
 }
 
-/// What the segments of its keyframes, or its start, give it.
+/// Velocities by the segments of its keyframes, or by its start.
 Box velocities_of(const Path& p) {
   Box v = p.velocity;
   for (std::size_t k = 1; k < p.keyframes.size(); ++k)

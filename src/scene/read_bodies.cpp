@@ -13,7 +13,7 @@
 namespace tripoint {
 namespace {
 
-/// What a body is where the case does not say: by melting, else by what its material can do.
+/// Phase of a body where the case does not say: by melting, else by the abilities of its material.
 std::pair<Phase, std::string> phase_rule(const Material& m, const std::optional<TemperatureField>& temperature) {
   const Phase solid = m.solid == SolidKind::rigid ? Phase::rigid : Phase::elastic;
   const bool constant = temperature && temperature->kind == TemperatureField::Kind::constant;

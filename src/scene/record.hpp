@@ -6,7 +6,7 @@
 
 #include "scene/key_table.hpp"
 
-/// A key of a scene and the member that keeps its value, written once: the reader of case files, both directions of a job's JSON,
+/// A key of a scene and the member that keeps its value, written once. The reader of case files, both directions of a job's JSON,
 /// the schema and the reference page go by it (decision 025). The lists stand in scene_records.hpp and place_records.hpp.
 namespace tripoint {
 
@@ -19,7 +19,7 @@ struct Kept {
   bool later;               ///< came after the first jobs: where one lacks it, the member stays as it is
 };
 
-/// What a key is beside its row.
+/// Properties of a key beside its row.
 struct As {
   std::string_view yes{}, in_job{};
   bool later = false;

@@ -14,7 +14,7 @@
 #include "core/vec3.hpp"
 #include "scene/term.hpp"
 
-/// The checked scene: what a case file says, in SI, with every default filled in. No physics.
+/// The checked scene: the content of a case file, in SI, with every default filled in. It contains no physics.
 namespace tripoint {
 
 enum class Phase : int { liquid = 0, elastic = 1, rigid = 2 };
@@ -136,8 +136,8 @@ struct Inflow {
   std::optional<double> rate;  ///< [m3/s]
 };
 
-/// Support radius h/dx where a file says nothing: as the paper has it where every term is as printed, about 40 neighbours by
-/// volume; else that of the Wendland kernel, about 74.
+/// Support radius h/dx where a file says nothing. Where every term is as printed it is that of the paper, about 40 neighbours by
+/// volume. Else it is that of the Wendland kernel, about 74.
 inline constexpr double printed_support = 2.12, corrected_support = 2.6;
 /// Reach over nearest and diagonal neighbours of the lattice [spacings].
 inline constexpr double lattice_reach = 1.5;

@@ -90,7 +90,7 @@ TomlNode document_of(const std::string& text, const std::string& file) {
   return root;
 }
 
-/// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function of the text: what
+/// Whether a child process makes a document of the text, and frees it, without dying. That is a pure function of the text: where
 /// the child survives, the parent survives. (Upstream has an open report of unreachable points that are reached.)
 /// @throws std::system_error where there is no process to spare: no fault of the text, which is not read then
 /// @throws InputError where the child takes longer than the limit

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a line
-// here; derived state (neighbour lists) is built again from what it was built from, never from the present.
+// The state that a run continues from. Columns and bookings are taken generically, so that a new field or entry is kept without a
+// line here. Derived state (neighbour lists) is rebuilt from its own earlier input, never from the present state.
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -60,7 +60,8 @@ class Simulation {
   [[nodiscard]] double pairs() const noexcept { return pairs_; }  ///< directed pairs visited by rate passes
   [[nodiscard]] double time_step() const noexcept { return dt_; }
   [[nodiscard]] const TimeStepBound& bound() const noexcept { return bound_; }
-  /// What set the step: the name of the least bound, "scene" where the scene gives it, "output" where nothing bounds it.
+  /// Name of the bound that set the step: that of the least bound, "scene" where the scene gives it, "output" where nothing
+  /// bounds it.
   [[nodiscard]] std::string time_step_set_by() const;
 
  private:
