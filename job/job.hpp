@@ -12,7 +12,7 @@
 #include "scene/scene.hpp"
 #include "scene/settings.hpp"
 
-/// What an engine is handed (JOB.json) and what it hands back (result.json), contract 1.
+/// Input (JOB.json) and output (result.json) of an engine, contract 1.
 namespace tripoint {
 
 /// One body of a job: of every [[body]], liquid too, in the order of the case file.

@@ -141,7 +141,7 @@ void put_effect_values(const Owner& owner, std::string_view table, json& out) {
   each_effect_key(owner, table, [&](const Key& key, const auto& value) { out[std::string(key.name)] = put(key, "", value); });
 }
 
-/// What is not there stays as the owner has it.
+/// A missing value stays as the owner has it.
 template <class Owner>
 void take_effect_values(const JsonObject& o, std::string_view table, Owner& owner) {
   each_effect_key(owner, table, [&](const Key& key, auto& value) { take(o, std::string(key.name), key, "", true, value); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Merge and split: bodies are taken out of Bullet's world and others put in, with the momenta of the very particles, so that
+// Merge and split: bodies are taken out of Bullet's world and others put in. They have the momenta of the very particles, so that
 // P and L hold to round-off. (A btFixedConstraint between two bodies would lose angular momentum.)
 #include <fmt/format.h>
 

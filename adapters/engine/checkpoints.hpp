@@ -11,8 +11,8 @@
 /// Checkpoints of a job: what belongs to the run beside the engine's own state, when they are due, and where they lie.
 namespace tripoint {
 
-/// What a checkpoint must be resumed with: the scene, its particles and the build. Threads, paths, the end and the interval of
-/// checkpoints may change.
+/// Data that must be the same when a checkpoint is resumed: the scene, its particles and the build. Threads, paths, the end and
+/// the interval of checkpoints may change.
 [[nodiscard]] std::vector<std::string> identity_of(const Job&, const InitialState&, const std::string& build);
 
 /// The run as far as its frames go: they are in trajectory.h5 beside the checkpoint.

@@ -7,8 +7,8 @@
 
 namespace tripoint::lammps {
 
-/// Units in which LAMMPS holds a scene: lengths from an origin in spacings, and a time and a mass that make its own numbers of
-/// order one, because some of its tolerances are absolute.
+/// Units in which LAMMPS holds a scene. Lengths are in spacings from an origin. Time and mass make its own numbers of order one,
+/// because some of its tolerances are absolute.
 struct Units {
   double length = 1.0, time = 1.0, mass = 1.0;  ///< [m], [s], [kg]
   Vec3 origin;                                  ///< [m]

@@ -48,7 +48,7 @@ double fastest_diffusion(const Job& job) {
   return D;
 }
 
-/// Of the liquid, else of the bonds; where everything is held nothing sounds, and heat sets the time [m/s].
+/// Speed of sound of the liquid, else of the bonds [m/s]. Where everything is held there is no sound, and heat sets the time.
 double speed_of_sound(const Job& job) {
   if (const auto given = choice_for(job).sound_speed) return *given;
   double k = 0.0;

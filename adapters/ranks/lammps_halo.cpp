@@ -103,8 +103,8 @@ void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, cons
   hand_over(particles, bonds, own);
 }
 
-/// Each atom carries from now on the particle of its row: what lies side by side in memory goes together, and columns are written
-/// and read one after the other. Rows of this rank's own come first. @return of each atom the id
+/// From now on each atom carries the particle of its row. Neighbours in memory then move together, and columns are written and
+/// read one after the other. Rows of this rank's own come first. @return for each atom the id
 std::vector<std::uint32_t> LammpsHalo::follow_rows(const Particles& particles) {
   const auto id = particles[field::id];
   std::vector<std::uint32_t> ids(id.begin(), id.begin() + static_cast<std::ptrdiff_t>(owned()));
@@ -213,8 +213,8 @@ void LammpsHalo::pack(const Particles& particles, const PeriodicBox& box, const 
   }
 }
 
-/// Copies of one particle at several images are one here, and so are copies of what is this rank's own: across a periodic
-/// boundary lists find it by themselves.
+/// Copies of one particle at several images are one here, and so are copies of this rank's own particles. Lists find them across
+/// a periodic boundary by themselves.
 void LammpsHalo::number_atoms() {
   const auto owned = static_cast<std::uint32_t>(ranks_->owned()), all = static_cast<std::uint32_t>(ranks_->all());
   numbers_.clear();

@@ -26,13 +26,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What mpiexec says, where its own words do not get into the engine's answers.
+/// File for the messages of mpiexec, where they do not get into the engine's answers.
 std::string log_of(const std::string& output) { return output + "/mpiexec.log"; }
 
 volatile sig_atomic_t mpiexec_pid = 0, stop_came = 0;
 
-/// mpiexec hands SIGINT on to the ranks, which leave a checkpoint; SIGTERM it would answer by killing them, and so a second
-/// SIGINT, for which a second SIGHUP does not ask.
+/// mpiexec hands SIGINT on to the ranks, which leave a checkpoint. It would answer SIGTERM, and a second SIGINT, by killing them.
+/// A second SIGHUP does not ask for that.
 extern "C" void on_stop_of_ranks(int signal) {
   if (signal == SIGHUP && stop_came) return;
   stop_came = 1;
@@ -122,7 +122,7 @@ Words words_of(const std::string& output, int rank) {
   return words;
 }
 
-/// What a rank wrote as it failed; else who was ended, and its last words.
+/// Result that a rank wrote as it failed; else the rank that was ended, and its last words.
 Result result_of_failure(const std::string& output, int count, int status) {
   std::error_code none;
   for (int rank = 0; rank < count; ++rank) {

@@ -87,8 +87,8 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
 
  private:
   static constexpr int most_forwarded = 24;  ///< columns of one exchange: the density pass has 7, the rates 8, a deformation 24
-  /// What LAMMPS keeps of an atom: the row that it stands for, or where its numbers are among those that have arrived, -1 for the
-  /// first; and its cost.
+  /// Numbers that LAMMPS keeps of an atom. The first is the row that it stands for or, counted down from -1, the place of its
+  /// numbers among those that have arrived. The second is its cost.
   static constexpr int place_kept = 0, cost_kept = 1, numbers_kept = 2;
   [[nodiscard]] double imbalance() const;
   int put(std::span<const int> atoms, double* to) const;
@@ -150,7 +150,7 @@ void FixHalo::set_rows(std::span<const std::size_t> rows, Write write) {
   arrived_.clear();
 }
 
-/// Of each atom the columns, the cost, how many numbers the lists have, and these.
+/// Writes for each atom the columns, the cost, how many numbers the lists have, and these.
 int FixHalo::put(std::span<const int> atoms, double* to) const {
   std::vector<std::size_t> rows;
   std::vector<double*> places;  // of what these rows have
@@ -237,8 +237,8 @@ double FixHalo::imbalance() const {
   return most * comm->nprocs / sum;
 }
 
-/// Cuts lie between layers of particles, so that few particles cannot be shared out evenly: what the last cuts left is borne
-/// until it has grown.
+/// Cuts lie between layers of particles, so that few particles cannot be shared out evenly. The imbalance after the last cuts is
+/// borne until it has grown.
 void FixHalo::balance(double allowed) {
   constexpr double growth = 1.05;
   if (imbalance() <= std::max(allowed, growth * left_)) return;
@@ -362,7 +362,7 @@ int tripoint_size() {
 
 void tripoint_abort(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
 
-/// What `plugin load` calls.
+/// Entry point that `plugin load` calls.
 void lammpsplugin_init(void* lammps, void* handle, void* registers) {
   using namespace tripoint::ranks;
   static PluginEntry entry{static_cast<LAMMPS_NS::LAMMPS*>(lammps)->version,

@@ -101,7 +101,7 @@ void add_bodies(Snapshot& s, Ranks& ranks) {
   for (auto& [name, heat] : s.heat_given) take(from, heat);
 }
 
-/// What deformable bodies do as a whole, from their particles, which are all on the first rank.
+/// Sets the motions of deformable bodies as a whole, from their particles, which are all on the first rank.
 void set_whole_motions(Snapshot& s, const World& world) {
   for (std::size_t b = 0; b < s.bodies.size(); ++b) {
     if (is_rigid(world, b) || !is_alive(world, b)) continue;

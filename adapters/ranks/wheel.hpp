@@ -58,8 +58,8 @@ class Lammps {
   void (*abort_)(int) = nullptr;
 };
 
-/// The facts of the libraries that are there against those that the plugin was built with, without starting MPI: why they do not
-/// fit, or empty.
+/// Why the facts of the libraries that are there do not fit those of the plugin's build; empty where they fit. MPI is not
+/// started.
 [[nodiscard]] std::string why_unfit(const Wheel&);
 
 }  // namespace tripoint::ranks

@@ -16,7 +16,7 @@ struct Spread {
 };
 [[nodiscard]] Spread spread_of(std::vector<double> values);
 
-/// What one work took. Seconds are wall seconds.
+/// Time and size of one work. Seconds are wall seconds.
 struct Measured {
   std::size_t particles = 0;
   int threads = 1;

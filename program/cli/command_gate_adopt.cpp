@@ -59,7 +59,7 @@ std::string text_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The case's own text; where it has a short form, the whole case below its first comment: what is adopted stands on its own, and
+/// The case's own text; where it has a short form, the whole case below its first comment. An adopted case stands on its own, and
 /// its gates are tables that can be dropped one by one.
 std::string source_text(const std::string& file) {
   const std::string text = text_of(file);

@@ -75,8 +75,8 @@ void check(const std::vector<int>& list, const char* option, int most) {
     if (n < 1 || n > most) throw InputError(fmt::format("{} {}: write whole numbers from 1 to {}", option, n, most));
 }
 
-/// The runs on one rank: the case, the same coarser, the same with a wider support, which tells the cost of a pair from that of a
-/// particle.
+/// The runs on one rank: the case, the same coarser, the same with a wider support. The last tells the cost of a pair from that
+/// of a particle.
 struct OneRankRuns {
   std::vector<Prepared> prepared;
   std::vector<Timed> timed;

@@ -15,7 +15,7 @@ namespace tripoint {
 enum class Colouring { temperature, phase, body };
 enum class WallsDrawn { cut, show, hide };
 
-/// What pictures of one run have in common, so that a film is steady.
+/// Choices that all pictures of one run share, so that a film is steady.
 struct Showing {
   Colouring colouring = Colouring::phase;
   WallsDrawn walls = WallsDrawn::cut;
@@ -30,7 +30,7 @@ struct Showing {
   int threads = 1;
 };
 
-/// What a run is coloured by where nobody says: temperature where it varies, else phase where there are several, else body.
+/// Default colouring of a run: temperature where it varies, else phase where there are several, else body.
 [[nodiscard]] Colouring natural_colouring(const ShownRun&, const std::vector<std::size_t>& frames);
 
 /// Least and greatest temperature of what is no wall; of everything where that has none or one only; nothing without temperatures

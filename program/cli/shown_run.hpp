@@ -40,15 +40,15 @@ struct ShownPart {
 /// @return parts of the particles that are alive in a frame, in the order walls, liquids, bodies
 [[nodiscard]] std::vector<ShownPart> parts_of(const ShownRun&, const Snapshot&, bool whole);
 
-/// What the frames have room for: free particles without the few that have flown off, and all walls. Both may be empty (low above
+/// Room that the frames show: free particles without the few that have flown off, and all walls. Both may be empty (low above
 /// high).
 struct ShownRoom {
   Box free, walls;
 };
 [[nodiscard]] ShownRoom room_for(const ShownRun&, const std::vector<std::size_t>& frames);
 
-/// Whether a wall's particle hides free ones from the viewer: it stands beyond their box, on a side that faces the viewer, and
-/// above the floor.
+/// Whether a wall's particle hides free ones from the viewer. It then stands beyond their box, on a side that faces the viewer,
+/// and above the floor.
 [[nodiscard]] bool hides(const Vec3& place, const Box& free, const Vec3& up, const Vec3& towards, double spacing);
 
 }  // namespace tripoint

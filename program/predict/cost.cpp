@@ -61,8 +61,8 @@ WorkCost fit_work(const std::vector<OneRank>& runs) {
   std::vector<Row> rows;
   for (const OneRank& r : runs)
     rows.push_back({scale[0] / r.seconds, scale[1] * r.particles / r.seconds, scale[2] * r.pairs / r.seconds});
-  // Pairs are what a step is made of, so that they are never left out; fewer terms go first where they do as well, and particles
-  // before what is fixed: runs of one number of particles do not tell these two apart.
+  // A step consists mainly of pairs, so that they are never left out. Fewer terms go first where they do as well, and particles
+  // before fixed costs. Runs of one number of particles do not tell these two apart.
   const std::array<std::vector<std::size_t>, 4> choices{{{2}, {1, 2}, {0, 2}, {0, 1, 2}}};
   constexpr double better = 1e-9;
   WorkCost best;

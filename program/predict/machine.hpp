@@ -5,7 +5,7 @@
 
 namespace tripoint::predict {
 
-/// What a machine does between ranks: from the probe of the engine tripoint-mpi, or from a file.
+/// Speeds of a machine between ranks: from the probe of the engine tripoint-mpi, or from a file.
 struct Machine {
   std::string name = "this machine";
   int cores_a_node = 1;
@@ -23,7 +23,7 @@ struct Machine {
 /// @throws InputError with place, also for a key that is not known
 [[nodiscard]] Machine read_machine(const std::string& file);
 
-/// What `engine-tripoint-mpi --probe` printed. @throws EngineError where it is no such answer
+/// Reads the output of `engine-tripoint-mpi --probe`. @throws EngineError where it is no such answer
 [[nodiscard]] Machine machine_of_probe(const std::string& json, int cores);
 
 }  // namespace tripoint::predict
