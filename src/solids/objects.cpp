@@ -73,7 +73,7 @@ class Grouping {
   [[nodiscard]] bool same_body_or_new(const Node& a, const Node& b) const { return a.body == b.body || a.body < 0 || b.body < 0; }
   [[nodiscard]] std::map<std::pair<int, int>, std::uint32_t> blocks_that_never_melt() const;
   [[nodiscard]] int new_row(std::size_t component);
-  /// Object that holds the particle with this id: its component, or below -1 its unchanged body; -1 for liquids.
+  /// Component that the particle with this id belongs to, or below -1 its unchanged body; -1 for liquids.
   [[nodiscard]] int holder(std::uint32_t id) const;
 
   World& world_;

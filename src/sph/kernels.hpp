@@ -56,8 +56,8 @@ class Spiky {
   double h_, c_;
 };
 
-/// Viscosity kernel [Mueller, Charypar, Gross 2003, (22)], the paper's kernel of viscosity (8) and heat (21). W(r) = 15/(2 pi
-/// h^3) (-q^3/2 + q^2 + 1/(2q) - 1), q = r/h.
+/// Viscosity kernel [Mueller, Charypar, Gross 2003, (22)], the paper's kernel of viscosity (8) and heat (21).
+/// W(r) = 15/(2 pi h^3) (-q^3/2 + q^2 + 1/(2q) - 1), q = r/h.
 class ViscosityKernel {
  public:
   explicit ViscosityKernel(double h) noexcept : h_(h), c_(45.0 / (std::numbers::pi * std::pow(h, 6))) { assert(h > 0.0); }
@@ -81,8 +81,8 @@ class ViscosityKernel {
   double h_, c_;
 };
 
-/// Elasticity kernel (17), made for solids of as few as two particles. W(r) = c (2h/pi) (cos((r + h) pi/(2h)) + 1), c = pi / (8
-/// h^4 (pi/3 - 8/pi + 16/pi^2)).
+/// Elasticity kernel (17), made for solids of as few as two particles.
+/// W(r) = c (2h/pi) (cos((r + h) pi/(2h)) + 1), c = pi / (8 h^4 (pi/3 - 8/pi + 16/pi^2)).
 class ElasticityKernel {
  public:
   explicit ElasticityKernel(double h) noexcept : h_(h), c_(constant(h)) { assert(h > 0.0); }

@@ -60,9 +60,9 @@ struct InterfaceKernel {
 /// @return its square [1/spacing2]
 [[nodiscard]] InterfaceKernel interface_kernel(double q);
 
-/// Decay rate over diffusivity of the mode cos(k.r) under (21) as printed, on the cubic lattice. It is sum_j V lapW_visc(r_j) (1
-/// - cos k.r_j) [1/m2], V = dx^3/S0 of poly6, the volume m/rho that (4) gives. Times the diffusivity [m2/s] it is the rate of
-/// decay in continuous time [1/s].
+/// Decay rate over diffusivity of the mode cos(k.r) under (21) as printed, on the cubic lattice:
+/// sum_j V lapW_visc(r_j) (1 - cos k.r_j) [1/m2]. V = dx^3/S0 of poly6 is the volume m/rho that (4) gives. Times the diffusivity
+/// [m2/s] it is the rate of decay in continuous time [1/s].
 /// @param spacing dx > 0 [m]   @param support h > dx [m]   @param wave_vector k [1/m]
 [[nodiscard]] double paper_heat_rate(double spacing, double support, const Vec3& wave_vector);
 

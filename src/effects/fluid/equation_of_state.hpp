@@ -48,9 +48,9 @@ struct EquationOfState {
   return p < 0.0 ? surface_pressure(e, density) : p;
 }
 
-/// Energy of compression U of one particle [J], with dU/d(delta) = work p V^2, V = 1/delta, delta = rho/m. Its gradient is the
-/// force of model 8.3. U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)). At a free surface V is V0. U is then the work of
-/// the surface pressure since the rest density: -work V0 integral from s to 1 of p, s = rho/rho0.
+/// Energy of compression U of one particle [J], with dU/d(delta) = work p V^2, V = 1/delta, delta = rho/m.
+/// U = work k rho_ref/rho0 (m ln(rho/rho0) + rho0 (V - V0)). Its gradient is the force of model 8.3. At a free surface V is V0. U
+/// is then the work of the surface pressure since the rest density: -work V0 integral from s to 1 of p, s = rho/rho0.
 /// @param mass [kg]   @param density rho = m delta [kg/m3]
 [[nodiscard]] inline double compression_energy(const EquationOfState& e, double mass, double density) noexcept {
   assert(mass > 0.0 && density > 0.0);
