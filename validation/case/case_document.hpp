@@ -17,19 +17,19 @@ struct CaseReading;
 /// @throws InputError with the file and the line of the wrong key, be it in the case or in what it extends
 [[nodiscard]] TomlNode read_case_document(const std::string& file);
 
-/// The whole case as the text of a case file that extends nothing, its short forms written out: it loads as the same case, by the
-/// same name, from the folder of the case (where its data and meshes lie).
+/// The whole case as the text of a case file that extends nothing, its short forms written out. It loads as the same case, by the
+/// same name, from the case's folder, where its data and meshes lie.
 [[nodiscard]] std::string resolved_case(const CaseReading&, const std::vector<std::string>& set = {});
 
-/// The document as the text of a case file: each top table and each table of an array under its header, all else on one line a
-/// key.
+/// The document as the text of a case file. Each top table and each table of an array stands under its header, all else on one
+/// line a key.
 [[nodiscard]] std::string document_text(const TomlNode&);
 
 // The steps of the way, in their order.
 
-/// The file that `extends` names: "other.toml" in the folder of the case, or a path or a case's name that ends in the folder
-/// `cases` around the case or in that of the shipped cases. A stranger's case can name no other file, and no file that is no
-/// case.
+/// The file that `extends` names: "other.toml" in the folder of the case, or a path or a case's name. The path or name must lead
+/// into the folder `cases` around the case, or into that of the shipped cases. A stranger's case can name no other file, and no
+/// file that is no case.
 /// @throws InputError at the place of `extends`
 [[nodiscard]] std::string extended_file(const TomlNode& extends, const std::string& file);
 

@@ -11,7 +11,7 @@ namespace tripoint {
 enum class CaseKind { verification, validation, comparison };
 constexpr WordTable<3> word_table(CaseKind) { return {"kind of case", {"verification", "validation", "comparison"}}; }
 
-/// What must be measured for a case to pass. Paper diverges: the printed form does, the corrected one does not.
+/// Result that must be measured for a case to pass. Paper diverges: the printed form does, the corrected one does not.
 enum class Expect { pass, diverges, paper_diverges, defect };
 constexpr WordTable<4> word_table(Expect) { return {"expectation", {"pass", "diverges", "paper-diverges", "defect"}}; }
 
@@ -22,7 +22,7 @@ constexpr WordTable<8> word_table(FitClass) {
           {"asymptotic", "preasymptotic", "plateau", "roundoff", "oscillating", "diverging", "noise-limited", "too-few"}};
 }
 
-/// What a study refines.
+/// Quantity that a study refines.
 enum class Axis { spacing, time_step, support_ratio, walkers, iterations };
 constexpr WordTable<5> word_table(Axis) {
   return {"axis of a study", {"spacing", "time_step", "support_ratio", "walkers", "iterations"}};
@@ -40,8 +40,8 @@ constexpr WordTable<14> word_table(Norm) {
   return norm == Norm::L1 || norm == Norm::L2 || norm == Norm::L2raw || norm == Norm::Linf || norm == Norm::chi;
 }
 
-/// Of a run: the form of the model that our solver made it in; none of a foreign engine. Of a gate or a study: the runs that it
-/// is of; none = all, not paper = every engine's but ours in the printed form. In the order of the words.
+/// For a run: the form of the model that our solver made it in; none for a foreign engine. For a gate or a study: the runs that
+/// it judges. none = all; not paper = every engine's but ours in the printed form. In the order of the words.
 enum class JudgedMode { none, corrected, not_paper, paper };
 constexpr WordTable<4> word_table(JudgedMode) { return {"mode", {"", "corrected", "not paper", "paper"}}; }
 /// Whether a run of one mode is of what is wanted.

@@ -10,7 +10,7 @@
 #include "validation/case/case_document.hpp"
 #include "validation/case/case_keys.hpp"
 
-/// What a case extends: which file that is, and the chain of such files.
+/// The file that a case extends, and the chain of such files.
 namespace tripoint {
 namespace fs = std::filesystem;
 namespace {

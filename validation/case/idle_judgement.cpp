@@ -7,7 +7,7 @@
 #include "validation/case/engine_names.hpp"
 #include "validation/case/idle_search.hpp"
 
-/// What the judgement of a case says and no run of it can show.
+/// Parts of a case's judgement that no run of it can show.
 namespace tripoint {
 namespace {
 

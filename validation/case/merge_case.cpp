@@ -23,7 +23,7 @@ std::string word(const TomlNode& item, std::string_view key) {
   return v->kind == Kind::text ? v->text : to_toml(*v);
 }
 
-/// What tells the tables of an array apart; empty for arrays whose tables have nothing of the kind.
+/// Keys that tell the tables of an array apart; empty for arrays whose tables have none.
 std::vector<std::string_view> identity_keys(std::string_view array) {
   if (array == "material" || array == "body" || array == "metric" || array == "defect" || array == "harmless") return {"name"};
   if (array == "gate") return {"metric", "engine", "mode", "preset", "level"};

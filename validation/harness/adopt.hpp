@@ -7,8 +7,8 @@
 #include "validation/harness/plan_runs.hpp"
 #include "validation/harness/results.hpp"
 
-/// Adopting an engine: what it is now is measured, and gates are written that turn red where it drifts, to the worse or to the
-/// better.
+/// Adopting an engine: its present results are measured, and gates are written that turn red where it drifts, to the worse or to
+/// the better.
 namespace tripoint {
 
 struct AdoptOptions {

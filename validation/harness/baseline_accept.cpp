@@ -67,7 +67,7 @@ std::string changes_of_cost(const Baseline& before, const Baseline& after) {
   return text;
 }
 
-/// What acceptance changes of one case: each gate whose edges, metric or value have changed.
+/// Changes of one case by acceptance: each gate whose edges, metric or value have changed.
 std::string changes(const Baseline* before, const Baseline& after) {
   if (!before) return fmt::format("{}: first baseline, {} gates\n", one_line(after.id), after.gates.size());
   std::string text;

@@ -35,7 +35,7 @@ std::string title_of(const CaseResult& c, const AcceptedGate& g) {
   return fmt::format("{} {}{} {}", c.id, g.engine, after_blank(g.mode), g.metric);
 }
 
-/// What the gate allows and what it measures, against what was accepted.
+/// Compares the limits and the metric of a gate with the accepted ones.
 void compare_limits(const CaseResult& c, const AcceptedGate& now, const SourcePlace& place, const AcceptedGate& old,
                     std::vector<Remark>& list) {
   const auto title = title_of(c, now);

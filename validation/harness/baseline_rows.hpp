@@ -23,8 +23,8 @@ namespace tripoint {
 /// be judged.
 [[nodiscard]] bool is_absent(const CaseResult&, const AcceptedGate&, bool engines_were_chosen);
 
-/// Accepted gates that judge nothing any more: of engines that have run, refused or ended before their time, and of those that
-/// the case names no more.
+/// Accepted gates that judge nothing any more. They are of engines that have run, refused or ended before their time, and of
+/// those that the case no longer names.
 [[nodiscard]] std::vector<const AcceptedGate*> gone(const CaseResult&, const std::vector<AcceptedGate>& now, const Baseline&,
                                                     bool engines_were_chosen);
 

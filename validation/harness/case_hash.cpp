@@ -17,8 +17,8 @@ namespace {
 constexpr std::uintmax_t most_read = std::uintmax_t{256}
                                      << 20;  // what the greatest mesh may have; no other file may have as much
 
-/// What a file holds. Of one that every reader refuses for its size, its size: a stranger's case may name one that fits in no
-/// memory.
+/// Content of a file. For a file that every reader refuses for its size it is the size: a stranger's case may name one that fits
+/// in no memory.
 std::string text_of(const fs::path& file) {
   std::error_code none;
   const std::uintmax_t size = fs::file_size(file, none);

@@ -83,7 +83,7 @@ std::string table_of(const Comparison& all, const CommentOptions& o) {
          "it is larger than its noise.\n";
 }
 
-/// What is new and what is gone, by name.
+/// New and lost values, by name.
 std::string arrivals(const Comparison& all, Trend trend, const CommentOptions& o) {
   std::string text;
   std::size_t count = 0;

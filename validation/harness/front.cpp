@@ -139,7 +139,7 @@ std::vector<double> possible_levels(const Scene& scene, const Ladder& ladder) {
 
 namespace {
 
-/// What is possible, good enough and least by `measure`; none = nothing is.
+/// The setting that is possible, good enough and least by `measure`; none = there is none.
 template <class Enough, class Measure>
 std::optional<Recommendation> least(const Scene& scene, const std::vector<Ladder>& ladders, Enough enough, Measure measure) {
   std::optional<Recommendation> best;

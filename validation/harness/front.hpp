@@ -6,8 +6,8 @@
 
 #include "validation/harness/results.hpp"
 
-/// What accuracy costs, from runs that were made: error and CPU seconds along one knob of one engine, and the cheapest settings
-/// for a wish.
+/// Cost of accuracy, from runs that were made: error and CPU seconds along one knob of one engine, and the cheapest settings for
+/// a wish.
 namespace tripoint {
 
 struct LadderPoint {
@@ -46,8 +46,9 @@ struct Recommendation {
   Prediction error, cpu_s;
 };
 
-/// Levels that a scene takes: a spacing that divides what the measured ones divide, a time step that divides the output interval,
-/// whole walkers and iterations. Within twice beyond the measured ones at the fine end, and not beyond the coarsest.
+/// Levels that a scene takes. A spacing divides all lengths that the measured ones divide, a time step divides the output
+/// interval, walkers and iterations are whole. Within twice beyond the measured ones at the fine end, and not beyond the
+/// coarsest.
 [[nodiscard]] std::vector<double> possible_levels(const Scene&, const Ladder&);
 
 /// The cheapest level of any ladder whose predicted error is at most this; empty when none is.

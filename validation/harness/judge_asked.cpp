@@ -9,7 +9,7 @@
 namespace tripoint {
 namespace {
 
-/// What became of one engine over all cases.
+/// Outcome of one engine over all cases.
 struct Answer {
   int rows = 0, missing = 0, refused = 0, ran = 0, judged = 0;
   std::string why;      ///< of the first row that did not run

@@ -46,7 +46,7 @@ std::string make_page(const fs::path& results, const std::string& history, bool 
   return fmt::format("the report program {}: {}", describe(end), end.log_tail);
 }
 
-/// No old page stands for new results.
+/// Removes old pages, so that none stands for new results.
 void remove_pages(const fs::path& out) {
   std::error_code none;
   for (const char* page : {"index.html", "signable.html", "report.pdf"}) fs::remove(out / page, none);

@@ -13,7 +13,7 @@
 #include "validation/metrics/metric.hpp"
 #include "validation/metrics/order.hpp"
 
-/// What results.json holds (contracts: results.json, format 1), as plain data. Verdicts in it are always recomputed: judge.hpp.
+/// Content of results.json (contracts: results.json, format 1), as plain data. Verdicts in it are always recomputed: judge.hpp.
 namespace tripoint {
 
 struct Cost {

@@ -62,7 +62,7 @@ Job job_in_folder(const RunRequest& request) {
   return job;
 }
 
-/// What an earlier run left goes, except what a run that goes on from a checkpoint in this folder still needs.
+/// Removes the files of an earlier run, except those that a run resumed from a checkpoint in this folder still needs.
 void prepare_folder(const RunRequest& request) {
   const fs::path folder(request.folder);
   fs::create_directories(folder);
@@ -79,7 +79,7 @@ void prepare_folder(const RunRequest& request) {
   write_job((folder / "job.json").string(), job_in_folder(request));
 }
 
-/// What an engine says of its run. What others wrote is read by a copy of us first. @throws InputError, EngineError
+/// Result that an engine states of its run. A copy of us first reads files that others wrote. @throws InputError, EngineError
 Result result_of(const RunRequest& request) {
   const std::string file = (fs::path(request.folder) / "result.json").string();
   if (!belongs_to_us(request.engine->executable))
@@ -87,7 +87,7 @@ Result result_of(const RunRequest& request) {
   return read_result(file);
 }
 
-/// What an engine that was stopped by Ctrl-C says last.
+/// Last words of an engine that was stopped by Ctrl-C.
 std::string words_of_the_interrupted(const RunRequest& request) {
   if (is_no_own_file((fs::path(request.folder) / "result.json").string())) return " without a result";
   try {
@@ -141,8 +141,8 @@ std::uintmax_t greatest_trajectory(const RunRequest& request) {
   return at_least + a_row * request.job->times.size() * (request.initial->size() + request.job->bodies.size());
 }
 
-/// A link would lead to what another engine, or another run, has written; a pipe would keep whoever opens it waiting. No engine
-/// writes any more when this is asked. @throws EngineError
+/// A link would lead to files of another engine, or of another run. A pipe would keep its reader waiting. At the time of this
+/// check no engine writes any more. @throws EngineError
 void expect_own_files(const fs::path& folder) {
   for (const char* name : {"job.json", "result.json", "trajectory.h5", "trajectory.csv", "gauges.csv"})
     if (is_no_own_file((folder / name).string()))

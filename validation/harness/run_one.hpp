@@ -39,7 +39,7 @@ struct Outcome {
   Cost cost;
 };
 
-/// What tells this run from any other: its job, its particles, and the engine that makes it (finished_run.hpp: run_hash).
+/// Hash that tells this run from any other: its job, its particles, and the engine that makes it (finished_run.hpp: run_hash).
 [[nodiscard]] std::string hash_of(const RunRequest&);
 
 /// Writes the job, asks --check, runs, and reads back; what the engine does wrong becomes a status with its reason, never an

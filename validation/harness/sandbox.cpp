@@ -99,7 +99,7 @@ rlim_t at_most(__rlimit_resource what, rlim_t much) {
   return ::getrlimit(what, &ours) == 0 ? std::min(much, ours.rlim_max) : much;
 }
 
-/// What the engine may use. Set before it begins, inside: nobody can be faster.
+/// Limits of the engine. They are set before it begins, inside the sandbox: nobody can be faster.
 std::vector<std::string> limits(double wall_limit) {
   const auto memory = static_cast<rlim_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
   const double cpu = std::min(wall_limit * std::max(1u, std::thread::hardware_concurrency()) + 10.0, 1e9);
@@ -205,7 +205,7 @@ void show_python(Words& words, fs::path python) {
   }
 }
 
-/// What the program that draws the pages makes: pages, and what they show.
+/// Whether an entry is made by the program that draws the pages: a page, or its figures.
 bool is_drawn(const fs::path& entry) {
   const fs::path name = entry.filename();
   return name.extension() == ".html" || name == "case" || name == "figures" || name == "report.pdf" || name == "report.log";

@@ -12,13 +12,13 @@
 /// An engine judged by the limits that any engine must hold: a row a case, totals, and its place among the engines that ran.
 namespace tripoint {
 
-/// What the limits that any engine must hold say of an engine in a case.
+/// Score of an engine in a case by the limits that any engine must hold.
 enum class Score { pass, fail, known_defect, inconclusive, diverged, crashed, not_judged, refused, missing };
 constexpr WordTable<9> word_table(Score) {
   return {"score", {"pass", "fail", "known defect", "inconclusive", "diverged", "crashed", "not judged", "refused", "missing"}};
 }
 
-/// One case of one engine and preset. What is not there is NaN, 0 or empty.
+/// One case of one engine and preset. Missing values are NaN, 0 or empty.
 struct ScoreRow {
   std::string case_id, title;
   Score verdict = Score::missing;
@@ -53,8 +53,8 @@ struct Witness {
   std::string words;  ///< the vendor's own on preset and settings, with their source; empty = the engine gives none
 };
 
-/// A case in which two engines differ by more than half of the acceptance limit: at most one of them uses less than a quarter of
-/// it.
+/// A case in which two engines differ by more than half of the acceptance limit. At most one of them uses less than a quarter of
+/// the limit.
 struct Disagreement {
   std::string case_id, metric, unit, allowed;
   std::string a, b;                ///< the two that differ most

@@ -75,7 +75,7 @@ void refuse_unknown_quantity(const MetricChoice& choice) {
                                      suggestion(choice.quantity, known));
 }
 
-/// A unit for people that is another than the number beside it has: a value in m, divided by a scale of 1, is none in mm.
+/// Refuses a unit for people that is not the unit of the number beside it. A value in m, divided by a scale of 1, is none in mm.
 void refuse_another_unit(const MetricChoice& choice) {
   if (choice.unit.empty() || choice.unit == "degC" || choice.norm == Norm::slope || choice.norm == Norm::frequency ||
       choice.norm == Norm::chi)

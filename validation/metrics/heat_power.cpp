@@ -23,8 +23,8 @@ std::optional<double> heat_of_free(const MetricInput& in, const Snapshot& s) {
   return double(sum);
 }
 
-/// Heat that what holds the body's temperature has given so far: as the engine counts it, else as the others have gained, where
-/// nothing else brings heat.
+/// Heat given so far by the source that holds the body's temperature. It is as the engine counts it, else the gain of the other
+/// bodies, where nothing else brings heat.
 std::optional<double> heat_given(const MetricInput& in, const Snapshot& s, std::string& why) {
   if (const auto counted = s.heat_given.find(in.choice.body); counted != s.heat_given.end()) return counted->second;
   const auto held =

@@ -43,8 +43,8 @@ double fastest_sound(const Scene& scene) {
   return fastest;
 }
 
-/// Greatest diffusivity of what grows warmer or colder [m2/s]; 0 where nothing does. What is held at a temperature bounds no
-/// step.
+/// Greatest diffusivity of matter that grows warmer or colder [m2/s]; 0 where there is none. Matter held at a temperature bounds
+/// no step.
 double greatest_diffusivity(const Scene& scene) {
   double greatest = 0.0;
   if (!calls_for(scene, "heat")) return greatest;

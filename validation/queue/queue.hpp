@@ -19,8 +19,8 @@
 ///     runs/...             what the runs left, as `tripoint validate` lays them out, and in each a row.json
 ///     workers/WORKER.json  a worker that lives touches its file every few seconds; workers/WORKER/ is its own workshop
 ///
-/// Every file but the workshops comes to be by a rename, so that it is whole or not there; a job goes forward only (todo,
-/// running, done).
+/// Every file but those of the workshops comes to be by a rename, so that it is whole or not there. A job goes forward only
+/// (todo, running, done).
 namespace tripoint {
 
 struct QueuedJob {

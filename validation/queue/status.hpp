@@ -4,7 +4,7 @@
 
 #include "validation/queue/standing.hpp"
 
-/// What `tripoint status` says.
+/// Output of `tripoint status`.
 namespace tripoint {
 
 struct QueueStatus {

@@ -22,7 +22,7 @@ class CarriedCosine : public Reference {
     out.velocity.assign(out.position.size(), velocity_);
     return out;
   }
-  /// Of places at the start, where the particles' temperatures belong.
+  /// Numbers are those of places at the start, where the particles' temperatures belong.
   [[nodiscard]] std::optional<double> number(std::string_view quantity) const override { return still_->number(quantity); }
   [[nodiscard]] Measuring measuring() const override { return still_->measuring(); }
 

@@ -10,7 +10,7 @@
 namespace tripoint {
 namespace {
 
-/// The bar between its ends: where they are in time, and what the law makes of it.
+/// The bar between its ends: their places in time, and its state by the law.
 struct Bar {
   std::size_t row = 0, axis = 0;
   double length = 0.0, area = 0.0;
