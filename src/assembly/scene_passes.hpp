@@ -11,7 +11,7 @@ namespace tripoint {
 /// The fused pair passes, as the scene's modes choose them.
 class Passes {
  public:
-  /// @param lanes particles of a cluster, 0 = what is fastest here: measured only where a pair is worked on at all
+  /// @param lanes particles of a cluster, 0 = the fastest number here: measured only where a pass works on any pair
   /// @param sums_all whether clusters in which nothing meets are summed over too
   Passes(const Scene&, const std::vector<Active>&, int lanes, bool sums_all = false);
   ~Passes();
@@ -24,7 +24,7 @@ class Passes {
   void run_fixed(PassName, World&) const;
   /// How far around what something can reach fixed particles must be awake, for every bit to stay [m]; none: nothing may sleep.
   [[nodiscard]] std::optional<double> sleeps_beyond() const;
-  [[nodiscard]] bool works_on_all() const;  ///< pairs of what is fixed have work too, as where they conduct heat
+  [[nodiscard]] bool works_on_all() const;  ///< pairs of fixed particles have work too, as where they conduct heat
   /// Cost of each particle in a step, by row, as lists and bonds are now; before there are any, a guess (ParticleCost).
   /// @param steps from new lists to new lists
   [[nodiscard]] std::vector<double> cost(const World&, double steps) const;

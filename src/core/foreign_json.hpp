@@ -13,7 +13,7 @@ inline constexpr std::size_t most_levels = 64;
 inline constexpr int most_keys = 10'000;
 
 /// Why a text of others is not parsed as JSON; "" where it may be. Reasons: "nests deeper than 64 levels", "has an object of more
-/// than 10000 keys". One pass over the text; what it says besides is left to the parser.
+/// than 10000 keys". One pass over the text; all other content is left to the parser.
 [[nodiscard]] inline std::string unfit_json(std::string_view json) {
   std::array<int, most_levels + 1> keys{};  // of the open object of each level
   std::size_t level = 0;

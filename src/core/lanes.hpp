@@ -120,11 +120,11 @@ template <class V>
 /// The same number in each lane.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V every_lane(double value) noexcept {
-  return value - V{};  // -0 and what is not finite keep their bits
+  return value - V{};  // -0 and values that are not finite keep their bits
 }
 
-/// 2ab/(a + b) of what is not negative. Where both are equal it is they themselves, to the bit; where they are in every lane
-/// nothing is divided.
+/// 2ab/(a + b) of numbers that are not negative. Where both are equal it is they themselves, to the bit; where they are in every
+/// lane nothing is divided.
 template <class V>
 [[nodiscard, gnu::always_inline]] inline V harmonic_mean(V a, V b) noexcept {
   const MaskOf<V> differ = a != b;

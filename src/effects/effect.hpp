@@ -21,14 +21,14 @@ struct PairKernels;
 struct EffectSpec {
   std::string_view name;
   Mode mode = Mode::corrected;
-  std::vector<FieldInfo> owns;                  ///< that exist because of it
+  std::vector<FieldInfo> owns;                  ///< columns that exist because of it
   std::vector<FieldInfo> reads;                 ///< of others, that it reads or sets; each has an owner in the scene
   std::vector<Force> forces{};                  ///< that it makes
   std::vector<Account> accounts{};              ///< that it books on beside those of its forces; common ones need no word
-  std::vector<Account> numerical{};             ///< that its numerical terms book on: what they take on purpose
+  std::vector<Account> numerical{};             ///< accounts of the energy that its numerical terms take on purpose
   std::vector<Guarded> guards{};                ///< of its columns those that are looked at after every step
   std::vector<GuardedEntry> guarded_entries{};  ///< of its entries of the ledger, how the guard of energy takes them
-  /// Of its columns of bodies, those that are sums over particles. Where several processes share a scene, each sums its own part.
+  /// Its columns of bodies that are sums over particles. Where several processes share a scene, each sums its own part.
   std::vector<Field<double>> body_sums{};
   std::vector<FieldInfo> reads_if_there{};  ///< of others, where the scene has them
   bool sums_forces = false;                 ///< it reads World::forces of all effects
@@ -92,10 +92,11 @@ class Effect {
   virtual void state(World&) {}
   /// Forces of bonds, after all states of the present time.
   virtual void bonds(World&) {}
-  /// Sets what no step reads of fixed particles, but for what the passes sum (World::forms_fixed): after their density.
+  /// Sets the values of fixed particles that no step reads, except the sums of the passes (World::forms_fixed). Called after
+  /// their density.
   virtual void form_fixed(World&) {}
-  /// Whether change() has anything to decide; what a particle's state does to it alone is done here first. Each process that
-  /// shares the scene is asked, of its own particles and of what it knows of copies.
+  /// Whether change() has anything to decide. Changes that depend on one particle's state alone are made here first. Each process
+  /// that shares the scene is asked, about its own particles and about the known values of copies.
   [[nodiscard]] virtual bool wants_change(World&) { return false; }
   /// Decides what melts, freezes or breaks, changes bonds, phases and bodies, and tells it in World::change. It is called where
   /// wants_change() said so, in any of the processes that share the scene; each of them then holds all of it.
@@ -108,7 +109,7 @@ class Effect {
   /// rates must be computed again (PassName::again)
   virtual bool correct(World&, double /*dt*/) { return false; }
   virtual void happen(World&, const Happening&) {}
-  /// Rows and ids stand for other particles (World::halo): what the effect keeps by them is void.
+  /// Rows and ids stand for other particles (World::halo): data that the effect keeps by row or id are void.
   virtual void renumber(World&) {}
   /// Looks, after every step, for a state that the effect's equations do not hold for. @throws Diverged
   virtual void check(const World&) const {}

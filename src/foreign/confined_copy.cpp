@@ -35,7 +35,7 @@ namespace {
 /// Exit codes of the copy. Any other exit code (for example a sanitizer's) counts as a crash.
 enum Code { done = 81, refusal = 82, memory_is_short = 83, cannot_confine = 84 };
 
-constexpr int to_us = 3;                    ///< the copy's descriptor of what it hands back; it has no other above 2
+constexpr int to_us = 3;                    ///< the copy's descriptor of the bytes that it hands back; it has no other above 2
 constexpr std::size_t most_letters = 4096;  ///< of each part of a refusal
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -109,7 +109,7 @@ constexpr std::array free_calls{SCMP_SYS(read),
                                 SCMP_SYS(geteuid),
                                 SCMP_SYS(sched_getaffinity)};
 
-/// Rule for the n-th word of a call. @param a value, or a mask @param b value of what the mask leaves
+/// Rule for the n-th word of a call. @param a value, or a mask @param b value of the bits that the mask leaves
 scmp_arg_cmp word(unsigned n, scmp_compare how, scmp_datum_t a, scmp_datum_t b = 0) {
   scmp_arg_cmp rule{};
   rule.arg = n;
@@ -235,7 +235,7 @@ void bound(const CopyBounds& bounds, rlim_t space) {
   ::signal(SIGXFSZ, SIG_IGN);  // a write fails then, and says so
 }
 
-/// A copy of somebody who is no more reads for nobody.
+/// A copy whose parent has ended reads for nobody.
 void end_with(pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(cannot_confine);

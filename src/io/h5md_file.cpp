@@ -62,7 +62,7 @@ std::vector<std::size_t> shape_of(hid_t dataset, const std::string& what) {
   return {dims, dims + rank};
 }
 
-/// A small file can claim a great dataset: what was never written reads as fill values, and zeros pack a thousandfold.
+/// A small file can claim a great dataset: parts never written read as fill values, and zeros pack a thousandfold.
 void refuse_bombs(hid_t dataset, const std::vector<std::size_t>& shape, const std::string& what) {
   constexpr double harmless = 1e9, packed = 64.0;  // [bytes], and as dense as particles ever pack
   double bytes = 8.0;

@@ -24,7 +24,7 @@ class Handle {
   Handle& operator=(Handle&& other) noexcept;
   ~Handle() { reset(); }
   void reset() noexcept;
-  /// The library writes what it still holds when it closes: where that fails, reset() would not say so. @throws EngineError as
+  /// The library writes its remaining data when it closes: where that fails, reset() would not say so. @throws EngineError as
   /// above
   void close(const std::string& what);
   [[nodiscard]] hid_t get() const noexcept { return id_; }

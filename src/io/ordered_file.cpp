@@ -164,7 +164,8 @@ struct Open {
 Open& own(H5FD_t* file) { return *reinterpret_cast<Open*>(file); }
 const Open& own(const H5FD_t* file) { return *reinterpret_cast<const Open*>(file); }
 
-/// Puts the reason for a failure where the library's own drivers put it, in their words: who called the library finds it there.
+/// Puts the reason for a failure where the library's own drivers put it, in their words. The caller of the library finds it
+/// there.
 void note_failure(int why) noexcept {
   H5Epush2(H5E_DEFAULT, __FILE__, "tripoint-ordered", __LINE__, H5E_ERR_CLS, H5E_IO, H5E_SYSERRSTR,
            "errno = %d, error message = '%s'", why, std::strerror(why));

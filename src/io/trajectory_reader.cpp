@@ -96,7 +96,7 @@ class Reader {
     block.shape[1] = rows;
   }
 
-  /// H5MD gives each element times of its own: what is not of the times of the positions is not of these frames.
+  /// H5MD gives each element times of its own. An element without the times of the positions is not of these frames.
   void expect_own_times(const std::string& element) const {
     const std::string name = "/" + element + "/time";
     if (!h5::has(file_.get(), name)) return;

@@ -102,7 +102,7 @@ namespace tripoint {
 /// Values of field::group; members of a free rigid body have 1 + its row. Members of one group of 0 and above exert no force on
 /// each other.
 inline constexpr double deformable_group = -2.0, liquid_group = -1.0, wall_group = 0.0;
-/// Whether what is of this group exerts something on every other particle, also of its own group.
+/// Whether a particle of this group exerts a force on every other particle, also of its own group.
 [[nodiscard]] constexpr bool acts_on_all(double group) noexcept { return group < wall_group; }
 
 /// Values of field::driven: flowing in, held in place, and from there on the number of the event that grips.

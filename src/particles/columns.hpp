@@ -72,11 +72,11 @@ class Columns {
       std::visit([&](const auto& values) { visit(c.info, std::span(values.data(), rows_)); }, c.values);
   }
 
-  /// Row n becomes what was row order[n], in every column; spans taken before are no longer valid. @param order a permutation of
-  /// 0..size()-1
+  /// Row n takes the values of the old row order[n], in every column; spans taken before are no longer valid. @param order a
+  /// permutation of 0..size()-1
   void permute(std::span<const std::uint32_t> order, int threads = 1);
-  /// Row to[k] becomes what was row from[k], in every column, for each k; other rows stay. @param from,to the same rows, each
-  /// once
+  /// Row to[k] takes the values of the old row from[k], in every column, for each k; other rows stay. @param from,to the same
+  /// rows, each once
   void rearrange(std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, int threads = 1);
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   /// Resizes every column to from.size() rows. Row n takes the values of the old row from[n]. Where from[n] is `none` the row is

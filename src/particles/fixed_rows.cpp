@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Lists where fixed particles can sleep: rows of what moves, of what is fixed and read, and of what sleeps (decisions 020, 028).
+// Lists where fixed particles can sleep: rows of moving particles, of fixed ones that are read, and of sleeping ones (decisions
+// 020, 028).
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -36,7 +37,7 @@ std::vector<std::uint32_t> sort_by_cell(const std::vector<std::uint32_t>& rows, 
   return place;
 }
 
-/// A permutation of rows: what is in row from[k] goes to row to[k].
+/// A permutation of rows: the content of row from[k] goes to row to[k].
 struct Moves {
   std::vector<std::uint32_t> from, to;
 };
@@ -130,7 +131,7 @@ void Neighbours::sort_awake(Particles& particles, Grid& grid, const Resting& res
   const std::size_t n = particles.size();
   const auto x = positions(particles);
   const auto body = particles[field::body], id = particles[field::id];
-  still_.place.resize(n, ~std::uint32_t{0});  // what has flowed in moves
+  still_.place.resize(n, ~std::uint32_t{0});  // particles that have flowed in move
   std::vector<std::uint32_t> rows;
   std::vector<char> moving(still_.first.size() - 1, 0);
   const auto wake = [&](std::size_t from, std::size_t to) {

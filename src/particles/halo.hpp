@@ -38,7 +38,7 @@ class Halo {
   /// cost. Empty: the parts of space stay
   virtual void share_out(Particles&, Bonds&, OwnPairs&, const PeriodicBox&, std::span<const Vec3> places,
                          std::span<const double> cost) = 0;
-  /// The whole scene, for each process: what share_out() takes again. Parts stay as they are.
+  /// The whole scene, for each process, as share_out() takes it again. Parts stay as they are.
   [[nodiscard]] virtual WholeScene gather(const Particles&, const Bonds&, const OwnPairs&) = 0;
   /// Particles go to the process that owns their part of space, and each process gets copies of particles within reach of its
   /// own. Ids are renumbered 0..size()-1, own particles first. Every column, bond and own pair goes with its particle
@@ -64,7 +64,7 @@ class Halo {
   [[nodiscard]] virtual std::vector<double> all_of(const std::vector<double>& own) = 0;
   /// A number becomes the least of all processes, and the word the one beside it.
   virtual void take_least(double& number, std::string& word) = 0;
-  /// Whether this is the one process that tells what all hold alike.
+  /// Whether this is the one process that reports values that all hold alike.
   [[nodiscard]] virtual bool is_first() const = 0;
 };
 

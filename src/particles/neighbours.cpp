@@ -14,7 +14,7 @@ namespace tripoint {
 namespace {
 
 const char* const axis_names[] = {"x", "y", "z"};
-/// @param listed rows that the last lists knew: of these, what is fixed is where it was
+/// @param listed rows that the last lists knew: the fixed ones among them have not moved
 void refuse_not_finite(const Particles& particles, double time, std::size_t listed) {
   const auto x = positions(particles);
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -62,8 +62,7 @@ Neighbours Neighbours::anew(const PeriodicBox& box) const {
 bool Neighbours::outdated(const Particles& particles) const {
   if (!are_made_ || built_.size() != particles.size() || rebuilds_ == 0) return true;
   const auto x = positions(particles);
-  const double limit =
-      0.25 * skin_ * skin_ * (1.0 - 1e-9);  // beyond rounding: what is within the support now was within reach then
+  const double limit = 0.25 * skin_ * skin_ * (1.0 - 1e-9);  // beyond rounding: all within the support now was within reach then
   double greatest = 0.0;
 #pragma omp parallel for schedule(static) num_threads(threads_) reduction(max : greatest) if (particles.moving() > worth_threads)
   for (std::size_t i = 0; i < particles.moving(); ++i) {
@@ -105,7 +104,7 @@ void Neighbours::wrap(Particles& particles) const {
   const std::array<std::span<int>, 3> n{image.x, image.y, image.z};
   for (std::size_t a = 0; a < 3; ++a) {
     if (!box_.periodic[a]) continue;
-    for (std::size_t i = 0; i < particles.size(); ++i) {  // what sleeps is within the box
+    for (std::size_t i = 0; i < particles.size(); ++i) {  // sleeping particles are within the box
       const double widths = std::floor((r[a][i] - box_.min[a]) / box_.width[a]);
       if (widths == 0.0) continue;
       r[a][i] -= widths * box_.width[a];
@@ -218,7 +217,7 @@ void Neighbours::bring_own_first(const Particles& particles, std::vector<std::ui
   order.swap(rows);
 }
 
-/// Clusters of what moves, then of what is fixed. The first are those that have lists.
+/// Clusters of moving particles, then of fixed ones. The first are those that have lists.
 void Neighbours::form_clusters(const Particles& particles, const Grid& grid) {
   Clusters& c = clusters_;
   const std::size_t rows = order_.empty() ? particles.size() : order_.size();

@@ -42,7 +42,7 @@ struct Clusters {
   std::vector<std::uint64_t> acting;
   std::vector<std::uint32_t> listed,  ///< clusters with a list, ascending
       unlisted,                       ///< without, since all they meet is fixed as they are
-      on_demand;  ///< of what sleeps in reach of what moves, after all others: see Neighbours::list_sleeping()
+      on_demand;  ///< of sleeping rows in reach of moving ones, after all others: see Neighbours::list_sleeping()
   [[nodiscard]] std::size_t size() const noexcept { return first.empty() ? 0 : first.size() - 1; }
   /// The cluster that a row is a member of.
   [[nodiscard]] std::uint32_t of(std::size_t row) const {
@@ -176,12 +176,11 @@ class Neighbours {
   [[nodiscard]] double support() const noexcept { return support_; }
   [[nodiscard]] std::size_t entries() const noexcept {
     return pairs_;
-  }  ///< directed pairs within support + skin, of what sleeps too
+  }  ///< directed pairs within support + skin, of sleeping rows too
   /// Lists of all particles that were made until now. Quantities that follow from fixed places alone are to be found anew with
   /// them.
   [[nodiscard]] long whole_lists() const noexcept { return whole_lists_; }
-  /// Whether the present lists are whole, and those after them need not be: who keeps what follows from fixed places alone finds
-  /// it now.
+  /// Whether the present lists are whole, and the next need not be. Quantities that follow from fixed places alone are found now.
   [[nodiscard]] bool may_rest_next() const noexcept { return still_.known && listed_all_; }
   /// Fixed particles by id, in an order that stays; the place of one in it. Only where may_rest_next() or something sleeps.
   [[nodiscard]] std::span<const std::uint32_t> still_ids() const noexcept { return still_.id; }
@@ -227,7 +226,7 @@ class Neighbours {
   Clusters clusters_;
   ScanFunction scan_;
   std::array<std::vector<std::size_t>, 3>
-      listed_by_;  ///< entries of each thread at the last build, of what moves, is fixed, and sleeps
+      listed_by_;  ///< entries of each thread at the last build, of moving, fixed and sleeping rows
   std::size_t pairs_ = 0;
   std::vector<Vec3> built_;
   /// Fixed particles in stretches along x, each as long as the reach of a list and one cell wide: they are woken by stretches.

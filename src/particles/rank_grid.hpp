@@ -21,7 +21,7 @@ struct ParticleCost {
   static constexpr double idle_at_start = guess_of_entries * (of_density + of_listing) / guess_of_steps;
   static constexpr double busy_at_start = guess_of_entries * (of_density + of_rates + of_listing / guess_of_steps);
   [[nodiscard]] static constexpr double of_row(double steps = guess_of_steps) { return of_step + of_lists / steps; }
-  /// @param idle it is fixed, and pairs of what is fixed have no work: it is summed over as lists are made, and then no more
+  /// @param idle it is fixed, and pairs of fixed particles have no work: it is summed over as lists are made, and then no more
   [[nodiscard]] static constexpr double at_start(bool idle) { return of_row() + (idle ? idle_at_start : busy_at_start); }
 };
 

@@ -26,7 +26,7 @@ class BusyClusters {
     known_ = false;
     own_is_known_ = false;
   }
-  /// Over all pairs, of what is this process's own.
+  /// Over all pairs, for this process's own particles.
   void sum_own(const PassFunction&, World&, const PairKernels&);
   /// @param leaves_own whether the density terms leave own pairs out, as the corrected one does
   void sum_density(const PassFunction&, World&, const PairKernels&, bool leaves_own);

@@ -51,13 +51,13 @@ struct EffectKey {
   std::string (*idle)(const Scene&) = nullptr;
   bool ablated = false;  ///< of [scene], without a member: 0 leaves out a term that the paper does not have, which is a row of
                          ///< `tripoint ablate`
-  bool limit = false;    ///< of [[material]]: what is beyond it yields or breaks; `tripoint check` tells where nothing ever can
+  bool limit = false;    ///< of [[material]]: matter beyond it yields or breaks; `tripoint check` tells where nothing ever can
 };
 
 /// Kinds of terms with two forms, in the order in which jobs and pages list terms.
 enum class TermKind { kernel, law, time };
 
-/// A term of two forms, as whoever it belongs to declares it.
+/// A term of two forms, as its owner declares it.
 struct DeclaredTerm {
   Term term;
   TermKind kind = TermKind::law;
@@ -92,7 +92,7 @@ struct EffectRule {
 /// Names that entries of the ledger can have, each once: those of all effects, and those of every scene.
 [[nodiscard]] std::vector<std::string> ledger_entries();
 
-/// Every term of two forms, in the order of jobs and pages: what effects declare, the kernel, and the scheme of steps.
+/// Every term of two forms, in the order of jobs and pages: those that effects declare, the kernel, and the scheme of steps.
 /// @throws std::logic_error where two effects declare one term
 [[nodiscard]] std::span<const DeclaredTerm> declared_terms();
 /// The term of a word of [modes]. @throws InputError naming the nearest word, or all
@@ -136,8 +136,8 @@ using BodyTest = bool (*)(const Scene&, const Body&, const Material&);
 [[nodiscard]] std::string who_changes_phase(const Scene&);
 /// The body or material that is elastic once it has frozen, of a material that passes the test.
 [[nodiscard]] std::string who_freezes_elastic(const Scene&, bool (*limited)(const Material&));
-/// For a limit of what is elastic, as of yield or fracture: who has it or freezes with it, and what it `can` do then. `limit`
-/// names it with its article.
+/// For a limit of elastic matter, as of yield or fracture. It gives the body that has it or freezes with it, and what it `can` do
+/// then. `limit` names it with its article.
 [[nodiscard]] std::string limit_called_for(const Scene&, bool (*limited)(const Material&), std::string_view limit,
                                            std::string_view can);
 /// Why that limit never acts.

@@ -26,7 +26,7 @@ namespace tripoint {
 [[nodiscard]] inline double heat_capacity_of(const Material& m, Phase phase) {
   return phase == Phase::liquid ? *m.heat_capacity : m.solid_heat_capacity.value_or(*m.heat_capacity);
 }
-/// Heat of fusion at a temperature [J/kg]: that at t_melt, and what the liquid takes up more than the solid on the way
+/// Heat of fusion at a temperature [J/kg]: that at t_melt, plus the difference of heat between liquid and solid on the way
 /// (Kirchhoff's law).
 [[nodiscard]] inline double latent_heat_at(const Material& m, double temperature) {
   const double latent = m.latent_heat.value_or(0.0);

@@ -35,7 +35,7 @@ inline constexpr bool is_kept = false;
 template <class Owner, class T>
 inline constexpr bool is_kept<Kept<Owner, T>> = true;
 
-/// The record of a table: its keys in the order of the reference page. A plain Key has no member; whoever reads it has a rule.
+/// The record of a table: its keys in the order of the reference page. A plain Key has no member; its reader has a rule.
 template <class Owner>
 inline constexpr auto record = std::make_tuple();
 

@@ -19,7 +19,7 @@ namespace tripoint {
 
 enum class Phase : int { liquid = 0, elastic = 1, rigid = 2 };
 enum class Motion { free, fixed, prescribed };
-enum class SolidKind { elastic, rigid };          ///< what a material is when solid
+enum class SolidKind { elastic, rigid };          ///< kind of a material when solid
 enum class ViscosityForm { laplacian, central };  ///< of corrected viscosity (model 8.5)
 
 [[nodiscard]] std::string_view to_string(Phase);
@@ -175,7 +175,7 @@ struct Scene {
   std::vector<Event> events;
   std::vector<Inflow> inflows;
 
-  /// A look-up: what a loop over particles or bodies needs is asked before it. @throws UndeclaredTerm
+  /// A look-up: a loop over particles or bodies asks for its values before it begins. @throws UndeclaredTerm
   [[nodiscard]] Mode mode_of(const Term& t) const {
     const auto at = modes.find(t);
     return at != modes.end() ? at->second : mode_of_unresolved(t);

@@ -23,7 +23,7 @@ class Scanner {
   }
 
  private:
-  /// A bracket that waits for its other half, and how many brackets and dots of keys lead to what it holds.
+  /// A bracket that waits for its other half, and how many brackets and dots of keys lead to its content.
   struct Open {
     char bracket;
     int depth;

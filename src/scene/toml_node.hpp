@@ -8,7 +8,7 @@
 
 #include "core/errors.hpp"
 
-/// A TOML document as plain data: what the rest of this room reads, so that the parser stays behind one file.
+/// A TOML document as plain data. The rest of this room reads it, so that the parser stays behind one file.
 namespace tripoint {
 
 struct TomlNode {

@@ -86,7 +86,7 @@ TomlNode convert(const toml::node& from, const std::string& file) {
 TomlNode document_of(const std::string& text, const std::string& file) {
   TomlNode root = convert_table(toml::parse(text), file);
   const auto lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
-  root.place = {file, lines + 1, 0};  // what the file lacks is missing at its end
+  root.place = {file, lines + 1, 0};  // a missing key is reported at the file's end
   return root;
 }
 

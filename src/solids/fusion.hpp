@@ -16,7 +16,7 @@ namespace tripoint {
 struct Fusion {
   double melts = std::numeric_limits<double>::infinity();        ///< t_melt [K]
   double solidifies = -std::numeric_limits<double>::infinity();  ///< t_solid [K]
-  double heat = 0.0;       ///< L/c_p: what the heat of fusion is worth in temperature of the solid [K]
+  double heat = 0.0;                                             ///< L/c_p: the heat of fusion as a temperature of the solid [K]
   bool soft_band = false;  ///< printed (Fig. 5): f follows T between the two, solid below t_melt and the softer the nearer to it
   double jump = 0.0;       ///< heat capacity of the liquid over that of the solid, minus 1
 };
@@ -49,8 +49,8 @@ struct ThermalState {
 };
 
 /// H/(m c) [K] above that of the same particle at temperature T and f = 0, by the heat capacity c of the solid. It is the heat of
-/// fusion, plus the extra heat that the liquid holds. The heat of fusion is L at t_melt; elsewhere it differs by what the two
-/// phases take up on the way (Kirchhoff).
+/// fusion, plus the extra heat that the liquid holds. The heat of fusion is L at t_melt; elsewhere it differs by the heat that
+/// the two phases take up on the way (Kirchhoff).
 [[nodiscard]] inline double bound_heat(const Fusion& fusion, double T, double f) noexcept {
   if (fusion.jump == 0.0) return fusion.heat * f;
   return f * (fusion.heat + fusion.jump * (T - fusion.melts));

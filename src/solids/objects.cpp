@@ -104,7 +104,7 @@ void Grouping::collect(const std::vector<std::uint32_t>& frozen) {
   }
 }
 
-/// First node of what each rigid body has of each source and never melts.
+/// First node of the members that each rigid body has of each source and that never melt.
 std::map<std::pair<int, int>, std::uint32_t> Grouping::blocks_that_never_melt() const {
   std::map<std::pair<int, int>, std::uint32_t> first;
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {

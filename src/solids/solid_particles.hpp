@@ -12,7 +12,7 @@
 /// are deformed. Particles are named by id.
 namespace tripoint::solid {
 
-/// A bond with this reference vector x_ij = r_i - r_j [m] and its kernel (17); who it is with is set by connect().
+/// A bond with this reference vector x_ij = r_i - r_j [m] and its kernel (17); connect() sets its partner.
 [[nodiscard]] Bond bond_of(const ElasticityKernel&, const Vec3& x_ij);
 /// The kernel (17), with the support scene.bond_reach dx [m].
 [[nodiscard]] ElasticityKernel bond_kernel(const Scene&);

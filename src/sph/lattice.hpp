@@ -5,7 +5,7 @@
 #include "core/vec3.hpp"
 #include "sph/kernels.hpp"
 
-/// Sums over the cubic lattice: what a kernel makes of undisturbed particles, exact at any number of them. Lengths are in
+/// Sums over the cubic lattice: the values of a kernel on undisturbed particles, exact at any number of them. Lengths are in
 /// spacings where nothing else is said, so that the support radius is the support ratio q = h/dx. Proof:
 /// tests/sph/lattice_test.cpp.
 namespace tripoint {

@@ -33,7 +33,7 @@ struct Keys {
 template <class V>
 struct PairGeometry {
   V dx, dy, dz;     ///< r_j - r_i [m]
-  V r2, r;          ///< its square [m2], |r_j - r_i| [m]; what no term asks for is not formed
+  V r2, r;          ///< its square [m2], |r_j - r_i| [m]; values that no term asks for are not formed
   V per_r2;         ///< 1/r^2; where r is 0, a number that keeps products with dx, dy, dz and r at 0 [1/m2]
   V gradient;       ///< W'(r)/r of the Wendland kernel [1/m5]
   MaskOf<V> apart;  ///< not an own pair, two members of one deformable body that meet through their bonds alone
@@ -136,7 +136,7 @@ template <std::size_t n, class Make>
 }
 
 /// Adds a term's part of a pair to its sums, for the members whose lane is in `acting`. The sums of the others keep their bits.
-/// @tparam mention first of the term's fields among those of all terms   @param i, j what all terms read, each field once @param
+/// @tparam mention first of the term's fields among those of all terms @param i, j fields that all terms read, each once @param
 /// sum the term's first
 template <class Fields, class Term, std::size_t mention, class V, class Mask>
 void add_term(const PairGeometry<V>& g, Mask acting, const std::array<V, Fields::reads>& i, const std::array<V, Fields::reads>& j,
@@ -342,7 +342,7 @@ struct AnyPass {
 };
 template <class... Slots>
 using Pass = AnyPass<false, Slots...>;
-/// The first pass over new places: it also finds what is within the support.
+/// The first pass over new places: it also finds the entries within the support.
 template <class... Slots>
 using FindingPass = AnyPass<true, Slots...>;
 

@@ -74,7 +74,7 @@ class Movable {
   std::span<const int> body_, driven_;
 };
 
-/// The row of the greatest kinetic energy: who is looked at where no single particle is to blame.
+/// The row of the greatest kinetic energy: the particle that is named where no single particle is to blame.
 std::size_t fastest(const World& world) {
   const auto v = velocities(world.particles);
   const auto m = world.particles[field::mass];
@@ -117,7 +117,7 @@ Made made_by_scheme(const Ledger& ledger, const std::vector<GuardedEntry>& entri
   return most;
 }
 
-/// Sizes of all entries but those apart, and what the scheme made.
+/// Sizes of all entries but those apart, and the energy that the scheme made.
 double turnover(const Ledger& ledger, const std::vector<GuardedEntry>& entries, double start_potential) {
   double sum = 0.0;
   for (const auto& [entry, energy] : ledger.energy) {

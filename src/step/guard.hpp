@@ -28,8 +28,8 @@ void check_escape(const World&, const Enclosure&);
 struct GuardMemory {
   double turned_over = 0.0;  ///< greatest sum of the sizes of all entries of the ledger so far [J]
   double first_step = 0.0;   ///< first finite bound [s]
-  bool still =
-      false;  ///< the scene was laid at rest, of liquids and what is fixed alone: what moves then falls, or is made by the scheme
+  bool still = false;  ///< the scene was laid at rest, of liquids and fixed bodies alone: any motion then is a fall, or is made
+                       ///< by the scheme
 };
 
 /// Compares energy that the scheme makes or loses with all that the scene has turned over. More than half of that is no error of

@@ -20,13 +20,12 @@ class Recovery {
 
   /// A state that all guards have passed. @param time of it [s]
   void keep(Checkpoint state, double time);
-  /// The state to go on from, with half the steps. @throws Diverged, the failure with what was tried, after most_halvings in a
-  /// row
+  /// The state to go on from, with half the steps. @throws Diverged, the failure with the attempts, after most_halvings in a row
   [[nodiscard]] const Checkpoint& go_back(const Diverged& failure);
 
   [[nodiscard]] double share() const noexcept { return share_; }  ///< of the full step
   [[nodiscard]] long count() const noexcept { return count_; }
-  [[nodiscard]] const std::string& last() const noexcept { return last_; }  ///< what tripped last; empty = nothing did
+  [[nodiscard]] const std::string& last() const noexcept { return last_; }  ///< guard that tripped last; empty = none did
 
   /// Into and out of a run's checkpoint, so that a run that was cut goes back to the same states.
   void save(Checkpoint&) const;

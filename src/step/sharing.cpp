@@ -169,7 +169,7 @@ void Sharing::share_out(World& world, const Passes& passes) {
   share_particles(world, passes);
 }
 
-/// Lists that are not outdated stay those that they were: of a part there are those that one process has of the whole.
+/// Lists that are not outdated stay. A part then has the lists that one process has of the whole.
 void Sharing::share_particles(World& world, const Passes& passes) {
   const bool keeps = world.neighbours && !world.neighbours->outdated(world.particles);
   const std::vector<Vec3> built = keeps ? by_id(world.particles, world.neighbours->build_positions()) : std::vector<Vec3>{};
@@ -189,7 +189,7 @@ void Sharing::follow(World& world, const std::vector<Active>& effects, const Pas
   if (!world.halo) {
     share_out(world, passes);
   } else if (!is_part(world) && world.particles.size() != count_) {
-    share_particles(world, passes);  // one rank holds the whole always: what has flowed in, lists may know already
+    share_particles(world, passes);  // one rank holds the whole always: lists may know inflowing particles already
   } else {
     ++steps_;
     if (!any(outdated(world))) return;

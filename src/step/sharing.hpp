@@ -26,7 +26,8 @@ class Sharing {
   /// The scene as one process would hold it between two steps, with all that processes have booked.
   [[nodiscard]] World whole(const World&) const;
   /// Shares out what this process holds all of, with the lists that it has where they are not outdated. Else, where the lists of
-  /// one process are outdated, particles go to who has their place now, and all make new lists. All call it. @pre there is a halo
+  /// one process are outdated, particles go to the process that has their place now, and all make new lists. All call it. @pre
+  /// there is a halo
   void follow(World&, const std::vector<Active>&, const Passes&);
 
  private:

@@ -5,8 +5,8 @@
 namespace tripoint {
 
 /// How many threads the next step takes: all that are given, or one while other work fills the machine. Several threads would
-/// then wait for each other longer than they work. It measures: where threads are pushed aside it tries one, keeps what is
-/// faster, and looks again later. Threads do not change a bit of a run, so they can change between two steps.
+/// then wait for each other longer than they work. It measures: where threads are pushed aside it tries one, keeps the faster
+/// choice, and looks again later. Threads do not change a bit of a run, so they can change between two steps.
 class ThreadChoice {
  public:
   explicit ThreadChoice(int most) : most_(most), now_(most) {}

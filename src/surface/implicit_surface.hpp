@@ -64,8 +64,8 @@ class ImplicitSurface {
   std::vector<std::uint64_t> near_keys_;
 };
 
-/// One thread's view of a surface: keeps the lists of the places that it was asked about last. The values do not depend on what
-/// was asked before.
+/// One thread's view of a surface: keeps the lists of the places that it was asked about last. The values do not depend on
+/// earlier calls.
 class SurfaceProbe {
  public:
   /// @param surface must outlive it

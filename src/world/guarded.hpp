@@ -19,7 +19,7 @@ struct Guarded {
   std::string_view name;  ///< in messages
   Written written;
   std::string_view
-      not_positive{};  ///< where values must be above 0 too: unit and what a lesser one would be, "K, below absolute zero"
+      not_positive{};  ///< where values must be above 0 too: unit and the meaning of a lesser one, "K, below absolute zero"
 };
 
 /// Role of a ledger entry for the guard of energy (step/guard.hpp). An entry for which no effect gives a role is energy that the
@@ -33,7 +33,7 @@ enum class EntryRole {
 struct GuardedEntry {
   std::string_view entry;
   EntryRole role;
-  std::string_view made_by{};  ///< in messages: what has made the energy
+  std::string_view made_by{};  ///< in messages: the source of the energy
 };
 
 }  // namespace tripoint

@@ -22,11 +22,11 @@ struct Ledger {
 /// particles move with their own velocity (model 8.3). Printed (4), (7) and (9) and the transport velocity have none.
 [[nodiscard]] bool stores_compression(const Scene&);
 
-/// Keeps what is stored at time 0, which later ledgers are compared with.
+/// Keeps the energy stored at time 0, which later ledgers are compared with.
 void book_start(World&, const Ledger&);
 
-/// Tells the work of all forces, and what finite steps leave between the work of those that store energy and what they store
-/// (model 8.11).
+/// Tells the work of all forces (model 8.11). For forces that store energy, it tells also the difference by finite steps between
+/// work and store.
 /// @param sum what effects tell of themselves
 void close_ledger(const World&, Ledger& sum);
 

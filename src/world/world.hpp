@@ -46,7 +46,7 @@ struct Rows {
   [[nodiscard]] std::size_t count() const { return to - from; }
 };
 
-/// All that a step changes, and what it works with.
+/// All that a step changes, and the data that it works with.
 struct World {
   Scene scene;
   Particles particles;
@@ -83,15 +83,15 @@ struct World {
   std::vector<char> copies;  ///< of each row, 1 where it is a copy of another's particle; empty where this process holds all
 
   [[nodiscard]] double support() const { return scene.support_ratio * scene.spacing; }
-  /// Whether a row is this process's own: what is summed over particles is summed over these.
+  /// Whether a row is this process's own: sums over particles are sums over these.
   [[nodiscard]] bool owns(std::size_t row) const { return copies.empty() || copies[row] == 0; }
-  /// Whether this process tells what all hold alike, as the energies of bodies.
+  /// Whether this process reports values that all hold alike, as the energies of bodies.
   [[nodiscard]] bool tells_of_bodies() const { return !halo || halo->is_first(); }
-  /// Rows whose forces are formed now: of what moves, but where forms_fixed says so.
+  /// Rows whose forces are formed now: moving ones, or fixed ones where forms_fixed says so.
   [[nodiscard]] Rows formed() const {
     return forms_fixed ? Rows{particles.moving(), particles.size()} : Rows{0, particles.moving()};
   }
-  /// Copies take from their owners what a pair pass has summed.
+  /// Copies take the sums of a pair pass from their owners.
   void refresh(std::span<const Field<double>* const> columns) {
     if (halo) halo->refresh(particles, columns);
   }

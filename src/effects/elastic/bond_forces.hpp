@@ -3,8 +3,8 @@
 #include "effects/elastic/bond_sums.hpp"
 #include "solids/solid_particles.hpp"
 
-/// The two passes over bonds. Reference data stream by in order of the lists; what a pass needs of a partner lies together, by
-/// id.
+/// The two passes over bonds. Reference data are read in order of the lists. The data of a partner that a pass needs lie
+/// together, by id.
 namespace tripoint::elastic {
 
 /// The quantities that a stress is formed from. They are kept where matter may flow (World::may_flow): flow comes after the
@@ -19,7 +19,7 @@ struct BeforeFlow {
 struct Deformations {
   BondLists lists;
   AlignedVector<Place> places;           ///< by id
-  AlignedVector<Deformed> deformed;      ///< by id, of what has bonds or owns strain energy
+  AlignedVector<Deformed> deformed;      ///< by id, of particles that have bonds or own strain energy
   std::vector<ReferenceSums> reference;  ///< by id, the same
   std::vector<Vec3> hourglass_force;     ///< by id: force of a particle's own hourglass energy on it, of a solid [N]
   std::vector<BeforeFlow> before_flow;   ///< by id, set where matter may flow; empty in a scene without flow

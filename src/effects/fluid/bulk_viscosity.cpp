@@ -30,7 +30,7 @@ double bulk_viscosity(const Scene& scene) { return acting_number(scene, "bulk_vi
 void set_bulk_pressure(World& world, const SceneNumbers& n) {
   Particles& p = world.particles;
   const double dt = 2.0 * world.lagged.half_step;       // the step was begun by a half kick
-  const bool flows = dt > 0.0 && world.change.empty();  // what is born changes densities at once
+  const bool flows = dt > 0.0 && world.change.empty();  // new particles change densities at once
   const double viscosity = flows ? n.bulk_viscosity * n.sound_speed * world.support() / dt : 0.0;  // [m2/s] over the step
   const auto delta = p[field::number_density], before = p[field::number_density_before], q = p[field::bulk_pressure];
   const auto rest = p[field::rest_density], m = p[field::mass], pressure = p[field::pressure], V = p[field::volume],

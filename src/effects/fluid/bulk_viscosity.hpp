@@ -20,8 +20,8 @@ inline constexpr Account taken_by_bulk_viscosity{"bulk_viscous"};
 /// never negative. Up to its default it needs no bound of the step beside that of sound. A wave of frequency w is damped at w^2
 /// zeta h/c. Forces of the last half step's velocities are then stable while w^2 dt^2 + 2 w^2 zeta (h/c) dt < 4. With w = 2
 /// c/(0.885 h), the fastest wave of the lattice, that is dt < 0.71 h/c at 0.2: sound takes 0.45. Where liquids mix, the heavy one
-/// damps the light one faster, and 0.6 h/c is left at four times the density (tests/step/stability_bulk_test.cpp). Also books
-/// what it takes, by the trapezoidal rule. To be called once for all new places, after the pressure is known.
+/// damps the light one faster, and 0.6 h/c is left at four times the density (tests/step/stability_bulk_test.cpp). Also books the
+/// energy that it takes, by the trapezoidal rule. To be called once for all new places, after the pressure is known.
 void set_bulk_pressure(World&, const SceneNumbers&);
 
 /// Greatest step over h/c [1] (model 8.10): 0.81 (sqrt(z^2 + 0.885^2) - z), z = 2.12 zeta. Above that of sound, 0.45, up to

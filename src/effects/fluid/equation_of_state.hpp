@@ -13,7 +13,8 @@ struct EquationOfState {
   double rest_density;       ///< rho0 of the particle [kg/m3]
   double reference_density;  ///< rho_ref, the largest rest density of the scene's liquids [kg/m3]
   bool clamp;                ///< no negative pressure: free surfaces and contacts do not pull
-  double work = 1.0;         ///< energy a p dV: what makes p the force on an area, on the kernel's lattice (decision 6)
+  double work = 1.0;         ///< energy a p dV: the factor that makes p the force on an area, on the kernel's lattice (decision
+                             ///< 6)
   double surface = 0.0;      ///< pressure of the topmost layer of a liquid [Pa], 0 = none
   double half_full = 0.5;    ///< density of that layer over the rest density, on the lattice
 };

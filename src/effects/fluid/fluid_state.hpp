@@ -14,10 +14,10 @@ void refuse_overlap(const World&, const SceneNumbers&);
 void set_density(World&, const SceneNumbers&);
 /// (9), printed or scaled (model 8.3).
 void set_pressure(World&, const SceneNumbers&);
-/// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment, what the corrected pressure force takes of
-/// each particle.
+/// V^2 p, with the pressure of the bulk viscosity, over the kernel's lattice moment: the share of each particle in the corrected
+/// pressure force.
 void set_pressure_shares(World&, const SceneNumbers&);
-/// The velocities that viscous pairs see: of the full step, a half kick with the old rates ahead (model 7, time).
+/// The velocities that viscous pairs see: those at the full step, half a kick ahead with the old rates (model 7, time).
 void predict_velocities(World&);
 
 }  // namespace tripoint::fluid

@@ -44,7 +44,7 @@ class LaidWalls {
   }
 
  private:
-  /// A neighbour, and what the lattice adds to its distance vector [m].
+  /// A neighbour, and the change of its distance vector by the lattice [m].
   struct Pair {
     std::uint32_t row, image;
     Vec3 added;

@@ -27,7 +27,7 @@ template <class Places, class Pair>
 template <class Pair = ListedPair>
 class ListedPairs {
  public:
-  /// Groups or rows have changed: the next renew() drops what is listed.
+  /// Groups or rows have changed: the next renew() drops the listed pairs.
   void clear() noexcept { known_ = never; }
   /// Drops all pairs where they are of other neighbour lists, or clear() was called. @param rebuilds Neighbours::rebuilds() of
   /// now

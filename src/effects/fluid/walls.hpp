@@ -70,8 +70,9 @@ class Walls {
   std::size_t fixed_faces_ = 0;
   std::vector<std::uint32_t> awake_, row_;  ///< places in face_ of those that are awake, and their rows
   std::vector<std::uint32_t> place_;        ///< by id, the place in face_
-  std::vector<char> at_face_;               ///< by id, whether it is a wall's and at its face: what moves as one keeps its faces
-  std::vector<double> excess_;  ///< by id, what jitter adds to the density of a wall particle over its rest density; empty where
+  std::vector<char> at_face_;               ///< by id, whether it is a wall's and at its face: a body that moves as one keeps its
+                                            ///< faces
+  std::vector<double> excess_;  ///< by id, part of jitter in the density of a wall particle over its rest density; empty where
                                 ///< nothing is jittered
   std::unordered_map<int, Exposure> exposures_;  ///< of a scene that is shared out, by number: of walls that have been here
   /// By place in face_: density over the rest density, its mean and the mean of this mean. Then the part of its share of the

@@ -159,7 +159,7 @@ bool Fracture::find(const World& world) {
   return !found_->empty();
 }
 
-/// A bond is in the lists of both its particles: who owns one of them sees it break.
+/// A bond is in the lists of both its particles: the owner of either of them sees it break.
 bool Fracture::wants_change(World& world) {
   back_ = 0.5 * std::exchange(drifted_, 0.0);
   return find(world);
@@ -168,7 +168,7 @@ bool Fracture::wants_change(World& world) {
 void Fracture::change(World& world) {
   if (!found_ && !find(world)) return;
   const std::vector<Pair> pairs = *std::exchange(found_, {});
-  // Of the two kicks around a drift only the first has the force of a bond, so the bond broke half way. It lets go the energy
+  // Only the first of the two kicks around a drift has the force of a bond, so the bond broke half way. It lets go the energy
   // that it stored there, to second order in the step.
   Release release(world, back_);
   for (const auto& [i, j] : pairs) {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double moment_cut = 0.05;  ///< eigenvalues of M_i below this share of the largest count as none (model 8.6)
 
-/// H = m (c_p T + L f) [J] at the particle's temperature, and what the liquid holds more than the solid above t_melt.
+/// H = m (c_p T + L f) [J] at the particle's temperature, and the extra heat of the liquid above t_melt.
 double heat_content(const World& world, std::size_t row) {
   const Particles& p = world.particles;
   const double sensible = enthalpy_of(p[field::mass][row], p[field::heat_capacity][row], p[field::temperature][row]);
@@ -45,7 +45,7 @@ Conductivity conductivity_of(const Material& m) {
   return {m.solid_conductivity.value_or(*m.conductivity), *m.conductivity};
 }
 
-/// A particle conducts as its phase does, or as what it becomes.
+/// A particle conducts as its phase does, or as the phase that it turns into.
 void follow_phase(World& world, std::size_t row) {
   const Material& m = world.material_of(row);
   world.particles[field::conductivity][row] =

@@ -37,7 +37,7 @@ void FreeMotion::kick(World& world, double dt) {
   const auto driven = guided ? std::as_const(p)[field::driven] : std::span<const int>{};
   const auto sums = ordered_sums(world, blocks_, [&](std::size_t i, std::array<double, works>& work) {
     if (is_member(i)) return;
-    if (guided && driven[i] != 0) {  // whoever moves it takes the work
+    if (guided && driven[i] != 0) {  // its driver takes the work
       for (std::size_t k = 0; k < forces.size(); ++k) work[works_on_driven + k] += dt * dot(forces[k].at(i), v.at(i));
       return;
     }

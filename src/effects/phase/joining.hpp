@@ -6,7 +6,7 @@
 #include "sph/kernels.hpp"
 #include "world/world.hpp"
 
-/// Bonds and own pairs of what freezes (model 8.9).
+/// Bonds and own pairs of freezing particles (model 8.9).
 namespace tripoint::phase {
 
 /// A pair that becomes body neighbours.

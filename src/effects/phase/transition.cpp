@@ -42,7 +42,7 @@ std::vector<Partner> partners_of(const World& world, std::uint32_t id) {
   return list;
 }
 
-/// Whether what a list loses or gains changes the volume of its particle, and with it the energies of all that list it.
+/// Whether a change of a list changes the volume of its particle, and with it the energies of all that list it.
 bool volumes_follow_lists(const World& world) { return world.scene.mode_of(term::elastic) == Mode::paper; }
 
 /// Phase of a solid particle at this liquid fraction, of a material that may turn.

@@ -14,7 +14,7 @@ struct YieldLimits {
   double plastic = std::numeric_limits<double>::infinity();  ///< g2: largest plastic strain [1]
 };
 
-/// A strain that has flowed lies on its limit to round-off; only what is farther beyond flows, so that a second call changes no
+/// A strain that has flowed lies on its limit to round-off. Only a strain farther beyond flows, so that a second call changes no
 /// bit.
 inline constexpr double on_the_limit = 1.0 + 1e-12;
 
@@ -28,14 +28,15 @@ inline constexpr double on_the_limit = 1.0 + 1e-12;
   return std::sqrt(6.0) * shear_modulus * elastic_limit;
 }
 
-/// |eps_p| with what a sheet or chain gives way across: flow keeps the volume, though only the part within the range is stored.
+/// |eps_p| with the strain of a sheet or chain across itself: flow keeps the volume, though only the part within the range is
+/// stored.
 [[nodiscard]] inline double plastic_size(const Symmetric& plastic, int rank) noexcept {
   const double across = rank < 3 ? trace(plastic) * trace(plastic) / (3 - rank) : 0.0;
   return std::sqrt(contraction(plastic, plastic) + across);
 }
 
 /// Share of its direction by which the strain flows: 1 - g1/|e'|, 0 below the limit.
-/// @param passed what the limit is compared with   @param limit of the same unit
+/// @param passed value that the limit is compared with @param limit of the same unit
 [[nodiscard]] inline double excess(double passed, double limit) noexcept {
   return passed > limit * on_the_limit ? 1.0 - limit / passed : 0.0;
 }

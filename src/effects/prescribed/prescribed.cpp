@@ -34,7 +34,7 @@ double energy_of(const World& world, std::size_t row) {
   return world.particles[field::mass][row] * (0.5 * dot(v, v) - dot(world.scene.gravity, world.unwrapped(row)));
 }
 
-/// A particle as its guide moves it; what that costs is booked at the walls.
+/// A particle as its guide moves it; the energy that this costs is booked at the walls.
 void guide(World& world, std::size_t row, const Vec3& place, const Vec3& velocity) {
   const double before = energy_of(world, row);
   const Vec3 way = place - world.unwrapped(row);

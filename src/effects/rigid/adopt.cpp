@@ -113,7 +113,7 @@ void Adoption::measure_anew(std::size_t b) {
   } else {
     t[field::body_velocity][b] = P / t[field::body_mass][b];
     t[field::body_angular_momentum][b] = L;
-    world_.change.kinetic_lost[b] = kinetic;  // less what is left, when L is whole
+    world_.change.kinetic_lost[b] = kinetic;  // less the rest, when L is whole
   }
 }
 

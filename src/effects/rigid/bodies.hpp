@@ -38,7 +38,7 @@ void update_spin(World&, std::size_t body);
 /// Places (and speeds) of the members from centre, orientation and reference: rigid to round-off for ever.
 void place_members(World&);
 void give_velocities(World&);
-/// Lets a fixed or prescribed body, already measured, go on as its outside drives it. @param old what it did before
+/// Lets a fixed or prescribed body, already measured, go on as its outside drives it. @param old its motion before
 void go_on_driven(World&, std::size_t body, const BodyMotion& old);
 
 }  // namespace tripoint::rigid

@@ -218,7 +218,7 @@ Motion own_motion(const World& world, std::size_t b) {
   return source < 0 ? Motion::free : world.scene.bodies[static_cast<std::size_t>(source)].motion;
 }
 
-/// Holds bodies still, or lets them go: what changes of their energy is booked at the walls.
+/// Holds bodies still, or lets them go: the change of their energy is booked at the walls.
 void set_motion(World& world, std::size_t b, Motion motion) {
   Columns& t = world.bodies;
   const double before = kinetic_energy(world, b);
