@@ -85,7 +85,7 @@ struct Divergence {
   std::string field, stage;
   double time = 0.0;
   std::string guard;       ///< which one tripped; empty = the engine has none
-  std::string file;        ///< in the run's folder: the culprit and what is around it, for ParaView; empty = none
+  std::string file;        ///< in the run's folder: the culprit and its surroundings, for ParaView; empty = none
   std::string checkpoint;  ///< last good one; empty = none
 };
 

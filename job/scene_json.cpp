@@ -10,8 +10,8 @@
 #include "scene/place_records.hpp"
 #include "scene/scene_records.hpp"
 
-/// A record goes into JSON and comes back by the list of its keys (scene/record.hpp). By hand is only what a job says otherwise
-/// than a case file.
+/// A record goes into JSON and comes back by the list of its keys (scene/record.hpp). Only fields that a job states otherwise
+/// than a case file are written by hand.
 namespace tripoint {
 namespace {
 
@@ -112,7 +112,7 @@ void take(const JsonObject& o, const std::string& name, const Key& key, std::str
     value = o.rows(name);
   } else if constexpr (std::is_same_v<T, std::vector<Keyframe>>) {
     for (const JsonObject& k : o.objects(name)) take_record(k, value.emplace_back());
-  } else {  // what may be unknown
+  } else {  // values that may be unknown
     value.reset();
     if (o.has(name)) take(o, name, key, yes, false, value.emplace());
   }

@@ -111,7 +111,7 @@ std::vector<Piece> BulletEngine::world_pieces(const std::vector<int>& members, c
   return pieces;
 }
 
-/// Members in the region, of the bodies named or of all, become a new body; what stays goes on in its own row.
+/// Members in the region, of the bodies named or of all, become a new body; the rest goes on in its own row.
 void BulletEngine::split(const Event& event) {
   if (!event.region) throw EngineError(fmt::format("the split at t = {} s has no region", event.time));
   const Snapshot now = observe();

@@ -33,7 +33,7 @@ double modulus(const Job& job) {
   return E;
 }
 
-/// Density of what is free; walls are made of the same, which they have no other use for.
+/// Density of the free matter; walls have the same, because they use it for nothing else.
 double density_of(const Job& job) {
   for (std::size_t b = 0; b < job.bodies.size(); ++b)
     if (job.bodies[b].motion == Motion::free) return material_of(job, b).density;

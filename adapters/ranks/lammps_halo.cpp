@@ -88,7 +88,7 @@ void LammpsHalo::share_out(Particles& particles, Bonds& bonds, OwnPairs& own, co
 
 void LammpsHalo::migrate(Particles& particles, Bonds& bonds, OwnPairs& own, const PeriodicBox& box,
                          std::span<const double> cost) {
-  if (ranks_->size() == 1) {  // its part is the whole; what more ranks would ask each other is counted
+  if (ranks_->size() == 1) {  // its part is the whole; requests that more ranks would make are counted
     collectives_ += has_lists_ ? 1.0 : 0.0;
     return share_out(particles, bonds, own, box, {}, {});
   }
@@ -133,8 +133,7 @@ void LammpsHalo::hand_over(Particles& particles, Bonds& bonds, OwnPairs& own) {
   }
 }
 
-/// As far as the longest bond of all ranks reaches now: until the next migration nobody takes copies away, however bonds are
-/// stretched.
+/// Copies reach as far as the longest bond of all ranks now. They stay until the next migration, however bonds are stretched.
 double LammpsHalo::reach_of(double longest_bond) {
   if (!has_lists_) return reach_;
   double least = -longest_bond;
@@ -143,7 +142,7 @@ double LammpsHalo::reach_of(double longest_bond) {
   return std::max(reach_, -least * (1.0 + 1e-9));
 }
 
-/// Lists are written down as the scene is shared out, with the numbers that ids are there: its parts nobody changes.
+/// Lists are written down as the scene is shared out, where ids are numbers. Nobody changes the lists of its parts.
 void LammpsHalo::expect_known(const Bonds& bonds, const OwnPairs& own) const {
   if (known_changes_ != std::array{bonds.changes(), own.changes()})
     throw EngineError("bonds or own pairs of a scene that is shared out have changed");
@@ -195,7 +194,7 @@ void LammpsHalo::unpack_lists(Bonds& bonds, OwnPairs& own) {
   known_changes_ = {bonds.changes(), own.changes()};
 }
 
-/// Only what other ranks are to have is written for LAMMPS; of the rest the row alone is noted.
+/// Only rows that other ranks are to have are written for LAMMPS; for the rest the row number alone is noted.
 /// @param rows of the atoms   @param places that LAMMPS is told, by number; empty: those of now
 void LammpsHalo::pack(const Particles& particles, const PeriodicBox& box, const std::vector<std::size_t>& rows,
                       std::span<const Vec3> places) {

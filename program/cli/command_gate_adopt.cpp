@@ -96,7 +96,7 @@ EngineEntry engine_of(const GateAdoptOptions& o, std::vector<EngineEntry>& engin
   return *found;
 }
 
-/// Writes the case files of what was measured. @return their paths
+/// Writes the case files of the measured values. @return their paths
 std::vector<std::string> write_cases(const GateAdoptOptions& o, const std::vector<AdoptedCase>& measured,
                                      const EngineEntry& engine) {
   std::vector<std::string> files;

@@ -69,7 +69,7 @@ std::vector<std::string> failed_last_time(const std::string& out) {
   return failed;
 }
 
-/// Holds OUT where it is there already: what an earlier call has left in it is read and set aside before there are runs.
+/// Holds OUT where it is there already: files of an earlier call are read and set aside before there are runs.
 std::optional<FolderLock> hold_earlier(const std::string& out) {
   if (!std::filesystem::is_directory(out)) return {};
   return hold_folder(out);

@@ -27,7 +27,7 @@ struct JudgeOptions {
 void say_if_called_elsewhere(const Results&, const std::string& path);
 
 void add_judge_options(CLI::App& gate, JudgeOptions&);
-/// Prints the verdict, what is said of the results and, with a base, every metric beside it. @return the exit code
+/// Prints the verdict, the remarks about the results and, with a base, every metric beside it. @return the exit code
 [[nodiscard]] int judge_results(const JudgeOptions&);
 
 struct ProposeOptions {

@@ -7,7 +7,7 @@
 #include "render/camera.hpp"
 #include "surface/point_cells.hpp"
 
-/// A run's folder as pictures see it: its frames, what of it are walls, and what belongs together.
+/// A run's folder as pictures see it: its frames, its walls, and the particles that belong together.
 namespace tripoint {
 
 struct ShownRun {
@@ -15,7 +15,7 @@ struct ShownRun {
   Trajectory trajectory;
   double spacing = 0.0;                                 ///< of the particles [m]
   Vec3 gravity;                                         ///< 0 where the folder has no job [m/s2]
-  bool has_job = false;                                 ///< whether job.json says what is fixed
+  bool has_job = false;                                 ///< whether job.json says which bodies are fixed
   std::vector<char> wall;                               ///< by row: a particle that belonged to a fixed body in the first frame
   std::vector<std::string> body_names, material_names;  ///< by row of the bodies, of the materials; may be too short
 };

@@ -48,8 +48,8 @@ std::optional<Row> least_squares(const std::vector<Row>& rows, const std::vector
 
 }  // namespace
 
-/// Terms are scaled by their values in the greatest run, and each run by its time: what is fitted is 1 in each run. The first run
-/// is of the case itself and counts most: what is predicted is nearest to it, in what caches do too.
+/// Terms are scaled by their values in the greatest run, and each run by its time: the fitted value is 1 in each run. The first
+/// run is of the case itself and counts most: predictions are nearest to it, also in the effect of caches.
 WorkCost fit_work(const std::vector<OneRank>& runs) {
   if (runs.empty()) throw InputError("no run on one rank to fit the cost of a step to");
   for (const OneRank& r : runs)

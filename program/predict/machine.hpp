@@ -14,7 +14,7 @@ struct Machine {
   double allreduce = 0.0;   ///< of one number, for each doubling of the ranks [s]
   double pack_rate = 0.0;   ///< at which scattered numbers are put together [bytes/s]
   double core_speed = 1.0;  ///< of its cores over those here
-  double waiting = 0.05;    ///< of a step's work that ranks wait for the slowest, beyond what the shares say
+  double waiting = 0.05;    ///< of a step's work that ranks wait for the slowest, beyond the prediction of the shares
   std::string source;       ///< "probe of MPICH 5.0.2 between two ranks", or the file
 };
 

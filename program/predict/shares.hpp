@@ -18,7 +18,7 @@ struct Cloud {
   double pair_reach = 0.0;     ///< of a neighbour list [m]
   std::array<bool, 3> periodic{};
   Vec3 min, max;           ///< the domain, used in periodic directions only [m]
-  std::vector<char> idle;  ///< of each, 1 where it is fixed and pairs of what is fixed have no work; empty: all have
+  std::vector<char> idle;  ///< of each, 1 where it is fixed and pairs of fixed particles have no work; empty: all have
   [[nodiscard]] bool is_idle(std::size_t i) const { return !idle.empty() && idle[i] != 0; }
 };
 
